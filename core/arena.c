@@ -1,0 +1,128 @@
+#include "core/arena.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    ARENA_ALIGN = 16,
+    ARENA_BLOCK_BYTES = 64 * 1024,
+};
+
+struct arena_block {
+    struct arena_block *previous;
+    size_t used;
+    size_t size;
+    size_t reserved; // keeps the bytes behind the header aligned to 16
+};
+
+void arena_init(struct arena *arena, size_t cap_bytes) { *arena = (struct arena){.cap_bytes = cap_bytes}; }
+
+void arena_finish(struct arena *arena) {
+    if (!arena)
+        return;
+    struct arena_block *block = arena->last;
+    while (block) {
+        struct arena_block *previous = block->previous;
+        free(block);
+        block = previous;
+    }
+    arena->last = NULL;
+    arena->used_bytes = 0;
+}
+
+void arena_set_guard(struct arena *arena, struct arena_guard *guard) {
+    arena->guard = guard;
+    if (guard)
+        guard->fault = ARENA_FAULT_NONE;
+}
+
+static struct arena_block *block_with_room(struct arena *arena, size_t need) {
+    struct arena_block *block = arena->last;
+    if (block && block->size - block->used >= need)
+        return block;
+#ifdef GLINT_ARENA_EXACT
+    size_t size = need;
+#else
+    size_t size = need > ARENA_BLOCK_BYTES ? need : ARENA_BLOCK_BYTES;
+#endif
+    block = calloc(1, sizeof(struct arena_block) + size);
+    if (!block)
+        return NULL;
+    block->size = size;
+    block->previous = arena->last;
+    arena->last = block;
+    return block;
+}
+
+static void *alloc_or_fault(struct arena *arena, size_t size, enum arena_fault *fault) {
+    *fault = ARENA_FAULT_CAP;
+    if (size > arena->cap_bytes || arena->used_bytes > arena->cap_bytes - size)
+        return NULL;
+#ifdef GLINT_ARENA_EXACT
+    size_t need = size ? size : 1;
+#else
+    size_t need = (size + ARENA_ALIGN - 1) & ~(size_t)(ARENA_ALIGN - 1);
+#endif
+    *fault = ARENA_FAULT_SYSTEM;
+    struct arena_block *block = block_with_room(arena, need);
+    if (!block)
+        return NULL;
+    void *memory = (char *)(block + 1) + block->used;
+    block->used += need;
+    arena->used_bytes += need;
+    return memory;
+}
+
+void *arena_try_alloc(struct arena *arena, size_t size) {
+    enum arena_fault fault;
+    return alloc_or_fault(arena, size, &fault);
+}
+
+void *arena_alloc(struct arena *arena, size_t size) {
+    enum arena_fault fault;
+    void *memory = alloc_or_fault(arena, size, &fault);
+    if (memory)
+        return memory;
+    if (!arena->guard)
+        abort();
+    arena->guard->fault = fault;
+    longjmp(arena->guard->jump, 1);
+}
+
+void *arena_alloc_array(struct arena *arena, size_t count, size_t size) {
+    return arena_alloc(arena, size && count > SIZE_MAX / size ? SIZE_MAX : count * size);
+}
+
+str arena_copy(struct arena *arena, str s) {
+    char *copy = arena_alloc(arena, s.len + 1);
+    if (s.len)
+        memcpy(copy, s.ptr, s.len);
+    return (str){copy, s.len};
+}
+
+str arena_format(struct arena *arena, const char *format, ...) {
+    va_list args;
+    va_list again;
+    va_start(args, format);
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, args);
+    size_t size = length < 0 ? 0 : (size_t)length;
+    char *text = arena_alloc(arena, size + 1);
+    vsnprintf(text, size + 1, format, again);
+    va_end(again);
+    va_end(args);
+    return (str){text, size};
+}
+
+void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size) {
+    if (count < *capacity)
+        return items;
+    uint32_t wanted = *capacity ? *capacity * 2 : 8;
+    void *moved = arena_alloc_array(arena, wanted, item_size);
+    if (count)
+        memcpy(moved, items, count * item_size);
+    *capacity = wanted;
+    return moved;
+}

@@ -1,0 +1,70 @@
+// Memory of one phase (source, tree, IR, flat): many allocations, freed together.
+//
+// `arena_alloc` gives zeroed memory or does not return: at the byte cap, or when malloc fails, it jumps
+// to the guard that the stage or the job has set. A guard is set like this:
+//
+//     struct arena_guard guard;
+//     arena_set_guard(&arena, &guard);
+//     if (setjmp(guard.jump) == 0) { ... the stage ... } else { ... report guard.fault ... }
+//
+// Never jump through a library's frames: callbacks of expat and stb use `arena_try_alloc` and set a flag.
+// Without a guard a failed `arena_alloc` aborts: that is a programmer's mistake.
+// Thread safety: an arena belongs to one thread at a time.
+#ifndef GLINT_CORE_ARENA_H
+#define GLINT_CORE_ARENA_H
+
+#include "core/str.h"
+
+#include <setjmp.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum arena_fault {
+    ARENA_FAULT_NONE,
+    ARENA_FAULT_CAP,    // the arena's own byte cap is reached
+    ARENA_FAULT_SYSTEM, // malloc gave NULL
+};
+
+struct arena_guard {
+    jmp_buf jump;
+    enum arena_fault fault;
+};
+
+struct arena_block;
+
+struct arena {
+    struct arena_block *last;
+    struct arena_guard *guard; // not owned
+    size_t used_bytes;         // handed out, padding included
+    size_t cap_bytes;
+};
+
+void arena_init(struct arena *arena, size_t cap_bytes);
+// Frees all; the arena may be used again as after `arena_init`. NULL does nothing.
+void arena_finish(struct arena *arena);
+void arena_set_guard(struct arena *arena, struct arena_guard *guard);
+
+// `size` zeroed bytes, aligned to 16. A size of 0 gives a valid pointer.
+void *arena_alloc(struct arena *arena, size_t size);
+// As `arena_alloc`, but NULL where that would jump.
+void *arena_try_alloc(struct arena *arena, size_t size);
+// `count * size` with the overflow checked.
+void *arena_alloc_array(struct arena *arena, size_t count, size_t size);
+#define ARENA_NEW(arena, type)          ((type *)arena_alloc((arena), sizeof(type)))
+#define ARENA_ARRAY(arena, type, count) ((type *)arena_alloc_array((arena), (count), sizeof(type)))
+
+// A copy of `s` in the arena, with a NUL behind it (not counted).
+str arena_copy(struct arena *arena, str s);
+// printf into the arena; the result has a NUL behind it (not counted).
+str arena_format(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Makes room for one more item in an array that lives in an arena: `items` holds `count` of `*capacity`
+// items; returns the array, moved to twice the room where it was full. The old array stays in the arena.
+void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size);
+// Appends a zeroed item to a list {items, count, capacity}; gives its address.
+#define ARENA_PUSH(arena, list)                                                                              \
+    ((list)->items = arena_grow((arena), (list)->items, (list)->count, &(list)->capacity,                    \
+                                sizeof(*(list)->items)),                                                     \
+     &(list)->items[(list)->count++])
+
+#endif

@@ -1,0 +1,98 @@
+// Diagnostics are data: a code, a place, a message, notes with places of their own, a help line and,
+// where the right text is known, a fix. Text is made at the edge (core/diag_text.h).
+//
+// Stages collect into one sink a job and go on. Ownership: everything lies in the sink's own arena,
+// freed by `diag_sink_finish`; spans point into the sources. When the sink's memory ends, further
+// diagnostics are counted and not kept. Thread safety: one sink belongs to one thread; jobs that run
+// at the same time have a sink each, merged with `diag_merge`.
+#ifndef GLINT_CORE_DIAG_H
+#define GLINT_CORE_DIAG_H
+
+#include "core/arena.h"
+#include "core/source.h"
+#include "core/str.h"
+
+enum diag_severity {
+    DIAG_ERROR,
+    DIAG_WARNING,
+    DIAG_NOTE,
+};
+
+// Where a code can occur; the invalid corpus has a case for each.
+enum diag_where {
+    DIAG_IN_YAML = 1,
+    DIAG_IN_XML = 2,
+    DIAG_IN_BOTH = 3,
+    DIAG_IN_MESH = 4,
+    DIAG_IN_IMAGE = 8,
+    DIAG_IN_COMMAND = 16, // needs an option, a device or a file that the scene does not hold
+};
+
+enum diag_code {
+#define X(NAME, code, where, title, meaning, remedy) DIAG_##NAME,
+#include "core/diag_codes.def"
+#undef X
+    DIAG_CODE_COUNT
+};
+
+struct diag_info {
+    const char *name; // "UNKNOWN_KEY"
+    const char *code; // "E203"
+    enum diag_severity severity;
+    unsigned where; // diag_where, or-ed
+    const char *title;
+    const char *meaning; // one paragraph
+    const char *remedy;  // one paragraph
+};
+
+struct diag_related {
+    span at; // SPAN_NONE: no place
+    str message;
+    struct diag_related *next;
+};
+
+struct diag {
+    enum diag_code code;
+    span at;
+    str message;
+    struct diag_related *notes; // in the order they were added
+    str help;                   // empty: none
+    bool has_fix;
+    bool fix_is_safe; // the only possible meaning; else a suggestion
+    span fix_at;
+    str fix_text;
+    uint32_t repeats; // further ones of the same code that were grouped into this one
+};
+
+struct diag_sink {
+    struct arena arena;
+    struct diag *items;
+    uint32_t count;
+    uint32_t capacity;
+    uint32_t errors;
+    uint32_t warnings;
+    uint32_t notes;
+    uint32_t dropped; // did not fit into the sink's memory
+};
+
+void diag_sink_init(struct diag_sink *sink);
+void diag_sink_finish(struct diag_sink *sink);
+
+// Adds a diagnostic and gives it for the calls below, valid until the next diag_add; never NULL.
+struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+// Each of these adds to the diagnostic that was added last.
+void diag_note(struct diag_sink *sink, span at, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void diag_help(struct diag_sink *sink, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement);
+
+const struct diag_info *diag_info(enum diag_code code);
+// The code whose text is `code` ("E203"), case ignored; DIAG_CODE_COUNT if there is none.
+enum diag_code diag_find(str code);
+
+// Sorts by source, place and order of report; drops exact repeats (same code, place and message).
+void diag_sort(struct diag_sink *sink);
+// Moves all of `from` behind those of `into`.
+void diag_merge(struct diag_sink *into, const struct diag_sink *from);
+
+#endif

@@ -1,0 +1,28 @@
+// Diagnostics as text for people:
+//
+//     scene.yaml:4:12: error: message [E203]
+//       4 |   colour: red
+//         |   ^~~~~~
+//         = help: did you mean 'color'?
+//
+// Thread safety: pure but for the line maps of the sources.
+#ifndef GLINT_CORE_DIAG_TEXT_H
+#define GLINT_CORE_DIAG_TEXT_H
+
+#include "core/diag.h"
+#include "core/strbuf.h"
+
+struct diag_text_options {
+    bool color;         // ANSI colours
+    bool notes;         // show diagnostics of severity "note" too
+    uint32_t most;      // messages shown; 0 is all
+};
+
+// Writes all diagnostics of a sorted sink, errors, warnings and notes as they stand, and a closing line
+// that tells how many more there were.
+void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_set *sources,
+               struct diag_text_options options);
+// "error", "warning", "note".
+const char *diag_severity_name(enum diag_severity severity);
+
+#endif

@@ -1,0 +1,213 @@
+#include "core/files.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+void files_init(struct files *files, struct arena *arena) { *files = (struct files){.arena = arena}; }
+
+str path_folder(str path) {
+    size_t at = path.len;
+    while (at > 0 && path.ptr[at - 1] != '/')
+        at--;
+    if (at == 0)
+        return STR(".");
+    return str_slice(path, 0, at == 1 ? 1 : at - 1);
+}
+
+str path_base(str path) {
+    size_t at = path.len;
+    while (at > 0 && path.ptr[at - 1] != '/')
+        at--;
+    return str_slice(path, at, path.len);
+}
+
+static str join(struct arena *arena, str folder, str path) {
+    if (path.len && path.ptr[0] == '/')
+        return arena_copy(arena, path);
+    if (str_equal(folder, STR(".")))
+        return arena_copy(arena, path);
+    bool slash = folder.len && folder.ptr[folder.len - 1] == '/';
+    return arena_format(arena, "%.*s%s%.*s", STR_ARG(folder), slash ? "" : "/", STR_ARG(path));
+}
+
+// NUL-terminated copy of a path, or NULL where it holds a NUL itself or is too long for the system.
+static const char *system_path(struct files *files, str path) {
+    if (path.len == 0 || path.len >= PATH_MAX || memchr(path.ptr, '\0', path.len))
+        return NULL;
+    return arena_copy(files->arena, path).ptr;
+}
+
+str files_canonical(struct files *files, str path) {
+    const char *name = system_path(files, path);
+    char resolved[PATH_MAX];
+    if (!name || !realpath(name, resolved))
+        return arena_copy(files->arena, path);
+    return arena_copy(files->arena, str_from(resolved));
+}
+
+static const struct file_overlay *find_overlay(const struct files *files, str path) {
+    for (uint32_t i = 0; i < files->overlays.count; i++)
+        if (str_equal(files->overlays.items[i].path, path))
+            return &files->overlays.items[i];
+    return NULL;
+}
+
+void files_add_overlay(struct files *files, str path, str text) {
+    struct file_overlay *overlay = ARENA_PUSH(files->arena, &files->overlays);
+    *overlay = (struct file_overlay){files_canonical(files, path), text};
+}
+
+static enum file_status status_of_errno(struct files *files, int error) {
+    files->system_error = error;
+    return error == ENOENT || error == ENOTDIR ? FILE_MISSING : FILE_UNREADABLE;
+}
+
+enum file_status files_add_root(struct files *files, str directory) {
+    const char *name = system_path(files, directory);
+    struct stat info;
+    if (!name)
+        return FILE_MISSING;
+    if (stat(name, &info) != 0)
+        return status_of_errno(files, errno);
+    if (!S_ISDIR(info.st_mode))
+        return FILE_NOT_REGULAR;
+    str *root = ARENA_PUSH(files->arena, &files->roots);
+    *root = files_canonical(files, directory);
+    return FILE_OK;
+}
+
+enum file_status files_add_scene_root(struct files *files, str scene_path) {
+    str folder = files_canonical(files, path_folder(scene_path));
+    str above = folder;
+    for (;;) {
+        const char *marker = join(files->arena, above, STR(".glintrc.yaml")).ptr;
+        struct stat info;
+        if (stat(marker, &info) == 0 && S_ISREG(info.st_mode))
+            return files_add_root(files, above);
+        if (above.len <= 1)
+            break;
+        above = path_folder(above);
+    }
+    return files_add_root(files, folder);
+}
+
+static bool below(str path, str root) {
+    if (str_equal(root, STR("/")))
+        return true;
+    return str_starts_with(path, root) && (path.len == root.len || path.ptr[root.len] == '/');
+}
+
+static enum file_status try_path(struct files *files, str path, str *out) {
+    *out = path;
+    if (find_overlay(files, files_canonical(files, path)))
+        return FILE_OK;
+    const char *name = system_path(files, path);
+    char resolved[PATH_MAX];
+    if (!name)
+        return FILE_MISSING;
+    if (!realpath(name, resolved))
+        return status_of_errno(files, errno);
+    for (uint32_t i = 0; i < files->roots.count; i++)
+        if (below(str_from(resolved), files->roots.items[i]))
+            return FILE_OK;
+    *out = arena_copy(files->arena, str_from(resolved));
+    return FILE_OUTSIDE;
+}
+
+enum file_status files_resolve(struct files *files, str base_path, str path, str *out) {
+    enum file_status status = try_path(files, join(files->arena, path_folder(base_path), path), out);
+    if (status != FILE_MISSING || (path.len && path.ptr[0] == '/'))
+        return status;
+    str first = *out;
+    for (uint32_t i = 1; i < files->roots.count; i++) {
+        enum file_status other = try_path(files, join(files->arena, files->roots.items[i], path), out);
+        if (other != FILE_MISSING)
+            return other;
+    }
+    *out = first;
+    return FILE_MISSING;
+}
+
+static void log_read(struct files *files, str path, const struct stat *info) {
+    str canonical = files_canonical(files, path);
+    for (uint32_t i = 0; i < files->log.count; i++)
+        if (str_equal(files->log.items[i].path, canonical))
+            return;
+    struct file_read *entry = ARENA_PUSH(files->arena, &files->log);
+    *entry = (struct file_read){canonical, (uint64_t)info->st_size,
+                                (int64_t)info->st_mtim.tv_sec * 1000000000 + info->st_mtim.tv_nsec};
+}
+
+static enum file_status read_all(struct files *files, int fd, size_t size, struct arena *into, str *contents) {
+    char *data = arena_try_alloc(into, size + 1);
+    if (!data)
+        return FILE_NO_MEMORY;
+    size_t got = 0;
+    while (got < size) {
+        ssize_t n = read(fd, data + got, size - got);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return status_of_errno(files, errno);
+        if (n == 0)
+            break;
+        got += (size_t)n;
+    }
+    data[got] = '\0';
+    *contents = (str){data, got};
+    return FILE_OK;
+}
+
+enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into, str *contents) {
+    const struct file_overlay *overlay = find_overlay(files, files_canonical(files, path));
+    *contents = STR("");
+    if (overlay) {
+        *contents = overlay->text;
+        return overlay->text.len > cap_bytes ? FILE_TOO_LARGE : FILE_OK;
+    }
+    const char *name = system_path(files, path);
+    if (!name)
+        return FILE_MISSING;
+    int fd = open(name, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+    if (fd < 0)
+        return errno == ENXIO || errno == EISDIR ? FILE_NOT_REGULAR : status_of_errno(files, errno);
+    struct stat info;
+    enum file_status status = FILE_OK;
+    if (fstat(fd, &info) != 0)
+        status = status_of_errno(files, errno);
+    else if (!S_ISREG(info.st_mode))
+        status = FILE_NOT_REGULAR;
+    else if ((uint64_t)info.st_size > cap_bytes)
+        status = FILE_TOO_LARGE;
+    else
+        status = read_all(files, fd, (size_t)info.st_size, into, contents);
+    close(fd);
+    if (status == FILE_OK)
+        log_read(files, path, &info);
+    return status;
+}
+
+const char *file_status_text(const struct files *files, enum file_status status) {
+    switch (status) {
+    case FILE_OK:
+        return "was read";
+    case FILE_MISSING:
+        return "does not exist";
+    case FILE_OUTSIDE:
+        return "lies outside the folders that the scene may read";
+    case FILE_NOT_REGULAR:
+        return "is not a regular file";
+    case FILE_UNREADABLE:
+        return strerror(files->system_error);
+    case FILE_TOO_LARGE:
+        return "is too large";
+    case FILE_NO_MEMORY:
+        return "does not fit into memory";
+    }
+    return "cannot be read";
+}

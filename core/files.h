@@ -1,0 +1,66 @@
+// The one door to the file system, for reading. Scenes may only read what lies below allowed folders
+// (roots), links followed, and only regular files. Files are read whole into memory, never mapped.
+//
+// Ownership: the caller owns `struct files`; contents go into the caller's arena.
+// Thread safety: resolving and reading may run in several threads as long as none adds roots or
+// overlays; the log of reads is guarded by the caller reading files from one thread at a time.
+#ifndef GLINT_CORE_FILES_H
+#define GLINT_CORE_FILES_H
+
+#include "core/arena.h"
+#include "core/str.h"
+
+enum file_status {
+    FILE_OK,
+    FILE_MISSING,
+    FILE_OUTSIDE,     // resolves to a place outside every root
+    FILE_NOT_REGULAR, // a folder, a pipe, a device
+    FILE_UNREADABLE,  // the system refused; files.system_error tells why
+    FILE_TOO_LARGE,   // larger than the cap given
+    FILE_NO_MEMORY,
+};
+
+struct file_read {
+    str path; // absolute, links resolved
+    uint64_t size_bytes;
+    int64_t modified_ns; // since 1970
+};
+
+struct file_overlay {
+    str path; // absolute
+    str text;
+};
+
+struct files {
+    struct arena *arena; // for paths and the log
+    struct { str *items; uint32_t count, capacity; } roots;       // absolute, links resolved; first the scene's
+    struct { struct file_overlay *items; uint32_t count, capacity; } overlays;
+    struct { struct file_read *items; uint32_t count, capacity; } log; // every file that was read, once
+    int system_error; // errno of the last FILE_UNREADABLE
+};
+
+void files_init(struct files *files, struct arena *arena);
+// Makes `directory` an allowed folder. FILE_MISSING or FILE_NOT_REGULAR where it is no folder.
+enum file_status files_add_root(struct files *files, str directory);
+// Text from memory in place of the file at `path` (which need not exist).
+void files_add_overlay(struct files *files, str path, str text);
+// The scene's root: the folder of the nearest `.glintrc.yaml` at or above the scene's folder, else the
+// scene's folder. `scene_path` is as given by the user. On FILE_OK the root has been added.
+enum file_status files_add_scene_root(struct files *files, str scene_path);
+
+// Where the file lies that `base_path` (a file) names `path`: relative paths are tried beside base_path,
+// then below each root after the first, in order. On FILE_OK *out is the path to open, as readable text;
+// for FILE_OUTSIDE *out is where it led. A path that exists but lies outside is FILE_OUTSIDE.
+enum file_status files_resolve(struct files *files, str base_path, str path, str *out);
+// Reads a file that was resolved, or one that the user named (no root is asked for here). A NUL byte
+// follows the contents, not counted. `cap_bytes` is checked before memory is taken.
+enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into, str *contents);
+// An absolute path with links followed; the path itself where it does not exist.
+str files_canonical(struct files *files, str path);
+// The folder part of a path ("." if it has none) and the part behind the last '/'.
+str path_folder(str path);
+str path_base(str path);
+// What went wrong, as words: "does not exist", ...; system errors with strerror's text.
+const char *file_status_text(const struct files *files, enum file_status status);
+
+#endif

@@ -1,0 +1,39 @@
+// The one table of limits: how large an input may be before it is refused with E501.
+//
+// Thread safety: `struct limits` is a value; set it up before work begins.
+#ifndef GLINT_CORE_LIMITS_H
+#define GLINT_CORE_LIMITS_H
+
+#include "core/str.h"
+
+enum limit {
+#define X(NAME, option, standard, least, greatest, doc) LIMIT_##NAME,
+#include "core/limits.def"
+#undef X
+    LIMIT_COUNT
+};
+
+struct limits {
+    uint64_t value[LIMIT_COUNT];
+};
+
+enum limit_status {
+    LIMIT_SET,
+    LIMIT_UNKNOWN_NAME,
+    LIMIT_BAD_VALUE, // not a whole number, or outside the limit's own range
+};
+
+struct limit_info {
+    const char *name;
+    uint64_t standard;
+    uint64_t least;
+    uint64_t greatest;
+    const char *doc;
+};
+
+struct limits limits_default(void);
+// Applies "name=value". On LIMIT_BAD_VALUE *which tells the row.
+enum limit_status limits_set(struct limits *limits, str assignment, enum limit *which);
+const struct limit_info *limit_info(enum limit which);
+
+#endif

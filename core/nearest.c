@@ -1,0 +1,51 @@
+#include "core/nearest.h"
+
+#include <limits.h>
+
+enum { WORD_MAX = 128 };
+
+static char fold(char c) {
+    if (c >= 'A' && c <= 'Z')
+        return (char)(c - 'A' + 'a');
+    return c == '-' || c == ' ' ? '_' : c;
+}
+
+static unsigned least(unsigned a, unsigned b) { return a < b ? a : b; }
+
+unsigned nearest_distance(str a, str b) {
+    if (a.len > WORD_MAX || b.len > WORD_MAX)
+        return UINT_MAX;
+    unsigned rows[3][WORD_MAX + 1];
+    unsigned *before = rows[0], *above = rows[1], *row = rows[2];
+    for (unsigned j = 0; j <= b.len; j++)
+        above[j] = j;
+    for (unsigned i = 1; i <= a.len; i++) {
+        row[0] = i;
+        for (unsigned j = 1; j <= b.len; j++) {
+            unsigned same = fold(a.ptr[i - 1]) == fold(b.ptr[j - 1]) ? 0 : 1;
+            row[j] = least(least(above[j] + 1, row[j - 1] + 1), above[j - 1] + same);
+            if (i > 1 && j > 1 && fold(a.ptr[i - 1]) == fold(b.ptr[j - 2]) &&
+                fold(a.ptr[i - 2]) == fold(b.ptr[j - 1]))
+                row[j] = least(row[j], before[j - 2] + 1);
+        }
+        unsigned *free_row = before;
+        before = above;
+        above = row;
+        row = free_row;
+    }
+    return above[b.len];
+}
+
+struct nearest nearest_begin(str word) { return (struct nearest){.word = word, .best_distance = UINT_MAX}; }
+
+void nearest_offer(struct nearest *search, str candidate) {
+    unsigned distance = nearest_distance(search->word, candidate);
+    size_t longer = search->word.len > candidate.len ? search->word.len : candidate.len;
+    unsigned allowed = longer < 3 ? 0 : (unsigned)((longer + 2) / 3);
+    if (distance <= allowed && distance < search->best_distance) {
+        search->best = candidate;
+        search->best_distance = distance;
+    }
+}
+
+str nearest_best(const struct nearest *search) { return search->best; }

@@ -1,0 +1,24 @@
+// "Did you mean": the candidate nearest to a misspelt word.
+//
+// Distance is the optimal string alignment distance (Damerau 1964; restricted transpositions), over bytes,
+// letters compared without case first; a candidate counts when it is at most a third of the word away.
+// Thread safety: one search belongs to one thread.
+#ifndef GLINT_CORE_NEAREST_H
+#define GLINT_CORE_NEAREST_H
+
+#include "core/str.h"
+
+struct nearest {
+    str word;
+    str best; // empty: none near enough
+    unsigned best_distance;
+};
+
+struct nearest nearest_begin(str word);
+void nearest_offer(struct nearest *search, str candidate);
+// The best candidate, or the empty string.
+str nearest_best(const struct nearest *search);
+// The distance itself; words longer than 128 bytes count as far apart (UINT_MAX).
+unsigned nearest_distance(str a, str b);
+
+#endif

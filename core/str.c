@@ -1,0 +1,145 @@
+#include "core/str.h"
+
+#include <string.h>
+
+str str_from(const char *cstring) { return (str){cstring ? cstring : "", cstring ? strlen(cstring) : 0}; }
+
+bool str_equal(str a, str b) { return a.len == b.len && (a.len == 0 || memcmp(a.ptr, b.ptr, a.len) == 0); }
+
+bool str_equal_cstr(str a, const char *b) { return str_equal(a, str_from(b)); }
+
+int str_compare(str a, str b) {
+    size_t n = a.len < b.len ? a.len : b.len;
+    int order = n ? memcmp(a.ptr, b.ptr, n) : 0;
+    if (order)
+        return order;
+    return a.len < b.len ? -1 : a.len > b.len;
+}
+
+bool str_starts_with(str s, str prefix) {
+    return s.len >= prefix.len && str_equal(str_slice(s, 0, prefix.len), prefix);
+}
+
+static char ascii_lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
+
+bool str_ends_with_nocase(str s, const char *suffix) {
+    size_t n = strlen(suffix);
+    if (s.len < n)
+        return false;
+    for (size_t i = 0; i < n; i++)
+        if (ascii_lower(s.ptr[s.len - n + i]) != ascii_lower(suffix[i]))
+            return false;
+    return true;
+}
+
+str str_slice(str s, size_t begin, size_t end) {
+    if (end > s.len)
+        end = s.len;
+    if (begin > end)
+        begin = end;
+    return (str){s.ptr + begin, end - begin};
+}
+
+static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+str str_trim(str s) {
+    while (s.len && is_blank(s.ptr[0]))
+        s = str_slice(s, 1, s.len);
+    while (s.len && is_blank(s.ptr[s.len - 1]))
+        s.len--;
+    return s;
+}
+
+uint64_t str_hash(str s) {
+    uint64_t h = UINT64_C(14695981039346656037);
+    for (size_t i = 0; i < s.len; i++)
+        h = (h ^ (unsigned char)s.ptr[i]) * UINT64_C(1099511628211);
+    return h;
+}
+
+size_t utf8_sequence_length(str s, size_t at) {
+    const unsigned char *p = (const unsigned char *)s.ptr + at;
+    size_t left = s.len - at;
+    if (at >= s.len)
+        return 0;
+    if (p[0] < 0x80)
+        return 1;
+    size_t n = p[0] >= 0xC2 && p[0] <= 0xDF ? 2 : (p[0] & 0xF0) == 0xE0 ? 3 : p[0] >= 0xF0 && p[0] <= 0xF4 ? 4 : 0;
+    if (n == 0 || left < n)
+        return 0;
+    for (size_t i = 1; i < n; i++)
+        if ((p[i] & 0xC0) != 0x80)
+            return 0;
+    if ((p[0] == 0xE0 && p[1] < 0xA0) || (p[0] == 0xED && p[1] > 0x9F) || (p[0] == 0xF0 && p[1] < 0x90) ||
+        (p[0] == 0xF4 && p[1] > 0x8F))
+        return 0;
+    return n;
+}
+
+size_t utf8_first_error(str s) {
+    size_t at = 0;
+    while (at < s.len) {
+        if ((unsigned char)s.ptr[at] < 0x80) {
+            at++;
+            continue;
+        }
+        size_t n = utf8_sequence_length(s, at);
+        if (n == 0)
+            return at;
+        at += n;
+    }
+    return s.len;
+}
+
+uint32_t utf8_decode(str s, size_t at) {
+    const unsigned char *p = (const unsigned char *)s.ptr + at;
+    switch (utf8_sequence_length(s, at)) {
+    case 2:
+        return (uint32_t)(p[0] & 0x1F) << 6 | (p[1] & 0x3Fu);
+    case 3:
+        return (uint32_t)(p[0] & 0x0F) << 12 | (uint32_t)(p[1] & 0x3F) << 6 | (p[2] & 0x3Fu);
+    case 4:
+        return (uint32_t)(p[0] & 0x07) << 18 | (uint32_t)(p[1] & 0x3F) << 12 | (uint32_t)(p[2] & 0x3F) << 6 |
+               (p[3] & 0x3Fu);
+    default:
+        return p[0];
+    }
+}
+
+size_t utf8_count(str s) {
+    size_t count = 0;
+    for (size_t at = 0; at < s.len; count++) {
+        size_t n = utf8_sequence_length(s, at);
+        at += n ? n : 1;
+    }
+    return count;
+}
+
+// Letters of any script: every code point above ASCII counts as one, but for the blocks that hold
+// spaces, controls, punctuation, symbols and private use.
+static bool is_letter(uint32_t c) {
+    if (c < 0x80)
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (c < 0xC0)
+        return c == 0xAA || c == 0xB5 || c == 0xBA;
+    if (c == 0xD7 || c == 0xF7)
+        return false;
+    return !(c >= 0x2000 && c <= 0x2BFF) && !(c >= 0x3000 && c <= 0x3004) && !(c >= 0x3008 && c <= 0x3020) &&
+           !(c >= 0xE000 && c <= 0xF8FF) && !(c >= 0xFE00 && c <= 0xFE6F) && !(c >= 0xFF00 && c <= 0xFF20) &&
+           c != 0x1680 && c != 0xFEFF && !(c >= 0xFFF0 && c <= 0xFFFF) && c < 0xE0000;
+}
+
+bool str_is_name(str s) {
+    size_t count = 0;
+    for (size_t at = 0; at < s.len; count++) {
+        size_t n = utf8_sequence_length(s, at);
+        if (n == 0)
+            return false;
+        uint32_t c = utf8_decode(s, at);
+        bool digit = c >= '0' && c <= '9';
+        if (!(is_letter(c) || c == '_' || c == '-' || (digit && count > 0)))
+            return false;
+        at += n;
+    }
+    return count >= 1 && count <= 128;
+}

@@ -1,0 +1,49 @@
+// Strings that are not NUL-terminated: a pointer and a length in bytes.
+//
+// A `str` never owns its bytes: they belong to a source, an arena or a literal. Text is UTF-8.
+// Thread safety: values; no function here keeps state.
+#ifndef GLINT_CORE_STR_H
+#define GLINT_CORE_STR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct {
+    const char *ptr;
+    size_t len;
+} str;
+
+// A `str` of a string literal.
+#define STR(literal) ((str){"" literal, sizeof(literal) - 1})
+// The two arguments of a `%.*s` conversion.
+#define STR_ARG(s) (int)((s).len), (s).ptr
+
+str str_from(const char *cstring); // NULL gives the empty string
+bool str_equal(str a, str b);
+bool str_equal_cstr(str a, const char *b);
+int str_compare(str a, str b); // byte order, as memcmp
+bool str_starts_with(str s, str prefix);
+bool str_ends_with_nocase(str s, const char *suffix); // ASCII letters only
+// The part of `s` from `begin` to before `end`; both are clamped to the length.
+str str_slice(str s, size_t begin, size_t end);
+// Without the blanks, tabs and line ends at both ends.
+str str_trim(str s);
+
+// FNV-1a, 64 bits (Fowler, Noll, Vo).
+uint64_t str_hash(str s);
+
+// Length in bytes of the well-formed UTF-8 sequence that begins at `at`, 0 if there is none
+// (Unicode 15, table 3-7: no overlong forms, no surrogates, nothing above U+10FFFF).
+size_t utf8_sequence_length(str s, size_t at);
+// Byte offset of the first byte that is not part of well-formed UTF-8; s.len if all is well.
+size_t utf8_first_error(str s);
+// Code point at `at`, which must begin a well-formed sequence.
+uint32_t utf8_decode(str s, size_t at);
+// Code points in `s`; an ill-formed byte counts as one.
+size_t utf8_count(str s);
+
+// 1 to 128 letters of any script, digits, '_', '-', not beginning with a digit (LANGUAGE: Names).
+bool str_is_name(str s);
+
+#endif

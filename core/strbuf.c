@@ -1,0 +1,83 @@
+#include "core/strbuf.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void strbuf_init(struct strbuf *buffer) { *buffer = (struct strbuf){0}; }
+
+void strbuf_finish(struct strbuf *buffer) {
+    if (!buffer)
+        return;
+    free(buffer->data);
+    *buffer = (struct strbuf){0};
+}
+
+void strbuf_clear(struct strbuf *buffer) {
+    buffer->len = 0;
+    if (buffer->data)
+        buffer->data[0] = '\0';
+}
+
+static bool reserve(struct strbuf *buffer, size_t more) {
+    if (buffer->failed)
+        return false;
+    size_t need = buffer->len + more + 1;
+    if (need < more || (buffer->cap_bytes && need > buffer->cap_bytes)) {
+        buffer->failed = true;
+        return false;
+    }
+    if (need <= buffer->capacity)
+        return true;
+    size_t wanted = buffer->capacity ? buffer->capacity * 2 : 256;
+    if (wanted < need)
+        wanted = need;
+    char *moved = realloc(buffer->data, wanted);
+    if (!moved) {
+        buffer->failed = true;
+        return false;
+    }
+    buffer->data = moved;
+    buffer->capacity = wanted;
+    return true;
+}
+
+void strbuf_add(struct strbuf *buffer, const void *bytes, size_t count) {
+    if (!reserve(buffer, count))
+        return;
+    if (count)
+        memcpy(buffer->data + buffer->len, bytes, count);
+    buffer->len += count;
+    buffer->data[buffer->len] = '\0';
+}
+
+void strbuf_str(struct strbuf *buffer, str s) { strbuf_add(buffer, s.ptr, s.len); }
+
+void strbuf_cstr(struct strbuf *buffer, const char *s) { strbuf_add(buffer, s, strlen(s)); }
+
+void strbuf_char(struct strbuf *buffer, char c) { strbuf_add(buffer, &c, 1); }
+
+void strbuf_repeat(struct strbuf *buffer, char c, size_t count) {
+    if (!reserve(buffer, count))
+        return;
+    memset(buffer->data + buffer->len, c, count);
+    buffer->len += count;
+    buffer->data[buffer->len] = '\0';
+}
+
+void strbuf_format(struct strbuf *buffer, const char *format, ...) {
+    va_list args;
+    va_list again;
+    va_start(args, format);
+    va_copy(again, args);
+    int length = vsnprintf(NULL, 0, format, args);
+    if (length >= 0 && reserve(buffer, (size_t)length)) {
+        vsnprintf(buffer->data + buffer->len, (size_t)length + 1, format, again);
+        buffer->len += (size_t)length;
+    }
+    va_end(again);
+    va_end(args);
+}
+
+str strbuf_view(const struct strbuf *buffer) { return (str){buffer->data ? buffer->data : "", buffer->len}; }

@@ -1,0 +1,29 @@
+// A growing byte buffer on the heap, for text and files that are made in memory before they are written.
+//
+// Appending never fails loudly: when memory ends or `cap_bytes` is passed, `failed` is set and further
+// appends do nothing; the owner asks once at the end. Thread safety: one thread at a time.
+#ifndef GLINT_CORE_STRBUF_H
+#define GLINT_CORE_STRBUF_H
+
+#include "core/str.h"
+
+struct strbuf {
+    char *data; // NUL-terminated where not NULL
+    size_t len;
+    size_t capacity;
+    size_t cap_bytes; // 0: no cap
+    bool failed;
+};
+
+void strbuf_init(struct strbuf *buffer);
+void strbuf_finish(struct strbuf *buffer);
+void strbuf_clear(struct strbuf *buffer);
+void strbuf_add(struct strbuf *buffer, const void *bytes, size_t count);
+void strbuf_str(struct strbuf *buffer, str s);
+void strbuf_cstr(struct strbuf *buffer, const char *s);
+void strbuf_char(struct strbuf *buffer, char c);
+void strbuf_repeat(struct strbuf *buffer, char c, size_t count);
+void strbuf_format(struct strbuf *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
+str strbuf_view(const struct strbuf *buffer);
+
+#endif

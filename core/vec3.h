@@ -1,0 +1,74 @@
+// Small double-precision vectors, matrices and affine maps, by value.
+#ifndef GLINT_CORE_VEC3_H
+#define GLINT_CORE_VEC3_H
+
+#include <math.h>
+#include <stdbool.h>
+
+typedef struct {
+    double x, y, z;
+} vec3;
+
+// Rows: m[row][column].
+typedef struct {
+    double m[3][3];
+} mat3;
+
+// point -> linear * point + offset
+typedef struct {
+    mat3 linear;
+    vec3 offset;
+} affine3;
+
+static inline vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
+static inline vec3 vec3_sub(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
+static inline vec3 vec3_mul(vec3 a, double s) { return (vec3){a.x * s, a.y * s, a.z * s}; }
+static inline vec3 vec3_neg(vec3 a) { return (vec3){-a.x, -a.y, -a.z}; }
+static inline double vec3_dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline vec3 vec3_cross(vec3 a, vec3 b) {
+    return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static inline vec3 vec3_min(vec3 a, vec3 b) { return (vec3){fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z)}; }
+static inline vec3 vec3_max(vec3 a, vec3 b) { return (vec3){fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)}; }
+static inline double vec3_max_abs(vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static inline bool vec3_is_zero(vec3 a) { return a.x == 0 && a.y == 0 && a.z == 0; }
+
+// Length without overflow or underflow in between: divided by a power of two first, so that scaling by
+// powers of two commutes with it.
+static inline double vec3_length(vec3 a) {
+    double largest = vec3_max_abs(a);
+    if (!(largest > 0) || !isfinite(largest))
+        return largest;
+    int exponent = ilogb(largest);
+    vec3 b = {scalbn(a.x, -exponent), scalbn(a.y, -exponent), scalbn(a.z, -exponent)};
+    return scalbn(sqrt(vec3_dot(b, b)), exponent);
+}
+
+// The zero vector stays as it is.
+static inline vec3 vec3_unit(vec3 a) {
+    double largest = vec3_max_abs(a);
+    if (!(largest > 0) || !isfinite(largest))
+        return a;
+    int exponent = ilogb(largest);
+    vec3 b = {scalbn(a.x, -exponent), scalbn(a.y, -exponent), scalbn(a.z, -exponent)};
+    double length = sqrt(vec3_dot(b, b));
+    return (vec3){b.x / length, b.y / length, b.z / length};
+}
+
+static inline vec3 mat3_apply(mat3 a, vec3 v) {
+    return (vec3){a.m[0][0] * v.x + a.m[0][1] * v.y + a.m[0][2] * v.z,
+                  a.m[1][0] * v.x + a.m[1][1] * v.y + a.m[1][2] * v.z,
+                  a.m[2][0] * v.x + a.m[2][1] * v.y + a.m[2][2] * v.z};
+}
+
+static inline mat3 mat3_mul(mat3 a, mat3 b) {
+    mat3 c;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            c.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j];
+    return c;
+}
+
+static inline vec3 affine3_apply(affine3 a, vec3 v) { return vec3_add(mat3_apply(a.linear, v), a.offset); }
+
+#endif
