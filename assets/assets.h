@@ -1,0 +1,60 @@
+// Everything a scene reads beside its text: meshes and the background image, and what they add to the
+// materials. A fault inside a file is placed in that file with "named here" in the scene; a file that is
+// missing, refused or of an unread kind is placed where the scene names it.
+//
+// The store keeps meshes and images with counted references, keyed by path, size and time, so that they
+// outlive a reload. Ownership: assets hold references into the store; assets_finish gives them back.
+// Thread safety: one thread loads; loaded assets are immutable.
+#ifndef GLINT_ASSETS_ASSETS_H
+#define GLINT_ASSETS_ASSETS_H
+
+#include "assets/mesh.h"
+#include "assets/picture.h"
+#include "core/diag.h"
+#include "core/files.h"
+#include "core/limits.h"
+#include "grammar/ir.h"
+#include "grammar/ir_origin.h"
+
+struct asset_store;
+
+struct asset_store *asset_store_create(void); // NULL: no memory
+void asset_store_destroy(struct asset_store *store);
+
+struct assets_model {
+    const struct mesh *mesh;  // NULL where it could not be loaded (a diagnostic says why)
+    uint32_t *group_material; // per mesh group: index into assets.materials
+};
+
+struct assets {
+    struct asset_store *store;
+    // All materials that bodies can have: those of the scene in its order, then the default material
+    // (index scene.materials.count), then those that material files of meshes add.
+    struct ir_material *materials;
+    uint32_t material_count;
+    struct assets_model *models; // one per scene model
+    uint32_t model_count;
+    const struct picture *background; // NULL: none, or not loaded
+    uint64_t triangle_count;          // of all models
+};
+
+struct assets_input {
+    const struct ir_scene *scene;
+    const struct ir_origin *origin;
+    struct source_set *sources;
+    struct files *files;
+    const struct limits *limits;
+    struct diag_sink *sink;
+    struct arena *arena; // for what belongs to this scene; its guard is set by the caller
+};
+
+// Loads all; goes on after a fault. `geometry_only` skips decoding the background (its header is still
+// checked).
+void assets_load(struct asset_store *store, const struct assets_input *input, bool geometry_only, struct assets *out);
+void assets_finish(struct assets *assets);
+// The index in assets.materials of a body's reference.
+uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_ref *ref);
+// Whether `path` ends like a mesh that is read (.obj).
+bool assets_is_mesh_path(str path);
+
+#endif

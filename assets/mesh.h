@@ -1,0 +1,54 @@
+// Meshes in double precision, as their files have them: triangles in file order, with line numbers.
+//
+// Ownership: a mesh lives in its own arena (mesh.arena) and belongs to the asset store.
+// Thread safety: immutable once loaded.
+#ifndef GLINT_ASSETS_MESH_H
+#define GLINT_ASSETS_MESH_H
+
+#include "core/arena.h"
+#include "core/vec3.h"
+#include "grammar/ir.h"
+
+struct mesh_triangle {
+    uint32_t corners[3]; // into positions
+    uint32_t normals[3]; // into normals; IR_NO_INDEX: the file has none for this corner
+    uint32_t group;      // into groups
+    uint32_t line;       // of the face in the file, from 1
+};
+
+// The faces of one `usemtl` name (or of none: an empty name).
+struct mesh_group {
+    str name;
+    bool has_material;           // a material file defines it
+    struct ir_material material; // made from the MTL where has_material
+    uint32_t line;               // of the first `usemtl`
+};
+
+struct mesh {
+    struct arena arena;
+    str path;
+    vec3 *positions; // in mesh space
+    uint32_t position_count;
+    vec3 *normals; // unit, from the file
+    uint32_t normal_count;
+    struct mesh_triangle *triangles;
+    uint32_t triangle_count;
+    struct mesh_group *groups;
+    uint32_t group_count;
+    bool closed;         // bit-equal positions merged, every directed edge occurs as often as its opposite
+    bool turned;         // a closed mesh of negative volume: `triangles` have been turned outward
+    double volume;       // signed, before turning; 0 where open
+    uint32_t open_edges; // directed edges without their opposite
+    uint32_t open_line;  // face line of the first of them
+    uint32_t face_count; // polygons in the file, before triangulation
+    uint32_t zero_area;  // triangles without area; kept here, dropped by flattening
+    vec3 lower, upper;   // bounds of the positions that faces use
+};
+
+// Shading normals of smooth models: three unit vectors a triangle (corner order), 3 * triangle_count.
+// A corner with a normal of the file has that; else unit face normals weighted by their angle at the
+// corner are summed over all corners at bit-equal positions (Thürmer and Wüthrich 1998). Zero vectors
+// where they cancel. `arena` owns the result.
+vec3 *mesh_smooth_normals(const struct mesh *mesh, struct arena *arena);
+
+#endif

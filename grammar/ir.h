@@ -1,0 +1,211 @@
+// The typed IR: what a scene file means, in double precision and in scene units. Read this first.
+//
+// Each element begins with `struct ir_head`: which rows of its schema element the file wrote, which of
+// these failed ("poisoned": they hold their default and later stages stay silent about them), and the id
+// under which grammar/ir_origin.h keeps its places. Rows that were not written hold the schema's default.
+// References are indices. Tagged structs have no C unions: members of alternatives not taken are zero or
+// at their default. Text and lists live in the arena of the scene; a loaded scene is immutable.
+// What each attribute means is in grammar/schema.c (and docs/reference.md, made from it).
+#ifndef GLINT_GRAMMAR_IR_H
+#define GLINT_GRAMMAR_IR_H
+
+#include "core/str.h"
+#include "core/vec3.h"
+
+#include <stdint.h>
+
+enum { IR_NONE = 0 };
+#define IR_NO_INDEX UINT32_MAX
+
+struct ir_head {
+    uint64_t written;  // bit i: row i of the element's schema stands in the file
+    uint64_t poisoned; // bit i: row i was written and wrong
+    uint32_t origin;   // id in struct ir_origin; 0: no place (made by the program)
+};
+
+// The fields of an enum are `unsigned` in the structs, so that the schema can derive their kind.
+enum ir_tone { IR_TONE_CLIP, IR_TONE_NORMALIZE };
+enum ir_transfer { IR_TRANSFER_NONE, IR_TRANSFER_SRGB };
+enum ir_depth_limit { IR_DEPTH_BACKGROUND, IR_DEPTH_BLACK };
+enum ir_falloff { IR_FALLOFF_NONE, IR_FALLOFF_INVERSE_SQUARE };
+// Tags set by a choice between rows.
+enum ir_view { IR_VIEW_DIRECTION, IR_VIEW_LOOK_AT, IR_VIEW_ROTATION };
+enum ir_backdrop { IR_BACKDROP_COLOR, IR_BACKDROP_IMAGE };
+enum ir_light_kind { IR_LIGHT_POSITION, IR_LIGHT_DIRECTION };
+enum ir_paint_kind { IR_PAINT_COLOR, IR_PAINT_CHECKER };
+
+struct ir_color {
+    double r, g, b; // as written, linear; zero where is_hex
+    bool is_hex;    // written as #rrggbb, a displayed colour: decoded by flattening (ir_color_linear)
+    uint32_t hex;   // 0xrrggbb
+};
+
+struct ir_weights {
+    double diffuse, specular, reflection, refraction;
+};
+
+struct ir_image {
+    struct ir_head head;
+    int32_t width, height; // pixels
+    int32_t samples;       // per pixel
+    unsigned tone;         // ir_tone
+    unsigned transfer;     // ir_transfer
+};
+
+struct ir_trace {
+    struct ir_head head;
+    int32_t max_depth;
+    double min_weight;
+    unsigned depth_limit; // ir_depth_limit
+    bool shadows;
+};
+
+struct ir_camera {
+    struct ir_head head;
+    str name; // "main" for the unnamed one
+    vec3 position;
+    unsigned view; // ir_view
+    vec3 look_at, direction, rotation;
+    vec3 up;    // written or the default 0 1 0
+    double fov; // vertical, degrees
+};
+
+struct ir_background {
+    struct ir_head head;
+    unsigned kind; // ir_backdrop
+    struct ir_color color;
+    str image; // path as written
+    double intensity;
+    double rotation; // degrees about +y
+};
+
+struct ir_light {
+    struct ir_head head;
+    str name;
+    unsigned kind; // ir_light_kind
+    vec3 position, direction;
+    double intensity;
+    struct ir_color color;
+    unsigned falloff; // ir_falloff
+};
+
+struct ir_checker {
+    struct ir_head head;
+    struct ir_color colors[2];
+    double size;
+};
+
+struct ir_paint {
+    struct ir_head head;
+    unsigned kind; // ir_paint_kind
+    struct ir_color color;
+    struct ir_checker checker;
+};
+
+struct ir_material {
+    struct ir_head head;
+    str name; // empty: anonymous, written inline where it is used
+    struct ir_weights albedo;
+    struct ir_paint diffuse_color;
+    struct ir_color specular_color;
+    double specular_exponent;
+    double refractive_index;
+};
+
+struct ir_material_ref {
+    str name;       // as written; empty for an inline material
+    uint32_t index; // in scene.materials; IR_NO_INDEX: none written, or not found
+};
+
+struct ir_sphere {
+    struct ir_head head;
+    str name;
+    vec3 center;
+    double radius;
+    struct ir_material_ref material;
+};
+
+struct ir_rectangle {
+    struct ir_head head;
+    str name;
+    vec3 corner, edge_u, edge_v;
+    struct ir_material_ref material;
+};
+
+struct ir_map_entry {
+    struct ir_head head;
+    str from; // name of a material in the mesh
+    struct ir_material_ref to;
+};
+struct ir_map_entries {
+    struct ir_map_entry *items;
+    uint32_t count, capacity;
+};
+
+struct ir_model {
+    struct ir_head head;
+    str name;
+    str mesh; // path as written
+    struct ir_material_ref material;
+    struct ir_map_entries material_map;
+    bool smooth;
+    vec3 scale, rotation, translation; // degrees; T·Rz·Ry·Rx·S
+};
+
+struct ir_include {
+    struct ir_head head;
+    str file; // path as written
+};
+
+struct ir_includes {
+    struct ir_include *items;
+    uint32_t count, capacity;
+};
+struct ir_cameras {
+    struct ir_camera *items;
+    uint32_t count, capacity;
+};
+struct ir_lights {
+    struct ir_light *items;
+    uint32_t count, capacity;
+};
+struct ir_materials {
+    struct ir_material *items;
+    uint32_t count, capacity;
+};
+struct ir_spheres {
+    struct ir_sphere *items;
+    uint32_t count, capacity;
+};
+struct ir_rectangles {
+    struct ir_rectangle *items;
+    uint32_t count, capacity;
+};
+struct ir_models {
+    struct ir_model *items;
+    uint32_t count, capacity;
+};
+
+// One file, or the whole scene after its includes were merged (then `includes` is empty).
+struct ir_scene {
+    struct ir_head head;
+    int32_t version;
+    str description;
+    struct ir_includes includes;
+    struct ir_image image;
+    struct ir_trace trace;
+    struct ir_background background;
+    struct ir_cameras cameras;
+    struct ir_lights lights;
+    struct ir_materials materials; // named and anonymous ones
+    struct ir_spheres spheres;
+    struct ir_rectangles rectangles;
+    struct ir_models models;
+};
+
+// Bodies are numbered spheres, rectangles, models, each in file order.
+static inline uint32_t ir_body_count(const struct ir_scene *scene) {
+    return scene->spheres.count + scene->rectangles.count + scene->models.count;
+}
+
+#endif

@@ -1,0 +1,60 @@
+// Where each part of the IR stands in the files: beside the IR, never in it. Equality, dump and diff of
+// meaning ignore it.
+//
+// For each element its span; for each row that the file gave, the spans of key and value and of the
+// comments before it; for each file its schema line and its own list of includes (for `convert`).
+// Ownership: the arena of the scene. Thread safety: immutable once the scene is loaded.
+#ifndef GLINT_GRAMMAR_IR_ORIGIN_H
+#define GLINT_GRAMMAR_IR_ORIGIN_H
+
+#include "core/arena.h"
+#include "core/source.h"
+#include "grammar/ir.h"
+
+struct ir_row_origin {
+    uint32_t row;  // index in the element's schema
+    span key;      // the key, attribute name or child's tag name
+    span value;    // the value; a child element's whole extent
+    span comments; // from the first to the last comment that stands before it; none: SPAN_NONE
+    struct ir_row_origin *next;
+};
+
+struct ir_element_origin {
+    span at;       // the whole element (an entry of a list: its value)
+    span label;    // what to point at: the name, the key or the tag name
+    span comments; // comments before an entry of a list
+    struct ir_row_origin *rows;
+};
+
+struct ir_file_origin {
+    uint32_t source;
+    bool is_xml;
+    span schema_line; // the editor's line: `# yaml-language-server: ...` or `<?xml-model ...?>`
+    str xsi_attributes; // schema attributes of <Scene>, kept as text; empty: none
+    struct ir_scene *scene; // this file alone, before merging
+    span closing_comments; // comments behind the last entry
+};
+
+struct ir_origin {
+    struct arena *arena;
+    struct { struct ir_element_origin *items; uint32_t count, capacity; } elements; // [0] is "no place"
+    struct { struct ir_file_origin *items; uint32_t count, capacity; } files; // [0] is the main scene's
+};
+
+void ir_origin_init(struct ir_origin *origin, struct arena *arena);
+// A new element; gives the id for ir_head.origin.
+uint32_t ir_origin_add(struct ir_origin *origin, struct ir_element_origin element);
+// The row's places are kept in the order of the calls; a row that is added again replaces its places.
+void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row_origin row);
+
+// NULL where the row has no place.
+const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head, uint32_t row);
+// The span to show for a row: its value, else the element's label. `row_name` must exist in the schema.
+struct schema_element;
+span ir_place_value(const struct ir_origin *origin, const struct ir_head *head, const struct schema_element *schema,
+                    const char *row_name);
+span ir_place_key(const struct ir_origin *origin, const struct ir_head *head, const struct schema_element *schema,
+                  const char *row_name);
+span ir_place_label(const struct ir_origin *origin, const struct ir_head *head);
+
+#endif

@@ -1,0 +1,167 @@
+// THE table: one row for every attribute of the scene language (schema.c).
+//
+// Binder, writers, JSON Schema, RELAX NG, the reference page, `glint explain`, the feature mask, the
+// fuzz dictionary and the generator of random scenes all walk it; none of them knows an element's name.
+// Adding an attribute is one field in ir.h, one row here, one use, one scene.
+// Thread safety: constant data.
+#ifndef GLINT_GRAMMAR_SCHEMA_H
+#define GLINT_GRAMMAR_SCHEMA_H
+
+#include "core/str.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// What a row's field is; derived from the field's C type.
+enum schema_kind {
+    SCHEMA_BOOLEAN,   // bool
+    SCHEMA_INTEGER,   // int32_t
+    SCHEMA_NUMBER,    // double
+    SCHEMA_WORD,      // unsigned: one of `words`
+    SCHEMA_TEXT,      // str: see schema_text
+    SCHEMA_VECTOR,    // vec3: x y z
+    SCHEMA_COLOR,     // struct ir_color: r g b, one number, or #rrggbb
+    SCHEMA_WEIGHTS,   // struct ir_weights: diffuse specular reflection refraction
+    SCHEMA_ELEMENT,   // a child struct, described by `child`
+    SCHEMA_REFERENCE, // struct ir_material_ref: a name, or a body that becomes an anonymous element
+    SCHEMA_LIST,      // {items, count, capacity} of `child`
+};
+
+enum schema_text {
+    SCHEMA_TEXT_FREE,
+    SCHEMA_TEXT_NAME, // the language's names
+    SCHEMA_TEXT_FOREIGN_NAME, // a name of another file's: any text but the empty one
+    SCHEMA_TEXT_PATH,
+};
+
+enum schema_unit {
+    SCHEMA_UNIT_NONE,
+    SCHEMA_UNIT_SCENE,   // scene units of length
+    SCHEMA_UNIT_DEGREES,
+    SCHEMA_UNIT_PIXELS,
+};
+
+enum schema_range {
+    SCHEMA_RANGE_NONE, // kinds without numbers
+    SCHEMA_RANGE_VERSION,
+    SCHEMA_RANGE_EXTENT,     // 1..16384
+    SCHEMA_RANGE_SAMPLES,    // 1..4096
+    SCHEMA_RANGE_DEPTH,      // 0..64
+    SCHEMA_RANGE_FRACTION,   // 0..1
+    SCHEMA_RANGE_COORDINATE, // -1e18..1e18
+    SCHEMA_RANGE_LENGTH,     // 1e-18..1e18
+    SCHEMA_RANGE_SCALE,      // magnitude 1e-18..1e18 (0 has its own diagnostic)
+    SCHEMA_RANGE_WEIGHT,     // 0..1e6
+    SCHEMA_RANGE_ANGLE,      // -1e6..1e6
+    SCHEMA_RANGE_FOV,        // between 0 and 180, both excluded
+    SCHEMA_RANGE_EXPONENT,   // 0..1e6
+    SCHEMA_RANGE_INDEX,      // 0.1..10
+    SCHEMA_RANGE_COUNT,
+};
+
+struct schema_range_info {
+    const char *name; // "coordinate"
+    double least, greatest;
+    bool open;      // the ends are excluded
+    bool magnitude; // the ends apply to the absolute value; 0 is accepted by the range itself
+    const char *text; // "from 0 to 1"
+};
+
+enum schema_many {
+    SCHEMA_ONE,
+    SCHEMA_SEQUENCE,  // YAML: a list under `plural`; XML: the element repeated
+    SCHEMA_NAMED_MAP, // YAML: a map under `plural` from the child's key row; XML: the element repeated
+    SCHEMA_FIXED,     // exactly `fixed_count` values side by side in the struct; spelled like a list
+};
+
+enum schema_choice_rule {
+    SCHEMA_CHOICE_NONE,
+    SCHEMA_CHOICE_AT_MOST_ONE,
+    SCHEMA_CHOICE_EXACTLY_ONE,
+};
+
+struct schema_element;
+
+struct schema_row {
+    const char *name;    // YAML key of one value, XML attribute; snake_case
+    const char *element; // XML child element, PascalCase; NULL: an attribute only
+    const char *plural;  // YAML key of the list or map; NULL: as `name`
+    enum schema_kind kind;
+    uint32_t offset; // of the field in the element's struct
+    uint32_t size;   // of the field in bytes
+    enum schema_text text;
+    enum schema_unit unit;
+    enum schema_range range;
+    const char *standard; // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
+    const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
+    const char *const *word_docs;
+    bool required;
+    bool fill;       // SCHEMA_VECTOR: a single number fills all components
+    bool short_form; // the element's bare scalar or sequence is this row
+    bool key;        // in a named map, the map's key; written as an attribute in XML
+    enum schema_many many;
+    const char *single;    // SCHEMA_NAMED_MAP: YAML `name: {...}` is one entry with this key
+    uint32_t fixed_count;  // SCHEMA_FIXED
+    // Rows of one choice exclude each other; taking one stores `alternative` in the element's tag field.
+    uint8_t choice; // 0: none; else an index into the element's choices, from 1
+    uint8_t alternative;
+    uint32_t feature;             // FEATURE_ bit while the value is not zero, false, the first word, or empty
+    uint32_t weight_features[4];  // SCHEMA_WEIGHTS: one per component
+    const struct schema_element *child; // SCHEMA_ELEMENT, SCHEMA_REFERENCE, SCHEMA_LIST
+    const char *doc; // one sentence
+};
+
+struct schema_choice {
+    enum schema_choice_rule rule;
+    uint32_t tag_offset; // of an `unsigned` field
+};
+
+struct schema_element {
+    const char *name; // snake_case, singular: "light"
+    const char *element; // PascalCase: "Light"
+    const char *doc;
+    const struct schema_row *rows;
+    uint32_t row_count;
+    uint32_t size; // of the struct in bytes; its first member is struct ir_head
+    struct schema_choice choices[3]; // by schema_row.choice - 1
+};
+
+extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_IMAGE, SCHEMA_TRACE, SCHEMA_CAMERA,
+    SCHEMA_BACKGROUND, SCHEMA_LIGHT, SCHEMA_MATERIAL, SCHEMA_PAINT, SCHEMA_CHECKER, SCHEMA_SPHERE,
+    SCHEMA_RECTANGLE, SCHEMA_MODEL, SCHEMA_MAP_ENTRY;
+
+// All elements, the scene first; NULL at the end.
+extern const struct schema_element *const schema_elements[];
+
+const struct schema_range_info *schema_range_info(enum schema_range range);
+// Whether `value` lies in the range; never true for NaN and infinity.
+bool schema_in_range(enum schema_range range, double value);
+
+// Index of the row of this name ("up"), or -1.
+int schema_find_row(const struct schema_element *element, str name);
+// Index of the row that a YAML key names: by plural where the row is many, by name otherwise, or by name
+// for a named map with `single` (then *is_single is true). -1: none.
+int schema_find_yaml(const struct schema_element *element, str key, bool *is_single);
+// Index of the row that an XML attribute or child element names, or -1.
+int schema_find_attribute(const struct schema_element *element, str name);
+int schema_find_child(const struct schema_element *element, str name);
+// Index of the short row, or of the key row, or -1.
+int schema_short_row(const struct schema_element *element);
+int schema_key_row(const struct schema_element *element);
+// Whether XML can write the row as an attribute: scalars always, vectors and colours where one number or
+// #rrggbb says it all, references by name.
+bool schema_is_attribute(const struct schema_row *row);
+// The YAML key of a row: its plural where it has one.
+const char *schema_yaml_key(const struct schema_row *row);
+// Names of a kind's components: {"x","y","z"}, {"r","g","b"}, {"diffuse",...}; NULL at the end.
+const char *const *schema_components(enum schema_kind kind);
+
+// Fills a struct with the defaults of all its rows, children included; `memory` holds zeros before.
+void schema_init(const struct schema_element *element, void *memory);
+// Address of a row's field.
+static inline void *schema_field(const struct schema_row *row, void *element) { return (char *)element + row->offset; }
+static inline const void *schema_field_const(const struct schema_row *row, const void *element) {
+    return (const char *)element + row->offset;
+}
+
+#endif

@@ -1,0 +1,180 @@
+// Questions to the table: rows by name, ranges, defaults.
+#include "grammar/schema.h"
+
+#include "core/number.h"
+#include "core/vec3.h"
+#include "grammar/ir.h"
+
+#include <math.h>
+#include <string.h>
+
+static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
+    [SCHEMA_RANGE_NONE] = {"none", -INFINITY, INFINITY, true, false, "any finite number"},
+    [SCHEMA_RANGE_VERSION] = {"version", 1, 1, false, false, "1"},
+    [SCHEMA_RANGE_EXTENT] = {"extent", 1, 16384, false, false, "from 1 to 16384"},
+    [SCHEMA_RANGE_SAMPLES] = {"samples", 1, 4096, false, false, "from 1 to 4096"},
+    [SCHEMA_RANGE_DEPTH] = {"depth", 0, 64, false, false, "from 0 to 64"},
+    [SCHEMA_RANGE_FRACTION] = {"fraction", 0, 1, false, false, "from 0 to 1"},
+    [SCHEMA_RANGE_COORDINATE] = {"coordinate", -1e18, 1e18, false, false, "from -1e18 to 1e18"},
+    [SCHEMA_RANGE_LENGTH] = {"length", 1e-18, 1e18, false, false, "from 1e-18 to 1e18"},
+    [SCHEMA_RANGE_SCALE] = {"scale", 1e-18, 1e18, false, true, "of magnitude 1e-18 to 1e18"},
+    [SCHEMA_RANGE_WEIGHT] = {"weight", 0, 1e6, false, false, "from 0 to 1e6"},
+    [SCHEMA_RANGE_ANGLE] = {"angle", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
+    [SCHEMA_RANGE_FOV] = {"field of view", 0, 180, true, false, "greater than 0 and less than 180"},
+    [SCHEMA_RANGE_EXPONENT] = {"exponent", 0, 1e6, false, false, "from 0 to 1e6"},
+    [SCHEMA_RANGE_INDEX] = {"index", 0.1, 10, false, false, "from 0.1 to 10"},
+};
+
+const struct schema_range_info *schema_range_info(enum schema_range range) { return &ranges[range]; }
+
+bool schema_in_range(enum schema_range range, double value) {
+    const struct schema_range_info *info = &ranges[range];
+    if (!isfinite(value))
+        return false;
+    if (info->magnitude && value == 0)
+        return true;
+    double v = info->magnitude ? fabs(value) : value;
+    return info->open ? v > info->least && v < info->greatest : v >= info->least && v <= info->greatest;
+}
+
+int schema_find_row(const struct schema_element *element, str name) {
+    for (uint32_t i = 0; i < element->row_count; i++)
+        if (str_equal_cstr(name, element->rows[i].name))
+            return (int)i;
+    return -1;
+}
+
+const char *schema_yaml_key(const struct schema_row *row) { return row->plural ? row->plural : row->name; }
+
+int schema_find_yaml(const struct schema_element *element, str key, bool *is_single) {
+    *is_single = false;
+    for (uint32_t i = 0; i < element->row_count; i++) {
+        const struct schema_row *row = &element->rows[i];
+        if (row->key)
+            continue;
+        if (str_equal_cstr(key, schema_yaml_key(row)))
+            return (int)i;
+        if (row->single && str_equal_cstr(key, row->name)) {
+            *is_single = true;
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+bool schema_is_attribute(const struct schema_row *row) {
+    if (row->many != SCHEMA_ONE || row->kind == SCHEMA_LIST || row->kind == SCHEMA_WEIGHTS)
+        return false;
+    if (row->kind == SCHEMA_VECTOR)
+        return row->fill;
+    if (row->kind == SCHEMA_ELEMENT)
+        return schema_short_row(row->child) >= 0;
+    return true;
+}
+
+int schema_find_attribute(const struct schema_element *element, str name) {
+    int i = schema_find_row(element, name);
+    return i >= 0 && schema_is_attribute(&element->rows[i]) ? i : -1;
+}
+
+int schema_find_child(const struct schema_element *element, str name) {
+    for (uint32_t i = 0; i < element->row_count; i++)
+        if (element->rows[i].element && str_equal_cstr(name, element->rows[i].element))
+            return (int)i;
+    return -1;
+}
+
+int schema_short_row(const struct schema_element *element) {
+    for (uint32_t i = 0; i < element->row_count; i++)
+        if (element->rows[i].short_form)
+            return (int)i;
+    return -1;
+}
+
+int schema_key_row(const struct schema_element *element) {
+    for (uint32_t i = 0; i < element->row_count; i++)
+        if (element->rows[i].key)
+            return (int)i;
+    return -1;
+}
+
+const char *const *schema_components(enum schema_kind kind) {
+    static const char *const xyz[] = {"x", "y", "z", NULL};
+    static const char *const rgb[] = {"r", "g", "b", NULL};
+    static const char *const weights[] = {"diffuse", "specular", "reflection", "refraction", NULL};
+    static const char *const none[] = {NULL};
+    return kind == SCHEMA_VECTOR ? xyz : kind == SCHEMA_COLOR ? rgb : kind == SCHEMA_WEIGHTS ? weights : none;
+}
+
+static uint32_t read_numbers(const char *text, double out[4]) {
+    uint32_t count = 0;
+    str rest = str_from(text);
+    while (rest.len && count < 4) {
+        size_t end = 0;
+        while (end < rest.len && rest.ptr[end] != ' ')
+            end++;
+        number_parse(str_slice(rest, 0, end), &out[count++]);
+        rest = str_trim(str_slice(rest, end, rest.len));
+    }
+    return count;
+}
+
+static unsigned word_index(const struct schema_row *row) {
+    unsigned i = 0;
+    while (row->words[i] && strcmp(row->words[i], row->standard) != 0)
+        i++;
+    return i;
+}
+
+static void init_field(const struct schema_row *row, void *field) {
+    double n[4] = {0};
+    if (row->kind == SCHEMA_ELEMENT) {
+        schema_init(row->child, field);
+        return;
+    }
+    if (row->kind == SCHEMA_REFERENCE) {
+        ((struct ir_material_ref *)field)->index = IR_NO_INDEX;
+        return;
+    }
+    if (!row->standard)
+        return;
+    if (row->kind != SCHEMA_WORD && row->kind != SCHEMA_TEXT && row->kind != SCHEMA_BOOLEAN)
+        read_numbers(row->standard, n);
+    switch (row->kind) {
+    case SCHEMA_BOOLEAN:
+        *(bool *)field = strcmp(row->standard, "true") == 0;
+        break;
+    case SCHEMA_INTEGER:
+        *(int32_t *)field = (int32_t)n[0];
+        break;
+    case SCHEMA_NUMBER:
+        *(double *)field = n[0];
+        break;
+    case SCHEMA_WORD:
+        *(unsigned *)field = word_index(row);
+        break;
+    case SCHEMA_TEXT:
+        *(str *)field = str_from(row->standard);
+        break;
+    case SCHEMA_VECTOR:
+        *(vec3 *)field = (vec3){n[0], n[1], n[2]};
+        break;
+    case SCHEMA_COLOR:
+        *(struct ir_color *)field = (struct ir_color){.r = n[0], .g = n[1], .b = n[2]};
+        break;
+    case SCHEMA_WEIGHTS:
+        *(struct ir_weights *)field = (struct ir_weights){n[0], n[1], n[2], n[3]};
+        break;
+    default:
+        break;
+    }
+}
+
+void schema_init(const struct schema_element *element, void *memory) {
+    for (uint32_t i = 0; i < element->row_count; i++) {
+        const struct schema_row *row = &element->rows[i];
+        uint32_t count = row->many == SCHEMA_FIXED ? row->fixed_count : 1;
+        for (uint32_t k = 0; k < count; k++)
+            init_field(row, (char *)schema_field(row, memory) + (size_t)k * row->size);
+    }
+}

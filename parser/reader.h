@@ -1,0 +1,30 @@
+// The two readers: text to neutral tree. They know syntax and no element's name.
+//
+// Input: a source that is already in the set. Output: a tree; diagnostics E1xx and limits (E5xx) in the
+// sink. What libyaml or expat refuses ends the file, and what stands before it is in the tree
+// (tree.broken is set); what glint itself finds (tags, duplicate keys, tabs, text between elements ...)
+// does not. Memory: the arena's guard catches its cap; the readers never jump through a library's frames.
+#ifndef GLINT_PARSER_READER_H
+#define GLINT_PARSER_READER_H
+
+#include "core/diag.h"
+#include "core/limits.h"
+#include "parser/tree.h"
+
+struct reader_context {
+    struct source_set *sources;
+    struct diag_sink *sink;
+    const struct limits *limits;
+    struct arena *arena; // for the tree; its guard is set by the caller
+};
+
+// Checks what both spellings share: UTF-8, control characters, emptiness; then reads.
+// false: nothing can be bound (a diagnostic says why).
+bool read_yaml(const struct reader_context *context, uint32_t source, struct tree *tree);
+bool read_xml(const struct reader_context *context, uint32_t source, struct tree *tree);
+// A value of `--set` in YAML flow syntax; the tree's root is the value itself, of any kind.
+bool read_yaml_value(const struct reader_context *context, uint32_t source, uint32_t begin, struct tree *tree);
+// By ending (.xml; .yaml .yml .json), else by the first character that is no blank ('<' is XML).
+bool reader_is_xml(str path, str text);
+
+#endif

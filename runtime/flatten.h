@@ -1,0 +1,50 @@
+// From IR and assets to the buffers of shaders/gpu_scene.h: origin, scale, float rounding, trees.
+//
+// The origin (the camera's position, or the first of several) is subtracted from the transforms in double
+// before any vertex is touched; the scale is 2^-ilogb(largest |coordinate - origin| of bodies), lights
+// excluded; then values are rounded to float. A point light further than 2^40 after scaling is flattened
+// as a direction, its 1/|P-p|^2 taken once in double.
+// Ownership: flat_finish frees everything. Thread safety: immutable once made.
+#ifndef GLINT_RUNTIME_FLATTEN_H
+#define GLINT_RUNTIME_FLATTEN_H
+
+#include "assets/assets.h"
+#include "assets/view.h"
+
+struct gpu_word {
+    uint32_t x, y, z, w;
+};
+
+struct flat_array {
+    struct gpu_word *words;
+    uint64_t count; // words
+};
+
+struct flat_scene {
+    vec3 origin;
+    int scale_exponent; // flat = (scene - origin) * 2^scale_exponent
+    struct flat_array triangle_nodes, triangles, normals, sphere_nodes, spheres, bodies, materials, lights;
+    const struct picture *background; // not owned
+    struct { const void *texels; uint64_t bytes; bool is_float; void *owned; } background_texels;
+    uint32_t body_count, light_count, triangle_count, sphere_count;
+    uint32_t dropped_triangles; // without area after rounding
+    uint32_t features;          // FEATURE_ bits that the scene needs
+    uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
+    double build_seconds;       // tree building
+};
+
+struct flat_input {
+    const struct ir_scene *scene;
+    const struct ir_origin *origin_places;
+    const struct assets *assets;
+    const struct view *view;
+    vec3 origin; // scene units
+    const struct limits *limits;
+    struct diag_sink *sink;
+};
+
+// false: too large or no memory (the sink says which).
+bool flatten(const struct flat_input *input, struct flat_scene *out);
+void flat_finish(struct flat_scene *flat);
+
+#endif

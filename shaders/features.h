@@ -1,0 +1,27 @@
+/* What a scene requires of the tracer, one bit each; compiled by C and by GLSL (so only macros).
+   The mask is an OR over what the scene uses (grammar/ir_features.h) and the meshes' own materials;
+   it becomes a specialization constant, so that a scene pays only for what it requires. */
+#ifndef GLINT_SHADERS_FEATURES_H
+#define GLINT_SHADERS_FEATURES_H
+
+#define FEATURE_TRIANGLES        (1u << 0)  /* rectangles or models */
+#define FEATURE_SPHERES          (1u << 1)
+#define FEATURE_DIFFUSE          (1u << 2)  /* a diffuse weight that is not 0 */
+#define FEATURE_SPECULAR         (1u << 3)  /* a specular weight that is not 0 */
+#define FEATURE_REFLECTION       (1u << 4)
+#define FEATURE_REFRACTION       (1u << 5)
+#define FEATURE_SHADOWS          (1u << 6)
+#define FEATURE_SMOOTH           (1u << 7)  /* interpolated vertex normals */
+#define FEATURE_CHECKER          (1u << 8)
+#define FEATURE_POINT_LIGHT      (1u << 9)
+#define FEATURE_DIRECTION_LIGHT  (1u << 10)
+#define FEATURE_INVERSE_SQUARE   (1u << 11)
+#define FEATURE_BACKGROUND_IMAGE (1u << 12)
+#define FEATURE_DEPTH_BLACK      (1u << 13) /* rays cut at max_depth see 0, not the background */
+#define FEATURE_SLICES           (1u << 14) /* paths may be saved and resumed in a later dispatch */
+#define FEATURE_COUNTERS         (1u << 15) /* count rays for --stats */
+#define FEATURE_COUNT            16
+/* What only a scene can switch on; the two last bits are the renderer's. */
+#define FEATURE_SCENE_MASK ((1u << 14) - 1u)
+
+#endif

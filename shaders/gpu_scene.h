@@ -1,0 +1,73 @@
+/* The layout of the buffers that host and kernels share; compiled by C and by GLSL.
+
+   Every array consists of 16-byte words (C: struct gpu_word, GLSL: uvec4). A record is a fixed number of
+   words; the tables below name its fields: the C side fills structs, the GLSL side reads words through
+   one FETCH macro (texel fetch on CPU devices, storage buffer on GPUs). Floats are stored by their bits.
+   All lengths are in flat units: scene units, minus the origin, times the flat scene's scale. */
+#ifndef GLINT_SHADERS_GPU_SCENE_H
+#define GLINT_SHADERS_GPU_SCENE_H
+
+/* Descriptor bindings of set 0; unused ones get a dummy. */
+#define BINDING_TRIANGLE_NODES 0
+#define BINDING_TRIANGLES      1
+#define BINDING_NORMALS        2
+#define BINDING_SPHERE_NODES   3
+#define BINDING_SPHERES        4
+#define BINDING_BODIES         5
+#define BINDING_MATERIALS      6
+#define BINDING_LIGHTS         7
+#define BINDING_BACKGROUND     8 /* uniform texel buffer, RGBA8 or RGBA32F, row 0 on top */
+#define BINDING_OUTPUT         9
+#define BINDING_STATE          10
+#define BINDING_COUNTERS       11
+#define BINDING_FRAME          12 /* uniform buffer: camera and frame parameters */
+
+/* Node of the 8-wide compressed tree, 5 words (Ylitalo, Karras, Laine 2017, section 4.1):
+   word 0: x,y,z the corner p of the node's box (float); w: byte 0..2 exponents ex,ey,ez (biased by 127),
+           byte 3 the mask of children that are inner nodes
+   word 1: x index of the first child node; y index of the first leaf item; z,w eight bytes `meta`:
+           0 empty; inner node: 001ccccc with ccccc = 24 + slot; leaf: the top three bits hold the unary
+           count of items (001, 011, 111), the low five bits the offset of the first from y
+   word 2: qlo_x of children 0..3, 4..7; qlo_y
+   word 3: qlo_z; qhi_x
+   word 4: qhi_y; qhi_z
+   Child boxes are decoded conservatively as t = (p - o)/d + q * (2^e/d). Node 0 is the root. */
+#define NODE_WORDS 5
+
+/* Leaf item of the triangle tree, 3 words: vertices v0 v1 v2 in x,y,z and in w
+   v0.w: triangle number (bodies in order, triangles in file order; spheres come before and are not counted)
+   v1.w: body number
+   v2.w: material (low 24 bits) and TRIANGLE_ flags */
+#define TRIANGLE_WORDS 3
+#define TRIANGLE_SMOOTH   0x01000000u
+#define TRIANGLE_SOLID    0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
+#define TRIANGLE_RECT     0x04000000u /* half of a rectangle */
+#define TRIANGLE_RECT_TOP 0x08000000u /* its second half: corner, corner+u+v, corner+v */
+#define TRIANGLE_CHECKER  0x10000000u
+#define TRIANGLE_TURNED   0x20000000u /* v1 and v2 are exchanged against the file's order */
+#define TRIANGLE_MATERIAL 0x00ffffffu
+
+/* Leaf item of the sphere tree, 2 words: center x,y,z, radius; then body number, material and flags
+   (TRIANGLE_SOLID always, TRIANGLE_CHECKER), two spare. */
+#define SPHERE_WORDS 2
+
+/* Normals of smooth triangles: 3 words each, unit x,y,z in object order of v0 v1 v2 as stored in the leaf.
+   Index: 3 * (triangle number - body.first_triangle) + body.normal_base, in words. */
+
+/* Body, 4 words:
+   word 0: first triangle number; normal base; spare; spare
+   words 1..3: rows of the affine map from flat space to the body's own coordinates (checker), each x,y,z,offset;
+               for a rectangle word 1 holds |edge_u|, |edge_v| in scene units in x, y. Zero where unused. */
+#define BODY_WORDS 4
+
+/* Material, 4 words: weights diffuse specular reflection refraction; diffuse r g b and specular exponent;
+   specular r g b and refractive index; checker's second r g b and cell size (0: no checker). */
+#define MATERIAL_WORDS 4
+
+/* Light, 2 words: position, or unit vector to the light, in x,y,z and LIGHT_ flags in w; emission r g b (over
+   inverse square: already times scale squared) and spare. */
+#define LIGHT_WORDS 2
+#define LIGHT_DIRECTIONAL    1u
+#define LIGHT_INVERSE_SQUARE 2u
+
+#endif
