@@ -1,0 +1,185 @@
+#include "app/session.h"
+
+#include "core/clock.h"
+#include "core/strbuf.h"
+#include "parser/parser.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static enum diag_code code_of_status(enum file_status status) {
+    switch (status) {
+    case FILE_MISSING:
+        return DIAG_FILE_MISSING;
+    case FILE_OUTSIDE:
+        return DIAG_FILE_OUTSIDE;
+    case FILE_NOT_REGULAR:
+        return DIAG_FILE_NOT_REGULAR;
+    case FILE_TOO_LARGE:
+        return DIAG_LIMIT;
+    case FILE_NO_MEMORY:
+        return DIAG_OUT_OF_MEMORY;
+    default:
+        return DIAG_FILE_UNREADABLE;
+    }
+}
+
+static enum session_state unreadable(struct session *session, str path, enum file_status status) {
+    uint32_t source = source_add(&session->sources, SOURCE_KIND_FILE, path, STR(""));
+    diag_add(&session->sink, code_of_status(status), (span){source, 0, 0}, "the scene file %s",
+             file_status_text(&session->files, status));
+    if (status == FILE_TOO_LARGE)
+        diag_help(&session->sink, "raise the limit with --limit %s=BYTES", limit_info(LIMIT_SCENE_BYTES)->name);
+    return SESSION_UNREADABLE;
+}
+
+// YAML in double quotes: the two characters that need it, and what is not printable.
+static void quote_yaml(struct strbuf *out, str text) {
+    strbuf_char(out, '"');
+    for (size_t i = 0; i < text.len; i++) {
+        unsigned char c = (unsigned char)text.ptr[i];
+        if (c == '"' || c == '\\')
+            strbuf_char(out, '\\');
+        if (c < 0x20 || c == 0x7F)
+            strbuf_format(out, "\\x%02x", c);
+        else
+            strbuf_char(out, (char)c);
+    }
+    strbuf_char(out, '"');
+}
+
+// A mesh stands for a scene with that one model, in a source beside the mesh.
+static str scene_around_mesh(struct session *session, str path) {
+    struct strbuf text;
+    strbuf_init(&text);
+    strbuf_cstr(&text, "glint: 1\nmodels:\n  - mesh: ");
+    quote_yaml(&text, path_base(path));
+    strbuf_char(&text, '\n');
+    str copy = arena_copy(&session->arena, strbuf_view(&text));
+    strbuf_finish(&text);
+    return copy;
+}
+
+static bool mesh_is_readable(struct session *session, str path, enum file_status *status) {
+    str contents;
+    struct arena probe;
+    arena_init(&probe, (size_t)session->options.limits.value[LIMIT_MESH_BYTES] + 1);
+    *status = files_read(&session->files, path, session->options.limits.value[LIMIT_MESH_BYTES], &probe, &contents);
+    arena_finish(&probe);
+    return *status == FILE_OK;
+}
+
+static enum session_state open_source(struct session *session, uint32_t *source) {
+    str path = session->options.path;
+    str text = STR("");
+    enum file_status status = files_add_scene_root(&session->files, path);
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
+    for (uint32_t i = 0; i < session->options.asset_path_count; i++) {
+        str folder = session->options.asset_paths[i];
+        if (files_add_root(&session->files, folder) == FILE_OK)
+            continue;
+        diag_add(&session->sink, DIAG_USAGE, SPAN_NONE, "--asset-path %.*s is not a folder", STR_ARG(folder));
+        return SESSION_UNREADABLE;
+    }
+    if (assets_is_mesh_path(path)) {
+        if (!mesh_is_readable(session, path, &status))
+            return unreadable(session, path, status);
+        text = scene_around_mesh(session, path);
+        *source = source_add(&session->sources, SOURCE_KIND_OVERLAY, path, text);
+        return SESSION_LOADED;
+    }
+    status = files_read(&session->files, path, session->options.limits.value[LIMIT_SCENE_BYTES], &session->arena, &text);
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
+    *source = source_add(&session->sources, SOURCE_KIND_FILE, path, text);
+    return SESSION_LOADED;
+}
+
+static void load_assets(struct session *session, struct asset_store *store) {
+    double start = clock_seconds();
+    struct assets_input input = {.scene = session->scene,
+                                 .origin = &session->origin,
+                                 .sources = &session->sources,
+                                 .files = &session->files,
+                                 .limits = &session->options.limits,
+                                 .sink = &session->sink,
+                                 .arena = &session->arena};
+    assets_load(store, &input, session->options.skip_pixels, &session->assets);
+    session->assets_seconds = clock_seconds() - start;
+}
+
+static void take_image_options(struct session *session) {
+    session->image = session->scene->image;
+    if (session->options.width)
+        session->image.width = session->options.width;
+    if (session->options.height)
+        session->image.height = session->options.height;
+    if (session->options.samples)
+        session->image.samples = session->options.samples;
+}
+
+static enum session_state load_stages(struct session *session, struct asset_store *store, bool alone) {
+    uint32_t source = 0;
+    double start = clock_seconds();
+    enum session_state state = open_source(session, &source);
+    if (state != SESSION_LOADED)
+        return state;
+    struct parser_input input = {.sources = &session->sources,
+                                 .files = &session->files,
+                                 .sink = &session->sink,
+                                 .limits = &session->options.limits,
+                                 .arena = &session->arena,
+                                 .sets = session->options.sets,
+                                 .set_count = session->options.set_count};
+    struct parser_output output = {0};
+    bool found = alone ? parser_load_file(&input, source, &output) : parser_load(&input, source, &output);
+    session->read_seconds = clock_seconds() - start;
+    if (!found)
+        return SESSION_NO_SCENE;
+    session->scene = output.scene;
+    session->origin = output.origin;
+    take_image_options(session);
+    if (!alone && !session->options.text_only)
+        load_assets(session, store);
+    return SESSION_LOADED;
+}
+
+static enum session_state guarded_load(struct session *session, const struct session_options *options,
+                                       struct asset_store *store, bool alone) {
+    struct arena_guard guard;
+    *session = (struct session){.options = *options};
+    diag_sink_init(&session->sink);
+    arena_init(&session->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
+    arena_set_guard(&session->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        source_set_init(&session->sources, &session->arena);
+        files_init(&session->files, &session->arena);
+        session->state = load_stages(session, store, alone);
+    } else {
+        diag_add(&session->sink, guard.fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
+                 "the scene needs more memory than %s", guard.fault == ARENA_FAULT_CAP ? "the limit" : "there is");
+        diag_help(&session->sink, "raise the limit with --limit %s=BYTES", limit_info(LIMIT_SCENE_MEMORY)->name);
+        session->state = SESSION_NO_SCENE;
+    }
+    arena_set_guard(&session->arena, NULL);
+    diag_sort(&session->sink);
+    return session->state;
+}
+
+enum session_state session_load(struct session *session, const struct session_options *options,
+                                struct asset_store *store) {
+    return guarded_load(session, options, store, false);
+}
+
+enum session_state session_load_text(struct session *session, const struct session_options *options) {
+    return guarded_load(session, options, NULL, true);
+}
+
+void session_finish(struct session *session) {
+    if (!session)
+        return;
+    assets_finish(&session->assets);
+    diag_sink_finish(&session->sink);
+    arena_finish(&session->arena);
+}

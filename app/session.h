@@ -1,0 +1,68 @@
+// A scene, loaded: path and options in; sources, IR, places, assets, view and diagnostics out.
+//
+// The one place that joins the stages; command line, viewer and language server call it. Nothing here
+// prints or exits: diagnostics are in `sink`, sorted by session_load.
+// Ownership: session_finish frees everything but the store, which outlives sessions.
+// Thread safety: a session belongs to one thread; once loaded it is immutable and may be read by many.
+#ifndef GLINT_APP_SESSION_H
+#define GLINT_APP_SESSION_H
+
+#include "assets/assets.h"
+#include "assets/view.h"
+#include "core/diag.h"
+#include "core/files.h"
+#include "core/limits.h"
+#include "grammar/ir.h"
+#include "grammar/ir_origin.h"
+
+struct session_options {
+    str path; // of the scene, or of a mesh, which is then a scene with that one model
+    const str *asset_paths;
+    uint32_t asset_path_count;
+    const str *sets; // PATH=VALUE
+    uint32_t set_count;
+    struct limits limits;
+    bool text_only;      // neither meshes nor images are opened
+    bool skip_pixels;    // the background's header is checked, its pixels are not decoded
+    int32_t width, height; // 0: as the scene says
+    int32_t samples;       // 0: as the scene says
+};
+
+enum session_state {
+    SESSION_LOADED,     // there is a scene; the sink may still hold errors
+    SESSION_NO_SCENE,   // the text could not be understood at all
+    SESSION_UNREADABLE, // the file named on the command line could not be read
+};
+
+struct session {
+    struct session_options options;
+    struct arena arena;
+    struct source_set sources;
+    struct files files;
+    struct diag_sink sink;
+    struct ir_scene *scene;
+    struct ir_origin origin;
+    struct ir_image image; // the scene's, with the options' size and samples
+    struct assets assets;
+    enum session_state state;
+    double read_seconds, assets_seconds;
+};
+
+// Loads `options->path`. Always leaves a session that session_finish takes, whatever the result.
+enum session_state session_load(struct session *session, const struct session_options *options,
+                                struct asset_store *store);
+void session_finish(struct session *session);
+
+// Index of the camera of this name, or IR_NO_INDEX with a diagnostic E302. An empty name is the first
+// (0, also where the scene has none).
+uint32_t session_camera(struct session *session, str name);
+// The view through a camera; its lights live in the session. Notes about automatic ones go to the sink.
+// false: no memory.
+bool session_view(struct session *session, uint32_t camera, struct view *view);
+// The origin for flattening: the position of the first camera, or of `view` where the scene has none.
+vec3 session_origin(const struct session *session, const struct view *view);
+
+// One file alone, for `convert`: no includes, no assets. The IR is origin.files[0].scene too.
+enum session_state session_load_text(struct session *session, const struct session_options *options);
+
+#endif

@@ -1,0 +1,49 @@
+// Cameras and lights of a loaded session.
+#include "app/session.h"
+
+#include "core/nearest.h"
+#include "core/strbuf.h"
+
+uint32_t session_camera(struct session *session, str name) {
+    const struct ir_cameras *cameras = &session->scene->cameras;
+    if (name.len == 0)
+        return 0;
+    struct nearest search = nearest_begin(name);
+    struct strbuf all;
+    strbuf_init(&all);
+    for (uint32_t i = 0; i < cameras->count; i++) {
+        if (str_equal(cameras->items[i].name, name)) {
+            strbuf_finish(&all);
+            return i;
+        }
+        nearest_offer(&search, cameras->items[i].name);
+        strbuf_format(&all, "%s'%.*s'", i ? ", " : "", STR_ARG(cameras->items[i].name));
+    }
+    span at = ir_place_label(&session->origin, &session->scene->head);
+    diag_add(&session->sink, DIAG_UNKNOWN_CAMERA, (span){at.source, 0, 0}, "the scene has no camera '%.*s'", STR_ARG(name));
+    if (nearest_best(&search).len)
+        diag_help(&session->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    else if (all.len)
+        diag_help(&session->sink, "the scene's cameras are %.*s", STR_ARG(strbuf_view(&all)));
+    else
+        diag_help(&session->sink, "the scene has no camera at all; leave out --camera for the automatic one");
+    strbuf_finish(&all);
+    return IR_NO_INDEX;
+}
+
+bool session_view(struct session *session, uint32_t camera, struct view *view) {
+    struct arena_guard guard;
+    arena_set_guard(&session->arena, &guard);
+    bool made = false;
+    if (setjmp(guard.jump) == 0) {
+        view_build(session->scene, &session->assets, camera, session->image.width, session->image.height,
+                   &session->arena, &session->sink, view);
+        made = true;
+    }
+    arena_set_guard(&session->arena, NULL);
+    return made;
+}
+
+vec3 session_origin(const struct session *session, const struct view *view) {
+    return session->scene->cameras.count ? session->scene->cameras.items[0].position : view->camera.position;
+}
