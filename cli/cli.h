@@ -1,0 +1,99 @@
+// What the subcommands share: the command line as a source (so that its mistakes have carets too), the
+// parsed options, exit codes, and where diagnostics go (standard error).
+#ifndef GLINT_CLI_CLI_H
+#define GLINT_CLI_CLI_H
+
+#include "app/session.h"
+#include "core/diag.h"
+#include "core/limits.h"
+#include "core/strbuf.h"
+
+enum cli_exit {
+    CLI_OK = 0,
+    CLI_SCENE = 1,       // errors in the scene or in a file that it names
+    CLI_USAGE = 2,
+    CLI_FILE = 3,        // the scene file cannot be read, or an output cannot be written
+    CLI_DEVICE = 4,      // no usable device
+    CLI_INTERRUPTED = 130,
+    CLI_TERMINATED = 143,
+};
+
+enum cli_stats {
+    CLI_STATS_NONE,
+    CLI_STATS_TEXT,
+    CLI_STATS_JSON,
+};
+
+struct cli_list {
+    str *items;
+    uint32_t count, capacity;
+};
+
+struct cli_options {
+    const char *output; // NULL: not given
+    int32_t width, height, samples, repeat; // 0: not given
+    str camera;
+    const char *device; // NULL: not given
+    struct cli_list sets, asset_paths;
+    struct limits limits;
+    enum cli_stats stats;
+    bool quiet, verbose, ir, help, limit_help, version;
+};
+
+struct cli {
+    int argc;
+    char **argv;
+    struct arena arena;
+    struct source_set sources; // [1] is the command line
+    struct diag_sink sink;     // of the command line itself
+    uint32_t *arg_begin;       // byte offset of each argument in the command line's text
+    bool color;                // standard error takes colours
+    struct cli_options options;
+    char **operands; // what is left behind the options
+    int operand_count;
+};
+
+struct cli_command {
+    const char *name;
+    const char *operands; // for the usage line: "SCENE"
+    const char *summary;
+    const char *details;  // paragraphs and examples for --help
+    int least_operands, most_operands; // most: -1 is any number
+    int (*run)(struct cli *cli);
+};
+
+extern const struct cli_command cli_commands[]; // a row without a name at the end
+const struct cli_command *cli_find_command(const char *name);
+
+// Reads argv into cli->options and cli->operands; mistakes go to cli->sink. `command` NULL: the program's
+// own options only.
+bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first);
+// The options of a command (NULL: of the program), one line each.
+void cli_option_help(struct strbuf *out, const struct cli_command *command);
+
+// The place of an argument on the command line.
+span cli_place(const struct cli *cli, int arg);
+// Gives one error of the command line and returns CLI_USAGE.
+int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((format(printf, 3, 4)));
+// Prints the command line's own diagnostics.
+void cli_print_usage(struct cli *cli);
+// Prints a session's diagnostics, notes too unless `quiet`; gives the exit code that they ask for.
+int cli_report(struct cli *cli, struct session *session, bool notes);
+// One error with the place 1:1 of `path`, printed at once.
+void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+struct session_options cli_session_options(const struct cli *cli, const char *path);
+// Writes `text` to standard output; CLI_OK or CLI_FILE with an error printed.
+int cli_print(struct cli *cli, str text);
+// Writes a whole file (or "-"); CLI_OK or CLI_FILE with an error printed.
+int cli_write(struct cli *cli, const char *path, str bytes);
+
+int cmd_render(struct cli *cli);
+int cmd_check(struct cli *cli);
+int cmd_inspect(struct cli *cli);
+int cmd_convert(struct cli *cli);
+int cmd_schema(struct cli *cli);
+int cmd_explain(struct cli *cli);
+int cmd_devices(struct cli *cli);
+
+#endif

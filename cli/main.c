@@ -1,0 +1,177 @@
+// glint: the command line. Finds the command, parses its options, runs it.
+#include "cli/cli.h"
+
+#include "core/nearest.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define GLINT_VERSION_TEXT "glint " GLINT_VERSION "\n"
+
+const struct cli_command cli_commands[] = {
+    {"render", "SCENE", "render a scene to a picture",
+     "SCENE is a scene file (YAML or XML) or a mesh (OBJ). Without -o the picture is written to the current\n"
+     "folder, named after the scene.\n\n"
+     "  glint render scenes/showcase.glint.yaml\n"
+     "  glint render scene.xml -o picture.png --size 640x480 --samples 4\n"
+     "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n",
+     1, 1, cmd_render},
+    {"check", "SCENE...", "find every mistake in scene files",
+     "Reads each scene with all that it names and reports every mistake at its line and column. The exit\n"
+     "status is 0 where there is no error.\n\n"
+     "  glint check scenes/*.yaml\n",
+     1, -1, cmd_check},
+    {"inspect", "SCENE", "tell what a scene holds and requires",
+     "Counts, bounds, the features that the scene switches on and where, and the sizes of the buffers.\n"
+     "With --ir the scene as it was understood: equal for two files that mean the same.\n",
+     1, 1, cmd_inspect},
+    {"convert", "IN OUT", "translate between the YAML and the XML spelling",
+     "The endings of IN and OUT (.yaml .yml .json, .xml) tell the spellings; OUT '-' writes the other spelling\n"
+     "to standard output. Comments before entries and includes are kept.\n\n"
+     "  glint convert scene.xml scene.yaml\n",
+     2, 2, cmd_convert},
+    {"schema", "json|relaxng|markdown", "print the language's schema or reference page",
+     "json: JSON Schema (draft-07) for YAML editors. relaxng: RELAX NG for XML editors.\n"
+     "markdown: the reference page.\n",
+     1, 1, cmd_schema},
+    {"explain", "CODE|ELEMENT[.ATTRIBUTE]", "explain a message's code or a part of the language",
+     "  glint explain E206\n  glint explain material.albedo\n", 1, 1, cmd_explain},
+    {"devices", "", "list the devices that can render", "", 0, 0, cmd_devices},
+    {0},
+};
+
+const struct cli_command *cli_find_command(const char *name) {
+    for (const struct cli_command *c = cli_commands; c->name; c++)
+        if (strcmp(c->name, name) == 0)
+            return c;
+    return NULL;
+}
+
+static void init(struct cli *cli, int argc, char **argv) {
+    struct strbuf text;
+    const char *no_color = getenv("NO_COLOR");
+    *cli = (struct cli){.argc = argc, .argv = argv};
+    arena_init(&cli->arena, SIZE_MAX / 2);
+    source_set_init(&cli->sources, &cli->arena);
+    diag_sink_init(&cli->sink);
+    cli->color = isatty(STDERR_FILENO) && !(no_color && no_color[0]);
+    cli->options.limits = limits_default();
+    cli->arg_begin = ARENA_ARRAY(&cli->arena, uint32_t, (size_t)argc + 1);
+    strbuf_init(&text);
+    for (int i = 0; i < argc; i++) {
+        if (i)
+            strbuf_char(&text, ' ');
+        cli->arg_begin[i] = (uint32_t)text.len;
+        strbuf_cstr(&text, i == 0 ? "glint" : argv[i]);
+    }
+    source_add(&cli->sources, SOURCE_KIND_OPTION, STR("command-line"), arena_copy(&cli->arena, strbuf_view(&text)));
+    strbuf_finish(&text);
+}
+
+static void program_help(struct strbuf *out) {
+    strbuf_cstr(out, "Usage: glint COMMAND [OPTION]...\n\nDescribes a picture in a text file and renders it: scenes in YAML or XML, Whitted ray tracing on any\n"
+                     "Vulkan device, the processor included.\n\nCommands:\n");
+    for (const struct cli_command *c = cli_commands; c->name; c++)
+        strbuf_format(out, "  %-10s %s\n", c->name, c->summary);
+    strbuf_cstr(out, "\nOptions:\n");
+    cli_option_help(out, NULL);
+    strbuf_cstr(out, "\n'glint COMMAND --help' tells more about a command.\n"
+                     "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command line cannot be\n"
+                     "read or written; 4 no usable device; 130 or 143 interrupted.\n");
+}
+
+static void command_help(struct strbuf *out, const struct cli_command *command) {
+    strbuf_format(out, "Usage: glint %s [OPTION]...%s%s\n\nTo %s.\n\n", command->name, command->operands[0] ? " " : "",
+                  command->operands, command->summary);
+    if (command->details[0])
+        strbuf_format(out, "%s\n", command->details);
+    strbuf_cstr(out, "Options:\n");
+    cli_option_help(out, command);
+}
+
+static int show_help(struct cli *cli, const struct cli_command *command) {
+    struct strbuf text;
+    strbuf_init(&text);
+    if (command)
+        command_help(&text, command);
+    else
+        program_help(&text);
+    int status = cli_print(cli, strbuf_view(&text));
+    strbuf_finish(&text);
+    return status;
+}
+
+static int show_limits(struct cli *cli) {
+    struct strbuf text;
+    strbuf_init(&text);
+    for (int i = 0; i < LIMIT_COUNT; i++) {
+        const struct limit_info *info = limit_info((enum limit)i);
+        strbuf_format(&text, "%-16s %12llu  %s\n", info->name, (unsigned long long)info->standard, info->doc);
+    }
+    int status = cli_print(cli, strbuf_view(&text));
+    strbuf_finish(&text);
+    return status;
+}
+
+static int unknown_command(struct cli *cli) {
+    struct nearest search = nearest_begin(str_from(cli->argv[1]));
+    for (const struct cli_command *c = cli_commands; c->name; c++)
+        nearest_offer(&search, str_from(c->name));
+    int status = cli_usage(cli, 1, "there is no command '%s'", cli->argv[1]);
+    if (nearest_best(&search).len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    else
+        diag_help(&cli->sink, "'glint --help' lists the commands; to render a file: glint render %s", cli->argv[1]);
+    return status;
+}
+
+static int run_command(struct cli *cli, const struct cli_command *command) {
+    if (!cli_parse_options(cli, command, 2))
+        return CLI_USAGE;
+    if (cli->options.limit_help)
+        return show_limits(cli);
+    if (cli->options.help)
+        return show_help(cli, command);
+    if (cli->operand_count < command->least_operands)
+        return cli_usage(cli, 1, "'glint %s' needs %s", command->name, command->operands);
+    if (command->most_operands >= 0 && cli->operand_count > command->most_operands)
+        return cli_usage(cli, cli->argc - 1, "'glint %s' takes no more than %d argument%s", command->name,
+                         command->most_operands, command->most_operands == 1 ? "" : "s");
+    return command->run(cli);
+}
+
+static int run(struct cli *cli) {
+    if (cli->argc < 2) {
+        struct strbuf text;
+        strbuf_init(&text);
+        program_help(&text);
+        fwrite(text.data ? text.data : "", 1, text.len, stderr);
+        strbuf_finish(&text);
+        return cli_usage(cli, 0, "a command is needed");
+    }
+    if (cli->argv[1][0] == '-') {
+        bool good = cli_parse_options(cli, NULL, 1);
+        if (good && cli->options.version)
+            return cli_print(cli, STR(GLINT_VERSION_TEXT));
+        if (good && cli->options.help)
+            return show_help(cli, NULL);
+        return good ? cli_usage(cli, 1, "a command is needed before its options") : CLI_USAGE;
+    }
+    if (strcmp(cli->argv[1], "help") == 0)
+        return show_help(cli, cli->argc > 2 ? cli_find_command(cli->argv[2]) : NULL);
+    const struct cli_command *command = cli_find_command(cli->argv[1]);
+    return command ? run_command(cli, command) : unknown_command(cli);
+}
+
+int main(int argc, char **argv) {
+    struct cli cli;
+    init(&cli, argc, argv);
+    int status = run(&cli);
+    if (cli.sink.count)
+        cli_print_usage(&cli);
+    diag_sink_finish(&cli.sink);
+    arena_finish(&cli.arena);
+    return status;
+}

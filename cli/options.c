@@ -1,0 +1,258 @@
+// The one table of options, its parser and its help.
+#include "cli/cli.h"
+
+#include "core/nearest.h"
+#include "core/number.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+
+enum option_id {
+    OPTION_HELP = 1000,
+    OPTION_VERSION,
+    OPTION_OUTPUT,
+    OPTION_SIZE,
+    OPTION_SAMPLES,
+    OPTION_CAMERA,
+    OPTION_SET,
+    OPTION_DEVICE,
+    OPTION_ASSET_PATH,
+    OPTION_LIMIT,
+    OPTION_REPEAT,
+    OPTION_STATS,
+    OPTION_QUIET,
+    OPTION_VERBOSE,
+    OPTION_IR,
+};
+
+struct option_row {
+    enum option_id id;
+    const char *name;
+    char letter;          // 0: none
+    const char *argument; // NULL: none; "[=X]": optional
+    const char *commands; // separated by blanks; "*": all, "-": the program itself too
+    const char *doc;
+};
+
+static const struct option_row rows[] = {
+    {OPTION_OUTPUT, "output", 'o', "FILE", "render", "write to FILE (.png .pfm .hdr); '-' writes PNG to standard output"},
+    {OPTION_SIZE, "size", 0, "WxH", "render inspect", "size of the picture in pixels, instead of the scene's"},
+    {OPTION_SAMPLES, "samples", 0, "N", "render inspect", "rays through each pixel, instead of the scene's"},
+    {OPTION_CAMERA, "camera", 0, "NAME", "render", "the camera to look through; 'all' makes OUT.NAME.png for each"},
+    {OPTION_SET, "set", 0, "PATH=VALUE", "render check inspect", "change one value of the scene: materials.glass.refractive_index=1.6"},
+    {OPTION_DEVICE, "device", 0, "NAME|N", "render", "the device to render on, see 'glint devices'; also GLINT_DEVICE"},
+    {OPTION_ASSET_PATH, "asset-path", 0, "DIR", "render check inspect convert", "a folder in which files of the scene are looked for too"},
+    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render check inspect convert", "change a limit on the size of inputs; NAME 'help' lists them"},
+    {OPTION_REPEAT, "repeat", 0, "N", "render", "render N times and tell the median time of a frame and its spread"},
+    {OPTION_STATS, "stats", 0, "[=json]", "render", "tell times, rays, memory and the device on standard error"},
+    {OPTION_QUIET, "quiet", 'q', NULL, "render check", "show errors and warnings only: no notes, no progress"},
+    {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
+    {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as it was understood, in canonical form"},
+    {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
+    {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
+};
+enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+
+static bool belongs(const struct option_row *row, const struct cli_command *command) {
+    if (!command)
+        return strchr(row->commands, '-') != NULL;
+    if (row->commands[0] == '*')
+        return true;
+    size_t n = strlen(command->name);
+    for (const char *p = strstr(row->commands, command->name); p; p = strstr(p + n, command->name))
+        if ((p == row->commands || p[-1] == ' ') && (p[n] == ' ' || p[n] == '\0'))
+            return true;
+    return false;
+}
+
+void cli_option_help(struct strbuf *out, const struct cli_command *command) {
+    for (int i = 0; i < ROW_COUNT; i++) {
+        if (!belongs(&rows[i], command))
+            continue;
+        char left[40];
+        const char *argument = rows[i].argument ? rows[i].argument : "";
+        const char *joint = rows[i].argument && argument[0] != '[' ? " " : "";
+        if (rows[i].letter)
+            snprintf(left, sizeof left, "-%c, --%s%s%s", rows[i].letter, rows[i].name, joint, argument);
+        else
+            snprintf(left, sizeof left, "    --%s%s%s", rows[i].name, joint, argument);
+        strbuf_format(out, "  %-26s %s\n", left, rows[i].doc);
+    }
+}
+
+static bool read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t most, int32_t *out) {
+    int64_t value = 0;
+    if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < 1 || value > most) {
+        cli_usage(cli, arg, "--%s takes a whole number from 1 to %lld, not '%s'", name, (long long)most, text);
+        return false;
+    }
+    *out = (int32_t)value;
+    return true;
+}
+
+static bool read_size(struct cli *cli, int arg, const char *text) {
+    const char *x = strpbrk(text, "xX");
+    int64_t width = 0;
+    int64_t height = 0;
+    if (!x || number_parse_integer((str){text, (size_t)(x - text)}, &width) != NUMBER_OK ||
+        number_parse_integer(str_from(x + 1), &height) != NUMBER_OK || width < 1 || height < 1 || width > 16384 ||
+        height > 16384 || width * height > 67108864) {
+        cli_usage(cli, arg, "--size takes WIDTHxHEIGHT, each from 1 to 16384 and 64 megapixels at most, such as 640x480, not '%s'", text);
+        return false;
+    }
+    cli->options.width = (int32_t)width;
+    cli->options.height = (int32_t)height;
+    return true;
+}
+
+static bool read_limit(struct cli *cli, int arg, const char *text) {
+    enum limit which = LIMIT_COUNT;
+    if (strcmp(text, "help") == 0) {
+        cli->options.limit_help = true;
+        return true;
+    }
+    enum limit_status status = limits_set(&cli->options.limits, str_from(text), &which);
+    if (status == LIMIT_SET)
+        return true;
+    if (status == LIMIT_BAD_VALUE) {
+        const struct limit_info *info = limit_info(which);
+        cli_usage(cli, arg, "--limit %s takes a whole number from %llu to %llu", info->name,
+                  (unsigned long long)info->least, (unsigned long long)info->greatest);
+        return false;
+    }
+    size_t length = strcspn(text, "=");
+    struct nearest search = nearest_begin((str){text, length});
+    for (int i = 0; i < LIMIT_COUNT; i++)
+        nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
+    cli_usage(cli, arg, "there is no limit '%.*s'", (int)length, text);
+    if (nearest_best(&search).len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    else
+        diag_help(&cli->sink, "'--limit help' lists the limits");
+    return false;
+}
+
+static void append(struct cli *cli, struct cli_list *list, const char *text) {
+    str *item = ARENA_PUSH(&cli->arena, list);
+    *item = str_from(text);
+}
+
+static bool apply(struct cli *cli, int arg, enum option_id id, const char *value) {
+    struct cli_options *options = &cli->options;
+    switch (id) {
+    case OPTION_HELP:
+        options->help = true;
+        return true;
+    case OPTION_VERSION:
+        options->version = true;
+        return true;
+    case OPTION_OUTPUT:
+        options->output = value;
+        return true;
+    case OPTION_SIZE:
+        return read_size(cli, arg, value);
+    case OPTION_SAMPLES:
+        return read_count(cli, arg, "samples", value, 4096, &options->samples);
+    case OPTION_CAMERA:
+        options->camera = str_from(value);
+        return true;
+    case OPTION_SET:
+        append(cli, &options->sets, value);
+        return true;
+    case OPTION_DEVICE:
+        options->device = value;
+        return true;
+    case OPTION_ASSET_PATH:
+        append(cli, &options->asset_paths, value);
+        return true;
+    case OPTION_LIMIT:
+        return read_limit(cli, arg, value);
+    case OPTION_REPEAT:
+        return read_count(cli, arg, "repeat", value, 100000, &options->repeat);
+    case OPTION_STATS:
+        if (value && strcmp(value, "json") != 0) {
+            cli_usage(cli, arg, "--stats takes 'json' or nothing, not '%s'", value);
+            return false;
+        }
+        options->stats = value ? CLI_STATS_JSON : CLI_STATS_TEXT;
+        return true;
+    case OPTION_QUIET:
+        options->quiet = true;
+        return true;
+    case OPTION_VERBOSE:
+        options->verbose = true;
+        return true;
+    case OPTION_IR:
+        options->ir = true;
+        return true;
+    }
+    return false;
+}
+
+static void suggest(struct cli *cli, const struct cli_command *command, const char *word) {
+    size_t length = strcspn(word, "=");
+    struct nearest search = nearest_begin((str){word, length});
+    char spelled[ROW_COUNT][40];
+    for (int i = 0; i < ROW_COUNT; i++) {
+        snprintf(spelled[i], sizeof spelled[i], "--%s", rows[i].name);
+        if (belongs(&rows[i], command))
+            nearest_offer(&search, str_from(spelled[i]));
+    }
+    if (nearest_best(&search).len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    else
+        diag_help(&cli->sink, "'glint %s%s--help' lists the options", command ? command->name : "", command ? " " : "");
+}
+
+bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first) {
+    struct option longs[ROW_COUNT + 1] = {0};
+    char letters[3 * ROW_COUNT + 3] = ":";
+    size_t letter_count = 1;
+    int count = 0;
+    for (int i = 0; i < ROW_COUNT; i++) {
+        if (!belongs(&rows[i], command))
+            continue;
+        int has = !rows[i].argument ? no_argument : rows[i].argument[0] == '[' ? optional_argument : required_argument;
+        longs[count++] = (struct option){rows[i].name, has, NULL, (int)rows[i].id};
+        if (rows[i].letter) {
+            letters[letter_count++] = rows[i].letter;
+            if (has == required_argument)
+                letters[letter_count++] = ':';
+        }
+    }
+    letters[letter_count] = '\0';
+    // getopt sorts operands behind options: it works on a copy, so that places stay those of the user.
+    int argc = cli->argc - first + 1;
+    char **argv = ARENA_ARRAY(&cli->arena, char *, (size_t)argc + 1);
+    for (int i = 0; i < argc; i++)
+        argv[i] = cli->argv[first - 1 + i];
+    opterr = 0;
+    optind = 0;
+    bool good = true;
+    for (;;) {
+        int at = optind ? optind : 1;
+        int id = getopt_long(argc, argv, letters, longs, NULL);
+        if (id == -1)
+            break;
+        const char *word = argv[optind - 1] == optarg && optind >= 2 ? argv[optind - 2] : argv[optind - 1];
+        int arg = at;
+        for (int i = first; i < cli->argc; i++)
+            if (cli->argv[i] == word)
+                arg = i;
+        if (id == '?' || id == ':') {
+            cli_usage(cli, arg, id == ':' ? "option '%s' needs a value" : "unknown or ambiguous option '%s'", word);
+            if (id == '?')
+                suggest(cli, command, word);
+            good = false;
+            continue;
+        }
+        for (int i = 0; i < ROW_COUNT; i++)
+            if (rows[i].letter == id)
+                id = (int)rows[i].id;
+        good = apply(cli, arg, (enum option_id)id, optarg) && good;
+    }
+    cli->operands = argv + optind;
+    cli->operand_count = argc - optind;
+    return good;
+}

@@ -1,0 +1,94 @@
+// Diagnostics on standard error, data on standard output, and the exit codes that follow.
+#include "cli/cli.h"
+
+#include "core/diag_text.h"
+#include "core/output.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+span cli_place(const struct cli *cli, int arg) {
+    if (arg < 0 || arg >= cli->argc)
+        return (span){1, 0, 0};
+    uint32_t begin = cli->arg_begin[arg];
+    return (span){1, begin, begin + (uint32_t)strlen(cli->argv[arg])};
+}
+
+int cli_usage(struct cli *cli, int arg, const char *format, ...) {
+    va_list args;
+    char fixed[1024];
+    va_start(args, format);
+    vsnprintf(fixed, sizeof fixed, format, args);
+    va_end(args);
+    diag_add(&cli->sink, DIAG_USAGE, cli_place(cli, arg), "%s", fixed);
+    return CLI_USAGE;
+}
+
+static void print(struct cli *cli, const struct diag_sink *sink, struct source_set *sources, bool notes) {
+    struct strbuf text;
+    strbuf_init(&text);
+    struct diag_text_options options = {
+        .color = cli->color, .notes = notes, .most = (uint32_t)cli->options.limits.value[LIMIT_MESSAGES]};
+    diag_text(&text, sink, sources, options);
+    fwrite(text.data ? text.data : "", 1, text.len, stderr);
+    strbuf_finish(&text);
+}
+
+void cli_print_usage(struct cli *cli) { print(cli, &cli->sink, &cli->sources, true); }
+
+static bool has_code(const struct diag_sink *sink, enum diag_code code) {
+    for (uint32_t i = 0; i < sink->count; i++)
+        if (sink->items[i].code == code)
+            return true;
+    return false;
+}
+
+int cli_report(struct cli *cli, struct session *session, bool notes) {
+    print(cli, &session->sink, &session->sources, notes);
+    if (session->state == SESSION_UNREADABLE)
+        return has_code(&session->sink, DIAG_USAGE) ? CLI_USAGE : CLI_FILE;
+    if (session->sink.errors == 0)
+        return CLI_OK;
+    return has_code(&session->sink, DIAG_UNKNOWN_CAMERA) || has_code(&session->sink, DIAG_SET_SYNTAX) ? CLI_USAGE : CLI_SCENE;
+}
+
+void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format, ...) {
+    struct diag_sink sink;
+    char fixed[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(fixed, sizeof fixed, format, args);
+    va_end(args);
+    diag_sink_init(&sink);
+    uint32_t source = source_add(&cli->sources, SOURCE_KIND_FILE, str_from(path), STR(""));
+    diag_add(&sink, code, (span){source, 0, 0}, "%s", fixed);
+    if (help)
+        diag_help(&sink, "%s", help);
+    print(cli, &sink, &cli->sources, true);
+    diag_sink_finish(&sink);
+}
+
+struct session_options cli_session_options(const struct cli *cli, const char *path) {
+    const struct cli_options *o = &cli->options;
+    return (struct session_options){.path = str_from(path),
+                                    .asset_paths = o->asset_paths.items,
+                                    .asset_path_count = o->asset_paths.count,
+                                    .sets = o->sets.items,
+                                    .set_count = o->sets.count,
+                                    .limits = o->limits,
+                                    .width = o->width,
+                                    .height = o->height,
+                                    .samples = o->samples};
+}
+
+int cli_write(struct cli *cli, const char *path, str bytes) {
+    int error = output_whole(path, bytes.ptr, bytes.len);
+    if (error == 0)
+        return CLI_OK;
+    cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL, "cannot be written: %s",
+              strerror(error));
+    return CLI_FILE;
+}
+
+int cli_print(struct cli *cli, str text) { return cli_write(cli, "-", text); }

@@ -1,0 +1,46 @@
+#!/bin/sh
+# Installs the Debian packages that are missing, and only those: `tools/setup.sh build` for building and
+# rendering, `tools/setup.sh test` for the tests too. Needs root or sudo only where something is missing.
+set -eu
+
+build="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libstb-dev
+libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers glslang-tools spirv-tools"
+test="libcmocka-dev vulkan-validationlayers valgrind libxml2-utils clang-format git"
+
+case "${1:-}" in
+build) wanted=$build ;;
+test) wanted="$build $test" ;;
+*)
+    echo "usage: tools/setup.sh build|test" >&2
+    exit 2
+    ;;
+esac
+
+if ! command -v dpkg-query >/dev/null 2>&1; then
+    echo "setup: this is no Debian system; install what stands in tools/setup.sh by hand" >&2
+    exit 0
+fi
+
+missing=
+for package in $wanted; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$status" = installed ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+echo "setup: installing$missing" >&2
+if [ "$(id -u)" -eq 0 ]; then
+    as_root=
+elif command -v sudo >/dev/null 2>&1; then
+    as_root="sudo"
+else
+    echo "setup: please run as root: apt-get install$missing" >&2
+    exit 1
+fi
+export DEBIAN_FRONTEND=noninteractive
+# An installation with today's lists usually works at once; old lists are renewed first otherwise.
+# shellcheck disable=SC2086
+$as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null 2>&1 || {
+    $as_root apt-get update -qq
+    $as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null
+}
