@@ -1,0 +1,67 @@
+#include "parser/tree.h"
+
+#include <assert.h>
+#include <string.h>
+
+static_assert(sizeof(struct tree_node) <= 32, "a node of the neutral tree has at most 32 bytes");
+
+void tree_init(struct tree *tree, struct arena *arena, uint32_t source, bool is_xml) {
+    *tree = (struct tree){.arena = arena, .source = source, .is_xml = is_xml};
+    // Index 0 is "none" for nodes and for comments.
+    (void)ARENA_PUSH(arena, &tree->nodes);
+    (void)ARENA_PUSH(arena, &tree->comments);
+}
+
+tree_index tree_add(struct tree *tree, struct tree_node node) {
+    struct tree_node *added = ARENA_PUSH(tree->arena, &tree->nodes);
+    *added = node;
+    return tree->nodes.count - 1;
+}
+
+uint32_t tree_add_text(struct tree *tree, str text) {
+    uint64_t need = (uint64_t)tree->texts.count + text.len;
+    if (need > tree->texts.capacity) {
+        uint64_t wanted = tree->texts.capacity ? (uint64_t)tree->texts.capacity * 2 : 256;
+        if (wanted < need)
+            wanted = need;
+        if (wanted > UINT32_MAX)
+            wanted = need > UINT32_MAX ? SIZE_MAX : UINT32_MAX; // beyond any arena's cap
+        char *moved = arena_alloc(tree->arena, wanted);
+        if (tree->texts.count)
+            memcpy(moved, tree->texts.items, tree->texts.count);
+        tree->texts.items = moved;
+        tree->texts.capacity = (uint32_t)wanted;
+    }
+    uint32_t offset = tree->texts.count;
+    if (text.len)
+        memcpy(tree->texts.items + offset, text.ptr, text.len);
+    tree->texts.count = (uint32_t)need;
+    return offset;
+}
+
+uint32_t tree_add_comment(struct tree *tree, uint32_t begin, uint32_t end) {
+    struct tree_comment *comment = ARENA_PUSH(tree->arena, &tree->comments);
+    *comment = (struct tree_comment){begin, end};
+    return tree->comments.count - 1;
+}
+
+str tree_text(const struct tree *tree, tree_index scalar) {
+    const struct tree_node *node = tree_node(tree, scalar);
+    bool has_text = node->kind == TREE_SCALAR || node->kind == TREE_NULL;
+    if (!has_text || node->count == 0)
+        return STR("");
+    return (str){tree->texts.items + node->value, node->count};
+}
+
+span tree_span(const struct tree *tree, tree_index node) {
+    if (node == 0)
+        return SPAN_NONE;
+    return (span){tree->source, tree_node(tree, node)->begin, tree_node(tree, node)->end};
+}
+
+span tree_comments(const struct tree *tree, tree_index node) {
+    uint32_t comment = tree_node(tree, node)->comments;
+    if (comment == 0)
+        return SPAN_NONE;
+    return (span){tree->source, tree->comments.items[comment].begin, tree->comments.items[comment].end};
+}
