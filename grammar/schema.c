@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 // The kind of a row follows from the C type of its field.
+// clang-format off
 #define KIND_OF(field)                                                                                       \
     _Generic((field),                                                                                        \
         bool: SCHEMA_BOOLEAN,                                                                                \
@@ -30,6 +31,7 @@
         struct ir_rectangles: SCHEMA_LIST,                                                                   \
         struct ir_models: SCHEMA_LIST,                                                                       \
         struct ir_map_entries: SCHEMA_LIST)
+// clang-format on
 
 #define FIELD(type, member)                                                                                  \
     .kind = KIND_OF(((struct type *)0)->member), .offset = offsetof(struct type, member),                    \
@@ -47,101 +49,119 @@ static const char *const tone_words[] = {"clip", "normalize", NULL};
 static const char *const tone_docs[] = {"Values above 1 are cut.",
                                         "A colour with a component above 1 is divided by its largest.", NULL};
 static const char *const transfer_words[] = {"none", "srgb", NULL};
-static const char *const transfer_docs[] = {"Values are displayed as they are.",
-                                            "Values are linear light; image files, #rrggbb and the picture are sRGB.", NULL};
+static const char *const transfer_docs[] = {
+    "Values are displayed as they are.",
+    "Values are linear light; image files, #rrggbb and the picture are sRGB.", NULL};
 static const char *const depth_words[] = {"background", "black", NULL};
 static const char *const depth_docs[] = {"A ray beyond the depth sees the background.",
                                          "A ray beyond the depth sees nothing.", NULL};
 static const char *const falloff_words[] = {"none", "inverse_square", NULL};
 static const char *const falloff_docs[] = {"The light is equally strong everywhere.",
-                                           "The light's strength is divided by the square of the distance.", NULL};
+                                           "The light's strength is divided by the square of the distance.",
+                                           NULL};
 
+// A row reads as a unit, its columns in lines of text.
+// clang-format off
 static const struct schema_row include_rows[] = {
-    {.name = "file", FIELD(ir_include, file), .text = SCHEMA_TEXT_PATH, .required = true, .short_form = true,
+    {.name = "file", FIELD(ir_include, file), .example = "base.yaml", .text = SCHEMA_TEXT_PATH,
+     .file = SCHEMA_FILE_SCENE, .required = true, .short_form = true,
      .doc = "Path of a scene file, YAML or XML, whose entries come before this file's."},
 };
-const struct schema_element SCHEMA_INCLUDE = {
-    ELEMENT("include", "Include", ir_include, include_rows, "Another scene file that is part of this scene.")};
+const struct schema_element SCHEMA_INCLUDE = {ELEMENT("include", "Include", ir_include, include_rows,
+                                                      "Another scene file that is part of this scene.")};
 
 static const struct schema_row image_rows[] = {
-    {.name = "width", FIELD(ir_image, width), .unit = SCHEMA_UNIT_PIXELS, .range = SCHEMA_RANGE_EXTENT,
-     .standard = "1024", .doc = "Width of the picture."},
-    {.name = "height", FIELD(ir_image, height), .unit = SCHEMA_UNIT_PIXELS, .range = SCHEMA_RANGE_EXTENT,
-     .standard = "768", .doc = "Height of the picture."},
-    {.name = "samples", FIELD(ir_image, samples), .range = SCHEMA_RANGE_SAMPLES, .standard = "1",
-     .doc = "Rays through each pixel, averaged; more of them smooth edges."},
-    {.name = "tone", FIELD(ir_image, tone), .words = tone_words, .word_docs = tone_docs, .standard = "clip",
+    {.name = "width", FIELD(ir_image, width), .example = "1920", .unit = SCHEMA_UNIT_PIXELS,
+     .range = SCHEMA_RANGE_EXTENT, .standard = "1024", .doc = "Width of the picture."},
+    {.name = "height", FIELD(ir_image, height), .example = "1080", .unit = SCHEMA_UNIT_PIXELS,
+     .range = SCHEMA_RANGE_EXTENT, .standard = "768", .doc = "Height of the picture."},
+    {.name = "samples", FIELD(ir_image, samples), .example = "16", .range = SCHEMA_RANGE_SAMPLES,
+     .standard = "1", .doc = "Rays through each pixel, averaged; more of them smooth edges."},
+    {.name = "tone", FIELD(ir_image, tone), .example = "normalize", .words = tone_words,
+     .word_docs = tone_docs, .standard = "clip",
      .doc = "What happens to colours brighter than the picture can show."},
-    {.name = "transfer", FIELD(ir_image, transfer), .words = transfer_words, .word_docs = transfer_docs,
-     .standard = "none", .doc = "How numbers in the scene relate to displayed values."},
+    {.name = "transfer", FIELD(ir_image, transfer), .example = "srgb", .words = transfer_words,
+     .word_docs = transfer_docs, .standard = "none",
+     .doc = "How numbers in the scene relate to displayed values."},
 };
 const struct schema_element SCHEMA_IMAGE = {
     ELEMENT("image", "Image", ir_image, image_rows, "Size and encoding of the picture.")};
 
 static const struct schema_row trace_rows[] = {
-    {.name = "max_depth", FIELD(ir_trace, max_depth), .range = SCHEMA_RANGE_DEPTH, .standard = "16",
-     .doc = "Surfaces at this depth send no further ray; the camera's ray has depth 0."},
-    {.name = "min_weight", FIELD(ir_trace, min_weight), .range = SCHEMA_RANGE_FRACTION, .standard = "0.0009765625",
+    {.name = "max_depth", FIELD(ir_trace, max_depth), .example = "8", .range = SCHEMA_RANGE_DEPTH,
+     .standard = "16", .doc = "Surfaces at this depth send no further ray; the camera's ray has depth 0."},
+    {.name = "min_weight", FIELD(ir_trace, min_weight), .example = "0.001", .range = SCHEMA_RANGE_FRACTION,
+     .standard = "0.0009765625",
      .doc = "A ray that would contribute with less than this weight is not traced."},
-    {.name = "depth_limit", FIELD(ir_trace, depth_limit), .words = depth_words, .word_docs = depth_docs,
-     .standard = "background", .feature = FEATURE_DEPTH_BLACK, .doc = "What a ray beyond 'max_depth' sees."},
-    {.name = "shadows", FIELD(ir_trace, shadows), .standard = "true", .feature = FEATURE_SHADOWS,
-     .doc = "Whether bodies keep light from other bodies."},
+    {.name = "depth_limit", FIELD(ir_trace, depth_limit), .example = "black", .words = depth_words,
+     .word_docs = depth_docs, .standard = "background", .feature = FEATURE_DEPTH_BLACK,
+     .doc = "What a ray beyond 'max_depth' sees."},
+    {.name = "shadows", FIELD(ir_trace, shadows), .example = "false", .standard = "true",
+     .feature = FEATURE_SHADOWS, .doc = "Whether bodies keep light from other bodies."},
 };
 const struct schema_element SCHEMA_TRACE = {
     ELEMENT("trace", "Trace", ir_trace, trace_rows, "How far rays are followed.")};
 
 static const struct schema_row camera_rows[] = {
-    {.name = "name", FIELD(ir_camera, name), .text = SCHEMA_TEXT_NAME, .key = true,
+    {.name = "name", FIELD(ir_camera, name), .example = "main", .text = SCHEMA_TEXT_NAME, .key = true,
      .doc = "Name for --camera; the camera without a name is 'main'."},
-    {.name = "position", .element = "Position", FIELD(ir_camera, position), .unit = SCHEMA_UNIT_SCENE,
-     .range = SCHEMA_RANGE_COORDINATE, .standard = "0 0 0", .doc = "Where the camera stands."},
-    {.name = "look_at", .element = "LookAt", FIELD(ir_camera, look_at), .unit = SCHEMA_UNIT_SCENE,
-     .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_VIEW_LOOK_AT,
+    {.name = "position", .element = "Position", FIELD(ir_camera, position), .example = "0 2 8",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .standard = "0 0 0",
+     .doc = "Where the camera stands."},
+    {.name = "look_at", .element = "LookAt", FIELD(ir_camera, look_at), .example = "0 1 0",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_VIEW_LOOK_AT,
      .doc = "A point in the middle of the picture."},
-    {.name = "direction", .element = "Direction", FIELD(ir_camera, direction), .range = SCHEMA_RANGE_COORDINATE,
-     .choice = 1, .alternative = IR_VIEW_DIRECTION, .standard = "0 0 -1", .doc = "The direction of view; any length but 0."},
-    {.name = "rotation", .element = "Rotation", FIELD(ir_camera, rotation), .unit = SCHEMA_UNIT_DEGREES,
-     .range = SCHEMA_RANGE_ANGLE, .choice = 1, .alternative = IR_VIEW_ROTATION,
+    {.name = "direction", .element = "Direction", FIELD(ir_camera, direction), .example = "0 -0.2 -1",
+     .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_VIEW_DIRECTION, .standard = "0 0 -1",
+     .doc = "The direction of view; any length but 0."},
+    {.name = "rotation", .element = "Rotation", FIELD(ir_camera, rotation), .example = "-10 0 0",
+     .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_ANGLE, .choice = 1, .alternative = IR_VIEW_ROTATION,
      .doc = "Turns a camera that looks along -z: about x, then y, then z."},
-    {.name = "up", .element = "Up", FIELD(ir_camera, up), .range = SCHEMA_RANGE_COORDINATE, .standard = "0 1 0",
+    {.name = "up", .element = "Up", FIELD(ir_camera, up), .example = "0 0 1",
+     .range = SCHEMA_RANGE_COORDINATE, .standard = "0 1 0",
      .doc = "A direction that is upwards in the picture."},
-    {.name = "fov", FIELD(ir_camera, fov), .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_FOV, .standard = "60",
-     .doc = "Vertical field of view."},
+    {.name = "fov", FIELD(ir_camera, fov), .example = "45", .unit = SCHEMA_UNIT_DEGREES,
+     .range = SCHEMA_RANGE_FOV, .standard = "60", .doc = "Vertical field of view."},
 };
 const struct schema_element SCHEMA_CAMERA = {
     ELEMENT("camera", "Camera", ir_camera, camera_rows, "A point of view; the first is the default."),
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_camera, view)}}};
 
 static const struct schema_row background_rows[] = {
-    {.name = "color", .element = "Color", FIELD(ir_background, color), .range = SCHEMA_RANGE_WEIGHT, .choice = 1,
-     .alternative = IR_BACKDROP_COLOR, .standard = "0 0 0", .doc = "One colour in all directions."},
-    {.name = "image", FIELD(ir_background, image), .text = SCHEMA_TEXT_PATH, .choice = 1,
-     .alternative = IR_BACKDROP_IMAGE, .feature = FEATURE_BACKGROUND_IMAGE,
-     .doc = "Path of an equirectangular image (PNG, JPEG or Radiance HDR): the middle shows the view along +x."},
-    {.name = "intensity", FIELD(ir_background, intensity), .range = SCHEMA_RANGE_WEIGHT, .standard = "1",
-     .doc = "Factor on the background."},
-    {.name = "rotation", FIELD(ir_background, rotation), .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_ANGLE,
-     .standard = "0", .doc = "Turns the background about the y axis."},
+    {.name = "color", .element = "Color", FIELD(ir_background, color), .example = "0.2 0.7 0.8",
+     .range = SCHEMA_RANGE_WEIGHT, .choice = 1, .alternative = IR_BACKDROP_COLOR, .standard = "0 0 0",
+     .doc = "One colour in all directions."},
+    {.name = "image", FIELD(ir_background, image), .example = "sky.jpg", .text = SCHEMA_TEXT_PATH,
+     .file = SCHEMA_FILE_IMAGE, .choice = 1, .alternative = IR_BACKDROP_IMAGE,
+     .feature = FEATURE_BACKGROUND_IMAGE,
+     .doc = "Path of an equirectangular image (PNG, JPEG or Radiance HDR): the middle shows the view along "
+            "+x."},
+    {.name = "intensity", FIELD(ir_background, intensity), .example = "0.5", .range = SCHEMA_RANGE_WEIGHT,
+     .standard = "1", .doc = "Factor on the background."},
+    {.name = "rotation", FIELD(ir_background, rotation), .example = "90", .unit = SCHEMA_UNIT_DEGREES,
+     .range = SCHEMA_RANGE_ANGLE, .standard = "0", .doc = "Turns the background about the y axis."},
 };
 const struct schema_element SCHEMA_BACKGROUND = {
     ELEMENT("background", "Background", ir_background, background_rows, "What rays see that hit no body."),
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_background, kind)}}};
 
 static const struct schema_row light_rows[] = {
-    {.name = "name", FIELD(ir_light, name), .text = SCHEMA_TEXT_NAME, .doc = "Name for messages and --set."},
-    {.name = "position", .element = "Position", FIELD(ir_light, position), .unit = SCHEMA_UNIT_SCENE,
-     .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_LIGHT_POSITION,
-     .feature = FEATURE_POINT_LIGHT, .doc = "A light at a point."},
-    {.name = "direction", .element = "Direction", FIELD(ir_light, direction), .range = SCHEMA_RANGE_COORDINATE,
-     .choice = 1, .alternative = IR_LIGHT_DIRECTION, .feature = FEATURE_DIRECTION_LIGHT,
+    {.name = "name", FIELD(ir_light, name), .example = "sun", .text = SCHEMA_TEXT_NAME,
+     .doc = "Name for messages and --set."},
+    {.name = "position", .element = "Position", FIELD(ir_light, position), .example = "-20 20 20",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 1,
+     .alternative = IR_LIGHT_POSITION, .feature = FEATURE_POINT_LIGHT, .doc = "A light at a point."},
+    {.name = "direction", .element = "Direction", FIELD(ir_light, direction), .example = "1 -2 -1",
+     .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_LIGHT_DIRECTION,
+     .feature = FEATURE_DIRECTION_LIGHT,
      .doc = "A light infinitely far away: the way its light travels; any length but 0."},
-    {.name = "intensity", FIELD(ir_light, intensity), .range = SCHEMA_RANGE_WEIGHT, .standard = "1",
-     .doc = "Factor on the colour."},
-    {.name = "color", .element = "Color", FIELD(ir_light, color), .range = SCHEMA_RANGE_WEIGHT, .standard = "1 1 1",
-     .doc = "Colour of the light."},
-    {.name = "falloff", FIELD(ir_light, falloff), .words = falloff_words, .word_docs = falloff_docs,
-     .standard = "none", .feature = FEATURE_INVERSE_SQUARE, .doc = "How the light weakens with distance."},
+    {.name = "intensity", FIELD(ir_light, intensity), .example = "1.5", .range = SCHEMA_RANGE_WEIGHT,
+     .standard = "1", .doc = "Factor on the colour."},
+    {.name = "color", .element = "Color", FIELD(ir_light, color), .example = "1 0.9 0.8",
+     .range = SCHEMA_RANGE_WEIGHT, .standard = "1 1 1", .doc = "Colour of the light."},
+    {.name = "falloff", FIELD(ir_light, falloff), .example = "inverse_square", .words = falloff_words,
+     .word_docs = falloff_docs, .standard = "none", .feature = FEATURE_INVERSE_SQUARE,
+     .doc = "How the light weakens with distance."},
 };
 const struct schema_element SCHEMA_LIGHT = {
     ELEMENT("light", "Light", ir_light, light_rows, "A light without extent; shadows have hard edges."),
@@ -149,16 +169,19 @@ const struct schema_element SCHEMA_LIGHT = {
 
 static const struct schema_row checker_rows[] = {
     {.name = "color", .element = "Color", .plural = "colors", FIELD_PAIR(ir_checker, colors),
-     .range = SCHEMA_RANGE_WEIGHT, .required = true, .doc = "The two colours; the first is that of the cell at the origin."},
-    {.name = "size", FIELD(ir_checker, size), .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_LENGTH, .standard = "1",
+     .example = "0.9 0.9 0.9", .range = SCHEMA_RANGE_WEIGHT, .required = true,
+     .doc = "The two colours; the first is that of the cell at the origin."},
+    {.name = "size", FIELD(ir_checker, size), .example = "2", .unit = SCHEMA_UNIT_SCENE,
+     .range = SCHEMA_RANGE_LENGTH, .standard = "1",
      .doc = "Edge of a cell: along the edges of a rectangle, in the body's own coordinates elsewhere."},
 };
 const struct schema_element SCHEMA_CHECKER = {
     ELEMENT("checker", "Checker", ir_checker, checker_rows, "Cells of two colours in turn.")};
 
 static const struct schema_row paint_rows[] = {
-    {.name = "color", .element = "Color", FIELD(ir_paint, color), .range = SCHEMA_RANGE_WEIGHT, .choice = 1,
-     .alternative = IR_PAINT_COLOR, .standard = "0.8 0.8 0.8", .short_form = true, .doc = "One colour everywhere."},
+    {.name = "color", .element = "Color", FIELD(ir_paint, color), .example = "0.4 0.4 0.3",
+     .range = SCHEMA_RANGE_WEIGHT, .choice = 1, .alternative = IR_PAINT_COLOR, .standard = "0.8 0.8 0.8",
+     .short_form = true, .doc = "One colour everywhere."},
     {.name = "checker", .element = "Checker", FIELD(ir_paint, checker), .child = &SCHEMA_CHECKER, .choice = 1,
      .alternative = IR_PAINT_CHECKER, .feature = FEATURE_CHECKER, .doc = "Cells of two colours."},
 };
@@ -167,18 +190,22 @@ const struct schema_element SCHEMA_PAINT = {
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_paint, kind)}}};
 
 static const struct schema_row material_rows[] = {
-    {.name = "name", FIELD(ir_material, name), .text = SCHEMA_TEXT_NAME, .key = true, .doc = "Name for references."},
-    {.name = "albedo", .element = "Albedo", FIELD(ir_material, albedo), .range = SCHEMA_RANGE_WEIGHT,
-     .standard = "1 0 0 0",
+    {.name = "name", FIELD(ir_material, name), .example = "glass", .text = SCHEMA_TEXT_NAME, .key = true,
+     .doc = "Name for references."},
+    {.name = "albedo", .element = "Albedo", FIELD(ir_material, albedo), .example = "0 0.5 0.1 0.8",
+     .range = SCHEMA_RANGE_WEIGHT, .standard = "1 0 0 0",
      .weight_features = {FEATURE_DIFFUSE, FEATURE_SPECULAR, FEATURE_REFLECTION, FEATURE_REFRACTION},
      .doc = "Weights of diffuse light, highlights, reflection and refraction; their sum may exceed 1."},
-    {.name = "diffuse_color", .element = "DiffuseColor", FIELD(ir_material, diffuse_color), .child = &SCHEMA_PAINT,
-     .doc = "Colour of the diffuse light."},
+    {.name = "diffuse_color", .element = "DiffuseColor", FIELD(ir_material, diffuse_color),
+     .child = &SCHEMA_PAINT, .doc = "Colour of the diffuse light."},
     {.name = "specular_color", .element = "SpecularColor", FIELD(ir_material, specular_color),
-     .range = SCHEMA_RANGE_WEIGHT, .standard = "1 1 1", .doc = "Colour of the highlights."},
-    {.name = "specular_exponent", FIELD(ir_material, specular_exponent), .range = SCHEMA_RANGE_EXPONENT,
-     .standard = "32", .doc = "Sharpness of the highlights: larger is smaller and sharper (Phong's exponent)."},
-    {.name = "refractive_index", FIELD(ir_material, refractive_index), .range = SCHEMA_RANGE_INDEX, .standard = "1",
+     .example = "1 0.9 0.8", .range = SCHEMA_RANGE_WEIGHT, .standard = "1 1 1",
+     .doc = "Colour of the highlights."},
+    {.name = "specular_exponent", FIELD(ir_material, specular_exponent), .example = "125",
+     .range = SCHEMA_RANGE_EXPONENT, .standard = "32",
+     .doc = "Sharpness of the highlights: larger is smaller and sharper (Phong's exponent)."},
+    {.name = "refractive_index", FIELD(ir_material, refractive_index), .example = "1.5",
+     .range = SCHEMA_RANGE_INDEX, .standard = "1",
      .doc = "Bends refracted rays: 1 air, 1.33 water, 1.5 glass, 2.42 diamond."},
 };
 const struct schema_element SCHEMA_MATERIAL = {
@@ -186,40 +213,50 @@ const struct schema_element SCHEMA_MATERIAL = {
             "How a surface answers light: the weights and colours of tinyraytracer's materials.")};
 
 #define BODY_NAME(type)                                                                                      \
-    {.name = "name", FIELD(type, name), .text = SCHEMA_TEXT_NAME, .doc = "Name for messages and --set."}
+    {                                                                                                        \
+        .name = "name", FIELD(type, name), .example = "hero", .text = SCHEMA_TEXT_NAME,                      \
+        .doc = "Name for messages and --set."                                                                \
+    }
 #define BODY_MATERIAL(type)                                                                                  \
-    {.name = "material", .element = "Material", FIELD(type, material), .child = &SCHEMA_MATERIAL,            \
-     .doc = "Name of a material, or a material of its own; without one the default material."}
+    {                                                                                                        \
+        .name = "material", .element = "Material", FIELD(type, material), .example = "glass",                \
+        .child = &SCHEMA_MATERIAL,                                                                           \
+        .doc = "Name of a material, or a material of its own; without one the default material."             \
+    }
 
 static const struct schema_row sphere_rows[] = {
     BODY_NAME(ir_sphere),
-    {.name = "center", .element = "Center", FIELD(ir_sphere, center), .unit = SCHEMA_UNIT_SCENE,
-     .range = SCHEMA_RANGE_COORDINATE, .required = true, .doc = "Middle of the sphere."},
-    {.name = "radius", FIELD(ir_sphere, radius), .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_LENGTH,
-     .required = true, .doc = "Distance from the middle to the surface."},
+    {.name = "center", .element = "Center", FIELD(ir_sphere, center), .example = "0 1 0",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "Middle of the sphere."},
+    {.name = "radius", FIELD(ir_sphere, radius), .example = "1.5", .unit = SCHEMA_UNIT_SCENE,
+     .range = SCHEMA_RANGE_LENGTH, .required = true, .doc = "Distance from the middle to the surface."},
     BODY_MATERIAL(ir_sphere),
 };
-const struct schema_element SCHEMA_SPHERE = {ELEMENT("sphere", "Sphere", ir_sphere, sphere_rows, "A sphere.")};
+const struct schema_element SCHEMA_SPHERE = {
+    ELEMENT("sphere", "Sphere", ir_sphere, sphere_rows, "A sphere.")};
 
 static const struct schema_row rectangle_rows[] = {
     BODY_NAME(ir_rectangle),
-    {.name = "corner", .element = "Corner", FIELD(ir_rectangle, corner), .unit = SCHEMA_UNIT_SCENE,
-     .range = SCHEMA_RANGE_COORDINATE, .required = true, .doc = "One of the four corners."},
-    {.name = "edge_u", .element = "EdgeU", FIELD(ir_rectangle, edge_u), .unit = SCHEMA_UNIT_SCENE,
-     .range = SCHEMA_RANGE_COORDINATE, .required = true, .doc = "From the corner to the next one."},
-    {.name = "edge_v", .element = "EdgeV", FIELD(ir_rectangle, edge_v), .unit = SCHEMA_UNIT_SCENE,
-     .range = SCHEMA_RANGE_COORDINATE, .required = true,
+    {.name = "corner", .element = "Corner", FIELD(ir_rectangle, corner), .example = "-5 0 5",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "One of the four corners."},
+    {.name = "edge_u", .element = "EdgeU", FIELD(ir_rectangle, edge_u), .example = "10 0 0",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "From the corner to the next one."},
+    {.name = "edge_v", .element = "EdgeV", FIELD(ir_rectangle, edge_v), .example = "0 0 -10",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
      .doc = "From the corner to the one on its other side; need not be at a right angle to 'edge_u'."},
     BODY_MATERIAL(ir_rectangle),
 };
-const struct schema_element SCHEMA_RECTANGLE = {
-    ELEMENT("rectangle", "Rectangle", ir_rectangle, rectangle_rows, "A flat parallelogram, seen from both sides.")};
+const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
+    "rectangle", "Rectangle", ir_rectangle, rectangle_rows, "A flat parallelogram, seen from both sides.")};
 
 static const struct schema_row map_entry_rows[] = {
-    {.name = "from", FIELD(ir_map_entry, from), .text = SCHEMA_TEXT_FOREIGN_NAME, .key = true, .required = true,
-     .doc = "Name of a material as the mesh file has it."},
-    {.name = "to", FIELD(ir_map_entry, to), .child = &SCHEMA_MATERIAL, .required = true, .short_form = true,
-     .doc = "Name of the scene's material that takes its place."},
+    {.name = "from", FIELD(ir_map_entry, from), .example = "Gold", .text = SCHEMA_TEXT_FOREIGN_NAME,
+     .key = true, .required = true, .doc = "Name of a material as the mesh file has it."},
+    {.name = "to", FIELD(ir_map_entry, to), .example = "brass", .child = &SCHEMA_MATERIAL, .required = true,
+     .short_form = true, .doc = "Name of the scene's material that takes its place."},
 };
 const struct schema_element SCHEMA_MAP_ENTRY = {
     ELEMENT("material_map", "MaterialMap", ir_map_entry, map_entry_rows,
@@ -227,50 +264,60 @@ const struct schema_element SCHEMA_MAP_ENTRY = {
 
 static const struct schema_row model_rows[] = {
     BODY_NAME(ir_model),
-    {.name = "mesh", FIELD(ir_model, mesh), .text = SCHEMA_TEXT_PATH, .required = true,
-     .doc = "Path of a mesh file (Wavefront OBJ)."},
+    {.name = "mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .text = SCHEMA_TEXT_PATH,
+     .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file (Wavefront OBJ)."},
     BODY_MATERIAL(ir_model),
-    {.name = "material_map", .element = "MaterialMap", FIELD(ir_model, material_map), .many = SCHEMA_NAMED_MAP,
-     .child = &SCHEMA_MAP_ENTRY, .doc = "Materials by the names that the mesh file uses; stronger than 'material'."},
-    {.name = "smooth", FIELD(ir_model, smooth), .standard = "false", .feature = FEATURE_SMOOTH,
-     .doc = "Interpolate normals between vertices, so that facets look round."},
-    {.name = "scale", .element = "Scale", FIELD(ir_model, scale), .range = SCHEMA_RANGE_SCALE, .standard = "1 1 1",
-     .fill = true, .doc = "Factor on the mesh's size, first of all; negative values mirror."},
-    {.name = "rotation", .element = "Rotation", FIELD(ir_model, rotation), .unit = SCHEMA_UNIT_DEGREES,
-     .range = SCHEMA_RANGE_ANGLE, .standard = "0 0 0", .doc = "Turns the scaled mesh about x, then y, then z."},
-    {.name = "translation", .element = "Translation", FIELD(ir_model, translation), .unit = SCHEMA_UNIT_SCENE,
-     .range = SCHEMA_RANGE_COORDINATE, .standard = "0 0 0", .doc = "Moves the turned mesh, last of all."},
+    {.name = "material_map", .element = "MaterialMap", FIELD(ir_model, material_map),
+     .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MAP_ENTRY,
+     .doc = "Materials by the names that the mesh file uses; stronger than 'material'."},
+    {.name = "smooth", FIELD(ir_model, smooth), .example = "true", .standard = "false",
+     .feature = FEATURE_SMOOTH, .doc = "Interpolate normals between vertices, so that facets look round."},
+    {.name = "scale", .element = "Scale", FIELD(ir_model, scale), .example = "0.7 0.7 0.7",
+     .range = SCHEMA_RANGE_SCALE, .standard = "1 1 1", .fill = true,
+     .doc = "Factor on the mesh's size, first of all; negative values mirror."},
+    {.name = "rotation", .element = "Rotation", FIELD(ir_model, rotation), .example = "0 110 0",
+     .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_ANGLE, .standard = "0 0 0",
+     .doc = "Turns the scaled mesh about x, then y, then z."},
+    {.name = "translation", .element = "Translation", FIELD(ir_model, translation), .example = "0 -3 -7",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .standard = "0 0 0",
+     .doc = "Moves the turned mesh, last of all."},
 };
 const struct schema_element SCHEMA_MODEL = {
     ELEMENT("model", "Model", ir_model, model_rows, "A mesh from a file, placed in the scene.")};
 
 static const struct schema_row scene_rows[] = {
-    {.name = "glint", FIELD(ir_scene, version), .range = SCHEMA_RANGE_VERSION, .required = true,
-     .doc = "Version of the language: 1."},
-    {.name = "description", FIELD(ir_scene, description), .text = SCHEMA_TEXT_FREE, .doc = "Free text."},
+    {.name = "glint", FIELD(ir_scene, version), .example = "1", .range = SCHEMA_RANGE_VERSION,
+     .required = true, .doc = "Version of the language: 1."},
+    {.name = "description", FIELD(ir_scene, description), .example = "A glass ball", .text = SCHEMA_TEXT_FREE,
+     .doc = "Free text."},
     {.name = "include", .element = "Include", FIELD(ir_scene, includes), .many = SCHEMA_SEQUENCE,
      .child = &SCHEMA_INCLUDE, .doc = "Scene files that are part of this one."},
-    {.name = "image", .element = "Image", FIELD(ir_scene, image), .child = &SCHEMA_IMAGE, .doc = "The picture."},
-    {.name = "trace", .element = "Trace", FIELD(ir_scene, trace), .child = &SCHEMA_TRACE, .doc = "The tracer's settings."},
+    {.name = "image", .element = "Image", FIELD(ir_scene, image), .child = &SCHEMA_IMAGE,
+     .doc = "The picture."},
+    {.name = "trace", .element = "Trace", FIELD(ir_scene, trace), .child = &SCHEMA_TRACE,
+     .doc = "The tracer's settings."},
     {.name = "background", .element = "Background", FIELD(ir_scene, background), .child = &SCHEMA_BACKGROUND,
      .doc = "What rays see that hit no body."},
-    {.name = "camera", .element = "Camera", .plural = "cameras", FIELD(ir_scene, cameras), .many = SCHEMA_NAMED_MAP,
-     .single = "main", .child = &SCHEMA_CAMERA, .doc = "Points of view."},
-    {.name = "light", .element = "Light", .plural = "lights", FIELD(ir_scene, lights), .many = SCHEMA_SEQUENCE,
-     .child = &SCHEMA_LIGHT, .doc = "Lights."},
+    {.name = "camera", .element = "Camera", .plural = "cameras", FIELD(ir_scene, cameras),
+     .many = SCHEMA_NAMED_MAP, .single = "main", .child = &SCHEMA_CAMERA, .doc = "Points of view."},
+    {.name = "light", .element = "Light", .plural = "lights", FIELD(ir_scene, lights),
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_LIGHT, .doc = "Lights."},
     {.name = "material", .element = "Material", .plural = "materials", FIELD(ir_scene, materials),
      .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MATERIAL, .doc = "Materials by name."},
-    {.name = "sphere", .element = "Sphere", .plural = "spheres", FIELD(ir_scene, spheres), .many = SCHEMA_SEQUENCE,
-     .child = &SCHEMA_SPHERE, .feature = FEATURE_SPHERES, .doc = "Spheres."},
+    {.name = "sphere", .element = "Sphere", .plural = "spheres", FIELD(ir_scene, spheres),
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_SPHERE, .feature = FEATURE_SPHERES, .doc = "Spheres."},
     {.name = "rectangle", .element = "Rectangle", .plural = "rectangles", FIELD(ir_scene, rectangles),
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_RECTANGLE, .feature = FEATURE_TRIANGLES, .doc = "Rectangles."},
-    {.name = "model", .element = "Model", .plural = "models", FIELD(ir_scene, models), .many = SCHEMA_SEQUENCE,
-     .child = &SCHEMA_MODEL, .feature = FEATURE_TRIANGLES, .doc = "Meshes, placed."},
+    {.name = "model", .element = "Model", .plural = "models", FIELD(ir_scene, models),
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_MODEL, .feature = FEATURE_TRIANGLES, .doc = "Meshes, placed."},
 };
-const struct schema_element SCHEMA_SCENE = {ELEMENT("scene", "Scene", ir_scene, scene_rows, "A scene file's root.")};
+const struct schema_element SCHEMA_SCENE = {
+    ELEMENT("scene", "Scene", ir_scene, scene_rows, "A scene file's root.")};
+
+// clang-format on
 
 const struct schema_element *const schema_elements[] = {
-    &SCHEMA_SCENE,  &SCHEMA_INCLUDE,  &SCHEMA_IMAGE,   &SCHEMA_TRACE,  &SCHEMA_CAMERA,
-    &SCHEMA_BACKGROUND, &SCHEMA_LIGHT, &SCHEMA_MATERIAL, &SCHEMA_PAINT, &SCHEMA_CHECKER,
-    &SCHEMA_SPHERE, &SCHEMA_RECTANGLE, &SCHEMA_MODEL,  &SCHEMA_MAP_ENTRY, NULL,
+    &SCHEMA_SCENE,      &SCHEMA_INCLUDE,   &SCHEMA_IMAGE,    &SCHEMA_TRACE,     &SCHEMA_CAMERA,
+    &SCHEMA_BACKGROUND, &SCHEMA_LIGHT,     &SCHEMA_MATERIAL, &SCHEMA_PAINT,     &SCHEMA_CHECKER,
+    &SCHEMA_SPHERE,     &SCHEMA_RECTANGLE, &SCHEMA_MODEL,    &SCHEMA_MAP_ENTRY, NULL,
 };

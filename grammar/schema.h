@@ -34,6 +34,14 @@ enum schema_text {
     SCHEMA_TEXT_PATH,
 };
 
+// Which kind of file a SCHEMA_TEXT_PATH names.
+enum schema_file {
+    SCHEMA_FILE_NONE,
+    SCHEMA_FILE_SCENE,
+    SCHEMA_FILE_IMAGE,
+    SCHEMA_FILE_MESH,
+};
+
 enum schema_unit {
     SCHEMA_UNIT_NONE,
     SCHEMA_UNIT_SCENE,   // scene units of length
@@ -90,9 +98,11 @@ struct schema_row {
     uint32_t offset; // of the field in the element's struct
     uint32_t size;   // of the field in bytes
     enum schema_text text;
+    enum schema_file file; // SCHEMA_TEXT_PATH
     enum schema_unit unit;
     enum schema_range range;
     const char *standard; // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
+    const char *example;  // a value worth showing, as scene text; NULL where examples leave the row out
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;
     bool required;
@@ -156,6 +166,9 @@ const char *schema_yaml_key(const struct schema_row *row);
 // Names of a kind's components: {"x","y","z"}, {"r","g","b"}, {"diffuse",...}; NULL at the end.
 const char *const *schema_components(enum schema_kind kind);
 
+// Sets a field of one value (number, word, text, vector, colour, weights, boolean) from scene text, which
+// must be right: the table's own defaults and examples. Text is not copied.
+void schema_set_field(const struct schema_row *row, void *field, const char *text);
 // Fills a struct with the defaults of all its rows, children included; `memory` holds zeros before.
 void schema_init(const struct schema_element *element, void *memory);
 // Address of a row's field.

@@ -6,6 +6,7 @@
 #include "grammar/ir.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
@@ -25,7 +26,9 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_INDEX] = {"index", 0.1, 10, false, false, "from 0.1 to 10"},
 };
 
-const struct schema_range_info *schema_range_info(enum schema_range range) { return &ranges[range]; }
+const struct schema_range_info *schema_range_info(enum schema_range range) {
+    return &ranges[range];
+}
 
 bool schema_in_range(enum schema_range range, double value) {
     const struct schema_range_info *info = &ranges[range];
@@ -44,7 +47,9 @@ int schema_find_row(const struct schema_element *element, str name) {
     return -1;
 }
 
-const char *schema_yaml_key(const struct schema_row *row) { return row->plural ? row->plural : row->name; }
+const char *schema_yaml_key(const struct schema_row *row) {
+    return row->plural ? row->plural : row->name;
+}
 
 int schema_find_yaml(const struct schema_element *element, str key, bool *is_single) {
     *is_single = false;
@@ -119,30 +124,30 @@ static uint32_t read_numbers(const char *text, double out[4]) {
     return count;
 }
 
-static unsigned word_index(const struct schema_row *row) {
+static unsigned word_index(const struct schema_row *row, const char *word) {
     unsigned i = 0;
-    while (row->words[i] && strcmp(row->words[i], row->standard) != 0)
+    while (row->words[i] && strcmp(row->words[i], word) != 0)
         i++;
     return i;
 }
 
-static void init_field(const struct schema_row *row, void *field) {
+static struct ir_color read_color(const char *text) {
     double n[4] = {0};
-    if (row->kind == SCHEMA_ELEMENT) {
-        schema_init(row->child, field);
-        return;
-    }
-    if (row->kind == SCHEMA_REFERENCE) {
-        ((struct ir_material_ref *)field)->index = IR_NO_INDEX;
-        return;
-    }
-    if (!row->standard)
-        return;
-    if (row->kind != SCHEMA_WORD && row->kind != SCHEMA_TEXT && row->kind != SCHEMA_BOOLEAN)
-        read_numbers(row->standard, n);
+    if (text[0] == '#')
+        return (struct ir_color){.is_hex = true, .hex = (uint32_t)strtoul(text + 1, NULL, 16)};
+    if (read_numbers(text, n) == 1)
+        n[1] = n[2] = n[0];
+    return (struct ir_color){.r = n[0], .g = n[1], .b = n[2]};
+}
+
+void schema_set_field(const struct schema_row *row, void *field, const char *text) {
+    double n[4] = {0};
+    if (row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_VECTOR ||
+        row->kind == SCHEMA_WEIGHTS)
+        read_numbers(text, n);
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
-        *(bool *)field = strcmp(row->standard, "true") == 0;
+        *(bool *)field = strcmp(text, "true") == 0;
         break;
     case SCHEMA_INTEGER:
         *(int32_t *)field = (int32_t)n[0];
@@ -151,23 +156,37 @@ static void init_field(const struct schema_row *row, void *field) {
         *(double *)field = n[0];
         break;
     case SCHEMA_WORD:
-        *(unsigned *)field = word_index(row);
+        *(unsigned *)field = word_index(row, text);
         break;
     case SCHEMA_TEXT:
-        *(str *)field = str_from(row->standard);
+        *(str *)field = str_from(text);
         break;
     case SCHEMA_VECTOR:
         *(vec3 *)field = (vec3){n[0], n[1], n[2]};
         break;
     case SCHEMA_COLOR:
-        *(struct ir_color *)field = (struct ir_color){.r = n[0], .g = n[1], .b = n[2]};
+        *(struct ir_color *)field = read_color(text);
         break;
     case SCHEMA_WEIGHTS:
         *(struct ir_weights *)field = (struct ir_weights){n[0], n[1], n[2], n[3]};
         break;
-    default:
+    case SCHEMA_REFERENCE:
+        *(struct ir_material_ref *)field =
+            (struct ir_material_ref){.name = str_from(text), .index = IR_NO_INDEX};
+        break;
+    case SCHEMA_ELEMENT:
+    case SCHEMA_LIST:
         break;
     }
+}
+
+static void init_field(const struct schema_row *row, void *field) {
+    if (row->kind == SCHEMA_ELEMENT)
+        schema_init(row->child, field);
+    else if (row->kind == SCHEMA_REFERENCE)
+        ((struct ir_material_ref *)field)->index = IR_NO_INDEX;
+    else if (row->standard)
+        schema_set_field(row, field, row->standard);
 }
 
 void schema_init(const struct schema_element *element, void *memory) {
