@@ -1,0 +1,45 @@
+// What a scene asks of the tracer: the OR over the feature columns of the rows that it uses.
+//
+// A row's bit is on while its value is not zero, false, the first word or empty; a row of a choice while
+// it is the one taken; a component of weights while it is not 0. Materials count where a body or a
+// material_map uses them; a body without one has the default material. Scenes without a light have one at
+// the camera. The materials that meshes bring along, and what the renderer needs for itself (slices,
+// counters), are added by those who know them.
+// Thread safety: pure functions.
+#ifndef GLINT_GRAMMAR_IR_FEATURES_H
+#define GLINT_GRAMMAR_IR_FEATURES_H
+
+#include "core/source.h"
+#include "grammar/ir.h"
+#include "grammar/ir_origin.h"
+#include "shaders/features.h"
+
+enum { IR_FEATURE_WORDS_MAX = 200 };
+
+// Why a feature is on: the first place that switches it on.
+struct ir_feature_reason {
+    uint32_t bit;                     // FEATURE_
+    span at;                          // SPAN_NONE: nothing is written that says so, it is the default
+    char words[IR_FEATURE_WORDS_MAX]; // "material 'glass': albedo refraction is 0.8"
+};
+
+struct ir_feature_reasons {
+    uint32_t mask;
+    uint32_t count;
+    struct ir_feature_reason items[FEATURE_COUNT]; // in the order of the bits
+};
+
+// `scene` is merged and resolved.
+uint32_t ir_features(const struct ir_scene *scene);
+// The same with reasons; `origin` may be NULL.
+void ir_features_explain(const struct ir_scene *scene, const struct ir_origin *origin,
+                         struct ir_feature_reasons *out);
+
+// The bits of one material alone (NULL: the default material), for those that meshes bring along.
+uint32_t ir_material_features(const struct ir_material *material);
+
+// "refraction", and one sentence; "unknown" for anything but a single FEATURE_ bit.
+const char *feature_name(uint32_t bit);
+const char *feature_doc(uint32_t bit);
+
+#endif
