@@ -1,12 +1,18 @@
 #include "core/files.h"
 
+#include "core/nearest.h"
+
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+enum { SUGGEST_ENTRIES_MAX = 10000 };
 
 void files_init(struct files *files, struct arena *arena) { *files = (struct files){.arena = arena}; }
 
@@ -190,6 +196,52 @@ enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, s
     if (status == FILE_OK)
         log_read(files, path, &info);
     return status;
+}
+
+enum file_status files_identify(struct files *files, str path, struct file_read *out) {
+    *out = (struct file_read){.path = files_canonical(files, path)};
+    const struct file_overlay *overlay = find_overlay(files, out->path);
+    if (overlay) {
+        out->size_bytes = overlay->text.len;
+        out->modified_ns = (int64_t)str_hash(overlay->text);
+        return FILE_OK;
+    }
+    const char *name = system_path(files, path);
+    struct stat info;
+    if (!name)
+        return FILE_MISSING;
+    if (stat(name, &info) != 0)
+        return status_of_errno(files, errno);
+    if (!S_ISREG(info.st_mode))
+        return FILE_NOT_REGULAR;
+    out->size_bytes = (uint64_t)info.st_size;
+    out->modified_ns = (int64_t)info.st_mtim.tv_sec * 1000000000 + info.st_mtim.tv_nsec;
+    log_read(files, path, &info);
+    return FILE_OK;
+}
+
+str files_suggest(struct files *files, str path) {
+    str folder = files_canonical(files, path_folder(path));
+    bool inside = false;
+    for (uint32_t i = 0; i < files->roots.count && !inside; i++)
+        inside = below(folder, files->roots.items[i]);
+    const char *name = inside ? system_path(files, folder) : NULL;
+    DIR *directory = name ? opendir(name) : NULL;
+    if (!directory)
+        return STR("");
+    struct nearest search = nearest_begin(path_base(path));
+    char best[NAME_MAX + 1] = "";
+    struct dirent *entry;
+    for (int left = SUGGEST_ENTRIES_MAX; left > 0 && (entry = readdir(directory)); left--) {
+        nearest_offer(&search, str_from(entry->d_name));
+        // The entry's memory is the directory's: copied as soon as it becomes the best.
+        if (search.best.ptr == entry->d_name) {
+            snprintf(best, sizeof best, "%s", entry->d_name);
+            search.best = str_from(best);
+        }
+    }
+    closedir(directory);
+    return arena_copy(files->arena, str_from(best));
 }
 
 const char *file_status_text(const struct files *files, enum file_status status) {

@@ -55,6 +55,12 @@ enum file_status files_resolve(struct files *files, str base_path, str path, str
 // Reads a file that was resolved, or one that the user named (no root is asked for here). A NUL byte
 // follows the contents, not counted. `cap_bytes` is checked before memory is taken.
 enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into, str *contents);
+// Canonical path, size and time of a regular file (or overlay: its time is a hash of its text) without
+// reading it, for caches; enters the log of reads as a read does.
+enum file_status files_identify(struct files *files, str path, struct file_read *out);
+// The name in the folder of `path` that is nearest to its last part, for "did you mean"; the empty string
+// where none is near or the folder lies outside the roots.
+str files_suggest(struct files *files, str path);
 // An absolute path with links followed; the path itself where it does not exist.
 str files_canonical(struct files *files, str path);
 // The folder part of a path ("." if it has none) and the part behind the last '/'.
