@@ -1,9 +1,12 @@
-#include "meshgen/mesh.h"
+#include "tools/meshgen/mesh.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-void mesh_init(struct mesh *mesh) { *mesh = (struct mesh){0}; }
+void mesh_init(struct mesh *mesh) {
+    *mesh = (struct mesh){0};
+}
 
 void mesh_finish(struct mesh *mesh) {
     free(mesh->positions);
@@ -39,7 +42,9 @@ static double rounded(double x) {
     return floor(x * unit + 0.5) / unit + 0.0;
 }
 
-static vec3 rounded3(vec3 v) { return (vec3){rounded(v.x), rounded(v.y), rounded(v.z)}; }
+static vec3 rounded3(vec3 v) {
+    return (vec3){rounded(v.x), rounded(v.y), rounded(v.z)};
+}
 
 int mesh_vertex(struct mesh *mesh, vec3 position) {
     if (mesh->failed || !grow_vertices(mesh, false))
@@ -74,9 +79,13 @@ void mesh_face(struct mesh *mesh, const int *corners, int corner_count) {
     memcpy(face->corners, corners, (size_t)corner_count * sizeof *corners);
 }
 
-void mesh_triangle(struct mesh *mesh, int a, int b, int c) { mesh_face(mesh, (int[]){a, b, c}, 3); }
+void mesh_triangle(struct mesh *mesh, int a, int b, int c) {
+    mesh_face(mesh, (int[]){a, b, c}, 3);
+}
 
-void mesh_quad(struct mesh *mesh, int a, int b, int c, int d) { mesh_face(mesh, (int[]){a, b, c, d}, 4); }
+void mesh_quad(struct mesh *mesh, int a, int b, int c, int d) {
+    mesh_face(mesh, (int[]){a, b, c, d}, 4);
+}
 
 int mesh_triangle_count(const struct mesh *mesh) {
     int count = 0;

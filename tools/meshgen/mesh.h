@@ -3,8 +3,8 @@
 // Positions are rounded to the decimals that the file will hold as they are added, so that what
 // verify.h proves is true of the file. A vertex may carry one normal; either all do or none does.
 // Polygons are planar, convex and counter-clockwise seen from outside. Ownership: a mesh owns its
-// arrays and borrows the material names (string literals). When memory ends `failed` is set and later
-// calls do nothing. Thread safety: one thread a mesh.
+// arrays and borrows the material names (string literals). When memory ends, or a
+// generator cannot go on, `failed` is set and later calls do nothing. Thread safety: one thread a mesh.
 #ifndef GLINT_MESHGEN_MESH_H
 #define GLINT_MESHGEN_MESH_H
 

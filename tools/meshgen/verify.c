@@ -1,4 +1,4 @@
-#include "meshgen/verify.h"
+#include "tools/meshgen/verify.h"
 
 #include <stdlib.h>
 
@@ -13,7 +13,9 @@ struct edge {
     int balance;
 };
 
-static int compare_doubles(double a, double b) { return (a > b) - (a < b); }
+static int compare_doubles(double a, double b) {
+    return (a > b) - (a < b);
+}
 
 static int compare_placed(const void *left, const void *right) {
     const struct placed *a = left, *b = right;

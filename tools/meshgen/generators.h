@@ -1,0 +1,28 @@
+// What glint-meshgen can make. Each generator is deterministic: the same bytes on every run.
+//
+// Meshes are y up and rest on, or are centred at, y = 0; sizes are about one unit. A generator leaves
+// `mesh->failed` set where memory ended.
+#ifndef GLINT_MESHGEN_GENERATORS_H
+#define GLINT_MESHGEN_GENERATORS_H
+
+#include "tools/meshgen/mesh.h"
+
+// A band that follows a trefoil knot and turns as it goes: smooth, one sided to the eye, closed.
+void sculpture_generate(struct mesh *mesh);
+
+// A round brilliant of 73 facets, girdle radius 1, culet down.
+void gem_generate(struct mesh *mesh);
+
+// A sitting fox that looks along +z, about 1.2 high, standing on y = 0.
+void fox_generate(struct mesh *mesh);
+// The colours of the fox, for its MTL.
+void fox_write_mtl(struct strbuf *text);
+
+// "glint" in letters of our own, extruded along z with a rounded edge; baseline at y = 0.
+void word_generate(struct mesh *mesh);
+
+// Equirectangular sky, mountains and lake: width * height RGB bytes (sRGB), width twice the height.
+// The caller frees the result; NULL: out of memory.
+unsigned char *sky_generate(int width, int height);
+
+#endif
