@@ -6,7 +6,7 @@ static const double STROKE = 0.25;
 static const double GAP = 0.18;
 static const double HALF_DEPTH = 0.16;
 #define EDGE_RADIUS       0.05
-#define SPARK_EDGE_RADIUS 0.03 // its points are thin
+#define SPARK_EDGE_RADIUS 0.02 // its points are thin
 
 static double degrees(double radians) {
     return radians * 180 / 3.14159265358979323846;
