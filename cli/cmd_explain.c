@@ -1,0 +1,21 @@
+// glint explain CODE|element[.attribute]
+#include "cli/cli.h"
+
+#include "grammar/explain.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+int cmd_explain(struct cli *cli) {
+    struct strbuf text;
+    const char *no_color = getenv("NO_COLOR");
+    bool color = isatty(STDOUT_FILENO) && !(no_color && no_color[0]);
+    strbuf_init(&text);
+    int status = CLI_OK;
+    if (explain(str_from(cli->operands[0]), color, &text))
+        status = cli_print(cli, strbuf_view(&text));
+    else
+        status = cli_usage(cli, cli->argc - 1, "%.*s", STR_ARG(str_trim(strbuf_view(&text))));
+    strbuf_finish(&text);
+    return status;
+}

@@ -1,0 +1,163 @@
+// glint inspect SCENE [--ir]: counts, bounds, features with their reasons, buffers; or the canonical dump.
+#include "cli/cli.h"
+
+#include "core/number.h"
+#include "grammar/ir_features.h"
+#include "grammar/ir_print.h"
+#include "runtime/flatten.h"
+
+static void number(struct strbuf *out, double value) {
+    char text[NUMBER_FORMAT_MAX];
+    strbuf_add(out, text, number_format(value, text));
+}
+
+static void vector(struct strbuf *out, vec3 v) {
+    number(out, v.x);
+    strbuf_char(out, ' ');
+    number(out, v.y);
+    strbuf_char(out, ' ');
+    number(out, v.z);
+}
+
+static void counts(struct strbuf *out, const struct session *s) {
+    const struct ir_scene *scene = s->scene;
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < scene->materials.count; i++)
+        named += scene->materials.items[i].name.len > 0;
+    strbuf_format(out, "files       %u\n", s->origin.files.count);
+    strbuf_format(out, "image       %d x %d pixels, %d sample%s\n", s->image.width, s->image.height, s->image.samples,
+                  s->image.samples == 1 ? "" : "s");
+    strbuf_format(out, "cameras     %u\nlights      %u\n", scene->cameras.count, scene->lights.count);
+    strbuf_format(out, "materials   %u named, %u inline, %u used in all with those of meshes\n", named,
+                  scene->materials.count - named, s->assets.material_count);
+    strbuf_format(out, "spheres     %u\nrectangles  %u\nmodels      %u\n", scene->spheres.count, scene->rectangles.count,
+                  scene->models.count);
+}
+
+static void bounds(struct strbuf *out, const struct session *s) {
+    vec3 lower;
+    vec3 upper;
+    if (!view_bounds(s->scene, &s->assets, &lower, &upper)) {
+        strbuf_cstr(out, "bounds      none: the scene has no body\n");
+        return;
+    }
+    strbuf_cstr(out, "bounds      ");
+    vector(out, lower);
+    strbuf_cstr(out, " to ");
+    vector(out, upper);
+    strbuf_char(out, '\n');
+}
+
+static void meshes(struct strbuf *out, const struct session *s) {
+    for (uint32_t i = 0; i < s->assets.model_count; i++) {
+        const struct mesh *mesh = s->assets.models[i].mesh;
+        const struct ir_model *model = &s->scene->models.items[i];
+        if (!mesh)
+            continue;
+        strbuf_format(out, "  %.*s%s%.*s: %u triangles, %s", STR_ARG(model->name), model->name.len ? ", " : "",
+                      STR_ARG(model->mesh), mesh->triangle_count, mesh->closed ? "closed" : "open");
+        if (!mesh->closed)
+            strbuf_format(out, " (%u edges, the first at line %u of the mesh)", mesh->open_edges, mesh->open_line);
+        if (mesh->zero_area)
+            strbuf_format(out, ", %u without area", mesh->zero_area);
+        strbuf_cstr(out, mesh->turned ? ", turned outward\n" : "\n");
+    }
+}
+
+static void features(struct strbuf *out, struct session *s, uint32_t mask) {
+    struct ir_feature_reasons reasons;
+    ir_features_explain(s->scene, &s->origin, &reasons);
+    strbuf_cstr(out, "features\n");
+    for (uint32_t i = 0; i < FEATURE_COUNT; i++) {
+        uint32_t bit = 1u << i;
+        if (!(mask & bit))
+            continue;
+        strbuf_format(out, "  %-17s", feature_name(bit));
+        uint32_t k = 0;
+        while (k < reasons.count && reasons.items[k].bit != bit)
+            k++;
+        if (k == reasons.count) {
+            strbuf_cstr(out, "a material that a mesh brings along\n");
+            continue;
+        }
+        if (!span_is_none(reasons.items[k].at)) {
+            struct source_place place = source_locate(&s->sources, reasons.items[k].at);
+            strbuf_format(out, "%.*s:%u:%u: ", STR_ARG(place.path), place.line, place.column);
+        }
+        strbuf_format(out, "%s\n", reasons.items[k].words);
+    }
+    strbuf_cstr(out, "not required:");
+    for (uint32_t i = 0; i < FEATURE_COUNT; i++)
+        if ((FEATURE_SCENE_MASK & (1u << i)) && !(mask & (1u << i)))
+            strbuf_format(out, " %s", feature_name(1u << i));
+    strbuf_char(out, '\n');
+}
+
+static void buffer(struct strbuf *out, const char *name, uint64_t bytes) {
+    if (bytes)
+        strbuf_format(out, "  %-17s%12llu bytes\n", name, (unsigned long long)bytes);
+}
+
+static void buffers(struct strbuf *out, const struct flat_scene *flat) {
+    enum { WORD = sizeof(struct gpu_word) };
+    strbuf_cstr(out, "buffers\n");
+    buffer(out, "triangle tree", flat->triangle_nodes.count * WORD);
+    buffer(out, "triangles", flat->triangles.count * WORD);
+    buffer(out, "normals", flat->normals.count * WORD);
+    buffer(out, "sphere tree", flat->sphere_nodes.count * WORD);
+    buffer(out, "spheres", flat->spheres.count * WORD);
+    buffer(out, "bodies", flat->bodies.count * WORD);
+    buffer(out, "materials", flat->materials.count * WORD);
+    buffer(out, "lights", flat->lights.count * WORD);
+    buffer(out, "background", flat->background_texels.bytes);
+    strbuf_format(out, "triangles   %u in a tree of depth %u, %u without area dropped\n", flat->triangle_count,
+                  flat->triangle_depth, flat->dropped_triangles);
+    strbuf_cstr(out, "origin      ");
+    vector(out, flat->origin);
+    strbuf_format(out, ", scaled by 2^%d\n", flat->scale_exponent);
+}
+
+static bool describe(struct session *session, struct strbuf *out) {
+    struct view view;
+    struct flat_scene flat;
+    if (!session_view(session, 0, &view))
+        return false;
+    struct flat_input input = {.scene = session->scene,
+                               .origin_places = &session->origin,
+                               .assets = &session->assets,
+                               .view = &view,
+                               .origin = session_origin(session, &view),
+                               .limits = &session->options.limits,
+                               .sink = &session->sink};
+    if (!flatten(&input, &flat))
+        return false;
+    counts(out, session);
+    bounds(out, session);
+    meshes(out, session);
+    features(out, session, flat.features);
+    buffers(out, &flat);
+    flat_finish(&flat);
+    return true;
+}
+
+int cmd_inspect(struct cli *cli) {
+    struct session session;
+    struct strbuf text;
+    struct asset_store *store = asset_store_create();
+    struct session_options options = cli_session_options(cli, cli->operands[0]);
+    options.text_only = cli->options.ir;
+    strbuf_init(&text);
+    session_load(&session, &options, store);
+    bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
+    if (good && cli->options.ir)
+        ir_dump(session.scene, &text);
+    else if (good)
+        good = describe(&session, &text);
+    int status = cli_report(cli, &session, !cli->options.ir);
+    if (status == CLI_OK)
+        status = good ? cli_print(cli, strbuf_view(&text)) : CLI_SCENE;
+    strbuf_finish(&text);
+    session_finish(&session);
+    asset_store_destroy(store);
+    return status;
+}
