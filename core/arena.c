@@ -8,6 +8,7 @@
 enum {
     ARENA_ALIGN = 16,
     ARENA_BLOCK_BYTES = 64 * 1024,
+    ARENA_SHARED_BYTES = ARENA_BLOCK_BYTES / 4, // a larger allocation gets a block of its own
 };
 
 struct arena_block {
@@ -17,7 +18,9 @@ struct arena_block {
     size_t reserved; // keeps the bytes behind the header aligned to 16
 };
 
-void arena_init(struct arena *arena, size_t cap_bytes) { *arena = (struct arena){.cap_bytes = cap_bytes}; }
+void arena_init(struct arena *arena, size_t cap_bytes) {
+    *arena = (struct arena){.cap_bytes = cap_bytes};
+}
 
 void arena_finish(struct arena *arena) {
     if (!arena)
@@ -38,21 +41,32 @@ void arena_set_guard(struct arena *arena, struct arena_guard *guard) {
         guard->fault = ARENA_FAULT_NONE;
 }
 
+static struct arena_block *new_block(size_t size) {
+    struct arena_block *block = calloc(1, sizeof(struct arena_block) + size);
+    if (block)
+        block->size = size;
+    return block;
+}
+
+// A block with room for `need` bytes. A block of a single allocation goes behind the last one, which
+// stays in use: what it has left is not lost.
 static struct arena_block *block_with_room(struct arena *arena, size_t need) {
-    struct arena_block *block = arena->last;
-    if (block && block->size - block->used >= need)
-        return block;
+    struct arena_block *last = arena->last;
+    if (last && last->size - last->used >= need)
+        return last;
 #ifdef GLINT_ARENA_EXACT
-    size_t size = need;
+    bool single = true;
 #else
-    size_t size = need > ARENA_BLOCK_BYTES ? need : ARENA_BLOCK_BYTES;
+    bool single = need > ARENA_SHARED_BYTES;
 #endif
-    block = calloc(1, sizeof(struct arena_block) + size);
-    if (!block)
-        return NULL;
-    block->size = size;
-    block->previous = arena->last;
-    arena->last = block;
+    struct arena_block *block = new_block(single ? need : ARENA_BLOCK_BYTES);
+    if (block && single && last) {
+        block->previous = last->previous;
+        last->previous = block;
+    } else if (block) {
+        block->previous = last;
+        arena->last = block;
+    }
     return block;
 }
 
@@ -60,12 +74,14 @@ static void *alloc_or_fault(struct arena *arena, size_t size, enum arena_fault *
     *fault = ARENA_FAULT_CAP;
     if (size > arena->cap_bytes || arena->used_bytes > arena->cap_bytes - size)
         return NULL;
+    *fault = ARENA_FAULT_SYSTEM;
+    if (size > SIZE_MAX / 2)
+        return NULL;
 #ifdef GLINT_ARENA_EXACT
     size_t need = size ? size : 1;
 #else
-    size_t need = (size + ARENA_ALIGN - 1) & ~(size_t)(ARENA_ALIGN - 1);
+    size_t need = size ? (size + ARENA_ALIGN - 1) & ~(size_t)(ARENA_ALIGN - 1) : ARENA_ALIGN;
 #endif
-    *fault = ARENA_FAULT_SYSTEM;
     struct arena_block *block = block_with_room(arena, need);
     if (!block)
         return NULL;
@@ -92,7 +108,8 @@ void *arena_alloc(struct arena *arena, size_t size) {
 }
 
 void *arena_alloc_array(struct arena *arena, size_t count, size_t size) {
-    return arena_alloc(arena, size && count > SIZE_MAX / size ? SIZE_MAX : count * size);
+    bool overflows = size && count > SIZE_MAX / size;
+    return arena_alloc(arena, overflows ? SIZE_MAX : count * size);
 }
 
 str arena_copy(struct arena *arena, str s) {
@@ -102,16 +119,16 @@ str arena_copy(struct arena *arena, str s) {
     return (str){copy, s.len};
 }
 
+// The arguments are read twice, with the jump that `arena_alloc` may take in between, outside of both.
 str arena_format(struct arena *arena, const char *format, ...) {
     va_list args;
-    va_list again;
     va_start(args, format);
-    va_copy(again, args);
     int length = vsnprintf(NULL, 0, format, args);
+    va_end(args);
     size_t size = length < 0 ? 0 : (size_t)length;
     char *text = arena_alloc(arena, size + 1);
-    vsnprintf(text, size + 1, format, again);
-    va_end(again);
+    va_start(args, format);
+    vsnprintf(text, size + 1, format, args);
     va_end(args);
     return (str){text, size};
 }
@@ -119,7 +136,10 @@ str arena_format(struct arena *arena, const char *format, ...) {
 void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size) {
     if (count < *capacity)
         return items;
-    uint32_t wanted = *capacity ? *capacity * 2 : 8;
+    uint32_t wanted = *capacity == 0 ? 8 : *capacity > UINT32_MAX / 2 ? UINT32_MAX : *capacity * 2;
+    // A full list of 2^32 - 1 items cannot grow: asking for all memory faults.
+    if (count >= wanted)
+        arena_alloc(arena, SIZE_MAX);
     void *moved = arena_alloc_array(arena, wanted, item_size);
     if (count)
         memcpy(moved, items, count * item_size);

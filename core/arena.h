@@ -40,8 +40,10 @@ struct arena {
 };
 
 void arena_init(struct arena *arena, size_t cap_bytes);
-// Frees all; the arena may be used again as after `arena_init`. NULL does nothing.
+// Frees all; the arena may be used again, with the same cap and guard. NULL does nothing.
 void arena_finish(struct arena *arena);
+// The guard stays until another one is set; it must be taken away (NULL) before the function that called
+// `setjmp` returns, where the arena lives on.
 void arena_set_guard(struct arena *arena, struct arena_guard *guard);
 
 // `size` zeroed bytes, aligned to 16. A size of 0 gives a valid pointer.
@@ -63,8 +65,8 @@ str arena_format(struct arena *arena, const char *format, ...) __attribute__((fo
 void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size);
 // Appends a zeroed item to a list {items, count, capacity}; gives its address.
 #define ARENA_PUSH(arena, list)                                                                              \
-    ((list)->items = arena_grow((arena), (list)->items, (list)->count, &(list)->capacity,                    \
-                                sizeof(*(list)->items)),                                                     \
+    ((list)->items =                                                                                         \
+         arena_grow((arena), (list)->items, (list)->count, &(list)->capacity, sizeof(*(list)->items)),       \
      &(list)->items[(list)->count++])
 
 #endif

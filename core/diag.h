@@ -72,17 +72,21 @@ struct diag_sink {
     uint32_t errors;
     uint32_t warnings;
     uint32_t notes;
-    uint32_t dropped; // did not fit into the sink's memory
+    uint32_t dropped;  // did not fit into the sink's memory; counted above all the same
+    struct diag spare; // stands for a diagnostic that was dropped
+    bool last_kept;    // whether notes, help and fix have something to belong to
 };
 
 void diag_sink_init(struct diag_sink *sink);
 void diag_sink_finish(struct diag_sink *sink);
 
-// Adds a diagnostic and gives it for the calls below, valid until the next diag_add; never NULL.
+// Adds a diagnostic and gives it for the calls below, valid until the next diag_add; never NULL. Texts longer
+// than 2000 bytes are cut.
 struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-// Each of these adds to the diagnostic that was added last.
-void diag_note(struct diag_sink *sink, span at, const char *format, ...) __attribute__((format(printf, 3, 4)));
+// Each of these adds to the diagnostic that was added last, or does nothing where that was dropped.
+void diag_note(struct diag_sink *sink, span at, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 void diag_help(struct diag_sink *sink, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement);
 
@@ -90,9 +94,13 @@ const struct diag_info *diag_info(enum diag_code code);
 // The code whose text is `code` ("E203"), case ignored; DIAG_CODE_COUNT if there is none.
 enum diag_code diag_find(str code);
 
-// Sorts by source, place and order of report; drops exact repeats (same code, place and message).
+// Sorts by source, place and order of report; drops exact repeats (same code, place and message). Where
+// memory for sorting is lacking, the order of report stays.
 void diag_sort(struct diag_sink *sink);
-// Moves all of `from` behind those of `into`.
+// Keeps the first `most` (at least 1) diagnostics of each code and source; the last one kept counts the
+// others in `repeats`. The counts of errors, warnings and notes stay. For a sorted sink.
+void diag_group(struct diag_sink *sink, uint32_t most);
+// Adds a copy of all of `from` behind those of `into`, the counts of dropped ones included.
 void diag_merge(struct diag_sink *into, const struct diag_sink *from);
 
 #endif

@@ -1,63 +1,112 @@
 #include "core/diag_text.h"
 
-enum { LINE_SHOWN_MAX = 160 };
+#include "core/unicode.h"
+
+enum {
+    LINE_SHOWN_MAX = 160, // bytes
+    TAB_COLUMNS = 8,
+};
 
 static const char *const severity_names[] = {"error", "warning", "note"};
 static const char *const severity_colors[] = {"\033[1;31m", "\033[1;35m", "\033[1;36m"};
 
-const char *diag_severity_name(enum diag_severity severity) { return severity_names[severity]; }
+const char *diag_severity_name(enum diag_severity severity) {
+    return severity_names[severity];
+}
 
 static void paint(struct strbuf *out, struct diag_text_options options, const char *color) {
     if (options.color)
         strbuf_cstr(out, color);
 }
 
-// The source line, cut around the caret where it is long, and the caret below it. Tabs stay tabs in both,
-// so that they line up; control characters are shown as '?'.
+// Writes the character at `at` as a terminal may show it, counts the columns that it takes from *column on,
+// and gives its length in bytes. Tabs become blanks, so that what stands below a line lines up; what a
+// terminal might obey and what is no UTF-8 becomes '?'.
+static size_t put_character(struct strbuf *out, str s, size_t at, unsigned *column) {
+    size_t size = utf8_sequence_length(s, at);
+    uint32_t c = size ? utf8_decode(s, at) : 0;
+    if (c == '\t') {
+        unsigned blanks = TAB_COLUMNS - *column % TAB_COLUMNS;
+        strbuf_repeat(out, ' ', blanks);
+        *column += blanks;
+    } else if (unicode_is_control(c)) {
+        strbuf_char(out, '?');
+        ++*column;
+    } else {
+        strbuf_add(out, s.ptr + at, size);
+        *column += unicode_width(c);
+    }
+    return size ? size : 1;
+}
+
+// A text that may quote the scene: on one line, whatever it holds.
+static void put_text(struct strbuf *out, str s) {
+    for (size_t at = 0; at < s.len;) {
+        unsigned column = TAB_COLUMNS - 1;
+        at += put_character(out, s, at, &column);
+    }
+}
+
+// Byte offset of the character `count` characters behind `at`.
+static size_t skip_characters(str line, size_t at, size_t count) {
+    for (; count > 0 && at < line.len; count--) {
+        size_t size = utf8_sequence_length(line, at);
+        at += size ? size : 1;
+    }
+    return at;
+}
+
+// The source line, cut around the place where it is long, and the caret below it.
 static void excerpt(struct strbuf *out, struct source_place place, struct diag_text_options options) {
     str line = place.line_text;
-    size_t at = 0;
-    for (uint32_t c = 1; c < place.column && at < line.len; c++) {
-        size_t n = utf8_sequence_length(line, at);
-        at += n ? n : 1;
-    }
-    size_t first = 0;
-    if (at > LINE_SHOWN_MAX / 2)
-        first = at - LINE_SHOWN_MAX / 2;
-    while (first > 0 && first < line.len && ((unsigned char)line.ptr[first] & 0xC0) == 0x80)
+    size_t begin = skip_characters(line, 0, place.column - 1);
+    size_t end = line.len;
+    if (place.end_line == place.line)
+        end = skip_characters(line, begin, place.end_column - place.column);
+    size_t first = begin > LINE_SHOWN_MAX / 2 ? begin - LINE_SHOWN_MAX / 2 : 0;
+    for (int i = 0; i < 3 && first > 0 && ((unsigned char)line.ptr[first] & 0xC0) == 0x80; i++)
         first++;
-    size_t last = first + LINE_SHOWN_MAX < line.len ? first + LINE_SHOWN_MAX : line.len;
-    while (last < line.len && last > first && ((unsigned char)line.ptr[last] & 0xC0) == 0x80)
-        last--;
-    strbuf_format(out, "%6u | %s", place.line, first ? "..." : "");
-    for (size_t i = first; i < last; i++) {
-        unsigned char c = (unsigned char)line.ptr[i];
-        strbuf_char(out, (c < 0x20 && c != '\t') || c == 0x7F ? '?' : (char)c);
+    size_t last = line.len - first > LINE_SHOWN_MAX ? first + LINE_SHOWN_MAX : line.len;
+    size_t gutter = out->len;
+    strbuf_format(out, "%6u", place.line);
+    gutter = out->len - gutter;
+    strbuf_cstr(out, first ? " | ..." : " | ");
+    unsigned column = first ? 3 : 0;
+    unsigned begin_column = column;
+    unsigned end_column = column;
+    for (size_t at = first; at < last;) {
+        at += put_character(out, line, at, &column);
+        begin_column = at <= begin ? column : begin_column;
+        end_column = at <= end ? column : end_column;
     }
     strbuf_cstr(out, last < line.len ? "...\n" : "\n");
-    strbuf_cstr(out, "       | ");
-    strbuf_cstr(out, first ? "   " : "");
-    for (size_t i = first; i < at; i++)
-        if (((unsigned char)line.ptr[i] & 0xC0) != 0x80)
-            strbuf_char(out, line.ptr[i] == '\t' ? '\t' : ' ');
-    size_t shown = utf8_count(str_slice(line, at, last));
-    size_t width = place.end_line == place.line && place.end_column > place.column ? place.end_column - place.column
-                   : place.end_line > place.line                                  ? shown
-                                                                                  : 1;
-    if (width > shown)
-        width = shown ? shown : 1;
+    strbuf_repeat(out, ' ', gutter);
+    strbuf_cstr(out, " | ");
+    strbuf_repeat(out, ' ', begin_column);
     paint(out, options, "\033[1;32m");
     strbuf_char(out, '^');
-    strbuf_repeat(out, '~', width > 1 ? width - 1 : 0);
+    strbuf_repeat(out, '~', end_column > begin_column + 1 ? end_column - begin_column - 1 : 0);
     paint(out, options, "\033[0m");
     strbuf_char(out, '\n');
 }
 
 static void place_text(struct strbuf *out, struct source_place place) {
-    strbuf_format(out, "%.*s:%u:%u: ", STR_ARG(place.path), place.line, place.column);
+    put_text(out, place.path);
+    strbuf_format(out, ":%u:%u: ", place.line, place.column);
 }
 
-static void one(struct strbuf *out, const struct diag *d, struct source_set *sources, struct diag_text_options options) {
+static bool has_text(const struct source_set *sources, span at) {
+    return at.source < sources->count && sources->items[at.source].text.len > 0;
+}
+
+static void labelled(struct strbuf *out, const char *label, str text) {
+    strbuf_cstr(out, label);
+    put_text(out, text);
+    strbuf_char(out, '\n');
+}
+
+static void one(struct strbuf *out, const struct diag *d, struct source_set *sources,
+                struct diag_text_options options) {
     const struct diag_info *info = diag_info(d->code);
     struct source_place place = source_locate(sources, d->at);
     paint(out, options, "\033[1m");
@@ -65,42 +114,48 @@ static void one(struct strbuf *out, const struct diag *d, struct source_set *sou
     paint(out, options, severity_colors[info->severity]);
     strbuf_format(out, "%s: ", severity_names[info->severity]);
     paint(out, options, "\033[0m");
-    strbuf_format(out, "%.*s", STR_ARG(d->message));
+    put_text(out, d->message);
     if (d->repeats)
         strbuf_format(out, " (and %u more like it)", d->repeats);
     strbuf_format(out, " [%s]\n", info->code);
-    if (sources->items[d->at.source].text.len)
+    if (has_text(sources, d->at))
         excerpt(out, place, options);
     for (const struct diag_related *n = d->notes; n; n = n->next) {
         if (span_is_none(n->at)) {
-            strbuf_format(out, "       = note: %.*s\n", STR_ARG(n->message));
+            labelled(out, "       = note: ", n->message);
             continue;
         }
         struct source_place related = source_locate(sources, n->at);
         place_text(out, related);
-        strbuf_format(out, "note: %.*s\n", STR_ARG(n->message));
-        excerpt(out, related, options);
+        labelled(out, "note: ", n->message);
+        if (has_text(sources, n->at))
+            excerpt(out, related, options);
     }
     if (d->help.len)
-        strbuf_format(out, "       = help: %.*s\n", STR_ARG(d->help));
+        labelled(out, "       = help: ", d->help);
 }
 
 void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_set *sources,
                struct diag_text_options options) {
     uint32_t shown = 0;
-    uint32_t hidden = 0;
+    uint32_t hidden = sink->dropped;
+    bool error_shown = false;
     for (uint32_t i = 0; i < sink->count; i++) {
         const struct diag *d = &sink->items[i];
-        if (diag_info(d->code)->severity == DIAG_NOTE && !options.notes)
+        enum diag_severity severity = diag_info(d->code)->severity;
+        if (severity == DIAG_NOTE && !options.notes)
             continue;
-        if (options.most && shown >= options.most) {
+        // A run that fails shows why, however many warnings come first.
+        bool first_error = severity == DIAG_ERROR && !error_shown;
+        if (options.most && shown >= options.most && !first_error) {
             hidden++;
             continue;
         }
         one(out, d, sources, options);
+        error_shown = error_shown || first_error;
         shown++;
     }
-    hidden += sink->dropped;
     if (hidden)
-        strbuf_format(out, "glint: %u more message%s not shown; --limit messages=N shows more\n", hidden, hidden == 1 ? "" : "s");
+        strbuf_format(out, "glint: %u more message%s not shown; --limit messages=N shows more\n", hidden,
+                      hidden == 1 ? "" : "s");
 }

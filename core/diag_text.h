@@ -5,6 +5,8 @@
 //         |   ^~~~~~
 //         = help: did you mean 'color'?
 //
+// Columns below the line are a terminal's: tabs are shown as blanks, wide characters take two. Control
+// characters and bytes that are no UTF-8, in source lines, paths and messages alike, are shown as '?'.
 // Thread safety: pure but for the line maps of the sources.
 #ifndef GLINT_CORE_DIAG_TEXT_H
 #define GLINT_CORE_DIAG_TEXT_H
@@ -13,13 +15,13 @@
 #include "core/strbuf.h"
 
 struct diag_text_options {
-    bool color;         // ANSI colours
-    bool notes;         // show diagnostics of severity "note" too
-    uint32_t most;      // messages shown; 0 is all
+    bool color;    // ANSI colours
+    bool notes;    // show diagnostics of severity "note" too
+    uint32_t most; // messages shown; 0 is all
 };
 
 // Writes all diagnostics of a sorted sink, errors, warnings and notes as they stand, and a closing line
-// that tells how many more there were.
+// that tells how many more there were. The first error is shown even where `most` is reached before it.
 void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_set *sources,
                struct diag_text_options options);
 // "error", "warning", "note".

@@ -12,9 +12,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SUGGEST_ENTRIES_MAX = 10000 };
+enum {
+    SUGGEST_ENTRIES_MAX = 10000
+};
 
-void files_init(struct files *files, struct arena *arena) { *files = (struct files){.arena = arena}; }
+void files_init(struct files *files, struct arena *arena) {
+    *files = (struct files){.arena = arena};
+}
 
 str path_folder(str path) {
     size_t at = path.len;
@@ -48,18 +52,34 @@ static const char *system_path(struct files *files, str path) {
     return arena_copy(files->arena, path).ptr;
 }
 
-str files_canonical(struct files *files, str path) {
+// false: errno says why.
+static bool resolve_links(struct files *files, str path, str *resolved) {
     const char *name = system_path(files, path);
-    char resolved[PATH_MAX];
-    if (!name || !realpath(name, resolved))
-        return arena_copy(files->arena, path);
-    return arena_copy(files->arena, str_from(resolved));
+    char text[PATH_MAX];
+    if (!name)
+        errno = ENOENT;
+    if (!name || !realpath(name, text))
+        return false;
+    *resolved = arena_copy(files->arena, str_from(text));
+    return true;
 }
 
-static const struct file_overlay *find_overlay(const struct files *files, str path) {
-    for (uint32_t i = 0; i < files->overlays.count; i++)
-        if (str_equal(files->overlays.items[i].path, path))
-            return &files->overlays.items[i];
+str files_canonical(struct files *files, str path) {
+    str resolved;
+    if (resolve_links(files, path, &resolved))
+        return resolved;
+    // A file that is still to be written has a folder already.
+    str base = path_base(path);
+    if (base.len && !str_equal(base, STR("..")) && resolve_links(files, path_folder(path), &resolved))
+        return join(files->arena, resolved, base);
+    return arena_copy(files->arena, path);
+}
+
+// The one that was added last: an editor's newer text counts.
+static const struct file_overlay *find_overlay(const struct files *files, str canonical) {
+    for (uint32_t i = files->overlays.count; i > 0; i--)
+        if (str_equal(files->overlays.items[i - 1].path, canonical))
+            return &files->overlays.items[i - 1];
     return NULL;
 }
 
@@ -108,20 +128,28 @@ static bool below(str path, str root) {
     return str_starts_with(path, root) && (path.len == root.len || path.ptr[root.len] == '/');
 }
 
+static bool below_a_root(const struct files *files, str canonical) {
+    for (uint32_t i = 0; i < files->roots.count; i++)
+        if (below(canonical, files->roots.items[i]))
+            return true;
+    return false;
+}
+
 static enum file_status try_path(struct files *files, str path, str *out) {
     *out = path;
-    if (find_overlay(files, files_canonical(files, path)))
+    str canonical;
+    bool exists = resolve_links(files, path, &canonical);
+    int error = errno;
+    if (!exists)
+        canonical = files_canonical(files, path);
+    bool allowed = below_a_root(files, canonical);
+    if (find_overlay(files, canonical) && (allowed || files->roots.count == 0))
         return FILE_OK;
-    const char *name = system_path(files, path);
-    char resolved[PATH_MAX];
-    if (!name)
-        return FILE_MISSING;
-    if (!realpath(name, resolved))
-        return status_of_errno(files, errno);
-    for (uint32_t i = 0; i < files->roots.count; i++)
-        if (below(str_from(resolved), files->roots.items[i]))
-            return FILE_OK;
-    *out = arena_copy(files->arena, str_from(resolved));
+    if (!exists)
+        return status_of_errno(files, error);
+    if (allowed)
+        return FILE_OK;
+    *out = canonical;
     return FILE_OUTSIDE;
 }
 
@@ -149,7 +177,8 @@ static void log_read(struct files *files, str path, const struct stat *info) {
                                 (int64_t)info->st_mtim.tv_sec * 1000000000 + info->st_mtim.tv_nsec};
 }
 
-static enum file_status read_all(struct files *files, int fd, size_t size, struct arena *into, str *contents) {
+static enum file_status read_all(struct files *files, int fd, size_t size, struct arena *into,
+                                 str *contents) {
     char *data = arena_try_alloc(into, size + 1);
     if (!data)
         return FILE_NO_MEMORY;
@@ -169,7 +198,8 @@ static enum file_status read_all(struct files *files, int fd, size_t size, struc
     return FILE_OK;
 }
 
-enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into, str *contents) {
+enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
+                            str *contents) {
     const struct file_overlay *overlay = find_overlay(files, files_canonical(files, path));
     *contents = STR("");
     if (overlay) {

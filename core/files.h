@@ -1,7 +1,8 @@
 // The one door to the file system, for reading. Scenes may only read what lies below allowed folders
 // (roots), links followed, and only regular files. Files are read whole into memory, never mapped.
 //
-// Ownership: the caller owns `struct files`; contents go into the caller's arena.
+// Ownership: the caller owns `struct files`; contents go into the caller's arena. Paths go into the arena
+// given to `files_init`, which needs a guard while these functions run.
 // Thread safety: resolving and reading may run in several threads as long as none adds roots or
 // overlays; the log of reads is guarded by the caller reading files from one thread at a time.
 #ifndef GLINT_CORE_FILES_H
@@ -33,16 +34,25 @@ struct file_overlay {
 
 struct files {
     struct arena *arena; // for paths and the log
-    struct { str *items; uint32_t count, capacity; } roots;       // absolute, links resolved; first the scene's
-    struct { struct file_overlay *items; uint32_t count, capacity; } overlays;
-    struct { struct file_read *items; uint32_t count, capacity; } log; // every file that was read, once
+    struct {
+        str *items;
+        uint32_t count, capacity;
+    } roots; // absolute, links resolved; first the scene's
+    struct {
+        struct file_overlay *items;
+        uint32_t count, capacity;
+    } overlays;
+    struct {
+        struct file_read *items;
+        uint32_t count, capacity;
+    } log;            // every file that was read, once
     int system_error; // errno of the last FILE_UNREADABLE
 };
 
 void files_init(struct files *files, struct arena *arena);
 // Makes `directory` an allowed folder. FILE_MISSING or FILE_NOT_REGULAR where it is no folder.
 enum file_status files_add_root(struct files *files, str directory);
-// Text from memory in place of the file at `path` (which need not exist).
+// Text from memory in place of the file at `path` (which need not exist). The newest one for a path counts.
 void files_add_overlay(struct files *files, str path, str text);
 // The scene's root: the folder of the nearest `.glintrc.yaml` at or above the scene's folder, else the
 // scene's folder. `scene_path` is as given by the user. On FILE_OK the root has been added.
@@ -54,14 +64,15 @@ enum file_status files_add_scene_root(struct files *files, str scene_path);
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out);
 // Reads a file that was resolved, or one that the user named (no root is asked for here). A NUL byte
 // follows the contents, not counted. `cap_bytes` is checked before memory is taken.
-enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into, str *contents);
+enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
+                            str *contents);
 // Canonical path, size and time of a regular file (or overlay: its time is a hash of its text) without
 // reading it, for caches; enters the log of reads as a read does.
 enum file_status files_identify(struct files *files, str path, struct file_read *out);
 // The name in the folder of `path` that is nearest to its last part, for "did you mean"; the empty string
 // where none is near or the folder lies outside the roots.
 str files_suggest(struct files *files, str path);
-// An absolute path with links followed; the path itself where it does not exist.
+// An absolute path with links followed, also where only its last part does not exist; else the path itself.
 str files_canonical(struct files *files, str path);
 // The folder part of a path ("." if it has none) and the part behind the last '/'.
 str path_folder(str path);

@@ -15,7 +15,9 @@ struct limits limits_default(void) {
     return limits;
 }
 
-const struct limit_info *limit_info(enum limit which) { return &infos[which]; }
+const struct limit_info *limit_info(enum limit which) {
+    return &infos[which];
+}
 
 enum limit_status limits_set(struct limits *limits, str assignment, enum limit *which) {
     size_t equals = 0;

@@ -2,7 +2,9 @@
 
 #include <limits.h>
 
-enum { WORD_MAX = 128 };
+enum {
+    WORD_MAX = 128
+};
 
 static char fold(char c) {
     if (c >= 'A' && c <= 'Z')
@@ -10,7 +12,9 @@ static char fold(char c) {
     return c == '-' || c == ' ' ? '_' : c;
 }
 
-static unsigned least(unsigned a, unsigned b) { return a < b ? a : b; }
+static unsigned least(unsigned a, unsigned b) {
+    return a < b ? a : b;
+}
 
 unsigned nearest_distance(str a, str b) {
     if (a.len > WORD_MAX || b.len > WORD_MAX)
@@ -36,7 +40,9 @@ unsigned nearest_distance(str a, str b) {
     return above[b.len];
 }
 
-struct nearest nearest_begin(str word) { return (struct nearest){.word = word, .best_distance = UINT_MAX}; }
+struct nearest nearest_begin(str word) {
+    return (struct nearest){.word = word, .best_distance = UINT_MAX};
+}
 
 void nearest_offer(struct nearest *search, str candidate) {
     unsigned distance = nearest_distance(search->word, candidate);
@@ -48,4 +54,6 @@ void nearest_offer(struct nearest *search, str candidate) {
     }
 }
 
-str nearest_best(const struct nearest *search) { return search->best; }
+str nearest_best(const struct nearest *search) {
+    return search->best;
+}

@@ -1,26 +1,54 @@
 #include "core/number.h"
 
-#include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_TEXT_MAX = 1000 };
+enum {
+    NUMBER_TEXT_MAX = 1000,
+    POWER_EXACT = 22, // 10^22 is the largest power of ten that is a double
+    EXPONENT_FULL = 100000,
+};
 
-static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+#define MANTISSA_FULL    (UINT64_C(1000000000000000000)) // another digit may not fit into 64 bits
+#define MANTISSA_EXACT   (UINT64_C(1) << DBL_MANT_DIG)   // integers up to this one are doubles
+#define DIGITS_EXACT     1e15                            // decimals of DBL_DIG digits survive a double
+#define DOUBLE_IS_DOUBLE (FLT_EVAL_METHOD == 0) // no excess precision, so that one operation rounds once
 
-static size_t digits(str s, size_t at) {
-    size_t n = 0;
-    while (at + n < s.len && is_digit(s.ptr[at + n]))
-        n++;
-    return n;
+static const double powers_of_ten[POWER_EXACT + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                      1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                      1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+static bool is_digit(char c) {
+    return c >= '0' && c <= '9';
 }
 
-static bool equals_nocase(str s, const char *word) { return s.len == strlen(word) && str_ends_with_nocase(s, word); }
+static bool equals_nocase(str s, const char *word) {
+    return s.len == strlen(word) && str_ends_with_nocase(s, word);
+}
+
+// HYPHEN to HORIZONTAL BAR and MINUS SIGN, which a text processor or a web page puts for '-'.
+static bool begins_with_dash(str s) {
+    if (utf8_sequence_length(s, 0) != 3 || s.len < 4 || !(is_digit(s.ptr[3]) || s.ptr[3] == '.'))
+        return false;
+    uint32_t c = utf8_decode(s, 0);
+    return (c >= 0x2010 && c <= 0x2015) || c == 0x2212;
+}
+
+// Whether `s` from `at` is an exponent without its digits.
+static bool ends_in_exponent(str s, size_t at) {
+    if (at >= s.len || (s.ptr[at] != 'e' && s.ptr[at] != 'E'))
+        return false;
+    at += at + 1 < s.len && (s.ptr[at + 1] == '+' || s.ptr[at + 1] == '-') ? 2 : 1;
+    return at == s.len;
+}
 
 static enum number_status explain_no_number(str text) {
     str s = text;
+    if (begins_with_dash(s))
+        return NUMBER_DASH;
     if (s.len && (s.ptr[0] == '+' || s.ptr[0] == '-'))
         s = str_slice(s, 1, s.len);
     if (equals_nocase(s, "nan") || equals_nocase(s, ".nan"))
@@ -36,7 +64,7 @@ static enum number_status explain_no_number(str text) {
     size_t end = 0;
     while (end < s.len && (is_digit(s.ptr[end]) || s.ptr[end] == '.'))
         end++;
-    if (end == s.len || end == 0)
+    if (end == s.len || ends_in_exponent(s, end))
         return NUMBER_NOT_A_NUMBER;
     if (s.ptr[end] == '_')
         return NUMBER_UNDERSCORE;
@@ -47,35 +75,80 @@ static enum number_status explain_no_number(str text) {
     return letter ? NUMBER_UNIT : NUMBER_NOT_A_NUMBER;
 }
 
-// Checks the grammar; where it holds, *zero tells whether every digit of the mantissa is 0.
-static enum number_status check(str s, bool *zero) {
-    size_t at = s.len && (s.ptr[0] == '+' || s.ptr[0] == '-') ? 1 : 0;
-    size_t whole = digits(s, at);
-    size_t whole_at = at;
+// A number in the language's grammar: mantissa * 10^exponent, where the digits fit.
+struct decimal {
+    bool zero;         // every digit of the mantissa is 0
+    bool whole;        // digits only
+    bool exact;        // mantissa and exponent hold all of it
+    uint64_t mantissa; // at most 19 digits
+    long exponent;
+};
+
+// Adds a run of digits to the mantissa; gives their number.
+static size_t scan_digits(str s, size_t at, struct decimal *decimal) {
+    size_t n = 0;
+    for (; at + n < s.len && is_digit(s.ptr[at + n]); n++) {
+        uint64_t digit = (uint64_t)(s.ptr[at + n] - '0');
+        decimal->zero = decimal->zero && digit == 0;
+        if (decimal->mantissa < MANTISSA_FULL)
+            decimal->mantissa = decimal->mantissa * 10 + digit;
+        else
+            decimal->exact = false;
+    }
+    return n;
+}
+
+// The exponent behind an 'e' at `at`; *length is 0 where there are no digits.
+static long scan_exponent(str s, size_t at, size_t *length) {
+    bool negative = at + 1 < s.len && s.ptr[at + 1] == '-';
+    size_t sign = negative || (at + 1 < s.len && s.ptr[at + 1] == '+') ? 1 : 0;
+    size_t first = at + 1 + sign;
+    long value = 0;
+    size_t n = 0;
+    for (; first + n < s.len && is_digit(s.ptr[first + n]); n++)
+        if (value < EXPONENT_FULL)
+            value = value * 10 + (s.ptr[first + n] - '0');
+    *length = n ? 1 + sign + n : 0;
+    return negative ? -value : value;
+}
+
+static enum number_status scan(str s, struct decimal *decimal) {
+    *decimal = (struct decimal){.zero = true, .exact = true};
+    size_t first = s.len && (s.ptr[0] == '+' || s.ptr[0] == '-') ? 1 : 0;
+    size_t whole = scan_digits(s, first, decimal);
     size_t fraction = 0;
-    at += whole;
+    size_t at = first + whole;
+    decimal->whole = at == s.len;
     if (at < s.len && s.ptr[at] == '.') {
-        fraction = digits(s, at + 1);
+        fraction = scan_digits(s, at + 1, decimal);
         at += 1 + fraction;
     }
-    size_t mantissa_end = at;
     if (whole + fraction == 0)
         return explain_no_number(s);
     if (at < s.len && (s.ptr[at] == 'e' || s.ptr[at] == 'E')) {
-        size_t sign = at + 1 < s.len && (s.ptr[at + 1] == '+' || s.ptr[at + 1] == '-') ? 1 : 0;
-        size_t exponent = digits(s, at + 1 + sign);
-        if (exponent == 0)
+        size_t length;
+        decimal->exponent = scan_exponent(s, at, &length);
+        if (length == 0)
             return explain_no_number(s);
-        at += 1 + sign + exponent;
+        at += length;
     }
+    decimal->exponent -= (long)fraction;
     if (at != s.len)
         return explain_no_number(s);
-    if (whole > 1 && s.ptr[whole_at] == '0')
-        return NUMBER_LEADING_ZERO;
-    *zero = true;
-    for (size_t i = whole_at; i < mantissa_end; i++)
-        *zero = *zero && (s.ptr[i] == '0' || s.ptr[i] == '.');
-    return NUMBER_OK;
+    return whole > 1 && s.ptr[first] == '0' ? NUMBER_LEADING_ZERO : NUMBER_OK;
+}
+
+// Clinger, How to Read Floating Point Numbers Accurately (1990), section 3: where mantissa and power of
+// ten are doubles, one multiplication or division rounds once and so correctly. false: no such luck.
+static bool read_fast(const struct decimal *decimal, double *value) {
+    if (!DOUBLE_IS_DOUBLE || !decimal->exact || decimal->mantissa > MANTISSA_EXACT)
+        return false;
+    double mantissa = (double)decimal->mantissa;
+    if (decimal->exponent < -POWER_EXACT || decimal->exponent > POWER_EXACT)
+        return false;
+    *value = decimal->exponent < 0 ? mantissa / powers_of_ten[-decimal->exponent]
+                                   : mantissa * powers_of_ten[decimal->exponent];
+    return true;
 }
 
 enum number_status number_parse(str text, double *value) {
@@ -84,14 +157,19 @@ enum number_status number_parse(str text, double *value) {
         return NUMBER_EMPTY;
     if (text.len > NUMBER_TEXT_MAX)
         return NUMBER_TOO_LONG;
-    bool zero = false;
-    enum number_status status = check(text, &zero);
-    if (status != NUMBER_OK || zero)
+    struct decimal decimal;
+    enum number_status status = scan(text, &decimal);
+    if (status != NUMBER_OK || decimal.zero)
         return status;
+    double read;
+    if (read_fast(&decimal, &read)) {
+        *value = text.ptr[0] == '-' ? -read : read;
+        return NUMBER_OK;
+    }
     char copy[NUMBER_TEXT_MAX + 1];
     memcpy(copy, text.ptr, text.len);
     copy[text.len] = '\0';
-    double read = strtod(copy, NULL);
+    read = strtod(copy, NULL);
     if (isinf(read))
         return NUMBER_OVERFLOW;
     if (read == 0.0)
@@ -102,21 +180,24 @@ enum number_status number_parse(str text, double *value) {
 
 enum number_status number_parse_integer(str text, int64_t *value) {
     *value = 0;
-    double number;
-    enum number_status status = number_parse(text, &number);
+    if (text.len == 0)
+        return NUMBER_EMPTY;
+    if (text.len > NUMBER_TEXT_MAX)
+        return NUMBER_TOO_LONG;
+    struct decimal decimal;
+    enum number_status status = scan(text, &decimal);
     if (status != NUMBER_OK)
         return status;
-    size_t sign = text.ptr[0] == '+' || text.ptr[0] == '-' ? 1 : 0;
-    if (digits(text, sign) != text.len - sign)
+    if (!decimal.whole)
         return NUMBER_NOT_INTEGER;
-    char copy[NUMBER_TEXT_MAX + 1];
-    memcpy(copy, text.ptr, text.len);
-    copy[text.len] = '\0';
-    errno = 0;
-    long long read = strtoll(copy, NULL, 10);
-    if (errno == ERANGE)
+    bool negative = text.ptr[0] == '-';
+    uint64_t largest = (uint64_t)INT64_MAX + (negative ? 1 : 0);
+    if (!decimal.exact || decimal.mantissa > largest)
         return NUMBER_OVERFLOW;
-    *value = read;
+    if (negative && decimal.mantissa == largest)
+        *value = INT64_MIN;
+    else
+        *value = negative ? -(int64_t)decimal.mantissa : (int64_t)decimal.mantissa;
     return NUMBER_OK;
 }
 
@@ -152,6 +233,8 @@ const char *number_problem(enum number_status status) {
         return "has more than 1000 characters";
     case NUMBER_NOT_INTEGER:
         return "is not a whole number written with digits only";
+    case NUMBER_DASH:
+        return "begins with a typographic dash; write '-'";
     }
     return "is not a number";
 }
@@ -197,14 +280,81 @@ static size_t layout(const char *scientific, char *out) {
     return length;
 }
 
-size_t number_format(double value, char out[NUMBER_FORMAT_MAX]) {
-    if (!isfinite(value) || value == 0.0)
-        return (size_t)snprintf(out, NUMBER_FORMAT_MAX, "%s", value == 0.0 ? "0" : isnan(value) ? ".nan" : value > 0 ? ".inf" : "-.inf");
-    char scientific[40];
-    for (int precision = 0; precision < 17; precision++) {
-        snprintf(scientific, sizeof scientific, "%.*e", precision, value);
-        if (strtod(scientific, NULL) == value)
-            break;
+// Most numbers that people write have a few decimals: the fewest that give an integer of at most DBL_DIG
+// digits, which divided by its power of ten is the value again. Such a decimal is the only one of so few
+// digits that reads as the value (and dividing rounds once, as in `read_fast`), so it is the shortest.
+static size_t format_fast(double value, char *out) {
+    double size = fabs(value);
+    if (!DOUBLE_IS_DOUBLE || size >= DIGITS_EXACT || size < 1e-5)
+        return 0;
+    for (int decimals = 0; decimals <= POWER_EXACT; decimals++) {
+        double scaled = size * powers_of_ten[decimals];
+        if (scaled >= DIGITS_EXACT)
+            return 0;
+        uint64_t whole = (uint64_t)(scaled + 0.5);
+        if ((double)whole / powers_of_ten[decimals] != size)
+            continue;
+        char reversed[NUMBER_FORMAT_MAX];
+        size_t count = 0;
+        size_t length = 0;
+        for (; whole || count <= (size_t)decimals; whole /= 10)
+            reversed[count++] = (char)('0' + whole % 10);
+        if (value < 0)
+            out[length++] = '-';
+        while (count > (size_t)decimals)
+            out[length++] = reversed[--count];
+        if (count)
+            out[length++] = '.';
+        while (count)
+            out[length++] = reversed[--count];
+        out[length] = '\0';
+        return length;
     }
+    return 0;
+}
+
+// Adds one to the last digit of a "%.*e" text; false where that would change its exponent.
+static bool next_decimal(char *scientific) {
+    char *digit = strchr(scientific, 'e');
+    while (digit > scientific) {
+        digit--;
+        if (*digit >= '0' && *digit < '9') {
+            ++*digit;
+            return true;
+        }
+        if (*digit == '9')
+            *digit = '0';
+    }
+    return false;
+}
+
+static bool reads_back(const char *text, double value) {
+    double read;
+    return number_parse(str_from(text), &read) == NUMBER_OK && read == value;
+}
+
+// printf gives the nearest decimal of so many digits. Above a power of two doubles lie twice as far apart as
+// below it: there the next decimal away from 0 may read back where the nearest, on the other side, does not.
+static bool print_digits(double value, int digits, char scientific[NUMBER_FORMAT_MAX]) {
+    snprintf(scientific, NUMBER_FORMAT_MAX, "%.*e", digits - 1, value);
+    if (reads_back(scientific, value))
+        return true;
+    int exponent;
+    return fabs(frexp(value, &exponent)) == 0.5 && next_decimal(scientific) && reads_back(scientific, value);
+}
+
+size_t number_format(double value, char out[NUMBER_FORMAT_MAX]) {
+    if (!isfinite(value) || value == 0.0) {
+        const char *word = value == 0.0 ? "0" : isnan(value) ? ".nan" : value > 0 ? ".inf" : "-.inf";
+        return (size_t)snprintf(out, NUMBER_FORMAT_MAX, "%s", word);
+    }
+    size_t length = format_fast(value, out);
+    if (length)
+        return length;
+    // Every decimal of DBL_DIG digits survives a normal double, so that trying fewer finds nothing more.
+    int digits = fabs(value) < DBL_MIN ? 1 : DBL_DIG;
+    char scientific[NUMBER_FORMAT_MAX];
+    while (!print_digits(value, digits, scientific))
+        digits++;
     return layout(scientific, out);
 }

@@ -10,32 +10,38 @@
 enum number_status {
     NUMBER_OK,
     NUMBER_EMPTY,
-    NUMBER_NOT_A_NUMBER,  // no number at all: letters, two dots, trailing text
-    NUMBER_NAN,           // nan, .nan
-    NUMBER_INFINITE,      // inf, .inf, infinity
-    NUMBER_HEX,           // 0x1f
-    NUMBER_OCTAL,         // 0o17
-    NUMBER_UNDERSCORE,    // 1_000
-    NUMBER_COMMA,         // 0,5
-    NUMBER_LEADING_ZERO,  // 007
-    NUMBER_UNIT,          // 60deg: a number with letters behind it
-    NUMBER_OVERFLOW,      // beyond the range of a double
-    NUMBER_UNDERFLOW,     // not zero as written, zero as a double
-    NUMBER_TOO_LONG,      // more than 1000 characters
-    NUMBER_NOT_INTEGER,   // an integer takes digits only
+    NUMBER_NOT_A_NUMBER, // no number at all: letters, two dots, trailing text
+    NUMBER_NAN,          // nan, .nan
+    NUMBER_INFINITE,     // inf, .inf, infinity
+    NUMBER_HEX,          // 0x1f
+    NUMBER_OCTAL,        // 0o17
+    NUMBER_UNDERSCORE,   // 1_000
+    NUMBER_COMMA,        // 0,5
+    NUMBER_LEADING_ZERO, // 007
+    NUMBER_UNIT,         // 60deg: a number with letters behind it
+    NUMBER_OVERFLOW,     // beyond the range of a double
+    NUMBER_UNDERFLOW,    // not zero as written, zero as a double
+    NUMBER_TOO_LONG,     // more than 1000 characters
+    NUMBER_NOT_INTEGER,  // an integer takes digits only
+    NUMBER_DASH,         // a dash or minus sign of typesetting in place of '-'
 };
 
 // Reads [+-]?(digits[.digits?]|.digits)([eE][+-]?digits)? without superfluous leading zeros.
-// *value is set where the result is NUMBER_OK, else 0. -0 reads as 0.
+// *value is set where the result is NUMBER_OK, else 0. -0 reads as 0. The double is the nearest one
+// (ties to even), as strtod gives it.
 enum number_status number_parse(str text, double *value);
-// Digits with an optional sign, no superfluous leading zeros, within the range of int64_t.
+// Digits with an optional sign, no superfluous leading zeros, within the range of int64_t. A number of
+// another form is NUMBER_NOT_INTEGER.
 enum number_status number_parse_integer(str text, int64_t *value);
 // What is wrong, as words that continue "...": "has a decimal comma"; never NULL.
 const char *number_problem(enum number_status status);
 
-enum { NUMBER_FORMAT_MAX = 40 };
-// Writes the shortest digits that read back to the same double, large and small ones as 1.0e+20;
-// returns the length. -0 is written as 0.
+enum {
+    NUMBER_FORMAT_MAX = 40
+};
+// Writes the fewest digits that read back to the same double (of several such numbers the nearest), large
+// and small ones as 1.0e+20, with a NUL behind; returns the length. -0 is written as 0. NaN and infinity,
+// which no scene can hold, come out as .nan and .inf, which no reader takes.
 size_t number_format(double value, char out[NUMBER_FORMAT_MAX]);
 
 #endif

@@ -1,7 +1,8 @@
 // Outputs that are whole or not there: written to a temporary name beside the target, then renamed.
 //
-// A failed or abandoned run leaves the old file as it was. A target that exists and is no regular file
-// (a device, a pipe) is written to directly; "-" is standard output.
+// A failed or abandoned run leaves the old file as it was. Permissions are kept, and links: their target is
+// replaced. A target that exists and is no regular file (a device, a pipe) is written to directly; "-" is
+// standard output. The program ignores SIGPIPE and SIGXFSZ, so that they come back as errors here.
 // Thread safety: one output belongs to one thread. After an error every later call does nothing.
 #ifndef GLINT_CORE_OUTPUT_H
 #define GLINT_CORE_OUTPUT_H

@@ -1,10 +1,18 @@
+// For sched_getaffinity: a container or `taskset` may allow fewer processors than are online.
+#define _GNU_SOURCE
+
 #include "core/parallel.h"
 
+#include <assert.h>
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
+#include <stdint.h>
 #include <unistd.h>
 
-enum { THREADS_MAX = 64 };
+enum {
+    THREADS_MAX = 64
+};
 
 struct job {
     parallel_body *body;
@@ -15,7 +23,9 @@ struct job {
 };
 
 unsigned parallel_processors(void) {
-    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    cpu_set_t allowed;
+    long online = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed)
+                                                                      : sysconf(_SC_NPROCESSORS_ONLN);
     return online < 1 ? 1 : online > THREADS_MAX ? THREADS_MAX : (unsigned)online;
 }
 
@@ -31,9 +41,10 @@ static void *work(void *argument) {
 }
 
 void parallel_for(size_t count, size_t piece, parallel_body *body, void *context) {
+    assert(piece > 0 && count <= SIZE_MAX / 2);
     struct job job = {.body = body, .context = context, .count = count, .piece = piece};
     pthread_t threads[THREADS_MAX];
-    size_t pieces = (count + piece - 1) / piece;
+    size_t pieces = count / piece + (count % piece != 0);
     unsigned wanted = parallel_processors();
     unsigned started = 0;
     while (started + 1 < wanted && started + 1 < pieces &&

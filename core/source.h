@@ -20,7 +20,9 @@ typedef struct {
     uint32_t end;
 } span;
 
-enum { SOURCE_DEFAULT = 0 };
+enum {
+    SOURCE_DEFAULT = 0
+};
 #define SPAN_NONE ((span){0, 0, 0})
 
 enum source_kind {

@@ -1,12 +1,24 @@
 #include "core/str.h"
 
+#include "core/unicode.h"
+
 #include <string.h>
 
-str str_from(const char *cstring) { return (str){cstring ? cstring : "", cstring ? strlen(cstring) : 0}; }
+enum {
+    NAME_LETTERS_MAX = 128
+};
 
-bool str_equal(str a, str b) { return a.len == b.len && (a.len == 0 || memcmp(a.ptr, b.ptr, a.len) == 0); }
+str str_from(const char *cstring) {
+    return (str){cstring ? cstring : "", cstring ? strlen(cstring) : 0};
+}
 
-bool str_equal_cstr(str a, const char *b) { return str_equal(a, str_from(b)); }
+bool str_equal(str a, str b) {
+    return a.len == b.len && (a.len == 0 || memcmp(a.ptr, b.ptr, a.len) == 0);
+}
+
+bool str_equal_cstr(str a, const char *b) {
+    return str_equal(a, str_from(b));
+}
 
 int str_compare(str a, str b) {
     size_t n = a.len < b.len ? a.len : b.len;
@@ -20,7 +32,9 @@ bool str_starts_with(str s, str prefix) {
     return s.len >= prefix.len && str_equal(str_slice(s, 0, prefix.len), prefix);
 }
 
-static char ascii_lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
+static char ascii_lower(char c) {
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
 
 bool str_ends_with_nocase(str s, const char *suffix) {
     size_t n = strlen(suffix);
@@ -37,10 +51,12 @@ str str_slice(str s, size_t begin, size_t end) {
         end = s.len;
     if (begin > end)
         begin = end;
-    return (str){s.ptr + begin, end - begin};
+    return (str){begin ? s.ptr + begin : s.ptr, end - begin};
 }
 
-static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
 
 str str_trim(str s) {
     while (s.len && is_blank(s.ptr[0]))
@@ -58,13 +74,16 @@ uint64_t str_hash(str s) {
 }
 
 size_t utf8_sequence_length(str s, size_t at) {
-    const unsigned char *p = (const unsigned char *)s.ptr + at;
-    size_t left = s.len - at;
     if (at >= s.len)
         return 0;
+    const unsigned char *p = (const unsigned char *)s.ptr + at;
+    size_t left = s.len - at;
     if (p[0] < 0x80)
         return 1;
-    size_t n = p[0] >= 0xC2 && p[0] <= 0xDF ? 2 : (p[0] & 0xF0) == 0xE0 ? 3 : p[0] >= 0xF0 && p[0] <= 0xF4 ? 4 : 0;
+    size_t n = p[0] >= 0xC2 && p[0] <= 0xDF   ? 2
+               : (p[0] & 0xF0) == 0xE0        ? 3
+               : p[0] >= 0xF0 && p[0] <= 0xF4 ? 4
+                                              : 0;
     if (n == 0 || left < n)
         return 0;
     for (size_t i = 1; i < n; i++)
@@ -76,13 +95,23 @@ size_t utf8_sequence_length(str s, size_t at) {
     return n;
 }
 
+// Where the run of ASCII that begins at `at` ends, eight bytes at a time: scenes and meshes are nearly all
+// ASCII.
+static size_t skip_ascii(str s, size_t at) {
+    uint64_t eight;
+    while (s.len - at >= sizeof eight) {
+        memcpy(&eight, s.ptr + at, sizeof eight);
+        if (eight & UINT64_C(0x8080808080808080))
+            break;
+        at += sizeof eight;
+    }
+    while (at < s.len && (unsigned char)s.ptr[at] < 0x80)
+        at++;
+    return at;
+}
+
 size_t utf8_first_error(str s) {
-    size_t at = 0;
-    while (at < s.len) {
-        if ((unsigned char)s.ptr[at] < 0x80) {
-            at++;
-            continue;
-        }
+    for (size_t at = skip_ascii(s, 0); at < s.len; at = skip_ascii(s, at)) {
         size_t n = utf8_sequence_length(s, at);
         if (n == 0)
             return at;
@@ -108,38 +137,30 @@ uint32_t utf8_decode(str s, size_t at) {
 
 size_t utf8_count(str s) {
     size_t count = 0;
-    for (size_t at = 0; at < s.len; count++) {
+    size_t at = 0;
+    while (at < s.len) {
+        size_t ascii_end = skip_ascii(s, at);
+        count += ascii_end - at;
+        at = ascii_end;
+        if (at == s.len)
+            break;
         size_t n = utf8_sequence_length(s, at);
         at += n ? n : 1;
+        count++;
     }
     return count;
-}
-
-// Letters of any script: every code point above ASCII counts as one, but for the blocks that hold
-// spaces, controls, punctuation, symbols and private use.
-static bool is_letter(uint32_t c) {
-    if (c < 0x80)
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (c < 0xC0)
-        return c == 0xAA || c == 0xB5 || c == 0xBA;
-    if (c == 0xD7 || c == 0xF7)
-        return false;
-    return !(c >= 0x2000 && c <= 0x2BFF) && !(c >= 0x3000 && c <= 0x3004) && !(c >= 0x3008 && c <= 0x3020) &&
-           !(c >= 0xE000 && c <= 0xF8FF) && !(c >= 0xFE00 && c <= 0xFE6F) && !(c >= 0xFF00 && c <= 0xFF20) &&
-           c != 0x1680 && c != 0xFEFF && !(c >= 0xFFF0 && c <= 0xFFFF) && c < 0xE0000;
 }
 
 bool str_is_name(str s) {
     size_t count = 0;
     for (size_t at = 0; at < s.len; count++) {
         size_t n = utf8_sequence_length(s, at);
-        if (n == 0)
+        if (n == 0 || count == NAME_LETTERS_MAX)
             return false;
         uint32_t c = utf8_decode(s, at);
-        bool digit = c >= '0' && c <= '9';
-        if (!(is_letter(c) || c == '_' || c == '-' || (digit && count > 0)))
+        if (!(unicode_is_letter(c) || c == '_' || c == '-' || (count > 0 && unicode_is_digit(c))))
             return false;
         at += n;
     }
-    return count >= 1 && count <= 128;
+    return count >= 1;
 }

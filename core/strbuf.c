@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-void strbuf_init(struct strbuf *buffer) { *buffer = (struct strbuf){0}; }
+void strbuf_init(struct strbuf *buffer) {
+    *buffer = (struct strbuf){0};
+}
 
 void strbuf_finish(struct strbuf *buffer) {
     if (!buffer)
@@ -33,6 +35,8 @@ static bool reserve(struct strbuf *buffer, size_t more) {
     size_t wanted = buffer->capacity ? buffer->capacity * 2 : 256;
     if (wanted < need)
         wanted = need;
+    if (buffer->cap_bytes && wanted > buffer->cap_bytes)
+        wanted = buffer->cap_bytes;
     char *moved = realloc(buffer->data, wanted);
     if (!moved) {
         buffer->failed = true;
@@ -52,11 +56,17 @@ void strbuf_add(struct strbuf *buffer, const void *bytes, size_t count) {
     buffer->data[buffer->len] = '\0';
 }
 
-void strbuf_str(struct strbuf *buffer, str s) { strbuf_add(buffer, s.ptr, s.len); }
+void strbuf_str(struct strbuf *buffer, str s) {
+    strbuf_add(buffer, s.ptr, s.len);
+}
 
-void strbuf_cstr(struct strbuf *buffer, const char *s) { strbuf_add(buffer, s, strlen(s)); }
+void strbuf_cstr(struct strbuf *buffer, const char *s) {
+    strbuf_add(buffer, s, strlen(s));
+}
 
-void strbuf_char(struct strbuf *buffer, char c) { strbuf_add(buffer, &c, 1); }
+void strbuf_char(struct strbuf *buffer, char c) {
+    strbuf_add(buffer, &c, 1);
+}
 
 void strbuf_repeat(struct strbuf *buffer, char c, size_t count) {
     if (!reserve(buffer, count))
@@ -72,7 +82,9 @@ void strbuf_format(struct strbuf *buffer, const char *format, ...) {
     va_start(args, format);
     va_copy(again, args);
     int length = vsnprintf(NULL, 0, format, args);
-    if (length >= 0 && reserve(buffer, (size_t)length)) {
+    if (length < 0)
+        buffer->failed = true;
+    else if (reserve(buffer, (size_t)length)) {
         vsnprintf(buffer->data + buffer->len, (size_t)length + 1, format, again);
         buffer->len += (size_t)length;
     }
@@ -80,4 +92,6 @@ void strbuf_format(struct strbuf *buffer, const char *format, ...) {
     va_end(args);
 }
 
-str strbuf_view(const struct strbuf *buffer) { return (str){buffer->data ? buffer->data : "", buffer->len}; }
+str strbuf_view(const struct strbuf *buffer) {
+    return (str){buffer->data ? buffer->data : "", buffer->len};
+}

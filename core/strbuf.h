@@ -1,7 +1,9 @@
 // A growing byte buffer on the heap, for text and files that are made in memory before they are written.
 //
 // Appending never fails loudly: when memory ends or `cap_bytes` is passed, `failed` is set and further
-// appends do nothing; the owner asks once at the end. Thread safety: one thread at a time.
+// appends do nothing; the owner asks once at the end. Ownership: `strbuf_finish` frees; views are valid until
+// the next append, and must not be appended to the buffer that they are of.
+// Thread safety: one thread at a time.
 #ifndef GLINT_CORE_STRBUF_H
 #define GLINT_CORE_STRBUF_H
 
@@ -11,12 +13,13 @@ struct strbuf {
     char *data; // NUL-terminated where not NULL
     size_t len;
     size_t capacity;
-    size_t cap_bytes; // 0: no cap
+    size_t cap_bytes; // of memory, the closing NUL included; 0: no cap
     bool failed;
 };
 
 void strbuf_init(struct strbuf *buffer);
 void strbuf_finish(struct strbuf *buffer);
+// Empties it and keeps its memory; `failed` stays as it is.
 void strbuf_clear(struct strbuf *buffer);
 void strbuf_add(struct strbuf *buffer, const void *bytes, size_t count);
 void strbuf_str(struct strbuf *buffer, str s);

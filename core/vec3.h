@@ -20,18 +20,36 @@ typedef struct {
     vec3 offset;
 } affine3;
 
-static inline vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
-static inline vec3 vec3_sub(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-static inline vec3 vec3_mul(vec3 a, double s) { return (vec3){a.x * s, a.y * s, a.z * s}; }
-static inline vec3 vec3_neg(vec3 a) { return (vec3){-a.x, -a.y, -a.z}; }
-static inline double vec3_dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline vec3 vec3_add(vec3 a, vec3 b) {
+    return (vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline vec3 vec3_sub(vec3 a, vec3 b) {
+    return (vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static inline vec3 vec3_mul(vec3 a, double s) {
+    return (vec3){a.x * s, a.y * s, a.z * s};
+}
+static inline vec3 vec3_neg(vec3 a) {
+    return (vec3){-a.x, -a.y, -a.z};
+}
+static inline double vec3_dot(vec3 a, vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 static inline vec3 vec3_cross(vec3 a, vec3 b) {
     return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-static inline vec3 vec3_min(vec3 a, vec3 b) { return (vec3){fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z)}; }
-static inline vec3 vec3_max(vec3 a, vec3 b) { return (vec3){fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)}; }
-static inline double vec3_max_abs(vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
-static inline bool vec3_is_zero(vec3 a) { return a.x == 0 && a.y == 0 && a.z == 0; }
+static inline vec3 vec3_min(vec3 a, vec3 b) {
+    return (vec3){fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z)};
+}
+static inline vec3 vec3_max(vec3 a, vec3 b) {
+    return (vec3){fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)};
+}
+static inline double vec3_max_abs(vec3 a) {
+    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+}
+static inline bool vec3_is_zero(vec3 a) {
+    return a.x == 0 && a.y == 0 && a.z == 0;
+}
 
 // Length without overflow or underflow in between: divided by a power of two first, so that scaling by
 // powers of two commutes with it.
@@ -69,6 +87,8 @@ static inline mat3 mat3_mul(mat3 a, mat3 b) {
     return c;
 }
 
-static inline vec3 affine3_apply(affine3 a, vec3 v) { return vec3_add(mat3_apply(a.linear, v), a.offset); }
+static inline vec3 affine3_apply(affine3 a, vec3 v) {
+    return vec3_add(mat3_apply(a.linear, v), a.offset);
+}
 
 #endif
