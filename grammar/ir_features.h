@@ -14,7 +14,9 @@
 #include "grammar/ir_origin.h"
 #include "shaders/features.h"
 
-enum { IR_FEATURE_WORDS_MAX = 200 };
+enum {
+    IR_FEATURE_WORDS_MAX = 200
+};
 
 // Why a feature is on: the first place that switches it on.
 struct ir_feature_reason {

@@ -26,9 +26,9 @@ void ir_dump(const struct ir_scene *scene, struct strbuf *out);
 // Whole files. `scene` is one file alone (ir_file_origin.scene); from `origin` and `sources` come the
 // comments that stand before an entry and the editor's schema line, re-spelled where the other language
 // spells them otherwise. Both may be NULL: then there are none.
-void ir_write_yaml(const struct ir_scene *scene, const struct ir_origin *origin, const struct source_set *sources,
-                   struct ir_write_options options, struct strbuf *out);
-void ir_write_xml(const struct ir_scene *scene, const struct ir_origin *origin, const struct source_set *sources,
-                  struct ir_write_options options, struct strbuf *out);
+void ir_write_yaml(const struct ir_scene *scene, const struct ir_origin *origin,
+                   const struct source_set *sources, struct ir_write_options options, struct strbuf *out);
+void ir_write_xml(const struct ir_scene *scene, const struct ir_origin *origin,
+                  const struct source_set *sources, struct ir_write_options options, struct strbuf *out);
 
 #endif

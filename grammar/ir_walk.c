@@ -1,0 +1,107 @@
+#include "grammar/ir_walk.h"
+
+#include <string.h>
+
+struct ir_any_list ir_walk_list(const struct schema_row *row, const void *element) {
+    struct ir_any_list list = {0};
+    if (row->kind == SCHEMA_LIST)
+        memcpy(&list, schema_field_const(row, element), sizeof list);
+    return list;
+}
+
+void *ir_walk_item(const struct schema_row *row, struct ir_any_list list, uint32_t i) {
+    return (char *)list.items + (size_t)i * row->child->size;
+}
+
+str ir_walk_key(const struct schema_element *schema, const void *element) {
+    int key = schema_key_row(schema);
+    return key < 0 ? (str){"", 0} : *(const str *)schema_field_const(&schema->rows[key], element);
+}
+
+bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item) {
+    return schema_key_row(schema) >= 0 && ir_walk_key(schema, item).len == 0;
+}
+
+uint32_t ir_walk_visible_count(const struct schema_row *row, const void *element) {
+    struct ir_any_list list = ir_walk_list(row, element);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < list.count; i++)
+        count += !ir_walk_is_anonymous(row->child, ir_walk_item(row, list, i));
+    return count;
+}
+
+const struct schema_row *ir_walk_pool(const struct schema_element *target) {
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
+        if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST && SCHEMA_SCENE.rows[i].child == target)
+            return &SCHEMA_SCENE.rows[i];
+    return NULL;
+}
+
+const void *ir_walk_referent(const struct ir_scene *scene, const struct schema_row *row,
+                             const struct ir_material_ref *reference) {
+    const struct schema_row *pool = ir_walk_pool(row->child);
+    if (!scene || !pool)
+        return NULL;
+    struct ir_any_list list = ir_walk_list(pool, scene);
+    return reference->index < list.count ? ir_walk_item(pool, list, reference->index) : NULL;
+}
+
+bool ir_walk_is_inline(const struct ir_scene *scene, const struct schema_row *row,
+                       const struct ir_material_ref *reference) {
+    return reference->name.len == 0 && ir_walk_referent(scene, row, reference);
+}
+
+bool ir_walk_written(const struct schema_element *schema, uint32_t i, const void *element) {
+    const struct schema_row *row = &schema->rows[i];
+    if (row->kind == SCHEMA_LIST) {
+        struct ir_any_list list = ir_walk_list(row, element);
+        for (uint32_t k = 0; k < list.count; k++)
+            if (!ir_walk_is_anonymous(row->child, ir_walk_item(row, list, k)))
+                return true;
+        return false;
+    }
+    if (row->key)
+        return ((const str *)schema_field_const(row, element))->len > 0;
+    return ir_walk_head(element)->written >> i & 1;
+}
+
+bool ir_walk_taken(const struct schema_element *schema, const struct schema_row *row, const void *element) {
+    if (!row->choice)
+        return true;
+    const struct schema_choice *choice = &schema->choices[row->choice - 1];
+    return *(const unsigned *)((const char *)element + choice->tag_offset) == row->alternative;
+}
+
+int ir_walk_short(const struct ir_scene *scene, const struct schema_element *schema, const void *element) {
+    int found = -1;
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        if (row->key || !ir_walk_written(schema, i, element))
+            continue;
+        if (!row->short_form || found >= 0)
+            return -1;
+        if (row->kind == SCHEMA_REFERENCE && ir_walk_is_inline(scene, row, schema_field_const(row, element)))
+            return -1;
+        found = (int)i;
+    }
+    return found;
+}
+
+uint32_t ir_walk_components(const struct schema_row *row, const void *field, double out[4]) {
+    if (row->kind == SCHEMA_VECTOR) {
+        const vec3 *v = field;
+        out[0] = v->x, out[1] = v->y, out[2] = v->z;
+        return 3;
+    }
+    if (row->kind == SCHEMA_COLOR) {
+        const struct ir_color *c = field;
+        out[0] = c->r, out[1] = c->g, out[2] = c->b;
+        return 3;
+    }
+    if (row->kind == SCHEMA_WEIGHTS) {
+        const struct ir_weights *w = field;
+        out[0] = w->diffuse, out[1] = w->specular, out[2] = w->reflection, out[3] = w->refraction;
+        return 4;
+    }
+    return 0;
+}

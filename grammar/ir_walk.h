@@ -1,0 +1,48 @@
+// Reading the IR through the table, for code that knows no element's name.
+//
+// Thread safety: pure functions. Ownership: all pointers point into the scene.
+#ifndef GLINT_GRAMMAR_IR_WALK_H
+#define GLINT_GRAMMAR_IR_WALK_H
+
+#include "grammar/ir.h"
+#include "grammar/schema.h"
+
+// Every list of the IR begins like this.
+struct ir_any_list {
+    void *items;
+    uint32_t count, capacity;
+};
+
+// The list of a SCHEMA_LIST row, and one of its items. Other kinds have the empty list.
+struct ir_any_list ir_walk_list(const struct schema_row *row, const void *element);
+void *ir_walk_item(const struct schema_row *row, struct ir_any_list list, uint32_t i);
+// Items that stand in the list themselves: all but anonymous ones, which stand where they are used.
+bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item);
+uint32_t ir_walk_visible_count(const struct schema_row *row, const void *element);
+
+// The text of the element's key row (a name); empty where it has none.
+str ir_walk_key(const struct schema_element *schema, const void *element);
+// The scene's list that references to `target` point into; NULL if there is none.
+const struct schema_row *ir_walk_pool(const struct schema_element *target);
+// Where a SCHEMA_REFERENCE row leads: NULL where nothing was written or found.
+const void *ir_walk_referent(const struct ir_scene *scene, const struct schema_row *row,
+                             const struct ir_material_ref *reference);
+// Whether it is a body written in place, and not a name.
+bool ir_walk_is_inline(const struct ir_scene *scene, const struct schema_row *row,
+                       const struct ir_material_ref *reference);
+
+// Whether the file gave row `i`. Lists: whether they have an item to show. Keys: whether there is one.
+bool ir_walk_written(const struct schema_element *schema, uint32_t i, const void *element);
+// Whether a row of a choice is the one that the element's tag names; true for rows outside choices.
+bool ir_walk_taken(const struct schema_element *schema, const struct schema_row *row, const void *element);
+// Index of the short row where it is all that was written, the key aside, and has no body in place: then
+// its value can stand for the element. -1 otherwise.
+int ir_walk_short(const struct ir_scene *scene, const struct schema_element *schema, const void *element);
+// The components of a vector, colour or weights; gives their number, 0 for other kinds.
+uint32_t ir_walk_components(const struct schema_row *row, const void *field, double out[4]);
+
+static inline const struct ir_head *ir_walk_head(const void *element) {
+    return element;
+}
+
+#endif
