@@ -22,7 +22,7 @@
 #define BINDING_COUNTERS       11
 #define BINDING_FRAME          12 /* uniform buffer: camera and frame parameters */
 
-/* Node of the 8-wide compressed tree, 5 words (Ylitalo, Karras, Laine 2017, section 4.1):
+/* Node of the 8-wide compressed tree, 5 words (Ylitie, Karras, Laine 2017, section 4.1):
    word 0: x,y,z the corner p of the node's box (float); w: byte 0..2 exponents ex,ey,ez (biased by 127),
            byte 3 the mask of children that are inner nodes
    word 1: x index of the first child node; y index of the first leaf item; z,w eight bytes `meta`:
@@ -31,8 +31,15 @@
    word 2: qlo_x of children 0..3, 4..7; qlo_y
    word 3: qlo_z; qhi_x
    word 4: qhi_y; qhi_z
-   Child boxes are decoded conservatively as t = (p - o)/d + q * (2^e/d). Node 0 is the root. */
+   Leaf items follow each other in slot order. An empty slot has qlo 255 and qhi 0. Node 0 is the root.
+   Slots are octants: bits 4, 2, 1 of the slot are set where the child lies on the upper side in x, y, z. A
+   ray whose direction is negative in an axis has that axis' bit in `octant`; slot ^ octant counts upwards
+   about front to back.
+   Child boxes are decoded conservatively as t = (p - o)/d + q * (2^e/d), and the far distance is multiplied
+   by BOX_FAR_SCALE: 2 gamma(4) for the rounding of the near and far distance (Ize 2013) and as much again
+   for that of a watertight hit, whose vertices are rounded after the origin is subtracted, u = 2^-24. */
 #define NODE_WORDS 5
+#define BOX_FAR_SCALE 1.00000095367431640625 /* 1 + 16 u */
 
 /* Leaf item of the triangle tree, 3 words: vertices v0 v1 v2 in x,y,z and in w
    v0.w: triangle number (bodies in order, triangles in file order; spheres come before and are not counted)
