@@ -1,0 +1,131 @@
+#!/bin/sh
+# The command line as a user sees it: exit codes, where output goes, messages of usage.
+# Usage: run_cli.sh GLINT SOURCE_FOLDER WORK_FOLDER
+set -u
+glint=$1
+source=$2
+work=$3
+failed=0
+cd "$work" || exit 2
+rm -rf -- ./*
+unset GLINT_DEVICE
+
+# expect NAME EXIT PATTERN_OUT PATTERN_ERR command...: patterns are extended regular expressions; '-' means empty.
+expect() {
+    name=$1 wanted=$2 out=$3 err=$4
+    shift 4
+    "$@" >out.txt 2>err.txt </dev/null
+    got=$?
+    good=yes
+    [ "$got" -eq "$wanted" ] || good=no
+    for stream in out err; do
+        pattern=$out && [ $stream = err ] && pattern=$err
+        if [ "$pattern" = - ]; then
+            [ ! -s $stream.txt ] || good=no
+        elif [ -n "$pattern" ]; then
+            grep -qE -e "$pattern" $stream.txt || good=no
+        fi
+    done
+    if [ $good = yes ]; then
+        echo "ok   $name"
+    else
+        echo "FAIL $name: exit $got, wanted $wanted with out '$out', err '$err'"
+        sed 's/^/     out: /' out.txt | head -20
+        sed 's/^/     err: /' err.txt | head -20
+        failed=1
+    fi
+}
+
+cat >good.yaml <<'S'
+glint: 1
+# a small picture
+image: {width: 48, height: 32}
+camera: {position: [0, 0, 5]}
+cameras_unused: 1
+S
+sed -i '/cameras_unused/d' good.yaml
+cat >>good.yaml <<'S'
+lights:
+  - {position: [5, 5, 5]}
+spheres:
+  - {center: [0, 0, 0], radius: 1, material: {albedo: [1, 0.5, 0.2, 0]}}
+S
+printf 'glint: 1\nspheres: [{center: [0, 0, 0], radius: -1}]\n' >bad.yaml
+printf 'glint: 1\nimage: {width: 16, height: 16}\ncameras: {left: {position: [-1, 0, 5]}, right: {position: [1, 0, 5]}}\nspheres: [{center: [0, 0, 0], radius: 1}]\n' >two.yaml
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >tri.obj
+
+expect "version" 0 '^glint [0-9]+\.[0-9]+' - "$glint" --version
+expect "program help" 0 '^Usage: glint COMMAND' - "$glint" --help
+for command in render check inspect convert schema explain devices; do
+    expect "help of $command" 0 "^Usage: glint $command" - "$glint" $command --help
+    expect "help names $command" 0 "^  $command " - "$glint" --help
+done
+expect "no command" 2 - 'command-line:1:1: error: a command is needed' "$glint"
+expect "unknown command" 2 - "command-line:1:7: error: there is no command 'rendr'" "$glint" rendr good.yaml
+expect "nearest command" 2 - "did you mean 'render'" "$glint" rendr good.yaml
+expect "unknown option" 2 - "unknown or ambiguous option '--szie'" "$glint" render good.yaml --szie 3x3
+expect "nearest option" 2 - "did you mean '--size'" "$glint" render good.yaml --szie 3x3
+expect "option of another command" 2 - 'error:' "$glint" check good.yaml --size 3x3
+expect "missing value" 2 - "option '-o' needs a value" "$glint" render good.yaml -o
+expect "bad size" 2 - 'WIDTHxHEIGHT' "$glint" render good.yaml --size 3by3
+expect "size of zero" 2 - 'WIDTHxHEIGHT' "$glint" render good.yaml --size 0x4
+expect "bad samples" 2 - 'from 1 to 4096' "$glint" render good.yaml --samples 0
+expect "unknown limit" 2 - "did you mean 'mesh-bytes'" "$glint" check good.yaml --limit mesh-byte=1
+expect "limit out of range" 2 - 'from 1 to' "$glint" check good.yaml --limit mesh-bytes=0
+expect "limits listed" 0 '^scene-bytes' - "$glint" check --limit help
+expect "too few operands" 2 - 'needs SCENE' "$glint" render
+expect "too many operands" 2 - 'no more than 1 argument' "$glint" render good.yaml two.yaml
+expect "check is silent" 0 - - "$glint" check good.yaml
+expect "check finds the mistake" 1 - 'bad.yaml:2:41: error: .*\[E206\]' "$glint" check bad.yaml
+expect "the highest code of several" 3 - 'none.yaml:1:1: error: .*\[E601\]' "$glint" check bad.yaml none.yaml good.yaml
+expect "a limit is obeyed" 3 - 'E501' "$glint" check good.yaml --limit scene-bytes=10
+expect "inspect" 0 'spheres +1' '' "$glint" inspect good.yaml
+expect "inspect names the reason" 0 'good.yaml:[0-9]+:[0-9]+: ' '' "$glint" inspect good.yaml
+expect "inspect shows no refraction" 0 'not required:.* refraction' '' "$glint" inspect good.yaml
+expect "inspect --ir" 0 'radius: 1' - "$glint" inspect --ir good.yaml
+expect "explain a code" 0 'range' - "$glint" explain e206
+expect "explain an attribute" 0 'refraction' - "$glint" explain material.albedo
+expect "explain nonsense" 2 - 'error:' "$glint" explain nonsense
+expect "schema json" 0 'draft-07' - "$glint" schema json
+expect "schema relaxng" 0 'relaxng.org' - "$glint" schema relaxng
+expect "schema of no kind" 2 - "no kind of schema" "$glint" schema jsn
+expect "convert to xml" 0 - - "$glint" convert good.yaml good.xml
+expect "twin is good" 0 - - "$glint" check good.xml
+expect "the comment came along" 0 'a small picture' - cat good.xml
+"$glint" inspect --ir good.yaml >a.ir && "$glint" inspect --ir good.xml >b.ir
+expect "twins are equal" 0 - - cmp a.ir b.ir
+expect "convert to standard output" 0 '^<Scene|^  <Image' - "$glint" convert good.yaml -
+expect "--set changes a value" 0 'radius: 2' - "$glint" inspect --ir good.yaml --set 'spheres[0].radius=2'
+expect "--set with a mistake" 1 - 'error:.*E206' "$glint" inspect --ir good.yaml --set 'spheres[0].radius=-2'
+expect "--set that leads nowhere" 1 - 'error:.*E220' "$glint" check good.yaml --set 'sphere[0].radius=2'
+printf 'precious' >kept.png
+expect "a failed run keeps the old file" 1 - 'E206' "$glint" render bad.yaml -o kept.png
+expect "it is the old file" 0 '^precious$' - cat kept.png
+expect "an output of no kind" 2 - '\.png, \.pfm' "$glint" render good.yaml -o out.gif
+
+if "$glint" devices >devices.txt 2>/dev/null; then
+    expect "render" 0 - 'out\.png' "$glint" render good.yaml -o out.png
+    expect "a quiet render" 0 - - "$glint" render good.yaml -o out2.png -q
+    expect "the same bytes twice" 0 - - cmp out.png out2.png
+    expect "named after the scene" 0 - 'good\.png' "$glint" render good.yaml
+    expect "pfm" 0 - '' "$glint" render good.yaml -o out.pfm
+    expect "pfm header" 0 '^PF' '' head -c 2 out.pfm
+    expect "hdr" 0 - '' "$glint" render good.yaml -o out.hdr
+    expect "png on standard output" 0 'PNG' '' "$glint" render good.yaml -o -
+    expect "a mesh is a scene" 0 - '' "$glint" render tri.obj --size 16x16 -o tri.png
+    expect "all cameras" 0 - '' "$glint" render two.yaml --camera all -o two.png
+    expect "a picture each" 0 - - cmp two.left.png two.left.png
+    expect "they differ" 1 'differ' '' cmp two.left.png two.right.png
+    expect "an unknown camera" 2 - "did you mean 'left'" "$glint" render two.yaml --camera lft
+    expect "statistics" 0 '' 'device' "$glint" render good.yaml -o out.png --stats
+    expect "statistics as JSON" 0 '"rays"' '' "$glint" render good.yaml -o out.png --stats=json -q
+    expect "repeat" 0 '' 'median' "$glint" render good.yaml -o out.png --repeat 3
+    expect "an unknown device" 4 - 'E702' "$glint" render good.yaml -o out.png --device nonesuch
+    GLINT_DEVICE=nonesuch expect "an unknown device by environment" 4 - 'E702' env GLINT_DEVICE=nonesuch "$glint" render good.yaml -o out.png
+    expect "no driver" 4 - 'mesa-vulkan-drivers' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json "$glint" render good.yaml -o out.png
+    ls | grep -E '\.(png|pfm|hdr)\.' >leftovers.txt
+    expect "no temporary file is left" 0 - - cat leftovers.txt
+else
+    echo "skip: no Vulkan device"
+fi
+exit $failed
