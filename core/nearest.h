@@ -1,7 +1,8 @@
 // "Did you mean": the candidate nearest to a misspelt word.
 //
-// Distance is the optimal string alignment distance (Damerau 1964; restricted transpositions), over bytes,
-// letters compared without case first; a candidate counts when it is at most a third of the word away.
+// Distance is the optimal string alignment distance (Damerau 1964; restricted transpositions), over bytes;
+// ASCII case is ignored, and '-' and blanks equal '_'. A candidate counts when it is at most a third of the
+// longer word's length away, rounded up; words of fewer than three bytes must be equal in that sense.
 // Thread safety: one search belongs to one thread.
 #ifndef GLINT_CORE_NEAREST_H
 #define GLINT_CORE_NEAREST_H

@@ -1,0 +1,97 @@
+#include "core/parallel.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+struct cover {
+    size_t count;
+    size_t piece;
+    atomic_uint *visits;
+    atomic_size_t pieces;
+    atomic_bool wrong;
+};
+
+static void visit(void *context, size_t begin, size_t end) {
+    struct cover *cover = context;
+    // Always the same cuts, whatever the threads.
+    size_t expected_end = begin + cover->piece < cover->count ? begin + cover->piece : cover->count;
+    if (begin % cover->piece != 0 || end != expected_end || begin >= end)
+        atomic_store(&cover->wrong, true);
+    for (size_t i = begin; i < end && i < cover->count; i++)
+        atomic_fetch_add(&cover->visits[i], 1);
+    atomic_fetch_add(&cover->pieces, 1);
+}
+
+static void covers_each_index_once(void **state) {
+    (void)state;
+    static const size_t counts[] = {0, 1, 2, 3, 7, 63, 64, 65, 127, 1000, 1001, 4096, 99991};
+    static const size_t pieces[] = {1, 2, 3, 7, 64, 1000, 100000};
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+        for (size_t p = 0; p < sizeof pieces / sizeof *pieces; p++) {
+            struct cover cover = {.count = counts[c], .piece = pieces[p]};
+            cover.visits = calloc(counts[c] + 1, sizeof *cover.visits);
+            assert_non_null(cover.visits);
+            parallel_for(counts[c], pieces[p], visit, &cover);
+            assert_false(atomic_load(&cover.wrong));
+            assert_int_equal(atomic_load(&cover.pieces), (counts[c] + pieces[p] - 1) / pieces[p]);
+            for (size_t i = 0; i < counts[c]; i++)
+                assert_int_equal(atomic_load(&cover.visits[i]), 1);
+            free(cover.visits);
+        }
+}
+
+static void a_huge_piece_does_not_overflow(void **state) {
+    (void)state;
+    struct cover cover = {.count = 5, .piece = SIZE_MAX / 2};
+    cover.visits = calloc(5, sizeof *cover.visits);
+    assert_non_null(cover.visits);
+    parallel_for(5, SIZE_MAX / 2, visit, &cover);
+    assert_false(atomic_load(&cover.wrong));
+    assert_int_equal(atomic_load(&cover.pieces), 1);
+    free(cover.visits);
+}
+
+static void nest(void *context, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; i++)
+        parallel_for(10, 3, visit, (struct cover *)context + i);
+}
+
+static void loops_may_nest(void **state) {
+    (void)state;
+    enum {
+        OUTER = 20
+    };
+    struct cover covers[OUTER];
+    for (int i = 0; i < OUTER; i++) {
+        covers[i] = (struct cover){.count = 10, .piece = 3};
+        covers[i].visits = calloc(10, sizeof *covers[i].visits);
+    }
+    parallel_for(OUTER, 1, nest, covers);
+    for (int i = 0; i < OUTER; i++) {
+        for (int k = 0; k < 10; k++)
+            assert_int_equal(atomic_load(&covers[i].visits[k]), 1);
+        free(covers[i].visits);
+    }
+}
+
+static void there_is_a_processor(void **state) {
+    (void)state;
+    assert_in_range(parallel_processors(), 1, 1024);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(covers_each_index_once),
+        cmocka_unit_test(a_huge_piece_does_not_overflow),
+        cmocka_unit_test(loops_may_nest),
+        cmocka_unit_test(there_is_a_processor),
+    };
+    return cmocka_run_group_tests_name("parallel", tests, NULL, NULL);
+}
