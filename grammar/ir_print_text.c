@@ -123,8 +123,9 @@ void print_yaml_literal(struct strbuf *out, str text, uint32_t indent) {
 }
 
 void print_xml_text(struct strbuf *out, str text) {
-    for (size_t i = 0; i < text.len; i++) {
-        char c = text.ptr[i];
+    for (size_t at = 0; at < text.len;) {
+        size_t n = utf8_sequence_length(text, at);
+        uint32_t c = utf8_decode(text, at);
         if (c == '&')
             strbuf_cstr(out, "&amp;");
         else if (c == '<')
@@ -133,10 +134,11 @@ void print_xml_text(struct strbuf *out, str text) {
             strbuf_cstr(out, "&gt;");
         else if (c == '"')
             strbuf_cstr(out, "&quot;");
-        else if ((unsigned char)c < 0x20)
-            strbuf_format(out, "&#%d;", c);
+        else if (is_odd(c))
+            strbuf_format(out, "&#%u;", (unsigned)c);
         else
-            strbuf_char(out, c);
+            strbuf_str(out, str_slice(text, at, at + n));
+        at += n ? n : 1;
     }
 }
 

@@ -1,0 +1,161 @@
+// What a table cannot say: the scene rules (E4xx) as repairs on the typed IR, and what a picture needs.
+#include "grammar/generate_values.h"
+#include "grammar/schema.h"
+
+#include <math.h>
+
+static const double FARTHEST = 1e17; // bodies keep this far from the ends of the coordinates
+
+static void forget_row(const struct schema_element *schema, void *element, const char *name) {
+    int row = schema_find_row(schema, str_from(name));
+    if (row >= 0)
+        ((struct ir_head *)element)->written &= ~(UINT64_C(1) << row);
+}
+
+static vec3 shrink(vec3 v) {
+    double largest = vec3_max_abs(v);
+    return largest > FARTHEST ? vec3_mul(v, FARTHEST / 2 / largest) : v;
+}
+
+// The axis that is least along v.
+static vec3 across(vec3 v) {
+    double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z);
+    if (x <= y && x <= z)
+        return (vec3){1, 0, 0};
+    return y <= z ? (vec3){0, 1, 0} : (vec3){0, 0, 1};
+}
+
+static bool is_parallel(vec3 a, vec3 b) {
+    return vec3_length(vec3_cross(vec3_unit(a), vec3_unit(b))) < 1e-3;
+}
+
+static void mend_image(struct ir_image *image) {
+    if ((int64_t)image->width * image->height > 67108864) {
+        image->height = 67108864 / image->width;
+        image->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_IMAGE, STR("height"));
+    }
+}
+
+static void mend_camera(struct ir_camera *camera) {
+    vec3 forward = camera->direction;
+    if (camera->view == IR_VIEW_DIRECTION && vec3_is_zero(forward))
+        forward = camera->direction = (vec3){0, 0, -1};
+    if (camera->view == IR_VIEW_LOOK_AT) {
+        forward = vec3_sub(camera->look_at, camera->position);
+        if (vec3_is_zero(forward)) {
+            camera->look_at = vec3_is_zero(camera->position) ? (vec3){0, 0, -1} : (vec3){0, 0, 0};
+            forward = vec3_sub(camera->look_at, camera->position);
+        }
+    }
+    if (camera->view == IR_VIEW_ROTATION) {
+        camera->up = (vec3){0, 1, 0};
+        forget_row(&SCHEMA_CAMERA, camera, "up");
+        return;
+    }
+    bool is_written = camera->head.written >> schema_find_row(&SCHEMA_CAMERA, STR("up")) & 1;
+    if (is_written && (vec3_is_zero(camera->up) || is_parallel(camera->up, forward)))
+        camera->up = across(forward);
+}
+
+static void mend_light(struct ir_light *light) {
+    if (light->kind != IR_LIGHT_DIRECTION)
+        return;
+    if (vec3_is_zero(light->direction))
+        light->direction = (vec3){0, -1, 0};
+    light->falloff = IR_FALLOFF_NONE;
+    forget_row(&SCHEMA_LIGHT, light, "falloff");
+}
+
+static void mend_rectangle(struct ir_rectangle *rectangle) {
+    rectangle->corner = shrink(rectangle->corner);
+    rectangle->edge_u = shrink(rectangle->edge_u);
+    rectangle->edge_v = shrink(rectangle->edge_v);
+    if (vec3_is_zero(rectangle->edge_u))
+        rectangle->edge_u = (vec3){1, 0, 0};
+    if (vec3_is_zero(rectangle->edge_v) || is_parallel(rectangle->edge_u, rectangle->edge_v))
+        rectangle->edge_v = across(rectangle->edge_u);
+}
+
+// Meshes may be of any size up to a million units.
+static void mend_model(struct ir_model *model) {
+    double largest = vec3_max_abs(model->scale);
+    if (largest > 1e6) {
+        model->scale.x = copysign(fmin(fabs(model->scale.x), 1e6), model->scale.x);
+        model->scale.y = copysign(fmin(fabs(model->scale.y), 1e6), model->scale.y);
+        model->scale.z = copysign(fmin(fabs(model->scale.z), 1e6), model->scale.z);
+    }
+    model->translation = shrink(model->translation);
+}
+
+static double hundredths(double value) {
+    return round(value * 100) / 100;
+}
+
+static vec3 rounded(vec3 v) {
+    return (vec3){hundredths(v.x), hundredths(v.y), hundredths(v.z)};
+}
+
+static vec3 between(struct generator *g, vec3 least, vec3 greatest) {
+    double x = generate_between(g, least.x, greatest.x);
+    double y = generate_between(g, least.y, greatest.y);
+    double z = generate_between(g, least.z, greatest.z);
+    return rounded((vec3){x, y, z});
+}
+
+// A view of the box in which moderate bodies lie, from a few units away.
+static void frame_camera(struct generator *g, struct ir_camera *camera) {
+    camera->position = between(g, (vec3){-4, 0, 7}, (vec3){4, 4, 11});
+    camera->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_CAMERA, STR("position"));
+    vec3 middle = between(g, (vec3){-0.5, -0.5, 0}, (vec3){0.5, 0.5, 0});
+    if (camera->view == IR_VIEW_LOOK_AT) {
+        camera->look_at = middle;
+    } else if (camera->view == IR_VIEW_ROTATION) {
+        camera->position = (vec3){0, 1, 10};
+        camera->rotation = between(g, (vec3){-12, -8, -30}, (vec3){2, 8, 30});
+    } else {
+        camera->direction = rounded(vec3_sub(middle, camera->position));
+        camera->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_CAMERA, STR("direction"));
+    }
+}
+
+static void frame_light(struct ir_light *light) {
+    if (light->kind == IR_LIGHT_POSITION)
+        light->position = vec3_add(vec3_mul(light->position, 4), (vec3){0, 12, 8});
+    light->position = rounded(light->position);
+    if (light->kind == IR_LIGHT_DIRECTION)
+        light->direction.y = -fabs(light->direction.y) - 1;
+    if (light->falloff == IR_FALLOFF_INVERSE_SQUARE) {
+        light->intensity = hundredths(150 + 100 * light->intensity);
+        light->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_LIGHT, STR("intensity"));
+    }
+}
+
+void generate_mend(struct generator *g, struct ir_scene *scene) {
+    bool framed = g->options->renderable;
+    mend_image(&scene->image);
+    if (framed) {
+        scene->image.width = generate_integer(g, SCHEMA_RANGE_EXTENT);
+        scene->image.height = generate_integer(g, SCHEMA_RANGE_EXTENT);
+        scene->image.head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_IMAGE, STR("width"));
+        scene->image.head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_IMAGE, STR("height"));
+        scene->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_SCENE, STR("image"));
+    }
+    for (uint32_t i = 0; i < scene->cameras.count; i++) {
+        if (framed)
+            frame_camera(g, &scene->cameras.items[i]);
+        mend_camera(&scene->cameras.items[i]);
+    }
+    for (uint32_t i = 0; i < scene->lights.count; i++) {
+        if (framed)
+            frame_light(&scene->lights.items[i]);
+        mend_light(&scene->lights.items[i]);
+    }
+    for (uint32_t i = 0; i < scene->spheres.count; i++) {
+        scene->spheres.items[i].center = shrink(scene->spheres.items[i].center);
+        scene->spheres.items[i].radius = fmin(scene->spheres.items[i].radius, FARTHEST);
+    }
+    for (uint32_t i = 0; i < scene->rectangles.count; i++)
+        mend_rectangle(&scene->rectangles.items[i]);
+    for (uint32_t i = 0; i < scene->models.count; i++)
+        mend_model(&scene->models.items[i]);
+}

@@ -1,0 +1,44 @@
+// Random numbers, names and texts for the generator (generate.h). Private to grammar/.
+//
+// Thread safety: one generator belongs to one thread.
+#ifndef GLINT_GRAMMAR_GENERATE_VALUES_H
+#define GLINT_GRAMMAR_GENERATE_VALUES_H
+
+#include "grammar/generate.h"
+#include "grammar/schema.h"
+
+struct generator {
+    uint64_t state;
+    const struct generate_options *options;
+    struct arena *arena;
+    struct ir_scene *scene;
+    // Names of bodies and lights, which are unique among each other.
+    struct {
+        str *items;
+        uint32_t count, capacity;
+    } names;
+};
+
+// splitmix64 (Steele, Lea, Flood 2014).
+uint64_t generate_bits(struct generator *g);
+uint32_t generate_below(struct generator *g, uint32_t count); // 0..count-1; count > 0
+bool generate_chance(struct generator *g, uint32_t percent);
+double generate_unit(struct generator *g); // 0 <= u < 1
+double generate_between(struct generator *g, double least, double greatest);
+
+// A number in the range, never 0 where the range is of a magnitude.
+double generate_number(struct generator *g, enum schema_range range);
+int32_t generate_integer(struct generator *g, enum schema_range range);
+struct ir_color generate_color(struct generator *g, enum schema_range range);
+
+// A valid name: of many scripts, or one that YAML would read as something else.
+str generate_name(struct generator *g);
+// Any text but the empty one, of one line.
+str generate_foreign_name(struct generator *g);
+// Any text that both spellings can hold; may be empty or of several lines.
+str generate_text(struct generator *g);
+
+// Mends what the table cannot say (generate_rules.c).
+void generate_mend(struct generator *g, struct ir_scene *scene);
+
+#endif
