@@ -23,7 +23,8 @@ struct reader_context {
 bool read_yaml(const struct reader_context *context, uint32_t source, struct tree *tree);
 bool read_xml(const struct reader_context *context, uint32_t source, struct tree *tree);
 // A value of `--set` in YAML flow syntax; the tree's root is the value itself, of any kind.
-bool read_yaml_value(const struct reader_context *context, uint32_t source, uint32_t begin, struct tree *tree);
+bool read_yaml_value(const struct reader_context *context, uint32_t source, uint32_t begin,
+                     struct tree *tree);
 // By ending (.xml; .yaml .yml .json), else by the first character that is no blank ('<' is XML).
 bool reader_is_xml(str path, str text);
 

@@ -39,9 +39,9 @@ uint32_t tree_add_text(struct tree *tree, str text) {
     return offset;
 }
 
-uint32_t tree_add_comment(struct tree *tree, uint32_t begin, uint32_t end) {
-    struct tree_comment *comment = ARENA_PUSH(tree->arena, &tree->comments);
-    *comment = (struct tree_comment){begin, end};
+uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment) {
+    struct tree_comment *added = ARENA_PUSH(tree->arena, &tree->comments);
+    *added = comment;
     return tree->comments.count - 1;
 }
 
@@ -59,9 +59,16 @@ span tree_span(const struct tree *tree, tree_index node) {
     return (span){tree->source, tree_node(tree, node)->begin, tree_node(tree, node)->end};
 }
 
-span tree_comments(const struct tree *tree, tree_index node) {
-    uint32_t comment = tree_node(tree, node)->comments;
-    if (comment == 0)
+span tree_trailing_comment(const struct tree *tree, tree_index node) {
+    const struct tree_comment *comment = &tree->comments.items[tree_node(tree, node)->comments];
+    if (comment->trailing_begin == comment->trailing_end)
         return SPAN_NONE;
-    return (span){tree->source, tree->comments.items[comment].begin, tree->comments.items[comment].end};
+    return (span){tree->source, comment->trailing_begin, comment->trailing_end};
+}
+
+span tree_comments(const struct tree *tree, tree_index node) {
+    const struct tree_comment *comment = &tree->comments.items[tree_node(tree, node)->comments];
+    if (comment->begin == comment->end)
+        return tree_trailing_comment(tree, node);
+    return (span){tree->source, comment->begin, comment->end};
 }

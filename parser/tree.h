@@ -22,11 +22,11 @@ enum tree_kind {
 };
 
 enum tree_style {
-    TREE_PLAIN,     // unquoted YAML, or an XML attribute: the attribute decides what it is
-    TREE_QUOTED,    // YAML in quotes, or a block scalar: text, never a number or a boolean
-    TREE_FLOW,      // lists and maps in brackets
-    TREE_BLOCK,     // lists and maps by indentation
-    TREE_ELEMENT,   // an XML element
+    TREE_PLAIN,   // unquoted YAML, or an XML attribute: the attribute decides what it is
+    TREE_QUOTED,  // YAML in quotes, or a block scalar: text, never a number or a boolean
+    TREE_FLOW,    // lists and maps in brackets
+    TREE_BLOCK,   // lists and maps by indentation
+    TREE_ELEMENT, // an XML element
 };
 
 enum tree_key {
@@ -37,16 +37,18 @@ enum tree_key {
 };
 
 enum tree_flag {
-    TREE_BAD = 1, // a diagnostic was given for this node; later stages stay silent about it
+    TREE_BAD = 1,    // a diagnostic was given for this node; later stages stay silent about it
+    TREE_CUT = 2,    // the file broke off inside this list, map or element: what it lacks is not missing
+    TREE_MERGED = 4, // YAML: a key that came by '<<'
 };
 
 typedef uint32_t tree_index;
 
 struct tree_node {
-    uint8_t kind;  // tree_kind
-    uint8_t style; // tree_style
-    uint8_t key;   // tree_key
-    uint8_t flags; // tree_flag
+    uint8_t kind;        // tree_kind
+    uint8_t style;       // tree_style
+    uint8_t key;         // tree_key
+    uint8_t flags;       // tree_flag
     uint32_t begin, end; // span in the source: the token; lists, maps and elements in whole
     uint32_t value;      // scalar: offset in texts; list, map: first child
     uint32_t count;      // scalar: bytes; list: items; map: pairs
@@ -55,43 +57,64 @@ struct tree_node {
 };
 
 struct tree_comment {
-    uint32_t begin, end; // from the first comment to the end of the last
+    uint32_t begin, end;                   // before the entry: from the first comment to the end of the last
+    uint32_t trailing_begin, trailing_end; // behind it on its line; equal: none
 };
 
 struct tree {
     struct arena *arena;
     uint32_t source;
     bool is_xml;
-    struct { struct tree_node *items; uint32_t count, capacity; } nodes;
-    struct { char *items; uint32_t count, capacity; } texts; // decoded scalars, one after the other
-    struct { struct tree_comment *items; uint32_t count, capacity; } comments;
-    tree_index root;    // a map, or TREE_NONE (0) where there is nothing to bind
-    span root_name;     // XML: the root's tag name; YAML: the map's first key
-    str root_tag;       // XML: "Scene"; YAML: empty
-    span schema_line;   // the editor's line, or SPAN_NONE
-    str xsi_attributes; // XML: the xsi attributes of the root, as text
+    struct {
+        struct tree_node *items;
+        uint32_t count, capacity;
+    } nodes;
+    struct {
+        char *items;
+        uint32_t count, capacity;
+    } texts; // decoded scalars, one after the other
+    struct {
+        struct tree_comment *items;
+        uint32_t count, capacity;
+    } comments;
+    tree_index root;       // a map, or TREE_NONE (0) where there is nothing to bind
+    span root_name;        // XML: the root's tag name; YAML: the map's first key
+    str root_tag;          // XML: "Scene"; YAML: empty
+    span schema_line;      // the editor's line, or SPAN_NONE
+    str xsi_attributes;    // XML: the xsi attributes of the root, as text
     span closing_comments; // comments behind the last entry, or SPAN_NONE
-    bool broken;        // libyaml or expat itself stopped: what follows was not read
+    bool broken;           // libyaml or expat itself stopped: what follows was not read
 };
 
 void tree_init(struct tree *tree, struct arena *arena, uint32_t source, bool is_xml);
 tree_index tree_add(struct tree *tree, struct tree_node node);
 // Copies decoded text; gives its offset.
 uint32_t tree_add_text(struct tree *tree, str text);
-uint32_t tree_add_comment(struct tree *tree, uint32_t begin, uint32_t end);
+uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment);
 
-static inline struct tree_node *tree_node(const struct tree *tree, tree_index i) { return &tree->nodes.items[i]; }
+static inline struct tree_node *tree_node(const struct tree *tree, tree_index i) {
+    return &tree->nodes.items[i];
+}
 str tree_text(const struct tree *tree, tree_index scalar);
 span tree_span(const struct tree *tree, tree_index node);
-span tree_comments(const struct tree *tree, tree_index node); // SPAN_NONE if there are none
+// The comments that belong to an entry (a key or an item of a list): those before it, or where there are none
+// the one behind it on its line; SPAN_NONE if there are none. The editor's schema line may lie inside the
+// span.
+span tree_comments(const struct tree *tree, tree_index node);
+// The comment behind the entry on its line, SPAN_NONE if there is none.
+span tree_trailing_comment(const struct tree *tree, tree_index node);
 
 // Walks a map: for (key = tree_first(t, map); key; key = tree_next_key(t, key)) value = tree_value(t, key)
 static inline tree_index tree_first(const struct tree *tree, tree_index parent) {
     const struct tree_node *n = tree_node(tree, parent);
     return n->kind == TREE_LIST || n->kind == TREE_MAP ? n->value : 0;
 }
-static inline tree_index tree_next(const struct tree *tree, tree_index item) { return tree_node(tree, item)->next; }
-static inline tree_index tree_value(const struct tree *tree, tree_index key) { return tree_node(tree, key)->next; }
+static inline tree_index tree_next(const struct tree *tree, tree_index item) {
+    return tree_node(tree, item)->next;
+}
+static inline tree_index tree_value(const struct tree *tree, tree_index key) {
+    return tree_node(tree, key)->next;
+}
 static inline tree_index tree_next_key(const struct tree *tree, tree_index key) {
     return tree_node(tree, tree_node(tree, key)->next)->next;
 }

@@ -1,0 +1,290 @@
+#include "parser/read_yaml.h"
+
+#include <string.h>
+
+// libyaml's words and ours.
+struct yaml_words {
+    const char *problem;
+    const char *context; // NULL: any
+    const char *message;
+    const char *note; // at the context's place; NULL: none
+    const char *help; // NULL: none
+    enum diag_code code;
+    bool at_context; // the mistake is where the context begins
+};
+
+#define TAG_HELP "remove the tag; a text that begins with '!' needs quotes"
+
+static const struct yaml_words words[] = {
+    {"mapping values are not allowed", NULL, "this ':' cannot begin a value here", NULL,
+     "put each key on a line of its own, in one column with its neighbours; a text that holds ': ' needs "
+     "quotes",
+     DIAG_YAML_SYNTAX, false},
+    {"block sequence entries are not allowed", NULL, "a list item ('- ') cannot begin here", NULL,
+     "begin the list on a line of its own, or write it as [a, b]", DIAG_YAML_SYNTAX, false},
+    {"mapping keys are not allowed", NULL, "a key ('? ') cannot begin here", NULL,
+     "put the key on a line of its own", DIAG_YAML_SYNTAX, false},
+    {"could not find expected ':'", NULL, "a ':' is missing behind this key", NULL, "write 'key: value'",
+     DIAG_YAML_SYNTAX, true},
+    {"did not find expected key", NULL, "this does not fit into the map around it", "the map begins here",
+     "the keys of a map stand in one column; what follows a quoted text, a bracket or an alias begins a line "
+     "of its own",
+     DIAG_YAML_SYNTAX, false},
+    {"did not find expected '-' indicator", NULL, "this does not fit into the list around it",
+     "the list begins here", "the items of a list begin with '- ' in one column", DIAG_YAML_SYNTAX, false},
+    {"did not find expected ',' or ']'", NULL, "a ',' or ']' is missing before this", "the list begins here",
+     NULL, DIAG_YAML_SYNTAX, false},
+    {"did not find expected ',' or '}'", NULL, "a ',' or '}' is missing before this", "the map begins here",
+     NULL, DIAG_YAML_SYNTAX, false},
+    {"did not find expected node content", NULL, "a value is missing before this", NULL, NULL,
+     DIAG_YAML_SYNTAX, false},
+    {"found unexpected end of stream", NULL, "the text that begins here has no closing quote", NULL,
+     "close the quotes", DIAG_YAML_SYNTAX, true},
+    {"found unexpected document indicator", NULL, "the text that begins here has no closing quote", NULL,
+     "close the quotes", DIAG_YAML_SYNTAX, true},
+    {"found unknown escape character", NULL, "this escape means nothing in a text in double quotes",
+     "the text begins here", "write '\\\\' for a backslash, or put the text in single quotes",
+     DIAG_YAML_SYNTAX, false},
+    {"did not find expected hexdecimal number", NULL, "this escape needs hexadecimal digits",
+     "the text begins here", "write '\\\\' for a backslash, or put the text in single quotes",
+     DIAG_YAML_SYNTAX, false},
+    {"found invalid Unicode character escape code", NULL, "this escape names no character",
+     "the text begins here", "write the character itself", DIAG_YAML_SYNTAX, false},
+    {"found unexpected ':'", NULL, "a ':' inside brackets needs a blank behind it, or quotes around the text",
+     NULL, NULL, DIAG_YAML_SYNTAX, false},
+    {"did not find expected comment or line break", NULL,
+     "'|' and '>' begin a text of several lines on the next line", NULL,
+     "a text that begins with '|' or '>' needs quotes", DIAG_YAML_SYNTAX, true},
+    {"found an indentation indicator equal to 0", NULL,
+     "'|' and '>' begin a text of several lines on the next line", NULL, NULL, DIAG_YAML_SYNTAX, true},
+    {"did not find expected alphabetic or numeric character", "while scanning an alias",
+     "'*' begins an alias, and no name follows", NULL, "a text that begins with '*' needs quotes",
+     DIAG_YAML_SYNTAX, true},
+    {"did not find expected alphabetic or numeric character", "while scanning an anchor",
+     "'&' begins an anchor, and no name follows", NULL, "a text that begins with '&' needs quotes",
+     DIAG_YAML_SYNTAX, true},
+    {"found undefined tag handle", NULL, "this tag has no meaning in a scene", NULL, TAG_HELP, DIAG_YAML_TAG,
+     false},
+    {"", "while scanning a tag", "this tag has no meaning in a scene", NULL, TAG_HELP, DIAG_YAML_TAG, true},
+    {"", "while parsing a tag", "this tag has no meaning in a scene", NULL, TAG_HELP, DIAG_YAML_TAG, true},
+    {"found incompatible YAML document", NULL, "this version of YAML is not read", NULL,
+     "remove the %YAML line", DIAG_YAML_SYNTAX, false},
+    {"", "while scanning a directive", "a line that begins with '%' is not read", NULL, "remove the line",
+     DIAG_YAML_SYNTAX, true},
+    {"", "while scanning a %YAML directive", "this line is not read", NULL, "remove the line",
+     DIAG_YAML_SYNTAX, true},
+    {"", "while scanning a %TAG directive", "this line is not read", NULL, "remove the line",
+     DIAG_YAML_SYNTAX, true},
+    {"", "while parsing a %TAG directive", "this line is not read", NULL, "remove the line", DIAG_YAML_SYNTAX,
+     true},
+    {"found duplicate", NULL, "this line is given twice", NULL, "remove the line", DIAG_YAML_SYNTAX, false},
+    {"did not find expected <document start>", NULL, "the scene has ended before this", NULL,
+     "a scene file holds one map of keys and values", DIAG_YAML_SYNTAX, false},
+};
+
+static const struct yaml_words *find_words(const char *problem, const char *context) {
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        const struct yaml_words *row = &words[i];
+        if (strncmp(problem, row->problem, strlen(row->problem)) == 0 &&
+            (!row->context || (context && strcmp(context, row->context) == 0)))
+            return row;
+    }
+    return NULL;
+}
+
+static bool is_break(char c) {
+    return c == '\n' || c == '\r';
+}
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+static char byte_at(const struct yaml_reader *r, uint32_t at) {
+    return at < r->text->bytes.len ? r->text->bytes.ptr[at] : '\0';
+}
+
+// One character, or nothing at a line's end.
+static span character_at(const struct yaml_reader *r, uint32_t at) {
+    str text = r->text->bytes;
+    uint32_t length = at < text.len && !is_break(text.ptr[at]) ? (uint32_t)utf8_sequence_length(text, at) : 0;
+    return yaml_span(r, at, at + length);
+}
+
+// From `at` to the blank or line end behind it.
+static span word_at(const struct yaml_reader *r, uint32_t at) {
+    str text = r->text->bytes;
+    uint32_t end = at;
+    while (end < text.len && !is_break(text.ptr[end]) && !is_blank(text.ptr[end]))
+        end++;
+    return yaml_span(r, at, end);
+}
+
+// Whether nothing but blanks, line ends and comments follows.
+static bool at_end(const struct yaml_reader *r, uint32_t at) {
+    str text = r->text->bytes;
+    for (; at < text.len; at++) {
+        if (text.ptr[at] == '#')
+            while (at + 1 < text.len && !is_break(text.ptr[at + 1]))
+                at++;
+        else if (!is_blank(text.ptr[at]) && !is_break(text.ptr[at]))
+            return false;
+    }
+    return true;
+}
+
+void yaml_report_document(struct yaml_reader *r, uint32_t at) {
+    diag_add(&r->sink, DIAG_SECOND_DOCUMENT, word_at(r, at),
+             "a second document begins here; a scene file holds one");
+    diag_help(&r->sink, "put it into a file of its own; 'include' joins files");
+}
+
+// A character that begins no token.
+static void report_character(struct yaml_reader *r, uint32_t at) {
+    char c = byte_at(r, at);
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "nothing can begin with this character");
+    if (c == '@' || c == '`' || c == '%')
+        diag_help(&r->sink, "a text that begins with '%c' needs quotes", c);
+}
+
+static void report_unclosed(struct yaml_reader *r, const struct yaml_words *row, uint32_t opened) {
+    bool list = strstr(row->problem, "']'") != NULL;
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, opened), "the %s that begins here is not closed",
+             list ? "list" : "map");
+    diag_help(&r->sink, "write the closing '%c'", list ? ']' : '}');
+}
+
+static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint32_t problem,
+                       uint32_t context) {
+    uint32_t at = row->at_context ? context : problem;
+    bool word = row->code == DIAG_YAML_TAG || strstr(row->problem, "':'") != NULL;
+    bool flow = strstr(row->problem, "expected ','") != NULL;
+    if (flow && at_end(r, problem)) {
+        report_unclosed(r, row, context);
+        return;
+    }
+    diag_add(&r->sink, row->code, word && row->at_context ? word_at(r, at) : character_at(r, at), "%s",
+             row->message);
+    if (row->note && context != problem)
+        diag_note(&r->sink, character_at(r, context), "%s", row->note);
+    if (row->help)
+        diag_help(&r->sink, "%s", row->help);
+}
+
+void yaml_report(struct yaml_reader *r) {
+    const yaml_parser_t *p = &r->parser;
+    if (p->error == YAML_MEMORY_ERROR) {
+        diag_add(&r->sink, DIAG_OUT_OF_MEMORY, yaml_span(r, r->gap, r->gap),
+                 "no memory for reading the file");
+        return;
+    }
+    const char *problem = p->problem ? p->problem : "";
+    uint32_t at = yaml_byte(r, p->problem_mark);
+    uint32_t context = p->context ? yaml_byte(r, p->context_mark) : at;
+    if (p->error == YAML_READER_ERROR)
+        at = context = r->text->begin + (uint32_t)p->problem_offset;
+    const struct yaml_words *row = find_words(problem, p->context);
+    if (r->is_option) {
+        diag_add(&r->sink, DIAG_SET_SYNTAX, character_at(r, row && row->at_context ? context : at), "%s",
+                 row ? row->message : "the value cannot be read");
+        diag_help(&r->sink, "a value is YAML flow text: 1.5, \"text\", [a, b] or {key: value}");
+    } else if (row && r->document_end && row->code == DIAG_YAML_SYNTAX && strstr(problem, "document start") &&
+               byte_at(r, r->document_end - 1) == '.') {
+        yaml_report_document(r, at);
+    } else if (row) {
+        report_row(r, row, at, context);
+    } else if (strstr(problem, "cannot start any token")) {
+        report_character(r, at);
+    } else {
+        diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "the YAML cannot be read here: %s",
+                 problem);
+    }
+}
+
+// ---- what glint understands better than libyaml
+
+// An unquoted colour before `end` that made a comment of the rest of its line.
+static bool find_color(const struct yaml_reader *r, uint32_t begin, uint32_t end,
+                       struct reader_range *color) {
+    str text = r->text->bytes;
+    for (uint32_t at = begin; at < end && at < text.len; at++) {
+        bool starts =
+            text.ptr[at] == '#' && at > 0 && (is_blank(text.ptr[at - 1]) || strchr("[,:{", text.ptr[at - 1]));
+        if (starts && yaml_comment_color(r, at, color)) {
+            bool six = color->end - color->begin == 7;
+            if (six || (color->end < text.len && strchr(",]}", text.ptr[color->end])))
+                return true;
+        }
+    }
+    return false;
+}
+
+static bool repair_color(struct yaml_reader *r, struct diag_sink *sink, uint32_t problem) {
+    uint32_t begin = r->gap;
+    for (uint32_t i = r->depth; i-- > 0;)
+        if (tree_node(r->tree, r->frames[i].node)->style == TREE_FLOW)
+            begin = tree_node(r->tree, r->frames[i].node)->begin;
+    struct reader_range color;
+    if (!find_color(r, begin, problem, &color))
+        return false;
+    yaml_report_color(sink, r->text->bytes, yaml_span(r, color.begin, color.end));
+    reader_text_put(r->context, r->text, color.begin, STR("x"));
+    reader_text_mark(r->context, r->text, color.begin, color.end);
+    return true;
+}
+
+// Puts a blank in the place of each tab before the first token of a line; counts the lines.
+static uint32_t replace_tabs(struct yaml_reader *r) {
+    uint32_t lines = 0;
+    str text = r->text->bytes;
+    for (uint32_t at = r->text->begin; at < text.len;) {
+        bool found = false;
+        for (; at < text.len && (is_blank(text.ptr[at]) ||
+                                 (text.ptr[at] == '-' && at + 1 < text.len && is_blank(text.ptr[at + 1])));
+             at++) {
+            if (text.ptr[at] != '\t')
+                continue;
+            found = true;
+            reader_text_put(r->context, r->text, at, STR(" "));
+            text = r->text->bytes;
+        }
+        lines += found;
+        while (at < text.len && !is_break(text.ptr[at]))
+            at++;
+        at++;
+    }
+    return lines;
+}
+
+static bool repair_tabs(struct yaml_reader *r, struct diag_sink *sink, uint32_t problem) {
+    str text = r->text->bytes;
+    uint32_t at = problem;
+    while (at < text.len && text.ptr[at] == ' ')
+        at++;
+    if (byte_at(r, at) != '\t')
+        return false;
+    uint32_t end = at;
+    while (end < text.len && text.ptr[end] == '\t')
+        end++;
+    diag_add(sink, DIAG_YAML_TAB, yaml_span(r, at, end), "a tab in the indentation");
+    diag_help(sink, "indent with spaces");
+    diag_fix(sink, false, yaml_span(r, at, end), STR("  "));
+    uint32_t lines = replace_tabs(r);
+    if (lines > 1)
+        diag_note(sink, SPAN_NONE, "%u lines of the file are indented with tabs", lines);
+    return byte_at(r, at) != '\t';
+}
+
+bool yaml_repair(struct yaml_reader *r, struct diag_sink *sink, bool *tabs_repaired) {
+    const yaml_parser_t *p = &r->parser;
+    if (p->error != YAML_SCANNER_ERROR && p->error != YAML_PARSER_ERROR)
+        return false;
+    uint32_t problem = yaml_byte(r, p->problem_mark);
+    if (repair_color(r, sink, problem))
+        return true;
+    bool tab =
+        p->problem && (strstr(p->problem, "cannot start any token") || strstr(p->problem, "found a tab"));
+    if (!tab || *tabs_repaired)
+        return false;
+    *tabs_repaired = repair_tabs(r, sink, problem);
+    return *tabs_repaired;
+}

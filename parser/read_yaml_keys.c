@@ -1,0 +1,129 @@
+#include "parser/read_yaml.h"
+
+// Links the pairs of `map` behind the children of the frame.
+static void move_pairs(struct yaml_reader *r, struct yaml_frame *frame, tree_index map) {
+    tree_index first = tree_first(r->tree, map);
+    if (!first)
+        return;
+    if (frame->last)
+        tree_node(r->tree, frame->last)->next = first;
+    else
+        tree_node(r->tree, frame->node)->value = first;
+    for (tree_index key = first; key; key = tree_next_key(r->tree, key)) {
+        tree_node(r->tree, key)->flags |= TREE_MERGED;
+        frame->last = tree_value(r->tree, key);
+        tree_node(r->tree, frame->node)->count++;
+    }
+    frame->has_merged = true;
+}
+
+static void merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_index value) {
+    const struct tree_node *node = tree_node(r->tree, value);
+    if (node->kind == TREE_MAP) {
+        move_pairs(r, frame, value);
+    } else if (!(node->flags & TREE_BAD)) {
+        diag_add(&r->sink, DIAG_YAML_MERGE, tree_span(r->tree, value), "'<<' merges maps, and this is none");
+        diag_help(&r->sink, "write '<<: *name', where the anchor '&name' stands before a map");
+    }
+}
+
+void yaml_merge(struct yaml_reader *r, struct yaml_frame *frame, tree_index value) {
+    if (tree_node(r->tree, value)->kind != TREE_LIST) {
+        merge_one(r, frame, value);
+        return;
+    }
+    for (tree_index item = tree_first(r->tree, value); item;) {
+        tree_index next = tree_next(r->tree, item);
+        merge_one(r, frame, item);
+        item = next;
+    }
+}
+
+// What two values of one key hold, one after the other, where that cannot change what is right about
+// either: both are maps, or lists of maps.
+static bool joins(const struct tree *tree, tree_index a, tree_index b) {
+    unsigned kind = tree_node(tree, a)->kind;
+    if (kind != tree_node(tree, b)->kind || (kind != TREE_LIST && kind != TREE_MAP))
+        return false;
+    if (!tree_first(tree, a) || !tree_first(tree, b))
+        return true;
+    return kind == TREE_MAP || (tree_node(tree, tree_first(tree, a))->kind == TREE_MAP &&
+                                tree_node(tree, tree_first(tree, b))->kind == TREE_MAP);
+}
+
+static void join(struct yaml_reader *r, tree_index into, tree_index from) {
+    struct tree *tree = r->tree;
+    bool is_map = tree_node(tree, into)->kind == TREE_MAP;
+    reader_names_clear(&r->joined_keys);
+    tree_index last = 0;
+    for (tree_index child = tree_first(tree, into); child; child = tree_next(tree, last)) {
+        if (is_map)
+            reader_names_at(&r->joined_keys, tree_text(tree, child))->value = child;
+        last = is_map ? tree_value(tree, child) : child;
+    }
+    for (tree_index child = tree_first(tree, from); child;) {
+        tree_index end = is_map ? tree_value(tree, child) : child;
+        tree_index next = tree_next(tree, end);
+        tree_node(tree, end)->next = 0;
+        if (!is_map || !reader_names_at(&r->joined_keys, tree_text(tree, child))->value) {
+            if (last)
+                tree_node(tree, last)->next = child;
+            else
+                tree_node(tree, into)->value = child;
+            last = end;
+            tree_node(tree, into)->count++;
+        }
+        child = next;
+    }
+}
+
+static void report_twice(struct yaml_reader *r, tree_index first, tree_index second) {
+    str text = tree_text(r->tree, second);
+    diag_add(&r->sink, DIAG_DUPLICATE_KEY, tree_span(r->tree, second), "the key '%.*s' is given twice",
+             STR_ARG(text));
+    diag_note(&r->sink, tree_span(r->tree, first), "it was given here first");
+    tree_index a = tree_value(r->tree, first), b = tree_value(r->tree, second);
+    if (joins(r->tree, a, b)) {
+        // The entries of both are checked, and references to them hold: the mistake is reported once.
+        join(r, a, b);
+        diag_help(&r->sink, "put the entries of both under one key");
+    } else {
+        diag_help(&r->sink, "remove one of the two");
+    }
+}
+
+// One walk over the pairs; `merged` ones or those that the map itself holds.
+static void unique(struct yaml_reader *r, struct yaml_frame *frame, bool merged) {
+    struct tree *tree = r->tree;
+    tree_index before = 0; // the value that stands before the pair
+    for (tree_index key = tree_first(tree, frame->node); key;) {
+        tree_index value = tree_value(tree, key);
+        tree_index next = tree_next(tree, value);
+        bool concerns = ((tree_node(tree, key)->flags & TREE_MERGED) != 0) == merged;
+        struct reader_name *name = concerns ? reader_names_at(&r->keys, tree_text(tree, key)) : NULL;
+        if (name && name->value) {
+            if (!merged)
+                report_twice(r, name->value, key);
+            if (before)
+                tree_node(tree, before)->next = next;
+            else
+                tree_node(tree, frame->node)->value = next;
+            tree_node(tree, frame->node)->count--;
+        } else {
+            if (name)
+                name->value = key;
+            before = value;
+        }
+        key = next;
+    }
+    frame->last = before;
+}
+
+void yaml_unique_keys(struct yaml_reader *r, struct yaml_frame *frame) {
+    if (tree_node(r->tree, frame->node)->count < 2)
+        return;
+    reader_names_clear(&r->keys);
+    unique(r, frame, false);
+    if (frame->has_merged)
+        unique(r, frame, true);
+}
