@@ -10,10 +10,7 @@
 
 #include "assets/assets.h"
 #include "assets/view.h"
-
-struct gpu_word {
-    uint32_t x, y, z, w;
-};
+#include "runtime/gpu_word.h"
 
 struct flat_array {
     struct gpu_word *words;
@@ -25,12 +22,17 @@ struct flat_scene {
     int scale_exponent; // flat = (scene - origin) * 2^scale_exponent
     struct flat_array triangle_nodes, triangles, normals, sphere_nodes, spheres, bodies, materials, lights;
     const struct picture *background; // not owned
-    struct { const void *texels; uint64_t bytes; bool is_float; void *owned; } background_texels;
+    struct {
+        const void *texels;
+        uint64_t bytes;
+        bool is_float;
+        void *owned;
+    } background_texels;
     uint32_t body_count, light_count, triangle_count, sphere_count;
-    uint32_t dropped_triangles; // without area after rounding
-    uint32_t features;          // FEATURE_ bits that the scene needs
+    uint32_t dropped_triangles;            // without area after rounding
+    uint32_t features;                     // FEATURE_ bits that the scene needs
     uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
-    double build_seconds;       // tree building
+    double build_seconds;                  // tree building
 };
 
 struct flat_input {
