@@ -102,7 +102,7 @@ static void put_components(const struct schema_row *row, const void *field, stru
     const char *const *names = schema_components(row->kind);
     double n[4];
     if (row->kind == SCHEMA_COLOR && ((const struct ir_color *)field)->is_hex) {
-        put_pair(out, "hex");
+        put_pair(out, SCHEMA_HEX_ATTRIBUTE);
         print_hex_color(out, ((const struct ir_color *)field)->hex);
         strbuf_char(out, '"');
         return;

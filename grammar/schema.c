@@ -96,8 +96,8 @@ static const struct schema_row trace_rows[] = {
     {.name = "depth_limit", FIELD(ir_trace, depth_limit), .example = "black", .words = depth_words,
      .word_docs = depth_docs, .standard = "background", .feature = FEATURE_DEPTH_BLACK,
      .doc = "What a ray beyond 'max_depth' sees."},
-    {.name = "shadows", FIELD(ir_trace, shadows), .example = "false", .standard = "true",
-     .feature = FEATURE_SHADOWS, .doc = "Whether bodies keep light from other bodies."},
+    {.name = "shadows", FIELD(ir_trace, shadows), .standard = "true", .feature = FEATURE_SHADOWS,
+     .doc = "Whether bodies keep light from other bodies."},
 };
 const struct schema_element SCHEMA_TRACE = {
     ELEMENT("trace", "Trace", ir_trace, trace_rows, "How far rays are followed.")};
@@ -117,9 +117,8 @@ static const struct schema_row camera_rows[] = {
     {.name = "rotation", .element = "Rotation", FIELD(ir_camera, rotation), .example = "-10 0 0",
      .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_ANGLE, .choice = 1, .alternative = IR_VIEW_ROTATION,
      .doc = "Turns a camera that looks along -z: about x, then y, then z."},
-    {.name = "up", .element = "Up", FIELD(ir_camera, up), .example = "0 0 1",
-     .range = SCHEMA_RANGE_COORDINATE, .standard = "0 1 0",
-     .doc = "A direction that is upwards in the picture."},
+    {.name = "up", .element = "Up", FIELD(ir_camera, up), .range = SCHEMA_RANGE_COORDINATE,
+     .standard = "0 1 0", .doc = "A direction that is upwards in the picture."},
     {.name = "fov", FIELD(ir_camera, fov), .example = "45", .unit = SCHEMA_UNIT_DEGREES,
      .range = SCHEMA_RANGE_FOV, .standard = "60", .doc = "Vertical field of view."},
 };
@@ -159,9 +158,8 @@ static const struct schema_row light_rows[] = {
      .standard = "1", .doc = "Factor on the colour."},
     {.name = "color", .element = "Color", FIELD(ir_light, color), .example = "1 0.9 0.8",
      .range = SCHEMA_RANGE_WEIGHT, .standard = "1 1 1", .doc = "Colour of the light."},
-    {.name = "falloff", FIELD(ir_light, falloff), .example = "inverse_square", .words = falloff_words,
-     .word_docs = falloff_docs, .standard = "none", .feature = FEATURE_INVERSE_SQUARE,
-     .doc = "How the light weakens with distance."},
+    {.name = "falloff", FIELD(ir_light, falloff), .words = falloff_words, .word_docs = falloff_docs,
+     .standard = "none", .feature = FEATURE_INVERSE_SQUARE, .doc = "How the light weakens with distance."},
 };
 const struct schema_element SCHEMA_LIGHT = {
     ELEMENT("light", "Light", ir_light, light_rows, "A light without extent; shadows have hard edges."),
@@ -169,7 +167,7 @@ const struct schema_element SCHEMA_LIGHT = {
 
 static const struct schema_row checker_rows[] = {
     {.name = "color", .element = "Color", .plural = "colors", FIELD_PAIR(ir_checker, colors),
-     .example = "0.9 0.9 0.9", .range = SCHEMA_RANGE_WEIGHT, .required = true,
+     .example = "0.9 0.9 0.9", .example_next = "0.1 0.1 0.3", .range = SCHEMA_RANGE_WEIGHT, .required = true,
      .doc = "The two colours; the first is that of the cell at the origin."},
     {.name = "size", FIELD(ir_checker, size), .example = "2", .unit = SCHEMA_UNIT_SCENE,
      .range = SCHEMA_RANGE_LENGTH, .standard = "1",
@@ -255,8 +253,9 @@ const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
 static const struct schema_row map_entry_rows[] = {
     {.name = "from", FIELD(ir_map_entry, from), .example = "Gold", .text = SCHEMA_TEXT_FOREIGN_NAME,
      .key = true, .required = true, .doc = "Name of a material as the mesh file has it."},
-    {.name = "to", FIELD(ir_map_entry, to), .example = "brass", .child = &SCHEMA_MATERIAL, .required = true,
-     .short_form = true, .doc = "Name of the scene's material that takes its place."},
+    {.name = "to", .element = "To", FIELD(ir_map_entry, to), .example = "brass", .child = &SCHEMA_MATERIAL,
+     .required = true, .short_form = true,
+     .doc = "Name of the scene's material that takes its place, or a material of its own."},
 };
 const struct schema_element SCHEMA_MAP_ENTRY = {
     ELEMENT("material_map", "MaterialMap", ir_map_entry, map_entry_rows,

@@ -20,12 +20,15 @@ enum schema_kind {
     SCHEMA_WORD,      // unsigned: one of `words`
     SCHEMA_TEXT,      // str: see schema_text
     SCHEMA_VECTOR,    // vec3: x y z
-    SCHEMA_COLOR,     // struct ir_color: r g b, one number, or #rrggbb
+    SCHEMA_COLOR,     // struct ir_color: r g b, one number, or #rrggbb (an XML element: hex="#rrggbb")
     SCHEMA_WEIGHTS,   // struct ir_weights: diffuse specular reflection refraction
     SCHEMA_ELEMENT,   // a child struct, described by `child`
     SCHEMA_REFERENCE, // struct ir_material_ref: a name, or a body that becomes an anonymous element
     SCHEMA_LIST,      // {items, count, capacity} of `child`
 };
+
+// Where a colour is an XML element, #rrggbb is this attribute of it.
+#define SCHEMA_HEX_ATTRIBUTE "hex"
 
 enum schema_text {
     SCHEMA_TEXT_FREE,
@@ -103,6 +106,7 @@ struct schema_row {
     enum schema_range range;
     const char *standard; // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
     const char *example;  // a value worth showing, as scene text; NULL where examples leave the row out
+    const char *example_next; // SCHEMA_FIXED: of the values behind the first
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;
     bool required;
