@@ -26,7 +26,16 @@ void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row
     (*at)->next = next;
 }
 
-const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head, uint32_t row) {
+void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t row) {
+    struct ir_row_origin **at = &origin->elements.items[element].rows;
+    while (*at && (*at)->row != row)
+        at = &(*at)->next;
+    if (*at)
+        *at = (*at)->next;
+}
+
+const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head,
+                                          uint32_t row) {
     if (head->origin >= origin->elements.count)
         return NULL;
     for (const struct ir_row_origin *r = origin->elements.items[head->origin].rows; r; r = r->next)
@@ -49,14 +58,14 @@ static const struct ir_row_origin *named_row(const struct ir_origin *origin, con
     return ir_origin_row(origin, head, (uint32_t)row);
 }
 
-span ir_place_value(const struct ir_origin *origin, const struct ir_head *head, const struct schema_element *schema,
-                    const char *row_name) {
+span ir_place_value(const struct ir_origin *origin, const struct ir_head *head,
+                    const struct schema_element *schema, const char *row_name) {
     const struct ir_row_origin *row = named_row(origin, head, schema, row_name);
     return row ? row->value : ir_place_label(origin, head);
 }
 
-span ir_place_key(const struct ir_origin *origin, const struct ir_head *head, const struct schema_element *schema,
-                  const char *row_name) {
+span ir_place_key(const struct ir_origin *origin, const struct ir_head *head,
+                  const struct schema_element *schema, const char *row_name) {
     const struct ir_row_origin *row = named_row(origin, head, schema, row_name);
     return row ? row->key : ir_place_label(origin, head);
 }

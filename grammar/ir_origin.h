@@ -46,6 +46,8 @@ void ir_origin_init(struct ir_origin *origin, struct arena *arena);
 uint32_t ir_origin_add(struct ir_origin *origin, struct ir_element_origin element);
 // The row's places are kept in the order of the calls; a row that is added again replaces its places.
 void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row_origin row);
+// Forgets the row's places, where it has any.
+void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t row);
 
 // NULL where the row has no place.
 const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head, uint32_t row);

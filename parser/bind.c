@@ -1,0 +1,306 @@
+#include "parser/bind.h"
+#include "parser/say.h"
+
+#include <string.h>
+
+int bind_find_row(const struct bind_context *context, const struct schema_element *schema, tree_index key,
+                  bool *is_single) {
+    str name = tree_text(context->tree, key);
+    *is_single = false;
+    switch (tree_node(context->tree, key)->key) {
+    case TREE_KEY_ATTRIBUTE:
+        return schema_find_attribute(schema, name);
+    case TREE_KEY_CHILD:
+        return schema_find_child(schema, name);
+    default:
+        return schema_find_yaml(schema, name, is_single);
+    }
+}
+
+struct bind_given bind_given_by(const struct bind_context *context, tree_index key) {
+    return (struct bind_given){.key = key,
+                               .key_span = tree_span(context->tree, key),
+                               .comments = tree_comments(context->tree, key),
+                               .value = tree_value(context->tree, key)};
+}
+
+void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                   struct bind_given given) {
+    ir_origin_add_row(context->origin, bind_head(frame)->origin,
+                      (struct ir_row_origin){.row = row,
+                                             .key = given.key_span,
+                                             .value = tree_span(context->tree, given.value),
+                                             .comments = given.comments});
+    frame->seen |= bind_bit(row);
+}
+
+void bind_report_twice(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                       struct bind_given given) {
+    str s = say_subject(context->scratch, bind_subject(frame, &frame->schema->rows[row]));
+    diag_add(context->sink, DIAG_GIVEN_TWICE, given.key_span, "%.*s is given twice", STR_ARG(s));
+    const struct ir_row_origin *first = ir_origin_row(context->origin, bind_head(frame), row);
+    if (first)
+        diag_note(context->sink, first->key, "first given here");
+    diag_help(context->sink, "remove one of the two");
+}
+
+struct bind_frame bind_aside(struct bind_context *context, const struct bind_frame *frame) {
+    struct bind_frame aside = *frame;
+    aside.seen = 0;
+    aside.memory = arena_alloc(context->scratch, frame->schema->size);
+    schema_init(frame->schema, aside.memory);
+    bind_head(&aside)->origin =
+        ir_origin_add(context->origin, (struct ir_element_origin){.label = frame->label});
+    return aside;
+}
+
+// One row.
+
+static bool bind_reference(struct bind_context *context, struct bind_frame *frame,
+                           const struct schema_row *row, struct bind_given given) {
+    struct ir_material_ref *ref = schema_field(row, frame->memory);
+    enum tree_kind kind = bind_kind(context, given.value);
+    if (kind == TREE_SCALAR && !bind_is_bad(context, given.value)) {
+        str name = tree_text(context->tree, given.value);
+        if (!bind_name_text(context, bind_subject(frame, row), name, tree_span(context->tree, given.value)))
+            return false;
+        *ref = (struct ir_material_ref){arena_copy(context->arena, name), IR_NO_INDEX};
+        return true;
+    }
+    if (kind != TREE_MAP)
+        return bind_wrong_shape(context, bind_subject(frame, row), given.value);
+    void *memory = arena_alloc(context->scratch, row->child->size);
+    schema_init(row->child, memory);
+    struct bind_frame child = {
+        .parent = frame, .schema = row->child, .via = row, .memory = memory, .label = given.key_span};
+    bind_element(context, &child, given.value);
+    const struct schema_row *home = &SCHEMA_SCENE.rows[bind_home_row(row->child)];
+    ref->index = bind_list_push(context->arena, schema_field(home, context->scene), memory, row->child->size);
+    return true;
+}
+
+static bool bind_one(struct bind_context *context, struct bind_frame *frame, const struct schema_row *row,
+                     struct bind_given given) {
+    if (row->kind == SCHEMA_REFERENCE)
+        return bind_reference(context, frame, row, given);
+    if (row->kind != SCHEMA_ELEMENT)
+        return bind_value(context, bind_subject(frame, row), given.value, schema_field(row, frame->memory));
+    struct bind_frame child = {.parent = frame,
+                               .schema = row->child,
+                               .via = row,
+                               .memory = schema_field(row, frame->memory),
+                               .label = given.key_span};
+    return bind_element(context, &child, given.value);
+}
+
+// Whether another row of the same choice was given before; reports it.
+static bool is_excluded(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                        struct bind_given given) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    for (uint32_t i = 0; i < frame->schema->row_count; i++) {
+        const struct schema_row *other = &frame->schema->rows[i];
+        if (i == row || r->choice == 0 || other->choice != r->choice ||
+            !(bind_head(frame)->written & bind_bit(i)))
+            continue;
+        str owner = say_subject(context->scratch, bind_subject(frame, NULL));
+        diag_add(context->sink, DIAG_EXCLUSIVE, given.key_span,
+                 "%.*s has both '%s' and '%s'; only one can hold", STR_ARG(owner), other->name, r->name);
+        const struct ir_row_origin *first = ir_origin_row(context->origin, bind_head(frame), i);
+        if (first)
+            diag_note(context->sink, first->key, "'%s' is here", other->name);
+        diag_help(context->sink, "remove one of the two");
+        return true;
+    }
+    return false;
+}
+
+void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
+              struct bind_given given) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    if (r->many != SCHEMA_ONE) {
+        bind_many(context, frame, row, single, given);
+        return;
+    }
+    if (frame->seen & bind_bit(row)) {
+        bind_report_twice(context, frame, row, given);
+        struct bind_frame aside = bind_aside(context, frame);
+        bind_one(context, &aside, r, given);
+        return;
+    }
+    if (is_excluded(context, frame, row, given)) {
+        struct bind_frame aside = bind_aside(context, frame);
+        bind_one(context, &aside, r, given);
+        bind_note_row(context, frame, row, given);
+        bind_poison(frame, row);
+        return;
+    }
+    bind_note_row(context, frame, row, given);
+    bind_head(frame)->written |= bind_bit(row);
+    if (r->choice) {
+        unsigned tag = r->alternative;
+        memcpy((char *)frame->memory + frame->schema->choices[r->choice - 1].tag_offset, &tag, sizeof tag);
+    }
+    if (!bind_one(context, frame, r, given))
+        bind_poison(frame, row);
+}
+
+// Elements.
+
+// Names come first, so that messages can use them; so does the version, which decides whether to go on.
+static bool comes_first(const struct schema_row *row) {
+    return row->range == SCHEMA_RANGE_VERSION || (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME);
+}
+
+static bool is_ignored(const struct bind_frame *frame, const struct bind_context *context, tree_index key) {
+    return !frame->parent && tree_node(context->tree, key)->key == TREE_KEY_PLAIN &&
+           str_starts_with(tree_text(context->tree, key), STR("x-"));
+}
+
+static void report_named_inline(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    str s = say_subject(context->scratch, bind_subject(frame, NULL));
+    str name = tree_text(context->tree, tree_value(context->tree, key));
+    diag_add(context->sink, DIAG_NAMED_INLINE, tree_span(context->tree, key),
+             "%.*s belongs to it alone and has no name", STR_ARG(s));
+    if (str_is_name(name))
+        diag_help(context->sink, "to use a %s of the scene write %s=\"%.*s\"", frame->schema->name,
+                  frame->via->name, STR_ARG(name));
+}
+
+static void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_index node, bool first) {
+    const struct tree *tree = context->tree;
+    for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key)) {
+        bool single = false;
+        int row = bind_find_row(context, frame->schema, key, &single);
+        if (row >= 0 && comes_first(&frame->schema->rows[row]) != first)
+            continue;
+        if (row < 0) {
+            if (!first && !bind_is_bad(context, key) && !is_ignored(frame, context, key))
+                bind_unknown_name(context, frame, key);
+        } else if (bind_is_bad(context, key)) {
+            if (!(frame->seen & bind_bit((uint32_t)row)))
+                bind_poison(frame, (uint32_t)row);
+            frame->seen |= bind_bit((uint32_t)row);
+        } else if (frame->schema->rows[row].key && frame->via && frame->via->kind == SCHEMA_REFERENCE) {
+            report_named_inline(context, frame, key);
+        } else {
+            bind_row(context, frame, (uint32_t)row, single, bind_given_by(context, key));
+            const struct schema_row *r = &frame->schema->rows[row];
+            if (r->kind == SCHEMA_TEXT && r->text == SCHEMA_TEXT_NAME)
+                frame->name = *(const str *)schema_field_const(r, frame->memory);
+        }
+    }
+}
+
+// Whether a map is the short row's value and not the element: its keys are those of the short row alone.
+static bool is_bare_map(const struct bind_context *context, const struct bind_frame *frame,
+                        const struct schema_row *bare, tree_index node) {
+    const char *const *names = schema_components(bare->kind);
+    bool is_value = false;
+    bool single;
+    for (tree_index key = tree_first(context->tree, node); key; key = tree_next_key(context->tree, key)) {
+        if (bind_find_row(context, frame->schema, key, &single) >= 0)
+            return false;
+        for (uint32_t i = 0; names[i]; i++)
+            is_value = is_value || str_equal_cstr(tree_text(context->tree, key), names[i]);
+        is_value = is_value || (bare->kind == SCHEMA_COLOR &&
+                                str_equal_cstr(tree_text(context->tree, key), SCHEMA_HEX_ATTRIBUTE));
+        is_value = is_value || (bare->child && bind_find_row(context, bare->child, key, &single) >= 0);
+    }
+    return is_value;
+}
+
+static bool is_bare(const struct bind_context *context, const struct bind_frame *frame, int bare,
+                    tree_index node) {
+    enum tree_kind kind = bind_kind(context, node);
+    if (bare < 0 || kind == TREE_NULL)
+        return false;
+    return kind != TREE_MAP || is_bare_map(context, frame, &frame->schema->rows[bare], node);
+}
+
+// The name is the best place for what concerns a whole entry.
+static span best_label(const struct bind_context *context, const struct bind_frame *frame) {
+    for (uint32_t i = 0; i < frame->schema->row_count && frame->via->many != SCHEMA_ONE; i++) {
+        const struct schema_row *row = &frame->schema->rows[i];
+        const struct ir_row_origin *name = ir_origin_row(context->origin, bind_head(frame), i);
+        if (name && row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME)
+            return name->value;
+    }
+    return frame->label;
+}
+
+bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node) {
+    struct ir_head *head = bind_head(frame);
+    head->origin =
+        ir_origin_add(context->origin, (struct ir_element_origin){.at = tree_span(context->tree, node),
+                                                                  .label = frame->label,
+                                                                  .comments = frame->comments});
+    int bare = schema_short_row(frame->schema);
+    if (is_bare(context, frame, bare, node)) {
+        frame->bare = true;
+        struct bind_given given = {.key_span = frame->label, .value = node};
+        bind_row(context, frame, (uint32_t)bare, false, given);
+    } else if (bind_kind(context, node) == TREE_MAP) {
+        bind_keys(context, frame, node, true);
+        frame->label = best_label(context, frame);
+        context->origin->elements.items[head->origin].label = frame->label;
+        bind_default_key(context, frame);
+        bind_keys(context, frame, node, false);
+    } else {
+        return bind_wrong_shape(context, bind_subject(frame, NULL), node);
+    }
+    bind_missing(context, frame, (tree_node(context->tree, node)->flags & (TREE_BAD | TREE_CUT)) != 0);
+    return true;
+}
+
+// The root.
+
+static bool knows_any_key(const struct bind_context *context, const struct bind_frame *frame) {
+    bool single;
+    for (tree_index key = tree_first(context->tree, context->tree->root); key;
+         key = tree_next_key(context->tree, key))
+        if (bind_find_row(context, frame->schema, key, &single) >= 0)
+            return true;
+    return false;
+}
+
+static bool is_scene(struct bind_context *context, const struct bind_frame *frame) {
+    const struct tree *tree = context->tree;
+    const char *first_line = tree->is_xml ? "<Scene glint=\"1\">" : "glint: 1";
+    if (tree->root && tree->is_xml && !str_equal_cstr(tree->root_tag, frame->schema->element)) {
+        diag_add(context->sink, DIAG_NOT_A_SCENE, tree->root_name,
+                 "this is not a glint scene: its root is '%.*s'",
+                 STR_ARG(say_text(context->scratch, tree->root_tag)));
+        diag_help(context->sink, "a scene begins with %s", first_line);
+        return false;
+    }
+    bool is_map = tree->root && bind_kind(context, tree->root) == TREE_MAP;
+    if (is_map && (knows_any_key(context, frame) || tree->is_xml))
+        return true;
+    if (tree->broken || (tree->root && bind_is_bad(context, tree->root)))
+        return false;
+    span at = {tree->source, 0, 0};
+    if (tree->root)
+        at = is_map ? tree->root_name : tree_span(tree, tree->root);
+    diag_add(context->sink, DIAG_NOT_A_SCENE, at, "this is not a glint scene");
+    diag_help(context->sink, "a scene begins with %s", first_line);
+    return false;
+}
+
+struct ir_scene *bind_file(struct bind_context *context) {
+    struct ir_scene *scene = ARENA_NEW(context->arena, struct ir_scene);
+    const struct tree *tree = context->tree;
+    context->scene = scene;
+    schema_init(&SCHEMA_SCENE, scene);
+    struct bind_frame root = {.schema = &SCHEMA_SCENE, .memory = scene, .label = tree->root_name};
+    if (!is_scene(context, &root))
+        return NULL;
+    scene->head.origin =
+        ir_origin_add(context->origin, (struct ir_element_origin){.at = tree_span(tree, tree->root),
+                                                                  .label = tree->root_name});
+    bind_keys(context, &root, tree->root, true);
+    if (context->other_version)
+        return NULL;
+    bind_keys(context, &root, tree->root, false);
+    bind_missing(context, &root, (tree_node(tree, tree->root)->flags & (TREE_BAD | TREE_CUT)) != 0);
+    return scene;
+}

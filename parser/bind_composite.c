@@ -1,0 +1,235 @@
+// Values of several components: vectors, colours, weights; as a list, by name, or as one number or #rrggbb.
+#include "parser/bind.h"
+#include "parser/mend.h"
+#include "parser/say.h"
+
+#include "core/number.h"
+
+#include <string.h>
+
+enum {
+    COMPONENTS_MAX = 4
+};
+
+static uint32_t component_count(enum schema_kind kind) {
+    return kind == SCHEMA_WEIGHTS ? 4 : 3;
+}
+
+static struct bind_subject component_of(struct bind_subject subject, uint32_t i) {
+    subject.component = schema_components(subject.row->kind)[i];
+    return subject;
+}
+
+static bool bind_list(struct bind_context *context, struct bind_subject subject, tree_index node,
+                      double out[COMPONENTS_MAX]) {
+    uint32_t wanted = component_count(subject.row->kind);
+    uint32_t count = tree_node(context->tree, node)->count;
+    bool good = true;
+    uint32_t i = 0;
+    for (tree_index item = tree_first(context->tree, node); item;
+         item = tree_next(context->tree, item), i++) {
+        double beyond;
+        struct bind_subject of = i < wanted ? component_of(subject, i) : subject;
+        good = bind_number(context, of, item, i < wanted ? &out[i] : &beyond) && good;
+    }
+    if (count == wanted)
+        return good;
+    if (tree_node(context->tree, node)->flags & TREE_BAD)
+        return false;
+    const char *const *names = schema_components(subject.row->kind);
+    diag_add(context->sink, DIAG_WRONG_COUNT, tree_span(context->tree, node),
+             "%.*s has %u number%s; it needs %u: %s, %s, %s%s%s",
+             STR_ARG(say_subject(context->scratch, subject)), count, count == 1 ? "" : "s", wanted, names[0],
+             names[1], names[2], wanted == 4 ? ", " : "", wanted == 4 ? names[3] : "");
+    diag_help(context->sink, "for example %.*s",
+              STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+    return false;
+}
+
+static int find_component(const char *const *names, uint32_t count, str key) {
+    for (uint32_t i = 0; i < count; i++)
+        if (str_equal_cstr(key, names[i]))
+            return (int)i;
+    return -1;
+}
+
+// Gives the component that was probably meant, or -1.
+static int unknown_component(struct bind_context *context, struct bind_subject subject, tree_index key) {
+    const char *const *names = schema_components(subject.row->kind);
+    str text = tree_text(context->tree, key);
+    struct mend_search search = mend_begin(context->scratch, text);
+    str list = STR("");
+    for (int i = 0; names[i]; i++) {
+        mend_offer(&search, names[i], i);
+        list = arena_format(context->scratch, "%.*s%s'%s'", STR_ARG(list), i ? ", " : "", names[i]);
+    }
+    span at = tree_span(context->tree, key);
+    diag_add(context->sink, DIAG_UNKNOWN_NAME, at, "%.*s has no '%.*s'; it has %.*s",
+             STR_ARG(say_subject(context->scratch, subject)), STR_ARG(say_text(context->scratch, text)),
+             STR_ARG(list));
+    if (!search.best)
+        return -1;
+    diag_help(context->sink, "did you mean '%s'?", search.best);
+    diag_fix(context->sink, mend_is_safe(&search), at, str_from(search.best));
+    return search.best_id;
+}
+
+static bool report_missing(struct bind_context *context, struct bind_subject subject, tree_index node,
+                           const bool given[COMPONENTS_MAX]) {
+    const char *const *names = schema_components(subject.row->kind);
+    str list = STR("");
+    for (uint32_t i = 0; names[i]; i++)
+        if (!given[i])
+            list =
+                arena_format(context->scratch, "%.*s%s'%s'", STR_ARG(list), list.len ? ", " : "", names[i]);
+    if (list.len == 0)
+        return true;
+    if (tree_node(context->tree, node)->flags & TREE_BAD)
+        return false;
+    diag_add(context->sink, DIAG_MISSING_COMPONENT, tree_span(context->tree, node),
+             "%.*s lacks %.*s; every component is written, 0 too",
+             STR_ARG(say_subject(context->scratch, subject)), STR_ARG(list));
+    diag_help(context->sink, "for example %.*s",
+              STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+    return false;
+}
+
+static bool bind_named(struct bind_context *context, struct bind_subject subject, tree_index node,
+                       double out[COMPONENTS_MAX]) {
+    const struct tree *tree = context->tree;
+    uint32_t wanted = component_count(subject.row->kind);
+    bool given[COMPONENTS_MAX] = {false};
+    bool good = true;
+    for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key)) {
+        bool known = (tree_node(tree, key)->flags & TREE_BAD) != 0;
+        int i = find_component(schema_components(subject.row->kind), wanted, tree_text(tree, key));
+        if (i < 0 || tree_node(tree, key)->key == TREE_KEY_CHILD) {
+            good = false;
+            i = known ? -1 : unknown_component(context, subject, key);
+        } else if (!known) {
+            good = bind_number(context, component_of(subject, (uint32_t)i), tree_value(tree, key), &out[i]) &&
+                   good;
+        }
+        if (i >= 0)
+            given[i] = true;
+    }
+    if (subject.row->kind != SCHEMA_WEIGHTS)
+        good = report_missing(context, subject, node, given) && good;
+    return good;
+}
+
+// Hexadecimal digits.
+
+static bool hex_digits(str digits, uint32_t *value) {
+    *value = 0;
+    for (size_t i = 0; i < digits.len; i++) {
+        char c = digits.ptr[i];
+        uint32_t digit = c >= '0' && c <= '9'   ? (uint32_t)(c - '0')
+                         : c >= 'a' && c <= 'f' ? (uint32_t)(c - 'a') + 10
+                         : c >= 'A' && c <= 'F' ? (uint32_t)(c - 'A') + 10
+                                                : 16;
+        if (digit == 16)
+            return false;
+        *value = *value << 4 | digit;
+    }
+    return true;
+}
+
+static bool bad_color(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    str text = tree_text(context->tree, node);
+    span at = tree_span(context->tree, node);
+    diag_add(context->sink, DIAG_BAD_COLOR, at, "%.*s: '%.*s' is not a colour",
+             STR_ARG(say_subject(context->scratch, subject)), STR_ARG(say_text(context->scratch, text)));
+    uint32_t ignored;
+    bool is_short = text.len == 4 && text.ptr[0] == '#' && hex_digits(str_slice(text, 1, 4), &ignored);
+    bool lacks_hash = text.len == 6 && hex_digits(text, &ignored);
+    if (!is_short && !lacks_hash) {
+        diag_help(context->sink, "write %.*s, or '#' and six hexadecimal digits",
+                  STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+        return false;
+    }
+    const char *c = text.ptr;
+    str mended = is_short
+                     ? arena_format(context->scratch, "#%c%c%c%c%c%c", c[1], c[1], c[2], c[2], c[3], c[3])
+                     : arena_format(context->scratch, "#%.*s", STR_ARG(text));
+    diag_help(context->sink, "write \"%.*s\"", STR_ARG(mended));
+    char first = source_text(context->sources, at).len ? source_text(context->sources, at).ptr[0] : '"';
+    bool bare = !context->tree->is_xml && first != '"' && first != '\'';
+    diag_fix(context->sink, is_short, at,
+             bare ? arena_format(context->scratch, "\"%.*s\"", STR_ARG(mended))
+                  : mend_like(context->scratch, source_text(context->sources, at), mended));
+    return false;
+}
+
+static bool bind_color_text(struct bind_context *context, struct bind_subject subject, tree_index node,
+                            struct ir_color *out) {
+    str text = tree_text(context->tree, node);
+    uint32_t hex;
+    if (text.len == 7 && text.ptr[0] == '#' && hex_digits(str_slice(text, 1, 7), &hex)) {
+        *out = (struct ir_color){.is_hex = true, .hex = hex};
+        return true;
+    }
+    double value = 0;
+    enum number_status status = number_parse(text, &value);
+    bool letter = text.len &&
+                  ((text.ptr[0] >= 'a' && text.ptr[0] <= 'z') || (text.ptr[0] >= 'A' && text.ptr[0] <= 'Z'));
+    bool looks_like_color = text.len && (text.ptr[0] == '#' || (letter && status == NUMBER_NOT_A_NUMBER));
+    bool six_digits = text.len == 6 && status == NUMBER_UNIT && hex_digits(text, &hex);
+    if (looks_like_color || six_digits)
+        return bad_color(context, subject, node);
+    if (!bind_number(context, subject, node, &value))
+        return false;
+    *out = (struct ir_color){.r = value, .g = value, .b = value};
+    return true;
+}
+
+static void store(enum schema_kind kind, const double n[COMPONENTS_MAX], void *out) {
+    if (kind == SCHEMA_VECTOR)
+        *(vec3 *)out = (vec3){n[0], n[1], n[2]};
+    else if (kind == SCHEMA_COLOR)
+        *(struct ir_color *)out = (struct ir_color){.r = n[0], .g = n[1], .b = n[2]};
+    else
+        *(struct ir_weights *)out = (struct ir_weights){n[0], n[1], n[2], n[3]};
+}
+
+// XML: the value of `<Color hex="#rrggbb"/>`; 0 where the element has other attributes.
+static tree_index hex_attribute(const struct bind_context *context, const struct schema_row *row, tree_index node) {
+    const struct tree_node *n = tree_node(context->tree, node);
+    if (row->kind != SCHEMA_COLOR || n->kind != TREE_MAP || n->count != 1 || n->flags & TREE_BAD)
+        return 0;
+    tree_index key = tree_first(context->tree, node);
+    bool is_hex = tree_node(context->tree, key)->key == TREE_KEY_ATTRIBUTE &&
+                  str_equal_cstr(tree_text(context->tree, key), SCHEMA_HEX_ATTRIBUTE);
+    return is_hex ? tree_value(context->tree, key) : 0;
+}
+
+bool bind_composite(struct bind_context *context, struct bind_subject subject, tree_index node, void *out) {
+    const struct tree_node *n = tree_node(context->tree, node);
+    const struct schema_row *row = subject.row;
+    double numbers[COMPONENTS_MAX] = {0};
+    tree_index hex = hex_attribute(context, row, node);
+    if (hex) {
+        bool good = str_starts_with(tree_text(context->tree, hex), STR("#"));
+        return good ? bind_color_text(context, subject, hex, out) : bad_color(context, subject, hex);
+    }
+    if (n->kind == TREE_LIST) {
+        if (!bind_list(context, subject, node, numbers))
+            return false;
+    } else if (n->kind == TREE_MAP) {
+        if (!bind_named(context, subject, node, numbers))
+            return false;
+    } else if (n->kind == TREE_SCALAR && row->kind == SCHEMA_COLOR && !(n->flags & TREE_BAD)) {
+        return bind_color_text(context, subject, node, out);
+    } else if (n->kind == TREE_SCALAR && row->fill && !(n->flags & TREE_BAD)) {
+        if (!bind_number(context, subject, node, &numbers[0]))
+            return false;
+        numbers[1] = numbers[2] = numbers[0];
+    } else {
+        return bind_wrong_shape(context, subject, node);
+    }
+    // A list or map that the reader has reported is looked into, and not believed.
+    if (n->flags & TREE_BAD)
+        return false;
+    store(row->kind, numbers, out);
+    return true;
+}

@@ -1,0 +1,282 @@
+// One value of one row: numbers, words, booleans, texts. Each mistake gets its message and, where the right
+// text is known, a fix.
+#include "parser/bind.h"
+#include "parser/mend.h"
+#include "parser/say.h"
+
+#include "core/nearest.h"
+#include "core/number.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool is_known(const struct bind_context *context, tree_index node) {
+    return (tree_node(context->tree, node)->flags & TREE_BAD) != 0;
+}
+
+bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    if (is_known(context, node))
+        return false;
+    str s = say_subject(context->scratch, subject);
+    diag_add(context->sink, DIAG_NO_VALUE, tree_span(context->tree, node), "%.*s has no value", STR_ARG(s));
+    if (subject.row && subject.row->kind == SCHEMA_TEXT && tree_text(context->tree, node).len)
+        diag_help(context->sink, "'%.*s' stands for nothing in YAML; quote it if you mean the word",
+                  STR_ARG(tree_text(context->tree, node)));
+    else if (subject.row && subject.row->required)
+        diag_help(context->sink, "for example %.*s",
+                  STR_ARG(say_example(context->scratch, subject.row, false)));
+    else
+        diag_help(context->sink, "write the value, or leave the key out");
+    return false;
+}
+
+// What a node is, in words that fit both spellings.
+static str found(struct bind_context *context, tree_index node) {
+    const struct tree_node *n = tree_node(context->tree, node);
+    if (n->kind == TREE_SCALAR)
+        return arena_format(context->scratch, "'%.*s'",
+                            STR_ARG(say_text(context->scratch, tree_text(context->tree, node))));
+    if (n->kind == TREE_LIST)
+        return STR("a list");
+    return n->count ? STR("a group of attributes") : STR("an empty group");
+}
+
+bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    if (is_known(context, node))
+        return false;
+    if (tree_node(context->tree, node)->kind == TREE_NULL)
+        return bind_no_value(context, subject, node);
+    const struct schema_row *row = subject.row ? subject.row : subject.frame->via;
+    str s = say_subject(context->scratch, subject);
+    str expected = subject.row               ? say_expected(context->scratch, row)
+                   : row->many == SCHEMA_ONE ? say_expected(context->scratch, row)
+                                             : STR("a group of attributes");
+    diag_add(context->sink, DIAG_WRONG_SHAPE, tree_span(context->tree, node), "%.*s must be %.*s, not %.*s",
+             STR_ARG(s), STR_ARG(expected), STR_ARG(found(context, node)));
+    diag_help(context->sink, "for example %.*s",
+              STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+    return false;
+}
+
+// Numbers.
+
+static void number_fix(struct bind_context *context, enum number_status status, str text, span at) {
+    str mended = mend_number(context->scratch, status, text);
+    double ignored;
+    if (mended.len == 0 || number_parse(mended, &ignored) != NUMBER_OK)
+        return;
+    bool safe = status == NUMBER_UNDERSCORE || status == NUMBER_HEX;
+    diag_help(context->sink, "write %.*s", STR_ARG(mended));
+    diag_fix(context->sink, safe, at, mend_like(context->scratch, source_text(context->sources, at), mended));
+}
+
+static bool bad_number(struct bind_context *context, struct bind_subject subject, tree_index node,
+                       enum number_status status) {
+    str text = tree_text(context->tree, node);
+    str s = say_subject(context->scratch, subject);
+    span at = tree_span(context->tree, node);
+    if (text.len == 0) {
+        diag_add(context->sink, DIAG_BAD_NUMBER, at, "%.*s is empty; it must be a number", STR_ARG(s));
+        return false;
+    }
+    bool several = status == NUMBER_UNIT && mend_is_numbers(text);
+    if (several) {
+        diag_add(context->sink, DIAG_WRONG_SHAPE, at, "%.*s must be %.*s, not '%.*s'", STR_ARG(s),
+                 STR_ARG(say_expected(context->scratch, subject.row)),
+                 STR_ARG(say_text(context->scratch, text)));
+        diag_help(context->sink, "for example %.*s",
+                  STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+        return false;
+    }
+    diag_add(context->sink, DIAG_BAD_NUMBER, at, "%.*s: '%.*s' %s", STR_ARG(s),
+             STR_ARG(say_text(context->scratch, text)), number_problem(status));
+    number_fix(context, status, text, at);
+    if (context->sink->items[context->sink->count - 1].help.len == 0 && subject.row->example &&
+        (subject.row->kind == SCHEMA_NUMBER || subject.row->kind == SCHEMA_INTEGER))
+        diag_help(context->sink, "for example %.*s",
+                  STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+    return false;
+}
+
+// A number or boolean in quotes is text in YAML.
+static bool quoted(struct bind_context *context, struct bind_subject subject, tree_index node,
+                   const char *what) {
+    str s = say_subject(context->scratch, subject);
+    str text = tree_text(context->tree, node);
+    span at = tree_span(context->tree, node);
+    diag_add(context->sink, DIAG_QUOTED_VALUE, at, "%.*s is in quotes, which makes it text; it must be %s",
+             STR_ARG(s), what);
+    diag_help(context->sink, "write %.*s", STR_ARG(say_text(context->scratch, text)));
+    diag_fix(context->sink, true, at, text);
+    return false;
+}
+
+static bool out_of_range(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    const struct schema_row *row = subject.row;
+    str s = say_subject(context->scratch, subject);
+    str text = say_text(context->scratch, tree_text(context->tree, node));
+    span at = tree_span(context->tree, node);
+    const struct schema_range_info *range = schema_range_info(row->range);
+    if (row->range == SCHEMA_RANGE_VERSION) {
+        context->other_version = true;
+        diag_add(context->sink, DIAG_BAD_VERSION, at,
+                 "the file is written in version %.*s of the language; this program reads version %s",
+                 STR_ARG(text), range->text);
+        return false;
+    }
+    diag_add(context->sink, DIAG_OUT_OF_RANGE, at, "%.*s is %.*s; it must be %s%s", STR_ARG(s), STR_ARG(text),
+             range->text, say_unit(row));
+    bool single = row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_INTEGER;
+    if (row->standard && single)
+        diag_help(context->sink, "%.*s; the default is %s", STR_ARG(say_doc(context->scratch, row->doc)),
+                  row->standard);
+    else
+        diag_help(context->sink, "%.*s", STR_ARG(say_doc(context->scratch, row->doc)));
+    return false;
+}
+
+static bool is_scalar(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    if (is_known(context, node))
+        return false;
+    if (tree_node(context->tree, node)->kind != TREE_SCALAR)
+        return bind_wrong_shape(context, subject, node);
+    return true;
+}
+
+bool bind_number(struct bind_context *context, struct bind_subject subject, tree_index node, double *out) {
+    if (!is_scalar(context, subject, node))
+        return false;
+    bool integer = subject.row->kind == SCHEMA_INTEGER;
+    str text = tree_text(context->tree, node);
+    int64_t whole = 0;
+    double value = 0;
+    enum number_status status = integer ? number_parse_integer(text, &whole) : number_parse(text, &value);
+    if (integer)
+        value = (double)whole;
+    bool is_quoted = tree_node(context->tree, node)->style == TREE_QUOTED;
+    if (is_quoted && status == NUMBER_OK)
+        return quoted(context, subject, node, integer ? "a whole number" : "a number");
+    if (status != NUMBER_OK)
+        return bad_number(context, subject, node, status);
+    if (!schema_in_range(subject.row->range, value))
+        return out_of_range(context, subject, node);
+    *out = value;
+    return true;
+}
+
+// Booleans and words.
+
+static bool bind_boolean(struct bind_context *context, struct bind_subject subject, tree_index node,
+                         bool *out) {
+    str text = tree_text(context->tree, node);
+    bool is_true = str_equal(text, STR("true"));
+    if (is_true || str_equal(text, STR("false"))) {
+        if (tree_node(context->tree, node)->style == TREE_QUOTED)
+            return quoted(context, subject, node, "a boolean");
+        *out = is_true;
+        return true;
+    }
+    str s = say_subject(context->scratch, subject);
+    span at = tree_span(context->tree, node);
+    diag_add(context->sink, DIAG_BAD_BOOLEAN, at, "%.*s is '%.*s'; it must be true or false", STR_ARG(s),
+             STR_ARG(say_text(context->scratch, text)));
+    str mended = mend_boolean(text);
+    if (mended.len) {
+        diag_help(context->sink, "write %.*s", STR_ARG(mended));
+        str written = source_text(context->sources, at);
+        diag_fix(context->sink, true, at,
+                 context->tree->is_xml ? mend_like(context->scratch, written, mended) : mended);
+    }
+    return false;
+}
+
+static bool bind_word(struct bind_context *context, struct bind_subject subject, tree_index node,
+                      unsigned *out) {
+    const char *const *words = subject.row->words;
+    str text = tree_text(context->tree, node);
+    struct mend_search search = mend_begin(context->scratch, text);
+    for (unsigned i = 0; words[i]; i++) {
+        if (str_equal_cstr(text, words[i])) {
+            *out = i;
+            return true;
+        }
+        mend_offer(&search, words[i], (int)i);
+    }
+    str s = say_subject(context->scratch, subject);
+    span at = tree_span(context->tree, node);
+    diag_add(context->sink, DIAG_BAD_CHOICE, at, "%.*s is '%.*s'; it must be %.*s", STR_ARG(s),
+             STR_ARG(say_text(context->scratch, text)), STR_ARG(say_words(context->scratch, words)));
+    if (search.best) {
+        diag_help(context->sink, "did you mean '%s'?", search.best);
+        diag_fix(context->sink, mend_is_safe(&search), at,
+                 mend_like(context->scratch, source_text(context->sources, at), str_from(search.best)));
+    }
+    return false;
+}
+
+// Texts.
+
+bool bind_name_text(struct bind_context *context, struct bind_subject subject, str text, span at) {
+    enum schema_text kind = subject.row->text;
+    bool may_be_empty = subject.row->kind == SCHEMA_TEXT && kind == SCHEMA_TEXT_FREE;
+    if (text.len == 0 && !may_be_empty) {
+        diag_add(context->sink, DIAG_EMPTY_TEXT, at, "%.*s is empty",
+                 STR_ARG(say_subject(context->scratch, subject)));
+        diag_help(context->sink, "for example %.*s",
+                  STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+        return false;
+    }
+    if (subject.row->kind != SCHEMA_TEXT || kind != SCHEMA_TEXT_NAME || str_is_name(text))
+        return true;
+    diag_add(context->sink, DIAG_BAD_NAME, at, "'%.*s' is not a name",
+             STR_ARG(say_text(context->scratch, text)));
+    str mended = mend_name(context->scratch, text);
+    if (str_is_name(mended)) {
+        diag_help(context->sink,
+                  "a name has 1 to 128 letters, digits, '_' or '-' and begins with none of the digits, as in "
+                  "'%.*s'",
+                  STR_ARG(say_text(context->scratch, mended)));
+        diag_fix(context->sink, false, at,
+                 mend_like(context->scratch, source_text(context->sources, at), mended));
+    } else {
+        diag_help(context->sink,
+                  "a name has 1 to 128 letters, digits, '_' or '-' and begins with none of the digits");
+    }
+    return false;
+}
+
+static bool bind_text(struct bind_context *context, struct bind_subject subject, tree_index node, str *out) {
+    str text = tree_text(context->tree, node);
+    bool good = bind_name_text(context, subject, text, tree_span(context->tree, node));
+    // A bad name is kept, so that references to it are not reported as well.
+    if (good || subject.row->text == SCHEMA_TEXT_NAME)
+        *out = arena_copy(context->arena, text);
+    return good;
+}
+
+bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out) {
+    enum schema_kind kind = subject.row->kind;
+    if (kind == SCHEMA_VECTOR || kind == SCHEMA_COLOR || kind == SCHEMA_WEIGHTS)
+        return bind_composite(context, subject, node, out);
+    if (!is_scalar(context, subject, node))
+        return false;
+    double number;
+    switch (kind) {
+    case SCHEMA_BOOLEAN:
+        return bind_boolean(context, subject, node, out);
+    case SCHEMA_INTEGER:
+        if (!bind_number(context, subject, node, &number))
+            return false;
+        *(int32_t *)out = (int32_t)number;
+        return true;
+    case SCHEMA_NUMBER:
+        if (!bind_number(context, subject, node, &number))
+            return false;
+        *(double *)out = number;
+        return true;
+    case SCHEMA_WORD:
+        return bind_word(context, subject, node, out);
+    default:
+        return bind_text(context, subject, node, out);
+    }
+}

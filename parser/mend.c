@@ -1,0 +1,192 @@
+#include "parser/mend.h"
+
+#include "core/nearest.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+static bool is_lower(char c) {
+    return c >= 'a' && c <= 'z';
+}
+static bool is_upper(char c) {
+    return c >= 'A' && c <= 'Z';
+}
+
+static str without(struct arena *arena, str text, char dropped) {
+    str copy = arena_copy(arena, text);
+    char *out = (char *)copy.ptr;
+    size_t length = 0;
+    for (size_t i = 0; i < text.len; i++)
+        if (text.ptr[i] != dropped)
+            out[length++] = text.ptr[i];
+    return (str){out, length};
+}
+
+static str hex_as_decimal(struct arena *arena, str text) {
+    size_t sign = text.len && (text.ptr[0] == '-' || text.ptr[0] == '+') ? 1 : 0;
+    str digits = arena_copy(arena, str_slice(text, sign + 2, text.len));
+    char *end = NULL;
+    if (digits.len == 0 || digits.len > 13)
+        return STR("");
+    unsigned long long value = strtoull(digits.ptr, &end, 16);
+    return *end ? STR("") : arena_format(arena, "%s%llu", text.ptr[0] == '-' ? "-" : "", value);
+}
+
+static str leading_number(str text) {
+    size_t end = 0;
+    while (end < text.len && (is_digit(text.ptr[end]) || strchr("+-.", text.ptr[end])))
+        end++;
+    return str_slice(text, 0, end);
+}
+
+static str without_leading_zeros(struct arena *arena, str text) {
+    size_t sign = text.ptr[0] == '-' || text.ptr[0] == '+' ? 1 : 0;
+    size_t first = sign;
+    while (first + 1 < text.len && text.ptr[first] == '0' && is_digit(text.ptr[first + 1]))
+        first++;
+    return arena_format(arena, "%.*s%.*s", (int)sign, text.ptr, STR_ARG(str_slice(text, first, text.len)));
+}
+
+static str percent(struct arena *arena, str text) {
+    double value;
+    char digits[NUMBER_FORMAT_MAX];
+    if (number_parse(str_slice(text, 0, text.len - 1), &value) != NUMBER_OK)
+        return STR("");
+    size_t length = number_format(value / 100, digits);
+    return arena_copy(arena, (str){digits, length});
+}
+
+static str mend_integer(struct arena *arena, str text) {
+    double value;
+    char digits[NUMBER_FORMAT_MAX];
+    if (number_parse(text, &value) != NUMBER_OK || value != (double)(int32_t)value)
+        return STR("");
+    size_t length = number_format(value, digits);
+    return arena_copy(arena, (str){digits, length});
+}
+
+str mend_number(struct arena *arena, enum number_status status, str text) {
+    str copy;
+    switch (status) {
+    case NUMBER_COMMA:
+        copy = arena_copy(arena, text);
+        *(char *)memchr(copy.ptr, ',', copy.len) = '.';
+        return copy;
+    case NUMBER_UNDERSCORE:
+        return without(arena, text, '_');
+    case NUMBER_HEX:
+        return hex_as_decimal(arena, text);
+    case NUMBER_LEADING_ZERO:
+        return without_leading_zeros(arena, text);
+    case NUMBER_UNIT:
+        return text.ptr[text.len - 1] == '%' ? percent(arena, text) : leading_number(text);
+    case NUMBER_NOT_INTEGER:
+        return mend_integer(arena, text);
+    case NUMBER_NOT_A_NUMBER:
+        return str_trim(text).len < text.len ? str_trim(text) : STR("");
+    default:
+        return STR("");
+    }
+}
+
+bool mend_is_numbers(str text) {
+    unsigned count = 0;
+    str rest = str_trim(text);
+    while (rest.len) {
+        size_t end = 0;
+        while (end < rest.len && !strchr(" ,\t\n", rest.ptr[end]))
+            end++;
+        double ignored;
+        if (number_parse(str_slice(rest, 0, end), &ignored) != NUMBER_OK)
+            return false;
+        count++;
+        while (end < rest.len && strchr(" ,\t\n", rest.ptr[end]))
+            end++;
+        rest = str_slice(rest, end, rest.len);
+    }
+    return count > 1;
+}
+
+static bool equal_nocase(str a, const char *b) {
+    return a.len == strlen(b) && str_ends_with_nocase(a, b);
+}
+
+str mend_boolean(str text) {
+    static const char *const yes[] = {"true", "yes", "on", "y", "1"};
+    static const char *const no[] = {"false", "no", "off", "n", "0"};
+    str word = str_trim(text);
+    for (size_t i = 0; i < sizeof yes / sizeof *yes; i++) {
+        if (equal_nocase(word, yes[i]))
+            return STR("true");
+        if (equal_nocase(word, no[i]))
+            return STR("false");
+    }
+    return STR("");
+}
+
+str mend_name(struct arena *arena, str text) {
+    str copy = arena_format(arena, "%s%.*s", text.len && is_digit(text.ptr[0]) ? "_" : "", STR_ARG(text));
+    char *c = (char *)copy.ptr;
+    for (size_t i = 0; i < copy.len; i++)
+        if ((unsigned char)c[i] < 0x80 && !is_digit(c[i]) && !is_lower(c[i]) && !is_upper(c[i]) &&
+            c[i] != '-')
+            c[i] = '_';
+    return copy;
+}
+
+str mend_like(struct arena *arena, str written, str replacement) {
+    char quote = written.len ? written.ptr[0] : ' ';
+    if (quote != '"' && quote != '\'')
+        return replacement;
+    return arena_format(arena, "%c%.*s%c", quote, STR_ARG(replacement), quote);
+}
+
+str mend_snake(struct arena *arena, str text) {
+    char *out = arena_alloc(arena, 2 * text.len + 1);
+    size_t length = 0;
+    for (size_t i = 0; i < text.len; i++) {
+        char c = text.ptr[i];
+        bool begins = is_upper(c) && i > 0 && (is_lower(text.ptr[i - 1]) || is_digit(text.ptr[i - 1]));
+        if (begins)
+            out[length++] = '_';
+        out[length++] = is_upper(c) ? (char)(c - 'A' + 'a') : c == '-' || c == ' ' ? '_' : c;
+    }
+    return (str){out, length};
+}
+
+struct mend_search mend_begin(struct arena *arena, str word) {
+    return (struct mend_search){
+        .arena = arena, .word = word, .snake = mend_snake(arena, word), .distance = UINT_MAX};
+}
+
+void mend_offer_str(struct mend_search *search, str candidate, int id) {
+    str snake = mend_snake(search->arena, candidate);
+    struct nearest near = nearest_begin(search->snake);
+    nearest_offer(&near, snake);
+    unsigned distance = str_equal(snake, search->snake) ? 0 : near.best_distance;
+    if (distance == UINT_MAX || distance > search->distance)
+        return;
+    if (distance == search->distance) {
+        search->ties += id != search->best_id;
+        return;
+    }
+    search->best = arena_copy(search->arena, candidate).ptr;
+    search->best_id = id;
+    search->distance = distance;
+    search->ties = 0;
+}
+
+void mend_offer(struct mend_search *search, const char *candidate, int id) {
+    mend_offer_str(search, str_from(candidate), id);
+}
+
+bool mend_is_safe(const struct mend_search *search) {
+    if (!search->best || search->ties)
+        return false;
+    size_t length = search->snake.len;
+    return search->distance == 0 || (search->distance <= 2 && search->distance * 3 <= length);
+}

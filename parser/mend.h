@@ -1,0 +1,39 @@
+// What was probably meant: mended numbers, booleans and names, and the nearest of several words.
+// Thread safety: pure but for the arena.
+#ifndef GLINT_PARSER_MEND_H
+#define GLINT_PARSER_MEND_H
+
+#include "core/arena.h"
+#include "core/number.h"
+
+// The number that a wrong spelling means, or the empty string.
+str mend_number(struct arena *arena, enum number_status status, str text);
+// Whether the text is several numbers with blanks or commas between them.
+bool mend_is_numbers(str text);
+// "true" or "false" for yes, On, TRUE, 1 ...; the empty string where it is neither.
+str mend_boolean(str text);
+// Letters that a name must not have become '_'; a digit in front gets one before it.
+str mend_name(struct arena *arena, str text);
+// `replacement` in the quotes that `written`, the text of the file, has.
+str mend_like(struct arena *arena, str written, str replacement);
+// "DiffuseColor", "diffuseColor", "diffuse-color" as diffuse_color.
+str mend_snake(struct arena *arena, str text);
+
+// The nearest of several candidates, compared in snake_case; ties are counted.
+struct mend_search {
+    struct arena *arena;
+    str word; // as written
+    str snake;
+    const char *best; // NULL: none is near enough
+    int best_id;
+    unsigned distance; // 0: only case or style differ
+    unsigned ties;     // other candidates that are as near
+};
+struct mend_search mend_begin(struct arena *arena, str word);
+void mend_offer(struct mend_search *search, const char *candidate, int id);
+void mend_offer_str(struct mend_search *search, str candidate, int id);
+// Whether the best candidate is surely what was meant: only the style differs, or a letter or two does
+// and no other candidate is as near.
+bool mend_is_safe(const struct mend_search *search);
+
+#endif
