@@ -85,7 +85,7 @@ static const struct file_overlay *find_overlay(const struct files *files, str ca
 
 void files_add_overlay(struct files *files, str path, str text) {
     struct file_overlay *overlay = ARENA_PUSH(files->arena, &files->overlays);
-    *overlay = (struct file_overlay){files_canonical(files, path), text};
+    *overlay = (struct file_overlay){files_canonical(files, path), arena_copy(files->arena, text)};
 }
 
 static enum file_status status_of_errno(struct files *files, int error) {
@@ -150,7 +150,9 @@ static enum file_status try_path(struct files *files, str path, str *out) {
     if (allowed)
         return FILE_OK;
     *out = canonical;
-    return FILE_OUTSIDE;
+    struct stat info;
+    bool is_device = stat(canonical.ptr, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+    return is_device ? FILE_NOT_REGULAR : FILE_OUTSIDE;
 }
 
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out) {
@@ -263,9 +265,12 @@ str files_suggest(struct files *files, str path) {
     char best[NAME_MAX + 1] = "";
     struct dirent *entry;
     for (int left = SUGGEST_ENTRIES_MAX; left > 0 && (entry = readdir(directory)); left--) {
-        nearest_offer(&search, str_from(entry->d_name));
-        // The entry's memory is the directory's: copied as soon as it becomes the best.
-        if (search.best.ptr == entry->d_name) {
+        str candidate = str_from(entry->d_name);
+        unsigned before = search.best_distance;
+        nearest_offer(&search, candidate);
+        // Folders have no order: of equals the first by name. The entry's memory is the directory's.
+        bool equal = before != UINT_MAX && nearest_distance(search.word, candidate) == before;
+        if (search.best_distance < before || (equal && str_compare(candidate, search.best) < 0)) {
             snprintf(best, sizeof best, "%s", entry->d_name);
             search.best = str_from(best);
         }

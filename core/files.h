@@ -52,7 +52,7 @@ struct files {
 void files_init(struct files *files, struct arena *arena);
 // Makes `directory` an allowed folder. FILE_MISSING or FILE_NOT_REGULAR where it is no folder.
 enum file_status files_add_root(struct files *files, str directory);
-// Text from memory in place of the file at `path` (which need not exist). The newest one for a path counts.
+// Text from memory in place of the file at `path` (which need not exist); copied. The newest one for a path counts.
 void files_add_overlay(struct files *files, str path, str text);
 // The scene's root: the folder of the nearest `.glintrc.yaml` at or above the scene's folder, else the
 // scene's folder. `scene_path` is as given by the user. On FILE_OK the root has been added.
@@ -60,7 +60,8 @@ enum file_status files_add_scene_root(struct files *files, str scene_path);
 
 // Where the file lies that `base_path` (a file) names `path`: relative paths are tried beside base_path,
 // then below each root after the first, in order. On FILE_OK *out is the path to open, as readable text;
-// for FILE_OUTSIDE *out is where it led. A path that exists but lies outside is FILE_OUTSIDE.
+// for FILE_OUTSIDE *out is where it led. A path that exists but lies outside is FILE_OUTSIDE; a device or
+// pipe out there is FILE_NOT_REGULAR, since no root could allow it.
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out);
 // Reads a file that was resolved, or one that the user named (no root is asked for here). A NUL byte
 // follows the contents, not counted. `cap_bytes` is checked before memory is taken.
