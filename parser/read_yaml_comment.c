@@ -24,31 +24,15 @@ static uint32_t line_end(str text, uint32_t at) {
     return at;
 }
 
-// A comment behind the last token on its line belongs to the first entry that begins on that line.
-static void add_trailing(struct yaml_reader *r, uint32_t begin, uint32_t end) {
-    if (!r->line_entry)
-        return;
-    struct tree_node *entry = tree_node(r->tree, r->line_entry);
-    if (!entry->comments) {
-        uint32_t added =
-            tree_add_comment(r->tree, (struct tree_comment){.trailing_begin = begin, .trailing_end = end});
-        tree_node(r->tree, r->line_entry)->comments = added;
-        return;
-    }
-    struct tree_comment *comment = &r->tree->comments.items[entry->comments];
-    if (comment->trailing_begin == comment->trailing_end) {
-        comment->trailing_begin = begin;
-        comment->trailing_end = end;
-    }
-}
-
 static void add_comment(struct yaml_reader *r, uint32_t begin, uint32_t end, bool trailing) {
     str comment = str_slice(r->text->bytes, begin, end);
     bool first_schema = span_is_none(r->tree->schema_line) && !r->seen_token && is_schema_line(comment);
     if (first_schema)
         r->tree->schema_line = yaml_span(r, begin, end);
     if (trailing) {
-        add_trailing(r, begin, end);
+        // It belongs to the first entry that begins on the line.
+        if (r->line_entry)
+            tree_add_trailing(r->tree, r->line_entry, begin, end);
     } else if (r->pending.begin == r->pending.end) {
         if (!first_schema)
             r->pending = (struct tree_comment){.begin = begin, .end = end};

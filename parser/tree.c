@@ -45,6 +45,18 @@ uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment) {
     return tree->comments.count - 1;
 }
 
+void tree_add_trailing(struct tree *tree, tree_index entry, uint32_t begin, uint32_t end) {
+    if (!tree_node(tree, entry)->comments) {
+        uint32_t added = tree_add_comment(tree, (struct tree_comment){0});
+        tree_node(tree, entry)->comments = added;
+    }
+    struct tree_comment *comment = &tree->comments.items[tree_node(tree, entry)->comments];
+    if (comment->trailing_begin == comment->trailing_end) {
+        comment->trailing_begin = begin;
+        comment->trailing_end = end;
+    }
+}
+
 str tree_text(const struct tree *tree, tree_index scalar) {
     const struct tree_node *node = tree_node(tree, scalar);
     bool has_text = node->kind == TREE_SCALAR || node->kind == TREE_NULL;

@@ -91,6 +91,8 @@ tree_index tree_add(struct tree *tree, struct tree_node node);
 // Copies decoded text; gives its offset.
 uint32_t tree_add_text(struct tree *tree, str text);
 uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment);
+// Gives an entry a comment behind it on its line, where it has none yet.
+void tree_add_trailing(struct tree *tree, tree_index entry, uint32_t begin, uint32_t end);
 
 static inline struct tree_node *tree_node(const struct tree *tree, tree_index i) {
     return &tree->nodes.items[i];

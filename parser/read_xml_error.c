@@ -1,0 +1,211 @@
+#include "parser/read_xml.h"
+
+#include <string.h>
+
+static span word_at(const struct xml_reader *r, uint32_t at) {
+    str text = r->text->bytes;
+    uint32_t end = at;
+    while (end < text.len && !xml_is_blank(text.ptr[end]) && !memchr("<>=/\"'", text.ptr[end], 6))
+        end++;
+    return xml_span(r, at, end > at ? end : at + (at < text.len));
+}
+
+static span character_at(const struct xml_reader *r, uint32_t at) {
+    str text = r->text->bytes;
+    return xml_span(r, at, at + (at < text.len ? (uint32_t)utf8_sequence_length(text, at) : 0));
+}
+
+static bool begins_with(const struct xml_reader *r, uint32_t at, const char *what) {
+    return str_starts_with(str_slice(r->text->bytes, at, r->text->bytes.len), str_from(what));
+}
+
+// The element that was open when the file ended or another was closed.
+static const struct xml_frame *innermost(const struct xml_reader *r) {
+    return r->depth ? &r->frames[r->depth - 1] : NULL;
+}
+
+static str frame_name(const struct xml_reader *r, const struct xml_frame *frame) {
+    return str_slice(r->text->bytes, frame->name.begin, frame->name.end);
+}
+
+static void report_end(struct xml_reader *r) {
+    struct diag_sink *sink = r->context->sink;
+    const struct xml_frame *open = innermost(r);
+    if (!open) {
+        if (sink->errors)
+            return;
+        diag_add(sink, DIAG_EMPTY_FILE, xml_span(r, 0, 0), "the file holds no scene");
+        diag_help(sink, "a scene begins with <Scene glint=\"1\">");
+        return;
+    }
+    str name = frame_name(r, open);
+    diag_add(sink, DIAG_XML_SYNTAX, open->name, "<%.*s> is not closed", STR_ARG(name));
+    diag_help(sink, "write </%.*s> behind what it holds, or '/>' at the end of its tag", STR_ARG(name));
+}
+
+static void report_mismatch(struct xml_reader *r, uint32_t at) {
+    struct diag_sink *sink = r->context->sink;
+    const struct xml_frame *open = innermost(r);
+    if (begins_with(r, at, "</"))
+        at += 2;
+    span closing = word_at(r, at);
+    str name = str_slice(r->text->bytes, closing.begin, closing.end);
+    if (!open) {
+        diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> closes nothing", STR_ARG(name));
+        return;
+    }
+    str expected = frame_name(r, open);
+    diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> stands where </%.*s> is expected", STR_ARG(name),
+             STR_ARG(expected));
+    diag_note(sink, open->name, "<%.*s> was opened here", STR_ARG(expected));
+}
+
+static void report_unclosed(struct xml_reader *r, uint32_t at) {
+    struct diag_sink *sink = r->context->sink;
+    if (begins_with(r, at, "<!--")) {
+        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 4), "this comment is not closed");
+        diag_help(sink, "write --> behind it");
+    } else if (begins_with(r, at, "<?")) {
+        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 2), "'<?' is not closed");
+        diag_help(sink, "write ?> behind it");
+    } else {
+        diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at + 1), "this tag is not closed");
+        diag_help(sink, "write '>' or '/>' behind its last attribute; check the quotes of its values");
+    }
+}
+
+// Where the tag begins that the byte `at` stands in; `at` itself where it stands in none.
+static uint32_t tag_around(const struct xml_reader *r, uint32_t at) {
+    str text = r->text->bytes;
+    uint32_t begin = at;
+    while (begin > r->tag_end && begin > r->text->begin && text.ptr[begin - 1] != '<')
+        begin--;
+    return begin > r->text->begin && text.ptr[begin - 1] == '<' && begin > r->tag_end ? begin - 1 : at;
+}
+
+// What is wrong inside a tag, from its beginning on; false: not known.
+static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
+    struct diag_sink *sink = r->context->sink;
+    str text = r->text->bytes;
+    uint32_t pos = xml_name_end(text, tag);
+    if (pos == tag + 1) {
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, tag), "a tag's name must follow '<' directly");
+        diag_help(sink, "write '&lt;' for the character '<'");
+        return true;
+    }
+    struct xml_attribute attribute;
+    while (xml_next_attribute(text, &pos, &attribute) == XML_TAG_MORE) {
+        if (attribute.value_end + 1 == at && at < text.len && !memchr(" \t\r\n/>?", text.ptr[at], 7)) {
+            diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "a blank is missing before this attribute");
+            return true;
+        }
+        if (attribute.value_end > at)
+            return false;
+    }
+    span name = word_at(r, pos);
+    str written = str_slice(text, name.begin, name.end);
+    uint32_t sign = name.end;
+    while (sign < text.len && xml_is_blank(text.ptr[sign]))
+        sign++;
+    char next = sign < text.len ? text.ptr[sign] : '\0';
+    if (pos >= text.len || memchr("<>=/\"'&", text.ptr[pos], 7))
+        return false;
+    if (next != '=') {
+        diag_add(sink, DIAG_XML_SYNTAX, name, "the attribute '%.*s' has no value", STR_ARG(written));
+        diag_help(sink, "write %.*s=\"...\"", STR_ARG(written));
+        return true;
+    }
+    sign++;
+    while (sign < text.len && xml_is_blank(text.ptr[sign]))
+        sign++;
+    if (sign < text.len && text.ptr[sign] != '"' && text.ptr[sign] != '\'') {
+        span value = word_at(r, sign);
+        str bare = str_slice(text, value.begin, value.end);
+        diag_add(sink, DIAG_XML_SYNTAX, value, "the value of '%.*s' needs quotes", STR_ARG(written));
+        diag_help(sink, "write %.*s=\"%.*s\"", STR_ARG(written), STR_ARG(bare));
+        return true;
+    }
+    diag_add(sink, DIAG_XML_SYNTAX, name, "the value of '%.*s' has no closing quote", STR_ARG(written));
+    diag_help(sink, "close the quotes; write '&lt;' for the character '<'");
+    return true;
+}
+
+static void report_token(struct xml_reader *r, uint32_t at) {
+    struct diag_sink *sink = r->context->sink;
+    uint32_t tag = tag_around(r, at);
+    if (begins_with(r, tag, "<!--")) {
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "'--' inside a comment");
+        diag_help(sink, "a comment ends with -->, and holds no other '--'");
+    } else if (begins_with(r, tag, "<!") && !begins_with(r, tag, "<![")) {
+        diag_add(sink, DIAG_XML_DOCTYPE, word_at(r, tag), "a scene has no declarations");
+        diag_help(sink, "remove it");
+    } else if (tag != at && report_in_tag(r, tag, at)) {
+        return;
+    } else if (begins_with(r, at, "<") || begins_with(r, at > 0 ? at - 1 : 0, "<")) {
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "a tag's name must follow '<' directly");
+        diag_help(sink, "write '&lt;' for the character '<'");
+    } else if (begins_with(r, at, "]]>")) {
+        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 3), "']]>' between elements");
+    } else {
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "this character cannot stand here");
+    }
+}
+
+void xml_report(struct xml_reader *r) {
+    struct diag_sink *sink = r->context->sink;
+    enum XML_Error error = XML_GetErrorCode(r->parser);
+    uint32_t at = r->text->begin + (uint32_t)XML_GetErrorByteIndex(r->parser);
+    if (at > r->text->bytes.len)
+        at = (uint32_t)r->text->bytes.len;
+    switch (error) {
+    case XML_ERROR_NO_MEMORY:
+        diag_add(sink, DIAG_OUT_OF_MEMORY, character_at(r, at), "no memory for reading the file");
+        break;
+    case XML_ERROR_NO_ELEMENTS:
+        report_end(r);
+        break;
+    case XML_ERROR_TAG_MISMATCH:
+        report_mismatch(r, at);
+        break;
+    case XML_ERROR_UNCLOSED_TOKEN:
+        report_unclosed(r, at);
+        break;
+    case XML_ERROR_UNCLOSED_CDATA_SECTION:
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "'<![CDATA[' is not closed");
+        break;
+    case XML_ERROR_INVALID_TOKEN:
+        report_token(r, at);
+        break;
+    case XML_ERROR_SYNTAX:
+        diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "this stands before the first element");
+        diag_help(sink, "a scene begins with <Scene glint=\"1\">");
+        break;
+    case XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "the scene has ended before this");
+        diag_note(sink, r->root_end, "it ended here");
+        break;
+    case XML_ERROR_BAD_CHAR_REF:
+        diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "this reference names no character");
+        diag_help(sink, "write the character itself");
+        break;
+    case XML_ERROR_UNDEFINED_ENTITY:
+        diag_add(sink, DIAG_XML_ENTITY, word_at(r, at), "there is no such entity in a scene");
+        break;
+    case XML_ERROR_DUPLICATE_ATTRIBUTE:
+        diag_add(sink, DIAG_DUPLICATE_ATTRIBUTE, word_at(r, at), "an attribute is given twice");
+        break;
+    case XML_ERROR_MISPLACED_XML_PI:
+        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 5),
+                 "<?xml ...?> must be the very first thing in the file");
+        diag_help(sink, "remove what stands before it, blanks and empty lines too");
+        break;
+    case XML_ERROR_XML_DECL:
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "the XML declaration cannot be read");
+        diag_help(sink, "write <?xml version=\"1.0\" encoding=\"UTF-8\"?>, or nothing");
+        break;
+    default:
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "the XML cannot be read here: %s",
+                 XML_ErrorString(error));
+        break;
+    }
+}
