@@ -1,0 +1,199 @@
+// Tone, transfer and rounding as LANGUAGE says, and files that other readers would take.
+#include "runtime/image/image.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STBI_ONLY_HDR
+#define STBI_NO_STDIO
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wshadow"
+#include <stb/stb_image.h>
+
+static const struct image_display plain = {IR_TONE_CLIP, IR_TRANSFER_NONE};
+
+static uint8_t byte_of(float value, struct image_display display) {
+    struct image image = {1, 1, (float[3]){value, 0, 0}};
+    uint8_t bytes[3];
+    image_to_bytes(&image, display, bytes);
+    assert_int_equal(bytes[1], 0);
+    return bytes[0];
+}
+
+static void test_rounding(void **state) {
+    (void)state;
+    for (int i = 0; i < 256; i++) {
+        assert_int_equal(byte_of((float)i / 255, plain), i);
+        if (i < 255) {
+            assert_int_equal(byte_of(((float)i + 0.499f) / 255, plain), i);
+            assert_int_equal(byte_of(((float)i + 0.501f) / 255, plain), i + 1);
+        }
+    }
+    assert_int_equal(byte_of(-1, plain), 0);
+    assert_int_equal(byte_of(7, plain), 255);
+    assert_int_equal(byte_of(INFINITY, plain), 255);
+    assert_int_equal(byte_of(-INFINITY, plain), 0);
+    assert_int_equal(byte_of(NAN, plain), 0);
+}
+
+static void test_normalize(void **state) {
+    (void)state;
+    const struct image_display normalize = {IR_TONE_NORMALIZE, IR_TRANSFER_NONE};
+    struct image image = {4, 1, (float[12]){4, 2, 1, 0.5f, 0.25f, 1, INFINITY, 3, INFINITY, NAN, 2, 1}};
+    static const uint8_t expected[12] = {255, 128, 64, 128, 64, 255, 255, 0, 255, 0, 255, 128};
+    uint8_t bytes[12];
+    image_to_bytes(&image, normalize, bytes);
+    assert_memory_equal(bytes, expected, sizeof bytes);
+    static const uint8_t clipped[12] = {255, 255, 255, 128, 64, 255, 255, 255, 255, 0, 255, 255};
+    image_to_bytes(&image, plain, bytes);
+    assert_memory_equal(bytes, clipped, sizeof bytes);
+}
+
+// The table of thresholds against the formula, on floats of all sizes.
+static void test_srgb(void **state) {
+    (void)state;
+    enum {
+        COUNT = 400000
+    };
+    const struct image_display srgb = {IR_TONE_CLIP, IR_TRANSFER_SRGB};
+    struct image image;
+    assert_true(image_init(&image, COUNT, 1));
+    uint8_t *bytes = malloc(3 * COUNT);
+    uint32_t bits = 1;
+    for (size_t i = 0; i < 3 * COUNT; i++) {
+        bits = bits * 1664525u + 1013904223u;
+        image.rgb[i] =
+            i % 2 ? (float)(bits >> 8) * 0x1p-24f : ldexpf((float)(bits >> 8) * 0x1p-24f, -(int)(i % 16));
+    }
+    image_to_bytes(&image, srgb, bytes);
+    for (size_t i = 0; i < 3 * COUNT; i++) {
+        double c = image.rgb[i];
+        double shown = c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
+        assert_int_equal(bytes[i], (int)floor(255 * shown + 0.5));
+    }
+    free(bytes);
+    image_finish(&image);
+    assert_int_equal(byte_of(NAN, srgb), 0);
+    assert_int_equal(byte_of(2, srgb), 255);
+    assert_int_equal(byte_of(0.5f, srgb), 188);
+}
+
+static struct image pattern(uint32_t width, uint32_t height) {
+    struct image image;
+    assert_true(image_init(&image, width, height));
+    for (size_t i = 0; i < (size_t)width * height * 3; i++)
+        image.rgb[i] = i % 5 ? (float)(i * i % 257) / 256 : 0.25f;
+    return image;
+}
+
+static void test_png(void **state) {
+    (void)state;
+    struct image image = pattern(67, 41);
+    uint8_t bytes[67 * 41 * 3];
+    image_to_bytes(&image, plain, bytes);
+    struct strbuf file;
+    strbuf_init(&file);
+    image_encode(&image, IMAGE_PNG, plain, &file);
+    assert_false(file.failed);
+    int width, height, channels;
+    uint8_t *read =
+        stbi_load_from_memory((const uint8_t *)file.data, (int)file.len, &width, &height, &channels, 0);
+    assert_non_null(read);
+    assert_int_equal(width, 67);
+    assert_int_equal(height, 41);
+    assert_int_equal(channels, 3);
+    assert_memory_equal(read, bytes, sizeof bytes);
+    stbi_image_free(read);
+    strbuf_finish(&file);
+    image_finish(&image);
+}
+
+static void test_pfm(void **state) {
+    (void)state;
+    struct image image = {2, 2, (float[12]){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -1.5f, 0}};
+    struct strbuf file;
+    strbuf_init(&file);
+    image_encode(&image, IMAGE_PFM, plain, &file);
+    static const char head[] = "PF\n2 2\n-1.0\n";
+    assert_int_equal(file.len, strlen(head) + 48);
+    assert_memory_equal(file.data, head, strlen(head));
+    static const uint8_t seven[4] = {0, 0, 0xe0, 0x40};
+    static const uint8_t one[4] = {0, 0, 0x80, 0x3f};
+    assert_memory_equal(file.data + strlen(head), seven, 4); // the bottom row comes first
+    assert_memory_equal(file.data + strlen(head) + 24, one, 4);
+    strbuf_finish(&file);
+}
+
+static void check_hdr(const struct image *image) {
+    struct strbuf file;
+    strbuf_init(&file);
+    image_encode(image, IMAGE_HDR, plain, &file);
+    assert_false(file.failed);
+    int width, height, channels;
+    float *read =
+        stbi_loadf_from_memory((const uint8_t *)file.data, (int)file.len, &width, &height, &channels, 0);
+    assert_non_null(read);
+    assert_int_equal(width, (int)image->width);
+    assert_int_equal(height, (int)image->height);
+    for (size_t i = 0; i < (size_t)image->width * image->height; i++) {
+        float largest = 0;
+        for (size_t k = 3 * i; k < 3 * i + 3; k++)
+            largest = fmaxf(largest, image->rgb[k] > 0 ? fminf(image->rgb[k], 0x1p127f) : 0);
+        for (size_t k = 3 * i; k < 3 * i + 3; k++) {
+            float c = image->rgb[k] > 0 ? fminf(image->rgb[k], 0x1p127f) : 0;
+            assert_true(fabsf(read[k] - c) <= largest / 128);
+        }
+    }
+    stbi_image_free(read);
+    strbuf_finish(&file);
+}
+
+static void test_hdr(void **state) {
+    (void)state;
+    static const uint32_t widths[] = {1, 7, 8, 9, 127, 128, 129, 300, 1000};
+    for (size_t i = 0; i < sizeof widths / sizeof *widths; i++) {
+        struct image image = pattern(widths[i], 5);
+        for (uint32_t x = widths[i] / 3; x < widths[i] * 2 / 3; x++) // a run
+            memset(image.rgb + 3 * (size_t)x, 0, 3 * sizeof *image.rgb);
+        image.rgb[0] = 1e6f;
+        if (widths[i] > 8) {
+            image.rgb[3] = NAN;
+            image.rgb[6] = INFINITY;
+            image.rgb[9] = -2;
+            image.rgb[12] = 1e-30f;
+        }
+        check_hdr(&image);
+        image_finish(&image);
+    }
+}
+
+static void test_formats(void **state) {
+    (void)state;
+    enum image_format format;
+    assert_true(image_format_of_path(STR("a/b.PNG"), &format));
+    assert_int_equal(format, IMAGE_PNG);
+    assert_true(image_format_of_path(STR("x.pfm"), &format));
+    assert_int_equal(format, IMAGE_PFM);
+    assert_true(image_format_of_path(STR("x.y.hdr"), &format));
+    assert_int_equal(format, IMAGE_HDR);
+    assert_false(image_format_of_path(STR("x.jpg"), &format));
+    assert_false(image_format_of_path(STR("png"), &format));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rounding), cmocka_unit_test(test_normalize), cmocka_unit_test(test_srgb),
+        cmocka_unit_test(test_png),      cmocka_unit_test(test_pfm),       cmocka_unit_test(test_hdr),
+        cmocka_unit_test(test_formats),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
