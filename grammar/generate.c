@@ -72,16 +72,6 @@ static bool make_key(struct generator *g, const struct schema_row *row, struct i
     return false;
 }
 
-// Appends a copy; gives its index.
-static uint32_t append(struct generator *g, const struct schema_row *row, void *element, const void *item) {
-    struct ir_any_list list = ir_walk_list(row, element);
-    list.items = arena_grow(g->arena, list.items, list.count, &list.capacity, row->child->size);
-    memcpy(ir_walk_item(row, list, list.count), item, row->child->size);
-    list.count++;
-    memcpy(schema_field(row, element), &list, sizeof list);
-    return list.count - 1;
-}
-
 static void *new_element(struct generator *g, const struct schema_element *schema) {
     void *element = arena_alloc(g->arena, schema->size);
     schema_init(schema, element);
@@ -95,7 +85,7 @@ static bool make_list(struct generator *g, const struct schema_row *row, void *e
         void *item = new_element(g, row->child);
         if (row->many == SCHEMA_NAMED_MAP && !make_key(g, row, ir_walk_list(row, element), item))
             break;
-        append(g, row, element, item);
+        ir_walk_append(g->arena, row, element, item);
     }
     return ir_walk_list(row, element).count > 0;
 }
@@ -106,7 +96,8 @@ static bool make_reference(struct generator *g, const struct schema_row *row, st
     const struct schema_row *pool = ir_walk_pool(row->child);
     uint32_t named = count_named(g, row);
     if (row->element && (named == 0 || generate_chance(g, 30))) {
-        *out = (struct ir_material_ref){.index = append(g, pool, g->scene, new_element(g, row->child))};
+        *out = (struct ir_material_ref){
+            .index = ir_walk_append(g->arena, pool, g->scene, new_element(g, row->child))};
         return true;
     }
     uint32_t wanted = generate_below(g, named);

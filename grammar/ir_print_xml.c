@@ -2,6 +2,7 @@
 #include "grammar/ir_print.h"
 
 #include "grammar/ir_print_comment.h"
+#include "grammar/ir_print_row.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/ir_walk.h"
 
@@ -317,4 +318,17 @@ void ir_write_xml(const struct ir_scene *scene, const struct ir_origin *origin,
         strbuf_char(out, '\n');
     }
     strbuf_finish(&w.line);
+}
+
+void print_xml_row(const struct ir_scene *scene, const struct schema_row *row, const void *element,
+                   struct strbuf *out) {
+    struct xml_writer w = {.scene = scene, .out = out};
+    if (!is_attribute(&w, row, element)) {
+        put_children(&w, row, element, 0, "", put_on_one_line, out);
+        return;
+    }
+    strbuf_cstr(out, row->name);
+    strbuf_cstr(out, "=\"");
+    put_attribute_value(row, schema_field_const(row, element), out);
+    strbuf_char(out, '"');
 }

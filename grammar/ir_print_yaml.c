@@ -2,6 +2,7 @@
 #include "grammar/ir_print.h"
 
 #include "grammar/ir_print_comment.h"
+#include "grammar/ir_print_row.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/ir_walk.h"
 
@@ -357,4 +358,21 @@ void ir_write_yaml(const struct ir_scene *scene, const struct ir_origin *origin,
         put_comments(&w, file->closing_comments, 0);
     }
     strbuf_finish(&w.flow);
+}
+
+void print_yaml_value(const struct schema_row *row, const void *element, struct strbuf *out) {
+    struct yaml_writer w = {.out = out};
+    flow_row(&w, row, element, out);
+}
+
+void print_yaml_row(const struct ir_scene *scene, const struct schema_row *row, const void *element,
+                    struct strbuf *out) {
+    struct yaml_writer w = {.scene = scene, .out = out};
+    if (!row->key) {
+        strbuf_cstr(out, schema_yaml_key(row));
+        strbuf_cstr(out, ": ");
+    }
+    flow_row(&w, row, element, out);
+    if (row->key)
+        strbuf_char(out, ':');
 }

@@ -13,6 +13,15 @@ void *ir_walk_item(const struct schema_row *row, struct ir_any_list list, uint32
     return (char *)list.items + (size_t)i * row->child->size;
 }
 
+uint32_t ir_walk_append(struct arena *arena, const struct schema_row *row, void *element, const void *item) {
+    struct ir_any_list list = ir_walk_list(row, element);
+    list.items = arena_grow(arena, list.items, list.count, &list.capacity, row->child->size);
+    memcpy(ir_walk_item(row, list, list.count), item, row->child->size);
+    list.count++;
+    memcpy(schema_field(row, element), &list, sizeof list);
+    return list.count - 1;
+}
+
 str ir_walk_key(const struct schema_element *schema, const void *element) {
     int key = schema_key_row(schema);
     return key < 0 ? (str){"", 0} : *(const str *)schema_field_const(&schema->rows[key], element);

@@ -4,6 +4,7 @@
 #ifndef GLINT_GRAMMAR_IR_WALK_H
 #define GLINT_GRAMMAR_IR_WALK_H
 
+#include "core/arena.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
 
@@ -16,6 +17,8 @@ struct ir_any_list {
 // The list of a SCHEMA_LIST row, and one of its items. Other kinds have the empty list.
 struct ir_any_list ir_walk_list(const struct schema_row *row, const void *element);
 void *ir_walk_item(const struct schema_row *row, struct ir_any_list list, uint32_t i);
+// Appends a copy of `item` to the list; gives its index. May move the list.
+uint32_t ir_walk_append(struct arena *arena, const struct schema_row *row, void *element, const void *item);
 // Items that stand in the list themselves: all but anonymous ones, which stand where they are used.
 bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item);
 uint32_t ir_walk_visible_count(const struct schema_row *row, const void *element);

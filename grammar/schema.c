@@ -210,9 +210,9 @@ const struct schema_element SCHEMA_MATERIAL = {
     ELEMENT("material", "Material", ir_material, material_rows,
             "How a surface answers light: the weights and colours of tinyraytracer's materials.")};
 
-#define BODY_NAME(type)                                                                                      \
+#define BODY_NAME(type, sample)                                                                                      \
     {                                                                                                        \
-        .name = "name", FIELD(type, name), .example = "hero", .text = SCHEMA_TEXT_NAME,                      \
+        .name = "name", FIELD(type, name), .example = sample, .text = SCHEMA_TEXT_NAME,                      \
         .doc = "Name for messages and --set."                                                                \
     }
 #define BODY_MATERIAL(type)                                                                                  \
@@ -223,7 +223,7 @@ const struct schema_element SCHEMA_MATERIAL = {
     }
 
 static const struct schema_row sphere_rows[] = {
-    BODY_NAME(ir_sphere),
+    BODY_NAME(ir_sphere, "ball"),
     {.name = "center", .element = "Center", FIELD(ir_sphere, center), .example = "0 1 0",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
      .doc = "Middle of the sphere."},
@@ -235,7 +235,7 @@ const struct schema_element SCHEMA_SPHERE = {
     ELEMENT("sphere", "Sphere", ir_sphere, sphere_rows, "A sphere.")};
 
 static const struct schema_row rectangle_rows[] = {
-    BODY_NAME(ir_rectangle),
+    BODY_NAME(ir_rectangle, "floor"),
     {.name = "corner", .element = "Corner", FIELD(ir_rectangle, corner), .example = "-5 0 5",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
      .doc = "One of the four corners."},
@@ -262,7 +262,7 @@ const struct schema_element SCHEMA_MAP_ENTRY = {
             "Gives a material of the scene to the faces of one material of the mesh file.")};
 
 static const struct schema_row model_rows[] = {
-    BODY_NAME(ir_model),
+    BODY_NAME(ir_model, "dragon"),
     {.name = "mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .text = SCHEMA_TEXT_PATH,
      .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file (Wavefront OBJ)."},
     BODY_MATERIAL(ir_model),
