@@ -43,7 +43,8 @@ void diag_sink_finish(struct diag_sink *sink) {
 }
 
 // Formats without the guard: a sink that is full must not jump out of its user. false: no room.
-static bool format_text(struct diag_sink *sink, str *text, const char *format, va_list args) {
+__attribute__((format(printf, 3, 0))) static bool format_text(struct diag_sink *sink, str *text,
+                                                              const char *format, va_list args) {
     char buffer[TEXT_BYTES_MAX + 1];
     int length = vsnprintf(buffer, sizeof buffer, format, args);
     size_t size = length < 0 ? 0 : (size_t)length;

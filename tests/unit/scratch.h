@@ -18,8 +18,8 @@ struct scratch {
 static inline bool scratch_make(struct scratch *scratch) {
     const char *base = getenv("TMPDIR");
     char name[PATH_MAX];
-    snprintf(name, sizeof name, "%s/glint-test-XXXXXX", base && *base ? base : P_tmpdir);
-    return mkdtemp(name) && realpath(name, scratch->folder);
+    int size = snprintf(name, sizeof name, "%s/glint-test-XXXXXX", base && *base ? base : P_tmpdir);
+    return size < (int)sizeof name && mkdtemp(name) && realpath(name, scratch->folder);
 }
 
 static inline void scratch_remove_tree(const char *path) {
@@ -33,8 +33,8 @@ static inline void scratch_remove_tree(const char *path) {
             char inner[PATH_MAX + NAME_MAX];
             if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0)
                 continue;
-            snprintf(inner, sizeof inner, "%s/%s", path, entry->d_name);
-            scratch_remove_tree(inner);
+            if (snprintf(inner, sizeof inner, "%s/%s", path, entry->d_name) < (int)sizeof inner)
+                scratch_remove_tree(inner);
         }
         if (directory)
             closedir(directory);
@@ -51,7 +51,8 @@ static inline const char *scratch_path(const struct scratch *scratch, const char
     static char paths[8][PATH_MAX + NAME_MAX];
     static unsigned next;
     char *path = paths[next++ % 8];
-    snprintf(path, sizeof paths[0], "%s/%s", scratch->folder, name);
+    if (snprintf(path, sizeof paths[0], "%s/%s", scratch->folder, name) >= (int)sizeof paths[0])
+        abort(); // a test's own name is too long
     return path;
 }
 
