@@ -1,0 +1,23 @@
+# From GLSL to C arrays: compile, decorate (tools/spirv_exact), validate, embed.
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+find_program(SPIRV_VAL spirv-val REQUIRED)
+
+# glint_kernel(OUT NAME SOURCE.comp DEFINE...): compiles SOURCE with the macros given, and appends the C
+# file that defines `kernel_NAME` and `kernel_NAME_words` to the list OUT.
+function(glint_kernel out name source)
+  set(base ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  list(TRANSFORM ARGN PREPEND -D OUTPUT_VARIABLE defines)
+  add_custom_command(
+    OUTPUT ${base}.c
+    DEPFILE ${base}.d
+    DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${source} spirv_exact
+    COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.1 -S comp -I${CMAKE_CURRENT_SOURCE_DIR} ${defines}
+            --depfile ${base}.d -o ${base}.plain.spv ${CMAKE_CURRENT_SOURCE_DIR}/${source}
+    COMMAND ${CMAKE_COMMAND} -DDEPFILE=${base}.d -DTARGET=${base}.c
+            -P ${CMAKE_SOURCE_DIR}/cmake/retarget_depfile.cmake
+    COMMAND spirv_exact ${base}.plain.spv ${base}.spv ${base}.c kernel_${name}
+    COMMAND ${SPIRV_VAL} --target-env vulkan1.1 ${base}.spv
+    COMMENT "Compiling kernel ${name}"
+    VERBATIM)
+  set(${out} ${${out}} ${base}.c PARENT_SCOPE)
+endfunction()

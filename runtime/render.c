@@ -1,0 +1,187 @@
+#include "runtime/render_private.h"
+
+#include "shaders/kernels.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    SHORT_PATH_RAYS = 4,    // paths of at most these are never saved
+    BAND_BYTES = 64 << 20,  // of output, and of path state
+    BAND_TILES_MAX = 16384, // a megapixel: progress is told, and Ctrl-C seen, between bands
+    SLOT_OUTPUT_BYTES = 16,
+    WORD_BYTES = 16,
+};
+
+struct render_settings render_settings_of(const struct ir_scene *scene, const struct flat_scene *flat,
+                                          const struct limits *limits) {
+    const struct ir_background *background = &scene->background;
+    return (struct render_settings){
+        .width = (uint32_t)scene->image.width,
+        .height = (uint32_t)scene->image.height,
+        .samples = (uint32_t)scene->image.samples,
+        .max_depth = (uint32_t)scene->trace.max_depth,
+        .min_weight = scene->trace.min_weight,
+        .background =
+            vec3_mul(view_linear_color(background->color, scene->image.transfer), background->intensity),
+        .background_intensity = background->intensity,
+        .background_rotation = background->rotation,
+        .features = flat->features,
+        .path_segments = limits->value[LIMIT_PATH_SEGMENTS],
+        .slice_iterations = SLICE_ITERATIONS,
+    };
+}
+
+// A step through the tile rows that is coprime to their number and near the golden section of it.
+static uint32_t row_step_of(uint32_t rows) {
+    for (uint32_t step = (uint32_t)(rows * 0.618); step > 1; step--) {
+        uint32_t a = rows, b = step;
+        while (b) {
+            const uint32_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 1)
+            return step;
+    }
+    return 1;
+}
+
+static uint64_t slot_state_bytes(const struct renderer *renderer) {
+    if (!(renderer->features & FEATURE_SLICES))
+        return 0;
+    return (STATE_WORDS + (uint64_t)renderer->path_stack * STACK_ENTRY_WORDS) * WORD_BYTES;
+}
+
+static void plan(struct renderer *renderer) {
+    const struct render_settings *settings = &renderer->settings;
+    const uint32_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
+    renderer->features = settings->features;
+    // Without shadow rays the lights are scanned in one go, however many there are.
+    if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
+        renderer->features |= FEATURE_SLICES;
+    // A surface at the last level leaves its refracted ray, which sees the background, on the stack too.
+    if ((renderer->features & bounces) == bounces)
+        renderer->path_stack = settings->max_depth + 1;
+    renderer->tiles_x = (settings->width + TILE_SIDE - 1) / TILE_SIDE;
+    renderer->tiles_y = (settings->height + TILE_SIDE - 1) / TILE_SIDE;
+    renderer->row_step = row_step_of(renderer->tiles_y);
+    uint64_t slot_bytes = slot_state_bytes(renderer);
+    slot_bytes = slot_bytes > SLOT_OUTPUT_BYTES ? slot_bytes : SLOT_OUTPUT_BYTES;
+    uint64_t tiles = BAND_BYTES / (slot_bytes * TILE_PIXELS);
+    tiles = tiles < BAND_TILES_MAX ? tiles : BAND_TILES_MAX;
+    const uint64_t all = (uint64_t)renderer->tiles_x * renderer->tiles_y;
+    renderer->band_tiles = (uint32_t)(tiles < all ? tiles : all);
+}
+
+static bool upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
+                   uint64_t bytes) {
+    struct gpu_buffer *buffer = gpu_buffer_create(renderer->gpu, use, bytes);
+    renderer->buffers[binding] = buffer;
+    return buffer && (!data || gpu_write(renderer->gpu, buffer, 0, data, bytes));
+}
+
+static bool upload_scene(struct renderer *renderer) {
+    const struct flat_scene *flat = renderer->flat;
+    const struct {
+        uint32_t binding;
+        const struct flat_array *array;
+    } arrays[] = {
+        {BINDING_TRIANGLE_NODES, &flat->triangle_nodes},
+        {BINDING_TRIANGLES, &flat->triangles},
+        {BINDING_NORMALS, &flat->normals},
+        {BINDING_SPHERE_NODES, &flat->sphere_nodes},
+        {BINDING_SPHERES, &flat->spheres},
+        {BINDING_BODIES, &flat->bodies},
+        {BINDING_MATERIALS, &flat->materials},
+        {BINDING_LIGHTS, &flat->lights},
+    };
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        if (!upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
+                    arrays[i].array->count * sizeof(struct gpu_word)))
+            return false;
+    const enum gpu_use use = flat->background_texels.is_float ? GPU_TEXELS_F32 : GPU_TEXELS_U8;
+    return upload(renderer, BINDING_BACKGROUND, use, flat->background_texels.texels,
+                  flat->background_texels.bytes);
+}
+
+static bool make_band(struct renderer *renderer) {
+    const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
+    const uint64_t lists = renderer->features & FEATURE_SLICES ? 2 * slots : 0;
+    const uint32_t zero[COUNTER_COUNT] = {0};
+    renderer->band = malloc(slots * SLOT_OUTPUT_BYTES);
+    return renderer->band && upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, slots * SLOT_OUTPUT_BYTES) &&
+           upload(renderer, BINDING_STATE, GPU_STORAGE, NULL, slots * slot_state_bytes(renderer)) &&
+           upload(renderer, BINDING_COUNTERS, GPU_STORAGE, NULL,
+                  (COUNTER_COUNT + lists) * sizeof(uint32_t)) &&
+           gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, zero, sizeof zero) &&
+           upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block));
+}
+
+struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features) {
+    const struct flat_scene *flat = renderer->flat;
+    const bool texels = gpu_fetches_texels(renderer->gpu);
+    const uint32_t constants[CONSTANT_COUNT] = {
+        [CONSTANT_FEATURES] = features,
+        [CONSTANT_TRIANGLE_STACK] = flat->triangle_depth ? flat->triangle_depth : 1,
+        [CONSTANT_SPHERE_STACK] = flat->sphere_depth ? flat->sphere_depth : 1,
+        [CONSTANT_PATH_STACK] = renderer->path_stack ? renderer->path_stack : 1,
+    };
+    struct gpu_program_source source = {
+        .spirv = texels ? kernel_trace_texels : kernel_trace_storage,
+        .spirv_words = texels ? kernel_trace_texels_words : kernel_trace_storage_words,
+        .constants = constants,
+        .constant_count = CONSTANT_COUNT,
+        .push_bytes = sizeof(struct dispatch_block),
+    };
+    memcpy(source.buffers, renderer->buffers, sizeof source.buffers);
+    return gpu_program_create(renderer->gpu, &source);
+}
+
+struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
+                                 const struct render_settings *settings) {
+    struct renderer *renderer = calloc(1, sizeof *renderer);
+    if (!renderer)
+        return NULL;
+    renderer->gpu = gpu;
+    renderer->flat = flat;
+    renderer->settings = *settings;
+    plan(renderer);
+    if (upload_scene(renderer) && make_band(renderer))
+        renderer->program = renderer_compile(renderer, renderer->features);
+    if (renderer->program)
+        return renderer;
+    renderer_destroy(renderer);
+    return NULL;
+}
+
+void renderer_destroy(struct renderer *renderer) {
+    if (!renderer)
+        return;
+    gpu_program_destroy(renderer->gpu, renderer->counting);
+    gpu_program_destroy(renderer->gpu, renderer->program);
+    for (int i = 0; i < GPU_BINDINGS; i++)
+        gpu_buffer_destroy(renderer->gpu, renderer->buffers[i]);
+    free(renderer->band);
+    free(renderer);
+}
+
+static bool is_of_band(int binding) {
+    return binding == BINDING_OUTPUT || binding == BINDING_STATE || binding == BINDING_COUNTERS;
+}
+
+static uint64_t sum_bytes(const struct renderer *renderer, bool of_band) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < GPU_BINDINGS; i++)
+        if (renderer->buffers[i] && is_of_band(i) == of_band)
+            bytes += gpu_buffer_bytes(renderer->buffers[i]);
+    return bytes;
+}
+
+uint64_t renderer_scene_bytes(const struct renderer *renderer) {
+    return sum_bytes(renderer, false);
+}
+uint64_t renderer_band_bytes(const struct renderer *renderer) {
+    return sum_bytes(renderer, true);
+}

@@ -1,0 +1,94 @@
+// From a flat scene, a camera and a device to a picture of linear floats.
+//
+// A renderer holds the scene on the device and the compiled kernel, for as many frames as wanted. Pictures
+// are made in bands and slices (docs/architecture.md, "Tracing"), one sample a dispatch; neither shows in
+// the result. Input: the flat scene is copied to the device; it must outlive the renderer all the same.
+// Errors: RENDER_FAILED, with the text in gpu_error. Ownership: renderer_destroy takes NULL.
+// Thread safety: a renderer belongs to its gpu's thread.
+#ifndef GLINT_RUNTIME_RENDER_H
+#define GLINT_RUNTIME_RENDER_H
+
+#include "runtime/flatten.h"
+#include "runtime/gpu/gpu.h"
+
+struct render_settings {
+    uint32_t width, height; // pixels
+    uint32_t samples;       // per pixel, at least 1
+    uint32_t max_depth;
+    double min_weight;
+    vec3 background; // linear, times intensity
+    double background_intensity;
+    double background_rotation; // degrees about +y
+    // FEATURE_ bits to compile in: at least those of the flat scene. Those of the renderer (slices,
+    // counters) are added where needed.
+    uint32_t features;
+    uint64_t path_segments;    // LIMIT_PATH_SEGMENTS
+    uint32_t slice_iterations; // SLICE_ITERATIONS of shaders/frame.h; 0 gives slices of one ray
+};
+
+// What scene, flat scene and limits ask for.
+struct render_settings render_settings_of(const struct ir_scene *scene, const struct flat_scene *flat,
+                                          const struct limits *limits);
+
+enum render_fault_kind {
+    RENDER_NOT_FINITE = 1, // the sample counts as 0
+    RENDER_SEGMENTS,       // more rays than path_segments; the rest of the sample is missing
+    RENDER_ITERATIONS,     // one ray did not end; the rest of the sample is missing
+    RENDER_FAULT_KINDS,
+};
+
+struct render_fault {
+    uint32_t pixels; // how many have this fault; the rest is about the first of them, by rows
+    uint32_t x, y;
+    bool has_body;     // something was hit before the fault
+    uint32_t body;     // in IR order
+    uint32_t triangle; // of the body, in file order; 0 for spheres
+};
+
+struct render_rays {
+    uint64_t primary, reflected, refracted, shadow;
+    uint64_t cut_by_depth, cut_by_weight; // not sent
+    uint64_t total_reflections;
+    uint32_t deepest;      // level of a ray that was traced; the camera's is 0
+    double lost_by_depth;  // largest weight of a ray cut at max_depth
+    double lost_by_weight; // and below min_weight
+};
+
+struct render_statistics {
+    double device_seconds; // on the device's clock, dispatches alone
+    double wall_seconds;
+    uint32_t bands, dispatches, slices;             // slices: dispatches that resumed paths
+    struct render_fault faults[RENDER_FAULT_KINDS]; // by kind
+};
+
+// Called between dispatches with what is done, 0..1; false ends the frame.
+struct render_progress {
+    bool (*report)(void *context, double fraction);
+    void *context;
+};
+
+enum render_result {
+    RENDER_DONE,
+    RENDER_CANCELLED,
+    RENDER_FAILED,
+};
+
+struct renderer;
+
+// NULL on failure: see gpu_error.
+struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
+                                 const struct render_settings *settings);
+void renderer_destroy(struct renderer *renderer);
+// Renders a frame into width * height * 3 floats, rows from the top: the mean of the samples, before tone
+// and transfer. `progress` may be NULL.
+enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
+                                   const struct render_progress *progress,
+                                   struct render_statistics *statistics);
+// Renders the frame once more with a kernel that counts, and throws the picture away.
+enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
+                                  const struct render_progress *progress, struct render_rays *rays);
+// Bytes on the device: scene, and band.
+uint64_t renderer_scene_bytes(const struct renderer *renderer);
+uint64_t renderer_band_bytes(const struct renderer *renderer);
+
+#endif

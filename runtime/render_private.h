@@ -1,0 +1,43 @@
+// Inside of the renderer: what render.c and render_frame.c share. Thread safety: as render.h.
+#ifndef GLINT_RUNTIME_RENDER_PRIVATE_H
+#define GLINT_RUNTIME_RENDER_PRIVATE_H
+
+#include "runtime/render.h"
+#include "shaders/features.h"
+#include "shaders/frame.h"
+#include "shaders/gpu_scene.h"
+
+#define VECTOR_FIELD(name) float name[3];
+#define FLOAT_FIELD(name)  float name;
+#define UINT_FIELD(name)   uint32_t name;
+struct frame_block {
+    FRAME_FIELDS(VECTOR_FIELD, FLOAT_FIELD, UINT_FIELD)
+};
+struct dispatch_block {
+    DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
+};
+#undef VECTOR_FIELD
+#undef FLOAT_FIELD
+#undef UINT_FIELD
+
+struct renderer {
+    struct gpu *gpu;
+    const struct flat_scene *flat; // not owned
+    struct render_settings settings;
+    uint32_t features;   // of the scene, and FEATURE_SLICES
+    uint32_t path_stack; // entries
+    uint32_t tiles_x, tiles_y, row_step;
+    uint32_t band_tiles; // of a band; the last may have fewer
+    struct gpu_buffer *buffers[GPU_BINDINGS];
+    struct gpu_program *program;
+    struct gpu_program *counting; // made by the first renderer_count
+    uint32_t *band;               // the band's output, read back: 4 words a slot
+    uint32_t pending;             // value of COUNTER_PENDING after the last dispatch
+};
+
+struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features);
+// Which pixel of the picture a slot of the band at `tile_begin` shows.
+void renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+                    uint32_t *y);
+
+#endif

@@ -1,0 +1,22 @@
+// Which pixel an invocation draws, and its ray (docs/language.md, "Camera").
+
+// Morton order inside a tile, so that the 8 invocations of a lavapipe vector, and the 32 of a GPU's
+// subgroup, draw neighbours.
+uvec2 morton(uint index) {
+    return uvec2((index & 1u) | ((index >> 1u) & 2u) | ((index >> 2u) & 4u),
+                 ((index >> 1u) & 1u) | ((index >> 2u) & 2u) | ((index >> 3u) & 4u));
+}
+
+// Slots count through the band: 64 a tile. Tile rows are permuted, since CPU devices give each thread a
+// contiguous range of workgroups, and sky is cheaper than ground.
+uvec2 pixel_of_slot(uint slot) {
+    uint tile = dispatch.tile_begin + slot / TILE_PIXELS;
+    uint row = (tile / frame.tiles_x) * frame.row_step % frame.tiles_y;
+    return uvec2(tile % frame.tiles_x, row) * TILE_SIDE + morton(slot % TILE_PIXELS);
+}
+
+vec3 camera_direction(uvec2 pixel) {
+    float x = 2.0 * (float(pixel.x) + dispatch.offset_x) / float(frame.width) - 1.0;
+    float y = 1.0 - 2.0 * (float(pixel.y) + dispatch.offset_y) / float(frame.height);
+    return unit3(frame.camera_forward + frame.camera_right * x + frame.camera_up * y);
+}

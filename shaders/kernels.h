@@ -1,0 +1,13 @@
+// The compiled kernels, embedded: each for devices that fetch texels and for those that read storage buffers.
+#ifndef GLINT_SHADERS_KERNELS_H
+#define GLINT_SHADERS_KERNELS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+extern const uint32_t kernel_trace_texels[];
+extern const size_t kernel_trace_texels_words;
+extern const uint32_t kernel_trace_storage[];
+extern const size_t kernel_trace_storage_words;
+
+#endif

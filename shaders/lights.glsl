@@ -1,0 +1,37 @@
+// What one light adds to a surface, shadows aside (docs/language.md, "Hit").
+
+struct light_ray {
+    vec3 value;     // what the light adds where nothing stands before it
+    vec3 direction; // from `start`; the light is at t = 1, or at infinity
+    float t_max;
+};
+
+light_ray light_at(uint index, surface s, vec3 start, vec3 direction) {
+    vec4 place = uintBitsToFloat(FETCH(lights, index * LIGHT_WORDS));
+    vec3 emission = uintBitsToFloat(FETCH(lights, index * LIGHT_WORDS + 1u).xyz);
+    uint flags = floatBitsToUint(place.w);
+    bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (flags & LIGHT_DIRECTIONAL) != 0u);
+    vec3 way = place.xyz - s.point;
+    float distance2 = dot3(way, way);
+    vec3 l = directional ? place.xyz : way * (1.0 / sqrt(distance2));
+    if (HAS_INVERSE_SQUARE)
+        emission = (flags & LIGHT_INVERSE_SQUARE) != 0u ? emission / distance2 : emission;
+    float facing = dot3(s.shading, l);
+    bool lit = facing > 0.0 && dot3(s.geometric, l) > 0.0 && (directional || distance2 > 0.0);
+    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
+    if (HAS_DIFFUSE)
+        diffuse = s.diffuse * facing;
+    if (HAS_SPECULAR) {
+        // r . v = 1 - |r - v|^2 / 2 with v = -direction
+        vec3 gap = s.shading * (2.0 * facing) - l + direction;
+        specular = s.specular * highlight(0.5 * dot3(gap, gap), s.exponent);
+    }
+    vec3 sum = diffuse;
+    if (HAS_SPECULAR)
+        sum = !HAS_DIFFUSE || !s.has_diffuse ? specular : s.has_specular ? diffuse + specular : diffuse;
+    light_ray ray;
+    ray.value = lit ? emission * sum : vec3(0.0);
+    ray.direction = directional ? place.xyz : place.xyz - start;
+    ray.t_max = directional ? FAR_AWAY : 1.0;
+    return ray;
+}

@@ -1,0 +1,88 @@
+// Small arithmetic with a fixed order of operations: the module's own dot, cross and friends, because the
+// built-in ones may be reordered or fused by a driver. gamma(n) = n u / (1 - n u) with u = 2^-24 bounds the
+// relative error of n roundings (Higham 2002, section 3.1).
+
+const float GAMMA_1 = 5.9604648e-8;
+const float GAMMA_2 = 1.1920930e-7;
+const float GAMMA_3 = 1.7881397e-7;
+const float GAMMA_4 = 2.3841864e-7;
+const float GAMMA_5 = 2.9802331e-7;
+const float GAMMA_6 = 3.5762799e-7;
+const float GAMMA_7 = 4.1723270e-7;
+const float FAR_AWAY = 3.0e38;
+const float PI = 3.14159265358979;
+
+float dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+vec3 cross3(vec3 a, vec3 b) {
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+vec3 unit3(vec3 v) { return v * (1.0 / sqrt(dot3(v, v))); }
+
+float largest3(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// Bits, because a compiler may take NaN and infinity for absent.
+bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
+bool is_finite3(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+
+// The float next to `x` away from zero's side that `outward` points to: up where positive, down where
+// negative, `x` itself where zero.
+float next_float(float x, float outward) {
+    int bits = floatBitsToInt(x);
+    int away = bits + 1, towards = bits - 1;
+    int moved = (x > 0.0) == (outward > 0.0) ? away : towards;
+    moved = x == 0.0 ? (outward > 0.0 ? 0x00800000 : int(0x80800000u)) : moved;
+    return outward == 0.0 ? x : intBitsToFloat(moved);
+}
+
+// A start for rays that leave a surface on the side of `side` (unit): displaced by the point's error, then
+// one float outward (Pharr, Jakob, Humphreys 2023, section 6.8.6).
+vec3 ray_start(vec3 point, vec3 error, vec3 side) {
+    float distance = dot3(abs(side), error);
+    vec3 shift = side * distance;
+    vec3 moved = point + shift;
+    return vec3(next_float(moved.x, shift.x), next_float(moved.y, shift.y), next_float(moved.z, shift.z));
+}
+
+// arctan for |x| <= tan(pi/8): own minimax fit of degree 5 in x^2, relative error 6.3e-10.
+float arctan_small(float x) {
+    float z = x * x;
+    float p = -0.060263052378973 * z + 0.105698288108559;
+    p = p * z - 0.142395326703701;
+    p = p * z + 0.199981830411381;
+    p = p * z - 0.333333068930503;
+    return x + x * (z * p);
+}
+
+// atan2 in -pi..pi; 0 at the origin. Vulkan's own may be off by 4096 units in the last place.
+float arctan2(float y, float x) {
+    float ax = abs(x), ay = abs(y);
+    float big = max(ax, ay), small = min(ax, ay);
+    // tan(pi/8) splits 0..1: atan(q) = pi/4 + atan((q - 1)/(q + 1)).
+    bool upper = small > 0.414213562 * big;
+    float quotient = upper ? (small - big) / (small + big) : small / big;
+    quotient = big == 0.0 ? 0.0 : quotient;
+    float angle = arctan_small(quotient);
+    angle = upper ? angle + 0.785398163397448 : angle;
+    angle = ay > ax ? 1.5707963267949 - angle : angle;
+    angle = x < 0.0 ? PI - angle : angle;
+    return y < 0.0 ? -angle : angle;
+}
+
+// max(0, cosine)^exponent, where cosine = 1 - loss: by loss, since 1 - loss has no digits left where large
+// exponents need them; 0^0 = 1. ln(1 - x) = -2 artanh(x/(2 - x)), by an own minimax fit of degree 4 in the
+// square of the argument up to 1/3, relative error 4.1e-9.
+float highlight(float loss, float exponent) {
+    float s = loss / (2.0 - loss);
+    float z = s * s;
+    float p = 0.140788891833011 * z + 0.139825788722786;
+    p = p * z + 0.200122976153560;
+    p = p * z + 0.333331608206900;
+    float near_one = -2.88539008177793 * (s + s * (z * p)); // 2/ln 2
+    float cosine = max(1.0 - loss, 1.17549435e-38);
+    float log2_cosine = loss < 0.5 ? near_one : log2(cosine);
+    float power = exp2(max(exponent * log2_cosine, -200.0));
+    power = loss < 1.0 ? power : 0.0;
+    return exponent == 0.0 ? 1.0 : power;
+}

@@ -1,0 +1,62 @@
+// Bindings, specialization constants and the one door to the scene's words.
+//
+// WORDS are texel buffers on CPU devices (lavapipe loads a texel in one piece, but a storage buffer lane
+// by lane) and storage buffers on GPUs: FETCH hides which.
+#include "features.h"
+#include "frame.h"
+#include "gpu_scene.h"
+
+layout(constant_id = CONSTANT_FEATURES) const uint FEATURES = 0xffffffffu;
+layout(constant_id = CONSTANT_TRIANGLE_STACK) const uint TRIANGLE_STACK = 32u;
+layout(constant_id = CONSTANT_SPHERE_STACK) const uint SPHERE_STACK = 32u;
+layout(constant_id = CONSTANT_PATH_STACK) const uint PATH_STACK = 16u;
+
+const bool HAS_TRIANGLES = (FEATURES & FEATURE_TRIANGLES) != 0u;
+const bool HAS_SPHERES = (FEATURES & FEATURE_SPHERES) != 0u;
+const bool HAS_DIFFUSE = (FEATURES & FEATURE_DIFFUSE) != 0u;
+const bool HAS_SPECULAR = (FEATURES & FEATURE_SPECULAR) != 0u;
+const bool HAS_REFLECTION = (FEATURES & FEATURE_REFLECTION) != 0u;
+const bool HAS_REFRACTION = (FEATURES & FEATURE_REFRACTION) != 0u;
+const bool HAS_BRANCHES = HAS_REFLECTION && HAS_REFRACTION;
+const bool HAS_SHADOWS = (FEATURES & FEATURE_SHADOWS) != 0u;
+const bool HAS_SMOOTH = (FEATURES & FEATURE_SMOOTH) != 0u;
+const bool HAS_CHECKER = (FEATURES & FEATURE_CHECKER) != 0u;
+const bool HAS_POINT_LIGHT = (FEATURES & FEATURE_POINT_LIGHT) != 0u;
+const bool HAS_DIRECTION_LIGHT = (FEATURES & FEATURE_DIRECTION_LIGHT) != 0u;
+const bool HAS_INVERSE_SQUARE = (FEATURES & FEATURE_INVERSE_SQUARE) != 0u;
+const bool HAS_BACKGROUND_IMAGE = (FEATURES & FEATURE_BACKGROUND_IMAGE) != 0u;
+const bool HAS_DEPTH_BLACK = (FEATURES & FEATURE_DEPTH_BLACK) != 0u;
+const bool HAS_SLICES = (FEATURES & FEATURE_SLICES) != 0u;
+const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
+
+#ifdef FETCH_TEXELS
+#define WORDS(number, name) layout(set = 0, binding = number) uniform usamplerBuffer name;
+#define FETCH(name, index)  texelFetch(name, int(index))
+#else
+#define WORDS(number, name)                                                                                  \
+    layout(set = 0, binding = number, std430) readonly restrict buffer name##_words { uvec4 name[]; };
+#define FETCH(name, index) name[index]
+#endif
+
+WORDS(BINDING_TRIANGLE_NODES, triangle_nodes)
+WORDS(BINDING_TRIANGLES, triangles)
+WORDS(BINDING_NORMALS, normals)
+WORDS(BINDING_SPHERE_NODES, sphere_nodes)
+WORDS(BINDING_SPHERES, spheres)
+WORDS(BINDING_BODIES, bodies)
+WORDS(BINDING_MATERIALS, materials)
+WORDS(BINDING_LIGHTS, lights)
+layout(set = 0, binding = BINDING_BACKGROUND) uniform samplerBuffer background_texels;
+layout(set = 0, binding = BINDING_OUTPUT, std430) restrict buffer output_words { uvec4 pixels[]; };
+layout(set = 0, binding = BINDING_STATE, std430) restrict buffer state_words { uvec4 states[]; };
+layout(set = 0, binding = BINDING_COUNTERS, std430) restrict buffer counter_words { uint counters[]; };
+
+#define VECTOR_FIELD(name) vec3 name;
+#define FLOAT_FIELD(name)  float name;
+#define UINT_FIELD(name)   uint name;
+layout(set = 0, binding = BINDING_FRAME, std140) uniform frame_block {
+    FRAME_FIELDS(VECTOR_FIELD, FLOAT_FIELD, UINT_FIELD)
+} frame;
+layout(push_constant) uniform dispatch_block {
+    DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
+} dispatch;

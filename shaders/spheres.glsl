@@ -1,0 +1,76 @@
+// Closest and any sphere along a ray; a tree of its own, compiled in only where a scene has spheres.
+//
+// Haines, Guenther, Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
+// Gems, chapter 7), with the start of the ray placed by its error: where |o - c|^2 - r^2 is within its
+// rounding error of 0 the ray starts on the sphere, and that crossing is not a hit.
+
+void test_sphere(uint item, vec3 origin, vec3 direction, inout hit_record hit) {
+    uvec4 w0 = FETCH(spheres, item * SPHERE_WORDS);
+    uvec4 w1 = FETCH(spheres, item * SPHERE_WORDS + 1u);
+    vec3 f = origin - uintBitsToFloat(w0.xyz);
+    float r = uintBitsToFloat(w0.w);
+    float a = dot3(direction, direction);
+    float b = -dot3(f, direction);
+    vec3 nearest = f + direction * (b / a);
+    float discriminant = r * r - dot3(nearest, nearest);
+    float f2 = dot3(f, f);
+    float c = f2 - r * r;
+    float c_error = GAMMA_6 * f2 + GAMMA_2 * (r * r);
+    float root = sqrt(max(a * discriminant, 0.0));
+    float q = b < 0.0 ? b - root : b + root;
+    float b_error = GAMMA_4 * dot3(abs(f), abs(direction));
+    bool on_sphere = abs(c) <= c_error;
+    float t0 = c / q, t1 = q / a;
+    bool first = !on_sphere && t0 > 0.0;
+    bool second = t1 > 0.0 && (!on_sphere || b > b_error);
+    float t = first && second ? min(t0, t1) : first ? t0 : t1;
+    uint number = w1.x;
+    bool nearer = t < hit.t || (t == hit.t && number < hit.number);
+    if (discriminant >= 0.0 && q != 0.0 && (first || second) && nearer) {
+        hit.t = t;
+        hit.item = item | ITEM_SPHERE;
+        hit.number = number;
+    }
+}
+
+// As trace_triangles.
+void trace_spheres(vec3 origin, vec3 direction, bool any, inout hit_record hit, inout uint iterations) {
+    tree_ray ray = make_tree_ray(origin, direction);
+    uvec2 stack[SPHERE_STACK];
+    uint size = 0u;
+    uvec2 group = root_group();
+    bool more = true;
+    do {
+        iterations += 2u;
+        uint leaf_base, leaf_hits;
+        do {
+            iterations++;
+            uint node = next_node(group, ray.flip) * NODE_WORDS;
+            if (has_nodes(group))
+                stack[size++] = group;
+            uvec4 w0 = FETCH(sphere_nodes, node);
+            uvec4 w1 = FETCH(sphere_nodes, node + 1u);
+            uint hits = node_hits(w0, w1, FETCH(sphere_nodes, node + 2u), FETCH(sphere_nodes, node + 3u),
+                                  FETCH(sphere_nodes, node + 4u), ray, hit.t);
+            group = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u));
+            leaf_base = w1.y;
+            leaf_hits = hits & 0x00ffffffu;
+            if (!has_nodes(group)) {
+                more = size > 0u;
+                if (more)
+                    group = stack[--size];
+            }
+        } while (more && leaf_hits == 0u && iterations < ITERATION_LIMIT);
+        while (leaf_hits != 0u && iterations < ITERATION_LIMIT) {
+            iterations++;
+            uint bit = leaf_hits & (0u - leaf_hits);
+            leaf_hits ^= bit;
+            uint index = (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+            test_sphere(leaf_base + index, origin, direction, hit);
+            if (any && hit.item != NO_ITEM) {
+                leaf_hits = 0u;
+                more = false;
+            }
+        }
+    } while (more && iterations < ITERATION_LIMIT);
+}

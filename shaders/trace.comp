@@ -1,0 +1,208 @@
+// The one kernel: follows a sample's path through the scene, Whitted 1980.
+//
+// One loop, a ray an iteration: the path's own ray, or a shadow ray of the last hit. lavapipe runs 8
+// invocations as a vector in which an `if` never skips and only the end of a loop does: so lanes whose
+// chain of reflections has ended wait behind the inner loop, where the background is looked up once for
+// all, and then take up the refracted rays that wait on the stack.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_spirv_intrinsics : require
+// SignedZeroInfNanPreserve, or a compiler may take NaN for absent; stripped where a device lacks it.
+spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
+
+#include "scene.glsl"
+#include "math.glsl"
+#include "camera.glsl"
+#include "tree.glsl"
+#include "triangles.glsl"
+#include "spheres.glsl"
+#include "surface.glsl"
+#include "lights.glsl"
+#include "background.glsl"
+#include "bounce.glsl"
+#include "path.glsl"
+
+layout(local_size_x = TILE_PIXELS) in;
+
+// What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
+const uint SEGMENT_ITERATIONS = 9u;
+
+const uint PHASE_RAY = 0u;    // the path's ray is to be traced
+const uint PHASE_HIT = 1u;    // it was traced before: only the surface is to be made again
+const uint PHASE_SHADOW = 2u; // a shadow ray
+
+const uint GOES_ON = 0u;
+const uint MISSED = 1u;    // the chain ends at the background
+const uint ENDED = 2u;     // the chain ends at a surface
+const uint SUSPENDED = 3u; // to be saved
+const uint STOPPED = 4u;   // a fault
+
+void count(uint counter, bool yes) {
+    if (HAS_COUNTERS && yes)
+        atomicAdd(counters[counter], 1u);
+}
+
+void count_cut(uint counter, uint lost, bool yes, float weight) {
+    if (HAS_COUNTERS && yes) {
+        atomicAdd(counters[counter], 1u);
+        atomicMax(counters[lost], floatBitsToUint(weight));
+    }
+}
+
+// Whether a child ray of this weight is followed; one cut by depth is, to see the background.
+bool is_followed(path_state p, float weight) {
+    bool heavy = weight > 0.0 && weight >= frame.min_weight;
+    bool last = p.depth == frame.max_depth;
+    count_cut(COUNTER_CUT_WEIGHT, COUNTER_LOST_WEIGHT, weight > 0.0 && !heavy, weight);
+    count_cut(COUNTER_CUT_DEPTH, COUNTER_LOST_DEPTH, heavy && last, weight);
+    return heavy && !(HAS_DEPTH_BLACK && last);
+}
+
+// Sends the rays that leave the surface: the path goes on with one, the other waits. false: none.
+bool send_rays(inout path_state p, surface s, vec3 start) {
+    float reflection = HAS_REFLECTION ? s.reflection : 0.0;
+    bool through = false;
+    vec3 bent = p.direction;
+    if (HAS_REFRACTION) {
+        bool refracts = s.refraction > 0.0;
+        through = refracted(p.direction, s, bent) && refracts;
+        reflection = refracts && !through ? s.reflection + s.refraction : reflection;
+        count(COUNTER_TOTAL_REFLECT, refracts && !through);
+    }
+    through = through && is_followed(p, p.weight * s.refraction);
+    vec3 behind = ray_start(s.point, s.error, -s.geometric);
+    bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, p.weight * reflection);
+    float weight = p.weight;
+    if (HAS_BRANCHES && back && through)
+        push_branch(p, behind, bent, weight * s.refraction, p.depth + 1u);
+    p.origin = back ? start : behind;
+    p.direction = back ? reflected(p.direction, s) : bent;
+    p.weight = weight * (back ? reflection : s.refraction);
+    p.kind = back ? RAY_REFLECTED : RAY_REFRACTED;
+    p.depth++;
+    return back || through;
+}
+
+void write_sample(uint slot, path_state p, uint fault) {
+    bool finite = is_finite3(p.radiance);
+    vec3 value = finite ? p.radiance : vec3(0.0);
+    fault = finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT | p.hit.number;
+    uvec4 before = dispatch.sample_index == 0u ? uvec4(0u) : pixels[slot];
+    pixels[slot] = uvec4(floatBitsToUint(uintBitsToFloat(before.xyz) + value), before.w != 0u ? before.w : fault);
+}
+
+void main() {
+    uint index = (gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x) * TILE_PIXELS + gl_LocalInvocationID.x;
+    uint slots = dispatch.tile_count * TILE_PIXELS;
+    bool resumes = HAS_SLICES && dispatch.resume != 0u;
+    if (index >= (resumes ? dispatch.resume : slots))
+        return;
+    uint slot = resumes ? counters[COUNTER_COUNT + dispatch.read_list * slots + index] : index;
+    uvec2 pixel = pixel_of_slot(slot);
+    if (pixel.x >= frame.width || pixel.y >= frame.height)
+        return;
+    path_state p;
+    if (resumes)
+        p = load_path(slot);
+    else
+        p = begin_path(camera_direction(pixel));
+
+    uint iterations = 0u, fault = 0u, state = GOES_ON;
+    uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
+    bool fresh = true; // no ray was finished in this slice
+    surface s;
+    light_ray shadow = light_ray(vec3(0.0), vec3(0.0), 0.0);
+    vec3 start = vec3(0.0);
+    do {
+        do {
+            iterations += SEGMENT_ITERATIONS;
+            bool own = phase == PHASE_RAY;
+            bool traced = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
+            hit_record hit = hit_record(!traced ? -1.0 : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
+            if (HAS_SLICES && traced && !fresh && iterations > frame.slice_iterations) {
+                state = SUSPENDED;
+                break;
+            }
+            vec3 origin = own ? p.origin : start, direction = own ? p.direction : shadow.direction;
+            if (HAS_SPHERES)
+                trace_spheres(origin, direction, !own, hit, iterations);
+            if (HAS_TRIANGLES && !(!own && hit.item != NO_ITEM))
+                trace_triangles(origin, direction, !own, hit, iterations);
+            if (traced) {
+                if (iterations >= ITERATION_LIMIT) {
+                    state = HAS_SLICES && !fresh ? SUSPENDED : STOPPED;
+                    fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
+                    break;
+                }
+                fresh = false;
+                p.segments++;
+                if (p.segments > frame.path_segments) {
+                    state = STOPPED;
+                    fault = FAULT_SEGMENTS << FAULT_KIND_SHIFT;
+                    break;
+                }
+                count(own ? COUNTER_PRIMARY + p.kind : COUNTER_SHADOW, true);
+                if (HAS_COUNTERS && own)
+                    atomicMax(counters[COUNTER_DEEPEST], p.depth);
+            }
+            bool made = phase == PHASE_HIT;
+            if (own) {
+                state = hit.item == NO_ITEM ? MISSED : GOES_ON;
+                made = hit.item != NO_ITEM;
+                hit.number = made ? hit.number : p.hit.number; // a fault names what was hit last
+                p.hit = hit;
+                p.light = 0u;
+                p.light_sum = vec3(0.0);
+            }
+            if (made) {
+                make_surface(p.hit, p.origin, p.direction, s);
+                start = ray_start(s.point, s.error, s.geometric);
+            }
+            if (phase == PHASE_SHADOW) {
+                p.light_sum = hit.item == NO_ITEM ? p.light_sum + shadow.value : p.light_sum;
+                p.light++;
+            }
+            if (state == GOES_ON) {
+                bool found = false;
+                while (p.light < frame.light_count && !found && iterations < ITERATION_LIMIT) {
+                    iterations++;
+                    shadow = light_at(p.light, s, start, p.direction);
+                    if (shadow.value != vec3(0.0)) {
+                        if (HAS_SHADOWS)
+                            found = true;
+                        else
+                            p.light_sum += shadow.value;
+                    }
+                    p.light += found ? 0u : 1u;
+                }
+                phase = PHASE_SHADOW;
+                if (!found) {
+                    if (p.light < frame.light_count) {
+                        state = HAS_SLICES ? SUSPENDED : STOPPED;
+                        fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
+                    } else {
+                        p.radiance += p.light_sum * p.weight;
+                        phase = PHASE_RAY;
+                        p.hit.item = NO_ITEM;
+                        state = send_rays(p, s, start) ? GOES_ON : ENDED;
+                    }
+                }
+            }
+        } while (state == GOES_ON);
+        if (state == MISSED)
+            p.radiance += background(p.direction) * p.weight;
+        if (state == MISSED || state == ENDED) {
+            state = ENDED;
+            if (HAS_BRANCHES && p.stack_size > 0u) {
+                pop_branch(p);
+                state = GOES_ON;
+                phase = PHASE_RAY;
+            }
+        }
+    } while (state == GOES_ON);
+
+    if (HAS_SLICES && state == SUSPENDED)
+        save_path(slot, p);
+    else
+        write_sample(slot, p, state == STOPPED ? fault | p.hit.number : 0u);
+}

@@ -1,0 +1,78 @@
+// The 8-wide compressed tree of gpu_scene.h: one node against one ray.
+//
+// Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
+// sections 4.1 and 4.2, with a decoding that never loses a hit: t = (p - o)/d + q * (2^e/d), the far side
+// widened by 1 + 2 gamma(3) (Ize 2013).
+
+struct tree_ray {
+    vec3 origin;
+    vec3 inverse; // 1/direction, finite
+    uint flip;    // 7 - octant: slots are visited in the order of slot ^ flip, highest first
+    uint flip4;   // in each byte
+};
+
+tree_ray make_tree_ray(vec3 origin, vec3 direction) {
+    tree_ray ray;
+    ray.origin = origin;
+    // A component of 0 would give 0 * infinity on the planes of a box.
+    vec3 size = max(abs(direction), vec3(1.0e-20));
+    ray.inverse = vec3(direction.x < 0.0 ? -1.0 : 1.0, direction.y < 0.0 ? -1.0 : 1.0,
+                       direction.z < 0.0 ? -1.0 : 1.0) / size;
+    ray.flip = (direction.x < 0.0 ? 0u : 4u) | (direction.y < 0.0 ? 0u : 2u) | (direction.z < 0.0 ? 0u : 1u);
+    ray.flip4 = ray.flip * 0x01010101u;
+    return ray;
+}
+
+// Byte k of `bytes`, still times 256^k for k < 3: the factor is divided out of the axis' scale instead.
+float byte_scaled(uint bytes, uint k) {
+    return k == 3u ? float(int(bytes >> 24u)) : float(int(bytes & (0xffu << (8u * k))));
+}
+
+// Hits of children 4h .. 4h+3, whose near and far planes are given: bits 24..31 inner nodes by order of
+// visit, bits 0..23 leaf items.
+uint node_half(uvec3 near, uvec3 far, uint meta, vec3 base, vec3 scale, float t_max, uint flip4) {
+    uint inner = (meta & (meta << 1u)) & 0x10101010u;
+    uint bits = (meta ^ (flip4 & ((inner >> 4u) * 0xffu))) & 0x1f1f1f1fu;
+    uint counts = (meta >> 5u) & 0x07070707u;
+    uint hits = 0u;
+    for (uint k = 0u; k < 4u; k++) {
+        vec3 unit = scale * (k == 1u ? 1.0 / 256.0 : k == 2u ? 1.0 / 65536.0 : 1.0);
+        vec3 t_near = vec3(byte_scaled(near.x, k), byte_scaled(near.y, k), byte_scaled(near.z, k)) * unit + base;
+        vec3 t_far = vec3(byte_scaled(far.x, k), byte_scaled(far.y, k), byte_scaled(far.z, k)) * unit + base;
+        float enter = max(max(t_near.x, t_near.y), max(t_near.z, 0.0));
+        float leave = min(min(t_far.x, t_far.y), min(t_far.z, t_max)) * (1.0 + 2.0 * GAMMA_3);
+        uint found = ((counts >> (8u * k)) & 0xffu) << ((bits >> (8u * k)) & 0x1fu);
+        hits |= enter <= leave ? found : 0u;
+    }
+    return hits;
+}
+
+uint node_hits(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, tree_ray ray, float t_max) {
+    vec3 cell = vec3(uintBitsToFloat((w0.w & 0xffu) << 23u), uintBitsToFloat((w0.w & 0xff00u) << 15u),
+                     uintBitsToFloat((w0.w & 0xff0000u) << 7u));
+    vec3 scale = cell * ray.inverse;
+    vec3 base = (uintBitsToFloat(w0.xyz) - ray.origin) * ray.inverse;
+    bool x_up = (ray.flip & 4u) != 0u, y_up = (ray.flip & 2u) != 0u, z_up = (ray.flip & 1u) != 0u;
+    uvec2 x_lo = w2.xy, y_lo = w2.zw, z_lo = w3.xy, x_hi = w3.zw, y_hi = w4.xy, z_hi = w4.zw;
+    uvec2 near_x = x_up ? x_lo : x_hi, far_x = x_up ? x_hi : x_lo;
+    uvec2 near_y = y_up ? y_lo : y_hi, far_y = y_up ? y_hi : y_lo;
+    uvec2 near_z = z_up ? z_lo : z_hi, far_z = z_up ? z_hi : z_lo;
+    return node_half(uvec3(near_x.x, near_y.x, near_z.x), uvec3(far_x.x, far_y.x, far_z.x), w1.z, base, scale,
+                     t_max, ray.flip4) |
+           node_half(uvec3(near_x.y, near_y.y, near_z.y), uvec3(far_x.y, far_y.y, far_z.y), w1.w, base, scale,
+                     t_max, ray.flip4);
+}
+
+// Inner nodes still to be visited below one parent: first child, hits in bits 24..31, the parent's mask of
+// inner children in bits 0..7.
+uvec2 root_group() { return uvec2(0u, 0x80000000u); }
+bool has_nodes(uvec2 group) { return group.y > 0x00ffffffu; }
+
+// Takes the next node out of the group.
+uint next_node(inout uvec2 group, uint flip) {
+    // The exponent of the float tells the highest bit: cheaper than findMSB where that is emulated.
+    uint bit = (floatBitsToUint(float(int(group.y >> 24u))) >> 23u) - 127u;
+    group.y &= ~(0x1000000u << bit);
+    uint slot = bit ^ flip;
+    return group.x + bitCount(group.y & ((1u << slot) - 1u) & 0xffu);
+}

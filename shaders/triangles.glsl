@@ -1,0 +1,115 @@
+// Closest and any triangle along a ray.
+//
+// Test: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection". Bound of t: Pharr, Jakob,
+// Humphreys 2023, section 6.8.7. Equal t goes to the lower number, so that the tree never shows.
+
+struct hit_record {
+    float t;     // the ray's end before, where nothing was hit
+    float b1;    // barycentrics of v1 and v2 as stored
+    float b2;
+    uint item;   // leaf item, with ITEM_SPHERE for spheres; NO_ITEM: nothing
+    uint number; // spheres by body, then triangles: decides ties
+};
+const uint NO_ITEM = 0xffffffffu;
+const uint ITEM_SPHERE = 0x80000000u;
+
+struct shear_ray {
+    vec3 origin;
+    bool along_x, along_z; // the largest component of the direction; else along y
+    float sx, sy, sz;
+};
+
+vec3 turn(vec3 v, bool along_x, bool along_z) { return along_z ? v : along_x ? v.yzx : v.zxy; }
+
+shear_ray make_shear_ray(vec3 origin, vec3 direction) {
+    shear_ray ray;
+    vec3 size = abs(direction);
+    ray.origin = origin;
+    ray.along_z = size.z >= size.x && size.z >= size.y;
+    ray.along_x = !ray.along_z && size.x >= size.y;
+    vec3 d = turn(direction, ray.along_x, ray.along_z);
+    ray.sz = 1.0 / d.z;
+    ray.sx = d.x * ray.sz;
+    ray.sy = d.y * ray.sz;
+    return ray;
+}
+
+void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
+    uvec4 w0 = FETCH(triangles, item * TRIANGLE_WORDS);
+    uvec4 w1 = FETCH(triangles, item * TRIANGLE_WORDS + 1u);
+    uvec4 w2 = FETCH(triangles, item * TRIANGLE_WORDS + 2u);
+    vec3 a = turn(uintBitsToFloat(w0.xyz) - ray.origin, ray.along_x, ray.along_z);
+    vec3 b = turn(uintBitsToFloat(w1.xyz) - ray.origin, ray.along_x, ray.along_z);
+    vec3 c = turn(uintBitsToFloat(w2.xyz) - ray.origin, ray.along_x, ray.along_z);
+    float ax = a.x - ray.sx * a.z, ay = a.y - ray.sy * a.z;
+    float bx = b.x - ray.sx * b.z, by = b.y - ray.sy * b.z;
+    float cx = c.x - ray.sx * c.z, cy = c.y - ray.sy * c.z;
+    float u = cx * by - cy * bx;
+    float v = ax * cy - ay * cx;
+    float w = bx * ay - by * ax;
+    float det = u + v + w;
+    bool inside = max(max(u, v), w) <= 0.0 || min(min(u, v), w) >= 0.0;
+    float inverse = 1.0 / det;
+    float t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
+    float x_most = max(max(abs(ax), abs(bx)), abs(cx));
+    float y_most = max(max(abs(ay), abs(by)), abs(cy));
+    float z_most = max(max(abs(a.z), abs(b.z)), abs(c.z));
+    float e_most = max(max(abs(u), abs(v)), abs(w));
+    float delta_x = GAMMA_5 * (x_most + z_most);
+    float delta_y = GAMMA_5 * (y_most + z_most);
+    float delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
+    float delta_t = 3.0 * (2.0 * GAMMA_3 * e_most + delta_e) * z_most * abs(ray.sz * inverse);
+    uint number = w0.w + frame.sphere_count;
+    bool nearer = t < hit.t || (t == hit.t && number < hit.number);
+    if (inside && det != 0.0 && t > delta_t && nearer) {
+        hit.t = t;
+        hit.b1 = v * inverse;
+        hit.b2 = w * inverse;
+        hit.item = item;
+        hit.number = number;
+    }
+}
+
+// `any`: the first hit found ends the search. Stops unfinished at ITERATION_LIMIT.
+void trace_triangles(vec3 origin, vec3 direction, bool any, inout hit_record hit, inout uint iterations) {
+    tree_ray ray = make_tree_ray(origin, direction);
+    shear_ray shear = make_shear_ray(origin, direction);
+    uvec2 stack[TRIANGLE_STACK];
+    uint size = 0u;
+    uvec2 group = root_group();
+    bool more = true;
+    do {
+        iterations += 2u; // this loop, and the leaf loop where no lane enters it
+        uint leaf_base, leaf_hits;
+        do {
+            iterations++;
+            uint node = next_node(group, ray.flip) * NODE_WORDS;
+            if (has_nodes(group))
+                stack[size++] = group;
+            uvec4 w0 = FETCH(triangle_nodes, node);
+            uvec4 w1 = FETCH(triangle_nodes, node + 1u);
+            uint hits = node_hits(w0, w1, FETCH(triangle_nodes, node + 2u), FETCH(triangle_nodes, node + 3u),
+                                  FETCH(triangle_nodes, node + 4u), ray, hit.t);
+            group = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u));
+            leaf_base = w1.y;
+            leaf_hits = hits & 0x00ffffffu;
+            if (!has_nodes(group)) {
+                more = size > 0u;
+                if (more)
+                    group = stack[--size];
+            }
+        } while (more && leaf_hits == 0u && iterations < ITERATION_LIMIT);
+        while (leaf_hits != 0u && iterations < ITERATION_LIMIT) {
+            iterations++;
+            uint bit = leaf_hits & (0u - leaf_hits);
+            leaf_hits ^= bit;
+            // A power of two up to 2^23 is its own exponent.
+            uint index = (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+            test_triangle(leaf_base + index, shear, hit);
+            if (any && hit.item != NO_ITEM) {
+                leaf_hits = 0u;
+                more = false;
+            }
+        }
+    } while (more && iterations < ITERATION_LIMIT);
+}

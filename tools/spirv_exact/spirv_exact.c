@@ -1,0 +1,157 @@
+// spirv_exact IN.spv OUT.spv OUT.c NAME: decorates every floating-point arithmetic operation of a module
+// with NoContraction, so that no compiler may fuse a multiplication and an addition, and writes the
+// module as SPIR-V and as a C array `NAME` of `NAME_words` words.
+//
+// GLSL's `precise` stops at function calls and does nothing for dot and cross; watertight intersection
+// and conservative boxes need every operation rounded once. Exit codes: 0, or 1 with a line on stderr.
+// Reference: SPIR-V Specification 1.6, sections 2.3, 2.4 and 3.
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum {
+    HEADER_WORDS = 5,
+    MAGIC = 0x07230203,
+    DECORATION_NO_CONTRACTION = 42,
+    OP_DECORATE = 71,
+    OP_DECORATION_GROUP = 73,
+    OP_TYPE_VOID = 19,
+    OP_TYPE_FORWARD_POINTER = 39,
+    OP_SPEC_CONSTANT_OP = 52,
+    OP_CONSTANT_TRUE = 41,
+    OP_FUNCTION = 54,
+    OP_FNEGATE = 127,
+    OP_FADD = 129,
+    OP_FSUB = 131,
+    OP_FMUL = 133,
+    OP_FDIV = 136,
+    OP_FREM = 140,
+    OP_FMOD = 141,
+    OP_VECTOR_TIMES_SCALAR = 142,
+};
+
+static bool is_arithmetic(uint32_t opcode) {
+    switch (opcode) {
+    case OP_FNEGATE:
+    case OP_FADD:
+    case OP_FSUB:
+    case OP_FMUL:
+    case OP_FDIV:
+    case OP_FREM:
+    case OP_FMOD:
+    case OP_VECTOR_TIMES_SCALAR:
+        return true;
+    default:
+        return false;
+    }
+}
+
+static uint32_t *read_module(const char *path, size_t *words) {
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return NULL;
+    uint32_t *module = NULL;
+    long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+    if (size >= HEADER_WORDS * 4 && size % 4 == 0 && fseek(file, 0, SEEK_SET) == 0) {
+        *words = (size_t)size / 4;
+        module = malloc((size_t)size);
+        if (module && fread(module, 4, *words, file) != *words) {
+            free(module);
+            module = NULL;
+        }
+    }
+    fclose(file);
+    return module;
+}
+
+static bool is_sound(const uint32_t *module, size_t words) {
+    if (module[0] != MAGIC)
+        return false;
+    for (size_t at = HEADER_WORDS; at < words; at += module[at] >> 16)
+        if (module[at] >> 16 == 0 || at + (module[at] >> 16) > words)
+            return false;
+    return true;
+}
+
+// Annotations end where the first type or constant begins (section 2.4, logical layout).
+static size_t annotations_end(const uint32_t *module, size_t words) {
+    for (size_t at = HEADER_WORDS; at < words; at += module[at] >> 16) {
+        const uint32_t opcode = module[at] & 0xffff;
+        if ((opcode >= OP_TYPE_VOID && opcode <= OP_TYPE_FORWARD_POINTER) ||
+            (opcode >= OP_CONSTANT_TRUE && opcode <= OP_FUNCTION))
+            return at;
+    }
+    return words;
+}
+
+// A module of `*words` words, on the heap.
+static uint32_t *decorate(const uint32_t *module, size_t *words) {
+    const size_t end = annotations_end(module, *words);
+    bool *done = calloc(module[3], sizeof *done);           // by result id; module[3] is their bound
+    uint32_t *out = malloc((*words * 2 + 3) * sizeof *out); // an operation has at least 3 words
+    if (!done || !out) {
+        free(done);
+        free(out);
+        return NULL;
+    }
+    size_t count = 0;
+    for (size_t at = 0; at < end; at++)
+        out[count++] = module[at];
+    for (size_t at = HEADER_WORDS; at < end; at += module[at] >> 16)
+        if ((module[at] & 0xffff) == OP_DECORATE && module[at + 2] == DECORATION_NO_CONTRACTION)
+            done[module[at + 1]] = true;
+    for (size_t at = end; at < *words; at += module[at] >> 16) {
+        if (!is_arithmetic(module[at] & 0xffff) || done[module[at + 2]])
+            continue;
+        out[count++] = 3u << 16 | OP_DECORATE;
+        out[count++] = module[at + 2];
+        out[count++] = DECORATION_NO_CONTRACTION;
+    }
+    for (size_t at = end; at < *words; at++)
+        out[count++] = module[at];
+    free(done);
+    *words = count;
+    return out;
+}
+
+static bool write_module(const char *path, const uint32_t *module, size_t words) {
+    FILE *file = fopen(path, "wb");
+    if (!file)
+        return false;
+    const bool ok = fwrite(module, 4, words, file) == words;
+    return fclose(file) == 0 && ok;
+}
+
+static bool write_array(const char *path, const char *name, const uint32_t *module, size_t words) {
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return false;
+    fprintf(file, "#include \"shaders/kernels.h\"\n\nconst uint32_t %s[] = {", name);
+    for (size_t i = 0; i < words; i++)
+        fprintf(file, "%s0x%08xu,", i % 8 ? " " : "\n    ", (unsigned)module[i]);
+    fprintf(file, "\n};\nconst size_t %s_words = sizeof %s / sizeof %s[0];\n", name, name, name);
+    const bool ok = !ferror(file);
+    return fclose(file) == 0 && ok;
+}
+
+int main(int argc, char **argv) {
+    if (argc != 5) {
+        fprintf(stderr, "usage: spirv_exact IN.spv OUT.spv OUT.c NAME\n");
+        return 1;
+    }
+    size_t words = 0;
+    uint32_t *module = read_module(argv[1], &words), *exact = NULL;
+    bool ok = false;
+    if (!module || !is_sound(module, words))
+        fprintf(stderr, "%s:1:1: error: not a SPIR-V module\n", argv[1]);
+    else if (!(exact = decorate(module, &words)))
+        fprintf(stderr, "%s:1:1: error: not enough memory\n", argv[1]);
+    else if (!write_module(argv[2], exact, words) || !write_array(argv[3], argv[4], exact, words))
+        fprintf(stderr, "%s:1:1: error: cannot be written\n", argv[2]);
+    else
+        ok = true;
+    free(module);
+    free(exact);
+    return ok ? 0 : 1;
+}
