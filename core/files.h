@@ -52,7 +52,8 @@ struct files {
 void files_init(struct files *files, struct arena *arena);
 // Makes `directory` an allowed folder. FILE_MISSING or FILE_NOT_REGULAR where it is no folder.
 enum file_status files_add_root(struct files *files, str directory);
-// Text from memory in place of the file at `path` (which need not exist); copied. The newest one for a path counts.
+// Text from memory in place of the file at `path` (which need not exist); copied. The newest one for a path
+// counts.
 void files_add_overlay(struct files *files, str path, str text);
 // The scene's root: the folder of the nearest `.glintrc.yaml` at or above the scene's folder, else the
 // scene's folder. `scene_path` is as given by the user. On FILE_OK the root has been added.
