@@ -21,6 +21,9 @@ void fox_write_mtl(struct strbuf *text);
 // "glint" in letters of our own, extruded along z with a rounded edge; baseline at y = 0.
 void word_generate(struct mesh *mesh);
 
+// A vase turned from a profile, 1.35 high, with a wall, standing on y = 0; 16 sides, no normals.
+void vase_generate(struct mesh *mesh);
+
 // Equirectangular sky, mountains and lake: width * height RGB bytes (sRGB), width twice the height.
 // The caller frees the result; NULL: out of memory.
 unsigned char *sky_generate(int width, int height);

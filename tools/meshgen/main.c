@@ -46,6 +46,7 @@ static const struct product PRODUCTS[] = {
     {"gem", "a round brilliant", gem_generate, NULL, NULL},
     {"fox", "a sitting fox", fox_generate, NULL, "fox.mtl"},
     {"fox-mtl", "the fox's colours", NULL, write_fox_mtl, NULL},
+    {"vase", "a vase", vase_generate, NULL, NULL},
     {"word", "the word glint", word_generate, NULL, NULL},
     {"sky", "sky, mountains and lake", NULL, write_sky, NULL},
 };
