@@ -17,8 +17,10 @@
 #include "grammar/ir_origin.h"
 
 struct asset_store;
+struct asset_hold;
 
 struct asset_store *asset_store_create(void); // NULL: no memory
+// All assets that were loaded with the store must be finished before.
 void asset_store_destroy(struct asset_store *store);
 
 struct assets_model {
@@ -27,7 +29,8 @@ struct assets_model {
 };
 
 struct assets {
-    struct asset_store *store;
+    struct asset_hold *hold;        // the references into the store
+    const struct ir_origin *origin; // of the scene, for places in later messages
     // All materials that bodies can have: those of the scene in its order, then the default material
     // (index scene.materials.count), then those that material files of meshes add.
     struct ir_material *materials;
@@ -49,8 +52,11 @@ struct assets_input {
 };
 
 // Loads all; goes on after a fault. `geometry_only` skips decoding the background (its header is still
-// checked).
-void assets_load(struct asset_store *store, const struct assets_input *input, bool geometry_only, struct assets *out);
+// checked). Where memory ends, the guards of input->arena and of the arenas of sources and files are jumped
+// to; assets_finish(out) then still gives back what was taken.
+void assets_load(struct asset_store *store, const struct assets_input *input, bool geometry_only,
+                 struct assets *out);
+// Zeroed, half-loaded and finished assets are fine.
 void assets_finish(struct assets *assets);
 // The index in assets.materials of a body's reference.
 uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_ref *ref);

@@ -16,34 +16,47 @@ struct mesh_triangle {
     uint32_t line;       // of the face in the file, from 1
 };
 
-// The faces of one `usemtl` name (or of none: an empty name).
+// The faces of one `usemtl` name (or of none: an empty name), in the order of their first face. What
+// material they have is the model's affair: struct assets_model.
 struct mesh_group {
     str name;
-    bool has_material;           // a material file defines it
-    struct ir_material material; // made from the MTL where has_material
-    uint32_t line;               // of the first `usemtl`
+    uint32_t line; // of the first `usemtl` of this name; 0 for the empty name
+};
+
+// A `mtllib` line: one name, or several.
+struct mesh_library {
+    str names; // the text behind the word, trimmed
+    uint32_t line;
 };
 
 struct mesh {
     struct arena arena;
-    str path;
-    vec3 *positions; // in mesh space
+    str path;        // as shown to people
+    vec3 *positions; // in mesh space; only those that faces use; never -0
     uint32_t position_count;
-    vec3 *normals; // unit, from the file
+    uint32_t *merged; // per position: the lowest index of a bit-equal position
+    vec3 *normals;    // unit, from the file
     uint32_t normal_count;
     struct mesh_triangle *triangles;
     uint32_t triangle_count;
-    struct mesh_group *groups;
+    struct mesh_group *groups; // each has a face
     uint32_t group_count;
-    bool closed;         // bit-equal positions merged, every directed edge occurs as often as its opposite
-    bool turned;         // a closed mesh of negative volume: `triangles` have been turned outward
-    double volume;       // signed, before turning; 0 where open
-    uint32_t open_edges; // directed edges without their opposite
-    uint32_t open_line;  // face line of the first of them
-    uint32_t face_count; // polygons in the file, before triangulation
-    uint32_t zero_area;  // triangles without area; kept here, dropped by flattening
-    vec3 lower, upper;   // bounds of the positions that faces use
+    struct mesh_library *libraries;
+    uint32_t library_count;
+    bool closed;            // bit-equal positions merged, every directed edge occurs as often as its opposite
+    bool turned;            // a closed mesh of negative volume: `triangles` have been turned outward
+    double volume;          // signed, before turning; 0 where open
+    uint32_t open_edges;    // directed edges without their opposite
+    uint32_t open_line;     // face line of the first of them
+    uint32_t face_count;    // polygons in the file, before triangulation
+    uint32_t zero_area;     // triangles without area; kept here, dropped by flattening
+    uint32_t ignored_count; // points, lines, curves and surfaces
+    uint32_t ignored_line;  // of the first of them
+    vec3 lower, upper;      // bounds of the positions
 };
+
+// Whether the triangle's area is not 0 (in double, without underflow).
+bool mesh_has_area(const struct mesh *mesh, uint32_t triangle);
 
 // Shading normals of smooth models: three unit vectors a triangle (corner order), 3 * triangle_count.
 // A corner with a normal of the file has that; else unit face normals weighted by their angle at the

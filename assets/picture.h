@@ -1,10 +1,9 @@
-// Images that a scene reads: PNG, JPEG and Radiance HDR, decoded by stb_image.
+// Images that a scene reads: PNG and JPEG (decoded by stb_image), Radiance HDR.
 //
 // Ownership: pixels on the heap, freed by picture_finish; pictures in the store belong to the store.
 #ifndef GLINT_ASSETS_PICTURE_H
 #define GLINT_ASSETS_PICTURE_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 enum picture_depth {
@@ -16,11 +15,12 @@ enum picture_depth {
 struct picture {
     uint32_t width, height;
     enum picture_depth depth;
-    void *pixels;         // RGBA, row 0 on top; alpha is to be ignored
-    uint64_t size_bytes;
-    bool ignored_parts;   // alpha or colour chunks that glint does not use
+    void *pixels;        // RGBA, row 0 on top; alpha is to be ignored
+    uint64_t size_bytes; // of the pixels
+    const char *ignored; // parts that glint does not use, as in "alpha is"; NULL: none
 };
 
+// A zeroed picture is fine.
 void picture_finish(struct picture *picture);
 
 #endif

@@ -17,9 +17,9 @@ struct view_camera {
 
 struct view_light {
     bool directional;
-    vec3 position;  // scene units; zero where directional
-    vec3 to_light;  // unit; zero where positional
-    vec3 emission;  // intensity times colour, linear
+    vec3 position; // scene units; zero where directional
+    vec3 to_light; // unit; zero where positional
+    vec3 emission; // intensity times colour, linear
     bool inverse_square;
     bool automatic;
     uint32_t index; // in scene.lights; IR_NO_INDEX where automatic
@@ -45,8 +45,8 @@ bool view_bounds(const struct ir_scene *scene, const struct assets *assets, vec3
 
 // The view through camera `camera_index` of the scene (0 where it has none: the automatic camera for an
 // image of width x height pixels). Notes N401 and N402 tell about automatic ones where `sink` is not NULL.
-void view_build(const struct ir_scene *scene, const struct assets *assets, uint32_t camera_index, int32_t width,
-                int32_t height, struct arena *arena, struct diag_sink *sink, struct view *out);
+void view_build(const struct ir_scene *scene, const struct assets *assets, uint32_t camera_index,
+                int32_t width, int32_t height, struct arena *arena, struct diag_sink *sink, struct view *out);
 
 // "A ray whose path ... offset of sample n": frac(1/2 + n/φ), frac(1/2 + n/φ²), φ = 1.32471795724474602596
 // (Roberts 2018, R2 sequence).

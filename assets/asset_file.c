@@ -1,0 +1,240 @@
+#include "assets/asset_file.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    MESSAGE_MAX = 1024
+};
+
+// Words of a broken file may hold anything: what is no text is shown as '?'.
+static void format_message(char message[MESSAGE_MAX], const char *format, va_list args) {
+    vsnprintf(message, MESSAGE_MAX, format, args);
+    str text = str_from(message);
+    for (size_t at = 0; at < text.len;) {
+        size_t length = utf8_sequence_length(text, at);
+        unsigned char c = (unsigned char)message[at];
+        if (length == 0 || c < 0x20 || c == 0x7F)
+            message[at] = '?';
+        at += length ? length : 1;
+    }
+}
+
+static uint32_t source_of(struct asset_file *file) {
+    if (file->source != SOURCE_DEFAULT)
+        return file->source;
+    const struct assets_input *input = file->input;
+    struct arena *arena = input->sources->arena;
+    str text = file->text;
+    char *copy = text.len ? arena_try_alloc(arena, text.len + 1) : NULL;
+    if (copy) {
+        memcpy(copy, text.ptr, text.len);
+        text.ptr = copy;
+    } else if (text.len || files_read(input->files, file->path, input->limits->value[file->limit], arena,
+                                      &text) != FILE_OK) {
+        // Too large to be kept for a message: places in it are then shown without their text.
+        text = STR("");
+    }
+    file->source = source_add(input->sources, SOURCE_KIND_FILE, file->path, text);
+    return file->source;
+}
+
+static span whole_file(struct asset_file *file) {
+    if (file->source == SOURCE_DEFAULT && file->bare_source == SOURCE_DEFAULT)
+        file->bare_source = source_add(file->input->sources, SOURCE_KIND_FILE, file->path, STR(""));
+    return (span){file->source != SOURCE_DEFAULT ? file->source : file->bare_source, 0, 0};
+}
+
+span asset_line(struct asset_file *file, uint32_t line) {
+    if (line == 0)
+        return whole_file(file);
+    uint32_t source = source_of(file);
+    str text = file->input->sources->items[source].text;
+    size_t at = 0;
+    for (uint32_t i = 1; i < line && at < text.len; at++)
+        if (text.ptr[at] == '\n' ||
+            (text.ptr[at] == '\r' && !(at + 1 < text.len && text.ptr[at + 1] == '\n')))
+            i++;
+    size_t end = at;
+    while (end < text.len && text.ptr[end] != '\n' && text.ptr[end] != '\r')
+        end++;
+    while (at < end && (text.ptr[at] == ' ' || text.ptr[at] == '\t'))
+        at++;
+    while (end > at && (text.ptr[end - 1] == ' ' || text.ptr[end - 1] == '\t'))
+        end--;
+    return (span){source, (uint32_t)at, (uint32_t)end};
+}
+
+static span named_place(struct asset_file *file) {
+    return file->named_in ? asset_line(file->named_in, file->named_line) : file->named_at;
+}
+
+static void add_named_notes(struct asset_file *file) {
+    for (struct asset_file *f = file; f; f = f->named_in)
+        diag_note(f->input->sink, named_place(f), "the %s is named here", f->what);
+}
+
+static void add_named(struct asset_file *file, enum diag_code code, const char *message) {
+    diag_add(file->input->sink, code, named_place(file), "%s", message);
+    file->errors += diag_info(code)->severity == DIAG_ERROR;
+    if (file->named_in)
+        add_named_notes(file->named_in);
+}
+
+void asset_report_named(struct asset_file *file, enum diag_code code, const char *format, ...) {
+    char message[MESSAGE_MAX];
+    va_list args;
+    va_start(args, format);
+    format_message(message, format, args);
+    va_end(args);
+    add_named(file, code, message);
+}
+
+static struct asset_count *slot_of(struct asset_file *file, enum diag_code code) {
+    int i = 0;
+    while (i < ASSET_CODES - 1 && file->counts[i].count && file->counts[i].code != code)
+        i++;
+    file->counts[i].code = code;
+    return &file->counts[i];
+}
+
+bool asset_is_grouped(struct asset_file *file, enum diag_code code) {
+    struct asset_count *slot = slot_of(file, code);
+    if (slot->count < ASSET_CODE_SHOWN)
+        return false;
+    file->errors += diag_info(code)->severity == DIAG_ERROR;
+    if (slot->last < file->input->sink->count)
+        file->input->sink->items[slot->last].repeats++;
+    return true;
+}
+
+static void report(struct asset_file *file, enum diag_code code, span at, const char *format, va_list args) {
+    struct diag_sink *sink = file->input->sink;
+    char message[MESSAGE_MAX];
+    format_message(message, format, args);
+    diag_add(sink, code, at, "%s", message);
+    struct asset_count *slot = slot_of(file, code);
+    slot->count++;
+    slot->last = sink->count - 1;
+    file->errors += diag_info(code)->severity == DIAG_ERROR;
+    add_named_notes(file);
+}
+
+bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, size_t end, const char *format,
+                  ...) {
+    if (asset_is_grouped(file, code))
+        return false;
+    va_list args;
+    va_start(args, format);
+    report(file, code, (span){source_of(file), (uint32_t)begin, (uint32_t)end}, format, args);
+    va_end(args);
+    return true;
+}
+
+bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...) {
+    if (asset_is_grouped(file, code))
+        return false;
+    va_list args;
+    va_start(args, format);
+    report(file, code, asset_line(file, line), format, args);
+    va_end(args);
+    return true;
+}
+
+void asset_report_limit(struct asset_file *file, enum limit limit, size_t begin, size_t end,
+                        uint64_t needed) {
+    const struct limit_info *info = limit_info(limit);
+    uint64_t value = file->input->limits->value[limit];
+    if (!asset_report(file, DIAG_LIMIT, begin, end, "the %s exceeds the limit %s of %llu", file->what,
+                      info->name, (unsigned long long)value))
+        return;
+    if (needed <= info->greatest)
+        diag_help(file->input->sink, "if the file is right, raise the limit: --limit %s=%llu", info->name,
+                  (unsigned long long)needed);
+}
+
+void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
+    if (fault == ARENA_FAULT_CAP) {
+        asset_report_named(file, DIAG_LIMIT,
+                           "the %s '%.*s' needs more memory than the limit %s of %llu bytes", file->what,
+                           STR_ARG(file->path), limit_info(LIMIT_MESH_MEMORY)->name,
+                           (unsigned long long)file->input->limits->value[LIMIT_MESH_MEMORY]);
+        diag_help(file->input->sink, "raise the limit with --limit %s=BYTES",
+                  limit_info(LIMIT_MESH_MEMORY)->name);
+    } else {
+        asset_report_named(file, DIAG_OUT_OF_MEMORY, "there is not enough memory for the %s '%.*s'",
+                           file->what, STR_ARG(file->path));
+    }
+}
+
+static void report_missing(struct asset_file *file, str path) {
+    asset_report_named(file, DIAG_FILE_MISSING, "the %s '%.*s' does not exist", file->what, STR_ARG(path));
+    str near = files_suggest(file->input->files, file->path);
+    str folder = str_slice(path, 0, path.len - path_base(path).len);
+    if (near.len)
+        diag_help(file->input->sink, "did you mean '%.*s%.*s'?", STR_ARG(folder), STR_ARG(near));
+    else
+        diag_help(file->input->sink, "it was looked for as '%.*s'; --asset-path DIR adds a folder to look in",
+                  STR_ARG(file->path));
+}
+
+// Says why a file that is named as `path` is not read.
+static void refuse(struct asset_file *file, str path, enum file_status status, uint64_t size) {
+    const struct assets_input *input = file->input;
+    switch (status) {
+    case FILE_MISSING:
+        report_missing(file, path);
+        return;
+    case FILE_OUTSIDE:
+        asset_report_named(file, DIAG_FILE_OUTSIDE, "the %s '%.*s' lies outside the scene's folder: '%.*s'",
+                           file->what, STR_ARG(path), STR_ARG(file->path));
+        diag_help(input->sink, "move it below the scene's folder, or allow its folder with --asset-path %.*s",
+                  STR_ARG(path_folder(file->path)));
+        return;
+    case FILE_NOT_REGULAR:
+        asset_report_named(file, DIAG_FILE_NOT_REGULAR, "the %s '%.*s' is not a regular file", file->what,
+                           STR_ARG(path));
+        return;
+    case FILE_TOO_LARGE:
+        asset_report_named(file, DIAG_LIMIT, "the %s '%.*s' has %llu bytes; the limit %s is %llu", file->what,
+                           STR_ARG(path), (unsigned long long)size, limit_info(file->limit)->name,
+                           (unsigned long long)input->limits->value[file->limit]);
+        if (size <= limit_info(file->limit)->greatest)
+            diag_help(input->sink, "if the file is right, raise the limit: --limit %s=%llu",
+                      limit_info(file->limit)->name, (unsigned long long)size);
+        return;
+    case FILE_NO_MEMORY:
+        asset_report_memory(file, size ? ARENA_FAULT_CAP : ARENA_FAULT_SYSTEM);
+        return;
+    default:
+        asset_report_named(file, DIAG_FILE_UNREADABLE, "the %s '%.*s' cannot be read: %s", file->what,
+                           STR_ARG(path), file_status_text(input->files, status));
+    }
+}
+
+bool asset_find(struct asset_file *file, str base_path, str path, struct file_read *identity, bool *missing) {
+    struct files *files = file->input->files;
+    enum file_status status = files_resolve(files, base_path, path, &file->path);
+    if (missing)
+        *missing = status == FILE_MISSING;
+    if (status == FILE_MISSING && missing)
+        return false;
+    if (status == FILE_OK)
+        status = files_identify(files, file->path, identity);
+    if (status == FILE_OK && identity->size_bytes > file->input->limits->value[file->limit])
+        status = FILE_TOO_LARGE;
+    if (status != FILE_OK)
+        refuse(file, path, status, status == FILE_TOO_LARGE ? identity->size_bytes : 0);
+    return status == FILE_OK;
+}
+
+bool asset_read(struct asset_file *file, struct arena *arena) {
+    const struct assets_input *input = file->input;
+    uint64_t cap = input->limits->value[file->limit];
+    enum file_status status = files_read(input->files, file->path, cap, arena, &file->text);
+    if (status == FILE_OK)
+        return true;
+    refuse(file, file->path, status, status == FILE_NO_MEMORY && arena->cap_bytes <= cap);
+    return false;
+}

@@ -1,0 +1,319 @@
+#include "assets/assets.h"
+
+#include "assets/loader.h"
+#include "assets/mesh_build.h"
+#include "assets/picture_read.h"
+#include "assets/view.h"
+#include "core/strbuf.h"
+#include "grammar/schema.h"
+
+#include <assert.h>
+
+enum {
+    TEXT_ROOM = 64
+}; // that an arena takes beside one text
+
+bool assets_is_mesh_path(str path) {
+    return str_ends_with_nocase(path, ".obj");
+}
+
+// The file that holds a value: paths are relative to it. Values of options belong to the scene's file.
+static str base_of(const struct assets_input *input, span at) {
+    uint32_t source = at.source;
+    const struct source *s = &input->sources->items[source < input->sources->count ? source : SOURCE_DEFAULT];
+    if ((s->kind == SOURCE_KIND_OPTION || s->kind == SOURCE_KIND_DEFAULT) && input->origin->files.count)
+        s = &input->sources->items[input->origin->files.items[0].source];
+    return s->kind == SOURCE_KIND_FILE || s->kind == SOURCE_KIND_OVERLAY ? s->path : STR("");
+}
+
+static bool is_poisoned(const struct ir_head *head, const struct schema_element *schema, const char *row) {
+    return head->poisoned >> schema_find_row(schema, str_from(row)) & 1;
+}
+
+// ---- meshes
+
+static void report_mesh_kind(struct asset_file *file) {
+    static const char *const known[] = {".ply", ".stl", ".gltf",  ".glb", ".fbx",
+                                        ".dae", ".3ds", ".blend", ".off", NULL};
+    str base = path_base(file->path);
+    size_t dot = base.len;
+    while (dot > 0 && base.ptr[dot - 1] != '.')
+        dot--;
+    bool is_known = false;
+    for (const char *const *ending = known; *ending; ending++)
+        is_known |= str_ends_with_nocase(base, *ending);
+    if (dot == 0)
+        asset_report_named(file, DIAG_FILE_KIND, "'%.*s' has no ending that tells its kind", STR_ARG(base));
+    else
+        asset_report_named(file, DIAG_FILE_KIND, "meshes of the kind '.%.*s' are not read",
+                           STR_ARG(str_slice(base, dot, base.len)));
+    diag_help(file->input->sink,
+              is_known ? "this version reads Wavefront OBJ (.obj); a 3-D program can convert the file"
+                       : "this version reads Wavefront OBJ (.obj)");
+}
+
+// Everything that jumps where memory ends lies between the two guards.
+static void read_mesh(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
+    struct arena_guard guard;
+    arena_set_guard(scratch, &guard);
+    arena_set_guard(&mesh->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        struct obj obj;
+        if (asset_read(file, scratch)) {
+            read_obj(file, scratch, &obj);
+            if (file->errors == 0)
+                mesh_build(&obj, file->path, scratch, mesh);
+        }
+    } else {
+        asset_report_memory(file, guard.fault);
+    }
+    arena_set_guard(scratch, NULL);
+    arena_set_guard(&mesh->arena, NULL);
+}
+
+// What is worth telling about a mesh, whether it was read now or for an earlier scene.
+static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
+    if (mesh->turned)
+        asset_report_line(file, DIAG_MESH_TURNED, 0,
+                          "the faces of this closed mesh point inwards and were turned outwards");
+    if (mesh->ignored_count)
+        asset_report_line(file, DIAG_MESH_IGNORED, mesh->ignored_line,
+                          "%u point%s, line%s or curve%s not drawn", mesh->ignored_count,
+                          mesh->ignored_count == 1 ? "" : "s", mesh->ignored_count == 1 ? "" : "s",
+                          mesh->ignored_count == 1 ? " is" : "s are");
+}
+
+static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const struct file_read *identity) {
+    struct asset_file *file = &loaded->file;
+    struct store_entry *entry = store_find(loader->hold, STORE_MESH, identity);
+    if (!entry) {
+        size_t cap = (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY];
+        struct arena *scratch = &loader->hold->scratch;
+        entry = store_add(loader->hold, STORE_MESH, identity);
+        if (!entry) {
+            asset_report_memory(file, ARENA_FAULT_SYSTEM);
+            return;
+        }
+        arena_init(scratch, cap);
+        arena_init(&entry->mesh.arena, cap);
+        read_mesh(file, scratch, &entry->mesh);
+        entry->is_whole = file->errors == 0;
+        if (entry->is_whole)
+            report_mesh(file, &entry->mesh);
+        else
+            arena_finish(&entry->mesh.arena);
+        file->text = STR("");
+        arena_finish(scratch);
+    } else {
+        report_mesh(file, &entry->mesh);
+    }
+    loaded->mesh = entry->is_whole ? &entry->mesh : NULL;
+}
+
+// The mesh that a model names, read when the first model names it.
+static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_model *model, span at) {
+    const struct assets_input *input = loader->input;
+    struct asset_file file = {.input = input, .what = "mesh", .limit = LIMIT_MESH_BYTES, .named_at = at};
+    struct file_read identity;
+    if (!asset_find(&file, base_of(input, at), model->mesh, &identity, NULL))
+        return NULL;
+    for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
+        if (str_equal(known->canonical, identity.path))
+            return known;
+    if (!assets_is_mesh_path(model->mesh)) {
+        report_mesh_kind(&file);
+        return NULL;
+    }
+    struct loaded_mesh *loaded = ARENA_NEW(input->arena, struct loaded_mesh);
+    loaded->file = file;
+    loaded->canonical = arena_copy(input->arena, identity.path);
+    loaded->next = loader->meshes;
+    loader->meshes = loaded;
+    load_mesh(loader, loaded, &identity);
+    return loaded;
+}
+
+// ---- models
+
+static bool fits_scene(struct loader *loader, struct assets *out, const struct mesh *mesh, span at) {
+    const struct assets_input *input = loader->input;
+    uint64_t most = input->limits->value[LIMIT_SCENE_TRIANGLES];
+    uint64_t sum = out->triangle_count + mesh->triangle_count;
+    if (sum <= most) {
+        out->triangle_count = sum;
+        return true;
+    }
+    const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
+    diag_add(input->sink, DIAG_LIMIT, at,
+             "with this mesh of %u triangles the scene has %llu; the limit %s is %llu", mesh->triangle_count,
+             (unsigned long long)sum, info->name, (unsigned long long)most);
+    if (sum <= info->greatest)
+        diag_help(input->sink, "if the scene is right, raise the limit: --limit %s=%llu", info->name,
+                  (unsigned long long)sum);
+    return false;
+}
+
+static void check_transform(struct loader *loader, const struct ir_model *model, const struct mesh *mesh) {
+    const struct assets_input *input = loader->input;
+    affine3 place = view_model_transform(model);
+    double largest = 0;
+    for (int i = 0; i < 8; i++) {
+        vec3 corner = {i & 1 ? mesh->upper.x : mesh->lower.x, i & 2 ? mesh->upper.y : mesh->lower.y,
+                       i & 4 ? mesh->upper.z : mesh->lower.z};
+        largest = fmax(largest, vec3_max_abs(affine3_apply(place, corner)));
+    }
+    const struct schema_range_info *range = schema_range_info(SCHEMA_RANGE_COORDINATE);
+    if (largest <= range->greatest)
+        return;
+    diag_add(input->sink, DIAG_TRANSFORM_OVERFLOW, ir_place_label(input->origin, &model->head),
+             "placed by its scale, rotation and translation, the model reaches coordinates of %.3g; the "
+             "largest allowed is 1e18",
+             largest);
+}
+
+static void check_refraction(struct loader *loader, const struct ir_model *model,
+                             const struct assets_model *loaded_model, struct loaded_mesh *loaded, span at) {
+    const struct mesh *mesh = loaded->mesh;
+    if (mesh->closed)
+        return;
+    bool refracts = false;
+    for (uint32_t i = 0; i < mesh->group_count; i++)
+        refracts |= loader->materials.items[loaded_model->group_material[i]].albedo.refraction > 0;
+    if (!refracts)
+        return;
+    struct diag_sink *sink = loader->input->sink;
+    span place = model->material.name.len || model->material.index != IR_NO_INDEX
+                     ? ir_place_value(loader->input->origin, &model->head, &SCHEMA_MODEL, "material")
+                     : at;
+    span line = asset_line(&loaded->file, mesh->open_line);
+    diag_add(sink, DIAG_OPEN_DIELECTRIC, place,
+             "the mesh '%.*s' is open and its material refracts: it will look like a thin pane",
+             STR_ARG(model->mesh));
+    diag_note(sink, line, "%u edge%s of one face alone, the first of this face", mesh->open_edges,
+              mesh->open_edges == 1 ? " is" : "s are");
+    diag_help(sink, "close the mesh, or set the material's refraction to 0");
+}
+
+static void load_model(struct loader *loader, struct assets *out, uint32_t index) {
+    const struct ir_model *model = &loader->input->scene->models.items[index];
+    struct assets_model *result = &out->models[index];
+    span at = ir_place_value(loader->input->origin, &model->head, &SCHEMA_MODEL, "mesh");
+    if (model->mesh.len == 0 || is_poisoned(&model->head, &SCHEMA_MODEL, "mesh"))
+        return;
+    struct loaded_mesh *loaded = mesh_of_model(loader, model, at);
+    if (!loaded || !loaded->mesh || !fits_scene(loader, out, loaded->mesh, at))
+        return;
+    result->group_material = loader_group_materials(loader, model, loaded);
+    result->mesh = loaded->mesh;
+    check_transform(loader, model, loaded->mesh);
+    check_refraction(loader, model, result, loaded, at);
+}
+
+// ---- the background
+
+static void report_pixels(struct asset_file *file, str name, const struct picture_header *header) {
+    const struct limit_info *info = limit_info(LIMIT_IMAGE_PIXELS);
+    uint64_t pixels = (uint64_t)header->width * header->height;
+    asset_report_named(file, DIAG_LIMIT, "the image '%.*s' claims %u x %u pixels; the limit %s is %llu",
+                       STR_ARG(name), header->width, header->height, info->name,
+                       (unsigned long long)file->input->limits->value[LIMIT_IMAGE_PIXELS]);
+    if (pixels <= info->greatest)
+        diag_help(file->input->sink, "if the file is right, raise the limit: --limit %s=%llu", info->name,
+                  (unsigned long long)pixels);
+    else
+        diag_help(file->input->sink, "no limit allows more than %llu pixels; make the image smaller",
+                  (unsigned long long)info->greatest);
+}
+
+static void decode_image(struct asset_file *file, str name, bool header_only, struct picture *out) {
+    struct picture_header header;
+    const char *fault = picture_read_header(file->text, &header);
+    if (header.kind == PICTURE_KIND_NONE) {
+        asset_report_named(file, DIAG_IMAGE_KIND, "'%.*s' is no PNG, JPEG or Radiance HDR image",
+                           STR_ARG(name));
+        return;
+    }
+    if (!fault && (uint64_t)header.width * header.height > file->input->limits->value[LIMIT_IMAGE_PIXELS]) {
+        report_pixels(file, name, &header);
+        return;
+    }
+    if (!fault && !header_only)
+        fault = picture_decode(file->text, &header, out);
+    if (fault)
+        asset_report_line(file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s", fault);
+    out->ignored = header.ignored;
+}
+
+static void read_image(struct loader *loader, struct asset_file *file, str name, bool header_only,
+                       struct picture *out) {
+    struct arena *scratch = &loader->hold->scratch;
+    arena_init(scratch, (size_t)file->input->limits->value[LIMIT_IMAGE_BYTES] + TEXT_ROOM);
+    if (asset_read(file, scratch))
+        decode_image(file, name, header_only, out);
+    file->text = STR("");
+    arena_finish(scratch);
+}
+
+static const struct picture *load_background(struct loader *loader, bool header_only) {
+    const struct assets_input *input = loader->input;
+    const struct ir_background *background = &input->scene->background;
+    span at = ir_place_value(input->origin, &background->head, &SCHEMA_BACKGROUND, "image");
+    struct asset_file file = {.input = input, .what = "image", .limit = LIMIT_IMAGE_BYTES, .named_at = at};
+    struct file_read identity;
+    if (!asset_find(&file, base_of(input, at), background->image, &identity, NULL))
+        return NULL;
+    struct store_entry *entry = store_find(loader->hold, STORE_PICTURE, &identity);
+    if (!entry) {
+        entry = store_add(loader->hold, STORE_PICTURE, &identity);
+        if (!entry) {
+            asset_report_memory(&file, ARENA_FAULT_SYSTEM);
+            return NULL;
+        }
+        read_image(loader, &file, background->image, header_only, &entry->picture);
+        entry->is_whole = file.errors == 0 && !header_only;
+    }
+    if (file.errors == 0 && entry->picture.ignored)
+        asset_report_line(&file, DIAG_IMAGE_CHUNKS, 0, "the image's %s ignored", entry->picture.ignored);
+    return entry->is_whole ? &entry->picture : NULL;
+}
+
+// ---- all
+
+static void add_scene_materials(struct loader *loader) {
+    const struct ir_materials *materials = &loader->input->scene->materials;
+    for (uint32_t i = 0; i < materials->count; i++)
+        *ARENA_PUSH(loader->input->arena, &loader->materials) = materials->items[i];
+    schema_init(&SCHEMA_MATERIAL, ARENA_PUSH(loader->input->arena, &loader->materials));
+}
+
+void assets_load(struct asset_store *store, const struct assets_input *input, bool geometry_only,
+                 struct assets *out) {
+    assert(store);
+    const struct ir_scene *scene = input->scene;
+    *out = (struct assets){.hold = store_hold(store), .origin = input->origin};
+    if (!out->hold) {
+        diag_add(input->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
+                 "there is not enough memory to load the scene's files");
+        return;
+    }
+    struct loader loader = {.input = input, .hold = out->hold};
+    add_scene_materials(&loader);
+    out->models = ARENA_ARRAY(input->arena, struct assets_model, scene->models.count);
+    out->model_count = scene->models.count;
+    for (uint32_t i = 0; i < scene->models.count; i++)
+        load_model(&loader, out, i);
+    const struct ir_background *background = &scene->background;
+    if (background->kind == IR_BACKDROP_IMAGE && background->image.len &&
+        !is_poisoned(&background->head, &SCHEMA_BACKGROUND, "image"))
+        out->background = load_background(&loader, geometry_only);
+    out->materials = loader.materials.items;
+    out->material_count = loader.materials.count;
+    store_sweep(store);
+}
+
+void assets_finish(struct assets *assets) {
+    if (!assets)
+        return;
+    store_release(assets->hold);
+    *assets = (struct assets){0};
+}

@@ -1,0 +1,38 @@
+// One run of assets_load: what its parts share (assets.c, materials.c).
+#ifndef GLINT_ASSETS_LOADER_H
+#define GLINT_ASSETS_LOADER_H
+
+#include "assets/asset_file.h"
+#include "assets/name_table.h"
+#include "assets/read_mtl.h"
+#include "assets/store.h"
+
+// A mesh file that models of this scene name.
+struct loaded_mesh {
+    struct asset_file file;
+    str canonical;
+    const struct mesh *mesh;  // NULL: it could not be loaded
+    struct name_table groups; // of the mesh, by name; made when first needed
+    bool libraries_read;
+    bool library_missing; // so that what it would have defined is not missed once more
+    struct mtl_materials materials;
+    uint32_t *group_material; // from the material files; IR_NO_INDEX: not asked for yet
+    struct loaded_mesh *next;
+};
+
+struct loader {
+    const struct assets_input *input;
+    struct asset_hold *hold;
+    struct loaded_mesh *meshes;
+    struct {
+        struct ir_material *items;
+        uint32_t count, capacity;
+    } materials;
+};
+
+// The material of each group of the model's mesh: material_map, else material, else the material file's,
+// else the default.
+uint32_t *loader_group_materials(struct loader *loader, const struct ir_model *model,
+                                 struct loaded_mesh *loaded);
+
+#endif

@@ -1,0 +1,211 @@
+// Which material each face of a model has.
+#include "assets/loader.h"
+
+#include "core/nearest.h"
+#include "core/strbuf.h"
+#include "grammar/schema.h"
+
+#include <string.h>
+
+enum {
+    NAMES_SHOWN = 12
+};
+
+static bool is_written(const struct ir_material_ref *ref) {
+    return ref->name.len > 0 || ref->index != IR_NO_INDEX;
+}
+
+uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_ref *ref) {
+    return ref->index == IR_NO_INDEX ? scene->materials.count : ref->index;
+}
+
+// ---- material files
+
+// Reads one material file if it can be found. A name with backslashes is tried with slashes too: it was
+// written on another system.
+static bool read_library(struct loader *loader, struct loaded_mesh *loaded, str name, uint32_t line) {
+    struct asset_file file = {.input = loader->input,
+                              .what = "material file",
+                              .limit = LIMIT_MESH_BYTES,
+                              .named_in = &loaded->file,
+                              .named_line = line};
+    struct file_read identity;
+    bool missing = false;
+    bool found = asset_find(&file, loaded->file.path, name, &identity, &missing);
+    if (missing && memchr(name.ptr, '\\', name.len)) {
+        str slashed = arena_copy(loader->input->arena, name);
+        for (char *c = (char *)slashed.ptr; *c; c++)
+            *c = *c == '\\' ? '/' : *c;
+        found = asset_find(&file, loaded->file.path, slashed, &identity, &missing);
+    }
+    if (missing)
+        return false;
+    struct arena *scratch = &loader->hold->scratch;
+    arena_init(scratch, (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY]);
+    if (found && asset_read(&file, scratch))
+        read_mtl(&file, &loaded->materials);
+    arena_finish(scratch);
+    loaded->library_missing |= file.errors > 0;
+    return true;
+}
+
+static void report_missing_library(struct loaded_mesh *loaded, str name, uint32_t line) {
+    loaded->library_missing = true;
+    struct files *files = loaded->file.input->files;
+    struct diag_sink *sink = loaded->file.input->sink;
+    if (!asset_report_line(
+            &loaded->file, DIAG_MTL_MISSING, line,
+            "the material file '%.*s' does not exist; faces that need it have the default material",
+            STR_ARG(name)))
+        return;
+    str near =
+        files_suggest(files, arena_format(files->arena, "%.*s/%.*s", STR_ARG(path_folder(loaded->file.path)),
+                                          STR_ARG(path_base(name))));
+    if (near.len)
+        diag_help(sink, "did you mean '%.*s'?", STR_ARG(near));
+    else
+        diag_help(sink, "put the file beside the mesh, or give the model a 'material'");
+}
+
+static void read_library_or_report(struct loader *loader, struct loaded_mesh *loaded, str name,
+                                   uint32_t line) {
+    if (!read_library(loader, loaded, name, line))
+        report_missing_library(loaded, name, line);
+}
+
+// End of the first name of several: behind the first word that ends like a material file, else at the end.
+static size_t first_name_end(str names) {
+    for (size_t at = 1; at < names.len; at++) {
+        bool ends = names.ptr[at] == ' ' || names.ptr[at] == '\t';
+        if (ends && str_ends_with_nocase(str_slice(names, 0, at), ".mtl"))
+            return at;
+    }
+    return names.len;
+}
+
+// A line holds one name, which may have blanks, or several names.
+static void read_library_line(struct loader *loader, struct loaded_mesh *loaded,
+                              const struct mesh_library *library) {
+    str names = library->names;
+    if (first_name_end(names) == names.len) {
+        read_library_or_report(loader, loaded, names, library->line);
+        return;
+    }
+    if (read_library(loader, loaded, names, library->line))
+        return;
+    while (names.len) {
+        size_t end = first_name_end(names);
+        read_library_or_report(loader, loaded, str_slice(names, 0, end), library->line);
+        names = str_trim(str_slice(names, end, names.len));
+    }
+}
+
+static void read_libraries(struct loader *loader, struct loaded_mesh *loaded) {
+    loaded->libraries_read = true;
+    mtl_init(&loaded->materials, loader->input->arena);
+    for (uint32_t i = 0; i < loaded->mesh->library_count; i++)
+        read_library_line(loader, loaded, &loaded->mesh->libraries[i]);
+}
+
+// ---- groups
+
+static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, uint32_t group) {
+    const struct mesh_group *g = &loaded->mesh->groups[group];
+    uint32_t standard = loader->input->scene->materials.count;
+    if (g->name.len == 0)
+        return standard;
+    if (!loaded->libraries_read)
+        read_libraries(loader, loaded);
+    const struct ir_material *material = mtl_find(&loaded->materials, g->name);
+    if (material) {
+        *ARENA_PUSH(loader->input->arena, &loader->materials) = *material;
+        return loader->materials.count - 1;
+    }
+    if (loaded->library_missing)
+        return standard;
+    if (loaded->mesh->library_count == 0)
+        asset_report_line(
+            &loaded->file, DIAG_MTL_MATERIAL_MISSING, g->line,
+            "the mesh names no material file that could define '%.*s'; its faces have the default material",
+            STR_ARG(g->name));
+    else
+        asset_report_line(&loaded->file, DIAG_MTL_MATERIAL_MISSING, g->line,
+                          "no material file defines '%.*s'; its faces have the default material",
+                          STR_ARG(g->name));
+    return standard;
+}
+
+static uint32_t library_material(struct loader *loader, struct loaded_mesh *loaded, uint32_t group) {
+    const struct mesh *mesh = loaded->mesh;
+    if (!loaded->group_material) {
+        loaded->group_material = ARENA_ARRAY(loader->input->arena, uint32_t, mesh->group_count);
+        for (uint32_t i = 0; i < mesh->group_count; i++)
+            loaded->group_material[i] = IR_NO_INDEX;
+    }
+    if (loaded->group_material[group] == IR_NO_INDEX)
+        loaded->group_material[group] = from_library(loader, loaded, group);
+    return loaded->group_material[group];
+}
+
+static void report_unknown(struct loader *loader, const struct ir_map_entry *entry, const struct mesh *mesh) {
+    const struct assets_input *input = loader->input;
+    span at = ir_place_value(input->origin, &entry->head, &SCHEMA_MAP_ENTRY, "from");
+    diag_add(input->sink, DIAG_UNKNOWN_MESH_MATERIAL, at,
+             "no face of the mesh '%.*s' has the material '%.*s'", STR_ARG(mesh->path), STR_ARG(entry->from));
+    struct nearest search = nearest_begin(entry->from);
+    struct strbuf names;
+    strbuf_init(&names);
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < mesh->group_count; i++) {
+        if (mesh->groups[i].name.len == 0)
+            continue;
+        nearest_offer(&search, mesh->groups[i].name);
+        if (named++ < NAMES_SHOWN)
+            strbuf_format(&names, "%s'%.*s'", named > 1 ? ", " : "", STR_ARG(mesh->groups[i].name));
+    }
+    if (named > NAMES_SHOWN)
+        strbuf_format(&names, " and %u more", named - NAMES_SHOWN);
+    if (named == 0)
+        diag_help(input->sink, "the mesh names no materials at all; use 'material'");
+    else if (nearest_best(&search).len)
+        diag_help(input->sink, "did you mean '%.*s'? The mesh uses %.*s", STR_ARG(nearest_best(&search)),
+                  STR_ARG(strbuf_view(&names)));
+    else
+        diag_help(input->sink, "the mesh uses %.*s", STR_ARG(strbuf_view(&names)));
+    strbuf_finish(&names);
+}
+
+static uint32_t find_group(struct loader *loader, struct loaded_mesh *loaded, str name) {
+    if (!loaded->groups.arena) {
+        name_table_init(&loaded->groups, loader->input->arena);
+        for (uint32_t i = 0; i < loaded->mesh->group_count; i++)
+            name_table_add(&loaded->groups, loaded->mesh->groups[i].name, i);
+    }
+    return name_table_find(&loaded->groups, name);
+}
+
+uint32_t *loader_group_materials(struct loader *loader, const struct ir_model *model,
+                                 struct loaded_mesh *loaded) {
+    const struct mesh *mesh = loaded->mesh;
+    const struct ir_scene *scene = loader->input->scene;
+    uint32_t *materials = ARENA_ARRAY(loader->input->arena, uint32_t, mesh->group_count);
+    for (uint32_t i = 0; i < mesh->group_count; i++)
+        materials[i] = IR_NO_INDEX;
+    for (uint32_t i = 0; i < model->material_map.count; i++) {
+        const struct ir_map_entry *entry = &model->material_map.items[i];
+        if (entry->from.len == 0)
+            continue;
+        uint32_t group = find_group(loader, loaded, entry->from);
+        if (group == NAME_TABLE_NONE)
+            report_unknown(loader, entry, mesh);
+        else
+            materials[group] = assets_material(scene, &entry->to);
+    }
+    for (uint32_t i = 0; i < mesh->group_count; i++) {
+        if (materials[i] != IR_NO_INDEX)
+            continue;
+        materials[i] = is_written(&model->material) ? assets_material(scene, &model->material)
+                                                    : library_material(loader, loaded, i);
+    }
+    return materials;
+}

@@ -1,0 +1,138 @@
+#include "assets/mesh_build.h"
+
+#include "assets/triangulate.h"
+
+#include <string.h>
+
+static void copy_names(const struct obj *obj, str path, struct mesh *mesh) {
+    struct arena *arena = &mesh->arena;
+    mesh->path = arena_copy(arena, path);
+    mesh->group_count = obj->groups.count;
+    mesh->groups = ARENA_ARRAY(arena, struct mesh_group, obj->groups.count);
+    for (uint32_t i = 0; i < obj->groups.count; i++) {
+        mesh->groups[i] = obj->groups.items[i];
+        mesh->groups[i].name = arena_copy(arena, mesh->groups[i].name);
+    }
+    mesh->library_count = obj->libraries.count;
+    mesh->libraries = ARENA_ARRAY(arena, struct mesh_library, obj->libraries.count);
+    for (uint32_t i = 0; i < obj->libraries.count; i++) {
+        mesh->libraries[i] = obj->libraries.items[i];
+        mesh->libraries[i].names = arena_copy(arena, mesh->libraries[i].names);
+    }
+    mesh->ignored_count = obj->ignored_count;
+    mesh->ignored_line = obj->ignored_line;
+    mesh->face_count = obj->faces.count;
+}
+
+// Positions that faces use, in file order. Gives the new index of each vertex.
+static uint32_t *keep_used_positions(const struct obj *obj, struct arena *scratch, struct mesh *mesh) {
+    uint32_t *place = ARENA_ARRAY(scratch, uint32_t, obj->vertices.count);
+    for (uint32_t i = 0; i < obj->corners.count; i++)
+        place[obj->corners.items[i].vertex] = 1;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < obj->vertices.count; i++)
+        count += place[i];
+    mesh->positions = ARENA_ARRAY(&mesh->arena, vec3, count);
+    for (uint32_t i = 0; i < obj->vertices.count; i++) {
+        if (!place[i])
+            continue;
+        place[i] = mesh->position_count;
+        mesh->positions[mesh->position_count++] = obj->vertices.items[i];
+    }
+    return place;
+}
+
+static void keep_normals(const struct obj *obj, struct mesh *mesh) {
+    mesh->normal_count = obj->normals.count;
+    mesh->normals = ARENA_ARRAY(&mesh->arena, vec3, obj->normals.count);
+    for (uint32_t i = 0; i < obj->normals.count; i++)
+        mesh->normals[i] = vec3_unit(obj->normals.items[i]);
+}
+
+struct face_buffer {
+    uint32_t capacity;
+    vec3 *corners;
+    uint32_t *cuts;
+};
+
+static void add_face(const struct obj *obj, const uint32_t *place, const struct obj_face *face,
+                     const uint32_t *cuts, uint32_t triangles, struct mesh *mesh) {
+    for (uint32_t t = 0; t < triangles; t++) {
+        struct mesh_triangle *triangle = &mesh->triangles[mesh->triangle_count++];
+        triangle->group = face->group;
+        triangle->line = face->line;
+        for (int k = 0; k < 3; k++) {
+            const struct obj_corner *corner = &obj->corners.items[face->first + cuts[3 * t + (uint32_t)k]];
+            triangle->corners[k] = place[corner->vertex];
+            // A normal of length 0 is as good as none.
+            bool has = corner->normal != IR_NO_INDEX && !vec3_is_zero(mesh->normals[corner->normal]);
+            triangle->normals[k] = has ? corner->normal : IR_NO_INDEX;
+        }
+    }
+}
+
+static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena *scratch,
+                      struct mesh *mesh) {
+    static const uint32_t whole[3] = {0, 1, 2};
+    struct face_buffer buffer = {0};
+    struct triangulator triangulator;
+    triangulate_init(&triangulator, scratch);
+    mesh->triangles = ARENA_ARRAY(&mesh->arena, struct mesh_triangle, (size_t)obj->triangle_count);
+    for (uint32_t f = 0; f < obj->faces.count; f++) {
+        const struct obj_face *face = &obj->faces.items[f];
+        uint32_t end = f + 1 < obj->faces.count ? face[1].first : obj->corners.count;
+        uint32_t n = end - face->first;
+        if (n == 3) {
+            add_face(obj, place, face, whole, 1, mesh);
+            continue;
+        }
+        if (n > buffer.capacity) {
+            buffer.capacity = n > 2 * buffer.capacity ? n : 2 * buffer.capacity;
+            buffer.corners = ARENA_ARRAY(scratch, vec3, buffer.capacity);
+            buffer.cuts = ARENA_ARRAY(scratch, uint32_t, 3 * (size_t)buffer.capacity);
+        }
+        for (uint32_t i = 0; i < n; i++)
+            buffer.corners[i] = obj->vertices.items[obj->corners.items[face->first + i].vertex];
+        triangulate(&triangulator, buffer.corners, n, buffer.cuts);
+        add_face(obj, place, face, buffer.cuts, n - 2, mesh);
+    }
+}
+
+static void measure(struct mesh *mesh) {
+    mesh->lower = mesh->upper = mesh->positions[0];
+    for (uint32_t i = 1; i < mesh->position_count; i++) {
+        mesh->lower = vec3_min(mesh->lower, mesh->positions[i]);
+        mesh->upper = vec3_max(mesh->upper, mesh->positions[i]);
+    }
+    for (uint32_t i = 0; i < mesh->triangle_count; i++)
+        mesh->zero_area += !mesh_has_area(mesh, i);
+}
+
+void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct mesh *mesh) {
+    copy_names(obj, path, mesh);
+    uint32_t *place = keep_used_positions(obj, scratch, mesh);
+    keep_normals(obj, mesh);
+    cut_faces(obj, place, scratch, mesh);
+    measure(mesh);
+    mesh_merge_positions(mesh, scratch);
+    mesh_find_edges(mesh, scratch);
+    mesh_turn_outward(mesh);
+}
+
+bool mesh_has_area(const struct mesh *mesh, uint32_t triangle) {
+    const uint32_t *c = mesh->triangles[triangle].corners;
+    vec3 u = vec3_sub(mesh->positions[c[1]], mesh->positions[c[0]]);
+    vec3 v = vec3_sub(mesh->positions[c[2]], mesh->positions[c[0]]);
+    if (!vec3_is_zero(vec3_cross(u, v)))
+        return true;
+    // Zero, or too small for a double: products of parts near 1 tell.
+    double largest_u = vec3_max_abs(u);
+    double largest_v = vec3_max_abs(v);
+    if (!(largest_u > 0) || !(largest_v > 0))
+        return false;
+    int eu = -ilogb(largest_u);
+    int ev = -ilogb(largest_v);
+    u = (vec3){scalbn(u.x, eu), scalbn(u.y, eu), scalbn(u.z, eu)};
+    v = (vec3){scalbn(v.x, ev), scalbn(v.y, ev), scalbn(v.z, ev)};
+    return !vec3_is_zero(vec3_cross(u, v));
+}

@@ -1,0 +1,22 @@
+// From the polygons of a file to a mesh: triangles, merged positions, closedness, the outward side.
+//
+// Thread safety: one call belongs to one thread.
+#ifndef GLINT_ASSETS_MESH_BUILD_H
+#define GLINT_ASSETS_MESH_BUILD_H
+
+#include "assets/mesh.h"
+#include "assets/read_obj.h"
+
+// Fills a zeroed mesh whose arena is set up; everything that stays lies there, `scratch` may go. Both arenas
+// need a guard.
+void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct mesh *mesh);
+
+// The steps after triangulation, in this order (mesh_topology.c).
+// mesh->merged, from the bits of the positions.
+void mesh_merge_positions(struct mesh *mesh, struct arena *scratch);
+// closed, open_edges and open_line: over merged positions, every directed edge as often as its opposite.
+void mesh_find_edges(struct mesh *mesh, struct arena *scratch);
+// volume, and a closed mesh of negative volume turned.
+void mesh_turn_outward(struct mesh *mesh);
+
+#endif

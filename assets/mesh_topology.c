@@ -1,0 +1,171 @@
+// What a mesh encloses: equal positions, edges without their opposite, volume.
+#include "assets/mesh_build.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    INSERTION_SORT_MAX = 24
+};
+
+// ---- equal positions
+
+static uint64_t position_hash(vec3 p) {
+    uint64_t bits[3];
+    memcpy(bits, &p, sizeof bits);
+    // The finalizer of MurmurHash3 over each part.
+    uint64_t hash = 0;
+    for (int i = 0; i < 3; i++) {
+        hash = (hash ^ bits[i]) * UINT64_C(0xff51afd7ed558ccd);
+        hash = (hash ^ hash >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
+        hash ^= hash >> 33;
+    }
+    return hash;
+}
+
+void mesh_merge_positions(struct mesh *mesh, struct arena *scratch) {
+    uint64_t slots = 16;
+    while (slots < 2 * (uint64_t)mesh->position_count)
+        slots *= 2;
+    uint32_t *table = ARENA_ARRAY(scratch, uint32_t, slots); // index plus 1
+    mesh->merged = ARENA_ARRAY(&mesh->arena, uint32_t, mesh->position_count);
+    for (uint32_t i = 0; i < mesh->position_count; i++) {
+        uint64_t at = position_hash(mesh->positions[i]) & (slots - 1);
+        while (table[at] && memcmp(&mesh->positions[table[at] - 1], &mesh->positions[i], sizeof(vec3)) != 0)
+            at = (at + 1) & (slots - 1);
+        if (!table[at])
+            table[at] = i + 1;
+        mesh->merged[i] = table[at] - 1;
+    }
+}
+
+// ---- edges
+
+// An edge as its end of lower index sees it.
+struct half_edge {
+    uint32_t other;    // the end of higher index
+    uint32_t triangle; // times two, plus 1 where the edge leads to the lower end
+};
+
+static int compare_edges(const void *a, const void *b) {
+    const struct half_edge *x = a;
+    const struct half_edge *y = b;
+    if (x->other != y->other)
+        return x->other < y->other ? -1 : 1;
+    return x->triangle < y->triangle ? -1 : x->triangle > y->triangle;
+}
+
+static void sort_edges(struct half_edge *edges, uint32_t n) {
+    if (n > INSERTION_SORT_MAX) {
+        qsort(edges, n, sizeof *edges, compare_edges);
+        return;
+    }
+    for (uint32_t i = 1; i < n; i++) {
+        struct half_edge moving = edges[i];
+        uint32_t at = i;
+        for (; at > 0 && compare_edges(&moving, &edges[at - 1]) < 0; at--)
+            edges[at] = edges[at - 1];
+        edges[at] = moving;
+    }
+}
+
+static void note_open(struct mesh *mesh, const struct half_edge *edges, uint32_t n, int64_t surplus) {
+    mesh->open_edges += (uint32_t)(surplus < 0 ? -surplus : surplus);
+    for (uint32_t i = 0; i < n; i++) {
+        bool leads_down = edges[i].triangle & 1;
+        uint32_t line = mesh->triangles[edges[i].triangle / 2].line;
+        if (leads_down == (surplus < 0) && (mesh->open_line == 0 || line < mesh->open_line))
+            mesh->open_line = line;
+    }
+}
+
+// The edges of one lower end, sorted by the other: where the two directions differ in number it is open.
+static void compare_directions(struct mesh *mesh, const struct half_edge *edges, uint32_t n) {
+    for (uint32_t begin = 0, end; begin < n; begin = end) {
+        int64_t surplus = 0;
+        for (end = begin; end < n && edges[end].other == edges[begin].other; end++)
+            surplus += edges[end].triangle & 1 ? -1 : 1;
+        if (surplus != 0)
+            note_open(mesh, edges + begin, end - begin, surplus);
+    }
+}
+
+struct triangle_edge {
+    uint32_t low, high;
+    bool leads_down;
+};
+
+// false: the edge has no length, and is its own opposite.
+static bool edge_of(const struct mesh *mesh, uint32_t triangle, int k, struct triangle_edge *edge) {
+    const uint32_t *corners = mesh->triangles[triangle].corners;
+    uint32_t a = mesh->merged[corners[k]];
+    uint32_t b = mesh->merged[corners[(k + 1) % 3]];
+    *edge = (struct triangle_edge){a < b ? a : b, a < b ? b : a, b < a};
+    return a != b;
+}
+
+void mesh_find_edges(struct mesh *mesh, struct arena *scratch) {
+    // Sorted by their lower end by counting: one pass over memory, where a hash table would jump about.
+    uint32_t *first = ARENA_ARRAY(scratch, uint32_t, (size_t)mesh->position_count + 1);
+    struct half_edge *edges = ARENA_ARRAY(scratch, struct half_edge, 3 * (size_t)mesh->triangle_count);
+    struct triangle_edge edge;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            if (edge_of(mesh, t, k, &edge))
+                first[edge.low]++;
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i <= mesh->position_count; i++) {
+        sum += first[i];
+        first[i] = sum;
+    }
+    for (uint32_t t = mesh->triangle_count; t > 0; t--)
+        for (int k = 2; k >= 0; k--)
+            if (edge_of(mesh, t - 1, k, &edge))
+                edges[--first[edge.low]] = (struct half_edge){edge.high, 2 * (t - 1) + edge.leads_down};
+    for (uint32_t i = 0; i < mesh->position_count; i++) {
+        uint32_t n = first[i + 1] - first[i];
+        sort_edges(edges + first[i], n);
+        compare_directions(mesh, edges + first[i], n);
+    }
+    mesh->closed = mesh->open_edges == 0;
+}
+
+// ---- volume
+
+// A sixth of the sum of a·(b×c), relative to the middle of the mesh and divided by a power of two, so that
+// nothing under- or overflows.
+static double signed_volume(const struct mesh *mesh) {
+    vec3 size = vec3_sub(mesh->upper, mesh->lower);
+    double largest = vec3_max_abs(size);
+    if (!(largest > 0))
+        return 0;
+    int exponent = -ilogb(largest);
+    double scale = scalbn(1, exponent < 1000 ? exponent : 1000);
+    vec3 middle = vec3_add(mesh->lower, vec3_mul(size, 0.5));
+    double sum = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        vec3 p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = vec3_mul(vec3_sub(mesh->positions[mesh->triangles[t].corners[k]], middle), scale);
+        sum += vec3_dot(p[0], vec3_cross(p[1], p[2]));
+    }
+    return sum / 6 / scale / scale / scale;
+}
+
+void mesh_turn_outward(struct mesh *mesh) {
+    if (!mesh->closed)
+        return;
+    mesh->volume = signed_volume(mesh);
+    if (!(mesh->volume < 0))
+        return;
+    mesh->turned = true;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        struct mesh_triangle *triangle = &mesh->triangles[t];
+        uint32_t corner = triangle->corners[1];
+        uint32_t normal = triangle->normals[1];
+        triangle->corners[1] = triangle->corners[2];
+        triangle->normals[1] = triangle->normals[2];
+        triangle->corners[2] = corner;
+        triangle->normals[2] = normal;
+    }
+}

@@ -1,0 +1,28 @@
+// MTL, the material files of OBJ meshes: Kd, Ks, Ns, Ni, d, Tr and illum become materials of the scene
+// language.
+//
+//     diffuse_color Kd; albedo (1-t, 1 where Ks is not 0, max(Ks) where illum is 3..7, t) with t = 1-d
+//     specular_color Ks; specular_exponent Ns; refractive_index Ni
+//
+// d wins over Tr where both are given. What stands in the file and is not used is one note. Values outside
+// their range are cut, with a warning. Of several materials of one name the first counts.
+// Ownership: the arena's; names are copied. Thread safety: one call belongs to one thread.
+#ifndef GLINT_ASSETS_READ_MTL_H
+#define GLINT_ASSETS_READ_MTL_H
+
+#include "assets/asset_file.h"
+#include "assets/name_table.h"
+
+struct mtl_materials {
+    struct ir_material *items; // with their names
+    uint32_t count, capacity;
+    struct name_table names;
+};
+
+void mtl_init(struct mtl_materials *materials, struct arena *arena);
+// Appends the materials of file->text. Faults are counted in file->errors.
+void read_mtl(struct asset_file *file, struct mtl_materials *out);
+// NULL: none of this name.
+const struct ir_material *mtl_find(const struct mtl_materials *materials, str name);
+
+#endif

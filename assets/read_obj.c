@@ -1,0 +1,308 @@
+#include "assets/read_obj.h"
+
+#include "assets/name_table.h"
+#include "assets/obj_lex.h"
+
+#include <math.h>
+#include <string.h>
+
+#define COORDINATE_MAX 1e18
+
+struct obj_reader {
+    struct asset_file *file;
+    struct arena *scratch;
+    struct obj *obj;
+    struct obj_lex lex;
+    bool refers_forward; // a face names what the file has not defined yet
+    bool is_full;        // a limit is exceeded: read no further
+    // The name of the last `usemtl`; its group is made by the first face.
+    str material;
+    uint32_t material_line;
+    uint32_t group; // IR_NO_INDEX until a face needs it
+    struct name_table groups;
+};
+
+// ---- faults
+
+static void report_word(struct obj_reader *r, enum diag_code code, str word, const char *what) {
+    size_t at = (size_t)(word.ptr - r->lex.begin);
+    // A word can be a whole binary file.
+    int shown = word.len < 64 ? (int)word.len : 64;
+    asset_report(r->file, code, at, at + word.len, "'%.*s' %s", shown, word.ptr, what);
+}
+
+// Reports that the line ends too soon, at its first word.
+static void report_short(struct obj_reader *r, str keyword, const char *what) {
+    size_t at = (size_t)(keyword.ptr - r->lex.begin);
+    asset_report(r->file, DIAG_MESH_SYNTAX, at, at + keyword.len, "'%.*s' needs %s", STR_ARG(keyword), what);
+}
+
+// ---- vertices and normals
+
+static double read_coordinate(struct obj_reader *r) {
+    const char *begin = r->lex.at;
+    double value;
+    enum number_status status = obj_lex_number(&r->lex, &value);
+    if (status == NUMBER_OK && fabs(value) <= COORDINATE_MAX)
+        return value;
+    str word = {begin, (size_t)(r->lex.at - begin)};
+    report_word(r, DIAG_MESH_NUMBER, word,
+                status == NUMBER_OK ? "is larger than 1e18" : number_problem(status));
+    return 0;
+}
+
+// Three coordinates, and whatever numbers follow: w, or a colour. A faulty line still defines a vertex, so
+// that the indices behind it mean what they meant.
+static vec3 read_point(struct obj_reader *r, str keyword) {
+    double value[3] = {0};
+    int count = 0;
+    while (obj_lex_more(&r->lex)) {
+        double v = read_coordinate(r);
+        if (count < 3)
+            value[count] = v;
+        count++;
+    }
+    if (count < 3)
+        report_short(r, keyword, "three numbers");
+    return (vec3){value[0], value[1], value[2]};
+}
+
+// ---- groups
+
+static uint32_t current_group(struct obj_reader *r) {
+    if (r->group != IR_NO_INDEX)
+        return r->group;
+    r->group = name_table_find(&r->groups, r->material);
+    if (r->group == NAME_TABLE_NONE) {
+        r->group = r->obj->groups.count;
+        struct mesh_group *group = ARENA_PUSH(r->scratch, &r->obj->groups);
+        *group = (struct mesh_group){.name = r->material, .line = r->material_line};
+        name_table_add(&r->groups, r->material, r->group);
+    }
+    return r->group;
+}
+
+static void read_usemtl(struct obj_reader *r) {
+    uint32_t line = r->lex.line;
+    bool named = obj_lex_more(&r->lex) || (!obj_lex_done(&r->lex) && *r->lex.at == '#');
+    r->material = named ? obj_lex_rest(&r->lex) : STR("");
+    r->material_line = r->material.len ? line : 0;
+    r->group = IR_NO_INDEX;
+}
+
+static void read_mtllib(struct obj_reader *r) {
+    uint32_t line = r->lex.line;
+    if (!obj_lex_more(&r->lex))
+        return;
+    struct mesh_library *library = ARENA_PUSH(r->scratch, &r->obj->libraries);
+    *library = (struct mesh_library){.names = obj_lex_rest(&r->lex), .line = line};
+}
+
+// ---- faces
+
+static void report_index(struct obj_reader *r, str word, int64_t index, uint32_t count, const char *things) {
+    size_t at = (size_t)(word.ptr - r->lex.begin);
+    if (index == 0)
+        asset_report(r->file, DIAG_MESH_INDEX, at, at + word.len, "index 0: %s count from 1", things);
+    else if (index < 0)
+        asset_report(r->file, DIAG_MESH_INDEX, at, at + word.len,
+                     "index %lld reaches before the first of %u %s so far", (long long)index, count, things);
+    else
+        asset_report(r->file, DIAG_MESH_INDEX, at, at + word.len, "index %lld: the file defines %u %s",
+                     (long long)index, count, things);
+}
+
+// One index at the cursor, as one from 0. Positive ones may name what follows later; `check_forward` sees to
+// these.
+static bool read_index(struct obj_reader *r, uint32_t count, const char *things, uint32_t *out) {
+    const char *begin = r->lex.at;
+    int64_t index;
+    if (!obj_lex_integer(&r->lex, &index))
+        return false;
+    int64_t absolute = index < 0 ? (int64_t)count + index : index - 1;
+    *out = IR_NO_INDEX;
+    if (absolute >= 0 && absolute < (int64_t)IR_NO_INDEX) {
+        *out = (uint32_t)absolute;
+        r->refers_forward |= absolute >= (int64_t)count;
+    } else {
+        str word = {begin, (size_t)(r->lex.at - begin)};
+        report_index(r, word, index, count, things);
+    }
+    return true;
+}
+
+static bool take_slash(struct obj_reader *r) {
+    if (obj_lex_done(&r->lex) || *r->lex.at != '/')
+        return false;
+    r->lex.at++;
+    return true;
+}
+
+// v, v/vt, v//vn or v/vt/vn; texture coordinates are not used, so only their form is looked at.
+static bool read_corner(struct obj_reader *r, struct obj_corner *corner) {
+    corner->normal = IR_NO_INDEX;
+    if (!read_index(r, r->obj->vertices.count, "vertices", &corner->vertex))
+        return false;
+    if (take_slash(r)) {
+        int64_t texture;
+        bool textured = obj_lex_integer(&r->lex, &texture);
+        if (take_slash(r)) {
+            // Some programs write "1//" and "1/2/".
+            if (!obj_lex_word_ends(&r->lex) &&
+                !read_index(r, r->obj->normals.count, "normals", &corner->normal))
+                return false;
+        } else if (!textured && !obj_lex_word_ends(&r->lex)) {
+            return false;
+        }
+    }
+    return obj_lex_word_ends(&r->lex);
+}
+
+static bool face_fits(struct obj_reader *r, str keyword, uint32_t corners) {
+    const struct limits *limits = r->file->input->limits;
+    size_t at = (size_t)(keyword.ptr - r->lex.begin);
+    enum limit exceeded =
+        corners > limits->value[LIMIT_MESH_CORNERS] ? LIMIT_MESH_CORNERS : LIMIT_MESH_TRIANGLES;
+    if (exceeded == LIMIT_MESH_TRIANGLES && r->obj->triangle_count <= limits->value[LIMIT_MESH_TRIANGLES])
+        return true;
+    // Reading on would only cost time; twice the limit is a guess.
+    asset_report_limit(r->file, exceeded, at, at + keyword.len, 2 * limits->value[exceeded]);
+    r->is_full = true;
+    return false;
+}
+
+static void read_face(struct obj_reader *r, str keyword) {
+    struct obj *obj = r->obj;
+    uint32_t line = r->lex.line;
+    uint32_t first = obj->corners.count;
+    uint64_t most = r->file->input->limits->value[LIMIT_MESH_CORNERS];
+    bool broken = false;
+    while (obj_lex_more(&r->lex) && obj->corners.count - first <= most) {
+        const char *begin = r->lex.at;
+        struct obj_corner *corner = ARENA_PUSH(r->scratch, &obj->corners);
+        if (read_corner(r, corner))
+            continue;
+        broken = true;
+        obj_lex_word(&r->lex);
+        report_word(r, DIAG_MESH_SYNTAX, (str){begin, (size_t)(r->lex.at - begin)},
+                    "is no corner; write V, V/VT, V//VN or V/VT/VN");
+    }
+    uint32_t corners = obj->corners.count - first;
+    if (corners < 3 && !broken) {
+        size_t at = (size_t)(keyword.ptr - r->lex.begin);
+        asset_report(r->file, DIAG_MESH_FACE, at, obj_lex_offset(&r->lex), "a face with %u corner%s", corners,
+                     corners == 1 ? "" : "s");
+    }
+    obj->triangle_count += corners >= 3 ? corners - 2 : 0;
+    if (corners < 3 || !face_fits(r, keyword, corners)) {
+        obj->corners.count = first;
+        return;
+    }
+    struct obj_face *face = ARENA_PUSH(r->scratch, &obj->faces);
+    *face = (struct obj_face){.first = first, .line = line, .group = current_group(r)};
+}
+
+// ---- lines
+
+static bool is_word_of(const char *const *words, str word) {
+    for (; *words; words++)
+        if (str_equal_cstr(word, *words))
+            return true;
+    return false;
+}
+
+// Everything but vertices, normals and faces, which are most of a file.
+static void read_other(struct obj_reader *r, str keyword) {
+    static const char *const without_effect[] = {
+        "vt",       "vp",     "o",      "g",          "s",         "mg",    "lod",   "bevel", "c_interp",
+        "d_interp", "usemap", "maplib", "shadow_obj", "trace_obj", "ctech", "stech", NULL};
+    static const char *const not_drawn[] = {"p", "l", "curv", "curv2", "surf", "call", NULL};
+    static const char *const of_curves[] = {"cstype", "deg",  "bmat", "step", "parm", "trim",
+                                            "hole",   "scrv", "sp",   "end",  "con",  NULL};
+    if (str_equal_cstr(keyword, "usemtl")) {
+        read_usemtl(r);
+    } else if (str_equal_cstr(keyword, "mtllib")) {
+        read_mtllib(r);
+    } else if (str_equal_cstr(keyword, "fo")) {
+        read_face(r, keyword); // the name of f in the first version of the format
+    } else if (is_word_of(not_drawn, keyword)) {
+        if (r->obj->ignored_count++ == 0)
+            r->obj->ignored_line = r->lex.line;
+    } else if (!is_word_of(without_effect, keyword) && !is_word_of(of_curves, keyword)) {
+        report_word(r, DIAG_MESH_SYNTAX, keyword, "begins no line of an OBJ file");
+    }
+}
+
+static void read_line(struct obj_reader *r) {
+    if (!obj_lex_more(&r->lex))
+        return;
+    str keyword = obj_lex_word(&r->lex);
+    if (keyword.len == 1 && keyword.ptr[0] == 'v')
+        *ARENA_PUSH(r->scratch, &r->obj->vertices) = read_point(r, keyword);
+    else if (keyword.len == 1 && keyword.ptr[0] == 'f')
+        read_face(r, keyword);
+    else if (keyword.len == 2 && keyword.ptr[0] == 'v' && keyword.ptr[1] == 'n')
+        *ARENA_PUSH(r->scratch, &r->obj->normals) = read_point(r, keyword);
+    else
+        read_other(r, keyword);
+}
+
+// ---- indices of what was defined later
+
+// Finds the corner in the text again: its place is worth no memory in files without faults.
+static void report_forward(struct obj_reader *r, const struct obj_face *face, uint32_t number,
+                           bool is_normal) {
+    obj_lex_init(&r->lex, r->file->text);
+    while (r->lex.line < face->line && !obj_lex_done(&r->lex))
+        obj_lex_next_line(&r->lex);
+    obj_lex_more(&r->lex);
+    obj_lex_word(&r->lex);
+    str word = STR("");
+    for (uint32_t i = 0; i <= number && obj_lex_more(&r->lex); i++)
+        word = obj_lex_word(&r->lex);
+    const struct obj_corner *corner = &r->obj->corners.items[face->first + number];
+    size_t cut = 0;
+    while (!is_normal && cut < word.len && word.ptr[cut] != '/')
+        cut++;
+    if (is_normal) {
+        for (size_t i = 0; i < word.len; i++)
+            cut = word.ptr[i] == '/' ? i + 1 : cut;
+        report_index(r, str_slice(word, cut, word.len), (int64_t)corner->normal + 1, r->obj->normals.count,
+                     "normals");
+    } else {
+        report_index(r, str_slice(word, 0, cut), (int64_t)corner->vertex + 1, r->obj->vertices.count,
+                     "vertices");
+    }
+}
+
+static void check_forward(struct obj_reader *r) {
+    const struct obj *obj = r->obj;
+    for (uint32_t f = 0; f < obj->faces.count; f++) {
+        const struct obj_face *face = &obj->faces.items[f];
+        uint32_t end = f + 1 < obj->faces.count ? face[1].first : obj->corners.count;
+        for (uint32_t c = face->first; c < end; c++) {
+            const struct obj_corner *corner = &obj->corners.items[c];
+            bool vertex = corner->vertex >= obj->vertices.count && corner->vertex != IR_NO_INDEX;
+            bool normal = corner->normal >= obj->normals.count && corner->normal != IR_NO_INDEX;
+            if (vertex && !asset_is_grouped(r->file, DIAG_MESH_INDEX))
+                report_forward(r, face, c - face->first, false);
+            if (normal && !asset_is_grouped(r->file, DIAG_MESH_INDEX))
+                report_forward(r, face, c - face->first, true);
+        }
+    }
+}
+
+void read_obj(struct asset_file *file, struct arena *scratch, struct obj *out) {
+    *out = (struct obj){0};
+    struct obj_reader r = {.file = file, .scratch = scratch, .obj = out, .group = IR_NO_INDEX};
+    name_table_init(&r.groups, scratch);
+    obj_lex_init(&r.lex, file->text);
+    while (!obj_lex_done(&r.lex) && !r.is_full) {
+        read_line(&r);
+        obj_lex_next_line(&r.lex);
+    }
+    if (r.refers_forward)
+        check_forward(&r);
+    if (out->faces.count == 0 && file->errors == 0)
+        asset_report_line(file, DIAG_MESH_EMPTY, 0, "the mesh has no faces");
+}

@@ -1,0 +1,50 @@
+// The store behind assets.h: meshes and images by canonical path, size and time, with counted references.
+//
+// A hold is one scene's references. Entries without references stay until the next load is done, so that an
+// edit that takes a mesh away and back costs no second reading. Entries live on the heap.
+// Thread safety: one thread loads at a time.
+#ifndef GLINT_ASSETS_STORE_H
+#define GLINT_ASSETS_STORE_H
+
+#include "assets/assets.h"
+
+enum store_kind {
+    STORE_MESH,
+    STORE_PICTURE,
+};
+
+struct store_entry {
+    struct store_entry *next;
+    enum store_kind kind;
+    char *path; // canonical
+    size_t path_length;
+    uint64_t size_bytes;
+    int64_t modified_ns;
+    uint32_t references;
+    bool is_whole; // loaded without fault; others are never found and go with the next sweep
+    struct mesh mesh;
+    struct picture picture;
+};
+
+struct asset_hold {
+    struct asset_store *store;
+    struct asset_hold *next;
+    struct store_entry **items;
+    uint32_t count, capacity;
+    struct arena scratch; // of the file being read
+};
+
+// NULL: no memory.
+struct asset_hold *store_hold(struct asset_store *store);
+// Gives all references back. NULL does nothing.
+void store_release(struct asset_hold *hold);
+// A whole entry, now referenced by the hold; NULL: none.
+struct store_entry *store_find(struct asset_hold *hold, enum store_kind kind,
+                               const struct file_read *identity);
+// A new entry, referenced by the hold and not whole yet; NULL: no memory.
+struct store_entry *store_add(struct asset_hold *hold, enum store_kind kind,
+                              const struct file_read *identity);
+// Frees what nothing refers to, and what is not whole.
+void store_sweep(struct asset_store *store);
+
+#endif
