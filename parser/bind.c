@@ -148,7 +148,8 @@ void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t r
 
 // Names come first, so that messages can use them; so does the version, which decides whether to go on.
 static bool comes_first(const struct schema_row *row) {
-    return row->range == SCHEMA_RANGE_VERSION || (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME);
+    return row->range == SCHEMA_RANGE_VERSION || row->key ||
+           (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME);
 }
 
 static bool is_ignored(const struct bind_frame *frame, const struct bind_context *context, tree_index key) {
@@ -160,7 +161,7 @@ static void report_named_inline(struct bind_context *context, struct bind_frame 
     str s = say_subject(context->scratch, bind_subject(frame, NULL));
     str name = tree_text(context->tree, tree_value(context->tree, key));
     diag_add(context->sink, DIAG_NAMED_INLINE, tree_span(context->tree, key),
-             "%.*s belongs to it alone and has no name", STR_ARG(s));
+             "%.*s is its own and has no name", STR_ARG(s));
     if (str_is_name(name))
         diag_help(context->sink, "to use a %s of the scene write %s=\"%.*s\"", frame->schema->name,
                   frame->via->name, STR_ARG(name));
@@ -185,7 +186,7 @@ static void bind_keys(struct bind_context *context, struct bind_frame *frame, tr
         } else {
             bind_row(context, frame, (uint32_t)row, single, bind_given_by(context, key));
             const struct schema_row *r = &frame->schema->rows[row];
-            if (r->kind == SCHEMA_TEXT && r->text == SCHEMA_TEXT_NAME)
+            if (r->kind == SCHEMA_TEXT && comes_first(r))
                 frame->name = *(const str *)schema_field_const(r, frame->memory);
         }
     }

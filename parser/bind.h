@@ -136,6 +136,8 @@ bool bind_number(struct bind_context *context, struct bind_subject subject, tree
 bool bind_name_text(struct bind_context *context, struct bind_subject subject, str text, span at);
 // Reports a value of the wrong shape, unless the reader has reported the node. Always false.
 bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
+// Adds an example of the value to the diagnostic that was reported last.
+void bind_help_example(struct bind_context *context, struct bind_subject subject);
 bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node);
 
 // bind_composite.c: vectors, colours, weights.

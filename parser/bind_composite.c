@@ -41,8 +41,7 @@ static bool bind_list(struct bind_context *context, struct bind_subject subject,
              "%.*s has %u number%s; it needs %u: %s, %s, %s%s%s",
              STR_ARG(say_subject(context->scratch, subject)), count, count == 1 ? "" : "s", wanted, names[0],
              names[1], names[2], wanted == 4 ? ", " : "", wanted == 4 ? names[3] : "");
-    diag_help(context->sink, "for example %.*s",
-              STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+    bind_help_example(context, subject);
     return false;
 }
 
@@ -89,8 +88,7 @@ static bool report_missing(struct bind_context *context, struct bind_subject sub
     diag_add(context->sink, DIAG_MISSING_COMPONENT, tree_span(context->tree, node),
              "%.*s lacks %.*s; every component is written, 0 too",
              STR_ARG(say_subject(context->scratch, subject)), STR_ARG(list));
-    diag_help(context->sink, "for example %.*s",
-              STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+    bind_help_example(context, subject);
     return false;
 }
 
@@ -145,7 +143,7 @@ static bool bad_color(struct bind_context *context, struct bind_subject subject,
     bool lacks_hash = text.len == 6 && hex_digits(text, &ignored);
     if (!is_short && !lacks_hash) {
         diag_help(context->sink, "write %.*s, or '#' and six hexadecimal digits",
-                  STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+                  STR_ARG(say_subject_example(context->scratch, subject, context->tree->is_xml)));
         return false;
     }
     const char *c = text.ptr;
@@ -193,7 +191,8 @@ static void store(enum schema_kind kind, const double n[COMPONENTS_MAX], void *o
 }
 
 // XML: the value of `<Color hex="#rrggbb"/>`; 0 where the element has other attributes.
-static tree_index hex_attribute(const struct bind_context *context, const struct schema_row *row, tree_index node) {
+static tree_index hex_attribute(const struct bind_context *context, const struct schema_row *row,
+                                tree_index node) {
     const struct tree_node *n = tree_node(context->tree, node);
     if (row->kind != SCHEMA_COLOR || n->kind != TREE_MAP || n->count != 1 || n->flags & TREE_BAD)
         return 0;

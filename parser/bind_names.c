@@ -80,24 +80,38 @@ static void did_you_mean(struct bind_context *context, struct bind_frame *frame,
                  tree_span(context->tree, key), str_from(right));
 }
 
-// Elements that do have a row of this name, as "a camera or a light"; empty: none.
-static str elsewhere(struct bind_context *context, const struct bind_frame *frame, str snake) {
+// The row of another element that has this name, or one a letter off where `near`.
+static const struct schema_row *row_elsewhere(struct bind_context *context,
+                                              const struct schema_element *element, str snake, bool near) {
+    for (uint32_t i = 0; i < element->row_count; i++) {
+        struct mend_search search = mend_begin(context->scratch, snake);
+        if (!element->rows[i].key)
+            offer_row(&search, &element->rows[i], 0);
+        if (search.best && search.distance <= (near ? 1 : 0))
+            return &element->rows[i];
+    }
+    return NULL;
+}
+
+// Where else the name exists: "'color' belongs to a background or a light"; empty: nowhere, or in many
+// places.
+static str elsewhere(struct bind_context *context, const struct bind_frame *frame, str snake, bool near) {
     str list = STR("");
+    const char *name = NULL;
     unsigned count = 0;
     for (const struct schema_element *const *e = schema_elements; *e; e++) {
-        bool has = false;
-        for (uint32_t i = 0; i < (*e)->row_count && !has && *e != frame->schema; i++) {
-            struct mend_search same = mend_begin(context->scratch, snake);
-            offer_row(&same, &(*e)->rows[i], 0);
-            has = same.best && same.distance == 0 && !(*e)->rows[i].key;
-        }
-        if (!has || ++count > 3)
+        const struct schema_row *row = *e == frame->schema ? NULL : row_elsewhere(context, *e, snake, near);
+        if (!row || ++count > 2)
             continue;
         str kind = *e == &SCHEMA_SCENE ? STR("the scene itself") : say_article(context->scratch, (*e)->name);
         list = arena_format(context->scratch, "%.*s%s%.*s", STR_ARG(list), list.len ? " or " : "",
                             STR_ARG(kind));
+        name = name ? name : row->name;
     }
-    return count > 3 ? STR("") : list;
+    if (count == 0)
+        return STR("");
+    return arena_format(context->scratch, "'%s' belongs to %.*s%s", name, STR_ARG(list),
+                        count > 2 ? " or others" : "");
 }
 
 static void list_what_there_is(struct bind_context *context, const struct bind_frame *frame,
@@ -127,16 +141,18 @@ void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, t
         wrong_form(context, frame, key, search.best_id);
         return;
     }
-    str other = exact ? STR("") : elsewhere(context, frame, search.snake);
+    str other = exact ? STR("") : elsewhere(context, frame, search.snake, false);
+    if (!near && other.len == 0 && search.snake.len > 3)
+        other = elsewhere(context, frame, search.snake, true);
     diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(context->tree, key), "%.*s has no '%.*s'",
              STR_ARG(say_kind(context->scratch, frame)), STR_ARG(say_text(context->scratch, text)));
     if (exact && near->key)
-        diag_help(context->sink, "the key above it is its name");
+        diag_help(context->sink, frame->via->kind == SCHEMA_REFERENCE ? "written in place it needs no name"
+                                                                      : "the key above it is its name");
     else if (near && (search.distance <= 1 || !other.len))
         did_you_mean(context, frame, key, &search);
     else if (other.len)
-        diag_help(context->sink, "'%.*s' belongs to %.*s", STR_ARG(say_text(context->scratch, text)),
-                  STR_ARG(other));
+        diag_help(context->sink, "%.*s", STR_ARG(other));
     else
         list_what_there_is(context, frame, kind);
 }

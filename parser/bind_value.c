@@ -23,11 +23,15 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
         diag_help(context->sink, "'%.*s' stands for nothing in YAML; quote it if you mean the word",
                   STR_ARG(tree_text(context->tree, node)));
     else if (subject.row && subject.row->required)
-        diag_help(context->sink, "for example %.*s",
-                  STR_ARG(say_example(context->scratch, subject.row, false)));
+        bind_help_example(context, subject);
     else
         diag_help(context->sink, "write the value, or leave the key out");
     return false;
+}
+
+void bind_help_example(struct bind_context *context, struct bind_subject subject) {
+    diag_help(context->sink, "for example %.*s",
+              STR_ARG(say_subject_example(context->scratch, subject, context->tree->is_xml)));
 }
 
 // What a node is, in words that fit both spellings.
@@ -46,28 +50,30 @@ bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject,
         return false;
     if (tree_node(context->tree, node)->kind == TREE_NULL)
         return bind_no_value(context, subject, node);
-    const struct schema_row *row = subject.row ? subject.row : subject.frame->via;
+    bool is_entry = !subject.row && subject.frame->via->many != SCHEMA_ONE;
     str s = say_subject(context->scratch, subject);
-    str expected = subject.row               ? say_expected(context->scratch, row)
-                   : row->many == SCHEMA_ONE ? say_expected(context->scratch, row)
-                                             : STR("a group of attributes");
+    str expected = is_entry ? STR("a group of attributes") : say_expected_of(context->scratch, subject);
     diag_add(context->sink, DIAG_WRONG_SHAPE, tree_span(context->tree, node), "%.*s must be %.*s, not %.*s",
              STR_ARG(s), STR_ARG(expected), STR_ARG(found(context, node)));
-    diag_help(context->sink, "for example %.*s",
-              STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+    bind_help_example(context, subject);
     return false;
 }
 
 // Numbers.
 
-static void number_fix(struct bind_context *context, enum number_status status, str text, span at) {
+// false: the right number is not known.
+static bool number_fix(struct bind_context *context, bool integer, enum number_status status, str text,
+                       span at) {
     str mended = mend_number(context->scratch, status, text);
     double ignored;
-    if (mended.len == 0 || number_parse(mended, &ignored) != NUMBER_OK)
-        return;
+    int64_t whole;
+    enum number_status good = integer ? number_parse_integer(mended, &whole) : number_parse(mended, &ignored);
+    if (good != NUMBER_OK)
+        return false;
     bool safe = status == NUMBER_UNDERSCORE || status == NUMBER_HEX;
     diag_help(context->sink, "write %.*s", STR_ARG(mended));
     diag_fix(context->sink, safe, at, mend_like(context->scratch, source_text(context->sources, at), mended));
+    return true;
 }
 
 static bool bad_number(struct bind_context *context, struct bind_subject subject, tree_index node,
@@ -84,17 +90,13 @@ static bool bad_number(struct bind_context *context, struct bind_subject subject
         diag_add(context->sink, DIAG_WRONG_SHAPE, at, "%.*s must be %.*s, not '%.*s'", STR_ARG(s),
                  STR_ARG(say_expected(context->scratch, subject.row)),
                  STR_ARG(say_text(context->scratch, text)));
-        diag_help(context->sink, "for example %.*s",
-                  STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+        bind_help_example(context, subject);
         return false;
     }
     diag_add(context->sink, DIAG_BAD_NUMBER, at, "%.*s: '%.*s' %s", STR_ARG(s),
              STR_ARG(say_text(context->scratch, text)), number_problem(status));
-    number_fix(context, status, text, at);
-    if (context->sink->items[context->sink->count - 1].help.len == 0 && subject.row->example &&
-        (subject.row->kind == SCHEMA_NUMBER || subject.row->kind == SCHEMA_INTEGER))
-        diag_help(context->sink, "for example %.*s",
-                  STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+    if (!number_fix(context, subject.row->kind == SCHEMA_INTEGER, status, text, at))
+        bind_help_example(context, subject);
     return false;
 }
 
@@ -127,11 +129,11 @@ static bool out_of_range(struct bind_context *context, struct bind_subject subje
     diag_add(context->sink, DIAG_OUT_OF_RANGE, at, "%.*s is %.*s; it must be %s%s", STR_ARG(s), STR_ARG(text),
              range->text, say_unit(row));
     bool single = row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_INTEGER;
+    str doc = say_doc(context->scratch, row->doc);
     if (row->standard && single)
-        diag_help(context->sink, "%.*s; the default is %s", STR_ARG(say_doc(context->scratch, row->doc)),
-                  row->standard);
-    else
-        diag_help(context->sink, "%.*s", STR_ARG(say_doc(context->scratch, row->doc)));
+        diag_help(context->sink, "'%s': %.*s; the default is %s", row->name, STR_ARG(doc), row->standard);
+    else if (single)
+        diag_help(context->sink, "'%s': %.*s", row->name, STR_ARG(doc));
     return false;
 }
 
@@ -222,8 +224,7 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
     if (text.len == 0 && !may_be_empty) {
         diag_add(context->sink, DIAG_EMPTY_TEXT, at, "%.*s is empty",
                  STR_ARG(say_subject(context->scratch, subject)));
-        diag_help(context->sink, "for example %.*s",
-                  STR_ARG(say_example(context->scratch, subject.row, context->tree->is_xml)));
+        bind_help_example(context, subject);
         return false;
     }
     if (subject.row->kind != SCHEMA_TEXT || kind != SCHEMA_TEXT_NAME || str_is_name(text))
@@ -231,17 +232,14 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
     diag_add(context->sink, DIAG_BAD_NAME, at, "'%.*s' is not a name",
              STR_ARG(say_text(context->scratch, text)));
     str mended = mend_name(context->scratch, text);
-    if (str_is_name(mended)) {
-        diag_help(context->sink,
-                  "a name has 1 to 128 letters, digits, '_' or '-' and begins with none of the digits, as in "
-                  "'%.*s'",
-                  STR_ARG(say_text(context->scratch, mended)));
+    bool has_fix = str_is_name(mended);
+    diag_help(context->sink,
+              "a name has 1 to 128 letters, digits, '_' or '-', and does not begin with a digit%s%.*s%s",
+              has_fix ? "; for example '" : "",
+              STR_ARG(has_fix ? say_text(context->scratch, mended) : STR("")), has_fix ? "'" : "");
+    if (has_fix)
         diag_fix(context->sink, false, at,
                  mend_like(context->scratch, source_text(context->sources, at), mended));
-    } else {
-        diag_help(context->sink,
-                  "a name has 1 to 128 letters, digits, '_' or '-' and begins with none of the digits");
-    }
     return false;
 }
 

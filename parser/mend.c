@@ -69,6 +69,12 @@ static str mend_integer(struct arena *arena, str text) {
     return arena_copy(arena, (str){digits, length});
 }
 
+// A dash of typesetting in front, three bytes long, as '-'.
+static str with_minus(struct arena *arena, str text) {
+    size_t length = utf8_sequence_length(text, 0);
+    return arena_format(arena, "-%.*s", STR_ARG(str_slice(text, length, text.len)));
+}
+
 str mend_number(struct arena *arena, enum number_status status, str text) {
     str copy;
     switch (status) {
@@ -76,6 +82,8 @@ str mend_number(struct arena *arena, enum number_status status, str text) {
         copy = arena_copy(arena, text);
         *(char *)memchr(copy.ptr, ',', copy.len) = '.';
         return copy;
+    case NUMBER_DASH:
+        return with_minus(arena, text);
     case NUMBER_UNDERSCORE:
         return without(arena, text, '_');
     case NUMBER_HEX:

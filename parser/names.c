@@ -63,6 +63,10 @@ static span place_of(struct loader *loader, const struct named *named) {
     return ir_place_value(&loader->output->origin, named->head, named->schema, row);
 }
 
+static const struct schema_row *home_of(const struct schema_element *schema) {
+    return &SCHEMA_SCENE.rows[bind_home_row(schema)];
+}
+
 static void report_duplicates(struct loader *loader, const struct named_list *list) {
     struct diag_sink *sink = loader->input->sink;
     const struct named *first = NULL;
@@ -81,7 +85,12 @@ static void report_duplicates(struct loader *loader, const struct named_list *li
                      STR_ARG(say_article(&loader->scratch, first->schema->name)),
                      STR_ARG(say_article(&loader->scratch, named->schema->name)), STR_ARG(name));
         diag_note(sink, place_of(loader, first), "the first one is here");
-        diag_help(sink, "rename one of the two");
+        const struct schema_row *home = home_of(named->schema);
+        if (home->single && str_equal_cstr(named->name, home->single))
+            diag_help(sink, "a %s without a name is called '%s'; name one of the two", named->schema->name,
+                      home->single);
+        else
+            diag_help(sink, "rename one of the two");
     }
 }
 

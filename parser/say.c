@@ -41,15 +41,20 @@ str say_text(struct arena *arena, str text) {
     return copy;
 }
 
-// Whether messages name the element by the row that holds it, after its owner: 'albedo' in
-// 'material.albedo' of a sphere. Entries of lists and the scene's own elements stand for themselves.
+// Whether messages name the element by the row that holds it, before its own rows: 'material.albedo' of
+// this sphere, 'image.width'. Entries of lists and the scene stand for themselves.
 static bool is_part(const struct bind_frame *frame) {
-    return frame->parent && frame->parent->parent && frame->via->many == SCHEMA_ONE;
+    return frame->parent && frame->via->many == SCHEMA_ONE;
+}
+
+static const struct bind_frame *owner_of(const struct bind_frame *frame) {
+    while (is_part(frame))
+        frame = frame->parent;
+    return frame;
 }
 
 str say_owner(struct arena *arena, const struct bind_frame *frame) {
-    while (is_part(frame))
-        frame = frame->parent;
+    frame = owner_of(frame);
     str word = spoken(arena, frame->schema->name);
     if (frame->name.len)
         return arena_format(arena, "%.*s '%.*s'", STR_ARG(word), STR_ARG(say_text(arena, frame->name)));
@@ -79,6 +84,8 @@ str say_path(struct arena *arena, struct bind_subject subject) {
 
 str say_subject(struct arena *arena, struct bind_subject subject) {
     str path = say_path(arena, subject);
+    if (path.len && !owner_of(subject.frame)->parent)
+        return arena_format(arena, "'%.*s'", STR_ARG(path));
     str owner = say_owner(arena, subject.frame);
     return path.len ? arena_format(arena, "'%.*s' of %.*s", STR_ARG(path), STR_ARG(owner)) : owner;
 }
@@ -102,11 +109,10 @@ str say_words(struct arena *arena, const char *const *words) {
 
 static str expected_element(struct arena *arena, const struct schema_row *row) {
     str word = spoken(arena, row->child->name);
-    if (row->many == SCHEMA_NAMED_MAP &&
-        row->child->rows[schema_key_row(row->child)].text == SCHEMA_TEXT_NAME)
-        return arena_format(arena, "entries by name, each one %.*s", STR_ARG(word));
+    if (row->many == SCHEMA_NAMED_MAP)
+        return arena_format(arena, "a map of %.*s entries by name", STR_ARG(word));
     if (row->many != SCHEMA_ONE)
-        return arena_format(arena, "a number of %.*s entries", STR_ARG(word));
+        return arena_format(arena, "a list of %.*s entries", STR_ARG(word));
     int bare = schema_short_row(row->child);
     if (bare < 0)
         return STR("a group of attributes");
@@ -150,6 +156,15 @@ str say_expected(struct arena *arena, const struct schema_row *row) {
     return STR("a value");
 }
 
+str say_expected_of(struct arena *arena, struct bind_subject subject) {
+    if (subject.component)
+        return STR("one number");
+    struct schema_row row = subject.row ? *subject.row : *subject.frame->via;
+    if (subject.index >= 0)
+        row.many = SCHEMA_ONE;
+    return say_expected(arena, &row);
+}
+
 const char *say_unit(const struct schema_row *row) {
     return row->unit == SCHEMA_UNIT_DEGREES ? " degrees" : row->unit == SCHEMA_UNIT_PIXELS ? " pixels" : "";
 }
@@ -187,13 +202,23 @@ static bool is_composite(enum schema_kind kind) {
     return kind == SCHEMA_VECTOR || kind == SCHEMA_COLOR || kind == SCHEMA_WEIGHTS;
 }
 
-static str yaml_value(struct arena *arena, const struct schema_row *row) {
-    const char *text = sample(row);
-    if (!is_composite(row->kind))
-        return row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_FREE ? arena_format(arena, "\"%s\"", text)
-                                                                         : str_from(text);
-    if (text[0] == '#')
-        return arena_format(arena, "\"%s\"", text);
+// The row of an element that shows best what it holds: one that it cannot do without, else its first.
+static const struct schema_row *telling_row(const struct schema_element *element) {
+    const struct schema_row *first = NULL;
+    for (uint32_t i = 0; i < element->row_count; i++) {
+        const struct schema_row *row = &element->rows[i];
+        bool needed = row->required ||
+                      (row->choice && element->choices[row->choice - 1].rule == SCHEMA_CHOICE_EXACTLY_ONE);
+        if (needed && !row->key)
+            return row;
+        bool is_name = row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME;
+        if (!first && row->example && !row->key && !is_name)
+            first = row;
+    }
+    return first;
+}
+
+static str yaml_list(struct arena *arena, const char *text) {
     str part[4];
     uint32_t count = split(text, part);
     str list = STR("[");
@@ -202,23 +227,36 @@ static str yaml_value(struct arena *arena, const struct schema_row *row) {
     return arena_format(arena, "%.*s]", STR_ARG(list));
 }
 
+static str yaml_value(struct arena *arena, const struct schema_row *row) {
+    const char *text = sample(row);
+    bool is_text = text[0] == '#' || (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_FREE);
+    if (is_text)
+        return arena_format(arena, "\"%s\"", text);
+    if (row->many == SCHEMA_FIXED)
+        return arena_format(arena, "[%.*s, [0, 0, 0]]", STR_ARG(yaml_list(arena, text)));
+    return is_composite(row->kind) ? yaml_list(arena, text) : str_from(text);
+}
+
+// What stands behind the key of an element: its short form, or a map with one row.
+static str yaml_body(struct arena *arena, const struct schema_element *element) {
+    int bare = schema_short_row(element);
+    if (bare >= 0)
+        return yaml_value(arena, &element->rows[bare]);
+    const struct schema_row *row = telling_row(element);
+    return row ? arena_format(arena, "{%.*s}", STR_ARG(say_example(arena, row, false))) : STR("{}");
+}
+
 static str yaml_example(struct arena *arena, const struct schema_row *row) {
-    const char *key = schema_yaml_key(row);
-    if (row->many == SCHEMA_FIXED) {
-        str value = yaml_value(arena, row);
-        return arena_format(arena, "%s: [%.*s, %.*s]", key, STR_ARG(value), STR_ARG(value));
-    }
+    const char *key = row->many == SCHEMA_ONE ? row->name : schema_yaml_key(row);
     if (row->kind != SCHEMA_ELEMENT && row->kind != SCHEMA_LIST)
         return arena_format(arena, "%s: %.*s", key, STR_ARG(yaml_value(arena, row)));
-    int bare = schema_short_row(row->child);
-    str value = bare < 0 ? STR("{...}") : yaml_value(arena, &row->child->rows[bare]);
+    str body = yaml_body(arena, row->child);
     if (row->many == SCHEMA_SEQUENCE)
-        return arena_format(arena, "%s: [%.*s]", key, STR_ARG(value));
-    if (row->many == SCHEMA_NAMED_MAP) {
-        const char *name = sample(&row->child->rows[schema_key_row(row->child)]);
-        return arena_format(arena, "%s: {%s: %.*s}", key, name, STR_ARG(value));
-    }
-    return arena_format(arena, "%s: %.*s", key, STR_ARG(value));
+        return arena_format(arena, "%s: [%.*s]", key, STR_ARG(body));
+    if (row->many == SCHEMA_NAMED_MAP)
+        return arena_format(arena, "%s: {%s: %.*s}", key,
+                            sample(&row->child->rows[schema_key_row(row->child)]), STR_ARG(body));
+    return arena_format(arena, "%s: %.*s", key, STR_ARG(body));
 }
 
 static str xml_components(struct arena *arena, const char *element, const struct schema_row *row) {
@@ -231,36 +269,53 @@ static str xml_components(struct arena *arena, const char *element, const struct
         if (row->kind != SCHEMA_WEIGHTS || !str_equal(value, STR("0")))
             text = arena_format(arena, "%.*s %s=\"%.*s\"", STR_ARG(text), names[i], STR_ARG(value));
     }
-    return arena_format(arena, "%.*s/>", STR_ARG(text));
+    text = arena_format(arena, "%.*s/>", STR_ARG(text));
+    if (row->many == SCHEMA_FIXED)
+        text = arena_format(arena, "%.*s<%s r=\"0\" g=\"0\" b=\"0\"/>", STR_ARG(text), element);
+    return text;
+}
+
+static bool is_several(const struct schema_row *row) {
+    return is_composite(row->kind) && sample(row)[0] != '#';
+}
+
+// An element with its key and one row.
+static str xml_element(struct arena *arena, const char *name, const struct schema_element *element,
+                       bool keyed) {
+    int bare = schema_short_row(element);
+    int key = keyed ? schema_key_row(element) : -1;
+    const struct schema_row *row = bare >= 0 ? &element->rows[bare] : telling_row(element);
+    if (bare >= 0 && is_several(row))
+        return xml_components(arena, name, row);
+    str text = arena_format(arena, "<%s", name);
+    if (key >= 0)
+        text = arena_format(arena, "%.*s %s=\"%s\"", STR_ARG(text), element->rows[key].name,
+                            sample(&element->rows[key]));
+    if (!row)
+        return arena_format(arena, "%.*s/>", STR_ARG(text));
+    str inner = say_example(arena, row, true);
+    if (inner.ptr[0] == '<')
+        return arena_format(arena, "%.*s>%.*s</%s>", STR_ARG(text), STR_ARG(inner), name);
+    return arena_format(arena, "%.*s %.*s/>", STR_ARG(text), STR_ARG(inner));
 }
 
 static str xml_example(struct arena *arena, const struct schema_row *row) {
-    const char *element = row->element ? row->element : "...";
-    if (row->kind == SCHEMA_LIST) {
-        int bare = schema_short_row(row->child);
-        int key = schema_key_row(row->child);
-        str text = arena_format(arena, "<%s", element);
-        if (key >= 0)
-            text = arena_format(arena, "%.*s %s=\"%s\"", STR_ARG(text), row->child->rows[key].name,
-                                sample(&row->child->rows[key]));
-        if (bare >= 0)
-            text = arena_format(arena, "%.*s %s=\"%s\"", STR_ARG(text), row->child->rows[bare].name,
-                                sample(&row->child->rows[bare]));
-        return arena_format(arena, "%.*s%s", STR_ARG(text), bare >= 0 ? "/>" : " .../>");
-    }
-    const struct schema_row *value = row;
-    if (row->kind == SCHEMA_ELEMENT) {
-        int bare = schema_short_row(row->child);
-        if (bare < 0)
-            return arena_format(arena, "<%s .../>", element);
-        value = &row->child->rows[bare];
-    }
-    bool several = is_composite(value->kind) && sample(value)[0] != '#';
-    if (several && row->element)
-        return xml_components(arena, element, value);
-    return arena_format(arena, "%s=\"%s\"", row->name, sample(value));
+    const char *name = row->element ? row->element : row->name;
+    if (row->kind == SCHEMA_LIST)
+        return xml_element(arena, name, row->child, true);
+    if (row->kind == SCHEMA_ELEMENT)
+        return xml_element(arena, name, row->child, false);
+    if (is_several(row) && row->element)
+        return xml_components(arena, name, row);
+    return arena_format(arena, "%s=\"%s\"", row->name, sample(row));
 }
 
 str say_example(struct arena *arena, const struct schema_row *row, bool is_xml) {
     return is_xml ? xml_example(arena, row) : yaml_example(arena, row);
+}
+
+str say_subject_example(struct arena *arena, struct bind_subject subject, bool is_xml) {
+    const struct bind_frame *frame = subject.frame;
+    bool is_bare = !subject.row || (frame->bare && subject.row->short_form);
+    return say_example(arena, is_bare && frame->via ? frame->via : subject.row, is_xml);
 }

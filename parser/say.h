@@ -9,7 +9,7 @@
 
 // "sphere 'ball'", "this sphere", "the image", "the scene".
 str say_owner(struct arena *arena, const struct bind_frame *frame);
-// "'radius' of this sphere"; the element itself where the subject has no row.
+// "'radius' of this sphere", "'image.width'"; the element itself where the subject has no row.
 str say_subject(struct arena *arena, struct bind_subject subject);
 // "'radius'": the path from the nearest entry of a list, without its owner; may be empty.
 str say_path(struct arena *arena, struct bind_subject subject);
@@ -20,10 +20,14 @@ str say_article(struct arena *arena, const char *word);
 str say_text(struct arena *arena, str text);
 // "one number", "three numbers x, y, z": what a value of this row must be.
 str say_expected(struct arena *arena, const struct schema_row *row);
-// "clip or normalize".
+// The same for one value, which may be a component of the row, or one of a fixed number.
+str say_expected_of(struct arena *arena, struct bind_subject subject);
+// "'clip' or 'normalize'".
 str say_words(struct arena *arena, const char *const *words);
 // How the row is written, with the table's example: "radius: 1", `<Center x="0" y="1" z="-5"/>`.
 str say_example(struct arena *arena, const struct schema_row *row, bool is_xml);
+// The same for a value, which may stand in short form: then for the row that holds the element.
+str say_subject_example(struct arena *arena, struct bind_subject subject, bool is_xml);
 // " degrees", " pixels" or "".
 const char *say_unit(const struct schema_row *row);
 // A sentence of the table as a clause: first letter small, no full stop.
