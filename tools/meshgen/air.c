@@ -8,7 +8,7 @@ vec3 air_sun_direction(void) {
 }
 
 vec3 air_sun_colour(void) {
-    return (vec3){3.1, 2.2, 1.35};
+    return (vec3){3.7, 2.5, 1.4};
 }
 
 vec3 air_mix(vec3 a, vec3 b, double t) {
@@ -21,12 +21,12 @@ static vec3 add_scaled(vec3 sum, vec3 colour, double scale) {
 
 // From deep blue above through pale blue to a warm horizon, warmest on the sun's side and rose opposite it.
 static vec3 clear_sky(vec3 direction, double toward_sun) {
-    const vec3 zenith = {0.028, 0.115, 0.37}, middle = {0.13, 0.37, 0.74};
-    const vec3 low_sun = {1.10, 0.72, 0.40}, low_far = {0.86, 0.66, 0.58};
+    const vec3 zenith = {0.022, 0.115, 0.37}, middle = {0.11, 0.40, 0.80};
+    const vec3 low_sun = {1.15, 0.78, 0.42}, low_far = {1.02, 0.82, 0.62};
     double height = fmax(0, direction.y);
     vec3 low = air_mix(low_far, low_sun, noise_smoothstep(-0.5, 1, toward_sun));
     vec3 sky = air_mix(zenith, middle, exp(-height * 2.6));
-    return air_mix(sky, low, 0.92 * exp(-height * 7.5));
+    return air_mix(sky, low, 0.95 * exp(-height * 7.5));
 }
 
 static vec3 add_glow(vec3 sky, double toward_sun) {
@@ -49,7 +49,7 @@ static double puff_density(double x, double y) {
 
 // A cloud is bright where its sheet is thin on the way to the sun, and blue grey below its thick parts.
 static vec3 add_puffs(vec3 sky, vec3 direction, double toward_sun) {
-    const vec3 lit = {1.25, 1.02, 0.82}, shade = {0.36, 0.40, 0.54}, rim = {1.5, 1.05, 0.62};
+    const vec3 lit = {1.40, 1.08, 0.80}, shade = {0.42, 0.45, 0.58}, rim = {1.5, 1.05, 0.62};
     vec3 sun = air_sun_direction();
     double scale = 0.62 / (direction.y + 0.075), x = direction.x * scale, y = direction.z * scale;
     double density = puff_density(x, y);
@@ -65,7 +65,7 @@ static vec3 add_puffs(vec3 sky, vec3 direction, double toward_sun) {
 
 // High ice clouds, drawn out along the wind.
 static vec3 add_streaks(vec3 sky, vec3 direction) {
-    const vec3 ice = {1.0, 0.90, 0.82};
+    const vec3 ice = {1.15, 0.95, 0.80};
     double scale = 1.0 / (direction.y + 0.13), x = direction.x * scale, y = direction.z * scale;
     double along = 0.86 * x + 0.5 * y, across = 0.86 * y - 0.5 * x;
     double bend = noise_fractal(along * 0.6, across * 0.6, 3, 131);
