@@ -29,7 +29,8 @@ static enum session_state unreadable(struct session *session, str path, enum fil
     diag_add(&session->sink, code_of_status(status), (span){source, 0, 0}, "the scene file %s",
              file_status_text(&session->files, status));
     if (status == FILE_TOO_LARGE)
-        diag_help(&session->sink, "raise the limit with --limit %s=BYTES", limit_info(LIMIT_SCENE_BYTES)->name);
+        diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
+                  limit_info(LIMIT_SCENE_BYTES)->name);
     return SESSION_UNREADABLE;
 }
 
@@ -64,7 +65,8 @@ static bool mesh_is_readable(struct session *session, str path, enum file_status
     str contents;
     struct arena probe;
     arena_init(&probe, (size_t)session->options.limits.value[LIMIT_MESH_BYTES] + 1);
-    *status = files_read(&session->files, path, session->options.limits.value[LIMIT_MESH_BYTES], &probe, &contents);
+    *status =
+        files_read(&session->files, path, session->options.limits.value[LIMIT_MESH_BYTES], &probe, &contents);
     arena_finish(&probe);
     return *status == FILE_OK;
 }
@@ -89,7 +91,8 @@ static enum session_state open_source(struct session *session, uint32_t *source)
         *source = source_add(&session->sources, SOURCE_KIND_OVERLAY, path, text);
         return SESSION_LOADED;
     }
-    status = files_read(&session->files, path, session->options.limits.value[LIMIT_SCENE_BYTES], &session->arena, &text);
+    status = files_read(&session->files, path, session->options.limits.value[LIMIT_SCENE_BYTES],
+                        &session->arena, &text);
     if (status != FILE_OK)
         return unreadable(session, path, status);
     *source = source_add(&session->sources, SOURCE_KIND_FILE, path, text);
@@ -158,8 +161,10 @@ static enum session_state guarded_load(struct session *session, const struct ses
         session->state = load_stages(session, store, alone);
     } else {
         diag_add(&session->sink, guard.fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
-                 "the scene needs more memory than %s", guard.fault == ARENA_FAULT_CAP ? "the limit" : "there is");
-        diag_help(&session->sink, "raise the limit with --limit %s=BYTES", limit_info(LIMIT_SCENE_MEMORY)->name);
+                 "the scene needs more memory than %s",
+                 guard.fault == ARENA_FAULT_CAP ? "the limit" : "there is");
+        diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
+                  limit_info(LIMIT_SCENE_MEMORY)->name);
         session->state = SESSION_NO_SCENE;
     }
     arena_set_guard(&session->arena, NULL);

@@ -22,8 +22,8 @@ struct session_options {
     const str *sets; // PATH=VALUE
     uint32_t set_count;
     struct limits limits;
-    bool text_only;      // neither meshes nor images are opened
-    bool skip_pixels;    // the background's header is checked, its pixels are not decoded
+    bool text_only;        // neither meshes nor images are opened
+    bool skip_pixels;      // the background's header is checked, its pixels are not decoded
     int32_t width, height; // 0: as the scene says
     int32_t samples;       // 0: as the scene says
 };

@@ -20,7 +20,8 @@ uint32_t session_camera(struct session *session, str name) {
         strbuf_format(&all, "%s'%.*s'", i ? ", " : "", STR_ARG(cameras->items[i].name));
     }
     span at = ir_place_label(&session->origin, &session->scene->head);
-    diag_add(&session->sink, DIAG_UNKNOWN_CAMERA, (span){at.source, 0, 0}, "the scene has no camera '%.*s'", STR_ARG(name));
+    diag_add(&session->sink, DIAG_UNKNOWN_CAMERA, (span){at.source, 0, 0}, "the scene has no camera '%.*s'",
+             STR_ARG(name));
     if (nearest_best(&search).len)
         diag_help(&session->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     else if (all.len)

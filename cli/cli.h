@@ -10,10 +10,10 @@
 
 enum cli_exit {
     CLI_OK = 0,
-    CLI_SCENE = 1,       // errors in the scene or in a file that it names
+    CLI_SCENE = 1, // errors in the scene or in a file that it names
     CLI_USAGE = 2,
-    CLI_FILE = 3,        // the scene file cannot be read, or an output cannot be written
-    CLI_DEVICE = 4,      // no usable device
+    CLI_FILE = 3,   // the scene file cannot be read, or an output cannot be written
+    CLI_DEVICE = 4, // no usable device
     CLI_INTERRUPTED = 130,
     CLI_TERMINATED = 143,
 };
@@ -30,7 +30,7 @@ struct cli_list {
 };
 
 struct cli_options {
-    const char *output; // NULL: not given
+    const char *output;                     // NULL: not given
     int32_t width, height, samples, repeat; // 0: not given
     str camera;
     const char *device; // NULL: not given
@@ -57,7 +57,7 @@ struct cli_command {
     const char *name;
     const char *operands; // for the usage line: "SCENE"
     const char *summary;
-    const char *details;  // paragraphs and examples for --help
+    const char *details;               // paragraphs and examples for --help
     int least_operands, most_operands; // most: -1 is any number
     int (*run)(struct cli *cli);
 };
@@ -80,8 +80,8 @@ void cli_print_usage(struct cli *cli);
 // Prints a session's diagnostics, notes too unless `quiet`; gives the exit code that they ask for.
 int cli_report(struct cli *cli, struct session *session, bool notes);
 // One error with the place 1:1 of `path`, printed at once.
-void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format, ...)
-    __attribute__((format(printf, 5, 6)));
+void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
+               ...) __attribute__((format(printf, 5, 6)));
 struct session_options cli_session_options(const struct cli *cli, const char *path);
 // Writes `text` to standard output; CLI_OK or CLI_FILE with an error printed.
 int cli_print(struct cli *cli, str text);

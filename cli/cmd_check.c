@@ -1,7 +1,6 @@
 // glint check SCENE...: every mistake of every file, in the order of the command line.
 #include "cli/cli.h"
 
-
 static int check_one(struct cli *cli, struct asset_store *store, const char *path) {
     struct session session;
     struct session_options options = cli_session_options(cli, path);

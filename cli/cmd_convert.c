@@ -7,7 +7,8 @@ static bool wants_xml(struct session *session, const char *out) {
     str path = str_from(out);
     if (str_ends_with_nocase(path, ".xml"))
         return true;
-    if (str_ends_with_nocase(path, ".yaml") || str_ends_with_nocase(path, ".yml") || str_ends_with_nocase(path, ".json"))
+    if (str_ends_with_nocase(path, ".yaml") || str_ends_with_nocase(path, ".yml") ||
+        str_ends_with_nocase(path, ".json"))
         return false;
     return !session->origin.files.items[0].is_xml;
 }

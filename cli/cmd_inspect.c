@@ -25,13 +25,13 @@ static void counts(struct strbuf *out, const struct session *s) {
     for (uint32_t i = 0; i < scene->materials.count; i++)
         named += scene->materials.items[i].name.len > 0;
     strbuf_format(out, "files       %u\n", s->origin.files.count);
-    strbuf_format(out, "image       %d x %d pixels, %d sample%s\n", s->image.width, s->image.height, s->image.samples,
-                  s->image.samples == 1 ? "" : "s");
+    strbuf_format(out, "image       %d x %d pixels, %d sample%s\n", s->image.width, s->image.height,
+                  s->image.samples, s->image.samples == 1 ? "" : "s");
     strbuf_format(out, "cameras     %u\nlights      %u\n", scene->cameras.count, scene->lights.count);
     strbuf_format(out, "materials   %u named, %u inline, %u used in all with those of meshes\n", named,
                   scene->materials.count - named, s->assets.material_count);
-    strbuf_format(out, "spheres     %u\nrectangles  %u\nmodels      %u\n", scene->spheres.count, scene->rectangles.count,
-                  scene->models.count);
+    strbuf_format(out, "spheres     %u\nrectangles  %u\nmodels      %u\n", scene->spheres.count,
+                  scene->rectangles.count, scene->models.count);
 }
 
 static void bounds(struct strbuf *out, const struct session *s) {
@@ -54,10 +54,12 @@ static void meshes(struct strbuf *out, const struct session *s) {
         const struct ir_model *model = &s->scene->models.items[i];
         if (!mesh)
             continue;
-        strbuf_format(out, "  %.*s%s%.*s: %u triangles, %s", STR_ARG(model->name), model->name.len ? ", " : "",
-                      STR_ARG(model->mesh), mesh->triangle_count, mesh->closed ? "closed" : "open");
+        strbuf_format(out, "  %.*s%s%.*s: %u triangles, %s", STR_ARG(model->name),
+                      model->name.len ? ", " : "", STR_ARG(model->mesh), mesh->triangle_count,
+                      mesh->closed ? "closed" : "open");
         if (!mesh->closed)
-            strbuf_format(out, " (%u edges, the first at line %u of the mesh)", mesh->open_edges, mesh->open_line);
+            strbuf_format(out, " (%u edges, the first at line %u of the mesh)", mesh->open_edges,
+                          mesh->open_line);
         if (mesh->zero_area)
             strbuf_format(out, ", %u without area", mesh->zero_area);
         strbuf_cstr(out, mesh->turned ? ", turned outward\n" : "\n");
@@ -99,7 +101,9 @@ static void buffer(struct strbuf *out, const char *name, uint64_t bytes) {
 }
 
 static void buffers(struct strbuf *out, const struct flat_scene *flat) {
-    enum { WORD = sizeof(struct gpu_word) };
+    enum {
+        WORD = sizeof(struct gpu_word)
+    };
     strbuf_cstr(out, "buffers\n");
     buffer(out, "triangle tree", flat->triangle_nodes.count * WORD);
     buffer(out, "triangles", flat->triangles.count * WORD);
@@ -110,8 +114,8 @@ static void buffers(struct strbuf *out, const struct flat_scene *flat) {
     buffer(out, "materials", flat->materials.count * WORD);
     buffer(out, "lights", flat->lights.count * WORD);
     buffer(out, "background", flat->background_texels.bytes);
-    strbuf_format(out, "triangles   %u in a tree of depth %u, %u without area dropped\n", flat->triangle_count,
-                  flat->triangle_depth, flat->dropped_triangles);
+    strbuf_format(out, "triangles   %u in a tree of depth %u, %u without area dropped\n",
+                  flat->triangle_count, flat->triangle_depth, flat->dropped_triangles);
     strbuf_cstr(out, "origin      ");
     vector(out, flat->origin);
     strbuf_format(out, ", scaled by 2^%d\n", flat->scale_exponent);

@@ -16,7 +16,9 @@ static const struct kind kinds[] = {
     {"relaxng", emit_relaxng},
     {"markdown", emit_markdown},
 };
-enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
+enum {
+    KIND_COUNT = sizeof kinds / sizeof kinds[0]
+};
 
 int cmd_schema(struct cli *cli) {
     const char *wanted = cli->operands[0];
@@ -32,7 +34,8 @@ int cmd_schema(struct cli *cli) {
         strbuf_finish(&text);
         return status;
     }
-    int status = cli_usage(cli, cli->argc - 1, "'%s' is no kind of schema; they are json, relaxng and markdown", wanted);
+    int status = cli_usage(cli, cli->argc - 1,
+                           "'%s' is no kind of schema; they are json, relaxng and markdown", wanted);
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     return status;

@@ -28,7 +28,8 @@ const struct cli_command cli_commands[] = {
      "With --ir the scene as it was understood: equal for two files that mean the same.\n",
      1, 1, cmd_inspect},
     {"convert", "IN OUT", "translate between the YAML and the XML spelling",
-     "The endings of IN and OUT (.yaml .yml .json, .xml) tell the spellings; OUT '-' writes the other spelling\n"
+     "The endings of IN and OUT (.yaml .yml .json, .xml) tell the spellings; OUT '-' writes the other "
+     "spelling\n"
      "to standard output. Comments before entries and includes are kept.\n\n"
      "  glint convert scene.xml scene.yaml\n",
      2, 2, cmd_convert},
@@ -66,25 +67,28 @@ static void init(struct cli *cli, int argc, char **argv) {
         cli->arg_begin[i] = (uint32_t)text.len;
         strbuf_cstr(&text, i == 0 ? "glint" : argv[i]);
     }
-    source_add(&cli->sources, SOURCE_KIND_OPTION, STR("command-line"), arena_copy(&cli->arena, strbuf_view(&text)));
+    source_add(&cli->sources, SOURCE_KIND_OPTION, STR("command-line"),
+               arena_copy(&cli->arena, strbuf_view(&text)));
     strbuf_finish(&text);
 }
 
 static void program_help(struct strbuf *out) {
-    strbuf_cstr(out, "Usage: glint COMMAND [OPTION]...\n\nDescribes a picture in a text file and renders it: scenes in YAML or XML, Whitted ray tracing on any\n"
+    strbuf_cstr(out, "Usage: glint COMMAND [OPTION]...\n\nDescribes a picture in a text file and renders it: "
+                     "scenes in YAML or XML, Whitted ray tracing on any\n"
                      "Vulkan device, the processor included.\n\nCommands:\n");
     for (const struct cli_command *c = cli_commands; c->name; c++)
         strbuf_format(out, "  %-10s %s\n", c->name, c->summary);
     strbuf_cstr(out, "\nOptions:\n");
     cli_option_help(out, NULL);
     strbuf_cstr(out, "\n'glint COMMAND --help' tells more about a command.\n"
-                     "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command line cannot be\n"
+                     "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
+                     "line cannot be\n"
                      "read or written; 4 no usable device; 130 or 143 interrupted.\n");
 }
 
 static void command_help(struct strbuf *out, const struct cli_command *command) {
-    strbuf_format(out, "Usage: glint %s [OPTION]...%s%s\n\nTo %s.\n\n", command->name, command->operands[0] ? " " : "",
-                  command->operands, command->summary);
+    strbuf_format(out, "Usage: glint %s [OPTION]...%s%s\n\nTo %s.\n\n", command->name,
+                  command->operands[0] ? " " : "", command->operands, command->summary);
     if (command->details[0])
         strbuf_format(out, "%s\n", command->details);
     strbuf_cstr(out, "Options:\n");
@@ -123,7 +127,8 @@ static int unknown_command(struct cli *cli) {
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     else
-        diag_help(&cli->sink, "'glint --help' lists the commands; to render a file: glint render %s", cli->argv[1]);
+        diag_help(&cli->sink, "'glint --help' lists the commands; to render a file: glint render %s",
+                  cli->argv[1]);
     return status;
 }
 

@@ -36,23 +36,35 @@ struct option_row {
 };
 
 static const struct option_row rows[] = {
-    {OPTION_OUTPUT, "output", 'o', "FILE", "render", "write to FILE (.png .pfm .hdr); '-' writes PNG to standard output"},
-    {OPTION_SIZE, "size", 0, "WxH", "render inspect", "size of the picture in pixels, instead of the scene's"},
+    {OPTION_OUTPUT, "output", 'o', "FILE", "render",
+     "write to FILE (.png .pfm .hdr); '-' writes PNG to standard output"},
+    {OPTION_SIZE, "size", 0, "WxH", "render inspect",
+     "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render inspect", "rays through each pixel, instead of the scene's"},
-    {OPTION_CAMERA, "camera", 0, "NAME", "render", "the camera to look through; 'all' makes OUT.NAME.png for each"},
-    {OPTION_SET, "set", 0, "PATH=VALUE", "render check inspect", "change one value of the scene: materials.glass.refractive_index=1.6"},
-    {OPTION_DEVICE, "device", 0, "NAME|N", "render", "the device to render on, see 'glint devices'; also GLINT_DEVICE"},
-    {OPTION_ASSET_PATH, "asset-path", 0, "DIR", "render check inspect convert", "a folder in which files of the scene are looked for too"},
-    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render check inspect convert", "change a limit on the size of inputs; NAME 'help' lists them"},
-    {OPTION_REPEAT, "repeat", 0, "N", "render", "render N times and tell the median time of a frame and its spread"},
-    {OPTION_STATS, "stats", 0, "[=json]", "render", "tell times, rays, memory and the device on standard error"},
-    {OPTION_QUIET, "quiet", 'q', NULL, "render check", "show errors and warnings only: no notes, no progress"},
+    {OPTION_CAMERA, "camera", 0, "NAME", "render",
+     "the camera to look through; 'all' makes OUT.NAME.png for each"},
+    {OPTION_SET, "set", 0, "PATH=VALUE", "render check inspect",
+     "change one value of the scene: materials.glass.refractive_index=1.6"},
+    {OPTION_DEVICE, "device", 0, "NAME|N", "render",
+     "the device to render on, see 'glint devices'; also GLINT_DEVICE"},
+    {OPTION_ASSET_PATH, "asset-path", 0, "DIR", "render check inspect convert",
+     "a folder in which files of the scene are looked for too"},
+    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render check inspect convert",
+     "change a limit on the size of inputs; NAME 'help' lists them"},
+    {OPTION_REPEAT, "repeat", 0, "N", "render",
+     "render N times and tell the median time of a frame and its spread"},
+    {OPTION_STATS, "stats", 0, "[=json]", "render",
+     "tell times, rays, memory and the device on standard error"},
+    {OPTION_QUIET, "quiet", 'q', NULL, "render check",
+     "show errors and warnings only: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as it was understood, in canonical form"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
 };
-enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+enum {
+    ROW_COUNT = sizeof rows / sizeof rows[0]
+};
 
 static bool belongs(const struct option_row *row, const struct cli_command *command) {
     if (!command)
@@ -81,10 +93,12 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command) {
     }
 }
 
-static bool read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t most, int32_t *out) {
+static bool read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t most,
+                       int32_t *out) {
     int64_t value = 0;
     if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < 1 || value > most) {
-        cli_usage(cli, arg, "--%s takes a whole number from 1 to %lld, not '%s'", name, (long long)most, text);
+        cli_usage(cli, arg, "--%s takes a whole number from 1 to %lld, not '%s'", name, (long long)most,
+                  text);
         return false;
     }
     *out = (int32_t)value;
@@ -96,9 +110,12 @@ static bool read_size(struct cli *cli, int arg, const char *text) {
     int64_t width = 0;
     int64_t height = 0;
     if (!x || number_parse_integer((str){text, (size_t)(x - text)}, &width) != NUMBER_OK ||
-        number_parse_integer(str_from(x + 1), &height) != NUMBER_OK || width < 1 || height < 1 || width > 16384 ||
-        height > 16384 || width * height > 67108864) {
-        cli_usage(cli, arg, "--size takes WIDTHxHEIGHT, each from 1 to 16384 and 64 megapixels at most, such as 640x480, not '%s'", text);
+        number_parse_integer(str_from(x + 1), &height) != NUMBER_OK || width < 1 || height < 1 ||
+        width > 16384 || height > 16384 || width * height > 67108864) {
+        cli_usage(cli, arg,
+                  "--size takes WIDTHxHEIGHT, each from 1 to 16384 and 64 megapixels at most, such as "
+                  "640x480, not '%s'",
+                  text);
         return false;
     }
     cli->options.width = (int32_t)width;
@@ -202,7 +219,8 @@ static void suggest(struct cli *cli, const struct cli_command *command, const ch
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     else
-        diag_help(&cli->sink, "'glint %s%s--help' lists the options", command ? command->name : "", command ? " " : "");
+        diag_help(&cli->sink, "'glint %s%s--help' lists the options", command ? command->name : "",
+                  command ? " " : "");
 }
 
 bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first) {
@@ -213,7 +231,9 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
     for (int i = 0; i < ROW_COUNT; i++) {
         if (!belongs(&rows[i], command))
             continue;
-        int has = !rows[i].argument ? no_argument : rows[i].argument[0] == '[' ? optional_argument : required_argument;
+        int has = !rows[i].argument            ? no_argument
+                  : rows[i].argument[0] == '[' ? optional_argument
+                                               : required_argument;
         longs[count++] = (struct option){rows[i].name, has, NULL, (int)rows[i].id};
         if (rows[i].letter) {
             letters[letter_count++] = rows[i].letter;
@@ -241,7 +261,8 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
             if (cli->argv[i] == word)
                 arg = i;
         if (id == '?' || id == ':') {
-            cli_usage(cli, arg, id == ':' ? "option '%s' needs a value" : "unknown or ambiguous option '%s'", word);
+            cli_usage(cli, arg, id == ':' ? "option '%s' needs a value" : "unknown or ambiguous option '%s'",
+                      word);
             if (id == '?')
                 suggest(cli, command, word);
             good = false;

@@ -35,7 +35,9 @@ static void print(struct cli *cli, const struct diag_sink *sink, struct source_s
     strbuf_finish(&text);
 }
 
-void cli_print_usage(struct cli *cli) { print(cli, &cli->sink, &cli->sources, true); }
+void cli_print_usage(struct cli *cli) {
+    print(cli, &cli->sink, &cli->sources, true);
+}
 
 static bool has_code(const struct diag_sink *sink, enum diag_code code) {
     for (uint32_t i = 0; i < sink->count; i++)
@@ -50,10 +52,13 @@ int cli_report(struct cli *cli, struct session *session, bool notes) {
         return has_code(&session->sink, DIAG_USAGE) ? CLI_USAGE : CLI_FILE;
     if (session->sink.errors == 0)
         return CLI_OK;
-    return has_code(&session->sink, DIAG_UNKNOWN_CAMERA) || has_code(&session->sink, DIAG_SET_SYNTAX) ? CLI_USAGE : CLI_SCENE;
+    return has_code(&session->sink, DIAG_UNKNOWN_CAMERA) || has_code(&session->sink, DIAG_SET_SYNTAX)
+               ? CLI_USAGE
+               : CLI_SCENE;
 }
 
-void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format, ...) {
+void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
+               ...) {
     struct diag_sink sink;
     char fixed[1024];
     va_list args;
@@ -86,9 +91,11 @@ int cli_write(struct cli *cli, const char *path, str bytes) {
     int error = output_whole(path, bytes.ptr, bytes.len);
     if (error == 0)
         return CLI_OK;
-    cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL, "cannot be written: %s",
-              strerror(error));
+    cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
+              "cannot be written: %s", strerror(error));
     return CLI_FILE;
 }
 
-int cli_print(struct cli *cli, str text) { return cli_write(cli, "-", text); }
+int cli_print(struct cli *cli, str text) {
+    return cli_write(cli, "-", text);
+}

@@ -1,0 +1,40 @@
+// A session through one camera on a device: view, flat scene and renderer together.
+//
+// Errors: shot_open gives a status; what the scene did wrong is in the session's sink, what the device did
+// in gpu_error. Ownership: shot_close frees all but session and gpu, which must outlive the shot.
+// Thread safety: the gpu's thread.
+#ifndef GLINT_APP_SHOT_H
+#define GLINT_APP_SHOT_H
+
+#include "app/session.h"
+#include "runtime/image/image.h"
+#include "runtime/render.h"
+
+enum shot_status {
+    SHOT_OK,
+    SHOT_SCENE,  // the sink has errors
+    SHOT_DEVICE, // see gpu_error
+    SHOT_CANCELLED,
+};
+
+struct shot {
+    struct session *session;
+    struct gpu *gpu;
+    struct view view;
+    struct flat_scene flat;
+    struct render_settings settings;
+    struct renderer *renderer;
+    double flatten_seconds, upload_seconds;
+};
+
+// `camera` is an index of session_camera. Leaves a shot that shot_close takes, whatever the status.
+enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera);
+void shot_close(struct shot *shot);
+// Looks through another camera of the same session; only the lights of a scene without lights need
+// flattening anew.
+enum shot_status shot_turn(struct shot *shot, uint32_t camera);
+// One frame into `image`, which has the session's size. Faulty pixels become errors in the session's sink.
+enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,
+                           struct render_statistics *statistics);
+
+#endif

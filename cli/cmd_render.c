@@ -1,0 +1,267 @@
+// glint render SCENE: load, flatten, trace, write.
+#include "app/shot.h"
+#include "cli/cli.h"
+#include "cli/progress.h"
+#include "cli/stats.h"
+#include "core/clock.h"
+#include "core/output.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+struct job {
+    struct cli *cli;
+    struct session session;
+    struct gpu *gpu;
+    struct shot shot;
+    struct image image;
+    struct stats stats;
+    struct progress progress;
+    enum image_format format;
+    const char *output; // without the camera's name
+};
+
+// The scene's name without its endings, in the current folder: showcase.glint.yaml becomes showcase.png.
+static const char *default_output(struct cli *cli, const char *scene) {
+    str base = path_base(str_from(scene));
+    size_t end = 1;
+    while (end < base.len && base.ptr[end] != '.')
+        end++;
+    return arena_format(&cli->arena, "%.*s.png", STR_ARG(str_slice(base, 0, end))).ptr;
+}
+
+// OUT.NAME.png for OUT.png.
+static const char *camera_output(struct job *job, str camera) {
+    str path = str_from(job->output);
+    size_t dot = path.len;
+    while (dot > 0 && path.ptr[dot - 1] != '.')
+        dot--;
+    str stem = str_slice(path, 0, dot ? dot - 1 : path.len);
+    return arena_format(&job->cli->arena, "%.*s.%.*s%s", STR_ARG(stem), STR_ARG(camera), path.ptr + stem.len)
+        .ptr;
+}
+
+static int open_device(struct job *job) {
+    char error[GPU_ERROR_BYTES] = "";
+    const char *environment = getenv("GLINT_DEVICE");
+    const char *wanted = job->cli->options.device ? job->cli->options.device : environment;
+    struct gpu_options options = {.device = wanted};
+    double start = clock_seconds();
+    enum gpu_status status = gpu_create(&options, &job->gpu, error);
+    job->stats.device_seconds = clock_seconds() - start;
+    if (status == GPU_OK)
+        return CLI_OK;
+    if (status == GPU_NO_DEVICE)
+        cli_error(job->cli, DIAG_NO_DEVICE, "device", "'glint devices' lists the devices", "%s", error);
+    else if (status == GPU_NO_LOADER || status == GPU_NO_DRIVER)
+        cli_error(job->cli, DIAG_NO_VULKAN, "device",
+                  "on Debian: apt-get install libvulkan1 mesa-vulkan-drivers", "%s", error);
+    else
+        cli_error(job->cli, DIAG_DEVICE_FAILED, "device", NULL, "%s", error);
+    return CLI_DEVICE;
+}
+
+static int interrupted(struct job *job) {
+    int signal_number = interrupt_signal();
+    progress_end(&job->progress);
+    cli_error(job->cli, DIAG_INTERRUPTED, job->cli->operands[0], NULL, "interrupted; nothing was written");
+    return signal_number == 15 ? CLI_TERMINATED : CLI_INTERRUPTED;
+}
+
+static int shot_failed(struct job *job, enum shot_status status) {
+    progress_end(&job->progress);
+    if (status == SHOT_CANCELLED)
+        return interrupted(job);
+    if (status == SHOT_SCENE)
+        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
+    bool memory = gpu_last_status(job->gpu) == GPU_NO_MEMORY;
+    cli_error(job->cli, memory ? DIAG_DEVICE_MEMORY : DIAG_DEVICE_FAILED, job->cli->operands[0],
+              memory ? "use a smaller scene or background, or another device" : NULL, "%s",
+              gpu_error(job->gpu));
+    return CLI_DEVICE;
+}
+
+static int compare_doubles(const void *a, const void *b) {
+    double x = *(const double *)a;
+    double y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+static int take_frames(struct job *job) {
+    int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
+    double *times = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);
+    struct render_progress callback = progress_callback(&job->progress);
+    for (int32_t i = 0; i < frames; i++) {
+        job->progress.base = (double)i / frames;
+        job->progress.share = 1.0 / frames;
+        double start = clock_seconds();
+        uint32_t errors = job->session.sink.errors;
+        enum shot_status status = shot_take(&job->shot, &job->image, &callback, &job->stats.last);
+        times[i] = clock_seconds() - start;
+        if (status != SHOT_OK)
+            return shot_failed(job, status);
+        if (i == 0)
+            job->stats.first_frame_seconds = times[i];
+        if (job->session.sink.errors > errors)
+            break; // a faulty picture: more frames would tell the same
+    }
+    qsort(times, (size_t)frames, sizeof *times, compare_doubles);
+    job->stats.frames = frames;
+    job->stats.least_frame_seconds = times[0];
+    job->stats.most_frame_seconds = times[frames - 1];
+    job->stats.median_frame_seconds = 0.5 * (times[(frames - 1) / 2] + times[frames / 2]);
+    return CLI_OK;
+}
+
+static int write_picture(struct job *job, const char *path) {
+    struct strbuf file;
+    struct image_display display = {job->session.image.tone, job->session.image.transfer};
+    strbuf_init(&file);
+    double start = clock_seconds();
+    image_encode(&job->image, job->format, display, &file);
+    job->stats.encode_seconds = clock_seconds() - start;
+    int status = CLI_OK;
+    if (file.failed) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
+        status = CLI_FILE;
+    } else {
+        status = cli_write(job->cli, path, strbuf_view(&file));
+    }
+    strbuf_finish(&file);
+    return status;
+}
+
+static int report_stats(struct job *job) {
+    struct stats *s = &job->stats;
+    struct render_progress callback = progress_callback(&job->progress);
+    enum render_result result =
+        renderer_count(job->shot.renderer, &job->shot.view.camera, &callback, &s->rays);
+    if (result != RENDER_DONE)
+        return shot_failed(job, result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE);
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    s->peak_memory_bytes = usage.ru_maxrss * 1024;
+    s->read_seconds = job->session.read_seconds;
+    s->assets_seconds = job->session.assets_seconds;
+    s->flatten_seconds = job->shot.flatten_seconds;
+    s->build_seconds = job->shot.flat.build_seconds;
+    s->upload_seconds = job->shot.upload_seconds;
+    s->scene_bytes = renderer_scene_bytes(job->shot.renderer);
+    s->band_bytes = renderer_band_bytes(job->shot.renderer);
+    s->triangles = job->shot.flat.triangle_count;
+    s->dropped = job->shot.flat.dropped_triangles;
+    s->spheres = job->shot.flat.sphere_count;
+    s->triangle_depth = job->shot.flat.triangle_depth;
+    s->features = job->shot.settings.features;
+    s->width = job->shot.settings.width;
+    s->height = job->shot.settings.height;
+    s->samples = job->shot.settings.samples;
+    snprintf(s->device, sizeof s->device, "%s", gpu_info(job->gpu)->name);
+    struct strbuf text;
+    strbuf_init(&text);
+    int status = CLI_OK;
+    if (job->cli->options.stats == CLI_STATS_JSON) {
+        stats_json(s, &text);
+        if (strcmp(job->output, "-") != 0)
+            status = cli_print(job->cli, strbuf_view(&text));
+    } else {
+        stats_text(s, &text);
+    }
+    if (job->cli->options.stats == CLI_STATS_TEXT || strcmp(job->output, "-") == 0)
+        fwrite(text.data ? text.data : "", 1, text.len, stderr);
+    strbuf_finish(&text);
+    return status;
+}
+
+// One camera: frames, picture, statistics. The shot is open and looks through it.
+static int render_camera(struct job *job, const char *path) {
+    progress_begin(&job->progress, job->cli->options.quiet);
+    int status = take_frames(job);
+    progress_end(&job->progress);
+    if (status == CLI_OK)
+        status = write_picture(job, path);
+    if (status == CLI_OK && job->cli->options.stats)
+        status = report_stats(job);
+    if (status != CLI_OK || job->cli->options.quiet)
+        return status;
+    if (job->cli->options.repeat)
+        fprintf(stderr, "glint: median frame %.2f ms of %d, from %.2f to %.2f ms, on %s\n",
+                1e3 * job->stats.median_frame_seconds, job->stats.frames,
+                1e3 * job->stats.least_frame_seconds, 1e3 * job->stats.most_frame_seconds,
+                gpu_info(job->gpu)->name);
+    if (strcmp(path, "-") != 0)
+        fprintf(stderr, "glint: wrote %s, %u x %u\n", path, job->image.width, job->image.height);
+    return status;
+}
+
+static int render_cameras(struct job *job) {
+    const struct ir_cameras *cameras = &job->session.scene->cameras;
+    bool all = str_equal(job->cli->options.camera, STR("all")) && cameras->count > 0;
+    uint32_t first = all ? 0 : session_camera(&job->session, job->cli->options.camera);
+    if (str_equal(job->cli->options.camera, STR("all")) && cameras->count == 0)
+        first = 0;
+    if (first == IR_NO_INDEX)
+        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
+    enum shot_status opened = shot_open(&job->shot, &job->session, job->gpu, first);
+    if (opened != SHOT_OK)
+        return shot_failed(job, opened);
+    if (!image_init(&job->image, job->shot.settings.width, job->shot.settings.height)) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->output, NULL, "not enough memory for the picture");
+        return CLI_SCENE;
+    }
+    int status = CLI_OK;
+    for (uint32_t i = first; i < (all ? cameras->count : first + 1) && status == CLI_OK; i++) {
+        if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
+            return shot_failed(job, opened);
+        status = render_camera(job, all ? camera_output(job, cameras->items[i].name) : job->output);
+    }
+    int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
+    return status != CLI_OK ? status : reported;
+}
+
+// Whether the output can be made at all is better known before the work than behind it.
+static int try_output(struct job *job) {
+    struct output probe;
+    if (strcmp(job->output, "-") == 0)
+        return CLI_OK;
+    bool opened = output_open(&probe, job->output);
+    if (opened) {
+        output_abandon(&probe);
+        return CLI_OK;
+    }
+    cli_error(job->cli, DIAG_OUTPUT, job->output, NULL, "cannot be written: %s", strerror(probe.error));
+    return CLI_FILE;
+}
+
+static int run_job(struct job *job, struct asset_store *store) {
+    struct session_options options = cli_session_options(job->cli, job->cli->operands[0]);
+    session_load(&job->session, &options, store);
+    if (job->session.state != SESSION_LOADED || job->session.sink.errors)
+        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
+    if (interrupt_signal())
+        return interrupted(job);
+    int status = try_output(job);
+    if (status == CLI_OK)
+        status = open_device(job);
+    return status == CLI_OK ? render_cameras(job) : status;
+}
+
+int cmd_render(struct cli *cli) {
+    struct job job = {.cli = cli, .format = IMAGE_PNG};
+    job.output = cli->options.output ? cli->options.output : default_output(cli, cli->operands[0]);
+    if (strcmp(job.output, "-") != 0 && strncmp(job.output, "/dev/", 5) != 0 &&
+        !image_format_of_path(str_from(job.output), &job.format))
+        return cli_usage(cli, cli->argc - 1, "the output '%s' must end in %s", job.output,
+                         image_format_endings());
+    interrupt_catch();
+    struct asset_store *store = asset_store_create();
+    int status = run_job(&job, store);
+    shot_close(&job.shot);
+    image_finish(&job.image);
+    gpu_destroy(job.gpu);
+    session_finish(&job.session);
+    asset_store_destroy(store);
+    return status;
+}

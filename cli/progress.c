@@ -1,0 +1,72 @@
+#include "cli/progress.h"
+
+#include "core/clock.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <unistd.h>
+
+static volatile sig_atomic_t caught;
+
+static void on_signal(int number) {
+    caught = number;
+}
+
+void interrupt_catch(void) {
+    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+int interrupt_signal(void) {
+    return caught;
+}
+
+void progress_begin(struct progress *progress, bool quiet) {
+    double now = clock_seconds();
+    *progress = (struct progress){
+        .terminal = isatty(STDERR_FILENO), .quiet = quiet, .start = now, .last = now, .base = 0, .share = 1};
+}
+
+static void bar(double done, double left) {
+    enum {
+        CELLS = 30
+    };
+    char cells[CELLS + 1];
+    for (int i = 0; i < CELLS; i++)
+        cells[i] = i < (int)(done * CELLS) ? '#' : '.';
+    cells[CELLS] = '\0';
+    fprintf(stderr, "\r[%s] %3.0f %%  %.0f s left ", cells, 100 * done, left);
+    fflush(stderr);
+}
+
+static bool report(void *context, double fraction) {
+    enum {
+        LINE_SECONDS = 10
+    };
+    struct progress *p = context;
+    double now = clock_seconds();
+    double done = p->base + p->share * fraction;
+    // The first half second shows nothing: most pictures are done by then.
+    if (!p->quiet && now - p->start > 0.5 && now - p->last > (p->terminal ? 0.1 : LINE_SECONDS) && done > 0) {
+        double left = (now - p->start) * (1 - done) / done;
+        if (p->terminal)
+            bar(done, left);
+        else
+            fprintf(stderr, "glint: %.0f %% done, %.0f s left\n", 100 * done, left);
+        p->shown = true;
+        p->last = now;
+    }
+    return caught == 0;
+}
+
+struct render_progress progress_callback(struct progress *progress) {
+    return (struct render_progress){.report = report, .context = progress};
+}
+
+void progress_end(struct progress *progress) {
+    if (progress->shown && progress->terminal)
+        fprintf(stderr, "\r%*s\r", 60, "");
+    progress->shown = false;
+}

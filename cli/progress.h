@@ -1,0 +1,25 @@
+// A progress bar with the time left on a terminal, plain lines elsewhere, and the end by Ctrl-C.
+#ifndef GLINT_CLI_PROGRESS_H
+#define GLINT_CLI_PROGRESS_H
+
+#include "runtime/render.h"
+
+struct progress {
+    bool terminal, quiet;
+    double start, last; // seconds
+    double base, share; // this frame's part of the whole: base + share * fraction
+    bool shown;
+};
+
+void progress_begin(struct progress *progress, bool quiet);
+// What renderer_render calls; false after a signal.
+struct render_progress progress_callback(struct progress *progress);
+// Wipes the bar.
+void progress_end(struct progress *progress);
+
+// SIGINT and SIGTERM end the work at the next dispatch; a second one ends the process at once.
+void interrupt_catch(void);
+// 0, or the signal that came.
+int interrupt_signal(void);
+
+#endif

@@ -1,0 +1,26 @@
+// What --stats tells: times by stage, rays by kind, triangles, memory, device.
+#ifndef GLINT_CLI_STATS_H
+#define GLINT_CLI_STATS_H
+
+#include "app/shot.h"
+#include "cli/cli.h"
+
+struct stats {
+    double read_seconds, assets_seconds, device_seconds;   // device: opening it
+    double flatten_seconds, build_seconds, upload_seconds; // build: the trees, a part of flatten
+    double first_frame_seconds, encode_seconds;            // first: compiling included
+    double median_frame_seconds, least_frame_seconds, most_frame_seconds;
+    int32_t frames;
+    struct render_statistics last;
+    struct render_rays rays;
+    uint64_t scene_bytes, band_bytes, triangles, dropped, spheres;
+    uint32_t triangle_depth, features;
+    long peak_memory_bytes; // of the process
+    char device[256];
+    uint32_t width, height, samples;
+};
+
+void stats_text(const struct stats *stats, struct strbuf *out);
+void stats_json(const struct stats *stats, struct strbuf *out);
+
+#endif
