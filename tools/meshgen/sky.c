@@ -124,10 +124,18 @@ static unsigned char developed(double x, double noise) {
     return (unsigned char)fmin(255, fmax(0, floor(255 * encoded + noise)));
 }
 
+// Whether the sky shows in any fine row of a row.
+static bool opens(struct column_view view, int row) {
+    bool open = false;
+    for (int fine = 0; fine < FINE; fine++)
+        open = open || view.rings[row * FINE + fine] < 0;
+    return open;
+}
+
 static void paint_air(const struct column *column) {
     int rows = column->canvas->height / 2;
     for (int row = 0; row < rows; row++)
-        if (column->view.rings[row * FINE] < 0 || column->mirror.rings[row * FINE] < 0)
+        if (opens(column->view, row) || opens(column->mirror, row))
             column->air[row] = air_colour(direction_at(column->azimuth, row_elevation(row, 2 * rows)));
 }
 
