@@ -1,0 +1,338 @@
+#include "grammar/explain.h"
+
+#include "core/diag.h"
+#include "core/nearest.h"
+#include "grammar/emit_words.h"
+
+#include <string.h>
+
+enum {
+    EXPLAIN_WIDTH = 88,      // columns
+    SUGGEST_BYTES = 1 << 20, // for the names of all attributes
+};
+
+struct explainer {
+    struct strbuf *out;
+    bool color;
+};
+
+static const char bold[] = "\033[1m";
+static const char cyan[] = "\033[36m";
+static const char plain[] = "\033[0m";
+
+static void put(struct explainer *e, const char *style, const char *text) {
+    if (e->color)
+        strbuf_cstr(e->out, style);
+    strbuf_cstr(e->out, text);
+    if (e->color)
+        strbuf_cstr(e->out, plain);
+}
+
+// Words in lines of at most EXPLAIN_WIDTH columns.
+static void paragraph(struct explainer *e, uint32_t indent, const char *text) {
+    size_t column = 0;
+    str rest = str_from(text);
+    while (rest.len) {
+        size_t end = 0;
+        while (end < rest.len && rest.ptr[end] != ' ')
+            end++;
+        str word = str_slice(rest, 0, end);
+        size_t width = utf8_count(word);
+        if (column && column + 1 + width > EXPLAIN_WIDTH) {
+            strbuf_char(e->out, '\n');
+            column = 0;
+        }
+        strbuf_repeat(e->out, ' ', column ? 1 : indent);
+        strbuf_str(e->out, word);
+        column += width + (column ? 1 : indent);
+        rest = str_trim(str_slice(rest, end, rest.len));
+    }
+    strbuf_char(e->out, '\n');
+}
+
+static void paragraph_of(struct explainer *e, uint32_t indent, struct strbuf *text) {
+    paragraph(e, indent, text->data ? text->data : "");
+    e->out->failed = e->out->failed || text->failed;
+    strbuf_clear(text);
+}
+
+// ---- codes
+
+static void explain_code(struct explainer *e, enum diag_code code) {
+    static const char *const severities[] = {"error", "warning", "note"};
+    static const struct {
+        unsigned where;
+        const char *text;
+    } places[] = {
+        {DIAG_IN_YAML, "YAML scenes"},
+        {DIAG_IN_XML, "XML scenes"},
+        {DIAG_IN_MESH, "mesh and material files"},
+        {DIAG_IN_IMAGE, "image files"},
+        {DIAG_IN_COMMAND, "what the command line asks for"},
+    };
+    const struct diag_info *info = diag_info(code);
+    put(e, bold, info->code);
+    strbuf_format(e->out, " (%s): %s\n\n", severities[info->severity], info->title);
+    paragraph(e, 2, info->meaning);
+    strbuf_char(e->out, '\n');
+    struct strbuf text;
+    strbuf_init(&text);
+    strbuf_format(&text, "What to do: %s", info->remedy);
+    paragraph_of(e, 2, &text);
+    strbuf_char(e->out, '\n');
+    strbuf_cstr(&text, "Occurs in ");
+    unsigned left = 0;
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
+        left += (info->where & places[i].where) != 0;
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        if (!(info->where & places[i].where))
+            continue;
+        strbuf_cstr(&text, places[i].text);
+        strbuf_cstr(&text, --left > 1 ? ", " : left == 1 ? " and " : ".");
+    }
+    paragraph_of(e, 2, &text);
+    strbuf_finish(&text);
+}
+
+// ---- rows
+
+static void put_facts(struct explainer *e, const struct schema_element *schema, uint32_t i, uint32_t indent) {
+    const struct schema_row *row = &schema->rows[i];
+    struct strbuf text;
+    struct strbuf part;
+    strbuf_init(&text);
+    strbuf_init(&part);
+    emit_type_words(row, &text);
+    emit_range_words(row, &part);
+    if (part.len)
+        strbuf_format(&text, "; %s", part.data);
+    strbuf_clear(&part);
+    emit_default_words(row, &part);
+    if (row->required)
+        strbuf_cstr(&text, "; required");
+    else if (part.len)
+        strbuf_format(&text, "; default %s", part.data);
+    strbuf_clear(&part);
+    if (emit_rivals(schema, i, "'", &part))
+        strbuf_format(&text, "; not together with %s", part.data);
+    strbuf_finish(&part);
+    paragraph_of(e, indent, &text);
+    strbuf_finish(&text);
+}
+
+static void put_samples(struct explainer *e, const struct schema_element *schema, uint32_t i,
+                        uint32_t indent) {
+    struct strbuf text;
+    strbuf_init(&text);
+    for (int xml = 0; xml < 2; xml++) {
+        if (xml)
+            emit_xml_sample(schema, i, &text);
+        else
+            emit_yaml_sample(schema, i, &text);
+        strbuf_repeat(e->out, ' ', indent);
+        strbuf_cstr(e->out, xml ? "XML   " : "YAML  ");
+        put(e, cyan, text.data ? text.data : "");
+        strbuf_char(e->out, '\n');
+        strbuf_clear(&text);
+    }
+    strbuf_finish(&text);
+}
+
+static void put_words(struct explainer *e, const struct schema_row *row, uint32_t indent) {
+    struct strbuf text;
+    strbuf_init(&text);
+    for (uint32_t k = 0; row->words && row->words[k]; k++) {
+        strbuf_format(&text, "%s: %s", row->words[k], row->word_docs[k]);
+        paragraph_of(e, indent, &text);
+    }
+    strbuf_finish(&text);
+}
+
+static void explain_row(struct explainer *e, const struct schema_element *schema, uint32_t i,
+                        uint32_t indent) {
+    const struct schema_row *row = &schema->rows[i];
+    put_facts(e, schema, i, indent);
+    paragraph(e, indent, row->doc);
+    put_words(e, row, indent + 2);
+    bool is_large =
+        row->kind == SCHEMA_LIST || (row->kind == SCHEMA_ELEMENT && schema_short_row(row->child) < 0);
+    if (!is_large) {
+        put_samples(e, schema, i, indent);
+        return;
+    }
+    strbuf_repeat(e->out, ' ', indent);
+    strbuf_format(e->out, "YAML  '%s', XML <%s>: see 'glint explain %s'\n", schema_yaml_key(row),
+                  row->element, row->child->name);
+}
+
+static void explain_attribute(struct explainer *e, const struct schema_element *schema, uint32_t i) {
+    if (e->color)
+        strbuf_cstr(e->out, bold);
+    strbuf_format(e->out, "%s.%s", schema->name, schema->rows[i].name);
+    if (e->color)
+        strbuf_cstr(e->out, plain);
+    strbuf_cstr(e->out, "\n\n");
+    explain_row(e, schema, i, 2);
+}
+
+// ---- elements
+
+static void put_example(struct explainer *e, const char *title, struct strbuf *example) {
+    strbuf_format(e->out, "\n%s\n\n", title);
+    str rest = strbuf_view(example);
+    while (rest.len) {
+        size_t end = 0;
+        while (end < rest.len && rest.ptr[end] != '\n')
+            end++;
+        if (end)
+            strbuf_repeat(e->out, ' ', 2);
+        if (e->color)
+            strbuf_cstr(e->out, cyan);
+        strbuf_str(e->out, str_slice(rest, 0, end));
+        if (e->color)
+            strbuf_cstr(e->out, plain);
+        strbuf_char(e->out, '\n');
+        rest = str_slice(rest, end + 1, rest.len);
+    }
+    e->out->failed = e->out->failed || example->failed;
+    strbuf_clear(example);
+}
+
+static void explain_element(struct explainer *e, const struct schema_element *schema) {
+    put(e, bold, schema->name);
+    strbuf_format(e->out, "  (XML: <%s>)\n\n", schema->element);
+    paragraph(e, 2, schema->doc);
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        strbuf_cstr(e->out, "\n  ");
+        put(e, bold, schema->rows[i].name);
+        strbuf_char(e->out, '\n');
+        explain_row(e, schema, i, 4);
+    }
+    struct strbuf example;
+    strbuf_init(&example);
+    emit_yaml_example(schema, &example);
+    put_example(e, "In YAML:", &example);
+    emit_xml_example(schema, &example);
+    put_example(e, "In XML:", &example);
+    strbuf_finish(&example);
+}
+
+// ---- what is meant
+
+static bool is_row(const struct schema_row *row, str name) {
+    return str_equal_cstr(name, row->name) || str_equal_cstr(name, schema_yaml_key(row)) ||
+           (row->element && str_equal_cstr(name, row->element));
+}
+
+static const struct schema_element *find_element(str name) {
+    for (const struct schema_element *const *e = schema_elements; *e; e++)
+        if (str_equal_cstr(name, (*e)->name) || str_equal_cstr(name, (*e)->element))
+            return *e;
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
+        if (SCHEMA_SCENE.rows[i].child && is_row(&SCHEMA_SCENE.rows[i], name))
+            return SCHEMA_SCENE.rows[i].child;
+    return NULL;
+}
+
+static int find_row(const struct schema_element *schema, str name) {
+    for (uint32_t i = 0; i < schema->row_count; i++)
+        if (is_row(&schema->rows[i], name))
+            return (int)i;
+    return -1;
+}
+
+// "material.diffuse_color.checker": an element, then rows, each inside the one before.
+static bool explain_path(struct explainer *e, str what) {
+    size_t end = 0;
+    while (end < what.len && what.ptr[end] != '.')
+        end++;
+    const struct schema_element *schema = find_element(str_slice(what, 0, end));
+    int row = -1;
+    while (schema && end < what.len) {
+        size_t begin = ++end;
+        while (end < what.len && what.ptr[end] != '.')
+            end++;
+        if (row >= 0)
+            schema = schema->rows[row].child;
+        row = schema ? find_row(schema, str_slice(what, begin, end)) : -1;
+        if (row < 0)
+            return false;
+    }
+    if (!schema)
+        return false;
+    if (row < 0)
+        explain_element(e, schema);
+    else
+        explain_attribute(e, schema, (uint32_t)row);
+    return true;
+}
+
+// An attribute without its element: explained where only one has it, else the elements are listed.
+static bool explain_alone(struct explainer *e, str what, bool *known) {
+    const struct schema_element *only = NULL;
+    unsigned count = 0;
+    for (const struct schema_element *const *s = schema_elements; *s; s++)
+        if (find_row(*s, what) >= 0) {
+            only = *s;
+            count++;
+        }
+    *known = count > 0;
+    if (count == 1)
+        explain_attribute(e, only, (uint32_t)find_row(only, what));
+    if (count <= 1)
+        return count == 1;
+    strbuf_format(e->out, "several elements have '%.*s'; say which: ", STR_ARG(what));
+    unsigned left = count;
+    for (const struct schema_element *const *s = schema_elements; *s; s++) {
+        int row = find_row(*s, what);
+        if (row < 0)
+            continue;
+        strbuf_format(e->out, "'%s.%s'", (*s)->name, (*s)->rows[row].name);
+        strbuf_cstr(e->out, --left > 1 ? ", " : left == 1 ? " or " : "\n");
+    }
+    return false;
+}
+
+// The nearest of all that can be explained.
+static str suggest(str what, struct arena *arena) {
+    struct nearest search = nearest_begin(what);
+    bool dotted = memchr(what.ptr, '.', what.len) != NULL;
+    for (int code = 0; code < DIAG_CODE_COUNT && !dotted; code++) {
+        str text = str_from(diag_info((enum diag_code)code)->code);
+        if (nearest_distance(what, text) == 1)
+            nearest_offer(&search, text);
+    }
+    for (const struct schema_element *const *s = schema_elements; *s; s++) {
+        if (!dotted)
+            nearest_offer(&search, str_from((*s)->name));
+        for (uint32_t i = 0; i < (*s)->row_count; i++) {
+            const char *name = (*s)->rows[i].name;
+            nearest_offer(&search, dotted ? arena_format(arena, "%s.%s", (*s)->name, name) : str_from(name));
+        }
+    }
+    return nearest_best(&search);
+}
+
+bool explain(str what, bool color, struct strbuf *out) {
+    struct explainer e = {out, color};
+    enum diag_code code = diag_find(what);
+    if (code != DIAG_CODE_COUNT) {
+        explain_code(&e, code);
+        return true;
+    }
+    bool known = false;
+    if (explain_path(&e, what) || explain_alone(&e, what, &known))
+        return true;
+    if (known)
+        return false;
+    struct arena arena;
+    arena_init(&arena, SUGGEST_BYTES);
+    str best = suggest(what, &arena);
+    strbuf_format(out, "'%.*s' is no code, element or attribute", STR_ARG(what));
+    if (best.len)
+        strbuf_format(out, "; did you mean '%.*s'?\n", STR_ARG(best));
+    else
+        strbuf_cstr(out, "; 'glint explain scene' shows where to begin\n");
+    arena_finish(&arena);
+    return false;
+}
