@@ -255,10 +255,14 @@ static void on_start(struct xml_reader *r, const struct xml_event *event) {
         exceed(r, LIMIT_SCENE_DEPTH, at, "elements nested too deeply");
         return;
     }
-    if (r->depth == 0)
+    if (name.len > r->context->limits->value[LIMIT_SCALAR_BYTES])
+        exceed(r, LIMIT_SCALAR_BYTES, xml_span(r, at.begin, at.begin + 1), "bytes in one name");
+    else if (r->depth == 0)
         open_root(r, event, name, at);
     else
         open_child(r, event, name, at);
+    if (r->stopped)
+        return;
     r->tag_end = event->end;
     read_attributes(r, event, at.end);
     if (r->depth == 1)
@@ -272,7 +276,7 @@ static void on_end(struct xml_reader *r, const struct xml_event *event) {
     r->tag_end = event->end;
     r->line_entry = frame->key;
     if (r->depth == 0) {
-        r->root_end = xml_span(r, event->begin, event->end);
+        r->root_end = xml_span(r, event->end - 1, event->end);
         return;
     }
     // Comments before a closing tag have no entry behind them.
@@ -285,8 +289,10 @@ static void on_end(struct xml_reader *r, const struct xml_event *event) {
 static void on_comment(struct xml_reader *r, const struct xml_event *event) {
     end_run(r);
     str between = str_slice(r->text->bytes, r->tag_end, event->begin);
-    bool same_line = !memchr(between.ptr, '\n', between.len) && !memchr(between.ptr, '\r', between.len);
-    if (r->line_entry && same_line)
+    if (memchr(between.ptr, '\n', between.len) || memchr(between.ptr, '\r', between.len))
+        r->line_entry = 0;
+    r->tag_end = event->end;
+    if (r->line_entry)
         tree_add_trailing(r->tree, r->line_entry, event->begin, event->end);
     else if (r->pending.begin == r->pending.end)
         r->pending = (struct tree_comment){.begin = event->begin, .end = event->end};

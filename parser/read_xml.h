@@ -48,8 +48,8 @@ struct xml_reader {
     bool in_cdata;
     uint32_t cdata_begin;
     struct tree_comment pending; // comments that wait for the element they stand before
-    tree_index line_entry;       // the element whose tag ended last
-    uint32_t tag_end;            // where that tag ended
+    tree_index line_entry;       // the element whose tag ended last, on this line
+    uint32_t tag_end;            // where the last tag or comment ended
     span xinclude;               // the declaration of XInclude's prefix, until an element uses it
     span root_end;               // the tag that closed the root
 };

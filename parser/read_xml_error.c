@@ -60,20 +60,6 @@ static void report_mismatch(struct xml_reader *r, uint32_t at) {
     diag_note(sink, open->name, "<%.*s> was opened here", STR_ARG(expected));
 }
 
-static void report_unclosed(struct xml_reader *r, uint32_t at) {
-    struct diag_sink *sink = r->context->sink;
-    if (begins_with(r, at, "<!--")) {
-        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 4), "this comment is not closed");
-        diag_help(sink, "write --> behind it");
-    } else if (begins_with(r, at, "<?")) {
-        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 2), "'<?' is not closed");
-        diag_help(sink, "write ?> behind it");
-    } else {
-        diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at + 1), "this tag is not closed");
-        diag_help(sink, "write '>' or '/>' behind its last attribute; check the quotes of its values");
-    }
-}
-
 // Where the tag begins that the byte `at` stands in; `at` itself where it stands in none.
 static uint32_t tag_around(const struct xml_reader *r, uint32_t at) {
     str text = r->text->bytes;
@@ -81,6 +67,21 @@ static uint32_t tag_around(const struct xml_reader *r, uint32_t at) {
     while (begin > r->tag_end && begin > r->text->begin && text.ptr[begin - 1] != '<')
         begin--;
     return begin > r->text->begin && text.ptr[begin - 1] == '<' && begin > r->tag_end ? begin - 1 : at;
+}
+
+static bool report_tag_end(struct xml_reader *r, uint32_t tag, uint32_t at) {
+    struct diag_sink *sink = r->context->sink;
+    if (begins_with(r, at, "/")) {
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "'>' must follow this '/'");
+        return true;
+    }
+    if (begins_with(r, at, "<")) {
+        diag_add(sink, DIAG_XML_SYNTAX, word_at(r, tag + 1), "this tag is not closed");
+        diag_note(sink, character_at(r, at), "the next tag begins here");
+        diag_help(sink, "write '>' or '/>' behind its last attribute");
+        return true;
+    }
+    return false;
 }
 
 // What is wrong inside a tag, from its beginning on; false: not known.
@@ -109,7 +110,7 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
         sign++;
     char next = sign < text.len ? text.ptr[sign] : '\0';
     if (pos >= text.len || memchr("<>=/\"'&", text.ptr[pos], 7))
-        return false;
+        return report_tag_end(r, tag, pos);
     if (next != '=') {
         diag_add(sink, DIAG_XML_SYNTAX, name, "the attribute '%.*s' has no value", STR_ARG(written));
         diag_help(sink, "write %.*s=\"...\"", STR_ARG(written));
@@ -130,6 +131,20 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
     return true;
 }
 
+static void report_unclosed(struct xml_reader *r, uint32_t at) {
+    struct diag_sink *sink = r->context->sink;
+    if (begins_with(r, at, "<!--")) {
+        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 4), "this comment is not closed");
+        diag_help(sink, "write --> behind it");
+    } else if (begins_with(r, at, "<?")) {
+        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 2), "'<?' is not closed");
+        diag_help(sink, "write ?> behind it");
+    } else if (!report_in_tag(r, at, (uint32_t)r->text->bytes.len)) {
+        diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at + 1), "this tag is not closed");
+        diag_help(sink, "write '>' or '/>' behind its last attribute");
+    }
+}
+
 static void report_token(struct xml_reader *r, uint32_t at) {
     struct diag_sink *sink = r->context->sink;
     uint32_t tag = tag_around(r, at);
@@ -139,13 +154,15 @@ static void report_token(struct xml_reader *r, uint32_t at) {
     } else if (begins_with(r, tag, "<!") && !begins_with(r, tag, "<![")) {
         diag_add(sink, DIAG_XML_DOCTYPE, word_at(r, tag), "a scene has no declarations");
         diag_help(sink, "remove it");
+    } else if (tag != at && begins_with(r, tag, "</")) {
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "a closing tag holds a name and nothing else");
     } else if (tag != at && report_in_tag(r, tag, at)) {
         return;
     } else if (begins_with(r, at, "<") || begins_with(r, at > 0 ? at - 1 : 0, "<")) {
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "a tag's name must follow '<' directly");
         diag_help(sink, "write '&lt;' for the character '<'");
-    } else if (begins_with(r, at, "]]>")) {
-        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 3), "']]>' between elements");
+    } else if (at >= 2 && begins_with(r, at - 2, "]]>")) {
+        diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at - 2, at + 1), "']]>' between elements");
     } else {
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "this character cannot stand here");
     }

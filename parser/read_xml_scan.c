@@ -101,12 +101,33 @@ static void blank_out(struct repairer *r, uint32_t begin, uint32_t end) {
             reader_text_put(r->context, r->text, at, STR(" "));
 }
 
+// A reference by number to a character that XML allows: "#233", "#xE9".
+static bool is_character(str name) {
+    bool hex = name.len > 1 && name.ptr[1] == 'x';
+    uint32_t value = 0;
+    size_t at = hex ? 2 : 1;
+    if (at >= name.len)
+        return false;
+    for (; at < name.len && value <= 0x10FFFF; at++) {
+        char c = name.ptr[at];
+        uint32_t digit = c >= '0' && c <= '9'          ? (uint32_t)(c - '0')
+                         : hex && c >= 'a' && c <= 'f' ? (uint32_t)(c - 'a' + 10)
+                         : hex && c >= 'A' && c <= 'F' ? (uint32_t)(c - 'A' + 10)
+                                                       : UINT32_MAX;
+        if (digit == UINT32_MAX)
+            return false;
+        value = value * (hex ? 16 : 10) + digit;
+    }
+    return (value >= 0x20 && value <= 0xD7FF) || (value >= 0xE000 && value <= 0xFFFD) ||
+           (value >= 0x10000 && value <= 0x10FFFF) || value == '\t' || value == '\n' || value == '\r';
+}
+
 static bool is_known_entity(str name) {
     static const char *const known[] = {"amp", "lt", "gt", "quot", "apos"};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (str_equal_cstr(name, known[i]))
             return true;
-    return name.len > 0 && name.ptr[0] == '#';
+    return name.len > 0 && name.ptr[0] == '#' && is_character(name);
 }
 
 static bool in_entity(char c) {

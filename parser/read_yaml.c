@@ -2,8 +2,11 @@
 
 #include <string.h>
 
+// Each repair has the text read again from the start: often in a small file, seldom in a large one.
 enum {
-    ATTEMPTS_MAX = 32
+    ATTEMPTS_MAX = 256,
+    ATTEMPTS_FREE = 8,
+    REREAD_BYTES_MAX = 32 * 1024 * 1024
 };
 
 span yaml_span(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
@@ -177,6 +180,7 @@ static void on_scalar(struct yaml_reader *r) {
     node.value = tree_add_text(r->tree, value);
     node.count = (uint32_t)value.len;
     tree_index added = yaml_add(r, node);
+    r->last_scalar = added;
     begin_token(r, added);
     end_token(r, stop);
     if (r->event.data.scalar.anchor)
@@ -341,10 +345,16 @@ static void begin_attempt(struct yaml_reader *r) {
     r->place_bytes = r->gap = r->text->begin;
     r->anchors.count = 0;
     r->alias_nodes = 0;
-    r->line_entry = 0;
+    r->line_entry = r->last_scalar = 0;
     r->pending = (struct tree_comment){0};
+    r->lost_color = (struct reader_range){0};
     reader_names_clear(&r->anchor_names);
     reader_text_seal(r->text);
+}
+
+static bool may_read_again(const struct yaml_reader *r, unsigned attempt) {
+    uint64_t reread = (uint64_t)attempt * r->text->bytes.len;
+    return attempt < ATTEMPTS_FREE || (attempt < ATTEMPTS_MAX && reread < REREAD_BYTES_MAX);
 }
 
 static void run_attempts(struct yaml_reader *r) {
@@ -354,22 +364,24 @@ static void run_attempts(struct yaml_reader *r) {
     reader_names_init(&r->keys, arena);
     reader_names_init(&r->joined_keys, arena);
     bool tabs_repaired = false;
-    for (int attempt = 0;; attempt++) {
+    for (unsigned attempt = 0;; attempt++) {
         begin_attempt(r);
         if (!yaml_parser_initialize(&r->parser)) {
             diag_add(&r->sink, DIAG_OUT_OF_MEMORY, yaml_span(r, 0, 0), "no memory for reading the file");
             return;
         }
         enum outcome outcome = run_events(r);
-        if (outcome == READ_REFUSED && attempt < ATTEMPTS_MAX &&
-            yaml_repair(r, r->context->sink, &tabs_repaired)) {
+        bool again = outcome != READ_WHOLE && may_read_again(r, attempt);
+        if (again && yaml_repair(r, r->context->sink, &tabs_repaired)) {
             yaml_parser_delete(&r->parser);
             continue;
         }
+        if (outcome == READ_REFUSED)
+            yaml_blame(r);
         // Behind repaired tabs the columns are guesses, and in binary data all is.
         if (outcome == READ_REFUSED && !tabs_repaired && !(r->text->is_binary && r->documents))
             yaml_report(r);
-        r->tree->broken = outcome == READ_REFUSED || (outcome == READ_STOPPED && r->documents < 2);
+        r->tree->broken = outcome != READ_WHOLE && r->document_end == 0;
         yaml_close_cut(r);
         return;
     }

@@ -2,8 +2,8 @@
 //
 // read_yaml.c runs libyaml's events, read_yaml_build.c links nodes into the tree, read_yaml_alias.c
 // copies what aliases stand for, read_yaml_keys.c merges maps and finds keys given twice,
-// read_yaml_comment.c finds comments between tokens, read_yaml_error.c puts libyaml's errors in words
-// and repairs what can be repaired. All places are bytes of the source.
+// read_yaml_comment.c finds comments between tokens, read_yaml_repair.c repairs what glint understands
+// better than libyaml, read_yaml_error.c puts libyaml's errors in words. All places are bytes of the source.
 // Ownership: the arena of the reader_context; libyaml's own memory is freed before any jump leaves.
 // Thread safety: one reader belongs to one thread.
 #ifndef GLINT_PARSER_READ_YAML_H
@@ -68,6 +68,8 @@ struct yaml_reader {
     tree_index line_entry;       // the first entry that begins on the line of the last token
     struct tree_comment pending; // comments that wait for the entry they stand before
     bool seen_token;
+    struct reader_range lost_color; // a colour that became a comment inside open brackets; equal: none
+    tree_index last_scalar;
 };
 
 // The span of `begin` to `end` in the reader's source.
@@ -113,10 +115,14 @@ void yaml_end_comments(struct yaml_reader *reader);
 bool yaml_comment_color(const struct yaml_reader *reader, uint32_t at, struct reader_range *color);
 void yaml_report_color(struct diag_sink *sink, str text, span at);
 
-// ---- read_yaml_error.c
-// After libyaml stopped: overwrites what glint understands better, reports it to `sink` and says that the
+// ---- read_yaml_repair.c
+// After the reading stopped: overwrites what glint understands better, reports it to `sink` and says that the
 // text is to be read again from the start.
 bool yaml_repair(struct yaml_reader *reader, struct diag_sink *sink, bool *tabs_repaired);
+
+// ---- read_yaml_error.c
+// Marks the value that libyaml's error directly follows as bad: the error is about it.
+void yaml_blame(struct yaml_reader *reader);
 // Reports what libyaml says.
 void yaml_report(struct yaml_reader *reader);
 void yaml_report_document(struct yaml_reader *reader, uint32_t at);

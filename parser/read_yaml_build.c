@@ -113,6 +113,9 @@ void yaml_close(struct yaml_reader *r, uint32_t end) {
     if (frame->anchor)
         r->anchors.items[frame->anchor].open = false;
     r->depth--;
+    bool in_brackets = r->depth && tree_node(r->tree, r->frames[r->depth - 1].node)->style == TREE_FLOW;
+    if (!in_brackets)
+        r->lost_color = (struct reader_range){0};
     yaml_put(r, node);
 }
 

@@ -26,6 +26,10 @@ static uint32_t line_end(str text, uint32_t at) {
 
 static void add_comment(struct yaml_reader *r, uint32_t begin, uint32_t end, bool trailing) {
     str comment = str_slice(r->text->bytes, begin, end);
+    struct reader_range color;
+    bool in_brackets = r->depth && tree_node(r->tree, r->frames[r->depth - 1].node)->style == TREE_FLOW;
+    if (in_brackets && r->lost_color.begin == r->lost_color.end && yaml_comment_color(r, begin, &color))
+        r->lost_color = color;
     bool first_schema = span_is_none(r->tree->schema_line) && !r->seen_token && is_schema_line(comment);
     if (first_schema)
         r->tree->schema_line = yaml_span(r, begin, end);

@@ -24,8 +24,8 @@ static const struct yaml_words words[] = {
      "begin the list on a line of its own, or write it as [a, b]", DIAG_YAML_SYNTAX, false},
     {"mapping keys are not allowed", NULL, "a key ('? ') cannot begin here", NULL,
      "put the key on a line of its own", DIAG_YAML_SYNTAX, false},
-    {"could not find expected ':'", NULL, "a ':' is missing behind this key", NULL, "write 'key: value'",
-     DIAG_YAML_SYNTAX, true},
+    {"could not find expected ':'", NULL, "a ':' is missing behind this key", NULL,
+     "write 'key: value', or '- value' for an item of a list", DIAG_YAML_SYNTAX, true},
     {"did not find expected key", NULL, "this does not fit into the map around it", "the map begins here",
      "the keys of a map stand in one column; what follows a quoted text, a bracket or an alias begins a line "
      "of its own",
@@ -138,6 +138,50 @@ void yaml_report_document(struct yaml_reader *r, uint32_t at) {
     diag_help(&r->sink, "put it into a file of its own; 'include' joins files");
 }
 
+// Whether the text between two places of one line is blank.
+static bool only_blanks(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
+    for (uint32_t at = begin; at < end; at++)
+        if (!is_blank(byte_at(r, at)))
+            return false;
+    return begin <= end;
+}
+
+void yaml_blame(struct yaml_reader *r) {
+    if (!r->last_scalar)
+        return;
+    struct tree_node *node = tree_node(r->tree, r->last_scalar);
+    if (only_blanks(r, node->end, yaml_byte(r, r->parser.problem_mark)))
+        node->flags |= TREE_BAD;
+}
+
+// A ':' that begins no value: the second on its line, or that of a key in the wrong column.
+static void report_colon(struct yaml_reader *r, uint32_t at) {
+    uint32_t begin = at;
+    bool second = false;
+    while (begin > r->text->begin && !is_break(byte_at(r, begin - 1))) {
+        begin--;
+        second |= byte_at(r, begin) == ':' && is_blank(byte_at(r, begin + 1)) && begin < at;
+    }
+    while (begin < at && is_blank(byte_at(r, begin)))
+        begin++;
+    if (second) {
+        diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "a second ':' on this line");
+        diag_help(&r->sink, "put each key on a line of its own; a text that holds ': ' needs quotes");
+    } else {
+        diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, at > begin ? at : at + 1),
+                 "this key does not fit under the line above it");
+        diag_help(&r->sink,
+                  "the keys of a map stand in one column; a key with a map below it has no value on its "
+                  "own line");
+    }
+}
+
+// What follows a value on its line.
+static void report_behind(struct yaml_reader *r, uint32_t at) {
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, at), "this stands behind a value that has ended");
+    diag_help(&r->sink, "put the whole text in quotes; inside single quotes a quote is written ''");
+}
+
 // A character that begins no token.
 static void report_character(struct yaml_reader *r, uint32_t at) {
     char c = byte_at(r, at);
@@ -146,24 +190,37 @@ static void report_character(struct yaml_reader *r, uint32_t at) {
         diag_help(&r->sink, "a text that begins with '%c' needs quotes", c);
 }
 
-static void report_unclosed(struct yaml_reader *r, const struct yaml_words *row, uint32_t opened) {
-    bool list = strstr(row->problem, "']'") != NULL;
-    diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, opened), "the %s that begins here is not closed",
-             list ? "list" : "map");
+// The brackets that are open at the end of the file; false: there are none.
+static bool report_unclosed(struct yaml_reader *r) {
+    if (r->depth == 0)
+        return false;
+    const struct tree_node *node = tree_node(r->tree, r->frames[r->depth - 1].node);
+    if (node->style != TREE_FLOW)
+        return false;
+    bool list = node->kind == TREE_LIST;
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, node->begin),
+             "the %s that begins here is not closed", list ? "list" : "map");
     diag_help(&r->sink, "write the closing '%c'", list ? ']' : '}');
+    return true;
 }
 
 static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint32_t problem,
                        uint32_t context) {
     uint32_t at = row->at_context ? context : problem;
-    bool word = row->code == DIAG_YAML_TAG || strstr(row->problem, "':'") != NULL;
-    bool flow = strstr(row->problem, "expected ','") != NULL;
-    if (flow && at_end(r, problem)) {
-        report_unclosed(r, row, context);
+    bool word = row->code == DIAG_YAML_TAG || strstr(row->problem, "expected ':'");
+    if (!row->at_context && at_end(r, problem) && report_unclosed(r))
+        return;
+    if (strstr(row->problem, "mapping values")) {
+        report_colon(r, at);
         return;
     }
-    diag_add(&r->sink, row->code, word && row->at_context ? word_at(r, at) : character_at(r, at), "%s",
-             row->message);
+    bool behind = strstr(row->problem, "expected key") || strstr(row->problem, "'-' indicator") ||
+                  strstr(row->problem, "document start");
+    if (behind && r->seen_token && !is_break(byte_at(r, r->gap - 1)) && only_blanks(r, r->gap, problem)) {
+        report_behind(r, at);
+        return;
+    }
+    diag_add(&r->sink, row->code, word ? word_at(r, at) : character_at(r, at), "%s", row->message);
     if (row->note && context != problem)
         diag_note(&r->sink, character_at(r, context), "%s", row->note);
     if (row->help)
@@ -198,93 +255,4 @@ void yaml_report(struct yaml_reader *r) {
         diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "the YAML cannot be read here: %s",
                  problem);
     }
-}
-
-// ---- what glint understands better than libyaml
-
-// An unquoted colour before `end` that made a comment of the rest of its line.
-static bool find_color(const struct yaml_reader *r, uint32_t begin, uint32_t end,
-                       struct reader_range *color) {
-    str text = r->text->bytes;
-    for (uint32_t at = begin; at < end && at < text.len; at++) {
-        bool starts =
-            text.ptr[at] == '#' && at > 0 && (is_blank(text.ptr[at - 1]) || strchr("[,:{", text.ptr[at - 1]));
-        if (starts && yaml_comment_color(r, at, color)) {
-            bool six = color->end - color->begin == 7;
-            if (six || (color->end < text.len && strchr(",]}", text.ptr[color->end])))
-                return true;
-        }
-    }
-    return false;
-}
-
-static bool repair_color(struct yaml_reader *r, struct diag_sink *sink, uint32_t problem) {
-    uint32_t begin = r->gap;
-    for (uint32_t i = r->depth; i-- > 0;)
-        if (tree_node(r->tree, r->frames[i].node)->style == TREE_FLOW)
-            begin = tree_node(r->tree, r->frames[i].node)->begin;
-    struct reader_range color;
-    if (!find_color(r, begin, problem, &color))
-        return false;
-    yaml_report_color(sink, r->text->bytes, yaml_span(r, color.begin, color.end));
-    reader_text_put(r->context, r->text, color.begin, STR("x"));
-    reader_text_mark(r->context, r->text, color.begin, color.end);
-    return true;
-}
-
-// Puts a blank in the place of each tab before the first token of a line; counts the lines.
-static uint32_t replace_tabs(struct yaml_reader *r) {
-    uint32_t lines = 0;
-    str text = r->text->bytes;
-    for (uint32_t at = r->text->begin; at < text.len;) {
-        bool found = false;
-        for (; at < text.len && (is_blank(text.ptr[at]) ||
-                                 (text.ptr[at] == '-' && at + 1 < text.len && is_blank(text.ptr[at + 1])));
-             at++) {
-            if (text.ptr[at] != '\t')
-                continue;
-            found = true;
-            reader_text_put(r->context, r->text, at, STR(" "));
-            text = r->text->bytes;
-        }
-        lines += found;
-        while (at < text.len && !is_break(text.ptr[at]))
-            at++;
-        at++;
-    }
-    return lines;
-}
-
-static bool repair_tabs(struct yaml_reader *r, struct diag_sink *sink, uint32_t problem) {
-    str text = r->text->bytes;
-    uint32_t at = problem;
-    while (at < text.len && text.ptr[at] == ' ')
-        at++;
-    if (byte_at(r, at) != '\t')
-        return false;
-    uint32_t end = at;
-    while (end < text.len && text.ptr[end] == '\t')
-        end++;
-    diag_add(sink, DIAG_YAML_TAB, yaml_span(r, at, end), "a tab in the indentation");
-    diag_help(sink, "indent with spaces");
-    diag_fix(sink, false, yaml_span(r, at, end), STR("  "));
-    uint32_t lines = replace_tabs(r);
-    if (lines > 1)
-        diag_note(sink, SPAN_NONE, "%u lines of the file are indented with tabs", lines);
-    return byte_at(r, at) != '\t';
-}
-
-bool yaml_repair(struct yaml_reader *r, struct diag_sink *sink, bool *tabs_repaired) {
-    const yaml_parser_t *p = &r->parser;
-    if (p->error != YAML_SCANNER_ERROR && p->error != YAML_PARSER_ERROR)
-        return false;
-    uint32_t problem = yaml_byte(r, p->problem_mark);
-    if (repair_color(r, sink, problem))
-        return true;
-    bool tab =
-        p->problem && (strstr(p->problem, "cannot start any token") || strstr(p->problem, "found a tab"));
-    if (!tab || *tabs_repaired)
-        return false;
-    *tabs_repaired = repair_tabs(r, sink, problem);
-    return *tabs_repaired;
 }
