@@ -44,9 +44,14 @@ void resolve_note_includes(struct loader *loader);
 // merge.c
 // All files in loader->order, as one scene.
 struct ir_scene *merge_files(struct loader *loader);
+// Gives `into` places of its own: those of `from`, with the rows of `into`.
+void merge_own_places(struct ir_origin *origin, struct ir_head *into, const struct ir_head *from);
 // Removes anonymous elements that nothing uses any more.
 void merge_compact(struct loader *loader, struct ir_scene *scene);
 
+// override.c
+// Applies the --set options, in order.
+void override_apply(struct loader *loader, struct ir_scene *scene);
 
 // names.c
 // Names are unique; references get their index.

@@ -6,7 +6,7 @@
 #include <string.h>
 
 // A file's own places stay as they are: what is merged has places of its own.
-static void own_places(struct ir_origin *origin, struct ir_head *into, const struct ir_head *from) {
+void merge_own_places(struct ir_origin *origin, struct ir_head *into, const struct ir_head *from) {
     struct ir_element_origin element = origin->elements.items[from->origin];
     const struct ir_row_origin *rows = origin->elements.items[into->origin].rows;
     element.rows = NULL;
@@ -89,7 +89,7 @@ static void merge_element(const struct merging *merging, const struct schema_ele
                           const void *from) {
     const struct ir_head *other = from;
     void *copy = clone(merging, schema, from);
-    own_places(&merging->loader->output->origin, into, other);
+    merge_own_places(&merging->loader->output->origin, into, other);
     for (uint32_t i = 0; i < schema->row_count; i++)
         if ((other->written | other->poisoned) & bind_bit(i))
             take_row(merging, schema, into, copy, i);

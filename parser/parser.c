@@ -62,6 +62,7 @@ static bool run(struct loader *loader, uint32_t main_source, bool alone) {
         return output->scene != NULL;
     resolve_includes(loader, 0);
     output->scene = merge_files(loader);
+    override_apply(loader, output->scene);
     names_resolve(loader, output->scene);
     merge_compact(loader, output->scene);
     validate_scene(loader, output->scene);
