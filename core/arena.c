@@ -96,15 +96,19 @@ void *arena_try_alloc(struct arena *arena, size_t size) {
     return alloc_or_fault(arena, size, &fault);
 }
 
-void *arena_alloc(struct arena *arena, size_t size) {
-    enum arena_fault fault;
-    void *memory = alloc_or_fault(arena, size, &fault);
-    if (memory)
-        return memory;
+_Noreturn void arena_raise(struct arena *arena, enum arena_fault fault) {
     if (!arena->guard)
         abort();
     arena->guard->fault = fault;
     longjmp(arena->guard->jump, 1);
+}
+
+void *arena_alloc(struct arena *arena, size_t size) {
+    enum arena_fault fault;
+    void *memory = alloc_or_fault(arena, size, &fault);
+    if (!memory)
+        arena_raise(arena, fault);
+    return memory;
 }
 
 void *arena_alloc_array(struct arena *arena, size_t count, size_t size) {
@@ -137,9 +141,9 @@ void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capac
     if (count < *capacity)
         return items;
     uint32_t wanted = *capacity == 0 ? 8 : *capacity > UINT32_MAX / 2 ? UINT32_MAX : *capacity * 2;
-    // A full list of 2^32 - 1 items cannot grow: asking for all memory faults.
+    // A full list of 2^32 - 1 items cannot grow.
     if (count >= wanted)
-        arena_alloc(arena, SIZE_MAX);
+        arena_raise(arena, ARENA_FAULT_SYSTEM);
     void *moved = arena_alloc_array(arena, wanted, item_size);
     if (count)
         memcpy(moved, items, count * item_size);

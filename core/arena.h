@@ -55,6 +55,10 @@ void *arena_alloc_array(struct arena *arena, size_t count, size_t size);
 #define ARENA_NEW(arena, type)          ((type *)arena_alloc((arena), sizeof(type)))
 #define ARENA_ARRAY(arena, type, count) ((type *)arena_alloc_array((arena), (count), sizeof(type)))
 
+// Jumps to the guard as a failed allocation does: for a stage that caught a fault with a guard of its own,
+// set the one before it again, and passes the fault on.
+_Noreturn void arena_raise(struct arena *arena, enum arena_fault fault);
+
 // A copy of `s` in the arena, with a NUL behind it (not counted).
 str arena_copy(struct arena *arena, str s);
 // printf into the arena; the result has a NUL behind it (not counted).

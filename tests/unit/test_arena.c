@@ -189,6 +189,24 @@ static void a_full_list_faults_instead_of_wrapping(void **state) {
     arena_finish(&arena);
 }
 
+static void a_fault_is_passed_on(void **state) {
+    (void)state;
+    struct arena arena;
+    struct arena_guard outer;
+    struct arena_guard inner;
+    arena_init(&arena, 10);
+    arena_set_guard(&arena, &outer);
+    if (setjmp(outer.jump) == 0) {
+        arena_set_guard(&arena, &inner);
+        if (setjmp(inner.jump) == 0)
+            arena_alloc(&arena, 100);
+        arena_set_guard(&arena, &outer);
+        arena_raise(&arena, inner.fault);
+    }
+    assert_int_equal(outer.fault, ARENA_FAULT_CAP);
+    arena_finish(&arena);
+}
+
 static void finish_takes_null_and_twice(void **state) {
     (void)state;
     struct arena arena;
@@ -211,6 +229,7 @@ int main(void) {
         cmocka_unit_test(format_jumps_at_the_cap),
         cmocka_unit_test(lists_grow_and_keep_their_items),
         cmocka_unit_test(a_full_list_faults_instead_of_wrapping),
+        cmocka_unit_test(a_fault_is_passed_on),
         cmocka_unit_test(finish_takes_null_and_twice),
     };
     return cmocka_run_group_tests_name("arena", tests, NULL, NULL);

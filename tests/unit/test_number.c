@@ -84,68 +84,69 @@ struct refused {
     enum number_status status;
 };
 
+static const struct refused refusals[] = {
+    {"", NUMBER_EMPTY},
+    {"abc", NUMBER_NOT_A_NUMBER},
+    {"+", NUMBER_NOT_A_NUMBER},
+    {"-", NUMBER_NOT_A_NUMBER},
+    {".", NUMBER_NOT_A_NUMBER},
+    {"-.", NUMBER_NOT_A_NUMBER},
+    {"--1", NUMBER_NOT_A_NUMBER},
+    {"1.2.3", NUMBER_NOT_A_NUMBER},
+    {"1e", NUMBER_NOT_A_NUMBER},
+    {"1e+", NUMBER_NOT_A_NUMBER},
+    {"1e+-3", NUMBER_UNIT},
+    {"e5", NUMBER_NOT_A_NUMBER},
+    {".e5", NUMBER_UNIT},
+    {" 1", NUMBER_NOT_A_NUMBER},
+    {"1 ", NUMBER_UNIT},
+    {"(1)", NUMBER_NOT_A_NUMBER},
+    {"1+2", NUMBER_NOT_A_NUMBER},
+    {"1/2", NUMBER_NOT_A_NUMBER},
+    {"nan", NUMBER_NAN},
+    {"-NaN", NUMBER_NAN},
+    {".NaN", NUMBER_NAN},
+    {"inf", NUMBER_INFINITE},
+    {"-.inf", NUMBER_INFINITE},
+    {"+Infinity", NUMBER_INFINITE},
+    {"0x1f", NUMBER_HEX},
+    {"-0X1F", NUMBER_HEX},
+    {"0x1p3", NUMBER_HEX},
+    {"0o17", NUMBER_OCTAL},
+    {"1_000", NUMBER_UNDERSCORE},
+    {"1_000.5", NUMBER_UNDERSCORE},
+    {"0,5", NUMBER_COMMA},
+    {"-1.000,5", NUMBER_COMMA},
+    {"007", NUMBER_LEADING_ZERO},
+    {"-00.5", NUMBER_LEADING_ZERO},
+    {"00", NUMBER_LEADING_ZERO},
+    {"60deg", NUMBER_UNIT},
+    {"60°", NUMBER_UNIT},
+    {"50%", NUMBER_UNIT},
+    {"1e5x", NUMBER_UNIT},
+    {"1e309", NUMBER_OVERFLOW},
+    {"-1e309", NUMBER_OVERFLOW},
+    {"1e999999999999999999999", NUMBER_OVERFLOW},
+    {"1.7976931348623159e308", NUMBER_OVERFLOW},
+    {"1e-400", NUMBER_UNDERFLOW},
+    {"2.4703282292062327e-324", NUMBER_UNDERFLOW},
+    {"-1e-99999999999999999999", NUMBER_UNDERFLOW},
+    {"\xE2\x88\x92"
+     "5", // MINUS SIGN
+     NUMBER_DASH},
+    {"\xE2\x80\x93.5", NUMBER_DASH}, // EN DASH
+    {"\xE2\x80\x93", NUMBER_NOT_A_NUMBER},
+    {"½", NUMBER_NOT_A_NUMBER},
+    {"٣", NUMBER_NOT_A_NUMBER},
+};
+
 static void explains_what_it_refuses(void **state) {
     (void)state;
-    static const struct refused cases[] = {
-        {"", NUMBER_EMPTY},
-        {"abc", NUMBER_NOT_A_NUMBER},
-        {"+", NUMBER_NOT_A_NUMBER},
-        {"-", NUMBER_NOT_A_NUMBER},
-        {".", NUMBER_NOT_A_NUMBER},
-        {"-.", NUMBER_NOT_A_NUMBER},
-        {"--1", NUMBER_NOT_A_NUMBER},
-        {"1.2.3", NUMBER_NOT_A_NUMBER},
-        {"1e", NUMBER_NOT_A_NUMBER},
-        {"1e+", NUMBER_NOT_A_NUMBER},
-        {"1e+-3", NUMBER_UNIT},
-        {"e5", NUMBER_NOT_A_NUMBER},
-        {".e5", NUMBER_UNIT},
-        {" 1", NUMBER_NOT_A_NUMBER},
-        {"1 ", NUMBER_UNIT},
-        {"(1)", NUMBER_NOT_A_NUMBER},
-        {"1+2", NUMBER_NOT_A_NUMBER},
-        {"1/2", NUMBER_NOT_A_NUMBER},
-        {"nan", NUMBER_NAN},
-        {"-NaN", NUMBER_NAN},
-        {".NaN", NUMBER_NAN},
-        {"inf", NUMBER_INFINITE},
-        {"-.inf", NUMBER_INFINITE},
-        {"+Infinity", NUMBER_INFINITE},
-        {"0x1f", NUMBER_HEX},
-        {"-0X1F", NUMBER_HEX},
-        {"0x1p3", NUMBER_HEX},
-        {"0o17", NUMBER_OCTAL},
-        {"1_000", NUMBER_UNDERSCORE},
-        {"1_000.5", NUMBER_UNDERSCORE},
-        {"0,5", NUMBER_COMMA},
-        {"-1.000,5", NUMBER_COMMA},
-        {"007", NUMBER_LEADING_ZERO},
-        {"-00.5", NUMBER_LEADING_ZERO},
-        {"00", NUMBER_LEADING_ZERO},
-        {"60deg", NUMBER_UNIT},
-        {"60°", NUMBER_UNIT},
-        {"50%", NUMBER_UNIT},
-        {"1e5x", NUMBER_UNIT},
-        {"1e309", NUMBER_OVERFLOW},
-        {"-1e309", NUMBER_OVERFLOW},
-        {"1e999999999999999999999", NUMBER_OVERFLOW},
-        {"1.7976931348623159e308", NUMBER_OVERFLOW},
-        {"1e-400", NUMBER_UNDERFLOW},
-        {"2.4703282292062327e-324", NUMBER_UNDERFLOW},
-        {"-1e-99999999999999999999", NUMBER_UNDERFLOW},
-        {"\xE2\x88\x92"
-         "5", // MINUS SIGN
-         NUMBER_DASH},
-        {"\xE2\x80\x93.5", NUMBER_DASH}, // EN DASH
-        {"\xE2\x80\x93", NUMBER_NOT_A_NUMBER},
-        {"½", NUMBER_NOT_A_NUMBER},
-        {"٣", NUMBER_NOT_A_NUMBER},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         double value = 7;
-        enum number_status status = number_parse(str_from(cases[i].text), &value);
-        if (status != cases[i].status || value != 0)
-            fail_msg("'%s' gave %d (%s), value %g", cases[i].text, status, number_problem(status), value);
+        enum number_status status = number_parse(str_from(refusals[i].text), &value);
+        if (status != refusals[i].status || value != 0)
+            fail_msg("'%s' gave %d (%s), value %g", refusals[i].text, status, number_problem(status), value);
     }
     double value;
     assert_int_equal(number_parse(STR("1\0"), &value), NUMBER_NOT_A_NUMBER);

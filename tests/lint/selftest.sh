@@ -1,0 +1,159 @@
+#!/bin/sh
+# Each lint passes a clean tree and fails one with a planted violation.
+# Usage: selftest.sh FOLDER, which is emptied.
+set -eu
+lint=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+root=$(CDPATH='' cd -- "$lint/../.." && pwd)
+work=$1
+failures=0
+
+fresh() { # an empty tree
+    rm -rf "$work/tree"
+    mkdir -p "$work/tree"
+    cd "$work/tree"
+}
+
+plant() { # PATH LINE...
+    path=$1
+    shift
+    mkdir -p "$(dirname "$path")"
+    printf '%s\n' "$@" >"$path"
+}
+
+complain() {
+    echo "$1"
+    failures=$((failures + 1))
+}
+
+passes() { # LINT [ARGUMENT]
+    status=0
+    output=$("$lint/$1.sh" "$work/tree" ${2+"$2"} 2>&1) || status=$?
+    [ $status -eq 0 ] || [ $status -eq 77 ] || complain "$1 fails a clean tree: $output"
+}
+
+finds() { # LINT TEXT [ARGUMENT]: the output names the planted violation
+    status=0
+    output=$("$lint/$1.sh" "$work/tree" ${3+"$3"} 2>&1) || status=$?
+    [ $status -eq 77 ] && return 0
+    [ $status -eq 1 ] || complain "$1 gives $status where it should find $2"
+    case $output in *"$2"*) ;; *) complain "$1 does not find $2: $output" ;; esac
+}
+
+refuses() { # LINT PATH LINE...: a clean tree but for this file, found in its last line
+    name=$1
+    shift
+    plant "$@"
+    last=$(($# - 1))
+    finds "$name" "$1:$last:"
+    rm -f "$1"
+}
+
+repeat() { # TEXT COUNT
+    awk -v text="$1" -v count="$2" 'BEGIN { while (count-- > 0) print text }'
+}
+
+fresh
+plant core/a.c '#include "core/a.h"' '#include <stdio.h>' '// #include "parser/x.h"'
+plant grammar/a.c '#include "core/a.h"' '#include "shaders/features.h"'
+plant parser/read_yaml.c '#include <yaml.h>' '#include "grammar/ir.h"'
+plant runtime/gpu/a.c '#include <volk.h>'
+plant tests/a.c '#include "cli/cli.h"' '#include "beside.h"'
+passes includes
+refuses includes core/b.c '#include "core/a.h"' '#include "grammar/ir.h"'
+refuses includes core/b.c '#include <stdio.h>' ' #  include "a.h"'
+refuses includes grammar/b.c '#include "shaders/gpu_scene.h"'
+refuses includes parser/b.c '#include "runtime/flatten.h"'
+refuses includes parser/b.c '#include <yaml.h>'
+refuses includes parser/read_yaml.h '#include <expat.h>'
+refuses includes assets/b.c '#include "grammar/schema.h"'
+refuses includes runtime/b.c '#include "parser/tree.h"'
+refuses includes runtime/b.c '#include <vulkan/vulkan.h>'
+refuses includes runtime/reference/b.c '#include "runtime/flatten.h"'
+refuses includes runtime/reference/b.c '#include "shaders/gpu_scene.h"'
+refuses includes app/b.c '#include "cli/cli.h"'
+refuses includes cli/b.c '#include "viewer/window.h"'
+refuses includes cli/b.c '#include "../core/a.h"'
+refuses includes cli/b.c '#include <core/a.h>'
+
+fresh
+plant core/a.h '// A type.' '#ifndef A' '#define A' '#include <stdint.h>' 'struct a {' '    uint32_t b;' '};' '#endif'
+plant core/b.h '// Uses it.' '#ifndef B' '#define B' '#include "core/a.h"' 'struct b {' '    struct a a;' '};' '#endif'
+passes headers
+refuses headers core/c.h '#include <stdio.h>'
+plant core/c.h '// Forgot an include.' 'struct c { struct a a; };'
+finds headers 'core/c.h:1: does not compile'
+plant core/c.h '// Has no guard.' 'struct c { int a; };'
+finds headers 'core/c.h:1: does not compile'
+plant core/c.h '// Leaves something unused.' '#ifndef C' '#define C' 'static int c(void) { return 1; }' '#endif'
+finds headers 'core/c.h:1: does not compile'
+
+fresh
+{ echo 'int a(void)' && echo '{' && repeat '    b();' 300 && echo '}'; } >unformatted.c
+{ echo 'int a(int c,' && echo '      int d) {' && repeat '    b();' 57 && echo '}'; } >a.c
+{ repeat 'int x;' 600; } >b.c
+passes lengths
+{ echo && echo 'int a(int c,' && echo '      int d) {' && repeat '    b();' 58 && echo '}'; } >c.c
+finds lengths 'c.c:2: a function of 61 lines'
+rm c.c
+{ repeat 'int x;' 601; } >c.c
+finds lengths 'c.c:601:'
+
+fresh
+plant core/a.c '// strcpy(a, b); exit(1);' '/* atoi(x)' '   printf("x"); */' 'f("strtok(a)", ascii_atoi(3), s->open(2));' 'snprintf(a, 3, "\"");'
+plant core/arena.c '        abort();'
+plant core/output.c '    f(stdout);' '    int fd = open(a, b);'
+plant cli/a.c 'printf("x");' 'exit(1);'
+plant grammar/emit_main.c 'fprintf(stderr, "x");'
+passes banned
+for call in strcpy strcat sprintf vsprintf gets atoi atol atof strtok setlocale; do
+    refuses banned cli/b.c '' "    x = $call(a);"
+done
+refuses banned core/b.c 'a(); /* b */ exit(1);'
+refuses banned core/arena.c 'abort();' 'exit(1);'
+refuses banned parser/b.c "x = '\"'; abort();"
+refuses banned app/b.c 'printf("x");'
+refuses banned assets/b.c '/* " */ fprintf(stderr, "x");'
+refuses banned assets/b.c 'FILE *f = fopen(a, "r");'
+
+fresh
+plant a.c 'int work; // a/work/b' 'char *x = "XXXXXX";'
+plant b.sh 'f=${TMPDIR:-/t''mp}/x'
+plant a.md 'TO''DO is a word that we do not use.'
+passes words
+refuses words b.c 'x;' '// TO''DO: later'
+refuses words b.c '// FIX''ME'
+refuses words b.sh 'cd /wo''rk/x'
+refuses words b.md 'Look into `x` at /t''mp/y.'
+refuses words CMakeLists.txt 'include_directories("/ho''me/me")'
+
+fresh
+plant parser/bind.c 'f(&SCHEMA_SCENE, "x-", "a sphere", "sphere is");'
+plant parser/validate.c 'f("sphere");'
+plant ../names '#!/bin/sh' 'echo sphere; echo scene; echo Sphere'
+chmod +x ../names
+passes bind ../names
+plant parser/bind_b.c '' 'if (str_equal_cstr(name, "sphere"))'
+finds bind 'parser/bind_b.c:2: names "sphere"' ../names
+plant parser/bind_b.c '' 'if (element == &SCHEMA_SPHERE)'
+finds bind 'parser/bind_b.c:2: knows the element sphere' ../names
+
+fresh
+cp "$root/.clang-format" .
+plant a.c 'int a(void) {' '    return 1;' '}'
+passes format
+refuses format b.c 'int b;' 'int  c;'
+
+fresh
+plant CMakeLists.txt 'glint_library(core SOURCES core/a.c)'
+plant core/a.c ''
+plant tests/unit/CMakeLists.txt 'foreach(module str strbuf)'
+plant tests/unit/test_str.c ''
+passes sources
+plant core/aa.c ''
+finds sources 'core/aa.c:1:'
+rm core/aa.c
+plant tests/unit/test_buf.c ''
+finds sources 'tests/unit/test_buf.c:1:'
+
+rm -rf "$work/tree" "$work/names"
+[ $failures -eq 0 ]

@@ -1,0 +1,20 @@
+#!/bin/sh
+# Every source file is built: a CMakeLists.txt at its folder or above names it.
+. "$(dirname -- "$0")/lib.sh"
+
+ours '\.(c|comp)$' | while IFS= read -r path; do
+    base=${path##*/}
+    stem=${base%.c}
+    found=no
+    folder=./$path
+    while [ "$folder" != . ]; do
+        folder=${folder%/*}
+        list=$folder/CMakeLists.txt
+        [ -f "$list" ] || continue
+        grep -qE "(^|[^A-Za-z0-9_-])$base([^A-Za-z0-9_]|\$)" "$list" && found=yes
+        # glint_unit_test(NAME ...) builds test_NAME.c
+        case $stem in test_*) grep -qE "(^|[^A-Za-z0-9_-])${stem#test_}([^A-Za-z0-9_]|\$)" "$list" && found=yes ;; esac
+        grep -qE 'GLOB.*\*\.(c|\[ch\])' "$list" && found=yes
+    done
+    [ $found = yes ] || echo "$path:1: no CMakeLists.txt builds it"
+done | verdict
