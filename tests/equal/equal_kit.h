@@ -1,0 +1,35 @@
+// Scenes loaded from text in memory or from files, for the tests of this folder.
+#ifndef GLINT_TESTS_EQUAL_KIT_H
+#define GLINT_TESTS_EQUAL_KIT_H
+
+#include "core/files.h"
+#include "core/strbuf.h"
+#include "grammar/ir_print.h"
+#include "parser/parser.h"
+
+struct loaded {
+    struct arena arena; // paths and sources
+    struct arena scene_arena;
+    struct source_set sources;
+    struct files files;
+    struct diag_sink sink;
+    struct limits limits;
+    uint32_t main_source;
+    bool is_there;
+    struct parser_output output;
+};
+
+// One file alone, without includes; `path` decides nothing but the ending.
+void load_text(struct loaded *loaded, const char *path, str text);
+// A file and all that it includes.
+void load_path(struct loaded *loaded, const char *path);
+void loaded_finish(struct loaded *loaded);
+
+// Fails the test with all diagnostics where there is an error.
+void assert_no_errors(struct loaded *loaded, const char *what);
+// The main file alone, written; the caller finishes `out`.
+void write_loaded(const struct loaded *loaded, bool xml, struct strbuf *out);
+// Fails with both texts around the first line that differs.
+void assert_same_text(const char *what, const struct strbuf *a, const struct strbuf *b);
+
+#endif

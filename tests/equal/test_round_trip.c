@@ -1,0 +1,125 @@
+// Generated scenes mean the same after any way through both spellings.
+#include "grammar/generate.h"
+#include "tests/equal/equal_kit.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+enum {
+    SCENE_COUNT = 1000
+};
+
+#define LITERAL(text)                                                                                        \
+    { text, sizeof(text) - 1 }
+static const str meshes[] = {LITERAL("meshes/ball.obj"), LITERAL("NO"), LITERAL("a b/\xC3\xA9 #1: [x].obj"),
+                             LITERAL("~"), LITERAL("0x10")};
+static const str images[] = {LITERAL("sky.jpg"), LITERAL("1.0")};
+static const str includes[] = {LITERAL("base.yaml"), LITERAL("../other folder/more.xml")};
+static const str mesh_materials[] = {LITERAL("Gold")};
+
+#define PATHS(list)                                                                                          \
+    { list, sizeof(list) / sizeof((list)[0]) }
+
+static struct ir_scene *generate(uint64_t seed, struct arena *arena) {
+    const struct generate_options options = {
+        .seed = seed,
+        .renderable = seed % 5 == 0,
+        .meshes = PATHS(meshes),
+        .images = PATHS(images),
+        .includes = PATHS(includes),
+        .mesh_materials = PATHS(mesh_materials),
+    };
+    return generate_scene(&options, arena);
+}
+
+static void check_text(const char *what, bool xml, const struct strbuf *text, const struct strbuf *dump,
+                       struct loaded *loaded) {
+    struct strbuf again;
+    strbuf_init(&again);
+    load_text(loaded, xml ? "scene.xml" : "scene.yaml", strbuf_view(text));
+    if (loaded->sink.errors)
+        print_error("%s", text->data);
+    assert_no_errors(loaded, what);
+    ir_dump(loaded->output.scene, &again);
+    assert_same_text(what, dump, &again);
+    strbuf_finish(&again);
+}
+
+// scene -> YAML -> XML -> YAML, each read back and compared.
+static void check_scene(uint64_t seed) {
+    struct arena arena;
+    struct loaded from_yaml, from_xml;
+    struct strbuf dump, yaml, xml, direct, back;
+    char what[64];
+    arena_init(&arena, (size_t)1 << 26);
+    strbuf_init(&dump), strbuf_init(&yaml), strbuf_init(&xml), strbuf_init(&direct), strbuf_init(&back);
+    struct ir_scene *scene = generate(seed, &arena);
+    ir_dump(scene, &dump);
+    ir_write_yaml(scene, NULL, NULL, (struct ir_write_options){0}, &yaml);
+    ir_write_xml(scene, NULL, NULL, (struct ir_write_options){0}, &direct);
+    snprintf(what, sizeof what, "seed %llu in YAML", (unsigned long long)seed);
+    check_text(what, false, &yaml, &dump, &from_yaml);
+    write_loaded(&from_yaml, true, &xml);
+    snprintf(what, sizeof what, "seed %llu, XML by way of YAML", (unsigned long long)seed);
+    assert_same_text(what, &direct, &xml);
+    snprintf(what, sizeof what, "seed %llu in XML", (unsigned long long)seed);
+    check_text(what, true, &xml, &dump, &from_xml);
+    write_loaded(&from_xml, false, &back);
+    snprintf(what, sizeof what, "seed %llu, YAML by way of XML", (unsigned long long)seed);
+    assert_same_text(what, &yaml, &back);
+    loaded_finish(&from_yaml), loaded_finish(&from_xml);
+    strbuf_finish(&dump), strbuf_finish(&yaml), strbuf_finish(&xml), strbuf_finish(&direct),
+        strbuf_finish(&back);
+    arena_finish(&arena);
+}
+
+static void test_generated_scenes(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < SCENE_COUNT; seed++)
+        check_scene(seed);
+}
+
+// A dump is a scene too, and means what it was made from.
+static void test_dumps_are_scenes(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 50; seed++) {
+        struct arena arena;
+        struct loaded loaded;
+        struct strbuf dump;
+        arena_init(&arena, (size_t)1 << 26);
+        strbuf_init(&dump);
+        ir_dump(generate(seed, &arena), &dump);
+        check_text("a dump", false, &dump, &dump, &loaded);
+        loaded_finish(&loaded);
+        strbuf_finish(&dump);
+        arena_finish(&arena);
+    }
+}
+
+static void test_seeds_repeat(void **state) {
+    (void)state;
+    struct arena arena;
+    struct strbuf first, second, other;
+    arena_init(&arena, (size_t)1 << 26);
+    strbuf_init(&first), strbuf_init(&second), strbuf_init(&other);
+    ir_dump(generate(7, &arena), &first);
+    ir_dump(generate(7, &arena), &second);
+    ir_dump(generate(8, &arena), &other);
+    assert_same_text("the same seed", &first, &second);
+    assert_false(str_equal(strbuf_view(&first), strbuf_view(&other)));
+    strbuf_finish(&first), strbuf_finish(&second), strbuf_finish(&other);
+    arena_finish(&arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_generated_scenes),
+        cmocka_unit_test(test_dumps_are_scenes),
+        cmocka_unit_test(test_seeds_repeat),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
