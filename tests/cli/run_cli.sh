@@ -76,7 +76,7 @@ expect "limits listed" 0 '^scene-bytes' - "$glint" check --limit help
 expect "too few operands" 2 - 'needs SCENE' "$glint" render
 expect "too many operands" 2 - 'no more than 1 argument' "$glint" render good.yaml two.yaml
 expect "check is silent" 0 - - "$glint" check good.yaml
-expect "check finds the mistake" 1 - 'bad.yaml:2:41: error: .*\[E206\]' "$glint" check bad.yaml
+expect "check finds the mistake" 1 - 'bad.yaml:2:39: error: .*\[E206\]' "$glint" check bad.yaml
 expect "the highest code of several" 3 - 'none.yaml:1:1: error: .*\[E601\]' "$glint" check bad.yaml none.yaml good.yaml
 expect "a limit is obeyed" 3 - 'E501' "$glint" check good.yaml --limit scene-bytes=10
 expect "inspect" 0 'spheres +1' '' "$glint" inspect good.yaml
