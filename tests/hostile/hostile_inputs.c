@@ -14,10 +14,13 @@ static bool put(const char *name, const void *bytes, size_t count) {
     return (file ? fclose(file) == 0 : false) && good;
 }
 
-static bool put_text(const char *name, const char *text) { return put(name, text, strlen(text)); }
+static bool put_text(const char *name, const char *text) {
+    return put(name, text, strlen(text));
+}
 
 // `before`, then `count` times `unit`, then `after`.
-static bool put_repeated(const char *name, const char *before, const char *unit, size_t count, const char *after) {
+static bool put_repeated(const char *name, const char *before, const char *unit, size_t count,
+                         const char *after) {
     FILE *file = fopen(name, "wb");
     if (!file)
         return false;
@@ -61,13 +64,24 @@ static void put_chunk(FILE *file, const char *type, const uint8_t *data, uint32_
     fwrite(no_checksum, 1, 4, file);
 }
 
-static bool put_png(const char *name, uint32_t width, uint32_t height, const uint8_t *stream, uint32_t count) {
+static bool put_png(const char *name, uint32_t width, uint32_t height, const uint8_t *stream,
+                    uint32_t count) {
     FILE *file = fopen(name, "wb");
     if (!file)
         return false;
-    uint8_t header[13] = {(uint8_t)(width >> 24), (uint8_t)(width >> 16), (uint8_t)(width >> 8), (uint8_t)width,
-                          (uint8_t)(height >> 24), (uint8_t)(height >> 16), (uint8_t)(height >> 8), (uint8_t)height,
-                          8, 2, 0, 0, 0};
+    uint8_t header[13] = {(uint8_t)(width >> 24),
+                          (uint8_t)(width >> 16),
+                          (uint8_t)(width >> 8),
+                          (uint8_t)width,
+                          (uint8_t)(height >> 24),
+                          (uint8_t)(height >> 16),
+                          (uint8_t)(height >> 8),
+                          (uint8_t)height,
+                          8,
+                          2,
+                          0,
+                          0,
+                          0};
     fwrite("\x89PNG\r\n\x1a\n", 1, 8, file);
     put_chunk(file, "IHDR", header, 13);
     put_chunk(file, "IDAT", stream, count);
@@ -85,8 +99,10 @@ static uint8_t *zeros(uint32_t runs, uint32_t *count) {
     uint64_t bit = 16;
     stream[0] = 0x78;
     stream[1] = 0x01;
-    static const char begin[] = "110" "00110000"; // last block, fixed codes (low bit first); literal 0
-    static const char run[] = "11000101" "00000";
+    static const char begin[] = "110"
+                                "00110000"; // last block, fixed codes (low bit first); literal 0
+    static const char run[] = "11000101"
+                              "00000";
     for (const char *p = begin; *p; p++, bit++)
         stream[bit / 8] |= (uint8_t)((*p == '1') << (bit % 8));
     for (uint32_t i = 0; i < runs; i++)
@@ -100,7 +116,8 @@ static bool pngs(void) {
     uint8_t *megabyte = calloc(1, 1 << 20);
     uint8_t *stream = zeros(1040000, &count);
     bool good = megabyte && stream && put_png("huge.png", 65535, 65535, megabyte, 64) &&
-                put_png("wide.png", 30000, 24000, megabyte, 1 << 20) && put_png("inflates.png", 1, 1, stream, count);
+                put_png("wide.png", 30000, 24000, megabyte, 1 << 20) &&
+                put_png("inflates.png", 1, 1, stream, count);
     free(megabyte);
     free(stream);
     return good && put_text("huge-png.yaml", "glint: 1\nbackground: {image: huge.png}\n") &&
@@ -127,11 +144,15 @@ bool hostile_make_inputs(void) {
            put_repeated("levels.xml", "<Scene glint=\"1\">", "<Model>", 100000, "\n") &&
            put_repeated("scalar.yaml", "glint: 1\ndescription: ", "abcdefghij", 1 << 20, "\n") &&
            put_repeated("scalar.xml", "<Scene glint=\"1\" description=\"", "abcdefghij", 1 << 20, "\"/>\n") &&
-           put_text("entities.xml", "<?xml version=\"1.0\"?>\n<!DOCTYPE Scene [<!ENTITY a \"aaaa\"><!ENTITY b "
-                                    "\"&a;&a;&a;&a;\"><!ENTITY c \"&b;&b;&b;&b;\">]>\n<Scene glint=\"1\" description=\"&c;\"/>\n") &&
+           put_text("entities.xml",
+                    "<?xml version=\"1.0\"?>\n<!DOCTYPE Scene [<!ENTITY a \"aaaa\"><!ENTITY b "
+                    "\"&a;&a;&a;&a;\"><!ENTITY c \"&b;&b;&b;&b;\">]>\n<Scene glint=\"1\" "
+                    "description=\"&c;\"/>\n") &&
            put("nul.yaml", nul_yaml, sizeof nul_yaml - 1) && put("nul.xml", nul_xml, sizeof nul_xml - 1) &&
            put_text("utf8.yaml", "glint: 1\n# fine\ndescription: caf\xE9\n") &&
            put_text("utf8.xml", "<Scene glint=\"1\">\n<!-- fine -->\n<!-- caf\xE9 -->\n</Scene>\n") &&
-           put_text("good.yaml", "glint: 1\nimage: {width: 64, height: 64}\nspheres: [{center: [0, 0, -5], radius: 2}]\n") &&
+           put_text(
+               "good.yaml",
+               "glint: 1\nimage: {width: 64, height: 64}\nspheres: [{center: [0, 0, -5], radius: 2}]\n") &&
            put_text("kept.png", HOSTILE_KEPT_TEXT);
 }

@@ -40,10 +40,22 @@ static const struct hostile_case cases[] = {
     {"NUL bytes, XML", 1, "nul.xml:2:", "[E104]", {"check", "nul.xml"}},
     {"invalid UTF-8, YAML", 1, "utf8.yaml:3:", "[E103]", {"check", "utf8.yaml"}},
     {"invalid UTF-8, XML", 1, "utf8.xml:3:", "[E103]", {"check", "utf8.xml"}},
-    {"100 000 mistakes", 1, "mistakes.yaml:2:1: error", "more messages not shown", {"check", "mistakes.yaml"}},
+    {"100 000 mistakes",
+     1,
+     "mistakes.yaml:2:1: error",
+     "more messages not shown",
+     {"check", "mistakes.yaml"}},
     {"PNG of 65535x65535", 1, "huge-png.yaml:2:", "[E501]", {"check", "huge-png.yaml"}},
-    {"PNG that decodes to 2 GB", 1, "wide-png.yaml:2:", "[E501]", {"render", "wide-png.yaml", "-o", "wide.png"}},
-    {"1x1 PNG that inflates to 256 MB", 1, "inflates.png:1:1: error", "[E620]", {"render", "inflates.yaml", "-o", "inflates-out.png"}},
+    {"PNG that decodes to 2 GB",
+     1,
+     "wide-png.yaml:2:",
+     "[E501]",
+     {"render", "wide-png.yaml", "-o", "wide.png"}},
+    {"1x1 PNG that inflates to 256 MB",
+     1,
+     "inflates.png:1:1: error",
+     "[E620]",
+     {"render", "inflates.yaml", "-o", "inflates-out.png"}},
     {"mesh is /dev/zero", 1, "zero.yaml:2:", "[E60", {"check", "zero.yaml", "--asset-path", "/dev"}},
     {"mesh is a link to /dev/zero", 1, "link.yaml:2:", "[E60", {"check", "link.yaml"}},
     {"mesh is a folder", 1, "folder.yaml:2:", "[E603]", {"check", "folder.yaml"}},
@@ -51,9 +63,21 @@ static const struct hostile_case cases[] = {
     {"scene is a folder", 3, "folder.obj:1:1: error", "[E603]", {"check", "folder.obj"}},
     {"scene is a pipe", 3, "pipe.obj:1:1: error", "[E603]", {"check", "pipe.obj"}},
     {"scene is /dev/zero", 3, "/dev/zero:1:1: error", "[E603]", {"check", "/dev/zero"}},
-    {"output on a full disk", 3, "/dev/full:1:1: error", "[E802]", {"render", "good.yaml", "-o", "/dev/full"}},
-    {"output that may not grow", 3, "kept.png:1:1: error", "[E802]", {"render", "good.yaml", "-o", "kept.png"}},
-    {"output in no folder", 3, "nowhere/out.png:1:1: error", "[E802]", {"render", "good.yaml", "-o", "nowhere/out.png"}},
+    {"output on a full disk",
+     3,
+     "/dev/full:1:1: error",
+     "[E802]",
+     {"render", "good.yaml", "-o", "/dev/full"}},
+    {"output that may not grow",
+     3,
+     "kept.png:1:1: error",
+     "[E802]",
+     {"render", "good.yaml", "-o", "kept.png"}},
+    {"output in no folder",
+     3,
+     "nowhere/out.png:1:1: error",
+     "[E802]",
+     {"render", "good.yaml", "-o", "nowhere/out.png"}},
 };
 
 struct result {
@@ -112,13 +136,14 @@ static void run(const char *glint, const struct hostile_case *c, struct result *
 
 static bool judge(const struct hostile_case *c, const struct result *r) {
     bool renders = strcmp(c->arguments[0], "render") == 0;
-    bool good = r->exit_status == c->exit_status && strstr(r->text, c->expected) && strstr(r->text, c->code) &&
-                r->length < TEXT_MAX_BYTES && r->memory_kb < MEMORY_MAX_KB &&
+    bool good = r->exit_status == c->exit_status && strstr(r->text, c->expected) &&
+                strstr(r->text, c->code) && r->length < TEXT_MAX_BYTES && r->memory_kb < MEMORY_MAX_KB &&
                 (renders || r->cpu_seconds < SECONDS_MAX);
-    printf("%s %-32s exit %d, %.2f s, %ld MB\n", good ? "ok  " : "FAIL", c->name, r->exit_status, r->cpu_seconds,
-           r->memory_kb / 1024);
+    printf("%s %-32s exit %d, %.2f s, %ld MB\n", good ? "ok  " : "FAIL", c->name, r->exit_status,
+           r->cpu_seconds, r->memory_kb / 1024);
     if (!good)
-        printf("     expected exit %d with '%s' and '%s'; got:\n%.2000s\n", c->exit_status, c->expected, c->code, r->text);
+        printf("     expected exit %d with '%s' and '%s'; got:\n%.2000s\n", c->exit_status, c->expected,
+               c->code, r->text);
     return good;
 }
 
