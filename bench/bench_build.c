@@ -80,7 +80,6 @@ static void trace(const struct bvh *bvh, const struct gpu_word *words, double *n
         struct traverse_ray ray = {
             {(float)(3 * r * cos(a)), (float)(3 * y), (float)(3 * r * sin(a))},
             {(float)(to - 3 * r * cos(a)), (float)(0.3 * to - 3 * y), (float)(-3 * r * sin(a))},
-            0,
             INFINITY};
         struct traverse_hit hit;
         traverse_closest(&scene, &ray, &hit);

@@ -7,13 +7,15 @@
 #include <string.h>
 
 // Direction components nearer to 0 count as this, so that quotients stay finite.
-#define DIRECTION_LEAST 0x1p-80f
+#define DIRECTION_LEAST 1.0e-20f
+// Higham's bound on the relative error of n roundings.
+#define GAMMA(n) ((n)*0x1p-24f / (1 - (n)*0x1p-24f))
 
 struct setup {
     const struct traverse_ray *ray;
     float inverse[3];
     uint32_t octant;
-    int kx, ky, kz; // Woop et al.: kz is where the direction is largest
+    int kx, ky, kz; // kz is where the direction is largest
     float sx, sy, sz;
 };
 
@@ -38,19 +40,14 @@ static struct setup setup_make(const struct traverse_ray *ray) {
         s.inverse[axis] = 1 / component;
         if (component < 0)
             s.octant |= 4u >> axis;
-        if (fabsf(d[axis]) > fabsf(d[s.kz]))
-            s.kz = axis;
     }
+    float size[3] = {fabsf(d[0]), fabsf(d[1]), fabsf(d[2])};
+    s.kz = size[2] >= size[0] && size[2] >= size[1] ? 2 : size[0] >= size[1] ? 0 : 1;
     s.kx = (s.kz + 1) % 3;
     s.ky = (s.kz + 2) % 3;
-    if (d[s.kz] < 0) {
-        int kx = s.kx;
-        s.kx = s.ky;
-        s.ky = kx;
-    }
-    s.sx = d[s.kx] / d[s.kz];
-    s.sy = d[s.ky] / d[s.kz];
     s.sz = 1 / d[s.kz];
+    s.sx = d[s.kx] * s.sz;
+    s.sy = d[s.ky] * s.sz;
     return s;
 }
 
@@ -63,7 +60,7 @@ static bool meets_box(const struct setup *s, const struct gpu_word *n, int slot,
     const uint32_t origin[3] = {n[0].x, n[0].y, n[0].z};
     const uint32_t low[3][2] = {{n[2].x, n[2].y}, {n[2].z, n[2].w}, {n[3].x, n[3].y}};
     const uint32_t high[3][2] = {{n[3].z, n[3].w}, {n[4].x, n[4].y}, {n[4].z, n[4].w}};
-    float enter = s->ray->near;
+    float enter = 0;
     float leave = INFINITY;
     for (int axis = 0; axis < 3; axis++) {
         float quantum = float_of((n[0].w >> (8 * axis) & 255) << 23);
@@ -78,23 +75,32 @@ static bool meets_box(const struct setup *s, const struct gpu_word *n, int slot,
     return enter <= fminf(leave * (float)BOX_FAR_SCALE, far);
 }
 
+// x and y sheared so that the ray is the z axis; z as it is.
 static void shear(const struct setup *s, const struct gpu_word *vertex, float out[3]) {
     const uint32_t bits[3] = {vertex->x, vertex->y, vertex->z};
-    float x = float_of(bits[s->kx]) - s->ray->origin[s->kx];
-    float y = float_of(bits[s->ky]) - s->ray->origin[s->ky];
-    float z = float_of(bits[s->kz]) - s->ray->origin[s->kz];
-    out[0] = x - s->sx * z;
-    out[1] = y - s->sy * z;
-    out[2] = s->sz * z;
+    out[2] = float_of(bits[s->kz]) - s->ray->origin[s->kz];
+    out[0] = float_of(bits[s->kx]) - s->ray->origin[s->kx] - s->sx * out[2];
+    out[1] = float_of(bits[s->ky]) - s->ray->origin[s->ky] - s->sy * out[2];
 }
 
-// Twice the signed area of the triangle of two sheared vertices and the ray, again in double where
-// single precision cannot tell the side.
-static float edge(const float p[3], const float q[3]) {
-    float area = p[0] * q[1] - p[1] * q[0];
-    if (area == 0)
-        area = (float)((double)p[0] * q[1] - (double)p[1] * q[0]);
-    return area;
+static float largest(float a, float b, float c) {
+    return fmaxf(fmaxf(fabsf(a), fabsf(b)), fabsf(c));
+}
+
+// What a distance must exceed to be surely positive: Pharr, Jakob, Humphreys 2023, section 6.8.7, but for
+// one factor. t is a mean of the vertices' z, so an error of its weights moves it by their spread at most,
+// not by their size: with the size, small triangles far away would all be refused.
+static float distance_bound(const struct setup *s, const float a[3], const float b[3], const float c[3],
+                            const float edges[3], float inverse) {
+    float x = largest(a[0], b[0], c[0]);
+    float y = largest(a[1], b[1], c[1]);
+    float z = largest(a[2], b[2], c[2]);
+    float spread = fmaxf(fmaxf(a[2], b[2]), c[2]) - fminf(fminf(a[2], b[2]), c[2]);
+    float delta_x = GAMMA(5) * (x + z);
+    float delta_y = GAMMA(5) * (y + z);
+    float delta_e = 2 * (GAMMA(2) * x * y + delta_y * x + delta_x * y);
+    float e = largest(edges[0], edges[1], edges[2]);
+    return 3 * (2 * GAMMA(3) * e * z + delta_e * spread) * fabsf(s->sz * inverse);
 }
 
 static bool meets_triangle(const struct setup *s, const struct gpu_word *words, float *distance,
@@ -103,19 +109,17 @@ static bool meets_triangle(const struct setup *s, const struct gpu_word *words, 
     shear(s, &words[0], a);
     shear(s, &words[1], b);
     shear(s, &words[2], c);
-    float u = edge(c, b);
-    float v = edge(a, c);
-    float w = edge(b, a);
-    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0))
+    float e[3] = {c[0] * b[1] - c[1] * b[0], a[0] * c[1] - a[1] * c[0], b[0] * a[1] - b[1] * a[0]};
+    if ((e[0] < 0 || e[1] < 0 || e[2] < 0) && (e[0] > 0 || e[1] > 0 || e[2] > 0))
         return false;
-    float determinant = u + v + w;
+    float determinant = e[0] + e[1] + e[2];
     if (determinant == 0)
         return false;
-    *distance = (u * a[2] + v * b[2] + w * c[2]) / determinant;
-    weights[0] = u / determinant;
-    weights[1] = v / determinant;
-    weights[2] = w / determinant;
-    return *distance > s->ray->near && *distance < s->ray->far;
+    float inverse = 1 / determinant;
+    *distance = (e[0] * (s->sz * a[2]) + e[1] * (s->sz * b[2]) + e[2] * (s->sz * c[2])) * inverse;
+    for (int i = 0; i < 3; i++)
+        weights[i] = e[i] * inverse;
+    return *distance > distance_bound(s, a, b, c, e, inverse) && *distance < s->ray->far;
 }
 
 // Tests a leaf's items; keeps the nearest.

@@ -1,8 +1,8 @@
 // The tracer's traversal of triangle trees on the processor: the buffers of shaders/gpu_scene.h, the same
 // single-precision arithmetic, one ray at a time. For tests and benches; pictures are made by the kernels.
 //
-// Watertight triangle test: Woop, Benthin, Wald 2013. Of hits at one distance the lowest triangle number
-// wins. Thread safety: pure.
+// Watertight triangle test: Woop, Benthin, Wald 2013, with all edges part of the triangle, so that it needs
+// no second try in double. Of hits at one distance the lowest triangle number wins. Thread safety: pure.
 #ifndef GLINT_RUNTIME_BVH_TRAVERSE_H
 #define GLINT_RUNTIME_BVH_TRAVERSE_H
 
@@ -17,7 +17,7 @@ struct traverse_scene {
 
 struct traverse_ray {
     float origin[3], direction[3]; // flat units; the direction need not be of unit length
-    float near, far;               // hits lie strictly between, in multiples of the direction
+    float far;                     // hits lie before, in multiples of the direction
 };
 
 struct traverse_hit {

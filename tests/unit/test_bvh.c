@@ -120,7 +120,7 @@ static void test_empty(void **state) {
     for (int slot = 0; slot < BVH_WIDTH; slot++)
         assert_false(decode_child(bvh.nodes, slot, &child));
     struct traverse_scene scene = {bvh.nodes, NULL};
-    struct traverse_ray ray = {{0, 0, 0}, {0, 0, 1}, 0, INFINITY};
+    struct traverse_ray ray = {{0, 0, 0}, {0, 0, 1}, INFINITY};
     struct traverse_hit hit;
     assert_false(traverse_closest(&scene, &ray, &hit));
     assert_false(traverse_any(&scene, &ray));
