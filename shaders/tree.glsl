@@ -2,7 +2,7 @@
 //
 // Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
 // sections 4.1 and 4.2, with a decoding that never loses a hit: t = (p - o)/d + q * (2^e/d), the far side
-// widened by 1 + 2 gamma(3) (Ize 2013).
+// multiplied by BOX_FAR_SCALE.
 
 struct tree_ray {
     vec3 origin;
@@ -40,7 +40,7 @@ uint node_half(uvec3 near, uvec3 far, uint meta, vec3 base, vec3 scale, float t_
         vec3 t_near = vec3(byte_scaled(near.x, k), byte_scaled(near.y, k), byte_scaled(near.z, k)) * unit + base;
         vec3 t_far = vec3(byte_scaled(far.x, k), byte_scaled(far.y, k), byte_scaled(far.z, k)) * unit + base;
         float enter = max(max(t_near.x, t_near.y), max(t_near.z, 0.0));
-        float leave = min(min(t_far.x, t_far.y), min(t_far.z, t_max)) * (1.0 + 2.0 * GAMMA_3);
+        float leave = min(min(t_far.x, t_far.y), min(t_far.z, t_max)) * BOX_FAR_SCALE;
         uint found = ((counts >> (8u * k)) & 0xffu) << ((bits >> (8u * k)) & 0x1fu);
         hits |= enter <= leave ? found : 0u;
     }
