@@ -241,7 +241,7 @@ const char *number_problem(enum number_status status) {
 
 // Rewrites a "%.*e" text as digits with a point or, where that is long, as d.ddde+XX.
 static size_t layout(const char *scientific, char *out) {
-    char mantissa[24];
+    char mantissa[24] = {'0'};
     size_t count = 0;
     const char *p = scientific;
     size_t length = 0;

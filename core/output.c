@@ -149,13 +149,15 @@ void output_write(struct output *output, const void *bytes, size_t count) {
 }
 
 bool output_commit(struct output *output) {
-    if (!output->stream)
+    if (!output->stream) {
+        release(output);
         return !output->error;
+    }
     errno = 0;
     if (fflush(output->stream) != 0)
         fail(output);
     if (output->stream == stdout) {
-        output->stream = NULL;
+        release(output);
         return !output->error;
     }
     if (!output->error && output->temporary && fsync(fileno(output->stream)) != 0 && errno != EINVAL)
