@@ -171,13 +171,14 @@ static void bind_keys(struct bind_context *context, struct bind_frame *frame, tr
     const struct tree *tree = context->tree;
     for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key)) {
         bool single = false;
+        bool bad = bind_is_bad_pair(context, node, key);
         int row = bind_find_row(context, frame->schema, key, &single);
         if (row >= 0 && comes_first(&frame->schema->rows[row]) != first)
             continue;
         if (row < 0) {
-            if (!first && !bind_is_bad(context, key) && !is_ignored(frame, context, key))
+            if (!first && !bad && !is_ignored(frame, context, key))
                 bind_unknown_name(context, frame, key);
-        } else if (bind_is_bad(context, key)) {
+        } else if (bad) {
             if (!(frame->seen & bind_bit((uint32_t)row)))
                 bind_poison(frame, (uint32_t)row);
             frame->seen |= bind_bit((uint32_t)row);

@@ -71,6 +71,13 @@ static inline struct bind_subject bind_subject(const struct bind_frame *frame, c
 static inline bool bind_is_bad(const struct bind_context *context, tree_index node) {
     return (tree_node(context->tree, node)->flags & TREE_BAD) != 0;
 }
+// Whether a pair of `map` cannot be judged: the reader has reported it, or the file broke off inside it.
+static inline bool bind_is_bad_pair(const struct bind_context *context, tree_index map, tree_index key) {
+    const struct tree *tree = context->tree;
+    bool cut = (tree_node(tree, map)->flags & TREE_CUT) && !tree_next_key(tree, key) &&
+               tree_node(tree, tree_value(tree, key))->kind == TREE_NULL;
+    return cut || bind_is_bad(context, key);
+}
 static inline enum tree_kind bind_kind(const struct bind_context *context, tree_index node) {
     return tree_node(context->tree, node)->kind;
 }

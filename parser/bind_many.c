@@ -78,7 +78,9 @@ static void bind_entries(struct bind_context *context, struct bind_frame *frame,
         struct bind_given entry = {.comments = tree_comments(context->tree, values.at), .value = values.at};
         if (has_key)
             entry = bind_given_by(context, values.at);
-        if (has_key && bind_is_bad(context, values.at))
+        bool bad = values.named ? bind_is_bad_pair(context, given.value, values.at)
+                                : has_key && bind_is_bad(context, values.at);
+        if (bad)
             continue;
         bind_entry(context, frame, r, values.named ? tree_text(context->tree, values.at) : STR(""), entry);
     }

@@ -9,7 +9,7 @@
 
 struct named {
     str name;
-    uint32_t order; // of appearance
+    uint64_t order; // of appearance: files in the order of their entries
     const struct schema_element *schema;
     const struct ir_head *head;
     uint32_t index; // in its list
@@ -27,16 +27,31 @@ static int compare(const void *left, const void *right) {
     return names ? names : a->order < b->order ? -1 : a->order > b->order;
 }
 
-static void add_names(struct named_list *list, const struct schema_row *row, void *scene) {
+static span place_of(const struct loader *loader, const struct named *named) {
+    const char *row = named->schema->rows[visit_name_row(named->schema)].name;
+    return ir_place_value(&loader->output->origin, named->head, named->schema, row);
+}
+
+static uint64_t order_of(const struct loader *loader, const struct named *named) {
+    span at = place_of(loader, named);
+    uint64_t rank = 0;
+    while (rank < loader->order.count && loader->files.items[loader->order.items[rank]].source != at.source)
+        rank++;
+    return rank << 32 | at.begin;
+}
+
+static void add_names(const struct loader *loader, struct named_list *list, const struct schema_row *row,
+                      void *scene) {
     void *field = schema_field(row, scene);
     int name_row = visit_name_row(row->child);
     for (uint32_t i = 0; name_row >= 0 && i < bind_list_count(field); i++) {
         const void *item = bind_list_item(field, i, row->child->size);
         str name = *(const str *)schema_field_const(&row->child->rows[name_row], item);
-        if (name.len) {
-            list->items[list->count] = (struct named){name, list->count, row->child, item, i};
-            list->count++;
-        }
+        if (name.len == 0)
+            continue;
+        struct named *named = &list->items[list->count++];
+        *named = (struct named){.name = name, .schema = row->child, .head = item, .index = i};
+        named->order = order_of(loader, named);
     }
 }
 
@@ -51,16 +66,11 @@ static struct named_list collect(struct loader *loader, struct ir_scene *scene,
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (only ? row == only : row->kind == SCHEMA_LIST && row->many == SCHEMA_SEQUENCE)
-            add_names(&list, row, scene);
+            add_names(loader, &list, row, scene);
     }
     if (list.count)
         qsort(list.items, list.count, sizeof *list.items, compare);
     return list;
-}
-
-static span place_of(struct loader *loader, const struct named *named) {
-    const char *row = named->schema->rows[visit_name_row(named->schema)].name;
-    return ir_place_value(&loader->output->origin, named->head, named->schema, row);
 }
 
 static const struct schema_row *home_of(const struct schema_element *schema) {
