@@ -5,7 +5,8 @@
 #include <string.h>
 
 enum {
-    INSERTION_SORT_MAX = 24
+    INSERTION_SORT_MAX = 24,
+    EXPONENT_MAX = 1000, // of a power of two that is a double
 };
 
 // ---- equal positions
@@ -132,31 +133,42 @@ void mesh_find_edges(struct mesh *mesh, struct arena *scratch) {
 
 // ---- volume
 
-// A sixth of the sum of a·(b×c), relative to the middle of the mesh and divided by a power of two, so that
-// nothing under- or overflows.
-static double signed_volume(const struct mesh *mesh) {
-    vec3 size = vec3_sub(mesh->upper, mesh->lower);
+// Brings the extent of the mesh near 1, so that no product of three lengths under- or overflows.
+static double extent_scale(vec3 size) {
     double largest = vec3_max_abs(size);
     if (!(largest > 0))
         return 0;
     int exponent = -ilogb(largest);
-    double scale = scalbn(1, exponent < 1000 ? exponent : 1000);
-    vec3 middle = vec3_add(mesh->lower, vec3_mul(size, 0.5));
+    return scalbn(1, exponent < EXPONENT_MAX ? exponent : EXPONENT_MAX);
+}
+
+// A sixth of the sum of a·(b×c), relative to the middle of the mesh, times scale cubed. *rounding is what the
+// sum may be off by.
+static double scaled_volume(const struct mesh *mesh, double scale, double *rounding) {
+    vec3 middle = vec3_add(mesh->lower, vec3_mul(vec3_sub(mesh->upper, mesh->lower), 0.5));
     double sum = 0;
+    double magnitude = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         vec3 p[3];
         for (int k = 0; k < 3; k++)
             p[k] = vec3_mul(vec3_sub(mesh->positions[mesh->triangles[t].corners[k]], middle), scale);
         sum += vec3_dot(p[0], vec3_cross(p[1], p[2]));
+        magnitude += vec3_max_abs(p[0]) * vec3_max_abs(p[1]) * vec3_max_abs(p[2]);
     }
-    return sum / 6 / scale / scale / scale;
+    *rounding = scalbn(magnitude, -48);
+    return sum / 6;
 }
 
 void mesh_turn_outward(struct mesh *mesh) {
-    if (!mesh->closed)
+    double scale = mesh->closed ? extent_scale(vec3_sub(mesh->upper, mesh->lower)) : 0;
+    if (!(scale > 0))
         return;
-    mesh->volume = signed_volume(mesh);
-    if (!(mesh->volume < 0))
+    // The sign is that of the scaled volume: the volume itself can be too small for a double.
+    double rounding;
+    double scaled = scaled_volume(mesh, scale, &rounding);
+    mesh->volume = scaled / scale / scale / scale;
+    // A sheet that is its own back encloses nothing, whatever rounding says.
+    if (!(scaled < -rounding))
         return;
     mesh->turned = true;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {

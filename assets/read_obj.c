@@ -194,7 +194,7 @@ static void read_face(struct obj_reader *r, str keyword) {
                      corners == 1 ? "" : "s");
     }
     obj->triangle_count += corners >= 3 ? corners - 2 : 0;
-    if (corners < 3 || !face_fits(r, keyword, corners)) {
+    if (corners < 3 || broken || !face_fits(r, keyword, corners)) {
         obj->corners.count = first;
         return;
     }

@@ -9,13 +9,16 @@ enum {
     WORK_PER_CORNER = 1000, // point tests and grid cells, before corners are cut unchecked
 };
 
+#define ROUNDING_MARGIN 0x1p-40
+#define WORK_ALL        (UINT64_C(1) << 32) // for all polygons of one triangulator: some ten seconds
+
 struct triangulate_point {
     double x, y;
 };
 
 struct triangulate_link {
     uint32_t next, previous;
-    bool is_gone;
+    bool is_gone, is_queued, is_deferred;
 };
 
 struct grid {
@@ -31,10 +34,14 @@ struct clipping {
     const uint32_t *cell_items;
     struct grid grid;
     uint64_t work_left;
+    uint32_t left;   // corners not cut yet
+    uint32_t *out;   // of the next triangle
+    uint32_t *queue; // a ring; each corner is in it at most once
+    uint32_t queue_size, queue_head, queue_count;
 };
 
 void triangulate_init(struct triangulator *t, struct arena *arena) {
-    *t = (struct triangulator){.arena = arena};
+    *t = (struct triangulator){.arena = arena, .work_left = WORK_ALL};
 }
 
 static void fan(uint32_t n, uint32_t *out) {
@@ -215,16 +222,42 @@ static bool blocks_ear(const struct clipping *c, uint32_t k, uint32_t i, enum le
     return level < LEVEL_RIM ? u >= 0 && v >= 0 && w >= 0 : u > 0 && v > 0 && w > 0;
 }
 
+// Widens lower..upper by the part of the edge a-b that lies between the heights y0 and y1.
+static void widen(struct triangulate_point a, struct triangulate_point b, double y0, double y1, double *lower,
+                  double *upper) {
+    if (a.y > b.y) {
+        struct triangulate_point swap = a;
+        a = b;
+        b = swap;
+    }
+    if (b.y < y0 || a.y > y1)
+        return;
+    double slope = b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0;
+    double from = a.y >= y0 ? a.x : a.x + (y0 - a.y) * slope;
+    double to = b.y <= y1 ? b.x : a.x + (y1 - a.y) * slope;
+    *lower = fmin(*lower, fmin(from, to));
+    *upper = fmax(*upper, fmax(from, to));
+}
+
+// The grid is searched row by row, only where the triangle is: ears can be long and thin.
 static bool is_clear(struct clipping *c, uint32_t i, enum level level) {
     const struct grid *g = &c->grid;
     struct triangulate_point a = c->points[c->links[i].previous];
     struct triangulate_point b = c->points[i];
     struct triangulate_point d = c->points[c->links[i].next];
-    uint32_t left = cell_along(fmin(a.x, fmin(b.x, d.x)), g->x, g->per_x, g->side);
-    uint32_t right = cell_along(fmax(a.x, fmax(b.x, d.x)), g->x, g->per_x, g->side);
     uint32_t low = cell_along(fmin(a.y, fmin(b.y, d.y)), g->y, g->per_y, g->side);
     uint32_t high = cell_along(fmax(a.y, fmax(b.y, d.y)), g->y, g->per_y, g->side);
     for (uint32_t y = low; y <= high; y++) {
+        // Coordinates are near 1: the margin is beyond rounding and of no weight.
+        double y0 = y == 0 ? -INFINITY : g->y + y / g->per_y - ROUNDING_MARGIN;
+        double y1 = y + 1 == g->side ? INFINITY : g->y + (y + 1) / g->per_y + ROUNDING_MARGIN;
+        double lower = INFINITY;
+        double upper = -INFINITY;
+        widen(a, b, y0, y1, &lower, &upper);
+        widen(b, d, y0, y1, &lower, &upper);
+        widen(d, a, y0, y1, &lower, &upper);
+        uint32_t left = cell_along(lower - ROUNDING_MARGIN, g->x, g->per_x, g->side);
+        uint32_t right = cell_along(upper + ROUNDING_MARGIN, g->x, g->per_x, g->side);
         uint32_t begin = c->cell_first[y * g->side + left];
         uint32_t end = c->cell_first[y * g->side + right + 1];
         uint64_t work = (uint64_t)(end - begin) + 1;
@@ -236,51 +269,111 @@ static bool is_clear(struct clipping *c, uint32_t i, enum level level) {
     return true;
 }
 
+// A corner that adds nothing: it repeats a neighbour's position, or the boundary turns straight back.
+static bool is_spike(const struct clipping *c, uint32_t i) {
+    struct triangulate_point a = c->points[c->links[i].previous];
+    struct triangulate_point b = c->points[i];
+    struct triangulate_point d = c->points[c->links[i].next];
+    return same_point(a, b) || same_point(b, d) || same_point(a, d);
+}
+
 static bool is_ear(struct clipping *c, uint32_t i, enum level level) {
     const struct triangulate_link *link = &c->links[i];
-    struct triangulate_point b = c->points[i];
-    if (level == LEVEL_ANY || c->work_left == 0 || same_point(b, c->points[link->next]) ||
-        same_point(b, c->points[link->previous]))
+    if (level == LEVEL_ANY || c->work_left == 0)
         return true;
-    double area = area2(c->points[link->previous], b, c->points[link->next]);
+    double area = area2(c->points[link->previous], c->points[i], c->points[link->next]);
     if (area == 0)
         return level >= LEVEL_FLAT;
     return area > 0 && is_clear(c, i, level);
 }
 
-static uint32_t *cut(struct clipping *c, uint32_t i, uint32_t *out) {
+static void cut(struct clipping *c, uint32_t i) {
     struct triangulate_link *link = &c->links[i];
-    *out++ = link->previous;
-    *out++ = i;
-    *out++ = link->next;
+    *c->out++ = link->previous;
+    *c->out++ = i;
+    *c->out++ = link->next;
     c->links[link->previous].next = link->next;
     c->links[link->next].previous = link->previous;
     link->is_gone = true;
-    return out;
+    c->left--;
 }
 
-static void clip(struct clipping *c, uint32_t n, uint32_t *out) {
-    uint32_t left = n;
-    uint32_t i = 0;
-    uint32_t idle = 0; // corners looked at since the last cut
-    enum level level = LEVEL_EMPTY;
-    while (left > 3) {
-        if (is_ear(c, i, level)) {
-            out = cut(c, i, out);
-            left--;
-            idle = 0;
-            level = LEVEL_EMPTY;
-            // Not the neighbour: taking turns keeps the triangles from becoming a fan of slivers.
-            i = c->links[c->links[i].next].next;
+// ---- corners that wait to be looked at
+//
+// Cutting an ear changes what its two neighbours are and nothing else (of a simple polygon), so each corner
+// is looked at once, and again when a neighbour went.
+
+static void enqueue(struct clipping *c, uint32_t i) {
+    if (c->links[i].is_queued || c->links[i].is_gone)
+        return;
+    c->links[i].is_queued = true;
+    c->queue[(c->queue_head + c->queue_count) % c->queue_size] = i;
+    c->queue_count++;
+}
+
+static uint32_t dequeue(struct clipping *c) {
+    uint32_t i = c->queue[c->queue_head];
+    c->queue_head = (c->queue_head + 1) % c->queue_size;
+    c->queue_count--;
+    c->links[i].is_queued = false;
+    return i;
+}
+
+static void enqueue_all(struct clipping *c, uint32_t from) {
+    uint32_t i = from;
+    do {
+        enqueue(c, i);
+        i = c->links[i].next;
+    } while (i != from);
+    c->work_left -= c->left < c->work_left ? c->left : c->work_left;
+}
+
+// Cuts a corner, and spikes that this makes of its neighbours: left standing they would be taken for the
+// other side of the boundary. Gives a corner that is left.
+static uint32_t cut_with_spikes(struct clipping *c, uint32_t i) {
+    cut(c, i);
+    uint32_t before = c->links[i].previous;
+    uint32_t after = c->links[i].next;
+    while (c->left > 3 && (is_spike(c, before) || is_spike(c, after))) {
+        if (is_spike(c, before)) {
+            cut(c, before);
+            before = c->links[before].previous;
         } else {
-            i = c->links[i].next;
-            if (++idle >= left) {
-                idle = 0;
-                level++;
-            }
+            cut(c, after);
+            after = c->links[after].next;
         }
     }
-    cut(c, i, out);
+    enqueue(c, before);
+    enqueue(c, after);
+    // Its turn comes later: cutting neighbours one after another would make a fan of slivers.
+    c->links[after].is_deferred = true;
+    return after;
+}
+
+static void clip(struct clipping *c) {
+    uint32_t last = 0; // a corner that is left
+    enum level level = LEVEL_EMPTY;
+    for (uint32_t i = 0; i < c->queue_size && c->left > 3; i++)
+        if (!c->links[i].is_gone && is_spike(c, i))
+            last = cut_with_spikes(c, i);
+    enqueue_all(c, last);
+    while (c->left > 3) {
+        if (c->queue_count == 0) {
+            level++;
+            enqueue_all(c, last);
+        }
+        uint32_t i = dequeue(c);
+        if (c->links[i].is_gone)
+            continue;
+        if (c->links[i].is_deferred) {
+            c->links[i].is_deferred = false;
+            enqueue(c, i);
+        } else if (is_spike(c, i) || is_ear(c, i, level)) {
+            last = cut_with_spikes(c, i);
+            level = LEVEL_EMPTY;
+        }
+    }
+    cut(c, last);
 }
 
 static void reserve(struct triangulator *t, uint32_t n) {
@@ -290,6 +383,7 @@ static void reserve(struct triangulator *t, uint32_t n) {
     t->points = ARENA_ARRAY(t->arena, struct triangulate_point, t->capacity);
     t->links = ARENA_ARRAY(t->arena, struct triangulate_link, t->capacity);
     t->cell_items = ARENA_ARRAY(t->arena, uint32_t, t->capacity);
+    t->queue = ARENA_ARRAY(t->arena, uint32_t, t->capacity);
     if (!t->cell_first)
         t->cell_first = ARENA_ARRAY(t->arena, uint32_t, GRID_SIDE_MAX * GRID_SIDE_MAX + 1);
 }
@@ -314,11 +408,18 @@ void triangulate(struct triangulator *t, const vec3 *corners, uint32_t n, uint32
     for (uint32_t i = 0; i < n; i++)
         t->links[i] =
             (struct triangulate_link){.next = i + 1 == n ? 0 : i + 1, .previous = i == 0 ? n - 1 : i - 1};
+    uint64_t budget = (uint64_t)WORK_PER_CORNER * n;
+    budget = budget < t->work_left ? budget : t->work_left;
     struct clipping c = {.points = t->points,
                          .links = t->links,
                          .cell_first = t->cell_first,
                          .cell_items = t->cell_items,
                          .grid = fill_grid(t->points, n, t->cell_first, t->cell_items),
-                         .work_left = (uint64_t)WORK_PER_CORNER * n};
-    clip(&c, n, out);
+                         .work_left = budget,
+                         .left = n,
+                         .out = out,
+                         .queue = t->queue,
+                         .queue_size = n};
+    clip(&c);
+    t->work_left -= budget - c.work_left;
 }

@@ -24,6 +24,8 @@ struct triangulator {
     struct triangulate_link *links;
     uint32_t *cell_first; // the grid: for each cell the first of its entries in cell_items
     uint32_t *cell_items;
+    uint32_t *queue;
+    uint64_t work_left;
 };
 
 void triangulate_init(struct triangulator *t, struct arena *arena);
