@@ -144,7 +144,7 @@ static void report_element_prefix(struct xml_reader *r, str name, span at) {
         return;
     }
     diag_add(sink, DIAG_XML_NAMESPACE, at, "the elements of a scene have no prefix");
-    diag_help(sink, "write <%.*s>", STR_ARG(local));
+    diag_help(sink, "write <%.*s>", STR_ARG(reader_clip(local)));
 }
 
 // Whether the attribute says something about the file's form and not about the scene; reports what
@@ -165,13 +165,14 @@ static bool is_foreign(struct xml_reader *r, str name, str value, struct xml_att
                                                before.len ? " " : "", STR_ARG(written));
     } else if (str_equal(prefix, STR("xml"))) {
         bool base = str_equal(name, STR("xml:base"));
-        diag_add(sink, DIAG_XML_FOREIGN, at, "'%.*s' has no meaning in a scene", STR_ARG(name));
+        diag_add(sink, DIAG_XML_FOREIGN, at, "'%.*s' has no meaning in a scene", STR_ARG(reader_clip(name)));
         diag_help(sink, "%s",
                   base ? "remove it: paths are relative to the file that holds them" : "remove it");
     } else if (declares && str_equal(value, STR(XINCLUDE))) {
         r->xinclude = at;
     } else {
-        diag_add(sink, DIAG_XML_NAMESPACE, at, "a scene has no namespaces: '%.*s'", STR_ARG(name));
+        diag_add(sink, DIAG_XML_NAMESPACE, at, "a scene has no namespaces: '%.*s'",
+                 STR_ARG(reader_clip(name)));
         diag_help(sink, schema ? "the schema attributes stand on the root" : "remove it");
     }
     return true;
@@ -398,7 +399,7 @@ static bool prepare(const struct reader_context *context, uint32_t source, struc
     foreign = foreign && !(named.len == 5 && str_ends_with_nocase(named, "utf-8"));
     if (foreign) {
         diag_add(context->sink, DIAG_XML_ENCODING, (span){source, encoding.begin, encoding.end},
-                 "the encoding is '%.*s', not UTF-8", STR_ARG(named));
+                 "the encoding is '%.*s', not UTF-8", STR_ARG(reader_clip(named)));
         diag_help(context->sink, "save the file as UTF-8 and write encoding=\"UTF-8\"");
     }
     if (!reader_text_open(context, source, 0, foreign, text))

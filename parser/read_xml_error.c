@@ -39,8 +39,9 @@ static void report_end(struct xml_reader *r) {
         return;
     }
     str name = frame_name(r, open);
-    diag_add(sink, DIAG_XML_SYNTAX, open->name, "<%.*s> is not closed", STR_ARG(name));
-    diag_help(sink, "write </%.*s> behind what it holds, or '/>' at the end of its tag", STR_ARG(name));
+    diag_add(sink, DIAG_XML_SYNTAX, open->name, "<%.*s> is not closed", STR_ARG(reader_clip(name)));
+    diag_help(sink, "write </%.*s> behind what it holds, or '/>' at the end of its tag",
+              STR_ARG(reader_clip(name)));
 }
 
 static void report_mismatch(struct xml_reader *r, uint32_t at) {
@@ -51,13 +52,13 @@ static void report_mismatch(struct xml_reader *r, uint32_t at) {
     span closing = word_at(r, at);
     str name = str_slice(r->text->bytes, closing.begin, closing.end);
     if (!open) {
-        diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> closes nothing", STR_ARG(name));
+        diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> closes nothing", STR_ARG(reader_clip(name)));
         return;
     }
     str expected = frame_name(r, open);
-    diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> stands where </%.*s> is expected", STR_ARG(name),
-             STR_ARG(expected));
-    diag_note(sink, open->name, "<%.*s> was opened here", STR_ARG(expected));
+    diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> stands where </%.*s> is expected",
+             STR_ARG(reader_clip(name)), STR_ARG(reader_clip(expected)));
+    diag_note(sink, open->name, "<%.*s> was opened here", STR_ARG(reader_clip(expected)));
 }
 
 // Where the tag begins that the byte `at` stands in; `at` itself where it stands in none.
@@ -112,8 +113,9 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
     if (pos >= text.len || memchr("<>=/\"'&", text.ptr[pos], 7))
         return report_tag_end(r, tag, pos);
     if (next != '=') {
-        diag_add(sink, DIAG_XML_SYNTAX, name, "the attribute '%.*s' has no value", STR_ARG(written));
-        diag_help(sink, "write %.*s=\"...\"", STR_ARG(written));
+        diag_add(sink, DIAG_XML_SYNTAX, name, "the attribute '%.*s' has no value",
+                 STR_ARG(reader_clip(written)));
+        diag_help(sink, "write %.*s=\"...\"", STR_ARG(reader_clip(written)));
         return true;
     }
     sign++;
@@ -122,11 +124,13 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
     if (sign < text.len && text.ptr[sign] != '"' && text.ptr[sign] != '\'') {
         span value = word_at(r, sign);
         str bare = str_slice(text, value.begin, value.end);
-        diag_add(sink, DIAG_XML_SYNTAX, value, "the value of '%.*s' needs quotes", STR_ARG(written));
-        diag_help(sink, "write %.*s=\"%.*s\"", STR_ARG(written), STR_ARG(bare));
+        diag_add(sink, DIAG_XML_SYNTAX, value, "the value of '%.*s' needs quotes",
+                 STR_ARG(reader_clip(written)));
+        diag_help(sink, "write %.*s=\"%.*s\"", STR_ARG(reader_clip(written)), STR_ARG(reader_clip(bare)));
         return true;
     }
-    diag_add(sink, DIAG_XML_SYNTAX, name, "the value of '%.*s' has no closing quote", STR_ARG(written));
+    diag_add(sink, DIAG_XML_SYNTAX, name, "the value of '%.*s' has no closing quote",
+             STR_ARG(reader_clip(written)));
     diag_help(sink, "close the quotes; write '&lt;' for the character '<'");
     return true;
 }
@@ -152,7 +156,8 @@ static void report_token(struct xml_reader *r, uint32_t at) {
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "'--' inside a comment");
         diag_help(sink, "a comment ends with -->, and holds no other '--'");
     } else if (begins_with(r, tag, "<!") && !begins_with(r, tag, "<![")) {
-        diag_add(sink, DIAG_XML_DOCTYPE, word_at(r, tag), "a scene has no declarations");
+        diag_add(sink, DIAG_XML_DOCTYPE, xml_span(r, tag, word_at(r, tag + 2).end),
+                 "a scene has no declarations");
         diag_help(sink, "remove it");
     } else if (tag != at && begins_with(r, tag, "</")) {
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "a closing tag holds a name and nothing else");
@@ -194,6 +199,10 @@ void xml_report(struct xml_reader *r) {
         report_token(r, at);
         break;
     case XML_ERROR_SYNTAX:
+        if (begins_with(r, at, "<!")) {
+            report_token(r, at);
+            break;
+        }
         diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "this stands before the first element");
         diag_help(sink, "a scene begins with <Scene glint=\"1\">");
         break;

@@ -154,7 +154,7 @@ static uint32_t check_entity(struct repairer *r, uint32_t at) {
     } else {
         end++;
         diag_add(sink, DIAG_XML_ENTITY, place(r, at, end), "there is no entity '&%.*s;' in a scene",
-                 STR_ARG(name));
+                 STR_ARG(reader_clip(name)));
         diag_help(sink,
                   "write the character itself; XML has &amp; &lt; &gt; &quot; &apos; and &#233; for others");
     }
@@ -178,7 +178,7 @@ static void check_twice(struct repairer *r, struct xml_attribute attribute) {
     }
     struct diag_sink *sink = r->context->sink;
     diag_add(sink, DIAG_DUPLICATE_ATTRIBUTE, place(r, attribute.name_begin, attribute.name_end),
-             "the attribute '%.*s' is given twice", STR_ARG(name));
+             "the attribute '%.*s' is given twice", STR_ARG(reader_clip(name)));
     diag_note(sink, place(r, first->value, first->value + (uint32_t)name.len), "it was given here first");
     diag_help(sink, "remove one of the two");
     blank_out(r, attribute.name_begin, attribute.value_end + 1);

@@ -98,7 +98,8 @@ static uint8_t report_tag(struct yaml_reader *r, span tag) {
     span removed = tag;
     while (removed.end < r->text->bytes.len && r->text->bytes.ptr[removed.end] == ' ')
         removed.end++;
-    diag_add(&r->sink, DIAG_YAML_TAG, tag, "the tag '%.*s' has no meaning in a scene", STR_ARG(text));
+    diag_add(&r->sink, DIAG_YAML_TAG, tag, "the tag '%.*s' has no meaning in a scene",
+             STR_ARG(reader_clip(text)));
     diag_help(&r->sink, "remove it");
     diag_fix(&r->sink, true, removed, STR(""));
     return is_core_tag(text) ? 0 : TREE_BAD;
@@ -136,6 +137,13 @@ static uint32_t scalar_end(const struct yaml_reader *r, uint32_t begin, uint32_t
     return end;
 }
 
+static uint32_t line_end(const struct yaml_reader *r, uint32_t at) {
+    str text = r->text->bytes;
+    while (at < text.len && text.ptr[at] != '\n' && text.ptr[at] != '\r')
+        at++;
+    return at;
+}
+
 static void begin_token(struct yaml_reader *r, tree_index node) {
     if (yaml_at_entry(r))
         yaml_begin_entry(r, node);
@@ -148,11 +156,23 @@ static void end_token(struct yaml_reader *r, uint32_t end) {
     r->seen_token = true;
 }
 
+// The unquoted colour that left a value empty. In brackets libyaml places an empty value behind the comment.
+static bool find_swallowed(struct yaml_reader *r, uint32_t at, uint32_t token, struct reader_range *color) {
+    if (yaml_comment_color(r, at, color))
+        return true;
+    *color = r->lost_color;
+    if (color->begin == color->end || color->begin < token)
+        return false;
+    r->lost_color = (struct reader_range){0};
+    return true;
+}
+
 static void on_scalar(struct yaml_reader *r) {
     uint32_t begin = yaml_byte(r, r->event.start_mark);
     uint32_t end = yaml_byte(r, r->event.end_mark);
     str value = {(const char *)r->event.data.scalar.value, r->event.data.scalar.length};
     bool plain = r->event.data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    uint32_t token = r->gap;
     yaml_gap(r, begin);
     bool any = r->event.data.scalar.anchor || r->event.data.scalar.tag;
     struct properties p = find_properties(r, begin, end, any);
@@ -167,7 +187,7 @@ static void on_scalar(struct yaml_reader *r) {
     node.flags = report_tag(r, p.tag);
     struct reader_range color;
     bool absent = plain && value.len == 0 && !yaml_at_key(r);
-    if (absent && yaml_comment_color(r, p.end, &color)) {
+    if (absent && find_swallowed(r, p.end, token, &color)) {
         yaml_report_color(&r->sink, r->text->bytes, yaml_span(r, color.begin, color.end));
         node.flags |= TREE_BAD;
         node.begin = color.begin;
@@ -175,7 +195,8 @@ static void on_scalar(struct yaml_reader *r) {
     }
     if (r->event.data.scalar.style == YAML_DOUBLE_QUOTED_SCALAR_STYLE)
         node.flags |= check_escapes(r, value, at);
-    if (reader_text_is_bad(r->text, node.begin, node.end))
+    // Of a value that was nothing but bad bytes, blanks are left.
+    if (reader_text_is_bad(r->text, node.begin, absent ? line_end(r, node.end) : node.end))
         node.flags |= TREE_BAD;
     node.value = tree_add_text(r->tree, value);
     node.count = (uint32_t)value.len;
@@ -417,6 +438,16 @@ static void read_text(const struct reader_context *context, struct reader_text *
     struct yaml_reader reader = {.context = context, .text = text, .tree = tree, .is_option = is_option};
     reader.ascii = is_ascii(str_slice(text->bytes, text->begin, text->bytes.len));
     run_guarded(&reader);
+    if (!is_option || tree->root || reader.stopped || tree->broken)
+        return;
+    struct reader_range color;
+    if (yaml_comment_color(&reader, text->begin, &color)) {
+        yaml_report_color(context->sink, text->bytes, yaml_span(&reader, color.begin, color.end));
+    } else {
+        diag_add(context->sink, DIAG_SET_SYNTAX, yaml_span(&reader, text->begin, (uint32_t)text->bytes.len),
+                 "there is no value here");
+        diag_help(context->sink, "in YAML '#' begins a comment: quote a text that holds it");
+    }
 }
 
 // Where the root is no map, or not there, and nothing was said about it yet.

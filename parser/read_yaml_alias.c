@@ -22,7 +22,8 @@ enum {
 };
 
 static tree_index undefined(struct yaml_reader *r, str name, span at) {
-    diag_add(&r->sink, DIAG_UNDEFINED_ALIAS, at, "nothing before this is anchored as '%.*s'", STR_ARG(name));
+    diag_add(&r->sink, DIAG_UNDEFINED_ALIAS, at, "nothing before this is anchored as '%.*s'",
+             STR_ARG(reader_clip(name)));
     struct nearest nearest = nearest_begin(name);
     uint32_t searched = r->sink.errors > SEARCHES_MAX ? 0 : r->anchors.count;
     for (uint32_t i = 1; i < searched && i < SEARCHED_MAX; i++)
@@ -30,10 +31,10 @@ static tree_index undefined(struct yaml_reader *r, str name, span at) {
     str best = nearest_best(&nearest);
     str written = source_text(r->context->sources, at);
     if (best.len)
-        diag_help(&r->sink, "did you mean '*%.*s'?", STR_ARG(best));
+        diag_help(&r->sink, "did you mean '*%.*s'?", STR_ARG(reader_clip(best)));
     else if (r->anchors.count <= 1)
         diag_help(&r->sink, "'*' begins an alias; a text that begins with it needs quotes: \"%.*s\"",
-                  STR_ARG(written));
+                  STR_ARG(reader_clip(written)));
     return add_bad(r, at);
 }
 
@@ -77,7 +78,8 @@ static tree_index copy_node(struct yaml_reader *r, tree_index from, uint64_t dep
 void yaml_alias(struct yaml_reader *r, str name, span at) {
     if (yaml_at_key(r)) {
         diag_add(&r->sink, DIAG_YAML_KEY, at, "an alias where a key belongs");
-        diag_help(&r->sink, "write the key itself; to merge a map write '<<: *%.*s'", STR_ARG(name));
+        diag_help(&r->sink, "write the key itself; to merge a map write '<<: *%.*s'",
+                  STR_ARG(reader_clip(name)));
         tree_index bad = add_bad(r, at);
         yaml_begin_entry(r, bad);
         tree_node(r->tree, bad)->kind = TREE_SCALAR;
@@ -89,7 +91,8 @@ void yaml_alias(struct yaml_reader *r, str name, span at) {
     if (index == YAML_NO_ANCHOR) {
         node = undefined(r, name, at);
     } else if (r->anchors.items[index].open) {
-        diag_add(&r->sink, DIAG_ALIAS_CYCLE, at, "'*%.*s' stands inside what it names", STR_ARG(name));
+        diag_add(&r->sink, DIAG_ALIAS_CYCLE, at, "'*%.*s' stands inside what it names",
+                 STR_ARG(reader_clip(name)));
         diag_note(&r->sink, r->anchors.items[index].at, "the anchor is here");
         node = add_bad(r, at);
     } else {

@@ -80,7 +80,7 @@ static void join(struct yaml_reader *r, tree_index into, tree_index from) {
 static void report_twice(struct yaml_reader *r, tree_index first, tree_index second) {
     str text = tree_text(r->tree, second);
     diag_add(&r->sink, DIAG_DUPLICATE_KEY, tree_span(r->tree, second), "the key '%.*s' is given twice",
-             STR_ARG(text));
+             STR_ARG(reader_clip(text)));
     diag_note(&r->sink, tree_span(r->tree, first), "it was given here first");
     tree_index a = tree_value(r->tree, first), b = tree_value(r->tree, second);
     if (joins(r->tree, a, b)) {

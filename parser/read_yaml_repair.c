@@ -94,7 +94,7 @@ static bool repair_tag(struct yaml_reader *r, struct diag_sink *sink, uint32_t p
         reader_text_put(r->context, r->text, end, STR(" "));
     str written = source_text(r->context->sources, yaml_span(r, begin, end));
     diag_add(sink, DIAG_YAML_TAG, yaml_span(r, begin, end), "the tag '%.*s' has no meaning in a scene",
-             STR_ARG(written));
+             STR_ARG(reader_clip(written)));
     diag_help(sink, "remove it; a text that begins with '!' needs quotes");
     while (end < r->text->bytes.len && !is_break(byte_at(r, end)))
         end++;

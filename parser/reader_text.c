@@ -5,7 +5,8 @@
 #include <string.h>
 
 enum {
-    BAD_PLACES_MAX = 1000
+    BAD_PLACES_MAX = 1000,
+    SHOWN_BYTES = 60
 };
 
 static bool looks_like_utf16(str s) {
@@ -81,7 +82,7 @@ static void note_bad(struct bad_bytes *bad, size_t at, size_t length) {
 
 static void overwrite(const struct reader_context *context, struct reader_text *text, size_t at,
                       size_t length, char with) {
-    static const char blanks[] = "   ", marks[] = "???";
+    static const char blanks[] = "   ", marks[] = "___";
     reader_text_put(context, text, (uint32_t)at, (str){with == ' ' ? blanks : marks, length});
     reader_text_mark(context, text, (uint32_t)at, (uint32_t)(at + length));
 }
@@ -105,7 +106,7 @@ static bool clean(const struct reader_context *context, struct reader_text *text
         if (n == 0 || control) {
             if (bytes->count + controls->count > BAD_PLACES_MAX)
                 return false;
-            overwrite(context, text, at, n ? n : 1, n ? ' ' : '?');
+            overwrite(context, text, at, n ? n : 1, n ? ' ' : '_');
             all = text->bytes;
         }
         at += n ? n : 1;
@@ -182,6 +183,15 @@ bool reader_text_is_bad(const struct reader_text *text, uint32_t begin, uint32_t
 
 bool reader_text_is_blank(const struct reader_text *text) {
     return str_trim(str_slice(text->bytes, text->begin, text->bytes.len)).len == 0;
+}
+
+str reader_clip(str text) {
+    if (text.len <= SHOWN_BYTES)
+        return text;
+    size_t end = SHOWN_BYTES;
+    while (end > 0 && ((unsigned char)text.ptr[end] & 0xC0) == 0x80)
+        end--;
+    return str_slice(text, 0, end);
 }
 
 void reader_limit(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,

@@ -43,6 +43,8 @@ bool reader_text_is_blank(const struct reader_text *text);
 // Offset of the first control character in decoded text, tabs and line ends aside; its length if none.
 size_t reader_find_control(str decoded);
 
+// The beginning of a text from the file, short enough to stand in a message.
+str reader_clip(str text);
 // E501 at `at`: "<what> (more than N); raise it with ...".
 void reader_limit(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,
                   const char *what);
