@@ -48,12 +48,13 @@ static bool begins_plain(str text) {
     return str_starts_with(text, STR("./")) || str_starts_with(text, STR("../"));
 }
 
-static bool is_plain(str text) {
+static bool is_plain(str text, bool in_flow) {
     if (text.len == 0 || !begins_plain(text) || text.ptr[text.len - 1] == ' ' || is_reserved(text))
         return false;
     for (size_t i = 0; i < text.len; i++) {
         char c = text.ptr[i];
-        if (!(is_alpha(c) || is_digit(c) || strchr("_-./ +()", c) || (unsigned char)c >= 0x80) || c == '\0')
+        bool usual = is_alpha(c) || is_digit(c) || (unsigned char)c >= 0x80;
+        if (c == '\0' || !(usual || strchr(in_flow ? "_-./ +()" : "_-./ +(),;'!?=", c)))
             return false;
     }
     return !has_odd(text, "");
@@ -75,8 +76,8 @@ static void put_yaml_escape(struct strbuf *out, uint32_t c) {
         strbuf_format(out, "\\U%08X", (unsigned)c);
 }
 
-void print_yaml_text(struct strbuf *out, str text) {
-    if (is_plain(text)) {
+void print_yaml_text(struct strbuf *out, str text, bool in_flow) {
+    if (is_plain(text, in_flow)) {
         strbuf_str(out, text);
         return;
     }

@@ -9,8 +9,8 @@
 #include "grammar/schema.h"
 
 // Text as YAML: plain where every reader of YAML 1.1 and 1.2 takes it for the same text, else in double
-// quotes, on one line.
-void print_yaml_text(struct strbuf *out, str text);
+// quotes, on one line. `in_flow`: between brackets or as a key, where fewer characters may stand plain.
+void print_yaml_text(struct strbuf *out, str text, bool in_flow);
 // Whether a literal block ('|') shows the text as it is: several lines, nothing that needs an escape.
 bool print_yaml_is_literal(str text);
 // The block's header ("|" or "|-") and its lines, indented; ends with a line end.

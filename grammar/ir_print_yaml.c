@@ -48,7 +48,7 @@ static void flow_list(struct yaml_writer *w, const struct schema_row *row, const
             continue;
         strbuf_cstr(out, separator);
         if (map) {
-            print_yaml_text(out, ir_walk_key(row->child, item));
+            print_yaml_text(out, ir_walk_key(row->child, item), true);
             strbuf_cstr(out, ": ");
         }
         flow_item(w, row->child, item, out);
@@ -79,7 +79,7 @@ static void flow_value(struct yaml_writer *w, const struct schema_row *row, cons
                        struct strbuf *out) {
     switch (row->kind) {
     case SCHEMA_TEXT:
-        print_yaml_text(out, *(const str *)field);
+        print_yaml_text(out, *(const str *)field, true);
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_COLOR:
@@ -93,7 +93,7 @@ static void flow_value(struct yaml_writer *w, const struct schema_row *row, cons
         if (ir_walk_is_inline(w->scene, row, field))
             flow_element(w, row->child, ir_walk_referent(w->scene, row, field), out);
         else
-            print_yaml_text(out, ((const struct ir_material_ref *)field)->name);
+            print_yaml_text(out, ((const struct ir_material_ref *)field)->name, true);
         break;
     default:
         print_plain_value(out, row, field);
@@ -246,7 +246,7 @@ static void block_list(struct yaml_writer *w, const struct schema_row *row, cons
         item_comments(w, row, item, indent);
         strbuf_repeat(w->out, ' ', indent);
         if (row->many == SCHEMA_NAMED_MAP) {
-            print_yaml_text(w->out, ir_walk_key(row->child, item));
+            print_yaml_text(w->out, ir_walk_key(row->child, item), true);
             strbuf_char(w->out, ':');
         } else {
             strbuf_char(w->out, '-');
@@ -283,7 +283,10 @@ static void block_row(struct yaml_writer *w, const struct schema_row *row, const
         print_yaml_literal(w->out, *(const str *)field, below);
     } else {
         strbuf_char(w->out, ' ');
-        flow_row(w, row, element, w->out);
+        if (row->kind == SCHEMA_TEXT)
+            print_yaml_text(w->out, *(const str *)field, false);
+        else
+            flow_row(w, row, element, w->out);
         strbuf_char(w->out, '\n');
     }
 }
