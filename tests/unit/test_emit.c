@@ -218,9 +218,7 @@ static void test_unknown_things(void **state) {
     assert_unknown("zzzzzz",
                    "'zzzzzz' is no code, element or attribute; 'glint explain scene' shows where to begin\n");
     assert_unknown("", "'' is no code, element or attribute; 'glint explain scene' shows where to begin\n");
-    assert_unknown(
-        "camera.",
-        "'camera.' is no code, element or attribute; 'glint explain scene' shows where to begin\n");
+    assert_unknown("camera.", "'camera.' is no code, element or attribute; did you mean 'camera.up'?\n");
     assert_unknown("camera.fov.x",
                    "'camera.fov.x' is no code, element or attribute; did you mean 'camera.fov'?\n");
     assert_unknown("rotation", "several elements have 'rotation'; say which: 'camera.rotation', "
