@@ -60,14 +60,15 @@ static void put_byte(uint32_t pair[2], int slot, uint32_t byte) {
 // Planes of an empty slot are turned inside out, so that no ray meets it.
 static void encode_axis(const struct wide_child slots[BVH_WIDTH], int axis, const struct axis_grid *grid,
                         uint32_t low[2], uint32_t high[2]) {
+    double wide = widening(grid->exponent);
+    double per_quantum = ldexp(1, -grid->exponent);
     for (int slot = 0; slot < BVH_WIDTH; slot++) {
         uint32_t below = 255;
         uint32_t above = 0;
         if (slots[slot].count) {
             const struct bvh_box *box = &slots[slot].box;
-            double wide = widening(grid->exponent);
-            below = (uint32_t)floor(ldexp(box->lower[axis] - wide - grid->origin, -grid->exponent));
-            above = (uint32_t)ceil(ldexp(box->upper[axis] + wide - grid->origin, -grid->exponent));
+            below = (uint32_t)floor((box->lower[axis] - wide - grid->origin) * per_quantum);
+            above = (uint32_t)ceil((box->upper[axis] + wide - grid->origin) * per_quantum);
             assert(below <= above && above <= 255);
         }
         put_byte(low, slot, below);
