@@ -1,0 +1,108 @@
+// A scene whose coordinates are multiples of 2^-16, moved by 2^10 and 2^20 units, or scaled by 2^20 and
+// 2^-20, with its camera and lights: the same picture, byte for byte.
+//
+// Usage: test_moved SCENE...
+#include "picture_kit.h"
+
+#include <math.h>
+#include <stdio.h>
+
+struct change {
+    const char *name;
+    vec3 move;
+    int scale_exponent;
+};
+
+static void change_point(vec3 *p, const struct change *c) {
+    *p = (vec3){scalbn(p->x, c->scale_exponent) + c->move.x, scalbn(p->y, c->scale_exponent) + c->move.y,
+                scalbn(p->z, c->scale_exponent) + c->move.z};
+}
+
+static void change_length(double *length, const struct change *c) {
+    *length = scalbn(*length, c->scale_exponent);
+}
+
+static void change_vector(vec3 *v, const struct change *c) {
+    *v = vec3_mul(*v, scalbn(1, c->scale_exponent));
+}
+
+static void change_lights(struct ir_scene *scene, const struct change *c) {
+    for (uint32_t i = 0; i < scene->lights.count; i++) {
+        struct ir_light *light = &scene->lights.items[i];
+        if (light->kind == IR_LIGHT_POSITION)
+            change_point(&light->position, c);
+        if (light->falloff == IR_FALLOFF_INVERSE_SQUARE)
+            light->intensity = scalbn(light->intensity, 2 * c->scale_exponent);
+    }
+}
+
+// Cells of spheres and rectangles are measured in scene units, those of models in the mesh's. The scenes
+// here give no checker to two bodies.
+static void change_checker(struct ir_scene *scene, uint32_t material, const struct change *c) {
+    if (material != IR_NO_INDEX)
+        change_length(&scene->materials.items[material].diffuse_color.checker.size, c);
+}
+
+static void change_scene(struct ir_scene *scene, void *context) {
+    const struct change *c = context;
+    for (uint32_t i = 0; i < scene->cameras.count; i++) {
+        change_point(&scene->cameras.items[i].position, c);
+        change_point(&scene->cameras.items[i].look_at, c);
+    }
+    change_lights(scene, c);
+    for (uint32_t i = 0; i < scene->spheres.count; i++) {
+        change_point(&scene->spheres.items[i].center, c);
+        change_length(&scene->spheres.items[i].radius, c);
+        change_checker(scene, scene->spheres.items[i].material.index, c);
+    }
+    for (uint32_t i = 0; i < scene->rectangles.count; i++) {
+        change_point(&scene->rectangles.items[i].corner, c);
+        change_vector(&scene->rectangles.items[i].edge_u, c);
+        change_vector(&scene->rectangles.items[i].edge_v, c);
+        change_checker(scene, scene->rectangles.items[i].material.index, c);
+    }
+    for (uint32_t i = 0; i < scene->models.count; i++) {
+        change_point(&scene->models.items[i].translation, c);
+        change_vector(&scene->models.items[i].scale, c);
+    }
+}
+
+static const struct change changes[] = {
+    {"moved by 2^10", {0x1p10, 0, 0}, 0},
+    {"moved by 2^20", {0x1p20, -0x1p20, 0x1p20}, 0},
+    {"scaled by 2^20", {0, 0, 0}, 20},
+    {"scaled by 2^-20", {0, 0, 0}, -20},
+    {"scaled by 2^-10 and moved", {0x1p10, 0x1p10, -0x1p10}, -10},
+};
+
+static bool check_scene(struct picture_kit *kit, const char *path) {
+    struct image first;
+    struct picture_options options = {0};
+    if (!picture_take(kit, path, &options, &first))
+        return false;
+    bool good = picture_variety(&first) > 100;
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
+        struct image second;
+        struct change change = changes[i];
+        options.edit = change_scene;
+        options.context = &change;
+        bool same = picture_take(kit, path, &options, &second) &&
+                    picture_differences(&first, &second, change.name) == 0;
+        printf("%s %s %s\n", same ? "ok  " : "FAIL", path, change.name);
+        image_finish(&second);
+        good = good && same;
+    }
+    image_finish(&first);
+    return good;
+}
+
+int main(int argc, char **argv) {
+    struct picture_kit kit;
+    if (!picture_kit_open(&kit))
+        return 77;
+    int failed = 0;
+    for (int i = 1; i < argc; i++)
+        failed += !check_scene(&kit, argv[i]);
+    uint32_t messages = picture_kit_close(&kit);
+    return failed || messages || argc < 2;
+}
