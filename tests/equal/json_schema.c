@@ -1,0 +1,258 @@
+#include "tests/equal/json_schema.h"
+
+#include "core/number.h"
+
+#include <yaml.h>
+
+#include <regex.h>
+#include <string.h>
+
+// ---- validation
+
+static bool has_type(const char *type, const json_t *value) {
+    if (strcmp(type, "number") == 0)
+        return json_is_number(value);
+    if (strcmp(type, "integer") == 0)
+        return json_is_integer(value);
+    if (strcmp(type, "string") == 0)
+        return json_is_string(value);
+    if (strcmp(type, "boolean") == 0)
+        return json_is_boolean(value);
+    if (strcmp(type, "null") == 0)
+        return json_is_null(value);
+    return strcmp(type, "array") == 0 ? json_is_array(value) : json_is_object(value);
+}
+
+static bool check_type(const json_t *types, const json_t *value) {
+    size_t i;
+    const json_t *type;
+    if (json_is_string(types))
+        return has_type(json_string_value(types), value);
+    json_array_foreach(types, i, type) {
+        if (has_type(json_string_value(type), value))
+            return true;
+    }
+    return false;
+}
+
+// Patterns with escapes of JavaScript are not for POSIX; names are tested elsewhere.
+static bool check_pattern(const char *pattern, const char *text) {
+    regex_t regex;
+    if (strstr(pattern, "\\u"))
+        return true;
+    if (regcomp(&regex, pattern, REG_EXTENDED | REG_NOSUB) != 0)
+        return false;
+    bool good = regexec(&regex, text, 0, NULL, 0) == 0;
+    regfree(&regex);
+    return good;
+}
+
+static unsigned count_accepting(const json_t *root, const json_t *schemas, const json_t *value) {
+    size_t i;
+    const json_t *schema;
+    unsigned count = 0;
+    json_array_foreach(schemas, i, schema) count += json_schema_accepts(root, schema, value);
+    return count;
+}
+
+static bool is_known_property(const json_t *schema, const char *key) {
+    const json_t *patterns = json_object_get(schema, "patternProperties");
+    const char *pattern;
+    const json_t *ignored;
+    if (json_object_get(json_object_get(schema, "properties"), key))
+        return true;
+    json_object_foreach((json_t *)patterns, pattern, ignored) {
+        if (check_pattern(pattern, key))
+            return true;
+    }
+    return false;
+}
+
+static bool check_object(const json_t *root, const json_t *schema, const json_t *object) {
+    const json_t *properties = json_object_get(schema, "properties");
+    const json_t *others = json_object_get(schema, "additionalProperties");
+    const json_t *names = json_object_get(schema, "propertyNames");
+    const char *key;
+    const json_t *value;
+    json_object_foreach((json_t *)object, key, value) {
+        const json_t *property = json_object_get(properties, key);
+        if (property && !json_schema_accepts(root, property, value))
+            return false;
+        if (others && !is_known_property(schema, key) && !json_schema_accepts(root, others, value))
+            return false;
+        json_t *name = json_string(key);
+        bool good = !names || json_schema_accepts(root, names, name);
+        json_decref(name);
+        if (!good)
+            return false;
+    }
+    size_t i;
+    json_array_foreach(json_object_get(schema, "required"), i, value) {
+        if (!json_object_get(object, json_string_value(value)))
+            return false;
+    }
+    return true;
+}
+
+static bool check_array(const json_t *root, const json_t *schema, const json_t *array) {
+    const json_t *items = json_object_get(schema, "items");
+    const json_t *least = json_object_get(schema, "minItems");
+    const json_t *most = json_object_get(schema, "maxItems");
+    size_t i;
+    const json_t *item;
+    if ((least && (json_int_t)json_array_size(array) < json_integer_value(least)) ||
+        (most && (json_int_t)json_array_size(array) > json_integer_value(most)))
+        return false;
+    json_array_foreach(array, i, item) {
+        if (items && !json_schema_accepts(root, items, item))
+            return false;
+    }
+    return true;
+}
+
+static bool check_enum(const json_t *words, const json_t *value) {
+    size_t i;
+    const json_t *word;
+    json_array_foreach(words, i, word) {
+        if (json_equal((json_t *)word, (json_t *)value))
+            return true;
+    }
+    return false;
+}
+
+static bool check_number(const char *keyword, double bound, const json_t *value) {
+    double number = json_number_value(value);
+    if (!json_is_number(value))
+        return true;
+    if (strcmp(keyword, "minimum") == 0)
+        return number >= bound;
+    if (strcmp(keyword, "maximum") == 0)
+        return number <= bound;
+    return strcmp(keyword, "exclusiveMinimum") == 0 ? number > bound : number < bound;
+}
+
+// Words that tell and do not ask, and those that are checked together with others.
+static bool is_silent(const char *keyword) {
+    static const char *const words[] = {
+        "$schema",
+        "title",
+        "description",
+        "markdownDescription",
+        "enumDescriptions",
+        "default",
+        "definitions",
+        "properties",
+        "patternProperties",
+        "additionalProperties",
+        "propertyNames",
+        "required",
+        "items",
+        "minItems",
+        "maxItems",
+        "markdownEnumDescriptions",
+        "examples",
+    };
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (strcmp(keyword, words[i]) == 0)
+            return true;
+    return false;
+}
+
+static bool check_keyword(const json_t *root, const char *keyword, const json_t *operand,
+                          const json_t *value) {
+    if (is_silent(keyword))
+        return true;
+    if (strcmp(keyword, "$ref") == 0)
+        return json_schema_accepts(root,
+                                   json_object_get(json_object_get(root, "definitions"),
+                                                   strrchr(json_string_value(operand), '/') + 1),
+                                   value);
+    if (strcmp(keyword, "type") == 0)
+        return check_type(operand, value);
+    if (strcmp(keyword, "enum") == 0)
+        return check_enum(operand, value);
+    if (strcmp(keyword, "anyOf") == 0)
+        return count_accepting(root, operand, value) > 0;
+    if (strcmp(keyword, "oneOf") == 0)
+        return count_accepting(root, operand, value) == 1;
+    if (strcmp(keyword, "allOf") == 0)
+        return count_accepting(root, operand, value) == json_array_size(operand);
+    if (strcmp(keyword, "not") == 0)
+        return !json_schema_accepts(root, operand, value);
+    if (strcmp(keyword, "pattern") == 0)
+        return !json_is_string(value) || check_pattern(json_string_value(operand), json_string_value(value));
+    if (strcmp(keyword, "minLength") == 0)
+        return !json_is_string(value) || json_string_length(value) >= (size_t)json_integer_value(operand);
+    return strstr(keyword, "imum") && check_number(keyword, json_number_value(operand), value);
+}
+
+bool json_schema_accepts(const json_t *root, const json_t *schema, const json_t *value) {
+    const char *keyword;
+    const json_t *operand;
+    if (json_is_boolean(schema))
+        return json_is_true(schema);
+    if (!json_is_object(schema))
+        return false;
+    json_object_foreach((json_t *)schema, keyword, operand) {
+        if (!check_keyword(root, keyword, operand, value))
+            return false;
+    }
+    if (json_is_object(value))
+        return check_object(root, schema, value);
+    return !json_is_array(value) || check_array(root, schema, value);
+}
+
+// ---- YAML
+
+static json_t *from_scalar(const yaml_node_t *node) {
+    const char *text = (const char *)node->data.scalar.value;
+    size_t length = node->data.scalar.length;
+    double number;
+    int64_t whole;
+    if (node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE) {
+        str plain = {text, length};
+        if (length == 0 || strcmp(text, "~") == 0 || strcmp(text, "null") == 0)
+            return json_null();
+        if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0)
+            return json_boolean(text[0] == 't');
+        if (number_parse_integer(plain, &whole) == NUMBER_OK)
+            return json_integer(whole);
+        if (number_parse(plain, &number) == NUMBER_OK)
+            return json_real(number);
+    }
+    return json_stringn(text, length);
+}
+
+static json_t *from_node(yaml_document_t *document, yaml_node_t *node) {
+    if (node->type == YAML_SCALAR_NODE)
+        return from_scalar(node);
+    if (node->type == YAML_SEQUENCE_NODE) {
+        json_t *array = json_array();
+        for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++)
+            json_array_append_new(array, from_node(document, yaml_document_get_node(document, *i)));
+        return array;
+    }
+    json_t *object = json_object();
+    for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; p++) {
+        const yaml_node_t *key = yaml_document_get_node(document, p->key);
+        json_object_set_new(object, (const char *)key->data.scalar.value,
+                            from_node(document, yaml_document_get_node(document, p->value)));
+    }
+    return object;
+}
+
+json_t *json_from_yaml(str text) {
+    yaml_parser_t parser;
+    yaml_document_t document;
+    json_t *result = NULL;
+    if (!yaml_parser_initialize(&parser))
+        return NULL;
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text.ptr, text.len);
+    if (yaml_parser_load(&parser, &document)) {
+        yaml_node_t *root = yaml_document_get_root_node(&document);
+        result = root ? from_node(&document, root) : NULL;
+        yaml_document_delete(&document);
+    }
+    yaml_parser_delete(&parser);
+    return result;
+}

@@ -1,0 +1,14 @@
+// As much of JSON Schema draft-07 as glint's own schema uses, and YAML as JSON, for the tests.
+#ifndef GLINT_TESTS_JSON_SCHEMA_H
+#define GLINT_TESTS_JSON_SCHEMA_H
+
+#include "core/str.h"
+
+#include <jansson.h>
+
+// Whether `value` is valid. A keyword that is not known makes it invalid, so that none goes unchecked.
+bool json_schema_accepts(const json_t *root, const json_t *schema, const json_t *value);
+// A YAML document as JSON, plain scalars by the core schema of YAML 1.2; NULL where it is no YAML.
+json_t *json_from_yaml(str text);
+
+#endif
