@@ -285,7 +285,7 @@ static size_t layout(const char *scientific, char *out) {
 // digits that reads as the value (and dividing rounds once, as in `read_fast`), so it is the shortest.
 static size_t format_fast(double value, char *out) {
     double size = fabs(value);
-    if (!DOUBLE_IS_DOUBLE || size >= DIGITS_EXACT || size < 1e-5)
+    if (!DOUBLE_IS_DOUBLE || size < 1e-5)
         return 0;
     for (int decimals = 0; decimals <= POWER_EXACT; decimals++) {
         double scaled = size * powers_of_ten[decimals];
