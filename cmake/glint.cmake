@@ -25,6 +25,11 @@ if(GLINT_SANITIZE)
   add_compile_definitions(GLINT_ARENA_EXACT=1)
 endif()
 
+if(GLINT_FUZZ)
+  # All code reports its coverage; the targets that fuzz link libFuzzer itself.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
 # glint_include_paths(TARGET FOLDER...): the folders whose headers TARGET may include, and no others.
 # A folder of links stands in for the source root, so that `#include "parser/tree.h"` compiles only
 # where the architecture allows it.

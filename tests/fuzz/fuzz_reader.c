@@ -1,0 +1,117 @@
+#include "fuzz_reader.h"
+
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MEMORY_BYTES = 32 * 1024 * 1024,
+    DEPTH_MAX = 1024
+};
+
+static void require(bool holds, const char *what) {
+    if (holds)
+        return;
+    fprintf(stderr, "the reader broke its promise: %s\n", what);
+    abort();
+}
+
+struct walk {
+    const struct tree *tree;
+    uint32_t size;  // of the source
+    uint32_t nodes; // met
+};
+
+static void check_span(const struct walk *walk, span at, const char *what) {
+    require(span_is_none(at) || (at.begin <= at.end && at.end <= walk->size), what);
+}
+
+static void check_node(struct walk *walk, tree_index index, unsigned depth) {
+    const struct tree *tree = walk->tree;
+    require(index > 0 && index < tree->nodes.count, "an index of a node");
+    require(++walk->nodes < tree->nodes.count, "each node stands in one place");
+    require(depth <= DEPTH_MAX, "the depth");
+    const struct tree_node *node = tree_node(tree, index);
+    check_span(walk, tree_span(tree, index), "the place of a node");
+    check_span(walk, tree_comments(tree, index), "the place of comments");
+    check_span(walk, tree_trailing_comment(tree, index), "the place of a comment behind");
+    uint32_t met = 0;
+    for (tree_index child = tree_first(tree, index); child; child = tree_next(tree, child), met++) {
+        check_node(walk, child, depth + 1);
+        if (node->kind != TREE_MAP)
+            continue;
+        require(tree_node(tree, child)->kind == TREE_SCALAR, "a key is a scalar");
+        require(tree_node(tree, child)->key != TREE_KEY_NONE, "a key knows that it is one");
+        child = tree_value(tree, child);
+        require(child != 0, "a key has a value");
+        check_node(walk, child, depth + 1);
+    }
+    bool nests = node->kind == TREE_MAP || node->kind == TREE_LIST;
+    require(!nests || met == node->count, "the count of children");
+    require(nests || (uint64_t)node->value + node->count <= tree->texts.count, "the text of a scalar");
+}
+
+static void check_tree(const struct tree *tree, uint32_t size) {
+    struct walk walk = {.tree = tree, .size = size};
+    check_span(&walk, tree->schema_line, "the place of the schema line");
+    check_span(&walk, tree->closing_comments, "the place of closing comments");
+    check_span(&walk, tree->root_name, "the place of the root's name");
+    if (tree->root)
+        check_node(&walk, tree->root, 0);
+}
+
+static void check_diagnostics(struct source_set *sources, const struct diag_sink *sink, uint32_t size) {
+    for (uint32_t i = 0; i < sink->count && i < 50; i++) {
+        const struct diag *d = &sink->items[i];
+        require(d->at.begin <= d->at.end && d->at.end <= size, "the place of a diagnostic");
+        require(d->message.len > 0, "the message of a diagnostic");
+        require(!d->has_fix || (d->fix_at.begin <= d->fix_at.end && d->fix_at.end <= size),
+                "the place of a fix");
+        source_locate(sources, d->at);
+    }
+}
+
+struct job {
+    fuzz_reader *read;
+    struct arena arena;
+    struct source_set sources;
+    struct diag_sink sink;
+    struct limits limits;
+    uint32_t source;
+    struct tree tree;
+};
+
+// The job lies outside, so that it is whole after a jump.
+static void run(struct job *job, uint32_t size) {
+    struct reader_context context = {&job->sources, &job->sink, &job->limits, &job->arena};
+    struct arena_guard guard;
+    arena_set_guard(&job->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        bool readable = job->read(&context, job->source, &job->tree);
+        require(readable || job->sink.errors > 0, "a text that cannot be read has a diagnostic");
+        require(!readable || job->tree.root, "a text that can be read has a root");
+        check_tree(&job->tree, size);
+        check_diagnostics(&job->sources, &job->sink, size);
+    }
+    arena_set_guard(&job->arena, NULL);
+}
+
+void fuzz_reader_run(fuzz_reader *read, const uint8_t *data, size_t size) {
+    struct job job = {.read = read, .limits = limits_default()};
+    job.limits.value[LIMIT_ALIAS_NODES] = 2000;
+    job.limits.value[LIMIT_SCENE_DEPTH] = 24;
+    arena_init(&job.arena, MEMORY_BYTES);
+    source_set_init(&job.sources, &job.arena);
+    diag_sink_init(&job.sink);
+    char *copy = malloc(size ? size : 1);
+    if (!copy)
+        abort();
+    if (size)
+        memcpy(copy, data, size);
+    job.source = source_add(&job.sources, SOURCE_KIND_OVERLAY, STR("fuzz"), (str){copy, size});
+    run(&job, (uint32_t)size);
+    diag_sink_finish(&job.sink);
+    arena_finish(&job.arena);
+    free(copy);
+}

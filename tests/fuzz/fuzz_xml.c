@@ -1,0 +1,9 @@
+// libFuzzer entry: any bytes as an XML scene.
+#include "fuzz_reader.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    fuzz_reader_run(read_xml, data, size);
+    return 0;
+}
