@@ -14,7 +14,9 @@
 
 #include <stdint.h>
 
-enum { IR_NONE = 0 };
+enum {
+    IR_NONE = 0
+};
 #define IR_NO_INDEX UINT32_MAX
 
 struct ir_head {
@@ -24,15 +26,40 @@ struct ir_head {
 };
 
 // The fields of an enum are `unsigned` in the structs, so that the schema can derive their kind.
-enum ir_tone { IR_TONE_CLIP, IR_TONE_NORMALIZE };
-enum ir_transfer { IR_TRANSFER_NONE, IR_TRANSFER_SRGB };
-enum ir_depth_limit { IR_DEPTH_BACKGROUND, IR_DEPTH_BLACK };
-enum ir_falloff { IR_FALLOFF_NONE, IR_FALLOFF_INVERSE_SQUARE };
+enum ir_tone {
+    IR_TONE_CLIP,
+    IR_TONE_NORMALIZE
+};
+enum ir_transfer {
+    IR_TRANSFER_NONE,
+    IR_TRANSFER_SRGB
+};
+enum ir_depth_limit {
+    IR_DEPTH_BACKGROUND,
+    IR_DEPTH_BLACK
+};
+enum ir_falloff {
+    IR_FALLOFF_NONE,
+    IR_FALLOFF_INVERSE_SQUARE
+};
 // Tags set by a choice between rows.
-enum ir_view { IR_VIEW_DIRECTION, IR_VIEW_LOOK_AT, IR_VIEW_ROTATION };
-enum ir_backdrop { IR_BACKDROP_COLOR, IR_BACKDROP_IMAGE };
-enum ir_light_kind { IR_LIGHT_POSITION, IR_LIGHT_DIRECTION };
-enum ir_paint_kind { IR_PAINT_COLOR, IR_PAINT_CHECKER };
+enum ir_view {
+    IR_VIEW_DIRECTION,
+    IR_VIEW_LOOK_AT,
+    IR_VIEW_ROTATION
+};
+enum ir_backdrop {
+    IR_BACKDROP_COLOR,
+    IR_BACKDROP_IMAGE
+};
+enum ir_light_kind {
+    IR_LIGHT_POSITION,
+    IR_LIGHT_DIRECTION
+};
+enum ir_paint_kind {
+    IR_PAINT_COLOR,
+    IR_PAINT_CHECKER
+};
 
 struct ir_color {
     double r, g, b; // as written, linear; zero where is_hex

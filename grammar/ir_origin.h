@@ -29,16 +29,22 @@ struct ir_element_origin {
 struct ir_file_origin {
     uint32_t source;
     bool is_xml;
-    span schema_line; // the editor's line: `# yaml-language-server: ...` or `<?xml-model ...?>`
-    str xsi_attributes; // schema attributes of <Scene>, kept as text; empty: none
+    span schema_line;       // the editor's line: `# yaml-language-server: ...` or `<?xml-model ...?>`
+    str xsi_attributes;     // schema attributes of <Scene>, kept as text; empty: none
     struct ir_scene *scene; // this file alone, before merging
-    span closing_comments; // comments behind the last entry
+    span closing_comments;  // comments behind the last entry
 };
 
 struct ir_origin {
     struct arena *arena;
-    struct { struct ir_element_origin *items; uint32_t count, capacity; } elements; // [0] is "no place"
-    struct { struct ir_file_origin *items; uint32_t count, capacity; } files; // [0] is the main scene's
+    struct {
+        struct ir_element_origin *items;
+        uint32_t count, capacity;
+    } elements; // [0] is "no place"
+    struct {
+        struct ir_file_origin *items;
+        uint32_t count, capacity;
+    } files; // [0] is the main scene's
 };
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);
@@ -50,13 +56,14 @@ void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row
 void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t row);
 
 // NULL where the row has no place.
-const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head, uint32_t row);
+const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head,
+                                          uint32_t row);
 // The span to show for a row: its value, else the element's label. `row_name` must exist in the schema.
 struct schema_element;
-span ir_place_value(const struct ir_origin *origin, const struct ir_head *head, const struct schema_element *schema,
-                    const char *row_name);
-span ir_place_key(const struct ir_origin *origin, const struct ir_head *head, const struct schema_element *schema,
-                  const char *row_name);
+span ir_place_value(const struct ir_origin *origin, const struct ir_head *head,
+                    const struct schema_element *schema, const char *row_name);
+span ir_place_key(const struct ir_origin *origin, const struct ir_head *head,
+                  const struct schema_element *schema, const char *row_name);
 span ir_place_label(const struct ir_origin *origin, const struct ir_head *head);
 
 #endif

@@ -32,7 +32,7 @@ enum schema_kind {
 
 enum schema_text {
     SCHEMA_TEXT_FREE,
-    SCHEMA_TEXT_NAME, // the language's names
+    SCHEMA_TEXT_NAME,         // the language's names
     SCHEMA_TEXT_FOREIGN_NAME, // a name of another file's: any text but the empty one
     SCHEMA_TEXT_PATH,
 };
@@ -47,7 +47,7 @@ enum schema_file {
 
 enum schema_unit {
     SCHEMA_UNIT_NONE,
-    SCHEMA_UNIT_SCENE,   // scene units of length
+    SCHEMA_UNIT_SCENE, // scene units of length
     SCHEMA_UNIT_DEGREES,
     SCHEMA_UNIT_PIXELS,
 };
@@ -73,8 +73,8 @@ enum schema_range {
 struct schema_range_info {
     const char *name; // "coordinate"
     double least, greatest;
-    bool open;      // the ends are excluded
-    bool magnitude; // the ends apply to the absolute value; 0 is accepted by the range itself
+    bool open;        // the ends are excluded
+    bool magnitude;   // the ends apply to the absolute value; 0 is accepted by the range itself
     const char *text; // "from 0 to 1"
 };
 
@@ -104,8 +104,8 @@ struct schema_row {
     enum schema_file file; // SCHEMA_TEXT_PATH
     enum schema_unit unit;
     enum schema_range range;
-    const char *standard; // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
-    const char *example;  // a value worth showing, as scene text; NULL where examples leave the row out
+    const char *standard;     // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
+    const char *example;      // a value worth showing, as scene text; NULL where examples leave the row out
     const char *example_next; // SCHEMA_FIXED: of the values behind the first
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;
@@ -114,15 +114,15 @@ struct schema_row {
     bool short_form; // the element's bare scalar or sequence is this row
     bool key;        // in a named map, the map's key; written as an attribute in XML
     enum schema_many many;
-    const char *single;    // SCHEMA_NAMED_MAP: YAML `name: {...}` is one entry with this key
-    uint32_t fixed_count;  // SCHEMA_FIXED
+    const char *single;   // SCHEMA_NAMED_MAP: YAML `name: {...}` is one entry with this key
+    uint32_t fixed_count; // SCHEMA_FIXED
     // Rows of one choice exclude each other; taking one stores `alternative` in the element's tag field.
     uint8_t choice; // 0: none; else an index into the element's choices, from 1
     uint8_t alternative;
-    uint32_t feature;             // FEATURE_ bit while the value is not zero, false, the first word, or empty
-    uint32_t weight_features[4];  // SCHEMA_WEIGHTS: one per component
+    uint32_t feature;            // FEATURE_ bit while the value is not zero, false, the first word, or empty
+    uint32_t weight_features[4]; // SCHEMA_WEIGHTS: one per component
     const struct schema_element *child; // SCHEMA_ELEMENT, SCHEMA_REFERENCE, SCHEMA_LIST
-    const char *doc; // one sentence
+    const char *doc;                    // one sentence
 };
 
 struct schema_choice {
@@ -131,12 +131,12 @@ struct schema_choice {
 };
 
 struct schema_element {
-    const char *name; // snake_case, singular: "light"
+    const char *name;    // snake_case, singular: "light"
     const char *element; // PascalCase: "Light"
     const char *doc;
     const struct schema_row *rows;
     uint32_t row_count;
-    uint32_t size; // of the struct in bytes; its first member is struct ir_head
+    uint32_t size;                   // of the struct in bytes; its first member is struct ir_head
     struct schema_choice choices[3]; // by schema_row.choice - 1
 };
 
@@ -176,7 +176,9 @@ void schema_set_field(const struct schema_row *row, void *field, const char *tex
 // Fills a struct with the defaults of all its rows, children included; `memory` holds zeros before.
 void schema_init(const struct schema_element *element, void *memory);
 // Address of a row's field.
-static inline void *schema_field(const struct schema_row *row, void *element) { return (char *)element + row->offset; }
+static inline void *schema_field(const struct schema_row *row, void *element) {
+    return (char *)element + row->offset;
+}
 static inline const void *schema_field_const(const struct schema_row *row, const void *element) {
     return (const char *)element + row->offset;
 }

@@ -1,8 +1,7 @@
 #include "tests/equal/json_schema.h"
 
 #include "core/number.h"
-
-#include <yaml.h>
+#include "parser/reader.h"
 
 #include <regex.h>
 #include <string.h>
@@ -204,55 +203,55 @@ bool json_schema_accepts(const json_t *root, const json_t *schema, const json_t 
 
 // ---- YAML
 
-static json_t *from_scalar(const yaml_node_t *node) {
-    const char *text = (const char *)node->data.scalar.value;
-    size_t length = node->data.scalar.length;
+static json_t *from_scalar(const struct tree *tree, tree_index node) {
+    str text = tree_text(tree, node);
     double number;
     int64_t whole;
-    if (node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE) {
-        str plain = {text, length};
-        if (length == 0 || strcmp(text, "~") == 0 || strcmp(text, "null") == 0)
-            return json_null();
-        if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0)
-            return json_boolean(text[0] == 't');
-        if (number_parse_integer(plain, &whole) == NUMBER_OK)
+    if (tree_node(tree, node)->style == TREE_PLAIN) {
+        if (str_equal(text, STR("true")) || str_equal(text, STR("false")))
+            return json_boolean(text.ptr[0] == 't');
+        if (number_parse_integer(text, &whole) == NUMBER_OK)
             return json_integer(whole);
-        if (number_parse(plain, &number) == NUMBER_OK)
+        if (number_parse(text, &number) == NUMBER_OK)
             return json_real(number);
     }
-    return json_stringn(text, length);
+    return json_stringn(text.ptr, text.len);
 }
 
-static json_t *from_node(yaml_document_t *document, yaml_node_t *node) {
-    if (node->type == YAML_SCALAR_NODE)
-        return from_scalar(node);
-    if (node->type == YAML_SEQUENCE_NODE) {
+static json_t *from_node(const struct tree *tree, tree_index node) {
+    if (tree_node(tree, node)->kind == TREE_SCALAR)
+        return from_scalar(tree, node);
+    if (tree_node(tree, node)->kind == TREE_NULL)
+        return json_null();
+    if (tree_node(tree, node)->kind == TREE_LIST) {
         json_t *array = json_array();
-        for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++)
-            json_array_append_new(array, from_node(document, yaml_document_get_node(document, *i)));
+        for (tree_index i = tree_first(tree, node); i; i = tree_next(tree, i))
+            json_array_append_new(array, from_node(tree, i));
         return array;
     }
     json_t *object = json_object();
-    for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; p++) {
-        const yaml_node_t *key = yaml_document_get_node(document, p->key);
-        json_object_set_new(object, (const char *)key->data.scalar.value,
-                            from_node(document, yaml_document_get_node(document, p->value)));
+    for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key)) {
+        str name = tree_text(tree, key);
+        json_object_setn_new(object, name.ptr, name.len, from_node(tree, tree_value(tree, key)));
     }
     return object;
 }
 
 json_t *json_from_yaml(str text) {
-    yaml_parser_t parser;
-    yaml_document_t document;
+    struct arena arena;
+    struct source_set sources;
+    struct diag_sink sink;
+    struct tree tree;
+    struct limits limits = limits_default();
+    arena_init(&arena, (size_t)1 << 28);
+    source_set_init(&sources, &arena);
+    diag_sink_init(&sink);
+    struct reader_context context = {&sources, &sink, &limits, &arena};
+    uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, STR("in.yaml"), text);
     json_t *result = NULL;
-    if (!yaml_parser_initialize(&parser))
-        return NULL;
-    yaml_parser_set_input_string(&parser, (const unsigned char *)text.ptr, text.len);
-    if (yaml_parser_load(&parser, &document)) {
-        yaml_node_t *root = yaml_document_get_root_node(&document);
-        result = root ? from_node(&document, root) : NULL;
-        yaml_document_delete(&document);
-    }
-    yaml_parser_delete(&parser);
+    if (read_yaml(&context, source, &tree) && tree.root)
+        result = from_node(&tree, tree.root);
+    diag_sink_finish(&sink);
+    arena_finish(&arena);
     return result;
 }

@@ -8,7 +8,7 @@
 
 // Whether `value` is valid. A keyword that is not known makes it invalid, so that none goes unchecked.
 bool json_schema_accepts(const json_t *root, const json_t *schema, const json_t *value);
-// A YAML document as JSON, plain scalars by the core schema of YAML 1.2; NULL where it is no YAML.
+// A YAML document as JSON, as a reader without the grammar sees it; NULL where it holds nothing.
 json_t *json_from_yaml(str text);
 
 #endif
