@@ -1,13 +1,14 @@
 #include "assets/read_mtl.h"
 
 #include "assets/obj_lex.h"
-#include "core/strbuf.h"
 #include "grammar/schema.h"
 
 #include <math.h>
+#include <stdio.h>
 
 enum {
-    UNUSED_SHOWN = 12, // different words that the note lists
+    UNUSED_SHOWN = 12,      // different words that the note lists
+    UNUSED_WORD_SHOWN = 32, // characters of each
     ILLUM_REFLECTS_FIRST = 3,
     ILLUM_REFLECTS_LAST = 7,
 };
@@ -48,18 +49,19 @@ static void note_unused(struct mtl_reader *r, str word) {
 static void report_unused(struct mtl_reader *r) {
     if (r->unused_count == 0)
         return;
-    struct strbuf words;
-    strbuf_init(&words);
-    for (uint32_t i = 0; i < r->unused_words; i++)
-        strbuf_format(&words, "%s%.*s", i ? ", " : "", (int)(r->unused[i].len < 32 ? r->unused[i].len : 32),
-                      r->unused[i].ptr);
+    // On the stack: reporting may jump out of here where memory ends.
+    char words[UNUSED_SHOWN * (UNUSED_WORD_SHOWN + 2) + 8];
+    int length = 0;
+    for (uint32_t i = 0; i < r->unused_words; i++) {
+        int shown = r->unused[i].len < UNUSED_WORD_SHOWN ? (int)r->unused[i].len : UNUSED_WORD_SHOWN;
+        length += snprintf(words + length, sizeof words - (size_t)length, "%s%.*s", i ? ", " : "", shown,
+                           r->unused[i].ptr);
+    }
     if (r->unused_words == UNUSED_SHOWN)
-        strbuf_cstr(&words, ", ...");
+        snprintf(words + length, sizeof words - (size_t)length, ", ...");
     asset_report(r->file, DIAG_MTL_UNUSED, r->unused_begin, r->unused_end,
-                 "%u line%s of the material file %s no effect: %.*s", r->unused_count,
-                 r->unused_count == 1 ? "" : "s", r->unused_count == 1 ? "has" : "have",
-                 STR_ARG(strbuf_view(&words)));
-    strbuf_finish(&words);
+                 "%u line%s of the material file %s no effect: %s", r->unused_count,
+                 r->unused_count == 1 ? "" : "s", r->unused_count == 1 ? "has" : "have", words);
 }
 
 // ---- values

@@ -1,0 +1,292 @@
+// Files that a scene names: found, refused, shared, kept over a reload, and given back when memory ends.
+#include "assets_scene.h"
+
+#include "scratch.h"
+
+#include <utime.h>
+
+#define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+struct fixture {
+    struct scratch scratch;
+    struct assets_scene *s;
+};
+
+// The scene lies in the scratch folder's scene/.
+static int set_up(void **state) {
+    struct fixture *f = calloc(1, sizeof *f);
+    if (!f || !scratch_make(&f->scratch) || mkdir(scratch_path(&f->scratch, "scene"), 0777) != 0)
+        return -1;
+    scratch_write(&f->scratch, "scene/dragon.obj", TRIANGLE);
+    *state = f;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    struct fixture *f = *state;
+    scratch_finish(&f->scratch);
+    free(f);
+    return 0;
+}
+
+static struct assets_scene *begin_in(struct fixture *f, struct asset_store *store) {
+    struct assets_scene *s = store ? assets_scene_begin_in(store) : assets_scene_begin();
+    s->files.roots.count = 0;
+    assert_int_equal(files_add_root(&s->files, str_from(scratch_path(&f->scratch, "scene"))), FILE_OK);
+    return s;
+}
+
+// A model whose scene file lies in the folder.
+static struct ir_model *add_model(struct fixture *f, struct assets_scene *s, const char *mesh) {
+    struct ir_model *model = assets_scene_model(s, mesh);
+    span at = ir_place_value(&s->origin, &model->head, &SCHEMA_MODEL, "mesh");
+    s->sources.items[at.source].path =
+        arena_copy(&s->arena, str_from(scratch_path(&f->scratch, "scene/scene.yaml")));
+    return model;
+}
+
+static void expect(struct fixture *f, const char *mesh, const char *message, const char *help) {
+    struct assets_scene *s = begin_in(f, NULL);
+    add_model(f, s, mesh);
+    assets_scene_load(s);
+    assert_null(s->assets.models[0].mesh);
+    assert_int_equal(s->sink.count, 1);
+    assert_says(s, "scene/scene.yaml:1:7: error: ");
+    assert_says(s, message);
+    assert_says(s, help);
+    assets_scene_end(s);
+}
+
+static void a_file_is_read_beside_its_scene(void **state) {
+    struct fixture *f = *state;
+    struct assets_scene *s = begin_in(f, NULL);
+    add_model(f, s, "dragon.obj");
+    assets_scene_load(s);
+    assert_silent(s);
+    assert_int_equal(s->assets.models[0].mesh->triangle_count, 1);
+    assert_int_equal(s->files.log.count, 1);
+    assets_scene_end(s);
+}
+
+static void missing_files_name_the_nearest(void **state) {
+    struct fixture *f = *state;
+    expect(f, "dragn.obj", "the mesh 'dragn.obj' does not exist [E601]",
+           "= help: did you mean 'dragon.obj'?");
+    expect(f, "Dragon.OBJ", "the mesh 'Dragon.OBJ' does not exist [E601]",
+           "= help: did you mean 'dragon.obj'?");
+    expect(f, "./teapot.obj", "the mesh './teapot.obj' does not exist [E601]", "--asset-path DIR");
+    expect(f, "no/such/dragon.obj", "does not exist [E601]", "--asset-path DIR");
+}
+
+static void what_is_no_file_is_refused_at_once(void **state) {
+    struct fixture *f = *state;
+    mkdir(scratch_path(&f->scratch, "scene/folder.obj"), 0777);
+    mkfifo(scratch_path(&f->scratch, "scene/pipe.obj"), 0666);
+    assert_int_equal(symlink("/dev/zero", scratch_path(&f->scratch, "scene/zero.obj")), 0);
+    expect(f, "folder.obj", "the mesh 'folder.obj' is not a regular file [E603]", "");
+    expect(f, "pipe.obj", "the mesh 'pipe.obj' is not a regular file [E603]", "");
+    expect(f, "zero.obj", "the mesh 'zero.obj' is not a regular file [E603]", "");
+    expect(f, "/dev/zero", "the mesh '/dev/zero' is not a regular file [E603]", "");
+}
+
+static void files_outside_are_refused(void **state) {
+    struct fixture *f = *state;
+    scratch_write(&f->scratch, "secret.obj", TRIANGLE);
+    assert_int_equal(symlink("../secret.obj", scratch_path(&f->scratch, "scene/link.obj")), 0);
+    expect(f, "../secret.obj", "the mesh '../secret.obj' lies outside the scene's folder: '",
+           "--asset-path ");
+    expect(f, "link.obj", "the mesh 'link.obj' lies outside the scene's folder: '", "--asset-path ");
+    struct assets_scene *s = begin_in(f, NULL);
+    files_add_root(&s->files, str_from(f->scratch.folder));
+    add_model(f, s, "link.obj");
+    assets_scene_load(s);
+    assert_silent(s);
+    assets_scene_end(s);
+}
+
+static void other_kinds_are_named(void **state) {
+    struct fixture *f = *state;
+    static const char *const names[] = {"a.ply", "a.STL", "a.gltf", "a.txt", "a", "b.obj"};
+    for (int i = 0; i < 5; i++) {
+        char path[32];
+        snprintf(path, sizeof path, "scene/%s", names[i]);
+        scratch_write(&f->scratch, path, "ply\n");
+    }
+    expect(f, "a.ply", "meshes of the kind '.ply' are not read [E605]",
+           "this version reads Wavefront OBJ (.obj); a 3-D program can convert the file");
+    expect(f, "a.STL", "meshes of the kind '.STL' are not read [E605]", "can convert");
+    expect(f, "a.gltf", "meshes of the kind '.gltf' are not read [E605]", "can convert");
+    expect(f, "a.txt", "meshes of the kind '.txt' are not read [E605]",
+           "this version reads Wavefront OBJ (.obj)\n");
+    expect(f, "a", "'a' has no ending that tells its kind [E605]", "this version reads");
+}
+
+static void unreadable_files_say_why(void **state) {
+    struct fixture *f = *state;
+    if (geteuid() == 0)
+        skip(); // root may read everything
+    chmod(scratch_path(&f->scratch, "scene/dragon.obj"), 0);
+    expect(f, "dragon.obj", "the mesh 'dragon.obj' cannot be read: Permission denied [E604]", "");
+}
+
+static void poisoned_paths_are_passed_over(void **state) {
+    struct fixture *f = *state;
+    struct assets_scene *s = begin_in(f, NULL);
+    struct ir_model *model = add_model(f, s, "dragn.obj");
+    model->head.poisoned = UINT64_C(1) << schema_find_row(&SCHEMA_MODEL, STR("mesh"));
+    add_model(f, s, "")->mesh = STR("");
+    assets_scene_load(s);
+    assert_silent(s);
+    assert_null(s->assets.models[0].mesh);
+    assets_scene_end(s);
+}
+
+static void a_broken_mesh_is_reported_once(void **state) {
+    struct fixture *f = *state;
+    scratch_write(&f->scratch, "scene/bad.obj", "f 1 2 3\n");
+    struct assets_scene *s = begin_in(f, NULL);
+    add_model(f, s, "bad.obj");
+    add_model(f, s, "./bad.obj");
+    assets_scene_load(s);
+    assert_int_equal(assets_scene_count(s, DIAG_MESH_INDEX), 3);
+    assert_int_equal(s->sink.count, 3);
+    assets_scene_end(s);
+}
+
+static void models_share_a_mesh(void **state) {
+    struct fixture *f = *state;
+    assert_int_equal(symlink("dragon.obj", scratch_path(&f->scratch, "scene/link.obj")), 0);
+    struct assets_scene *s = begin_in(f, NULL);
+    add_model(f, s, "dragon.obj");
+    add_model(f, s, "../scene/dragon.obj");
+    add_model(f, s, "link.obj");
+    assets_scene_load(s);
+    assert_silent(s);
+    assert_ptr_equal(s->assets.models[0].mesh, s->assets.models[1].mesh);
+    assert_ptr_equal(s->assets.models[0].mesh, s->assets.models[2].mesh);
+    assert_int_equal(s->assets.triangle_count, 3);
+    assets_scene_end(s);
+}
+
+static struct assets_scene *load_dragon(struct fixture *f, struct asset_store *store) {
+    struct assets_scene *s = begin_in(f, store);
+    add_model(f, s, "dragon.obj");
+    assets_scene_load(s);
+    return s;
+}
+
+// Gives the file another time than it had.
+static void touch(struct fixture *f) {
+    struct utimbuf times = {1000000, 1000000};
+    assert_int_equal(utime(scratch_path(&f->scratch, "scene/dragon.obj"), &times), 0);
+}
+
+static void meshes_outlive_a_reload(void **state) {
+    struct fixture *f = *state;
+    struct asset_store *store = asset_store_create();
+    struct assets_scene *first = load_dragon(f, store);
+    const struct mesh *mesh = first->assets.models[0].mesh;
+    struct assets_scene *second = load_dragon(f, store);
+    assert_ptr_equal(second->assets.models[0].mesh, mesh);
+    assert_int_equal(second->files.log.count, 1); // for watching, though it was not read
+    assets_scene_end(first);
+    assert_int_equal(mesh->triangle_count, 1);
+    assets_scene_end(second);
+    // One load without users is survived too.
+    struct assets_scene *third = load_dragon(f, store);
+    assert_ptr_equal(third->assets.models[0].mesh, mesh);
+    assets_scene_end(third);
+    asset_store_destroy(store);
+}
+
+static void changed_files_are_read_again(void **state) {
+    struct fixture *f = *state;
+    struct asset_store *store = asset_store_create();
+    struct assets_scene *first = load_dragon(f, store);
+    touch(f);
+    struct assets_scene *second = load_dragon(f, store);
+    assert_ptr_not_equal(second->assets.models[0].mesh, first->assets.models[0].mesh);
+    scratch_write(&f->scratch, "scene/dragon.obj", TRIANGLE "f 3 2 1\n");
+    touch(f);
+    struct assets_scene *third = load_dragon(f, store);
+    assert_int_equal(third->assets.models[0].mesh->triangle_count, 2);
+    assert_int_equal(first->assets.models[0].mesh->triangle_count, 1);
+    assets_scene_end(first);
+    assets_scene_end(second);
+    assets_scene_end(third);
+    asset_store_destroy(store);
+}
+
+static void notes_are_repeated_for_a_stored_mesh(void **state) {
+    struct fixture *f = *state;
+    scratch_write(&f->scratch, "scene/dragon.obj",
+                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\nl 1 2\n");
+    struct asset_store *store = asset_store_create();
+    struct assets_scene *first = load_dragon(f, store);
+    struct assets_scene *second = load_dragon(f, store);
+    assert_int_equal(first->sink.count, 2);
+    assert_says(first, "dragon.obj:9:1: note: 1 point, line or curve is not drawn [N604]\n     9 | l 1 2\n");
+    assert_string_equal(assets_scene_text(first), assets_scene_text(second));
+    assets_scene_end(first);
+    assets_scene_end(second);
+    asset_store_destroy(store);
+}
+
+static void models_too_large_for_the_world(void **state) {
+    struct fixture *f = *state;
+    struct assets_scene *s = begin_in(f, NULL);
+    add_model(f, s, "dragon.obj")->scale = (vec3){9e17, 9e17, 9e17};
+    struct ir_model *model = add_model(f, s, "dragon.obj");
+    model->scale = (vec3){9e17, 1, 1};
+    model->translation = (vec3){2e17, 0, 0};
+    assets_scene_load(s);
+    assert_int_equal(s->sink.count, 1);
+    assert_says(s, "the model reaches coordinates of 1.1e+18; the largest allowed is 1e18 [E409]");
+    assets_scene_end(s);
+}
+
+// Every size of the scene's own memory up to what is needed: the jump leaves nothing behind that
+// assets_finish does not give back (the sanitizer looks).
+static void memory_may_end_anywhere(void **state) {
+    struct fixture *f = *state;
+    scratch_write(&f->scratch, "scene/dragon.obj",
+                  "mtllib dragon.mtl\n" TRIANGLE "usemtl a\nf 1 2 3\nl 1 2\n");
+    scratch_write(&f->scratch, "scene/dragon.mtl", "newmtl a\nKd 1 1 1\nmap_Kd x\n");
+    struct asset_store *store = asset_store_create();
+    size_t loaded = 0;
+    for (size_t room = 0; room < 40000 && loaded < 3; room += 97) {
+        struct assets_scene *s = begin_in(f, store);
+        struct arena_guard guard;
+        add_model(f, s, "dragon.obj");
+        s->arena.cap_bytes = s->arena.used_bytes + room;
+        arena_set_guard(&s->arena, &guard);
+        if (setjmp(guard.jump) == 0) {
+            assets_scene_load(s);
+            loaded++;
+        }
+        arena_set_guard(&s->arena, NULL);
+        assets_scene_end(s);
+    }
+    assert_int_equal(loaded, 3);
+    asset_store_destroy(store);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_file_is_read_beside_its_scene, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(missing_files_name_the_nearest, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_is_no_file_is_refused_at_once, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(files_outside_are_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(other_kinds_are_named, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(unreadable_files_say_why, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(poisoned_paths_are_passed_over, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_broken_mesh_is_reported_once, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(models_share_a_mesh, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(meshes_outlive_a_reload, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(changed_files_are_read_again, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(notes_are_repeated_for_a_stored_mesh, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(models_too_large_for_the_world, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(memory_may_end_anywhere, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
