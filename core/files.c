@@ -252,28 +252,44 @@ enum file_status files_identify(struct files *files, str path, struct file_read 
     return FILE_OK;
 }
 
+// Where a name begins to be an ending: at its last dot, or at its end.
+static size_t ending_of(str name) {
+    for (size_t at = name.len; at > 1; at--)
+        if (name.ptr[at - 1] == '.')
+            return at - 1;
+    return name.len;
+}
+
 str files_suggest(struct files *files, str path) {
     str folder = files_canonical(files, path_folder(path));
-    bool inside = false;
-    for (uint32_t i = 0; i < files->roots.count && !inside; i++)
-        inside = below(folder, files->roots.items[i]);
-    const char *name = inside ? system_path(files, folder) : NULL;
-    DIR *directory = name ? opendir(name) : NULL;
+    const char *system = below_a_root(files, folder) ? system_path(files, folder) : NULL;
+    DIR *directory = system ? opendir(system) : NULL;
     if (!directory)
         return STR("");
-    struct nearest search = nearest_begin(path_base(path));
+    // Endings that are equal would make any two short names look alike.
+    str name = path_base(path);
+    size_t dot = ending_of(name);
+    struct nearest stems = nearest_begin(str_slice(name, 0, dot));
+    struct nearest names = nearest_begin(name);
     char best[NAME_MAX + 1] = "";
     struct dirent *entry;
     for (int left = SUGGEST_ENTRIES_MAX; left > 0 && (entry = readdir(directory)); left--) {
         str candidate = str_from(entry->d_name);
-        unsigned before = search.best_distance;
-        nearest_offer(&search, candidate);
-        // Folders have no order: of equals the first by name. The entry's memory is the directory's.
-        bool equal = before != UINT_MAX && nearest_distance(search.word, candidate) == before;
-        if (search.best_distance < before || (equal && str_compare(candidate, search.best) < 0)) {
-            snprintf(best, sizeof best, "%s", entry->d_name);
-            search.best = str_from(best);
-        }
+        str stem = str_slice(candidate, 0, ending_of(candidate));
+        bool same_ending = nearest_distance(str_slice(name, dot, name.len),
+                                            str_slice(candidate, stem.len, candidate.len)) == 0;
+        struct nearest *search = same_ending ? &stems : &names;
+        str offered = same_ending ? stem : candidate;
+        unsigned before = search->best_distance;
+        nearest_offer(search, offered);
+        // Folders have no order: of equals the first by name.
+        bool equal = before != UINT_MAX && nearest_distance(search->word, offered) == before;
+        bool better = search->best_distance < before || (equal && str_compare(candidate, str_from(best)) < 0);
+        if (!better || (!same_ending && stems.best.len))
+            continue;
+        snprintf(best, sizeof best, "%s", entry->d_name);
+        // The entry's memory is the directory's.
+        search->best = str_from(best);
     }
     closedir(directory);
     return arena_copy(files->arena, str_from(best));
