@@ -7,6 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    SAME_CODE_MAX = 50, // diagnostics of one code in one file that are told one by one
+};
+
 static enum diag_code code_of_status(enum file_status status) {
     switch (status) {
     case FILE_MISSING:
@@ -169,6 +173,7 @@ static enum session_state guarded_load(struct session *session, const struct ses
     }
     arena_set_guard(&session->arena, NULL);
     diag_sort(&session->sink);
+    diag_group(&session->sink, SAME_CODE_MAX);
     return session->state;
 }
 

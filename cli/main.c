@@ -3,6 +3,7 @@
 
 #include "core/nearest.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -172,6 +173,9 @@ static int run(struct cli *cli) {
 
 int main(int argc, char **argv) {
     struct cli cli;
+    // A closed pipe and a full disk are errors of the write, with a message, not the end of the process.
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     init(&cli, argc, argv);
     int status = run(&cli);
     if (cli.sink.count)

@@ -47,6 +47,7 @@ static bool has_code(const struct diag_sink *sink, enum diag_code code) {
 }
 
 int cli_report(struct cli *cli, struct session *session, bool notes) {
+    diag_sort(&session->sink);
     print(cli, &session->sink, &session->sources, notes);
     if (session->state == SESSION_UNREADABLE)
         return has_code(&session->sink, DIAG_USAGE) ? CLI_USAGE : CLI_FILE;

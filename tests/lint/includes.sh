@@ -11,7 +11,7 @@ function own(path, target) {
     if (path ~ /^grammar\//) return target ~ /^(core|grammar)\// || target == "shaders/features.h"
     if (path ~ /^parser\//) return target ~ /^(core|grammar|parser)\//
     if (path ~ /^assets\//)
-        return target ~ /^(core|assets)\// || target == "grammar/ir.h" || target == "grammar/ir_origin.h"
+        return target ~ /^(core|assets)\// || target ~ /^grammar\/(ir|ir_origin|schema)\.h$/
     if (path ~ /^runtime\/reference\//) return target ~ /^(core|grammar|assets|runtime\/reference)\//
     if (path ~ /^runtime\//) return target ~ /^(core|grammar|assets|runtime)\// || target ~ /^shaders\/.*\.h$/
     if (path ~ /^shaders\//) return target ~ /^shaders\//
