@@ -126,7 +126,6 @@ struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t feature
         [CONSTANT_FEATURES] = features,
         [CONSTANT_TRIANGLE_STACK] = flat->triangle_depth ? flat->triangle_depth : 1,
         [CONSTANT_SPHERE_STACK] = flat->sphere_depth ? flat->sphere_depth : 1,
-        [CONSTANT_PATH_STACK] = renderer->path_stack ? renderer->path_stack : 1,
     };
     struct gpu_program_source source = {
         .spirv = texels ? kernel_trace_texels : kernel_trace_storage,

@@ -59,6 +59,7 @@ static bool write_frame(struct renderer *renderer, const struct view_camera *cam
         .row_step = renderer->row_step,
         .sphere_count = flat->sphere_count,
         .slice_iterations = settings->slice_iterations,
+        .features = flat->features,
     };
     put(frame.camera_position, vec3_mul(vec3_sub(camera->position, flat->origin), scale));
     put(frame.camera_forward, camera->forward);

@@ -25,7 +25,8 @@ vec3 background_image(vec3 d) {
 }
 
 vec3 background(vec3 direction) {
-    if (HAS_BACKGROUND_IMAGE)
-        return background_image(direction);
-    return frame.background;
+    vec3 color = frame.background;
+    if (HAS_BACKGROUND_IMAGE && wants(FEATURE_BACKGROUND_IMAGE))
+        color = background_image(direction);
+    return color;
 }

@@ -26,7 +26,7 @@
     UINT(row_step) /* tile row r shows row r * row_step mod tiles_y */                                       \
     UINT(sphere_count)                                                                                       \
     UINT(slice_iterations) /* past these a path is saved at the next ray boundary */                         \
-    UINT(spare)
+    UINT(features) /* of the scene: what the mask only makes possible, these bits decide */
 
 /* Push constants. */
 #define DISPATCH_FIELDS(FLOAT, UINT)                                                                         \
@@ -54,8 +54,9 @@
 #define FAULT_SEGMENTS   2u /* the sample exceeded path_segments */
 #define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT */
 
-/* State of a saved path, words: ray origin, weight; direction, depth; radiance, segments; sum over lights,
-   light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare; then two words a stack entry. */
+/* State of a path, word k of slot s at k * slots + s: ray origin, weight; direction, depth; radiance, segments; sum over lights,
+   light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare: kept between dispatches; then
+   two words for each refracted ray that waits. */
 #define STATE_WORDS       6
 #define STACK_ENTRY_WORDS 2
 
@@ -85,7 +86,6 @@
 #define CONSTANT_FEATURES       0
 #define CONSTANT_TRIANGLE_STACK 1 /* levels of the triangle tree */
 #define CONSTANT_SPHERE_STACK   2
-#define CONSTANT_PATH_STACK     3 /* entries of the stack of refracted rays */
-#define CONSTANT_COUNT          4
+#define CONSTANT_COUNT          3
 
 #endif

@@ -17,34 +17,18 @@ struct path_state {
     uint stack_size;
 };
 
-struct branch {
-    vec3 origin, direction;
-    float weight;
-    uint depth;
-};
-
-// Refracted rays that wait until the reflected ones before them are done.
-const uint BRANCH_ENTRIES = HAS_BRANCHES ? PATH_STACK : 1u;
-uvec4 branch_stack_a[BRANCH_ENTRIES];
-uvec4 branch_stack_b[BRANCH_ENTRIES];
-
-uint state_base(uint slot) {
-    return slot * (STATE_WORDS + (HAS_BRANCHES ? PATH_STACK * STACK_ENTRY_WORDS : 0u));
-}
+// Words lie by kind first, then by slot, so that neighbours lie together. The refracted rays that wait
+// until the reflected ones before them are done are there from the start: lavapipe writes and reads an
+// indexed private array for all lanes, and a storage buffer only for those that want it.
+uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TILE_PIXELS) + slot; }
 
 void save_path(uint slot, path_state p) {
-    uint at = state_base(slot);
-    states[at] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.weight));
-    states[at + 1u] = uvec4(floatBitsToUint(p.direction), p.depth);
-    states[at + 2u] = uvec4(floatBitsToUint(p.radiance), p.segments);
-    states[at + 3u] = uvec4(floatBitsToUint(p.light_sum), p.light);
-    states[at + 4u] = uvec4(floatBitsToUint(vec3(p.hit.t, p.hit.b1, p.hit.b2)), p.hit.item);
-    states[at + 5u] = uvec4(p.hit.number, p.stack_size, p.kind, 0u);
-    if (HAS_BRANCHES)
-        for (uint i = 0u; i < p.stack_size; i++) {
-            states[at + STATE_WORDS + 2u * i] = branch_stack_a[i];
-            states[at + STATE_WORDS + 2u * i + 1u] = branch_stack_b[i];
-        }
+    states[state_word(slot, 0u)] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.weight));
+    states[state_word(slot, 1u)] = uvec4(floatBitsToUint(p.direction), p.depth);
+    states[state_word(slot, 2u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
+    states[state_word(slot, 3u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
+    states[state_word(slot, 4u)] = uvec4(floatBitsToUint(vec3(p.hit.t, p.hit.b1, p.hit.b2)), p.hit.item);
+    states[state_word(slot, 5u)] = uvec4(p.hit.number, p.stack_size, p.kind, 0u);
     // Each saved path takes a place in the list that the next dispatch reads. Their order may differ from
     // run to run; the picture does not know it.
     uint slots = dispatch.tile_count * TILE_PIXELS;
@@ -54,9 +38,9 @@ void save_path(uint slot, path_state p) {
 
 path_state load_path(uint slot) {
     path_state p;
-    uint at = state_base(slot);
-    uvec4 w0 = states[at], w1 = states[at + 1u], w2 = states[at + 2u];
-    uvec4 w3 = states[at + 3u], w4 = states[at + 4u], w5 = states[at + 5u];
+    uvec4 w0 = states[state_word(slot, 0u)], w1 = states[state_word(slot, 1u)];
+    uvec4 w2 = states[state_word(slot, 2u)], w3 = states[state_word(slot, 3u)];
+    uvec4 w4 = states[state_word(slot, 4u)], w5 = states[state_word(slot, 5u)];
     p.origin = uintBitsToFloat(w0.xyz);
     p.weight = uintBitsToFloat(w0.w);
     p.direction = uintBitsToFloat(w1.xyz);
@@ -68,11 +52,6 @@ path_state load_path(uint slot) {
     p.hit = hit_record(uintBitsToFloat(w4.x), uintBitsToFloat(w4.y), uintBitsToFloat(w4.z), w4.w, w5.x);
     p.stack_size = w5.y;
     p.kind = w5.z;
-    if (HAS_BRANCHES)
-        for (uint i = 0u; i < p.stack_size; i++) {
-            branch_stack_a[i] = states[at + STATE_WORDS + 2u * i];
-            branch_stack_b[i] = states[at + STATE_WORDS + 2u * i + 1u];
-        }
     return p;
 }
 
@@ -92,15 +71,17 @@ path_state begin_path(vec3 direction) {
     return p;
 }
 
-void push_branch(inout path_state p, vec3 origin, vec3 direction, float weight, uint depth) {
-    branch_stack_a[p.stack_size] = uvec4(floatBitsToUint(origin), floatBitsToUint(weight));
-    branch_stack_b[p.stack_size] = uvec4(floatBitsToUint(direction), depth);
+void push_branch(uint slot, inout path_state p, vec3 origin, vec3 direction, float weight, uint depth) {
+    uint word = STATE_WORDS + STACK_ENTRY_WORDS * p.stack_size;
+    states[state_word(slot, word)] = uvec4(floatBitsToUint(origin), floatBitsToUint(weight));
+    states[state_word(slot, word + 1u)] = uvec4(floatBitsToUint(direction), depth);
     p.stack_size++;
 }
 
-void pop_branch(inout path_state p) {
+void pop_branch(uint slot, inout path_state p) {
     p.stack_size--;
-    uvec4 a = branch_stack_a[p.stack_size], b = branch_stack_b[p.stack_size];
+    uint word = STATE_WORDS + STACK_ENTRY_WORDS * p.stack_size;
+    uvec4 a = states[state_word(slot, word)], b = states[state_word(slot, word + 1u)];
     p.origin = uintBitsToFloat(a.xyz);
     p.weight = uintBitsToFloat(a.w);
     p.direction = uintBitsToFloat(b.xyz);

@@ -9,7 +9,6 @@
 layout(constant_id = CONSTANT_FEATURES) const uint FEATURES = 0xffffffffu;
 layout(constant_id = CONSTANT_TRIANGLE_STACK) const uint TRIANGLE_STACK = 32u;
 layout(constant_id = CONSTANT_SPHERE_STACK) const uint SPHERE_STACK = 32u;
-layout(constant_id = CONSTANT_PATH_STACK) const uint PATH_STACK = 16u;
 
 const bool HAS_TRIANGLES = (FEATURES & FEATURE_TRIANGLES) != 0u;
 const bool HAS_SPHERES = (FEATURES & FEATURE_SPHERES) != 0u;
@@ -60,3 +59,6 @@ layout(set = 0, binding = BINDING_FRAME, std140) uniform frame_block {
 layout(push_constant) uniform dispatch_block {
     DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
 } dispatch;
+
+// Whether the scene asks for what the kernel can do: a general kernel serves scenes that need less.
+bool wants(uint feature) { return (frame.features & feature) != 0u; }

@@ -42,12 +42,11 @@ void trace_spheres(vec3 origin, vec3 direction, bool any, inout hit_record hit, 
     bool more = true;
     do {
         iterations += 2u;
-        uint leaf_base, leaf_hits;
-        do {
+        uint leaf_base = 0u, leaf_hits = 0u;
+        while (more && leaf_hits == 0u && iterations < ITERATION_LIMIT) {
             iterations++;
             uint node = next_node(group, ray.flip) * NODE_WORDS;
-            if (has_nodes(group))
-                stack[size++] = group;
+            PUSH(SPHERE_STACK, has_nodes(group), group)
             uvec4 w0 = FETCH(sphere_nodes, node);
             uvec4 w1 = FETCH(sphere_nodes, node + 1u);
             uint hits = node_hits(w0, w1, FETCH(sphere_nodes, node + 2u), FETCH(sphere_nodes, node + 3u),
@@ -55,12 +54,9 @@ void trace_spheres(vec3 origin, vec3 direction, bool any, inout hit_record hit, 
             group = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u));
             leaf_base = w1.y;
             leaf_hits = hits & 0x00ffffffu;
-            if (!has_nodes(group)) {
-                more = size > 0u;
-                if (more)
-                    group = stack[--size];
-            }
-        } while (more && leaf_hits == 0u && iterations < ITERATION_LIMIT);
+            more = has_nodes(group) || size > 0u;
+            POP(SPHERE_STACK, !has_nodes(group) && more, group)
+        }
         while (leaf_hits != 0u && iterations < ITERATION_LIMIT) {
             iterations++;
             uint bit = leaf_hits & (0u - leaf_hits);

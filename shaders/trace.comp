@@ -55,11 +55,11 @@ bool is_followed(path_state p, float weight) {
     bool last = p.depth == frame.max_depth;
     count_cut(COUNTER_CUT_WEIGHT, COUNTER_LOST_WEIGHT, weight > 0.0 && !heavy, weight);
     count_cut(COUNTER_CUT_DEPTH, COUNTER_LOST_DEPTH, heavy && last, weight);
-    return heavy && !(HAS_DEPTH_BLACK && last);
+    return heavy && !(HAS_DEPTH_BLACK && last && wants(FEATURE_DEPTH_BLACK));
 }
 
 // Sends the rays that leave the surface: the path goes on with one, the other waits. false: none.
-bool send_rays(inout path_state p, surface s, vec3 start) {
+bool send_rays(uint slot, inout path_state p, surface s, vec3 start) {
     float reflection = HAS_REFLECTION ? s.reflection : 0.0;
     bool through = false;
     vec3 bent = p.direction;
@@ -74,7 +74,7 @@ bool send_rays(inout path_state p, surface s, vec3 start) {
     bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, p.weight * reflection);
     float weight = p.weight;
     if (HAS_BRANCHES && back && through)
-        push_branch(p, behind, bent, weight * s.refraction, p.depth + 1u);
+        push_branch(slot, p, behind, bent, weight * s.refraction, p.depth + 1u);
     p.origin = back ? start : behind;
     p.direction = back ? reflected(p.direction, s) : bent;
     p.weight = weight * (back ? reflection : s.refraction);
@@ -113,8 +113,8 @@ void main() {
     surface s;
     light_ray shadow = light_ray(vec3(0.0), vec3(0.0), 0.0);
     vec3 start = vec3(0.0);
-    do {
-        do {
+    while (state == GOES_ON) {
+        while (state == GOES_ON) {
             iterations += SEGMENT_ITERATIONS;
             bool own = phase == PHASE_RAY;
             bool traced = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
@@ -168,7 +168,7 @@ void main() {
                     iterations++;
                     shadow = light_at(p.light, s, start, p.direction);
                     if (shadow.value != vec3(0.0)) {
-                        if (HAS_SHADOWS)
+                        if (HAS_SHADOWS && wants(FEATURE_SHADOWS))
                             found = true;
                         else
                             p.light_sum += shadow.value;
@@ -184,22 +184,22 @@ void main() {
                         p.radiance += p.light_sum * p.weight;
                         phase = PHASE_RAY;
                         p.hit.item = NO_ITEM;
-                        state = send_rays(p, s, start) ? GOES_ON : ENDED;
+                        state = send_rays(slot, p, s, start) ? GOES_ON : ENDED;
                     }
                 }
             }
-        } while (state == GOES_ON);
+        }
         if (state == MISSED)
             p.radiance += background(p.direction) * p.weight;
         if (state == MISSED || state == ENDED) {
             state = ENDED;
             if (HAS_BRANCHES && p.stack_size > 0u) {
-                pop_branch(p);
+                pop_branch(slot, p);
                 state = GOES_ON;
                 phase = PHASE_RAY;
             }
         }
-    } while (state == GOES_ON);
+    }
 
     if (HAS_SLICES && state == SUSPENDED)
         save_path(slot, p);

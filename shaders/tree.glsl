@@ -76,3 +76,31 @@ uint next_node(inout uvec2 group, uint flip) {
     uint slot = bit ^ flip;
     return group.x + bitCount(group.y & ((1u << slot) - 1u) & 0xffu);
 }
+
+// The stack of groups, `stack` and `size`. lavapipe writes an indexed private array lane by lane, a fifth
+// of the whole time; moving all levels by one instead costs a blend a level.
+#ifdef FETCH_TEXELS
+#define PUSH(levels, yes, group)                                                                             \
+    {                                                                                                        \
+        bool moves = yes;                                                                                    \
+        for (int i = int(levels) - 1; i > 0; i--)                                                            \
+            stack[i] = moves ? stack[i - 1] : stack[i];                                                      \
+        stack[0] = moves ? group : stack[0];                                                                 \
+        size += moves ? 1u : 0u;                                                                             \
+    }
+#define POP(levels, yes, group)                                                                              \
+    {                                                                                                        \
+        bool moves = yes;                                                                                    \
+        group = moves ? stack[0] : group;                                                                    \
+        for (int i = 1; i < int(levels); i++)                                                                \
+            stack[i - 1] = moves ? stack[i] : stack[i - 1];                                                  \
+        size -= moves ? 1u : 0u;                                                                             \
+    }
+#else
+#define PUSH(levels, yes, group)                                                                             \
+    if (yes)                                                                                                 \
+        stack[size++] = group;
+#define POP(levels, yes, group)                                                                              \
+    if (yes)                                                                                                 \
+        group = stack[--size];
+#endif

@@ -58,7 +58,10 @@ void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
     float delta_x = GAMMA_5 * (x_most + z_most);
     float delta_y = GAMMA_5 * (y_most + z_most);
     float delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
-    float delta_t = 3.0 * (2.0 * GAMMA_3 * e_most + delta_e) * z_most * abs(ray.sz * inverse);
+    // t is a mean of the vertices' z: an error of its weights moves it by their spread at most, not by their
+    // size. With the size, small triangles far away would all be refused.
+    float spread = max(max(a.z, b.z), c.z) - min(min(a.z, b.z), c.z);
+    float delta_t = 3.0 * (2.0 * GAMMA_3 * e_most * z_most + delta_e * spread) * abs(ray.sz * inverse);
     uint number = w0.w + frame.sphere_count;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
     if (inside && det != 0.0 && t > delta_t && nearer) {
@@ -80,12 +83,11 @@ void trace_triangles(vec3 origin, vec3 direction, bool any, inout hit_record hit
     bool more = true;
     do {
         iterations += 2u; // this loop, and the leaf loop where no lane enters it
-        uint leaf_base, leaf_hits;
-        do {
+        uint leaf_base = 0u, leaf_hits = 0u;
+        while (more && leaf_hits == 0u && iterations < ITERATION_LIMIT) {
             iterations++;
             uint node = next_node(group, ray.flip) * NODE_WORDS;
-            if (has_nodes(group))
-                stack[size++] = group;
+            PUSH(TRIANGLE_STACK, has_nodes(group), group)
             uvec4 w0 = FETCH(triangle_nodes, node);
             uvec4 w1 = FETCH(triangle_nodes, node + 1u);
             uint hits = node_hits(w0, w1, FETCH(triangle_nodes, node + 2u), FETCH(triangle_nodes, node + 3u),
@@ -93,12 +95,9 @@ void trace_triangles(vec3 origin, vec3 direction, bool any, inout hit_record hit
             group = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u));
             leaf_base = w1.y;
             leaf_hits = hits & 0x00ffffffu;
-            if (!has_nodes(group)) {
-                more = size > 0u;
-                if (more)
-                    group = stack[--size];
-            }
-        } while (more && leaf_hits == 0u && iterations < ITERATION_LIMIT);
+            more = has_nodes(group) || size > 0u;
+            POP(TRIANGLE_STACK, !has_nodes(group) && more, group)
+        }
         while (leaf_hits != 0u && iterations < ITERATION_LIMIT) {
             iterations++;
             uint bit = leaf_hits & (0u - leaf_hits);
