@@ -58,6 +58,7 @@ static tree_index add_scalar(struct xml_reader *r, str text, span at, enum tree_
     if (text.len > r->context->limits->value[LIMIT_SCALAR_BYTES]) {
         exceed(r, LIMIT_SCALAR_BYTES, xml_span(r, at.begin, at.begin + 1), "bytes in one value");
         text.len = 0;
+        flags |= TREE_BAD;
     }
     uint32_t offset = tree_add_text(r->tree, text);
     return add(r, (struct tree_node){.kind = TREE_SCALAR,
@@ -98,6 +99,9 @@ static void end_run(struct xml_reader *r) {
     diag_add(sink, DIAG_XML_TEXT, xml_span(r, r->run.begin, r->run.end), "text between elements");
     diag_help(sink, "values stand in attributes; a remark stands in <!-- ... -->");
     r->run = (struct reader_range){0};
+    // What the element lacks was probably written as text.
+    if (r->depth > 0)
+        tree_node(r->tree, r->frames[r->depth - 1].node)->flags |= TREE_BAD;
 }
 
 static void on_text(struct xml_reader *r, const struct xml_event *event) {
@@ -430,6 +434,6 @@ bool read_xml(const struct reader_context *context, uint32_t source, struct tree
     run_expat(&reader);
     XML_ParserFree(reader.parser);
     if (reader.fault)
-        reader_rethrow(context->arena, context->arena->guard, reader.fault);
+        arena_raise(context->arena, reader.fault);
     return tree->root != 0;
 }

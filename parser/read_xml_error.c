@@ -173,46 +173,22 @@ static void report_token(struct xml_reader *r, uint32_t at) {
     }
 }
 
-void xml_report(struct xml_reader *r) {
+// Errors that need no look at the text around.
+static void report_simple(struct xml_reader *r, enum XML_Error error, uint32_t at) {
     struct diag_sink *sink = r->context->sink;
-    enum XML_Error error = XML_GetErrorCode(r->parser);
-    uint32_t at = r->text->begin + (uint32_t)XML_GetErrorByteIndex(r->parser);
-    if (at > r->text->bytes.len)
-        at = (uint32_t)r->text->bytes.len;
     switch (error) {
     case XML_ERROR_NO_MEMORY:
         diag_add(sink, DIAG_OUT_OF_MEMORY, character_at(r, at), "no memory for reading the file");
         break;
-    case XML_ERROR_NO_ELEMENTS:
-        report_end(r);
-        break;
-    case XML_ERROR_TAG_MISMATCH:
-        report_mismatch(r, at);
-        break;
-    case XML_ERROR_UNCLOSED_TOKEN:
-        report_unclosed(r, at);
-        break;
     case XML_ERROR_UNCLOSED_CDATA_SECTION:
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "'<![CDATA[' is not closed");
-        break;
-    case XML_ERROR_INVALID_TOKEN:
-        report_token(r, at);
-        break;
-    case XML_ERROR_SYNTAX:
-        if (begins_with(r, at, "<!")) {
-            report_token(r, at);
-            break;
-        }
-        diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "this stands before the first element");
-        diag_help(sink, "a scene begins with <Scene glint=\"1\">");
         break;
     case XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "the scene has ended before this");
         diag_note(sink, r->root_end, "it ended here");
         break;
     case XML_ERROR_BAD_CHAR_REF:
-        diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "this reference names no character");
-        diag_help(sink, "write the character itself");
+        diag_add(sink, DIAG_XML_ENTITY, word_at(r, at), "this reference names no character");
         break;
     case XML_ERROR_UNDEFINED_ENTITY:
         diag_add(sink, DIAG_XML_ENTITY, word_at(r, at), "there is no such entity in a scene");
@@ -234,4 +210,32 @@ void xml_report(struct xml_reader *r) {
                  XML_ErrorString(error));
         break;
     }
+}
+
+static void report_start(struct xml_reader *r, uint32_t at) {
+    if (begins_with(r, at, "<!")) {
+        report_token(r, at);
+        return;
+    }
+    diag_add(r->context->sink, DIAG_XML_SYNTAX, word_at(r, at), "this stands before the first element");
+    diag_help(r->context->sink, "a scene begins with <Scene glint=\"1\">");
+}
+
+void xml_report(struct xml_reader *r) {
+    enum XML_Error error = XML_GetErrorCode(r->parser);
+    uint32_t at = r->text->begin + (uint32_t)XML_GetErrorByteIndex(r->parser);
+    if (at > r->text->bytes.len)
+        at = (uint32_t)r->text->bytes.len;
+    if (error == XML_ERROR_NO_ELEMENTS)
+        report_end(r);
+    else if (error == XML_ERROR_TAG_MISMATCH)
+        report_mismatch(r, at);
+    else if (error == XML_ERROR_UNCLOSED_TOKEN)
+        report_unclosed(r, at);
+    else if (error == XML_ERROR_INVALID_TOKEN)
+        report_token(r, at);
+    else if (error == XML_ERROR_SYNTAX)
+        report_start(r, at);
+    else
+        report_simple(r, error, at);
 }

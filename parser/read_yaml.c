@@ -423,7 +423,7 @@ static void run_guarded(struct yaml_reader *r) {
     diag_merge(r->context->sink, &r->sink);
     diag_sink_finish(&r->sink);
     if (jumped)
-        reader_rethrow(arena, outer, guard.fault);
+        arena_raise(arena, guard.fault);
 }
 
 static bool is_ascii(str text) {

@@ -204,14 +204,6 @@ void reader_limit(struct diag_sink *sink, const struct limits *limits, enum limi
         diag_help(sink, "if this is intended, raise the limit: --limit %s=%" PRIu64, info->name, more);
 }
 
-_Noreturn void reader_rethrow(struct arena *arena, struct arena_guard *outer, enum arena_fault fault) {
-    arena->guard = outer;
-    if (!outer)
-        abort();
-    outer->fault = fault;
-    longjmp(outer->jump, 1);
-}
-
 void reader_names_init(struct reader_names *names, struct arena *arena) {
     *names = (struct reader_names){.arena = arena, .stamp = 1};
 }

@@ -48,8 +48,6 @@ str reader_clip(str text);
 // E501 at `at`: "<what> (more than N); raise it with ...".
 void reader_limit(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,
                   const char *what);
-// Hands a jump that an inner guard caught on to the guard outside.
-_Noreturn void reader_rethrow(struct arena *arena, struct arena_guard *outer, enum arena_fault fault);
 
 struct reader_name {
     str name; // not owned

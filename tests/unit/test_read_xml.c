@@ -81,7 +81,7 @@ static void repairs_spaced_ends(void **state) {
          "{T: {x: -4.15, y: 1}, U: {}, V: {a: b}}",
          "E116 2:20-2:23 =safe>/><, E116 3:3-3:6 =safe>/><, E116 4:9-5:2 =safe>/><"},
         {"<S a=\"/ >\"><!-- / > --><B/></S>", "{a: / >, B: {}}", ""},
-        {"<S><![CDATA[<b / >]]></S>", "{}", "E115 1:4-1:22"},
+        {"<S><![CDATA[<b / >]]></S>", "{}!", "E115 1:4-1:22"},
     };
     CHECK_ALL(readings);
 }
@@ -161,10 +161,10 @@ static void refuses_namespaces(void **state) {
 static void refuses_text(void **state) {
     (void)state;
     static const struct reading readings[] = {
-        {"<S>\n  0.9 0.1\n  x <B/> y\n</S>", "{B: {}}", "E115 2:3-3:4, E115 3:10-3:11"},
-        {"<S><A>1</A><B>&#65;&amp;</B></S>", "{A: {}, B: {}}", "E115 1:7-1:8, E115 1:15-1:25"},
-        {"<S>a<![CDATA[ b ]]>c<!-- --> d</S>", "{}", "E115 1:4-1:21, E115 1:30-1:31"},
-        {"<S>\n<![CDATA[ x ]]>\n</S>", "{}", "E115 2:1-2:16"},
+        {"<S>\n  0.9 0.1\n  x <B/> y\n</S>", "{B: {}}!", "E115 2:3-3:4, E115 3:10-3:11"},
+        {"<S><A>1</A><B>&#65;&amp;</B></S>", "{A: {}!, B: {}!}", "E115 1:7-1:8, E115 1:15-1:25"},
+        {"<S>a<![CDATA[ b ]]>c<!-- --> d</S>", "{}!", "E115 1:4-1:21, E115 1:30-1:31"},
+        {"<S>\n<![CDATA[ x ]]>\n</S>", "{}!", "E115 2:1-2:16"},
         {"<S> \t\r\n </S>", "{}", ""},
     };
     CHECK_ALL(readings);
