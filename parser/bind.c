@@ -152,16 +152,27 @@ static bool comes_first(const struct schema_row *row) {
            (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME);
 }
 
-static bool is_ignored(const struct bind_frame *frame, const struct bind_context *context, tree_index key) {
-    return !frame->parent && tree_node(context->tree, key)->key == TREE_KEY_PLAIN &&
-           str_starts_with(tree_text(context->tree, key), STR("x-"));
+// Root keys for anchors; and in an element that was never closed, what belongs outside it.
+static bool is_ignored(const struct bind_context *context, const struct bind_frame *frame, tree_index map,
+                       tree_index key) {
+    bool single;
+    if (!frame->parent)
+        return tree_node(context->tree, key)->key == TREE_KEY_PLAIN &&
+               str_starts_with(tree_text(context->tree, key), STR("x-"));
+    if (!(tree_node(context->tree, map)->flags & TREE_CUT))
+        return false;
+    const struct bind_frame *outer = frame->parent;
+    while (outer && bind_find_row(context, outer->schema, key, &single) < 0)
+        outer = outer->parent;
+    return outer != NULL;
 }
 
 static void report_named_inline(struct bind_context *context, struct bind_frame *frame, tree_index key) {
-    str s = say_subject(context->scratch, bind_subject(frame, NULL));
+    str owner = say_owner(context->scratch, frame);
     str name = tree_text(context->tree, tree_value(context->tree, key));
     diag_add(context->sink, DIAG_NAMED_INLINE, tree_span(context->tree, key),
-             "%.*s is its own and has no name", STR_ARG(s));
+             "a %s written in place has no name: it belongs to %.*s alone", frame->schema->name,
+             STR_ARG(owner));
     if (str_is_name(name))
         diag_help(context->sink, "to use a %s of the scene write %s=\"%.*s\"", frame->schema->name,
                   frame->via->name, STR_ARG(name));
@@ -176,7 +187,7 @@ static void bind_keys(struct bind_context *context, struct bind_frame *frame, tr
         if (row >= 0 && comes_first(&frame->schema->rows[row]) != first)
             continue;
         if (row < 0) {
-            if (!first && !bad && !is_ignored(frame, context, key))
+            if (!first && !bad && !is_ignored(context, frame, node, key))
                 bind_unknown_name(context, frame, key);
         } else if (bad) {
             if (!(frame->seen & bind_bit((uint32_t)row)))
@@ -265,27 +276,29 @@ static bool knows_any_key(const struct bind_context *context, const struct bind_
     return false;
 }
 
+static void report_no_scene(struct bind_context *context, const struct bind_frame *frame, span at) {
+    const struct tree *tree = context->tree;
+    if (tree->is_xml) {
+        str tag = say_text(context->scratch, tree->root_tag);
+        diag_add(context->sink, DIAG_NOT_A_SCENE, at, "this is not a glint scene: its root is '%.*s'",
+                 STR_ARG(tag));
+        diag_help(context->sink, "a scene begins with <%s glint=\"1\">", frame->schema->element);
+    } else {
+        diag_add(context->sink, DIAG_NOT_A_SCENE, at,
+                 "this is not a glint scene: none of its keys belongs to one");
+        diag_help(context->sink, "a scene begins with 'glint: 1'");
+    }
+}
+
 static bool is_scene(struct bind_context *context, const struct bind_frame *frame) {
     const struct tree *tree = context->tree;
-    const char *first_line = tree->is_xml ? "<Scene glint=\"1\">" : "glint: 1";
-    if (tree->root && tree->is_xml && !str_equal_cstr(tree->root_tag, frame->schema->element)) {
-        diag_add(context->sink, DIAG_NOT_A_SCENE, tree->root_name,
-                 "this is not a glint scene: its root is '%.*s'",
-                 STR_ARG(say_text(context->scratch, tree->root_tag)));
-        diag_help(context->sink, "a scene begins with %s", first_line);
-        return false;
-    }
     bool is_map = tree->root && bind_kind(context, tree->root) == TREE_MAP;
-    if (is_map && (knows_any_key(context, frame) || tree->is_xml))
-        return true;
-    if (tree->broken || (tree->root && bind_is_bad(context, tree->root)))
-        return false;
-    span at = {tree->source, 0, 0};
-    if (tree->root)
-        at = is_map ? tree->root_name : tree_span(tree, tree->root);
-    diag_add(context->sink, DIAG_NOT_A_SCENE, at, "this is not a glint scene");
-    diag_help(context->sink, "a scene begins with %s", first_line);
-    return false;
+    bool good = is_map && (tree->is_xml ? str_equal_cstr(tree->root_tag, frame->schema->element)
+                                        : knows_any_key(context, frame));
+    bool known = tree->broken || (tree->root && bind_is_bad(context, tree->root));
+    if (!good && !known)
+        report_no_scene(context, frame, is_map ? tree->root_name : (span){tree->source, 0, 0});
+    return good;
 }
 
 struct ir_scene *bind_file(struct bind_context *context) {

@@ -71,6 +71,10 @@ static inline struct bind_subject bind_subject(const struct bind_frame *frame, c
 static inline bool bind_is_bad(const struct bind_context *context, tree_index node) {
     return (tree_node(context->tree, node)->flags & TREE_BAD) != 0;
 }
+// What the reader has reported, or broke off in: its value cannot be judged.
+static inline bool bind_is_known(const struct bind_context *context, tree_index node) {
+    return (tree_node(context->tree, node)->flags & (TREE_BAD | TREE_CUT)) != 0;
+}
 // Whether a pair of `map` cannot be judged: the reader has reported it, or the file broke off inside it.
 static inline bool bind_is_bad_pair(const struct bind_context *context, tree_index map, tree_index key) {
     const struct tree *tree = context->tree;
@@ -145,6 +149,9 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
 bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
 // Adds an example of the value to the diagnostic that was reported last.
 void bind_help_example(struct bind_context *context, struct bind_subject subject);
+// Adds how the value must be written: with the author's own numbers, where these are told apart, else an
+// example.
+void bind_help_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
 bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node);
 
 // bind_composite.c: vectors, colours, weights.

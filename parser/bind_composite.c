@@ -34,7 +34,7 @@ static bool bind_list(struct bind_context *context, struct bind_subject subject,
     }
     if (count == wanted)
         return good;
-    if (tree_node(context->tree, node)->flags & TREE_BAD)
+    if (bind_is_known(context, node))
         return false;
     const char *const *names = schema_components(subject.row->kind);
     diag_add(context->sink, DIAG_WRONG_COUNT, tree_span(context->tree, node),
@@ -52,8 +52,7 @@ static int find_component(const char *const *names, uint32_t count, str key) {
     return -1;
 }
 
-// Gives the component that was probably meant, or -1.
-static int unknown_component(struct bind_context *context, struct bind_subject subject, tree_index key) {
+static void unknown_component(struct bind_context *context, struct bind_subject subject, tree_index key) {
     const char *const *names = schema_components(subject.row->kind);
     str text = tree_text(context->tree, key);
     struct mend_search search = mend_begin(context->scratch, text);
@@ -67,10 +66,9 @@ static int unknown_component(struct bind_context *context, struct bind_subject s
              STR_ARG(say_subject(context->scratch, subject)), STR_ARG(say_text(context->scratch, text)),
              STR_ARG(list));
     if (!search.best)
-        return -1;
+        return;
     diag_help(context->sink, "did you mean '%s'?", search.best);
     diag_fix(context->sink, mend_is_safe(&search), at, str_from(search.best));
-    return search.best_id;
 }
 
 static bool report_missing(struct bind_context *context, struct bind_subject subject, tree_index node,
@@ -83,7 +81,7 @@ static bool report_missing(struct bind_context *context, struct bind_subject sub
                 arena_format(context->scratch, "%.*s%s'%s'", STR_ARG(list), list.len ? ", " : "", names[i]);
     if (list.len == 0)
         return true;
-    if (tree_node(context->tree, node)->flags & TREE_BAD)
+    if (bind_is_known(context, node))
         return false;
     diag_add(context->sink, DIAG_MISSING_COMPONENT, tree_span(context->tree, node),
              "%.*s lacks %.*s; every component is written, 0 too",
@@ -97,23 +95,26 @@ static bool bind_named(struct bind_context *context, struct bind_subject subject
     const struct tree *tree = context->tree;
     uint32_t wanted = component_count(subject.row->kind);
     bool given[COMPONENTS_MAX] = {false};
+    bool all_known = true;
     bool good = true;
     for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key)) {
-        bool known = (tree_node(tree, key)->flags & TREE_BAD) != 0;
+        bool bad = bind_is_bad_pair(context, node, key);
         int i = find_component(schema_components(subject.row->kind), wanted, tree_text(tree, key));
-        if (i < 0 || tree_node(tree, key)->key == TREE_KEY_CHILD) {
-            good = false;
-            i = known ? -1 : unknown_component(context, subject, key);
-        } else if (!known) {
-            good = bind_number(context, component_of(subject, (uint32_t)i), tree_value(tree, key), &out[i]) &&
-                   good;
-        }
-        if (i >= 0)
+        if (i >= 0 && tree_node(tree, key)->key != TREE_KEY_CHILD) {
             given[i] = true;
+            good = !bad &&
+                   bind_number(context, component_of(subject, (uint32_t)i), tree_value(tree, key), &out[i]) &&
+                   good;
+            continue;
+        }
+        all_known = false;
+        if (!bad)
+            unknown_component(context, subject, key);
     }
-    if (subject.row->kind != SCHEMA_WEIGHTS)
+    // A component that is missing was probably meant by a name that does not exist.
+    if (all_known && subject.row->kind != SCHEMA_WEIGHTS)
         good = report_missing(context, subject, node, given) && good;
-    return good;
+    return good && all_known;
 }
 
 // Hexadecimal digits.
@@ -142,8 +143,9 @@ static bool bad_color(struct bind_context *context, struct bind_subject subject,
     bool is_short = text.len == 4 && text.ptr[0] == '#' && hex_digits(str_slice(text, 1, 4), &ignored);
     bool lacks_hash = text.len == 6 && hex_digits(text, &ignored);
     if (!is_short && !lacks_hash) {
-        diag_help(context->sink, "write %.*s, or '#' and six hexadecimal digits",
-                  STR_ARG(say_subject_example(context->scratch, subject, context->tree->is_xml)));
+        str example = say_subject_example(context->scratch, subject, context->tree->is_xml);
+        diag_help(context->sink, "for example %.*s, or six hexadecimal digits as in \"#ff8800\"",
+                  STR_ARG(example));
         return false;
     }
     const char *c = text.ptr;

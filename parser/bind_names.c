@@ -49,8 +49,7 @@ static void wrong_form(struct bind_context *context, struct bind_frame *frame, t
     diag_add(context->sink, DIAG_WRONG_SHAPE, tree_span(context->tree, n->kind == TREE_SCALAR ? value : key),
              "%.*s must be %.*s, not %.*s", STR_ARG(say_subject(context->scratch, subject)),
              STR_ARG(say_expected(context->scratch, row)), STR_ARG(found));
-    diag_help(context->sink, "for example %.*s",
-              STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+    bind_help_shape(context, subject, value);
 }
 
 static void did_you_mean(struct bind_context *context, struct bind_frame *frame, tree_index key,

@@ -10,12 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool is_known(const struct bind_context *context, tree_index node) {
-    return (tree_node(context->tree, node)->flags & TREE_BAD) != 0;
-}
-
 bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node) {
-    if (is_known(context, node))
+    if (bind_is_known(context, node))
         return false;
     str s = say_subject(context->scratch, subject);
     diag_add(context->sink, DIAG_NO_VALUE, tree_span(context->tree, node), "%.*s has no value", STR_ARG(s));
@@ -27,6 +23,31 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
     else
         diag_help(context->sink, "write the value, or leave the key out");
     return false;
+}
+
+// The numbers that the author wrote as one text, in the form that they need. false: it is no such text.
+static bool help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    const struct schema_row *row = subject.row;
+    if (!row || subject.component || bind_kind(context, node) != TREE_SCALAR)
+        return false;
+    str list =
+        mend_numbers(context->scratch, tree_text(context->tree, node), row->kind == SCHEMA_WEIGHTS ? 4 : 3);
+    bool composite = row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
+    if (list.len == 0 || !composite)
+        return false;
+    if (context->tree->is_xml) {
+        diag_help(context->sink, "write %.*s", STR_ARG(say_components(context->scratch, subject, list)));
+        return true;
+    }
+    str value = arena_format(context->scratch, "[%.*s]", STR_ARG(list));
+    diag_help(context->sink, "write %.*s", STR_ARG(value));
+    diag_fix(context->sink, true, tree_span(context->tree, node), value);
+    return true;
+}
+
+void bind_help_shape(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    if (!help_numbers(context, subject, node))
+        bind_help_example(context, subject);
 }
 
 void bind_help_example(struct bind_context *context, struct bind_subject subject) {
@@ -46,7 +67,7 @@ static str found(struct bind_context *context, tree_index node) {
 }
 
 bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject, tree_index node) {
-    if (is_known(context, node))
+    if (bind_is_known(context, node))
         return false;
     if (tree_node(context->tree, node)->kind == TREE_NULL)
         return bind_no_value(context, subject, node);
@@ -55,7 +76,7 @@ bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject,
     str expected = is_entry ? STR("a group of attributes") : say_expected_of(context->scratch, subject);
     diag_add(context->sink, DIAG_WRONG_SHAPE, tree_span(context->tree, node), "%.*s must be %.*s, not %.*s",
              STR_ARG(s), STR_ARG(expected), STR_ARG(found(context, node)));
-    bind_help_example(context, subject);
+    bind_help_shape(context, subject, node);
     return false;
 }
 
@@ -85,14 +106,8 @@ static bool bad_number(struct bind_context *context, struct bind_subject subject
         diag_add(context->sink, DIAG_BAD_NUMBER, at, "%.*s is empty; it must be a number", STR_ARG(s));
         return false;
     }
-    bool several = status == NUMBER_UNIT && mend_is_numbers(text);
-    if (several) {
-        diag_add(context->sink, DIAG_WRONG_SHAPE, at, "%.*s must be %.*s, not '%.*s'", STR_ARG(s),
-                 STR_ARG(say_expected(context->scratch, subject.row)),
-                 STR_ARG(say_text(context->scratch, text)));
-        bind_help_example(context, subject);
-        return false;
-    }
+    if (status == NUMBER_UNIT && mend_is_numbers(text))
+        return bind_wrong_shape(context, subject, node);
     diag_add(context->sink, DIAG_BAD_NUMBER, at, "%.*s: '%.*s' %s", STR_ARG(s),
              STR_ARG(say_text(context->scratch, text)), number_problem(status));
     if (!number_fix(context, subject.row->kind == SCHEMA_INTEGER, status, text, at))
@@ -124,6 +139,7 @@ static bool out_of_range(struct bind_context *context, struct bind_subject subje
         diag_add(context->sink, DIAG_BAD_VERSION, at,
                  "the file is written in version %.*s of the language; this program reads version %s",
                  STR_ARG(text), range->text);
+        diag_help(context->sink, "use a newer glint, or correct the number");
         return false;
     }
     diag_add(context->sink, DIAG_OUT_OF_RANGE, at, "%.*s is %.*s; it must be %s%s", STR_ARG(s), STR_ARG(text),
@@ -138,7 +154,7 @@ static bool out_of_range(struct bind_context *context, struct bind_subject subje
 }
 
 static bool is_scalar(struct bind_context *context, struct bind_subject subject, tree_index node) {
-    if (is_known(context, node))
+    if (bind_is_known(context, node))
         return false;
     if (tree_node(context->tree, node)->kind != TREE_SCALAR)
         return bind_wrong_shape(context, subject, node);

@@ -101,21 +101,37 @@ str mend_number(struct arena *arena, enum number_status status, str text) {
     }
 }
 
-bool mend_is_numbers(str text) {
-    unsigned count = 0;
+// The next number of a text, and what follows it; the empty string where there is none.
+static str next_number(str *rest) {
+    size_t end = 0;
+    while (end < rest->len && !strchr(" ,;\t\n", rest->ptr[end]))
+        end++;
+    str word = str_slice(*rest, 0, end);
+    while (end < rest->len && strchr(" ,;\t\n", rest->ptr[end]))
+        end++;
+    *rest = str_slice(*rest, end, rest->len);
+    double ignored;
+    return number_parse(word, &ignored) == NUMBER_OK ? word : STR("");
+}
+
+str mend_numbers(struct arena *arena, str text, uint32_t count) {
     str rest = str_trim(text);
-    while (rest.len) {
-        size_t end = 0;
-        while (end < rest.len && !strchr(" ,\t\n", rest.ptr[end]))
-            end++;
-        double ignored;
-        if (number_parse(str_slice(rest, 0, end), &ignored) != NUMBER_OK)
-            return false;
-        count++;
-        while (end < rest.len && strchr(" ,\t\n", rest.ptr[end]))
-            end++;
-        rest = str_slice(rest, end, rest.len);
+    str list = STR("");
+    for (uint32_t i = 0; i < count; i++) {
+        str number = next_number(&rest);
+        if (number.len == 0)
+            return STR("");
+        list = arena_format(arena, "%.*s%s%.*s", STR_ARG(list), i ? ", " : "", STR_ARG(number));
     }
+    return rest.len ? STR("") : list;
+}
+
+bool mend_is_numbers(str text) {
+    str rest = str_trim(text);
+    uint32_t count = 0;
+    for (; rest.len; count++)
+        if (next_number(&rest).len == 0)
+            return false;
     return count > 1;
 }
 

@@ -10,6 +10,8 @@
 str mend_number(struct arena *arena, enum number_status status, str text);
 // Whether the text is several numbers with blanks or commas between them.
 bool mend_is_numbers(str text);
+// Exactly `count` such numbers as "1, 2, 3"; the empty string where it is not that.
+str mend_numbers(struct arena *arena, str text, uint32_t count);
 // "true" or "false" for yes, On, TRUE, 1 ...; the empty string where it is neither.
 str mend_boolean(str text);
 // Letters that a name must not have become '_'; a digit in front gets one before it.

@@ -28,6 +28,8 @@ str say_words(struct arena *arena, const char *const *words);
 str say_example(struct arena *arena, const struct schema_row *row, bool is_xml);
 // The same for a value, which may stand in short form: then for the row that holds the element.
 str say_subject_example(struct arena *arena, struct bind_subject subject, bool is_xml);
+// The XML element of a vector, colour or weights with these numbers ("1, 2, 3").
+str say_components(struct arena *arena, struct bind_subject subject, str numbers);
 // " degrees", " pixels" or "".
 const char *say_unit(const struct schema_row *row);
 // A sentence of the table as a clause: first letter small, no full stop.

@@ -319,7 +319,7 @@ static void names_that_do_not_exist(void **state) {
 static void what_is_no_scene(void **state) {
     (void)state;
     loaded_check("- a\n- b\n", "E201", NULL);
-    loaded_check("name: x\nversion: 3\n", "E201", "a scene begins with glint: 1");
+    loaded_check("name: x\nversion: 3\n", "E201", "a scene begins with 'glint: 1'");
     loaded_check("<svg width=\"3\"/>", "E201", "its root is 'svg'");
     loaded_check_twins("glint: 2\nnew_thing: 5\n", "<Scene glint=\"2\" new_thing=\"5\"/>", "E216",
                        "the file is written in version 2 of the language; this program reads version 1");
