@@ -3,20 +3,29 @@
 
 #include "grammar/ir_print.h"
 
-static bool wants_xml(struct session *session, const char *out) {
+enum spelling {
+    SPELLING_YAML,
+    SPELLING_XML,
+    SPELLING_JSON,
+};
+
+static enum spelling wanted_spelling(struct session *session, const char *out) {
     str path = str_from(out);
     if (str_ends_with_nocase(path, ".xml"))
-        return true;
-    if (str_ends_with_nocase(path, ".yaml") || str_ends_with_nocase(path, ".yml") ||
-        str_ends_with_nocase(path, ".json"))
-        return false;
-    return !session->origin.files.items[0].is_xml;
+        return SPELLING_XML;
+    if (str_ends_with_nocase(path, ".json"))
+        return SPELLING_JSON;
+    if (str_ends_with_nocase(path, ".yaml") || str_ends_with_nocase(path, ".yml"))
+        return SPELLING_YAML;
+    return session->origin.files.items[0].is_xml ? SPELLING_YAML : SPELLING_XML;
 }
 
-static void write_as(struct session *session, bool xml, struct strbuf *text) {
+static void write_as(struct session *session, enum spelling spelling, struct strbuf *text) {
     struct ir_write_options options = {0};
-    if (xml)
+    if (spelling == SPELLING_XML)
         ir_write_xml(session->scene, &session->origin, &session->sources, options, text);
+    else if (spelling == SPELLING_JSON)
+        ir_write_json(session->scene, text);
     else
         ir_write_yaml(session->scene, &session->origin, &session->sources, options, text);
 }
@@ -24,7 +33,7 @@ static void write_as(struct session *session, bool xml, struct strbuf *text) {
 static int convert(struct cli *cli, struct session *session) {
     struct strbuf text;
     strbuf_init(&text);
-    write_as(session, wants_xml(session, cli->operands[1]), &text);
+    write_as(session, wanted_spelling(session, cli->operands[1]), &text);
     int status = CLI_OK;
     if (text.failed) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory to convert this scene");
