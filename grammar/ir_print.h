@@ -1,4 +1,4 @@
-// The IR as text: the canonical dump, and both writers of whole files. All three walk the table.
+// The IR as text: the canonical dump, and the writers of whole files. All of them walk the table.
 //
 // What is written is what the file wrote (head.written; what is poisoned too), in table order, lists in
 // their own order; anonymous materials stand inside the body that uses them; a list or map without
@@ -30,5 +30,8 @@ void ir_write_yaml(const struct ir_scene *scene, const struct ir_origin *origin,
                    const struct source_set *sources, struct ir_write_options options, struct strbuf *out);
 void ir_write_xml(const struct ir_scene *scene, const struct ir_origin *origin,
                   const struct source_set *sources, struct ir_write_options options, struct strbuf *out);
+
+// A whole file in JSON, which reads back as YAML; JSON has no comments.
+void ir_write_json(const struct ir_scene *scene, struct strbuf *out);
 
 #endif

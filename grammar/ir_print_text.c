@@ -123,6 +123,24 @@ void print_yaml_literal(struct strbuf *out, str text, uint32_t indent) {
     }
 }
 
+void print_json_text(struct strbuf *out, str text) {
+    strbuf_char(out, '"');
+    for (size_t at = 0; at < text.len;) {
+        size_t n = utf8_sequence_length(text, at);
+        uint32_t c = utf8_decode(text, at);
+        if (c == '"' || c == '\\')
+            strbuf_format(out, "\\%c", (char)c);
+        else if (c == '\n' || c == '\t')
+            strbuf_cstr(out, c == '\n' ? "\\n" : "\\t");
+        else if (n == 0 || (is_odd(c) && c < 0x10000)) // YAML has no pairs of surrogates
+            strbuf_format(out, "\\u%04X", (unsigned)c);
+        else
+            strbuf_str(out, str_slice(text, at, at + n));
+        at += n ? n : 1;
+    }
+    strbuf_char(out, '"');
+}
+
 void print_xml_text(struct strbuf *out, str text) {
     for (size_t at = 0; at < text.len;) {
         size_t n = utf8_sequence_length(text, at);

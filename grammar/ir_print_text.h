@@ -15,6 +15,8 @@ void print_yaml_text(struct strbuf *out, str text, bool in_flow);
 bool print_yaml_is_literal(str text);
 // The block's header ("|" or "|-") and its lines, indented; ends with a line end.
 void print_yaml_literal(struct strbuf *out, str text, uint32_t indent);
+// Text as a JSON string that YAML reads the same.
+void print_json_text(struct strbuf *out, str text);
 // Text inside double quotes in XML; line ends and tabs as character references.
 void print_xml_text(struct strbuf *out, str text);
 

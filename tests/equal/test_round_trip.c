@@ -2,6 +2,8 @@
 #include "grammar/generate.h"
 #include "tests/equal/equal_kit.h"
 
+#include <jansson.h>
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -83,6 +85,30 @@ static void test_generated_scenes(void **state) {
         check_scene(seed);
 }
 
+// JSON is read as YAML, and by every reader of JSON.
+static void test_json(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 200; seed++) {
+        struct arena arena;
+        struct loaded loaded;
+        struct strbuf dump, json;
+        json_error_t error;
+        arena_init(&arena, (size_t)1 << 26);
+        strbuf_init(&dump), strbuf_init(&json);
+        const struct ir_scene *scene = generate(seed, &arena);
+        ir_dump(scene, &dump);
+        ir_write_json(scene, &json);
+        check_text("JSON", false, &json, &dump, &loaded);
+        json_t *value = json_loadb(json.data, json.len, JSON_REJECT_DUPLICATES | JSON_ALLOW_NUL, &error);
+        if (!value)
+            fail_msg("seed %d: line %d: %s\n%s", (int)seed, error.line, error.text, json.data);
+        json_decref(value);
+        loaded_finish(&loaded);
+        strbuf_finish(&dump), strbuf_finish(&json);
+        arena_finish(&arena);
+    }
+}
+
 // A dump is a scene too, and means what it was made from.
 static void test_dumps_are_scenes(void **state) {
     (void)state;
@@ -118,6 +144,7 @@ static void test_seeds_repeat(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_generated_scenes),
+        cmocka_unit_test(test_json),
         cmocka_unit_test(test_dumps_are_scenes),
         cmocka_unit_test(test_seeds_repeat),
     };
