@@ -82,7 +82,7 @@ void emit_range_words(const struct schema_row *row, struct strbuf *out) {
 }
 
 void emit_default_words(const struct schema_row *row, struct strbuf *out) {
-    char memory[128] __attribute__((aligned(16))) = {0};
+    _Alignas(16) char memory[128] = {0};
     if (row->kind == SCHEMA_ELEMENT && schema_short_row(row->child) >= 0) {
         emit_default_words(&row->child->rows[schema_short_row(row->child)], out);
         return;

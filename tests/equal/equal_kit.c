@@ -37,7 +37,7 @@ void load_text(struct loaded *loaded, const char *path, str text) {
 }
 
 void load_path(struct loaded *loaded, const char *path) {
-    str text;
+    str text = STR("");
     begin(loaded);
     if (files_add_scene_root(&loaded->files, str_from(path)) != FILE_OK ||
         files_read(&loaded->files, str_from(path), (uint64_t)1 << 28, &loaded->arena, &text) != FILE_OK)
