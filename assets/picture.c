@@ -1,5 +1,6 @@
 #include "assets/picture_read.h"
 
+#include "assets/jpeg_check.h"
 #include "assets/read_hdr.h"
 #include "assets/stb_decode.h"
 
@@ -95,62 +96,6 @@ static const char *png_check(str bytes) {
     }
 }
 
-// ---- JPEG (ISO/IEC 10918-1): markers up to the first scan, and the end marker behind it
-
-static bool jpeg_has_end(const unsigned char *data, size_t size, size_t at) {
-    while (at + 1 < size) {
-        const unsigned char *mark = memchr(data + at, 0xFF, size - 1 - at);
-        if (!mark)
-            return false;
-        if (mark[1] == 0xD9)
-            return true;
-        at = (size_t)(mark - data) + 1;
-    }
-    return false;
-}
-
-static const char *jpeg_frame(const unsigned char *segment, uint32_t length, unsigned marker,
-                              struct picture_header *out) {
-    if (marker > 0xC2)
-        return "it is lossless, hierarchical or arithmetically coded; save it as baseline or progressive";
-    if (length < 8)
-        return "its frame header is too short";
-    out->height = big_endian(segment + 3, 2);
-    out->width = big_endian(segment + 5, 2);
-    return out->width && out->height ? NULL : "its width or height is 0";
-}
-
-static const char *jpeg_header(str bytes, struct picture_header *out) {
-    const unsigned char *data = (const unsigned char *)bytes.ptr;
-    bool profile = false;
-    size_t scan = 0;
-    for (size_t at = 2; scan == 0;) {
-        while (at + 1 < bytes.len && data[at] == 0xFF && data[at + 1] == 0xFF)
-            at++; // fill bytes
-        if (bytes.len - at < 4)
-            return "the file ends before the picture";
-        unsigned marker = data[at + 1];
-        uint32_t length = big_endian(data + at + 2, 2);
-        const unsigned char *segment = data + at + 2;
-        if (data[at] != 0xFF || length < 2)
-            return "a marker is expected where there is none";
-        if (length > bytes.len - at - 2)
-            return "the file ends within a segment";
-        scan = marker == 0xDA ? at + 2 + length : 0;
-        bool is_frame =
-            marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-        const char *fault = is_frame ? jpeg_frame(segment, length, marker, out) : NULL;
-        if (fault)
-            return fault;
-        profile |= marker == 0xE2 && length >= 14 && memcmp(segment + 2, "ICC_PROFILE", 12) == 0;
-        at += 2 + (size_t)length;
-    }
-    out->ignored = name_ignored(false, profile);
-    if (out->width == 0)
-        return "it has no frame header";
-    return jpeg_has_end(data, bytes.len, scan) ? NULL : "the file ends within the picture";
-}
-
 // ---- all kinds
 
 const char *picture_read_header(str bytes, struct picture_header *out) {
@@ -161,7 +106,7 @@ const char *picture_read_header(str bytes, struct picture_header *out) {
     }
     if (str_starts_with(bytes, STR("\xFF\xD8\xFF"))) {
         out->kind = PICTURE_KIND_JPEG;
-        return jpeg_header(bytes, out);
+        return jpeg_read_header(bytes, out);
     }
     if (str_starts_with(bytes, STR("#?"))) {
         out->kind = PICTURE_KIND_HDR;

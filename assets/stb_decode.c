@@ -7,6 +7,7 @@
 // stb_image's allocator takes no context, so the budget of the decode under way is a variable of its thread:
 // the one exception to "no globals".
 static _Thread_local size_t budget_left;
+static _Thread_local bool budget_exceeded;
 
 // Before each block, so that freeing knows what to give back.
 struct block {
@@ -16,9 +17,12 @@ struct block {
 #define BLOCK_HEAD offsetof(struct block, begin)
 
 static void *budget_malloc(size_t size) {
-    if (size > SIZE_MAX - BLOCK_HEAD || size + BLOCK_HEAD > budget_left)
+    if (size > SIZE_MAX - BLOCK_HEAD || size + BLOCK_HEAD > budget_left) {
+        budget_exceeded = true;
         return NULL;
-    struct block *block = malloc(BLOCK_HEAD + size);
+    }
+    // Zeroed, so that no file can make a picture of what lay in memory.
+    struct block *block = calloc(1, BLOCK_HEAD + size);
     if (!block)
         return NULL;
     block->size = size;
@@ -65,11 +69,12 @@ void *stb_decode(const struct stb_job *job, const char **why) {
         return NULL;
     }
     budget_left = job->budget_bytes;
+    budget_exceeded = false;
     if (job->is_16_bit)
         pixels = stbi_load_16_from_memory(job->bytes, (int)job->count, &width, &height, &channels, 4);
     else
         pixels = stbi_load_from_memory(job->bytes, (int)job->count, &width, &height, &channels, 4);
-    *why = pixels ? NULL : stbi_failure_reason();
+    *why = pixels ? NULL : budget_exceeded ? "it holds more data than a picture of its size" : stbi_failure_reason();
     if (pixels && ((uint32_t)width != job->width || (uint32_t)height != job->height)) {
         *why = "its parts contradict each other about its size";
         budget_free(pixels);

@@ -1,0 +1,464 @@
+// Images: every kind that is read, what is ignored, and files that lie about themselves.
+#include "assets/picture_read.h"
+
+#include "assets_scene.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// ---- a PNG writer that compresses nothing
+
+static uint32_t crc_of(const unsigned char *p, size_t n) {
+    uint32_t crc = UINT32_MAX;
+    for (size_t i = 0; i < n; i++) {
+        crc ^= p[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc & 1 ? UINT32_C(0xEDB88320) ^ crc >> 1 : crc >> 1;
+    }
+    return ~crc;
+}
+
+static void put32(struct strbuf *out, uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+        strbuf_char(out, (char)(value >> shift & 0xFF));
+}
+
+static void put_chunk(struct strbuf *out, const char *type, const void *data, size_t size) {
+    put32(out, (uint32_t)size);
+    size_t begin = out->len;
+    strbuf_cstr(out, type);
+    strbuf_add(out, data, size);
+    put32(out, crc_of((const unsigned char *)out->data + begin, out->len - begin));
+}
+
+static void put_header(struct strbuf *out, uint32_t width, uint32_t height, char depth, char color) {
+    struct strbuf header;
+    strbuf_init(&header);
+    put32(&header, width);
+    put32(&header, height);
+    strbuf_add(&header, (char[5]){depth, color, 0, 0, 0}, 5);
+    strbuf_add(out, "\x89PNG\r\n\x1A\n", 8);
+    put_chunk(out, "IHDR", header.data, header.len);
+    strbuf_finish(&header);
+}
+
+// Rows with their filter bytes, at most 65535 bytes, as one stored block.
+static void put_rows(struct strbuf *out, const void *rows, size_t size) {
+    struct strbuf data;
+    strbuf_init(&data);
+    strbuf_add(&data,
+               (unsigned char[7]){0x78, 0x01, 1, size & 0xFF, size >> 8, ~size & 0xFF, (~size >> 8) & 0xFF},
+               7);
+    strbuf_add(&data, rows, size);
+    uint32_t a = 1, b = 0;
+    for (size_t i = 0; i < size; i++) {
+        a = (a + ((const unsigned char *)rows)[i]) % 65521;
+        b = (b + a) % 65521;
+    }
+    put32(&data, b << 16 | a);
+    put_chunk(out, "IDAT", data.data, data.len);
+    put_chunk(out, "IEND", NULL, 0);
+    strbuf_finish(&data);
+}
+
+// ---- scenes with a background
+
+static const struct picture *load(struct assets_scene *s, const char *name, const struct strbuf *file) {
+    assets_scene_bytes(s, name, file->data, file->len);
+    assets_scene_background(s, name);
+    assets_scene_load(s);
+    return s->assets.background;
+}
+
+static void expect_fault(const struct strbuf *file, const char *message) {
+    struct assets_scene *s = assets_scene_begin();
+    assert_null(load(s, "sky.png", file));
+    assert_says(s, message);
+    assert_int_equal(s->sink.count, 1);
+    assets_scene_end(s);
+}
+
+static void assert_pixel(const struct picture *picture, uint32_t x, uint32_t y, int r, int g, int b,
+                         int tolerance) {
+    const uint8_t *p = (const uint8_t *)picture->pixels + 4 * ((size_t)y * picture->width + x);
+    if (abs(p[0] - r) > tolerance || abs(p[1] - g) > tolerance || abs(p[2] - b) > tolerance)
+        fail_msg("pixel %u %u is %d %d %d, not %d %d %d", x, y, p[0], p[1], p[2], r, g, b);
+}
+
+static void png_of_8_bits(void **state) {
+    (void)state;
+    struct strbuf file;
+    strbuf_init(&file);
+    put_header(&file, 2, 2, 8, 2);
+    put_rows(&file, "\0\1\2\3\4\5\6\0\xFF\xFE\xFD\0\0\x80", 14);
+    struct assets_scene *s = assets_scene_begin();
+    const struct picture *picture = load(s, "sky.anything", &file);
+    assert_silent(s);
+    assert_int_equal(picture->width, 2);
+    assert_int_equal(picture->height, 2);
+    assert_int_equal(picture->depth, PICTURE_8);
+    assert_int_equal(picture->size_bytes, 16);
+    assert_memory_equal(picture->pixels, "\1\2\3\xFF\4\5\6\xFF\xFF\xFE\xFD\xFF\0\0\x80\xFF", 16);
+    assets_scene_end(s);
+    strbuf_finish(&file);
+}
+
+static void png_of_16_bits(void **state) {
+    (void)state;
+    struct strbuf file;
+    strbuf_init(&file);
+    put_header(&file, 1, 2, 16, 0);
+    put_rows(&file, "\0\x12\x34\0\xFF\xFF", 6);
+    struct assets_scene *s = assets_scene_begin();
+    const struct picture *picture = load(s, "sky.png", &file);
+    assert_silent(s);
+    assert_int_equal(picture->depth, PICTURE_16);
+    const uint16_t expected[] = {0x1234, 0x1234, 0x1234, 0xFFFF, 0xFFFF, 0xFFFF, 0xFFFF, 0xFFFF};
+    assert_memory_equal(picture->pixels, expected, sizeof expected);
+    assets_scene_end(s);
+    strbuf_finish(&file);
+}
+
+static void real_files(void **state) {
+    (void)state;
+    static const struct {
+        const char *path;
+        uint32_t width, height;
+        struct {
+            uint32_t x, y;
+            int r, g, b, tolerance;
+        } pixels[2];
+    } cases[] = {
+        {"tests/data/image/interlaced.png", 9, 5, {{3, 0, 255, 0, 0, 0}, {8, 4, 0, 0, 255, 0}}},
+        {"tests/data/image/palette.png", 4, 3, {{0, 0, 0x33, 0x66, 0xCC, 0}, {3, 2, 0x33, 0x66, 0xCC, 0}}},
+        {"tests/data/image/gray.jpg", 16, 8, {{0, 0, 128, 128, 128, 0}, {15, 7, 128, 128, 128, 0}}},
+        {"tests/data/image/progressive.jpg", 8, 16, {{0, 0, 254, 0, 0, 2}, {7, 15, 0, 0, 254, 2}}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct assets_scene *s = assets_scene_begin();
+        assets_scene_background(s, cases[i].path);
+        assets_scene_load(s);
+        const struct picture *picture = s->assets.background;
+        assert_silent(s);
+        assert_int_equal(picture->width, cases[i].width);
+        assert_int_equal(picture->height, cases[i].height);
+        for (int k = 0; k < 2; k++)
+            assert_pixel(picture, cases[i].pixels[k].x, cases[i].pixels[k].y, cases[i].pixels[k].r,
+                         cases[i].pixels[k].g, cases[i].pixels[k].b, cases[i].pixels[k].tolerance);
+        assets_scene_end(s);
+    }
+}
+
+static void what_is_ignored_is_one_note(void **state) {
+    (void)state;
+    static const struct {
+        const char *chunk;
+        char color;
+        const char *note;
+    } cases[] = {{NULL, 6, "the image's alpha is ignored [N601]"},
+                 {"gAMA", 2, "the image's colour profile is ignored [N601]"},
+                 {"iCCP", 6, "the image's alpha and colour profile are ignored [N601]"},
+                 {"tRNS", 2, "the image's alpha is ignored [N601]"},
+                 {"sRGB", 2, NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct strbuf file;
+        strbuf_init(&file);
+        put_header(&file, 1, 1, 8, cases[i].color);
+        if (cases[i].chunk)
+            put_chunk(&file, cases[i].chunk, "\0\0\0\0\0\0", 6);
+        put_rows(&file, "\0\1\2\3\4", cases[i].color == 6 ? 5 : 4);
+        struct assets_scene *s = assets_scene_begin();
+        assert_non_null(load(s, "sky.png", &file));
+        if (cases[i].note) {
+            assert_int_equal(s->sink.count, 1);
+            assert_says(s, "sky.png:1:1: note: ");
+            assert_says(s, cases[i].note);
+            assert_says(s, "scene.yaml:1:8: note: the image is named here");
+        } else {
+            assert_silent(s);
+        }
+        assets_scene_end(s);
+        strbuf_finish(&file);
+    }
+}
+
+static void broken_png_files(void **state) {
+    (void)state;
+    struct strbuf file;
+    strbuf_init(&file);
+    put_header(&file, 2, 2, 8, 2);
+    put_rows(&file, "\0\1\2\3\4\5\6\0\xFF\xFE\xFD\0\0\x80", 14);
+    size_t whole = file.len;
+    file.len = whole - 3;
+    expect_fault(
+        &file, "sky.png:1:1: error: the image cannot be decoded: the file ends before its end chunk [E620]");
+    file.len = whole - 20;
+    expect_fault(&file, "the file ends within a chunk [E620]");
+    file.len = 12;
+    expect_fault(&file, "the file ends before the first chunk [E620]");
+    file.len = whole;
+    file.data[whole - 25] ^= 1;
+    expect_fault(&file, "a chunk's checksum is wrong: the file is damaged [E620]");
+    expect_fault(&file, "scene.yaml:1:8: note: the image is named here");
+    strbuf_finish(&file);
+
+    strbuf_init(&file);
+    put_header(&file, 2, 2, 8, 2);
+    put_rows(&file, "\0\1\2\3\4\5\6", 7);
+    expect_fault(&file, "the image cannot be decoded: ");
+    strbuf_finish(&file);
+
+    strbuf_init(&file);
+    put_header(&file, 0, 2, 8, 2);
+    put_rows(&file, "", 0);
+    expect_fault(&file, "its width or height is 0");
+    strbuf_finish(&file);
+}
+
+static void too_many_pixels_are_refused_before_decoding(void **state) {
+    (void)state;
+    static const uint32_t sizes[][2] = {{65535, 65535}, {INT32_MAX, INT32_MAX}, {8193, 8192}};
+    for (size_t i = 0; i < 3; i++) {
+        struct strbuf file;
+        strbuf_init(&file);
+        put_header(&file, sizes[i][0], sizes[i][1], 8, 2);
+        put_rows(&file, "\0\1\2\3", 4);
+        char message[128];
+        snprintf(message, sizeof message,
+                 "scene.yaml:1:8: error: the image 'sky.png' claims %u x %u pixels; the limit image-pixels "
+                 "is 67108864 [E501]",
+                 sizes[i][0], sizes[i][1]);
+        expect_fault(&file, message);
+        expect_fault(&file,
+                     i == 2 ? "--limit image-pixels=67117056" : "no limit allows more than 134217728 pixels");
+        strbuf_finish(&file);
+    }
+}
+
+// Puts bits, lowest first; a Huffman code comes with its bits turned round.
+struct bits {
+    struct strbuf *out;
+    uint32_t held;
+    int count;
+};
+
+static void put_bits(struct bits *b, uint32_t value, int count) {
+    b->held |= value << b->count;
+    b->count += count;
+    for (; b->count >= 8; b->count -= 8, b->held >>= 8)
+        strbuf_char(b->out, (char)(b->held & 0xFF));
+}
+
+// One pixel, whose data inflate to 256 MB of zeros.
+static void a_small_file_does_not_become_large(void **state) {
+    (void)state;
+    struct strbuf file, data;
+    strbuf_init(&file);
+    strbuf_init(&data);
+    strbuf_add(&data, "\x78\x01", 2);
+    struct bits b = {.out = &data};
+    put_bits(&b, 3, 3);    // last block, fixed codes
+    put_bits(&b, 0x0C, 8); // literal 0: 00110000
+    for (int i = 0; i < 1040000; i++)
+        put_bits(&b, 0xA3, 13); // length 258: 11000101, distance 1: 00000
+    put_bits(&b, 0, 7 + 8);
+    strbuf_add(&data, "\0\0\0\0", 4);
+    put_header(&file, 1, 1, 8, 2);
+    put_chunk(&file, "IDAT", data.data, data.len);
+    put_chunk(&file, "IEND", NULL, 0);
+    expect_fault(&file, "sky.png:1:1: error: the image cannot be decoded: it holds more data than a picture "
+                        "of its size [E620]");
+    strbuf_finish(&data);
+    strbuf_finish(&file);
+}
+
+static void read_file(struct strbuf *out, const char *path) {
+    FILE *stream = fopen(path, "rb");
+    assert_non_null(stream);
+    char bytes[4096];
+    size_t size = fread(bytes, 1, sizeof bytes, stream);
+    fclose(stream);
+    strbuf_add(out, bytes, size);
+}
+
+static void broken_jpeg_files(void **state) {
+    (void)state;
+    struct strbuf file;
+    strbuf_init(&file);
+    read_file(&file, "tests/data/image/gray.jpg");
+    size_t whole = file.len;
+    file.len = whole - 2;
+    expect_fault(&file, "the file ends within the picture [E620]");
+    file.len = 30;
+    expect_fault(&file, "the file ends within a segment [E620]");
+    file.len = 3;
+    expect_fault(&file, "the file ends before the picture [E620]");
+    file.len = whole;
+    file.data[2] = 'x';
+    expect_fault(&file, "scene.yaml:1:8: error: 'sky.png' is no PNG, JPEG or Radiance HDR image [E621]");
+    strbuf_finish(&file);
+}
+
+static void other_files_are_no_images(void **state) {
+    (void)state;
+    static const char *const texts[] = {"", "GIF89a", "BM", "glint: 1\n", "\x89PNG\r\n\x1A"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        struct strbuf file;
+        strbuf_init(&file);
+        strbuf_cstr(&file, texts[i]);
+        expect_fault(&file, "scene.yaml:1:8: error: 'sky.png' is no PNG, JPEG or Radiance HDR image [E621]");
+        strbuf_finish(&file);
+    }
+    struct assets_scene *s = assets_scene_begin();
+    assets_scene_background(s, "no-such.png");
+    assets_scene_load(s);
+    assert_says(s, "scene.yaml:1:8: error: the image 'no-such.png' does not exist [E601]");
+    assets_scene_end(s);
+}
+
+// ---- Radiance HDR
+
+#define HDR_HEAD "#?RADIANCE\n# made by hand\nFORMAT=32-bit_rle_rgbe\n\n"
+
+static const float *load_hdr(struct assets_scene *s, const char *head, const void *pixels, size_t size) {
+    struct strbuf file;
+    strbuf_init(&file);
+    strbuf_cstr(&file, head);
+    strbuf_add(&file, pixels, size);
+    str copy = arena_copy(&s->arena, strbuf_view(&file));
+    strbuf_finish(&file);
+    struct strbuf view = {.data = (char *)copy.ptr, .len = copy.len};
+    const struct picture *picture = load(s, "sky.hdr", &view);
+    if (picture)
+        assert_int_equal(picture->depth, PICTURE_FLOAT);
+    return picture ? picture->pixels : NULL;
+}
+
+static void hdr_pixels_are_floats(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    // 128 is 1/2 of the exponent's power; exponents count from 128.
+    const float *p =
+        load_hdr(s, HDR_HEAD "-Y 2 +X 2\n", "\x80\x40\x20\x81\xFF\0\0\x80\1\2\3\0\xFF\xFF\xFF\xFF", 16);
+    assert_silent(s);
+    const float expected[] = {1, 0.5f, 0.25f, 1, 255.0f / 256, 0, 0, 1, 0, 0, 0, 1};
+    assert_memory_equal(p, expected, sizeof expected);
+    assert_true(p[12] == 255 * 0x1p119f && isfinite(p[12]));
+    assets_scene_end(s);
+}
+
+static void hdr_runs_are_read(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    // Width 8, by channel: a run of 8; then 3 different ones and a run of 5; a run of 8; the exponents.
+    const float *p =
+        load_hdr(s, HDR_HEAD "-Y 1 +X 8\n", "\2\2\0\x08\x88\x80\3\x10\x20\x40\x85\x80\x88\0\x88\x81", 16);
+    assert_silent(s);
+    for (int x = 0; x < 8; x++) {
+        static const float green[] = {0.125f, 0.25f, 0.5f, 1, 1, 1, 1, 1};
+        assert_true(p[4 * x] == 1 && p[4 * x + 1] == green[x] && p[4 * x + 2] == 0 && p[4 * x + 3] == 1);
+    }
+    assets_scene_end(s);
+    s = assets_scene_begin();
+    // The older form: a pixel, and that it comes 4 times more, over the end of no row.
+    p = load_hdr(s, HDR_HEAD "-Y 1 +X 5\n", "\x80\x40\x20\x81\1\1\1\4", 8);
+    assert_silent(s);
+    assert_true(p[16] == 1 && p[17] == 0.5f && p[18] == 0.25f);
+    assets_scene_end(s);
+}
+
+static void hdr_lines_that_are_ignored(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    assert_non_null(load_hdr(s, "#?RGBE\r\nEXPOSURE=2\r\n\r\n-Y 1 +X 1\n", "\1\2\3\4", 4));
+    assert_says(s, "sky.hdr:1:1: note: the image's exposure or colour lines are ignored [N601]");
+    assets_scene_end(s);
+}
+
+static void broken_hdr_files(void **state) {
+    (void)state;
+    static const struct {
+        const char *head;
+        const char *pixels;
+        size_t size;
+        const char *message;
+    } cases[] = {
+        {"#?RADIANCE", "", 0, "the file ends within its header"},
+        {"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", "", 0, "the file ends within its header"},
+        {"#?RADIANCE\n\n", "", 0, "the file ends within its header"},
+        {"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n", "\1\2\3\4", 4,
+         "its format is not 32-bit_rle_rgbe"},
+        {HDR_HEAD "+X 1 -Y 1\n", "\1\2\3\4", 4, "its size line is not of the form"},
+        {HDR_HEAD "-Y 0 +X 1\n", "\1\2\3\4", 4, "its size line is not of the form"},
+        {HDR_HEAD "-Y -1 +X 1\n", "\1\2\3\4", 4, "its size line is not of the form"},
+        {HDR_HEAD "-Y 1 +X 12345678901\n", "\1\2\3\4", 4, "its size line is not of the form"},
+        {HDR_HEAD "-Y 2 +X 1\n", "\2\2\3\4\5\6", 6, "its pixels are damaged"},
+        {HDR_HEAD "-Y 1 +X 5\n", "\x80\x40\x20\x81\1\1\1\5", 8, "its pixels are damaged"},
+        {HDR_HEAD "-Y 1 +X 5\n", "\1\1\1\5", 4, "its pixels are damaged"},
+        {HDR_HEAD "-Y 1 +X 8\n", "\2\2\0\x09\x88\x80", 6, "its pixels are damaged"},
+        {HDR_HEAD "-Y 1 +X 8\n", "\2\2\0\x08\x89\x80", 6, "its pixels are damaged"},
+        {HDR_HEAD "-Y 1 +X 8\n", "\2\2\0\x08\0\0\0\0\0\0", 10, "its pixels are damaged"},
+        {HDR_HEAD "-Y 1 +X 8\n", "\2\2\0\x08\x05\1\2", 7, "its pixels are damaged"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct assets_scene *s = assets_scene_begin();
+        assert_null(load_hdr(s, cases[i].head, cases[i].pixels, cases[i].size));
+        assert_says(s, cases[i].message);
+        assert_int_equal(s->sink.errors, 1);
+        assets_scene_end(s);
+    }
+    struct assets_scene *s = assets_scene_begin();
+    assert_null(load_hdr(s, HDR_HEAD "-Y 999999999 +X 999999999\n", "", 0));
+    assert_says(s, "claims 999999999 x 999999999 pixels");
+    assets_scene_end(s);
+}
+
+// Every prefix, and every byte changed, of each kind: an error or a picture, never a crash.
+static void damaged_files_never_crash(void **state) {
+    (void)state;
+    static const char *const paths[] = {"tests/data/image/interlaced.png", "tests/data/image/palette.png",
+                                        "tests/data/image/gray.jpg", "tests/data/image/progressive.jpg"};
+    for (size_t i = 0; i < sizeof paths / sizeof paths[0]; i++) {
+        struct strbuf file;
+        strbuf_init(&file);
+        read_file(&file, paths[i]);
+        size_t whole = file.len;
+        for (size_t at = 0; at < 9 * whole; at++) {
+            // An own block of the exact size, so that reading beyond it is seen.
+            size_t size = at < whole ? at : whole;
+            char *bytes = malloc(size ? size : 1);
+            memcpy(bytes, file.data, size);
+            if (at >= whole)
+                bytes[at % whole] = (char)(bytes[at % whole] ^ (1 << (at / whole - 1)));
+            struct picture_header header;
+            struct picture picture = {0};
+            const char *fault = picture_read_header((str){bytes, size}, &header);
+            if (!fault && header.kind != PICTURE_KIND_NONE &&
+                (uint64_t)header.width * header.height < 1000000)
+                picture_decode((str){bytes, size}, &header, &picture);
+            picture_finish(&picture);
+            free(bytes);
+        }
+        strbuf_finish(&file);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(png_of_8_bits),
+        cmocka_unit_test(png_of_16_bits),
+        cmocka_unit_test(real_files),
+        cmocka_unit_test(what_is_ignored_is_one_note),
+        cmocka_unit_test(broken_png_files),
+        cmocka_unit_test(too_many_pixels_are_refused_before_decoding),
+        cmocka_unit_test(a_small_file_does_not_become_large),
+        cmocka_unit_test(broken_jpeg_files),
+        cmocka_unit_test(other_files_are_no_images),
+        cmocka_unit_test(hdr_pixels_are_floats),
+        cmocka_unit_test(hdr_runs_are_read),
+        cmocka_unit_test(hdr_lines_that_are_ignored),
+        cmocka_unit_test(broken_hdr_files),
+        cmocka_unit_test(damaged_files_never_crash),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
