@@ -196,7 +196,9 @@ static void on_scalar(struct yaml_reader *r) {
     if (r->event.data.scalar.style == YAML_DOUBLE_QUOTED_SCALAR_STYLE)
         node.flags |= check_escapes(r, value, at);
     // Of a value that was nothing but bad bytes, blanks are left.
-    if (reader_text_is_bad(r->text, node.begin, absent ? line_end(r, node.end) : node.end))
+    bool bad = absent ? reader_text_is_bad(r->text, token, line_end(r, node.end))
+                      : reader_text_is_bad(r->text, node.begin, node.end);
+    if (bad)
         node.flags |= TREE_BAD;
     node.value = tree_add_text(r->tree, value);
     node.count = (uint32_t)value.len;
@@ -463,7 +465,9 @@ static void report_root(const struct reader_context *context, struct tree *tree,
     span first = {tree->source, root->begin, root->kind == TREE_LIST ? root->begin + 1 : root->end};
     diag_add(context->sink, DIAG_NOT_A_SCENE, first, "a scene is a map of keys and values, and this is a %s",
              root->kind == TREE_LIST ? "list" : "single text");
-    diag_help(context->sink, "begin the file with 'glint: 1'");
+    bool xml = context->sources->items[tree->source].text.ptr[root->begin] == '<';
+    diag_help(context->sink,
+              xml ? "the file looks like XML: name it .xml" : "begin the file with 'glint: 1'");
 }
 
 bool read_yaml(const struct reader_context *context, uint32_t source, struct tree *tree) {
