@@ -1,6 +1,7 @@
 #include "tests/equal/equal_kit.h"
 
 #include "core/diag_text.h"
+#include "grammar/ir_walk.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -87,4 +88,34 @@ void assert_same_text(const char *what, const struct strbuf *a, const struct str
     print_error("%s differs from line %zu on:\n--- first\n%.300s\n--- second\n%.300s\n", what, line + 1,
                 a->data + at, b->data + at);
     fail();
+}
+
+void note_written(const struct schema_element *schema, const void *element, uint64_t used[ELEMENTS_MAX]) {
+    int which = 0;
+    while (schema_elements[which] != schema)
+        which++;
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        struct ir_any_list list = ir_walk_list(row, element);
+        // Anonymous items too: they stand in the list that references point into.
+        for (uint32_t k = 0; k < list.count; k++)
+            note_written(row->child, ir_walk_item(row, list, k), used);
+        if (!ir_walk_written(schema, i, element))
+            continue;
+        used[which] |= UINT64_C(1) << i;
+        if (row->kind == SCHEMA_ELEMENT)
+            note_written(row->child, schema_field_const(row, element), used);
+    }
+}
+
+void assert_all_written(const uint64_t used[ELEMENTS_MAX], const char *complaint) {
+    unsigned missing = 0;
+    for (int e = 0; schema_elements[e]; e++)
+        for (uint32_t i = 0; i < schema_elements[e]->row_count; i++) {
+            if (used[e] >> i & 1)
+                continue;
+            print_error("%s %s.%s\n", complaint, schema_elements[e]->name, schema_elements[e]->rows[i].name);
+            missing++;
+        }
+    assert_int_equal(missing, 0);
 }

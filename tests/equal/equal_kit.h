@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "core/strbuf.h"
 #include "grammar/ir_print.h"
+#include "grammar/schema.h"
 #include "parser/parser.h"
 
 struct loaded {
@@ -29,6 +30,14 @@ void loaded_finish(struct loaded *loaded);
 void assert_no_errors(struct loaded *loaded, const char *what);
 // The main file alone, written; the caller finishes `out`.
 void write_loaded(const struct loaded *loaded, bool xml, struct strbuf *out);
+// Which rows some scene wrote, by the element's place in schema_elements.
+enum {
+    ELEMENTS_MAX = 64
+};
+// Adds what `element`, of the table's element `schema`, and all below it wrote.
+void note_written(const struct schema_element *schema, const void *element, uint64_t used[ELEMENTS_MAX]);
+// Fails with the rows that nobody wrote.
+void assert_all_written(const uint64_t used[ELEMENTS_MAX], const char *complaint);
 // Fails with both texts around the first line that differs.
 void assert_same_text(const char *what, const struct strbuf *a, const struct strbuf *b);
 
