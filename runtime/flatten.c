@@ -153,11 +153,11 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
 void flat_finish(struct flat_scene *flat) {
     if (!flat)
         return;
-    struct flat_array *arrays[] = {&flat->triangle_nodes, &flat->triangles, &flat->normals,
-                                   &flat->sphere_nodes,   &flat->spheres,   &flat->bodies,
-                                   &flat->materials,      &flat->lights};
+    const struct flat_array arrays[] = {flat->triangle_nodes, flat->triangles, flat->normals,
+                                        flat->sphere_nodes,   flat->spheres,   flat->bodies,
+                                        flat->materials,      flat->lights};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        free(arrays[i]->words);
+        free(arrays[i].words);
     free(flat->background_texels.owned);
     *flat = (struct flat_scene){0};
 }

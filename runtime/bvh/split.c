@@ -126,7 +126,7 @@ static uint32_t split_by_sweep(struct bvh_item *items, uint32_t count) {
     uint32_t best_left = 0;
     double best_cost = INFINITY;
     for (int axis = 0; axis < 3; axis++) {
-        uint8_t order[SPLIT_SWEEP];
+        uint8_t order[SPLIT_SWEEP] = {0};
         double right_cost[SPLIT_SWEEP];
         sort_few(items, count, axis, order);
         struct bvh_box box = box_empty();

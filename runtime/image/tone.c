@@ -83,7 +83,8 @@ static void convert_pixels(void *context, size_t begin, size_t end) {
 }
 
 void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes) {
-    struct conversion job = {.rgb = image->rgb, .bytes = bytes, .display = display};
+    struct conversion job = {.rgb = image->rgb, .display = display};
+    job.bytes = bytes;
     if (display.transfer == IR_TRANSFER_SRGB)
         thresholds_make(&job.thresholds);
     parallel_for((size_t)image->width * image->height, PIECE_PIXELS, convert_pixels, &job);

@@ -200,7 +200,8 @@ static void test_repeatable(void **state) {
         memcpy(work, items, COUNT * sizeof *work);
         assert_true(bvh_build(work, COUNT, BVH_SAH, &again));
         assert_int_equal(first.node_count, again.node_count);
-        assert_memory_equal(first.nodes, again.nodes, first.node_count * NODE_WORDS * sizeof *first.nodes);
+        assert_memory_equal(first.nodes, again.nodes,
+                            (size_t)NODE_WORDS * first.node_count * sizeof *first.nodes);
         assert_memory_equal(first.order, again.order, COUNT * sizeof *first.order);
         bvh_finish(&again);
     }
@@ -252,7 +253,7 @@ static void triangles_build(struct triangles *t) {
         items[i] = bvh_triangle_item(t->words + (size_t)TRIANGLE_WORDS * i, i);
     assert_true(bvh_build(items, t->count, BVH_SAH, &t->bvh));
     free(items);
-    t->leaves = malloc(t->count * TRIANGLE_WORDS * sizeof *t->leaves);
+    t->leaves = malloc((size_t)TRIANGLE_WORDS * t->count * sizeof *t->leaves);
     for (uint32_t i = 0; i < t->count; i++)
         memcpy(t->leaves + (size_t)TRIANGLE_WORDS * i, t->words + (size_t)TRIANGLE_WORDS * t->bvh.order[i],
                TRIANGLE_WORDS * sizeof *t->leaves);
@@ -266,7 +267,7 @@ static void triangles_finish(struct triangles *t) {
 
 static void random_triangles(struct triangles *t, uint32_t count, float size) {
     t->count = count;
-    t->words = malloc(count * TRIANGLE_WORDS * sizeof *t->words);
+    t->words = malloc((size_t)TRIANGLE_WORDS * count * sizeof *t->words);
     for (uint32_t i = 0; i < count; i++) {
         float middle[3] = {random_sign(), random_sign(), random_sign()};
         for (int k = 0; k < TRIANGLE_WORDS; k++)
@@ -354,7 +355,7 @@ static void test_ties(void **state) {
     struct triangles one, t;
     random_triangles(&one, COUNT, 0.4f);
     t.count = COUNT * COPIES;
-    t.words = malloc(t.count * TRIANGLE_WORDS * sizeof *t.words);
+    t.words = malloc((size_t)TRIANGLE_WORDS * t.count * sizeof *t.words);
     for (uint32_t i = 0; i < t.count; i++) {
         memcpy(t.words + (size_t)TRIANGLE_WORDS * i, one.words + (size_t)TRIANGLE_WORDS * (i % COUNT),
                TRIANGLE_WORDS * sizeof *t.words);

@@ -37,23 +37,22 @@ void *__wrap_realloc(void *memory, size_t size) {
     return fails() ? NULL : __real_realloc(memory, size);
 }
 
-static void build(struct kit *kit, struct picture *picture, uint16_t pixels[4]) {
+static void build(struct kit *kit, struct picture *picture) {
     kit_init(kit);
     // Large enough for ranges that threads share.
     kit_model(kit, kit_icosphere(kit, 5, 0))->smooth = true;
     kit_sphere(kit);
     kit_rectangle(kit);
     kit_light(kit, (vec3){1, 2, 3});
-    *picture = (struct picture){1, 1, PICTURE_16, pixels, 8, NULL};
     kit->assets.background = picture;
 }
 
 static void test_each_fails(void **state) {
     (void)state;
     struct kit kit;
-    struct picture picture;
     uint16_t pixels[4] = {1, 2, 3, 4};
-    build(&kit, &picture, pixels);
+    struct picture picture = {1, 1, PICTURE_16, pixels, sizeof pixels, NULL};
+    build(&kit, &picture);
     int failed = 0;
     for (int nth = 1;; nth++) {
         struct flat_scene flat;

@@ -61,21 +61,19 @@ static void test_normalize(void **state) {
 // The table of thresholds against the formula, on floats of all sizes.
 static void test_srgb(void **state) {
     (void)state;
-    enum {
-        COUNT = 400000
-    };
+    const size_t count = 400000;
     const struct image_display srgb = {IR_TONE_CLIP, IR_TRANSFER_SRGB};
     struct image image;
-    assert_true(image_init(&image, COUNT, 1));
-    uint8_t *bytes = malloc(3 * COUNT);
+    assert_true(image_init(&image, (uint32_t)count, 1));
+    uint8_t *bytes = malloc(3 * count);
     uint32_t bits = 1;
-    for (size_t i = 0; i < 3 * COUNT; i++) {
+    for (size_t i = 0; i < 3 * count; i++) {
         bits = bits * 1664525u + 1013904223u;
         image.rgb[i] =
             i % 2 ? (float)(bits >> 8) * 0x1p-24f : ldexpf((float)(bits >> 8) * 0x1p-24f, -(int)(i % 16));
     }
     image_to_bytes(&image, srgb, bytes);
-    for (size_t i = 0; i < 3 * COUNT; i++) {
+    for (size_t i = 0; i < 3 * count; i++) {
         double c = image.rgb[i];
         double shown = c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
         assert_int_equal(bytes[i], (int)floor(255 * shown + 0.5));
@@ -95,25 +93,66 @@ static struct image pattern(uint32_t width, uint32_t height) {
     return image;
 }
 
-static void test_png(void **state) {
-    (void)state;
-    struct image image = pattern(67, 41);
-    uint8_t bytes[67 * 41 * 3];
-    image_to_bytes(&image, plain, bytes);
+static void check_png(const struct image *image, size_t at_most) {
+    size_t size = (size_t)3 * image->width * image->height;
+    uint8_t *bytes = malloc(size);
+    image_to_bytes(image, plain, bytes);
     struct strbuf file;
     strbuf_init(&file);
-    image_encode(&image, IMAGE_PNG, plain, &file);
+    image_encode(image, IMAGE_PNG, plain, &file);
     assert_false(file.failed);
+    assert_true(file.len <= at_most);
     int width, height, channels;
     uint8_t *read =
         stbi_load_from_memory((const uint8_t *)file.data, (int)file.len, &width, &height, &channels, 0);
     assert_non_null(read);
-    assert_int_equal(width, 67);
-    assert_int_equal(height, 41);
+    assert_int_equal(width, (int)image->width);
+    assert_int_equal(height, (int)image->height);
     assert_int_equal(channels, 3);
-    assert_memory_equal(read, bytes, sizeof bytes);
+    assert_memory_equal(read, bytes, size);
     stbi_image_free(read);
     strbuf_finish(&file);
+    free(bytes);
+}
+
+// Pictures of one piece and of many; even ones, noise, and noise that repeats far away.
+static void test_png(void **state) {
+    (void)state;
+    static const uint32_t sizes[][2] = {{1, 1},    {2, 3},     {67, 41},  {1, 3000},
+                                        {3000, 1}, {640, 480}, {211, 823}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct image image = pattern(sizes[i][0], sizes[i][1]);
+        size_t count = (size_t)image.width * image.height * 3;
+        size_t most = (count + image.height) * 101 / 100 + 200; // each row has a byte for its filter
+        check_png(&image, most);
+        uint32_t bits = 1;
+        for (size_t k = 0; k < count; k++) {
+            bits = bits * 1664525u + 1013904223u;
+            image.rgb[k] = (float)(bits >> 8) * 0x1p-24f;
+        }
+        check_png(&image, most);
+        for (size_t k = 20001; k < count; k++)
+            image.rgb[k] = image.rgb[k - 20001];
+        check_png(&image, most);
+        memset(image.rgb, 0, count * sizeof *image.rgb);
+        check_png(&image, 200 + most / 200);
+        image_finish(&image);
+    }
+}
+
+// The cut into pieces is fixed, so that threads cannot show.
+static void test_png_repeats(void **state) {
+    (void)state;
+    struct image image = pattern(500, 700);
+    struct strbuf files[2];
+    for (int i = 0; i < 2; i++) {
+        strbuf_init(&files[i]);
+        image_encode(&image, IMAGE_PNG, plain, &files[i]);
+    }
+    assert_int_equal(files[0].len, files[1].len);
+    assert_memory_equal(files[0].data, files[1].data, files[0].len);
+    for (int i = 0; i < 2; i++)
+        strbuf_finish(&files[i]);
     image_finish(&image);
 }
 
@@ -191,9 +230,9 @@ static void test_formats(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rounding), cmocka_unit_test(test_normalize), cmocka_unit_test(test_srgb),
-        cmocka_unit_test(test_png),      cmocka_unit_test(test_pfm),       cmocka_unit_test(test_hdr),
-        cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_rounding), cmocka_unit_test(test_normalize),   cmocka_unit_test(test_srgb),
+        cmocka_unit_test(test_png),      cmocka_unit_test(test_png_repeats), cmocka_unit_test(test_pfm),
+        cmocka_unit_test(test_hdr),      cmocka_unit_test(test_formats),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
