@@ -137,9 +137,8 @@ static uint32_t scalar_end(const struct yaml_reader *r, uint32_t begin, uint32_t
     return end;
 }
 
-static uint32_t line_end(const struct yaml_reader *r, uint32_t at) {
-    str text = r->text->bytes;
-    while (at < text.len && text.ptr[at] != '\n' && text.ptr[at] != '\r')
+static uint32_t skip_spaces(const struct yaml_reader *r, uint32_t at) {
+    while (at < r->text->bytes.len && r->text->bytes.ptr[at] == ' ')
         at++;
     return at;
 }
@@ -196,7 +195,7 @@ static void on_scalar(struct yaml_reader *r) {
     if (r->event.data.scalar.style == YAML_DOUBLE_QUOTED_SCALAR_STYLE)
         node.flags |= check_escapes(r, value, at);
     // Of a value that was nothing but bad bytes, blanks are left.
-    bool bad = absent ? reader_text_is_bad(r->text, token, line_end(r, node.end))
+    bool bad = absent ? reader_text_is_bad(r->text, token, skip_spaces(r, node.end))
                       : reader_text_is_bad(r->text, node.begin, node.end);
     if (bad)
         node.flags |= TREE_BAD;

@@ -39,6 +39,11 @@ void yaml_merge(struct yaml_reader *r, struct yaml_frame *frame, tree_index valu
     }
 }
 
+// Each join walks over what was joined before.
+enum {
+    JOINS_MAX = 100
+};
+
 // What two values of one key hold, one after the other, where that cannot change what is right about
 // either: both are maps, or lists of maps.
 static bool joins(const struct tree *tree, tree_index a, tree_index b) {
@@ -83,7 +88,7 @@ static void report_twice(struct yaml_reader *r, tree_index first, tree_index sec
              STR_ARG(reader_clip(text)));
     diag_note(&r->sink, tree_span(r->tree, first), "it was given here first");
     tree_index a = tree_value(r->tree, first), b = tree_value(r->tree, second);
-    if (joins(r->tree, a, b)) {
+    if (r->sink.errors < JOINS_MAX && joins(r->tree, a, b)) {
         // The entries of both are checked, and references to them hold: the mistake is reported once.
         join(r, a, b);
         diag_help(&r->sink, "put the entries of both under one key");

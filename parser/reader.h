@@ -3,7 +3,9 @@
 // Input: a source that is already in the set. Output: a tree; diagnostics E1xx and limits (E5xx) in the
 // sink. What libyaml or expat refuses ends the file, and what stands before it is in the tree
 // (tree.broken is set); what glint itself finds (tags, duplicate keys, tabs, text between elements ...)
-// does not. Memory: the arena's guard catches its cap; the readers never jump through a library's frames.
+// does not: it is overwritten in a copy of equal length, and what it touches is marked TREE_BAD.
+// Memory: where the arena ends, the library is put away first; then the jump goes to the caller's guard,
+// which must be set. Never is there a jump through a library's frames.
 #ifndef GLINT_PARSER_READER_H
 #define GLINT_PARSER_READER_H
 

@@ -77,12 +77,12 @@ struct tree {
         struct tree_comment *items;
         uint32_t count, capacity;
     } comments;
-    tree_index root;       // a map, or TREE_NONE (0) where there is nothing to bind
+    tree_index root;       // a map (a --set value: anything), or TREE_NONE (0) where there is nothing to bind
     span root_name;        // XML: the root's tag name; YAML: the map's first key
     str root_tag;          // XML: "Scene"; YAML: empty
     span schema_line;      // the editor's line, or SPAN_NONE
     str xsi_attributes;    // XML: the xsi attributes of the root, as text
-    span closing_comments; // comments behind the last entry, or SPAN_NONE
+    span closing_comments; // comments behind the last entry, or SPAN_NONE; XML: </Scene> may lie inside
     bool broken;           // libyaml or expat itself stopped: what follows was not read
 };
 
