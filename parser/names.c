@@ -108,6 +108,7 @@ static void report_duplicates(struct loader *loader, const struct named_list *li
 
 struct resolving {
     struct loader *loader;
+    const struct ir_scene *scene;
     struct named_list *by_row; // sorted names of the scene's rows that references can mean
 };
 
@@ -163,16 +164,21 @@ static void resolve(void *context, struct visit_place place, struct ir_material_
     const struct ir_head *head = place.memory;
     if (reference->name.len == 0 || (head->poisoned & bind_bit(place.row)))
         return;
-    const struct named_list *list = &resolving->by_row[bind_home_row(place.schema->rows[place.row].child)];
+    uint32_t home = bind_home_row(place.schema->rows[place.row].child);
+    const struct named_list *list = &resolving->by_row[home];
     const struct named *named = find(list, reference->name);
     reference->index = named ? named->index : IR_NO_INDEX;
-    if (!named && !resolving->loader->incomplete)
+    // What could not be read may hold the name.
+    bool incomplete = resolving->loader->incomplete || (resolving->scene->head.poisoned & bind_bit(home));
+    if (!named && !incomplete)
         report_unknown(resolving->loader, list, place, reference->name);
 }
 
 void names_resolve(struct loader *loader, struct ir_scene *scene) {
     struct resolving resolving = {
-        .loader = loader, .by_row = ARENA_ARRAY(&loader->scratch, struct named_list, SCHEMA_SCENE.row_count)};
+        .loader = loader,
+        .scene = scene,
+        .by_row = ARENA_ARRAY(&loader->scratch, struct named_list, SCHEMA_SCENE.row_count)};
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (row->kind != SCHEMA_LIST || row->many != SCHEMA_NAMED_MAP)

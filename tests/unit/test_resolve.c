@@ -202,6 +202,12 @@ static void names_find_what_they_name(void **state) {
     // A material with a bad name or of a bad shape is there all the same.
     loaded_check(HEAD_YAML SPHERE(", material: 1x") "materials: {1x: {}}\n", "E212", NULL);
     loaded_check(HEAD_YAML SPHERE(", material: x") "materials: {x: 5}\n", "E209", NULL);
+    // So is one in a list of the wrong shape, or under a misspelt key.
+    loaded_check(HEAD_YAML SPHERE(", material: x") "materials: [{name: x}]\n", "E209", NULL);
+    loaded_check(HEAD_YAML SPHERE(", material: x") "material: {x: {}}\n", "E202", NULL);
+    loaded_check(HEAD_XML "<Materials><Material name=\"x\"/></Materials><Sphere radius=\"1\" "
+                          "material=\"x\"><Center x=\"0\" y=\"0\" z=\"0\"/></Sphere>" END_XML,
+                 "E202", NULL);
     // What the reader could not read may define the name.
     struct loaded l;
     loaded_yaml(&l, HEAD_YAML SPHERE(", material: gold") "materials: {gold\n\"");
