@@ -9,7 +9,8 @@ enum {
 };
 
 // Words of a broken file may hold anything: what is no text is shown as '?'.
-static void format_message(char message[MESSAGE_MAX], const char *format, va_list args) {
+__attribute__((format(printf, 2, 0))) static void format_message(char message[MESSAGE_MAX],
+                                                                 const char *format, va_list args) {
     vsnprintf(message, MESSAGE_MAX, format, args);
     str text = str_from(message);
     for (size_t at = 0; at < text.len;) {
@@ -109,7 +110,8 @@ bool asset_is_grouped(struct asset_file *file, enum diag_code code) {
     return true;
 }
 
-static void report(struct asset_file *file, enum diag_code code, span at, const char *format, va_list args) {
+__attribute__((format(printf, 4, 0))) static void report(struct asset_file *file, enum diag_code code,
+                                                         span at, const char *format, va_list args) {
     struct diag_sink *sink = file->input->sink;
     char message[MESSAGE_MAX];
     format_message(message, format, args);

@@ -1,0 +1,74 @@
+// libFuzzer entry: any bytes as an image file.
+#include "assets/picture_read.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PIXELS_MAX = 1 << 18
+};
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void require(bool holds, const char *what) {
+    if (holds)
+        return;
+    fprintf(stderr, "the image reader broke its promise: %s\n", what);
+    abort();
+}
+
+static void check_floats(const struct picture *picture) {
+    const float *pixels = picture->pixels;
+    for (uint64_t i = 0; i < picture->size_bytes / sizeof *pixels; i++)
+        require(isfinite(pixels[i]) && pixels[i] >= 0, "pixels are finite and not negative");
+}
+
+static uint32_t read32(const uint8_t *p) {
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+// Makes the checksums of a PNG right: else every change would end at them, and never reach the decoder.
+static void repair_checksums(uint8_t *data, size_t size) {
+    for (size_t at = 8; size >= 8 && size - at >= 12;) {
+        uint32_t length = read32(data + at);
+        if (length > size - at - 12)
+            return;
+        uint32_t crc = UINT32_MAX;
+        for (size_t i = at + 4; i < at + 8 + length; i++) {
+            crc ^= data[i];
+            for (int bit = 0; bit < 8; bit++)
+                crc = crc & 1 ? UINT32_C(0xEDB88320) ^ crc >> 1 : crc >> 1;
+        }
+        at += 8 + (size_t)length;
+        for (int i = 0; i < 4; i++)
+            data[at++] = (uint8_t)(~crc >> (24 - 8 * i));
+    }
+}
+
+static void read_image(str bytes) {
+    struct picture_header header;
+    struct picture picture = {0};
+    const char *fault = picture_read_header(bytes, &header);
+    if (fault || header.kind == PICTURE_KIND_NONE || (uint64_t)header.width * header.height > PIXELS_MAX)
+        return;
+    fault = picture_decode(bytes, &header, &picture);
+    require(fault ? !picture.pixels : picture.pixels != NULL, "pixels, or a fault");
+    if (!fault && picture.depth == PICTURE_FLOAT)
+        check_floats(&picture);
+    picture_finish(&picture);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    uint8_t *copy = malloc(size ? size : 1);
+    if (!copy)
+        abort();
+    if (size)
+        memcpy(copy, data, size);
+    read_image((str){(const char *)copy, size});
+    repair_checksums(copy, size);
+    read_image((str){(const char *)copy, size});
+    free(copy);
+    return 0;
+}

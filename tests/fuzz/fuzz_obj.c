@@ -1,0 +1,99 @@
+// libFuzzer entry: any bytes as an OBJ mesh and, behind the first NUL byte, its material file own.mtl.
+#include "assets/view.h"
+#include "core/diag_text.h"
+#include "grammar/schema.h"
+
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MEMORY_BYTES = 64 * 1024 * 1024,
+    TRIANGLES_MAX = 100000
+};
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void require(bool holds, const char *what) {
+    if (holds)
+        return;
+    fprintf(stderr, "the mesh reader broke its promise: %s\n", what);
+    abort();
+}
+
+static void check_mesh(const struct mesh *mesh, struct arena *arena) {
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 3; k++) {
+            const struct mesh_triangle *triangle = &mesh->triangles[t];
+            require(triangle->corners[k] < mesh->position_count, "a corner has a position");
+            require(triangle->normals[k] == IR_NO_INDEX || triangle->normals[k] < mesh->normal_count,
+                    "a normal");
+            require(triangle->group < mesh->group_count, "a group");
+        }
+    require(mesh->closed == (mesh->open_edges == 0), "closed, or an open edge");
+    const vec3 *normals = mesh_smooth_normals(mesh, arena);
+    for (uint32_t i = 0; i < 3 * mesh->triangle_count; i++)
+        require(isfinite(normals[i].x) && isfinite(normals[i].y) && isfinite(normals[i].z),
+                "normals are finite");
+}
+
+struct scene {
+    struct arena arena;
+    struct source_set sources;
+    struct files files;
+    struct limits limits;
+    struct diag_sink sink;
+    struct ir_origin origin;
+    struct ir_scene scene;
+    struct assets assets;
+};
+
+static void load(struct scene *s, struct asset_store *store, str mesh, str materials) {
+    source_set_init(&s->sources, &s->arena);
+    files_init(&s->files, &s->arena);
+    files_add_overlay(&s->files, STR("mesh.obj"), mesh);
+    files_add_overlay(&s->files, STR("own.mtl"), materials);
+    ir_origin_init(&s->origin, &s->arena);
+    schema_init(&SCHEMA_SCENE, &s->scene);
+    s->limits = limits_default();
+    s->limits.value[LIMIT_MESH_MEMORY] = MEMORY_BYTES;
+    s->limits.value[LIMIT_MESH_TRIANGLES] = TRIANGLES_MAX;
+    struct ir_model *model = ARENA_PUSH(&s->arena, &s->scene.models);
+    schema_init(&SCHEMA_MODEL, model);
+    model->mesh = STR("mesh.obj");
+    model->material.index = IR_NO_INDEX;
+    struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
+                                 &s->limits, &s->sink,   &s->arena};
+    assets_load(store, &input, false, &s->assets);
+    const struct mesh *loaded = s->assets.models[0].mesh;
+    require(loaded || s->sink.errors > 0, "a mesh, or an error");
+    if (loaded)
+        check_mesh(loaded, &s->arena);
+    struct strbuf text;
+    strbuf_init(&text);
+    diag_text(&text, &s->sink, &s->sources, (struct diag_text_options){.notes = true});
+    strbuf_finish(&text);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    str all = {(const char *)data, size};
+    const char *nul = memchr(all.ptr ? all.ptr : "", 0, size);
+    size_t cut = nul ? (size_t)(nul - all.ptr) : size;
+    struct scene *s = calloc(1, sizeof *s);
+    struct asset_store *store = asset_store_create();
+    if (!s || !store)
+        abort();
+    struct arena_guard guard;
+    diag_sink_init(&s->sink);
+    arena_init(&s->arena, MEMORY_BYTES);
+    arena_set_guard(&s->arena, &guard);
+    if (setjmp(guard.jump) == 0)
+        load(s, store, str_slice(all, 0, cut), str_slice(all, nul ? cut + 1 : size, size));
+    assets_finish(&s->assets);
+    asset_store_destroy(store);
+    diag_sink_finish(&s->sink);
+    arena_finish(&s->arena);
+    free(s);
+    return 0;
+}
