@@ -212,5 +212,5 @@ bool mend_is_safe(const struct mend_search *search) {
     if (!search->best || search->ties)
         return false;
     size_t length = search->snake.len;
-    return search->distance == 0 || (search->distance <= 2 && search->distance * 3 <= length);
+    return search->distance == 0 || (search->distance <= 2 && (size_t)search->distance * 3 <= length);
 }

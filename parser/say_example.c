@@ -178,5 +178,6 @@ str say_example(struct arena *arena, const struct schema_row *row, bool is_xml) 
 str say_subject_example(struct arena *arena, struct bind_subject subject, bool is_xml) {
     const struct bind_frame *frame = subject.frame;
     bool is_bare = !subject.row || (frame->bare && subject.row->short_form);
-    return say_example(arena, is_bare && frame->via ? frame->via : subject.row, is_xml);
+    const struct schema_row *row = is_bare && frame->via ? frame->via : subject.row;
+    return row ? say_example(arena, row, is_xml) : STR("");
 }
