@@ -5,6 +5,7 @@
 #include "shaders/gpu_scene.h"
 
 #include <assert.h>
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -174,17 +175,32 @@ void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_it
     }
 }
 
-// Of the rounded vertices, in double: the differences of two floats of one scene are exact there, or so
-// far apart that the smaller one does not matter.
+// Whether the tracer finds a normal: the cross product of the rounded vertices' edges as it takes it, in
+// single precision, the edges divided by a power of two first.
 static bool has_area(const struct gpu_word *words) {
-    vec3 v[3];
+    float v[3][3], edge[2][3];
+    float largest = 0;
     for (int i = 0; i < 3; i++) {
         const uint32_t bits[3] = {words[i].x, words[i].y, words[i].z};
-        float values[3];
-        memcpy(values, bits, sizeof values);
-        v[i] = (vec3){values[0], values[1], values[2]};
+        memcpy(v[i], bits, sizeof bits);
     }
-    return !vec3_is_zero(vec3_cross(vec3_sub(v[1], v[0]), vec3_sub(v[2], v[0])));
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) {
+            edge[i][k] = v[i + 1][k] - v[0][k];
+            largest = fmaxf(largest, fabsf(edge[i][k]));
+        }
+    if (largest < FLT_MIN)
+        return false;
+    float scale = ldexpf(1, -ilogbf(largest));
+    for (int k = 0; k < 3; k++) {
+        int next = (k + 1) % 3;
+        int last = (k + 2) % 3;
+        float cross =
+            edge[0][next] * scale * (edge[1][last] * scale) - edge[0][last] * scale * (edge[1][next] * scale);
+        if (cross != 0)
+            return true;
+    }
+    return false;
 }
 
 // A triangle without area gets an item that flatten_triangles leaves out.

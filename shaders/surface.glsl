@@ -49,6 +49,14 @@ void read_material(uint material, bool checker, float rectangle_s, float rectang
     s.refraction = weights.w;
 }
 
+// Unit; the edges are divided by a power of two first, so that the product of small ones does not vanish.
+// Flattening leaves out triangles for which this is not finite.
+vec3 triangle_normal(vec3 u, vec3 v) {
+    float most = max(largest3(abs(u)), largest3(abs(v)));
+    float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(most) & 0x7f800000u));
+    return unit3(cross3(u * scale, v * scale));
+}
+
 void triangle_surface(hit_record hit, vec3 direction, inout surface s) {
     uvec4 w0 = FETCH(triangles, hit.item * TRIANGLE_WORDS);
     uvec4 w1 = FETCH(triangles, hit.item * TRIANGLE_WORDS + 1u);
@@ -58,7 +66,7 @@ void triangle_surface(hit_record hit, vec3 direction, inout surface s) {
     vec3 q0 = p0 * b0, q1 = p1 * hit.b1, q2 = p2 * hit.b2;
     s.point = q0 + q1 + q2;
     s.error = (abs(q0) + abs(q1) + abs(q2)) * GAMMA_7;
-    vec3 outward = unit3(cross3(p1 - p0, p2 - p0));
+    vec3 outward = triangle_normal(p1 - p0, p2 - p0);
     s.enters = dot3(outward, direction) <= 0.0;
     s.geometric = s.enters ? outward : -outward;
     s.shading = s.geometric;

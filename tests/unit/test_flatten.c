@@ -176,6 +176,24 @@ static void test_dropped(void **state) {
     kit_finish(&kit);
 }
 
+// As thin as floats can be, and as small.
+static void test_slivers(void **state) {
+    (void)state;
+    static const vec3 positions[7] = {{0, 0, 0},       {1 + 0x1p-23, 1, 0}, {1, 1 - 0x1p-23, 0},
+                                      {1, 0x1p-23, 0}, {0x1p-100, 0, 0},    {0, 0x1p-100, 0},
+                                      {1.5, 0, 0}};
+    static const uint32_t faces[3][3] = {{0, 1, 2}, {0, 3, 6}, {0, 4, 5}};
+    struct kit kit;
+    struct flat_scene flat;
+    kit_init(&kit);
+    kit_model(&kit, kit_mesh(&kit, positions, 7, faces, 3, false));
+    flatten_ok(&kit, &flat);
+    assert_int_equal(flat.dropped_triangles, 1); // its edges' product rounds to 0
+    assert_int_equal(kit_find_triangle(&flat, 0), UINT32_MAX);
+    flat_finish(&flat);
+    kit_finish(&kit);
+}
+
 // ---- the same bits wherever and however large
 
 static void build_variety(struct kit *kit, vec3 move, double scale) {
@@ -493,11 +511,12 @@ int main(void) {
         cmocka_unit_test(test_empty),        cmocka_unit_test(test_rectangle),
         cmocka_unit_test(test_mirrored),     cmocka_unit_test(test_turned_mesh),
         cmocka_unit_test(test_right_angles), cmocka_unit_test(test_dropped),
-        cmocka_unit_test(test_moved),        cmocka_unit_test(test_scaled),
-        cmocka_unit_test(test_normals),      cmocka_unit_test(test_checker),
-        cmocka_unit_test(test_lights),       cmocka_unit_test(test_features),
-        cmocka_unit_test(test_background),   cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_overflow),     cmocka_unit_test(test_missing_mesh),
+        cmocka_unit_test(test_slivers),      cmocka_unit_test(test_moved),
+        cmocka_unit_test(test_scaled),       cmocka_unit_test(test_normals),
+        cmocka_unit_test(test_checker),      cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_features),     cmocka_unit_test(test_background),
+        cmocka_unit_test(test_limits),       cmocka_unit_test(test_overflow),
+        cmocka_unit_test(test_missing_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
