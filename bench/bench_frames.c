@@ -7,7 +7,6 @@
 // named: sizes, the kernel made for the scene against the one with everything compiled in, samples.
 #include "bench/kit.h"
 #include "bench/original/original.h"
-#include "core/clock.h"
 #include "core/number.h"
 #include "shaders/features.h"
 
@@ -35,8 +34,8 @@ struct bench {
 };
 
 static void print_head(const char *scene) {
-    printf("\n%s\n%-10s %-34s %6s %10s %10s %10s %10s %8s\n", scene, "pixels", "what", "frames", "median ms",
-           "least", "most", "device ms", "times");
+    printf("\n%s\n%-9s  %-33s %6s %9s %9s %9s %9s %9s %7s\n", scene, "pixels", "", "frames", "median",
+           "least", "most", "device", "cpu", "times");
 }
 
 // `times`: the median against another one.
@@ -45,9 +44,10 @@ static void print_row(const struct render_settings *settings, const char *what,
     char size[32];
     const double median = bench_median(series->wall, series->count);
     snprintf(size, sizeof size, "%ux%u", settings->width, settings->height);
-    printf("%-10s %-34s %6u %10.2f %10.2f %10.2f %10.2f %8.2f\n", size, what, series->count, 1e3 * median,
+    printf("%-9s  %-33s %6u %9.1f %9.1f %9.1f %9.1f %9.1f %7.2f\n", size, what, series->count, 1e3 * median,
            1e3 * bench_least(series->wall, series->count), 1e3 * bench_most(series->wall, series->count),
-           1e3 * bench_median(series->device, series->count), median / against);
+           1e3 * bench_median(series->device, series->count),
+           1e3 * bench_median(series->processor, series->count), median / against);
     fflush(stdout);
 }
 
@@ -73,10 +73,10 @@ static bool fight(const struct bench *bench, struct duel *duel) {
         if (!glint_frames(bench, duel))
             return false;
         double device;
-        const double start = clock_seconds();
+        const struct bench_start start = bench_begin();
         if (!original_render(duel->original, duel->image.rgb, &device, &duel->cut))
             return bench_device_failed(bench->gpu);
-        bench_add(&duel->original_times, clock_seconds() - start, device);
+        bench_end(&duel->original_times, start, device);
     }
     return glint_frames(bench, duel);
 }

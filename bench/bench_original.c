@@ -6,7 +6,6 @@
 // For information: pixels that the device cut short, and pixels that differ from glint's.
 #include "bench/kit.h"
 #include "bench/original/original.h"
-#include "core/clock.h"
 #include "core/number.h"
 #include "core/output.h"
 
@@ -94,10 +93,10 @@ static bool take_frames(const struct options *o, struct original *original, stru
                         struct bench_series *series, uint32_t *cut) {
     for (uint32_t i = 0; i < o->frames; i++) {
         double device;
-        const double start = clock_seconds();
+        const struct bench_start start = bench_begin();
         if (!original_render(original, image->rgb, &device, cut))
             return false;
-        bench_add(series, clock_seconds() - start, device);
+        bench_end(series, start, device);
     }
     return true;
 }
@@ -121,9 +120,10 @@ static bool show(const struct options *o, struct gpu *gpu, const struct bench_sc
         printf("%u x %u pixels, %u triangles in %u boxes, %s\n", image->width, image->height,
                original_triangle_count(original), original_box_count(original),
                o->fetch == ORIGINAL_TEXELS ? "texel buffers" : "storage buffers");
-        printf("median frame %.1f ms of %u, from %.1f to %.1f ms\n",
+        printf("median frame %.1f ms of %u, from %.1f to %.1f ms; %.1f ms of the processors\n",
                1e3 * bench_median(series.wall, series.count), series.count,
-               1e3 * bench_least(series.wall, series.count), 1e3 * bench_most(series.wall, series.count));
+               1e3 * bench_least(series.wall, series.count), 1e3 * bench_most(series.wall, series.count),
+               1e3 * bench_median(series.processor, series.count));
         printf("%u pixels cut short by the device; %u differ from glint's by more than 1/255, %u by more "
                "than 16/255\n",
                cut, bench_differing(image, &glint->image, display, 1),

@@ -2,13 +2,13 @@
 
 #include "core/clock.h"
 #include "core/diag_text.h"
-#include "core/parallel.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 enum {
@@ -86,10 +86,18 @@ bool bench_device_failed(const struct gpu *gpu) {
     return false;
 }
 
-void bench_add(struct bench_series *series, double wall, double device) {
+struct bench_start bench_begin(void) {
+    struct timespec spent = {0};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
+    return (struct bench_start){clock_seconds(), (double)spent.tv_sec + 1e-9 * (double)spent.tv_nsec};
+}
+
+void bench_end(struct bench_series *series, struct bench_start start, double device) {
+    const struct bench_start now = bench_begin();
     if (series->count == BENCH_SAMPLES_MOST)
         return;
-    series->wall[series->count] = wall;
+    series->wall[series->count] = now.wall - start.wall;
+    series->processor[series->count] = now.processor - start.processor;
     series->device[series->count++] = device;
 }
 
@@ -139,11 +147,12 @@ void bench_glint_close(struct bench_glint *glint) {
 
 bool bench_glint_frame(struct bench_glint *glint, struct gpu *gpu, struct bench_series *series) {
     struct render_statistics statistics;
+    const struct bench_start start = bench_begin();
     if (renderer_render(glint->renderer, &glint->scene->view.camera, glint->image.rgb, NULL, &statistics) !=
         RENDER_DONE)
         return bench_device_failed(gpu);
     if (series)
-        bench_add(series, statistics.wall_seconds, statistics.device_seconds);
+        bench_end(series, start, statistics.device_seconds);
     return true;
 }
 

@@ -38,10 +38,18 @@ enum {
 struct bench_series {
     uint32_t count;
     double wall[BENCH_SAMPLES_MOST];
-    double device[BENCH_SAMPLES_MOST]; // on the device's own clock
+    double device[BENCH_SAMPLES_MOST];    // on the device's own clock
+    double processor[BENCH_SAMPLES_MOST]; // of all threads of this process: a CPU device works in them
 };
 
-void bench_add(struct bench_series *series, double wall, double device);
+// The clocks at the start of a frame.
+struct bench_start {
+    double wall, processor;
+};
+
+struct bench_start bench_begin(void);
+// Adds the frame that ends now.
+void bench_end(struct bench_series *series, struct bench_start start, double device);
 double bench_median(const double *seconds, uint32_t count);
 double bench_least(const double *seconds, uint32_t count);
 double bench_most(const double *seconds, uint32_t count);

@@ -172,6 +172,9 @@ struct ray {
 };
 ray stack[DEPTH + 1u]; // refracted rays that wait
 
+// As glint, so that both trace the same rays.
+bool is_followed(ray r) { return r.weight > 0.0 && r.weight >= frame.min_weight; }
+
 // Where the ray meets something: its light, and the rays that it sends. false: it sends none.
 bool shade(meeting m, inout ray r, inout uint waiting, inout vec3 radiance, inout bool whole) {
     place s;
@@ -187,14 +190,11 @@ bool shade(meeting m, inout ray r, inout uint waiting, inout vec3 radiance, inou
     float back_weight = s.weights.z + (through ? 0.0 : s.weights.w);
     ray back = ray(start_towards(s, mirrored), mirrored, r.weight * back_weight, r.depth + 1u);
     ray on = ray(start_towards(s, bent), bent, r.weight * s.weights.w, r.depth + 1u);
-    bool both = back_weight > 0.0 && through && s.weights.w > 0.0;
-    if (both)
+    bool sends_back = is_followed(back), sends_on = through && is_followed(on);
+    if (sends_back && sends_on)
         stack[waiting++] = on;
-    if (back_weight > 0.0)
-        r = back;
-    else
-        r = on;
-    return back_weight > 0.0 || s.weights.w > 0.0;
+    r = sends_back ? back : on;
+    return sends_back || sends_on;
 }
 
 void main() {
