@@ -86,12 +86,16 @@ static void count(struct diag_sink *sink, enum diag_severity severity) {
         sink->notes++;
 }
 
+bool diag_is_full(const struct diag_sink *sink) {
+    return sink->count >= DIAG_KEPT_MAX;
+}
+
 struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...) {
     count(sink, infos[code].severity);
     str message = STR("");
     va_list args;
     va_start(args, format);
-    sink->last_kept = make_room(sink) && format_text(sink, &message, format, args);
+    sink->last_kept = !diag_is_full(sink) && make_room(sink) && format_text(sink, &message, format, args);
     va_end(args);
     struct diag *item = &sink->spare;
     if (sink->last_kept)

@@ -77,6 +77,11 @@ struct diag_sink {
     bool last_kept;    // whether notes, help and fix have something to belong to
 };
 
+// A sink keeps this many diagnostics; further ones are counted as dropped.
+enum {
+    DIAG_KEPT_MAX = 10000,
+};
+
 void diag_sink_init(struct diag_sink *sink);
 void diag_sink_finish(struct diag_sink *sink);
 
@@ -84,6 +89,8 @@ void diag_sink_finish(struct diag_sink *sink);
 // than 2000 bytes are cut.
 struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+// Whether diag_add only counts by now: what costs time to say, such as a suggestion, can be left out.
+bool diag_is_full(const struct diag_sink *sink);
 // Each of these adds to the diagnostic that was added last, or does nothing where that was dropped.
 void diag_note(struct diag_sink *sink, span at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

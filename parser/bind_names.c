@@ -130,6 +130,10 @@ static void list_what_there_is(struct bind_context *context, const struct bind_f
 void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     enum tree_key kind = tree_node(context->tree, key)->key;
     str text = tree_text(context->tree, key);
+    if (diag_is_full(context->sink)) {
+        diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(context->tree, key), "unknown name");
+        return;
+    }
     struct mend_search search = mend_begin(context->scratch, text);
     for (uint32_t i = 0; i < frame->schema->row_count; i++)
         offer_row(&search, &frame->schema->rows[i], (int)i);

@@ -147,6 +147,8 @@ static void report_unknown(struct loader *loader, const struct named_list *list,
     span at = ir_place_value(&loader->output->origin, place.memory, place.schema, row->name);
     diag_add(sink, DIAG_UNKNOWN_MATERIAL, at, "there is no %s '%.*s'", row->child->name,
              STR_ARG(say_text(&loader->scratch, name)));
+    if (diag_is_full(sink))
+        return;
     struct mend_search search = mend_begin(&loader->scratch, name);
     for (uint32_t i = 0; i < list->count; i++)
         mend_offer_str(&search, list->items[i].name, (int)i);
