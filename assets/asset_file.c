@@ -5,7 +5,8 @@
 #include <string.h>
 
 enum {
-    MESSAGE_MAX = 1024
+    MESSAGE_MAX = 1024,
+    KEPT_TEXT_MAX = 256 << 20, // bytes of a file that are kept to show its lines
 };
 
 // Words of a broken file may hold anything: what is no text is shown as '?'.
@@ -22,23 +23,33 @@ __attribute__((format(printf, 2, 0))) static void format_message(char message[ME
     }
 }
 
-static uint32_t source_of(struct asset_file *file) {
-    if (file->source != SOURCE_DEFAULT)
-        return file->source;
+// The file's text, kept for as long as the sources are; the empty string where it is too large for that.
+static str keep_text(const struct asset_file *file) {
     const struct assets_input *input = file->input;
     struct arena *arena = input->sources->arena;
     str text = file->text;
-    char *copy = text.len ? arena_try_alloc(arena, text.len + 1) : NULL;
-    if (copy) {
-        memcpy(copy, text.ptr, text.len);
-        text.ptr = copy;
-    } else if (text.len || files_read(input->files, file->path, input->limits->value[file->limit], arena,
-                                      &text) != FILE_OK) {
-        // Too large to be kept for a message: places in it are then shown without their text.
-        text = STR("");
+    if (text.len > KEPT_TEXT_MAX)
+        return STR("");
+    if (text.len == 0) {
+        uint64_t most = input->limits->value[file->limit];
+        most = most < KEPT_TEXT_MAX ? most : KEPT_TEXT_MAX;
+        return files_read(input->files, file->path, most, arena, &text) == FILE_OK ? text : STR("");
     }
-    file->source = source_add(input->sources, SOURCE_KIND_FILE, file->path, text);
+    char *copy = arena_try_alloc(arena, text.len + 1);
+    if (!copy)
+        return STR("");
+    memcpy(copy, text.ptr, text.len);
+    return (str){copy, text.len};
+}
+
+static uint32_t source_of(struct asset_file *file) {
+    if (file->source == SOURCE_DEFAULT)
+        file->source = source_add(file->input->sources, SOURCE_KIND_FILE, file->path, keep_text(file));
     return file->source;
+}
+
+static bool is_line_end(str text, size_t at) {
+    return text.ptr[at] == '\n' || (text.ptr[at] == '\r' && !(at + 1 < text.len && text.ptr[at + 1] == '\n'));
 }
 
 static span whole_file(struct asset_file *file) {
@@ -54,9 +65,7 @@ span asset_line(struct asset_file *file, uint32_t line) {
     str text = file->input->sources->items[source].text;
     size_t at = 0;
     for (uint32_t i = 1; i < line && at < text.len; at++)
-        if (text.ptr[at] == '\n' ||
-            (text.ptr[at] == '\r' && !(at + 1 < text.len && text.ptr[at + 1] == '\n')))
-            i++;
+        i += is_line_end(text, at);
     size_t end = at;
     while (end < text.len && text.ptr[end] != '\n' && text.ptr[end] != '\r')
         end++;
@@ -110,17 +119,29 @@ bool asset_is_grouped(struct asset_file *file, enum diag_code code) {
     return true;
 }
 
-__attribute__((format(printf, 4, 0))) static void report(struct asset_file *file, enum diag_code code,
-                                                         span at, const char *format, va_list args) {
-    struct diag_sink *sink = file->input->sink;
+// `line` is that of the place, for files whose text is not kept; 0 is the file as such.
+__attribute__((format(printf, 5, 0))) static void report(struct asset_file *file, enum diag_code code,
+                                                         span at, uint32_t line, const char *format,
+                                                         va_list args) {
+    const struct assets_input *input = file->input;
     char message[MESSAGE_MAX];
     format_message(message, format, args);
-    diag_add(sink, code, at, "%s", message);
+    if (line > 0 && input->sources->items[at.source].text.len == 0)
+        diag_add(input->sink, code, at, "line %u: %s", line, message);
+    else
+        diag_add(input->sink, code, at, "%s", message);
     struct asset_count *slot = slot_of(file, code);
     slot->count++;
-    slot->last = sink->count - 1;
+    slot->last = input->sink->count - 1;
     file->errors += diag_info(code)->severity == DIAG_ERROR;
     add_named_notes(file);
+}
+
+static uint32_t line_of(str text, size_t offset) {
+    uint32_t line = 1;
+    for (size_t at = 0; at < offset && at < text.len; at++)
+        line += is_line_end(text, at);
+    return line;
 }
 
 bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, size_t end, const char *format,
@@ -129,7 +150,8 @@ bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, si
         return false;
     va_list args;
     va_start(args, format);
-    report(file, code, (span){source_of(file), (uint32_t)begin, (uint32_t)end}, format, args);
+    span at = {source_of(file), (uint32_t)begin, (uint32_t)end};
+    report(file, code, at, line_of(file->text, begin), format, args);
     va_end(args);
     return true;
 }
@@ -139,7 +161,7 @@ bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t li
         return false;
     va_list args;
     va_start(args, format);
-    report(file, code, asset_line(file, line), format, args);
+    report(file, code, asset_line(file, line), line, format, args);
     va_end(args);
     return true;
 }

@@ -61,6 +61,8 @@ static void read_mesh(struct asset_file *file, struct arena *scratch, struct mes
         struct obj obj;
         if (asset_read(file, scratch)) {
             read_obj(file, scratch, &obj);
+            // Together they take no more than the limit.
+            mesh->arena.cap_bytes -= scratch->used_bytes;
             if (file->errors == 0)
                 mesh_build(&obj, file->path, scratch, mesh);
         }

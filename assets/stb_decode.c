@@ -74,7 +74,9 @@ void *stb_decode(const struct stb_job *job, const char **why) {
         pixels = stbi_load_16_from_memory(job->bytes, (int)job->count, &width, &height, &channels, 4);
     else
         pixels = stbi_load_from_memory(job->bytes, (int)job->count, &width, &height, &channels, 4);
-    *why = pixels ? NULL : budget_exceeded ? "it holds more data than a picture of its size" : stbi_failure_reason();
+    *why = pixels            ? NULL
+           : budget_exceeded ? "it holds more data than a picture of its size"
+                             : stbi_failure_reason();
     if (pixels && ((uint32_t)width != job->width || (uint32_t)height != job->height)) {
         *why = "its parts contradict each other about its size";
         budget_free(pixels);

@@ -271,6 +271,23 @@ static void memory_may_end_anywhere(void **state) {
     asset_store_destroy(store);
 }
 
+// A mesh whose text is too large to be kept for messages is still told about by line.
+static void a_text_that_is_not_kept(void **state) {
+    struct fixture *f = *state;
+    struct strbuf text;
+    strbuf_init(&text);
+    strbuf_cstr(&text, TRIANGLE "f 1 2 9\n");
+    strbuf_repeat(&text, '#', 1 << 20);
+    assert_true(scratch_write(&f->scratch, "scene/dragon.obj", text.data));
+    struct assets_scene *s = begin_in(f, NULL);
+    add_model(f, s, "dragon.obj");
+    s->arena.cap_bytes = s->arena.used_bytes + (1 << 19);
+    assets_scene_load(s);
+    assert_says(s, "dragon.obj:1:1: error: line 5: index 9: the file defines 3 vertices [E612]\n");
+    assets_scene_end(s);
+    strbuf_finish(&text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_file_is_read_beside_its_scene, set_up, tear_down),
@@ -286,6 +303,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(changed_files_are_read_again, set_up, tear_down),
         cmocka_unit_test_setup_teardown(notes_are_repeated_for_a_stored_mesh, set_up, tear_down),
         cmocka_unit_test_setup_teardown(models_too_large_for_the_world, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_text_that_is_not_kept, set_up, tear_down),
         cmocka_unit_test_setup_teardown(memory_may_end_anywhere, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
