@@ -120,7 +120,7 @@ static bool show(const struct options *o, struct gpu *gpu, const struct bench_sc
         printf("%u x %u pixels, %u triangles in %u boxes, %s\n", image->width, image->height,
                original_triangle_count(original), original_box_count(original),
                o->fetch == ORIGINAL_TEXELS ? "texel buffers" : "storage buffers");
-        printf("median frame %.1f ms of %u, from %.1f to %.1f ms; %.1f ms of the processors\n",
+        printf("median frame %.1f of %u, from %.1f to %.1f; %.1f of the processors\n",
                1e3 * bench_median(series.wall, series.count), series.count,
                1e3 * bench_least(series.wall, series.count), 1e3 * bench_most(series.wall, series.count),
                1e3 * bench_median(series.processor, series.count));

@@ -78,7 +78,7 @@ struct gpu *bench_gpu(const char *device) {
 }
 
 void bench_print_machine(const struct gpu *gpu) {
-    printf("%s, %ld processors\n", gpu_info(gpu)->name, sysconf(_SC_NPROCESSORS_ONLN));
+    printf("%s, %ld processors; times in ms\n", gpu_info(gpu)->name, sysconf(_SC_NPROCESSORS_ONLN));
 }
 
 bool bench_device_failed(const struct gpu *gpu) {

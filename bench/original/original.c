@@ -83,6 +83,13 @@ static bool compile(struct original *o) {
     return o->program;
 }
 
+// lavapipe compiles at the first dispatch: one without pixels leaves that out of the first frame.
+static bool warm(struct original *o) {
+    const struct dispatch_block none = {.grid_width = 1};
+    struct gpu *gpu = o->renderer->gpu;
+    return gpu_dispatch(gpu, o->program, 1, 1, &none) && gpu_submit(gpu) && gpu_wait(gpu, NULL);
+}
+
 static bool prepare(struct original *o) {
     struct original_boxes boxes;
     bool done = original_boxes_make(o->renderer->flat, &boxes);
@@ -90,7 +97,7 @@ static bool prepare(struct original *o) {
     o->rectangle_count = boxes.rectangle_count;
     o->triangle_count = boxes.triangle_count;
     o->slots = malloc((size_t)o->tiles * TILE_PIXELS * sizeof *o->slots);
-    done = done && o->slots && make_buffers(o, &boxes) && compile(o);
+    done = done && o->slots && make_buffers(o, &boxes) && compile(o) && warm(o);
     original_boxes_finish(&boxes);
     return done;
 }
