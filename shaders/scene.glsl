@@ -60,5 +60,9 @@ layout(push_constant) uniform dispatch_block {
     DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
 } dispatch;
 
+// The z of every dispatch's workgroups, which no compiler knows. lavapipe compiles a kernel anew for each
+// value of a uniform that alone decides a branch or a loop's end: such conditions are mixed with this.
+#define OPAQUE_ZERO gl_WorkGroupID.z
+
 // Whether the scene asks for what the kernel can do: a general kernel serves scenes that need less.
-bool wants(uint feature) { return (frame.features & feature) != 0u; }
+bool wants(uint feature) { return (frame.features & feature) > OPAQUE_ZERO; }

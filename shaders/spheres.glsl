@@ -36,35 +36,28 @@ void test_sphere(uint item, vec3 origin, vec3 direction, inout hit_record hit) {
 // As trace_triangles.
 void trace_spheres(vec3 origin, vec3 direction, bool any, inout hit_record hit, inout uint iterations) {
     tree_ray ray = make_tree_ray(origin, direction);
-    uvec2 stack[SPHERE_STACK];
-    uint size = 0u;
+    STACK(SPHERE_STACK)
     uvec2 group = root_group();
     bool more = true;
     do {
-        iterations += 2u;
-        uint leaf_base = 0u, leaf_hits = 0u;
-        while (more && leaf_hits == 0u && iterations < ITERATION_LIMIT) {
+        iterations += 2u; // this loop, and the inner one where no lane enters it
+        uint node = next_node(group, ray.flip) * NODE_WORDS;
+        uvec4 w0 = FETCH(sphere_nodes, node);
+        uvec4 w1 = FETCH(sphere_nodes, node + 1u);
+        uint hits = node_hits(w0, w1, FETCH(sphere_nodes, node + 2u), FETCH(sphere_nodes, node + 3u),
+                              FETCH(sphere_nodes, node + 4u), ray, hit.t);
+        uvec2 found = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u)), rest = group;
+        STACK_NEXT(SPHERE_STACK, group, rest, found, more)
+        uint items = hits & 0x00ffffffu;
+        while (items != 0u && iterations < ITERATION_LIMIT) {
             iterations++;
-            uint node = next_node(group, ray.flip) * NODE_WORDS;
-            PUSH(SPHERE_STACK, has_nodes(group), group)
-            uvec4 w0 = FETCH(sphere_nodes, node);
-            uvec4 w1 = FETCH(sphere_nodes, node + 1u);
-            uint hits = node_hits(w0, w1, FETCH(sphere_nodes, node + 2u), FETCH(sphere_nodes, node + 3u),
-                                  FETCH(sphere_nodes, node + 4u), ray, hit.t);
-            group = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u));
-            leaf_base = w1.y;
-            leaf_hits = hits & 0x00ffffffu;
-            more = has_nodes(group) || size > 0u;
-            POP(SPHERE_STACK, !has_nodes(group) && more, group)
-        }
-        while (leaf_hits != 0u && iterations < ITERATION_LIMIT) {
-            iterations++;
-            uint bit = leaf_hits & (0u - leaf_hits);
-            leaf_hits ^= bit;
-            uint index = (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_sphere(leaf_base + index, origin, direction, hit);
+            uint bit = items & (0u - items);
+            items ^= bit;
+            // A power of two up to 2^23 is its own exponent.
+            uint item = w1.y + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+            test_sphere(item, origin, direction, hit);
             if (any && hit.item != NO_ITEM) {
-                leaf_hits = 0u;
+                items = 0u;
                 more = false;
             }
         }

@@ -87,14 +87,14 @@ void write_sample(uint slot, path_state p, uint fault) {
     bool finite = is_finite3(p.radiance);
     vec3 value = finite ? p.radiance : vec3(0.0);
     fault = finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT | p.hit.number;
-    uvec4 before = dispatch.sample_index == 0u ? uvec4(0u) : pixels[slot];
+    uvec4 before = dispatch.sample_index == OPAQUE_ZERO ? uvec4(0u) : pixels[slot];
     pixels[slot] = uvec4(floatBitsToUint(uintBitsToFloat(before.xyz) + value), before.w != 0u ? before.w : fault);
 }
 
 void main() {
     uint index = (gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x) * TILE_PIXELS + gl_LocalInvocationID.x;
     uint slots = dispatch.tile_count * TILE_PIXELS;
-    bool resumes = HAS_SLICES && dispatch.resume != 0u;
+    bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
     if (index >= (resumes ? dispatch.resume : slots))
         return;
     uint slot = resumes ? counters[COUNTER_COUNT + dispatch.read_list * slots + index] : index;
@@ -111,6 +111,7 @@ void main() {
     uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
     bool fresh = true; // no ray was finished in this slice
     surface s;
+    uint light_count = frame.light_count + OPAQUE_ZERO;
     light_ray shadow = light_ray(vec3(0.0), vec3(0.0), 0.0);
     vec3 start = vec3(0.0);
     while (state == GOES_ON) {
@@ -164,7 +165,7 @@ void main() {
             }
             if (state == GOES_ON) {
                 bool found = false;
-                while (p.light < frame.light_count && !found && iterations < ITERATION_LIMIT) {
+                while (p.light < light_count && !found && iterations < ITERATION_LIMIT) {
                     iterations++;
                     shadow = light_at(p.light, s, start, p.direction);
                     if (shadow.value != vec3(0.0)) {
@@ -177,7 +178,7 @@ void main() {
                 }
                 phase = PHASE_SHADOW;
                 if (!found) {
-                    if (p.light < frame.light_count) {
+                    if (p.light < light_count) {
                         state = HAS_SLICES ? SUSPENDED : STOPPED;
                         fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
                     } else {

@@ -37,8 +37,10 @@ uint node_half(uvec3 near, uvec3 far, uint meta, vec3 base, vec3 scale, float t_
     uint hits = 0u;
     for (uint k = 0u; k < 4u; k++) {
         vec3 unit = scale * (k == 1u ? 1.0 / 256.0 : k == 2u ? 1.0 / 65536.0 : 1.0);
-        vec3 t_near = vec3(byte_scaled(near.x, k), byte_scaled(near.y, k), byte_scaled(near.z, k)) * unit + base;
-        vec3 t_far = vec3(byte_scaled(far.x, k), byte_scaled(far.y, k), byte_scaled(far.z, k)) * unit + base;
+        vec3 q_near = vec3(byte_scaled(near.x, k), byte_scaled(near.y, k), byte_scaled(near.z, k));
+        vec3 q_far = vec3(byte_scaled(far.x, k), byte_scaled(far.y, k), byte_scaled(far.z, k));
+        // Fused or not, the boxes stay conservative, and what they let through is tested exactly.
+        vec3 t_near = fma(q_near, unit, base), t_far = fma(q_far, unit, base);
         float enter = max(max(t_near.x, t_near.y), max(t_near.z, 0.0));
         float leave = min(min(t_far.x, t_far.y), min(t_far.z, t_max)) * BOX_FAR_SCALE;
         uint found = ((counts >> (8u * k)) & 0xffu) << ((bits >> (8u * k)) & 0x1fu);
@@ -77,30 +79,38 @@ uint next_node(inout uvec2 group, uint flip) {
     return group.x + bitCount(group.y & ((1u << slot) - 1u) & 0xffu);
 }
 
-// The stack of groups, `stack` and `size`. lavapipe writes an indexed private array lane by lane, a fifth
-// of the whole time; moving all levels by one instead costs a blend a level.
+// The groups that wait on the way back to the root. lavapipe writes an indexed private array lane by lane, a
+// fifth of the whole time: there all levels move by one instead, which costs two blends a level. An empty
+// group is the bottom.
 #ifdef FETCH_TEXELS
-#define PUSH(levels, yes, group)                                                                             \
+#define STACK(levels)                                                                                        \
+    uvec2 stack[levels];                                                                                     \
+    for (int i = 0; i < int(levels); i++)                                                                    \
+        stack[i] = uvec2(0u);
+#define STACK_NEXT(levels, group, rest, found, more)                                                         \
     {                                                                                                        \
-        bool moves = yes;                                                                                    \
-        for (int i = int(levels) - 1; i > 0; i--)                                                            \
-            stack[i] = moves ? stack[i - 1] : stack[i];                                                      \
-        stack[0] = moves ? group : stack[0];                                                                 \
-        size += moves ? 1u : 0u;                                                                             \
-    }
-#define POP(levels, yes, group)                                                                              \
-    {                                                                                                        \
-        bool moves = yes;                                                                                    \
-        group = moves ? stack[0] : group;                                                                    \
-        for (int i = 1; i < int(levels); i++)                                                                \
-            stack[i - 1] = moves ? stack[i] : stack[i - 1];                                                  \
-        size -= moves ? 1u : 0u;                                                                             \
+        bool push = has_nodes(found) && has_nodes(rest), pop = !has_nodes(found) && !has_nodes(rest);        \
+        group = has_nodes(found) ? found : has_nodes(rest) ? rest : stack[0];                                \
+        uvec2 below = rest;                                                                                  \
+        for (int i = 0; i < int(levels); i++) {                                                              \
+            uvec2 here = stack[i], above = i + 1 < int(levels) ? stack[i + 1] : uvec2(0u);                   \
+            stack[i] = push ? below : pop ? above : here;                                                    \
+            below = here;                                                                                    \
+        }                                                                                                    \
+        more = has_nodes(group);                                                                             \
     }
 #else
-#define PUSH(levels, yes, group)                                                                             \
-    if (yes)                                                                                                 \
-        stack[size++] = group;
-#define POP(levels, yes, group)                                                                              \
-    if (yes)                                                                                                 \
-        group = stack[--size];
+#define STACK(levels)                                                                                        \
+    uvec2 stack[levels];                                                                                     \
+    uint size = 0u;
+#define STACK_NEXT(levels, group, rest, found, more)                                                         \
+    group = found;                                                                                           \
+    if (!has_nodes(found)) {                                                                                 \
+        group = rest;                                                                                        \
+        if (!has_nodes(rest) && size > 0u)                                                                   \
+            group = stack[--size];                                                                           \
+    } else if (has_nodes(rest)) {                                                                            \
+        stack[size++] = rest;                                                                                \
+    }                                                                                                        \
+    more = has_nodes(group);
 #endif

@@ -77,36 +77,28 @@ void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
 void trace_triangles(vec3 origin, vec3 direction, bool any, inout hit_record hit, inout uint iterations) {
     tree_ray ray = make_tree_ray(origin, direction);
     shear_ray shear = make_shear_ray(origin, direction);
-    uvec2 stack[TRIANGLE_STACK];
-    uint size = 0u;
+    STACK(TRIANGLE_STACK)
     uvec2 group = root_group();
     bool more = true;
     do {
-        iterations += 2u; // this loop, and the leaf loop where no lane enters it
-        uint leaf_base = 0u, leaf_hits = 0u;
-        while (more && leaf_hits == 0u && iterations < ITERATION_LIMIT) {
+        iterations += 2u; // this loop, and the inner one where no lane enters it
+        uint node = next_node(group, ray.flip) * NODE_WORDS;
+        uvec4 w0 = FETCH(triangle_nodes, node);
+        uvec4 w1 = FETCH(triangle_nodes, node + 1u);
+        uint hits = node_hits(w0, w1, FETCH(triangle_nodes, node + 2u), FETCH(triangle_nodes, node + 3u),
+                              FETCH(triangle_nodes, node + 4u), ray, hit.t);
+        uvec2 found = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u)), rest = group;
+        STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
+        uint items = hits & 0x00ffffffu;
+        while (items != 0u && iterations < ITERATION_LIMIT) {
             iterations++;
-            uint node = next_node(group, ray.flip) * NODE_WORDS;
-            PUSH(TRIANGLE_STACK, has_nodes(group), group)
-            uvec4 w0 = FETCH(triangle_nodes, node);
-            uvec4 w1 = FETCH(triangle_nodes, node + 1u);
-            uint hits = node_hits(w0, w1, FETCH(triangle_nodes, node + 2u), FETCH(triangle_nodes, node + 3u),
-                                  FETCH(triangle_nodes, node + 4u), ray, hit.t);
-            group = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u));
-            leaf_base = w1.y;
-            leaf_hits = hits & 0x00ffffffu;
-            more = has_nodes(group) || size > 0u;
-            POP(TRIANGLE_STACK, !has_nodes(group) && more, group)
-        }
-        while (leaf_hits != 0u && iterations < ITERATION_LIMIT) {
-            iterations++;
-            uint bit = leaf_hits & (0u - leaf_hits);
-            leaf_hits ^= bit;
+            uint bit = items & (0u - items);
+            items ^= bit;
             // A power of two up to 2^23 is its own exponent.
-            uint index = (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_triangle(leaf_base + index, shear, hit);
+            uint item = w1.y + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+            test_triangle(item, shear, hit);
             if (any && hit.item != NO_ITEM) {
-                leaf_hits = 0u;
+                items = 0u;
                 more = false;
             }
         }
