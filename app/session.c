@@ -65,16 +65,6 @@ static str scene_around_mesh(struct session *session, str path) {
     return copy;
 }
 
-static bool mesh_is_readable(struct session *session, str path, enum file_status *status) {
-    str contents;
-    struct arena probe;
-    arena_init(&probe, (size_t)session->options.limits.value[LIMIT_MESH_BYTES] + 1);
-    *status =
-        files_read(&session->files, path, session->options.limits.value[LIMIT_MESH_BYTES], &probe, &contents);
-    arena_finish(&probe);
-    return *status == FILE_OK;
-}
-
 static enum session_state open_source(struct session *session, uint32_t *source) {
     str path = session->options.path;
     str text = STR("");
@@ -89,7 +79,9 @@ static enum session_state open_source(struct session *session, uint32_t *source)
         return SESSION_UNREADABLE;
     }
     if (assets_is_mesh_path(path)) {
-        if (!mesh_is_readable(session, path, &status))
+        struct file_read identity;
+        status = files_identify(&session->files, path, &identity);
+        if (status != FILE_OK)
             return unreadable(session, path, status);
         text = scene_around_mesh(session, path);
         *source = source_add(&session->sources, SOURCE_KIND_OVERLAY, path, text);
