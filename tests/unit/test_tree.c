@@ -35,7 +35,7 @@ static void holds_nodes_and_texts(void **state) {
     struct tree tree;
     tree_init(&tree, &arena, 7, true);
     assert_true(tree.is_xml);
-    char text[16];
+    char text[24];
     for (int i = 1; i <= MANY; i++) {
         snprintf(text, sizeof text, "text %d", i);
         assert_int_equal(add_scalar(&tree, text), i);
