@@ -54,14 +54,15 @@ void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
     float x_most = max(max(abs(ax), abs(bx)), abs(cx));
     float y_most = max(max(abs(ay), abs(by)), abs(cy));
     float z_most = max(max(abs(a.z), abs(b.z)), abs(c.z));
-    float e_most = max(max(abs(u), abs(v)), abs(w));
     float delta_x = GAMMA_5 * (x_most + z_most);
     float delta_y = GAMMA_5 * (y_most + z_most);
     float delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
     // t is a mean of the vertices' z: an error of its weights moves it by their spread at most, not by their
-    // size. With the size, small triangles far away would all be refused.
+    // size. With the size, small triangles far away would all be refused; without the limit of 1, triangles
+    // seen edge-on.
     float spread = max(max(a.z, b.z), c.z) - min(min(a.z, b.z), c.z);
-    float delta_t = 3.0 * (2.0 * GAMMA_3 * e_most * z_most + delta_e * spread) * abs(ray.sz * inverse);
+    float wrong = min(3.0 * delta_e * abs(inverse), 1.0);
+    float delta_t = (6.0 * GAMMA_3 * z_most + spread * wrong) * abs(ray.sz);
     uint number = w0.w + frame.sphere_count;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
     if (inside && det != 0.0 && t > delta_t && nearer) {
