@@ -7,15 +7,14 @@ struct light_ray {
 };
 
 light_ray light_at(uint index, surface s, vec3 start, vec3 direction) {
-    vec4 place = uintBitsToFloat(FETCH(lights, index * LIGHT_WORDS));
-    vec3 emission = uintBitsToFloat(FETCH(lights, index * LIGHT_WORDS + 1u).xyz);
-    uint flags = floatBitsToUint(place.w);
-    bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (flags & LIGHT_DIRECTIONAL) != 0u);
-    vec3 way = place.xyz - s.point;
+    light_record light = load_light(index);
+    vec3 emission = light.emission;
+    bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
+    vec3 way = light.place - s.point;
     float distance2 = dot3(way, way);
-    vec3 l = directional ? place.xyz : way * (1.0 / sqrt(distance2));
+    vec3 l = directional ? light.place : way * (1.0 / sqrt(distance2));
     if (HAS_INVERSE_SQUARE)
-        emission = (flags & LIGHT_INVERSE_SQUARE) != 0u ? emission / distance2 : emission;
+        emission = (light.flags & LIGHT_INVERSE_SQUARE) != 0u ? emission / distance2 : emission;
     float facing = dot3(s.shading, l);
     bool lit = facing > 0.0 && dot3(s.geometric, l) > 0.0 && (directional || distance2 > 0.0);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
@@ -31,7 +30,7 @@ light_ray light_at(uint index, surface s, vec3 start, vec3 direction) {
         sum = !HAS_DIFFUSE || !s.has_diffuse ? specular : s.has_specular ? diffuse + specular : diffuse;
     light_ray ray;
     ray.value = lit ? emission * sum : vec3(0.0);
-    ray.direction = directional ? place.xyz : place.xyz - start;
+    ray.direction = directional ? light.place : light.place - start;
     ray.t_max = directional ? FAR_AWAY : 1.0;
     return ray;
 }

@@ -5,10 +5,9 @@
 // rounding error of 0 the ray starts on the sphere, and that crossing is not a hit.
 
 void test_sphere(uint item, vec3 origin, vec3 direction, inout hit_record hit) {
-    uvec4 w0 = FETCH(spheres, item * SPHERE_WORDS);
-    uvec4 w1 = FETCH(spheres, item * SPHERE_WORDS + 1u);
-    vec3 f = origin - uintBitsToFloat(w0.xyz);
-    float r = uintBitsToFloat(w0.w);
+    sphere_record sphere = load_sphere(item);
+    vec3 f = origin - sphere.center;
+    float r = sphere.radius;
     float a = dot3(direction, direction);
     float b = -dot3(f, direction);
     vec3 nearest = f + direction * (b / a);
@@ -24,7 +23,7 @@ void test_sphere(uint item, vec3 origin, vec3 direction, inout hit_record hit) {
     bool first = !on_sphere && t0 > 0.0;
     bool second = t1 > 0.0 && (!on_sphere || b > b_error);
     float t = first && second ? min(t0, t1) : first ? t0 : t1;
-    uint number = w1.x;
+    uint number = sphere.body;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
     if (discriminant >= 0.0 && q != 0.0 && (first || second) && nearer) {
         hit.t = t;
@@ -41,12 +40,9 @@ void trace_spheres(vec3 origin, vec3 direction, bool any, inout hit_record hit, 
     bool more = true;
     do {
         iterations += 2u; // this loop, and the inner one where no lane enters it
-        uint node = next_node(group, ray.flip) * NODE_WORDS;
-        uvec4 w0 = FETCH(sphere_nodes, node);
-        uvec4 w1 = FETCH(sphere_nodes, node + 1u);
-        uint hits = node_hits(w0, w1, FETCH(sphere_nodes, node + 2u), FETCH(sphere_nodes, node + 3u),
-                              FETCH(sphere_nodes, node + 4u), ray, hit.t);
-        uvec2 found = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u)), rest = group;
+        node_record node = load_sphere_node(next_node(group, ray.flip));
+        uint hits = node_hits(node, ray, hit.t);
+        uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         STACK_NEXT(SPHERE_STACK, group, rest, found, more)
         uint items = hits & 0x00ffffffu;
         while (items != 0u && iterations < ITERATION_LIMIT) {
@@ -54,7 +50,7 @@ void trace_spheres(vec3 origin, vec3 direction, bool any, inout hit_record hit, 
             uint bit = items & (0u - items);
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
-            uint item = w1.y + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+            uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
             test_sphere(item, origin, direction, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;

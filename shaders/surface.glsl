@@ -16,37 +16,29 @@ struct surface {
 
 bool is_odd(float cells) { return cells - 2.0 * floor(cells * 0.5) != 0.0; }
 
-void read_material(uint material, bool checker, float rectangle_s, float rectangle_t, bool rectangle, uint body,
-                   inout surface s) {
-    uvec4 w0 = FETCH(materials, material * MATERIAL_WORDS);
-    uvec4 w1 = FETCH(materials, material * MATERIAL_WORDS + 1u);
-    vec4 weights = uintBitsToFloat(w0);
-    vec4 diffuse = uintBitsToFloat(w1);
+// `shade`: material and flags; `along`: the place on a rectangle, 0..1 along its edges.
+void read_material(uint shade, uint body, vec2 along, inout surface s) {
+    material_record material = load_material(shade & TRIANGLE_MATERIAL);
     if (HAS_DIFFUSE) {
-        vec3 color = diffuse.xyz;
+        vec3 color = material.diffuse;
         if (HAS_CHECKER) {
-            vec4 second = uintBitsToFloat(FETCH(materials, material * MATERIAL_WORDS + 3u));
-            vec4 row_x = uintBitsToFloat(FETCH(bodies, body * BODY_WORDS + 1u));
-            vec4 row_y = uintBitsToFloat(FETCH(bodies, body * BODY_WORDS + 2u));
-            vec4 row_z = uintBitsToFloat(FETCH(bodies, body * BODY_WORDS + 3u));
-            vec3 own = vec3(dot3(row_x.xyz, s.point) + row_x.w, dot3(row_y.xyz, s.point) + row_y.w,
-                            dot3(row_z.xyz, s.point) + row_z.w) / second.w;
-            float cells = rectangle ? floor(rectangle_s * row_x.x / second.w) + floor(rectangle_t * row_x.y / second.w)
-                                    : floor(own.x) + floor(own.y) + floor(own.z);
-            color = checker && is_odd(cells) ? second.xyz : color;
+            body_record map = load_body(body);
+            vec3 own = vec3(dot3(map.row_x, s.point) + map.offset_x, dot3(map.row_y, s.point) + map.offset_y,
+                            dot3(map.row_z, s.point) + map.offset_z);
+            bool rectangle = (shade & TRIANGLE_RECT) != 0u;
+            own = (rectangle ? vec3(along * map.row_x.xy, 0.0) : own) / material.cell;
+            bool odd = is_odd(floor(own.x) + floor(own.y) + floor(own.z));
+            color = (shade & TRIANGLE_CHECKER) != 0u && odd ? material.second : color;
         }
-        s.diffuse = color * weights.x;
-        s.has_diffuse = weights.x != 0.0;
+        s.diffuse = color * material.weight_diffuse;
+        s.has_diffuse = material.weight_diffuse != 0.0;
     }
-    if (HAS_SPECULAR || HAS_REFRACTION) {
-        vec4 specular = uintBitsToFloat(FETCH(materials, material * MATERIAL_WORDS + 2u));
-        s.specular = specular.xyz * weights.y;
-        s.has_specular = weights.y != 0.0;
-        s.index = specular.w;
-    }
-    s.exponent = diffuse.w;
-    s.reflection = weights.z;
-    s.refraction = weights.w;
+    s.specular = material.specular * material.weight_specular;
+    s.has_specular = material.weight_specular != 0.0;
+    s.index = material.index;
+    s.exponent = material.exponent;
+    s.reflection = material.weight_reflection;
+    s.refraction = material.weight_refraction;
 }
 
 // Unit; the edges are divided by a power of two first, so that the product of small ones does not vanish.
@@ -58,54 +50,43 @@ vec3 triangle_normal(vec3 u, vec3 v) {
 }
 
 void triangle_surface(hit_record hit, vec3 direction, inout surface s) {
-    uvec4 w0 = FETCH(triangles, hit.item * TRIANGLE_WORDS);
-    uvec4 w1 = FETCH(triangles, hit.item * TRIANGLE_WORDS + 1u);
-    uvec4 w2 = FETCH(triangles, hit.item * TRIANGLE_WORDS + 2u);
-    vec3 p0 = uintBitsToFloat(w0.xyz), p1 = uintBitsToFloat(w1.xyz), p2 = uintBitsToFloat(w2.xyz);
+    triangle_record triangle = load_triangle(hit.item);
     float b0 = 1.0 - hit.b1 - hit.b2;
-    vec3 q0 = p0 * b0, q1 = p1 * hit.b1, q2 = p2 * hit.b2;
+    vec3 q0 = triangle.v0 * b0, q1 = triangle.v1 * hit.b1, q2 = triangle.v2 * hit.b2;
     s.point = q0 + q1 + q2;
     s.error = (abs(q0) + abs(q1) + abs(q2)) * GAMMA_7;
-    vec3 outward = triangle_normal(p1 - p0, p2 - p0);
+    vec3 outward = triangle_normal(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
     s.enters = dot3(outward, direction) <= 0.0;
     s.geometric = s.enters ? outward : -outward;
     s.shading = s.geometric;
-    s.solid = (w2.w & TRIANGLE_SOLID) != 0u;
+    s.solid = (triangle.shade & TRIANGLE_SOLID) != 0u;
     if (HAS_SMOOTH) {
-        uvec4 body = FETCH(bodies, w1.w * BODY_WORDS);
-        uint base = 3u * (w0.w - body.x) + body.y;
-        bool smooth_shaded = (w2.w & TRIANGLE_SMOOTH) != 0u;
-        base = smooth_shaded ? base : 0u;
-        vec3 n = uintBitsToFloat(FETCH(normals, base).xyz) * b0 +
-                 uintBitsToFloat(FETCH(normals, base + 1u).xyz) * hit.b1 +
-                 uintBitsToFloat(FETCH(normals, base + 2u).xyz) * hit.b2;
+        body_record body = load_body(triangle.body);
+        bool smooth_shaded = (triangle.shade & TRIANGLE_SMOOTH) != 0u;
+        uint base = smooth_shaded ? 3u * (triangle.number - body.first_triangle) + body.normal_base : 0u;
+        vec3 n = load_normal(base) * b0 + load_normal(base + 1u) * hit.b1 + load_normal(base + 2u) * hit.b2;
         float length2 = dot3(n, n);
         n = n * (1.0 / sqrt(length2));
         n = dot3(n, s.geometric) < 0.0 ? -n : n;
         s.shading = smooth_shaded && length2 > 0.0 ? n : s.geometric;
     }
-    bool second_half = (w2.w & TRIANGLE_RECT_TOP) != 0u;
-    float along_u = second_half ? hit.b1 : hit.b1 + hit.b2;
-    float along_v = second_half ? hit.b1 + hit.b2 : hit.b2;
-    read_material(w2.w & TRIANGLE_MATERIAL, (w2.w & TRIANGLE_CHECKER) != 0u, along_u, along_v,
-                  (w2.w & TRIANGLE_RECT) != 0u, w1.w, s);
+    bool second_half = (triangle.shade & TRIANGLE_RECT_TOP) != 0u;
+    float sum = hit.b1 + hit.b2;
+    read_material(triangle.shade, triangle.body, second_half ? vec2(hit.b1, sum) : vec2(sum, hit.b2), s);
 }
 
 void sphere_surface(hit_record hit, vec3 origin, vec3 direction, inout surface s) {
-    uint item = hit.item & ~ITEM_SPHERE;
-    uvec4 w0 = FETCH(spheres, item * SPHERE_WORDS);
-    uvec4 w1 = FETCH(spheres, item * SPHERE_WORDS + 1u);
-    vec3 center = uintBitsToFloat(w0.xyz);
+    sphere_record sphere = load_sphere(hit.item & ~ITEM_SPHERE);
     // Back onto the sphere: the point's error is then that of the radius, whatever the ray's length.
-    vec3 outward = unit3(origin + direction * hit.t - center);
-    vec3 arm = outward * uintBitsToFloat(w0.w);
-    s.point = center + arm;
+    vec3 outward = unit3(origin + direction * hit.t - sphere.center);
+    vec3 arm = outward * sphere.radius;
+    s.point = sphere.center + arm;
     s.error = abs(arm) * GAMMA_5 + abs(s.point) * GAMMA_1;
     s.enters = dot3(outward, direction) <= 0.0;
     s.geometric = s.enters ? outward : -outward;
     s.shading = s.geometric;
     s.solid = true;
-    read_material(w1.y & TRIANGLE_MATERIAL, (w1.y & TRIANGLE_CHECKER) != 0u, 0.0, 0.0, false, w1.x, s);
+    read_material(sphere.shade, sphere.body, vec2(0.0), s);
 }
 
 void make_surface(hit_record hit, vec3 origin, vec3 direction, inout surface s) {

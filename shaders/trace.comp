@@ -11,6 +11,7 @@
 spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
 
 #include "scene.glsl"
+#include "records.glsl"
 #include "math.glsl"
 #include "camera.glsl"
 #include "tree.glsl"

@@ -49,20 +49,23 @@ uint node_half(uvec3 near, uvec3 far, uint meta, vec3 base, vec3 scale, float t_
     return hits;
 }
 
-uint node_hits(uvec4 w0, uvec4 w1, uvec4 w2, uvec4 w3, uvec4 w4, tree_ray ray, float t_max) {
-    vec3 cell = vec3(uintBitsToFloat((w0.w & 0xffu) << 23u), uintBitsToFloat((w0.w & 0xff00u) << 15u),
-                     uintBitsToFloat((w0.w & 0xff0000u) << 7u));
+uint node_hits(node_record node, tree_ray ray, float t_max) {
+    uint e = node.exponents;
+    vec3 cell = vec3(uintBitsToFloat((e & 0xffu) << 23u), uintBitsToFloat((e & 0xff00u) << 15u),
+                     uintBitsToFloat((e & 0xff0000u) << 7u));
     vec3 scale = cell * ray.inverse;
-    vec3 base = (uintBitsToFloat(w0.xyz) - ray.origin) * ray.inverse;
+    vec3 base = (node.corner - ray.origin) * ray.inverse;
     bool x_up = (ray.flip & 4u) != 0u, y_up = (ray.flip & 2u) != 0u, z_up = (ray.flip & 1u) != 0u;
-    uvec2 x_lo = w2.xy, y_lo = w2.zw, z_lo = w3.xy, x_hi = w3.zw, y_hi = w4.xy, z_hi = w4.zw;
-    uvec2 near_x = x_up ? x_lo : x_hi, far_x = x_up ? x_hi : x_lo;
-    uvec2 near_y = y_up ? y_lo : y_hi, far_y = y_up ? y_hi : y_lo;
-    uvec2 near_z = z_up ? z_lo : z_hi, far_z = z_up ? z_hi : z_lo;
-    return node_half(uvec3(near_x.x, near_y.x, near_z.x), uvec3(far_x.x, far_y.x, far_z.x), w1.z, base, scale,
-                     t_max, ray.flip4) |
-           node_half(uvec3(near_x.y, near_y.y, near_z.y), uvec3(far_x.y, far_y.y, far_z.y), w1.w, base, scale,
-                     t_max, ray.flip4);
+    uvec3 near_a = uvec3(x_up ? node.low_x_a : node.high_x_a, y_up ? node.low_y_a : node.high_y_a,
+                         z_up ? node.low_z_a : node.high_z_a);
+    uvec3 near_b = uvec3(x_up ? node.low_x_b : node.high_x_b, y_up ? node.low_y_b : node.high_y_b,
+                         z_up ? node.low_z_b : node.high_z_b);
+    uvec3 far_a = uvec3(x_up ? node.high_x_a : node.low_x_a, y_up ? node.high_y_a : node.low_y_a,
+                        z_up ? node.high_z_a : node.low_z_a);
+    uvec3 far_b = uvec3(x_up ? node.high_x_b : node.low_x_b, y_up ? node.high_y_b : node.low_y_b,
+                        z_up ? node.high_z_b : node.low_z_b);
+    return node_half(near_a, far_a, node.meta_a, base, scale, t_max, ray.flip4) |
+           node_half(near_b, far_b, node.meta_b, base, scale, t_max, ray.flip4);
 }
 
 // Inner nodes still to be visited below one parent: first child, hits in bits 24..31, the parent's mask of

@@ -35,12 +35,10 @@ shear_ray make_shear_ray(vec3 origin, vec3 direction) {
 }
 
 void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
-    uvec4 w0 = FETCH(triangles, item * TRIANGLE_WORDS);
-    uvec4 w1 = FETCH(triangles, item * TRIANGLE_WORDS + 1u);
-    uvec4 w2 = FETCH(triangles, item * TRIANGLE_WORDS + 2u);
-    vec3 a = turn(uintBitsToFloat(w0.xyz) - ray.origin, ray.along_x, ray.along_z);
-    vec3 b = turn(uintBitsToFloat(w1.xyz) - ray.origin, ray.along_x, ray.along_z);
-    vec3 c = turn(uintBitsToFloat(w2.xyz) - ray.origin, ray.along_x, ray.along_z);
+    triangle_record triangle = load_triangle(item);
+    vec3 a = turn(triangle.v0 - ray.origin, ray.along_x, ray.along_z);
+    vec3 b = turn(triangle.v1 - ray.origin, ray.along_x, ray.along_z);
+    vec3 c = turn(triangle.v2 - ray.origin, ray.along_x, ray.along_z);
     float ax = a.x - ray.sx * a.z, ay = a.y - ray.sy * a.z;
     float bx = b.x - ray.sx * b.z, by = b.y - ray.sy * b.z;
     float cx = c.x - ray.sx * c.z, cy = c.y - ray.sy * c.z;
@@ -63,7 +61,7 @@ void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
     float spread = max(max(a.z, b.z), c.z) - min(min(a.z, b.z), c.z);
     float wrong = min(3.0 * delta_e * abs(inverse), 1.0);
     float delta_t = (6.0 * GAMMA_3 * z_most + spread * wrong) * abs(ray.sz);
-    uint number = w0.w + frame.sphere_count;
+    uint number = triangle.number + frame.sphere_count;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
     if (inside && det != 0.0 && t > delta_t && nearer) {
         hit.t = t;
@@ -83,12 +81,9 @@ void trace_triangles(vec3 origin, vec3 direction, bool any, inout hit_record hit
     bool more = true;
     do {
         iterations += 2u; // this loop, and the inner one where no lane enters it
-        uint node = next_node(group, ray.flip) * NODE_WORDS;
-        uvec4 w0 = FETCH(triangle_nodes, node);
-        uvec4 w1 = FETCH(triangle_nodes, node + 1u);
-        uint hits = node_hits(w0, w1, FETCH(triangle_nodes, node + 2u), FETCH(triangle_nodes, node + 3u),
-                              FETCH(triangle_nodes, node + 4u), ray, hit.t);
-        uvec2 found = uvec2(w1.x, (hits & 0xff000000u) | (w0.w >> 24u)), rest = group;
+        node_record node = load_triangle_node(next_node(group, ray.flip));
+        uint hits = node_hits(node, ray, hit.t);
+        uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
         uint items = hits & 0x00ffffffu;
         while (items != 0u && iterations < ITERATION_LIMIT) {
@@ -96,7 +91,7 @@ void trace_triangles(vec3 origin, vec3 direction, bool any, inout hit_record hit
             uint bit = items & (0u - items);
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
-            uint item = w1.y + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+            uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
             test_triangle(item, shear, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;

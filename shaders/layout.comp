@@ -1,0 +1,30 @@
+// Loads record 0 of each kind and writes its fields one after another, each filled up to a word: the test
+// that C structs and GLSL loaders agree (tests/unit/test_gpu.c).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "scene.glsl"
+#include "records.glsl"
+
+layout(local_size_x = 1) in;
+
+#define STORE_VECTOR(name, word)           pixels[place++] = uvec4(floatBitsToUint(record.name), 0u);
+#define STORE_FLOAT(name, word, component) pixels[place++] = uvec4(floatBitsToUint(record.name), 0u, 0u, 0u);
+#define STORE_UINT(name, word, component)  pixels[place++] = uvec4(record.name, 0u, 0u, 0u);
+#define STORE(type, loader, FIELDS)                                                                          \
+    {                                                                                                        \
+        type record = loader(0u);                                                                            \
+        FIELDS(STORE_VECTOR, STORE_FLOAT, STORE_UINT)                                                        \
+    }
+
+void main() {
+    uint place = 0u;
+    STORE(node_record, load_triangle_node, NODE_FIELDS)
+    STORE(node_record, load_sphere_node, NODE_FIELDS)
+    STORE(triangle_record, load_triangle, TRIANGLE_FIELDS)
+    STORE(sphere_record, load_sphere, SPHERE_FIELDS)
+    STORE(body_record, load_body, BODY_FIELDS)
+    STORE(material_record, load_material, MATERIAL_FIELDS)
+    STORE(light_record, load_light, LIGHT_FIELDS)
+    pixels[place++] = uvec4(floatBitsToUint(load_normal(0u)), 0u);
+}
