@@ -5,7 +5,8 @@
 // Errors: functions give false, or a status; gpu_error then has one line of text. After GPU_LOST nothing
 // but destroying works. Ownership: *_create gives a heap object, *_destroy takes NULL; buffers and
 // programs must be destroyed before their gpu. Sizes in bytes, times in seconds.
-// Thread safety: one thread at a time for a gpu and all that belongs to it.
+// Thread safety: one thread at a time for a gpu and all that belongs to it, and one in the whole process
+// for gpu_list, gpu_create and gpu_destroy.
 #ifndef GLINT_RUNTIME_GPU_GPU_H
 #define GLINT_RUNTIME_GPU_GPU_H
 

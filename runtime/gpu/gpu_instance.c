@@ -69,9 +69,11 @@ enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gp
         return GPU_NO_DRIVER;
     }
     volkLoadInstanceOnly(out->handle);
-    if (layered && messages &&
-        vkCreateDebugUtilsMessengerEXT(out->handle, &messenger, NULL, &out->messenger) != VK_SUCCESS)
-        out->messenger = VK_NULL_HANDLE;
+    if (layered && messages) {
+        out->destroy_messenger = vkDestroyDebugUtilsMessengerEXT;
+        if (vkCreateDebugUtilsMessengerEXT(out->handle, &messenger, NULL, &out->messenger) != VK_SUCCESS)
+            out->messenger = VK_NULL_HANDLE;
+    }
     return GPU_OK;
 }
 
@@ -79,7 +81,7 @@ void gpu_instance_finish(struct gpu_instance *instance) {
     if (!instance->handle)
         return;
     if (instance->messenger)
-        vkDestroyDebugUtilsMessengerEXT(instance->handle, instance->messenger, NULL);
+        instance->destroy_messenger(instance->handle, instance->messenger, NULL);
     vkDestroyInstance(instance->handle, NULL);
     *instance = (struct gpu_instance){0};
 }

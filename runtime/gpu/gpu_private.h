@@ -10,7 +10,8 @@
 struct gpu_instance {
     VkInstance handle;
     VkDebugUtilsMessengerEXT messenger;
-    uint32_t *messages; // not owned, may be NULL
+    PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger; // volk's may be that of another instance
+    uint32_t *messages;                                    // not owned, may be NULL
 };
 
 struct gpu {

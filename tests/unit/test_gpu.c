@@ -1,0 +1,309 @@
+// The GPU layer: choosing devices, buffers, dispatches, the layout of records, and doing without Vulkan.
+#include "runtime/gpu/gpu.h"
+#include "runtime/gpu_records.h"
+#include "shaders/frame.h"
+#include "shaders/kernels.h"
+
+#include <dlfcn.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static bool hide_loader;
+
+void *__real_dlopen(const char *path, int flags);
+void *__wrap_dlopen(const char *path, int flags);
+void *__wrap_dlopen(const char *path, int flags) {
+    return hide_loader && path && strstr(path, "libvulkan") ? NULL : __real_dlopen(path, flags);
+}
+
+struct fixture {
+    struct gpu *gpu;
+    uint32_t messages;
+};
+
+static int setup(void **state) {
+    struct fixture *f = calloc(1, sizeof *f);
+    char error[GPU_ERROR_BYTES];
+    const struct gpu_options options = {
+        .device = getenv("GLINT_DEVICE"), .validate = true, .validation_messages = &f->messages};
+    if (gpu_create(&options, &f->gpu, error) != GPU_OK)
+        fprintf(stderr, "skipped: %s\n", error);
+    *state = f;
+    return 0;
+}
+
+static int teardown(void **state) {
+    struct fixture *f = *state;
+    gpu_destroy(f->gpu);
+    const uint32_t messages = f->messages;
+    free(f);
+    if (messages)
+        fprintf(stderr, "error: %u validation messages\n", messages);
+    return messages ? -1 : 0;
+}
+
+static struct gpu *needed(void **state) {
+    struct fixture *f = *state;
+    if (!f->gpu)
+        skip();
+    return f->gpu;
+}
+
+// ---- without Vulkan
+
+static void test_no_loader(void **state) {
+    (void)state;
+    char error[GPU_ERROR_BYTES] = "";
+    uint32_t count = 7;
+    struct gpu_device_info info;
+    struct gpu *gpu = (struct gpu *)1;
+    const struct gpu_options options = {.device = NULL};
+    hide_loader = true;
+    assert_int_equal(gpu_list(&info, 1, &count, error), GPU_NO_LOADER);
+    assert_int_equal(count, 0);
+    assert_non_null(strstr(error, "libvulkan"));
+    assert_int_equal(gpu_create(&options, &gpu, error), GPU_NO_LOADER);
+    assert_null(gpu);
+    hide_loader = false;
+}
+
+static void test_no_driver(void **state) {
+    needed(state);
+    char error[GPU_ERROR_BYTES] = "";
+    uint32_t count = 7;
+    struct gpu *gpu = NULL;
+    const char *old = getenv("VK_ICD_FILENAMES");
+    char *kept = old ? strdup(old) : NULL;
+    setenv("VK_ICD_FILENAMES", "/nonexistent/driver.json", 1);
+    assert_int_equal(gpu_list(NULL, 0, &count, error), GPU_NO_DRIVER);
+    assert_int_equal(count, 0);
+    assert_non_null(strstr(error, "driver"));
+    assert_int_equal(gpu_create(&(struct gpu_options){0}, &gpu, error), GPU_NO_DRIVER);
+    if (kept)
+        setenv("VK_ICD_FILENAMES", kept, 1);
+    else
+        unsetenv("VK_ICD_FILENAMES");
+    free(kept);
+}
+
+// ---- devices
+
+static void test_choice(void **state) {
+    needed(state);
+    char error[GPU_ERROR_BYTES];
+    struct gpu_device_info infos[16];
+    uint32_t count, preferred = 0;
+    assert_int_equal(gpu_list(infos, 16, &count, error), GPU_OK);
+    assert_true(count >= 1 && count <= 16);
+    for (uint32_t i = 0; i < count; i++) {
+        assert_int_equal(infos[i].number, i);
+        assert_true(infos[i].memory_bytes > 0 && infos[i].name[0]);
+        preferred += infos[i].preferred;
+    }
+    assert_int_equal(preferred, 1);
+    struct gpu *gpu;
+    char upper[sizeof infos[0].name];
+    for (size_t i = 0; i < sizeof upper; i++)
+        upper[i] = (char)(infos[0].name[i] >= 'a' && infos[0].name[i] <= 'z' ? infos[0].name[i] - 32
+                                                                             : infos[0].name[i]);
+    const char *good[] = {"0", upper, ""};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(gpu_create(&(struct gpu_options){.device = good[i]}, &gpu, error), GPU_OK);
+        assert_true(i == 2 ? gpu_info(gpu)->preferred : strcmp(gpu_info(gpu)->name, infos[0].name) == 0);
+        gpu_destroy(gpu);
+    }
+    const char *bad[] = {"no such device", "99", "00000000000000000000000000000001234"};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(gpu_create(&(struct gpu_options){.device = bad[i]}, &gpu, error), GPU_NO_DEVICE);
+        assert_non_null(strstr(error, bad[i]));
+        assert_null(gpu);
+    }
+}
+
+// ---- buffers
+
+static void test_buffers(void **state) {
+    struct gpu *gpu = needed(state);
+    const enum gpu_use uses[] = {GPU_WORDS, GPU_TEXELS_U8, GPU_TEXELS_F32, GPU_STORAGE, GPU_UNIFORM};
+    const uint64_t sizes[] = {0, 1, 15, 16, 4096, 65536, (16u << 20) + 48};
+    uint8_t *in = malloc(sizes[6]), *out = malloc(sizes[6]);
+    for (uint64_t i = 0; i < sizes[6]; i++)
+        in[i] = (uint8_t)(i * 2654435761u >> 13);
+    for (size_t u = 0; u < sizeof uses / sizeof *uses; u++)
+        for (size_t s = 0; s < (uses[u] == GPU_UNIFORM ? 5 : 7); s++) {
+            struct gpu_buffer *buffer = gpu_buffer_create(gpu, uses[u], sizes[s]);
+            assert_non_null(buffer);
+            assert_int_equal(gpu_buffer_bytes(buffer), sizes[s]);
+            assert_true(gpu_write(gpu, buffer, 0, in, sizes[s]));
+            if (sizes[s] >= 16)
+                assert_true(gpu_write(gpu, buffer, 4, in + 8, 8));
+            memset(out, 0, sizes[s]);
+            assert_true(gpu_read(gpu, buffer, 0, out, sizes[s]));
+            if (sizes[s] >= 16) {
+                assert_memory_equal(out + 4, in + 8, 8);
+                memcpy(out + 4, in + 4, 8);
+            }
+            assert_memory_equal(in, out, sizes[s]);
+            gpu_buffer_destroy(gpu, buffer);
+        }
+    free(in);
+    free(out);
+    gpu_buffer_destroy(gpu, NULL);
+}
+
+static void test_too_large(void **state) {
+    struct gpu *gpu = needed(state);
+    assert_null(gpu_buffer_create(gpu, GPU_UNIFORM, 1u << 30));
+    assert_int_equal(gpu_last_status(gpu), GPU_NO_MEMORY);
+    assert_non_null(strstr(gpu_error(gpu), "MiB"));
+    assert_null(gpu_buffer_create(gpu, GPU_STORAGE, 1ull << 50));
+    assert_int_equal(gpu_last_status(gpu), GPU_NO_MEMORY);
+}
+
+// ---- records
+
+// Every component of every record gets a number of its own, as a small float or as its bits.
+static void fill(uint32_t *words, size_t count, uint32_t from) {
+    for (size_t i = 0; i < count; i++) {
+        const float value = (float)(from + i);
+        memcpy(words + i, &value, sizeof value);
+    }
+}
+
+struct all_records {
+    struct gpu_node triangle_node, sphere_node;
+    struct gpu_triangle triangle;
+    struct gpu_sphere sphere;
+    struct gpu_body body;
+    struct gpu_material material;
+    struct gpu_light light;
+    struct gpu_word normal;
+};
+
+// The fields of the structs in order, each filled up to four components, as shaders/layout.comp writes them.
+struct listing {
+    uint32_t words[512];
+    size_t place;
+};
+
+static void list_field(struct listing *listing, const void *field, size_t bytes) {
+    assert_true(4 * listing->place + 4 <= sizeof listing->words / sizeof *listing->words);
+    memcpy(listing->words + 4 * listing->place++, field, bytes);
+}
+
+#define LIST(name, ...) list_field(listing, &record->name, sizeof record->name);
+#define LISTER(function, type, FIELDS)                                                                       \
+    static void function(struct listing *listing, const struct type *record) {                               \
+        FIELDS(LIST, LIST, LIST)                                                                             \
+    }
+LISTER(list_node, gpu_node, NODE_FIELDS)
+LISTER(list_triangle, gpu_triangle, TRIANGLE_FIELDS)
+LISTER(list_sphere, gpu_sphere, SPHERE_FIELDS)
+LISTER(list_body, gpu_body, BODY_FIELDS)
+LISTER(list_material, gpu_material, MATERIAL_FIELDS)
+LISTER(list_light, gpu_light, LIGHT_FIELDS)
+
+static void list_all(struct listing *listing, const struct all_records *all) {
+    list_node(listing, &all->triangle_node);
+    list_node(listing, &all->sphere_node);
+    list_triangle(listing, &all->triangle);
+    list_sphere(listing, &all->sphere);
+    list_body(listing, &all->body);
+    list_material(listing, &all->material);
+    list_light(listing, &all->light);
+    list_field(listing, &all->normal, 3 * sizeof(uint32_t));
+}
+
+static void bind(struct gpu *gpu, struct gpu_program_source *source, uint32_t binding, const void *data,
+                 size_t bytes) {
+    struct gpu_buffer *buffer = gpu_buffer_create(gpu, data ? GPU_WORDS : GPU_STORAGE, bytes);
+    assert_non_null(buffer);
+    assert_true(!data || gpu_write(gpu, buffer, 0, data, bytes));
+    source->buffers[binding] = buffer;
+}
+
+static struct gpu_program_source layout_source(struct gpu *gpu, const struct all_records *all) {
+    const bool texels = gpu_fetches_texels(gpu);
+    struct gpu_program_source source = {.spirv = texels ? kernel_layout_texels : kernel_layout_storage,
+                                        .spirv_words = texels ? kernel_layout_texels_words
+                                                              : kernel_layout_storage_words};
+    bind(gpu, &source, BINDING_TRIANGLE_NODES, &all->triangle_node, sizeof all->triangle_node);
+    bind(gpu, &source, BINDING_SPHERE_NODES, &all->sphere_node, sizeof all->sphere_node);
+    bind(gpu, &source, BINDING_TRIANGLES, &all->triangle, sizeof all->triangle);
+    bind(gpu, &source, BINDING_SPHERES, &all->sphere, sizeof all->sphere);
+    bind(gpu, &source, BINDING_BODIES, &all->body, sizeof all->body);
+    bind(gpu, &source, BINDING_MATERIALS, &all->material, sizeof all->material);
+    bind(gpu, &source, BINDING_LIGHTS, &all->light, sizeof all->light);
+    bind(gpu, &source, BINDING_NORMALS, &all->normal, sizeof all->normal);
+    bind(gpu, &source, BINDING_OUTPUT, NULL, sizeof(struct listing));
+    return source;
+}
+
+static void test_layout(void **state) {
+    struct gpu *gpu = needed(state);
+    struct all_records all;
+    uint32_t numbers[sizeof all / sizeof(uint32_t)];
+    fill(numbers, sizeof all / sizeof(uint32_t), 1000);
+    memcpy(&all, numbers, sizeof all);
+    struct listing listing = {.place = 0}, got;
+    list_all(&listing, &all);
+
+    struct gpu_program_source source = layout_source(gpu, &all);
+    struct gpu_program *program = gpu_program_create(gpu, &source);
+    assert_non_null(program);
+    double seconds = -1;
+    assert_true(gpu_dispatch(gpu, program, 1, 1, NULL));
+    assert_true(gpu_submit(gpu));
+    assert_true(gpu_wait(gpu, &seconds));
+    assert_true(seconds >= 0 && seconds < 60);
+    assert_true(gpu_read(gpu, source.buffers[BINDING_OUTPUT], 0, got.words, sizeof got.words));
+    assert_memory_equal(got.words, listing.words, listing.place * sizeof(struct gpu_word));
+    gpu_program_destroy(gpu, program);
+    for (int i = 0; i < GPU_BINDINGS; i++)
+        gpu_buffer_destroy(gpu, source.buffers[i]);
+}
+
+// What the silence of the layer in all other tests is worth: more workgroups than allowed, never submitted,
+// are a message.
+static void test_messages_are_counted(void **state) {
+    needed(state);
+    char error[GPU_ERROR_BYTES];
+    struct gpu *gpu;
+    uint32_t messages = 0;
+    const struct gpu_options options = {
+        .device = getenv("GLINT_DEVICE"), .validate = true, .validation_messages = &messages};
+    assert_int_equal(gpu_create(&options, &gpu, error), GPU_OK);
+    struct all_records all;
+    memset(&all, 0, sizeof all);
+    struct gpu_program_source source = layout_source(gpu, &all);
+    struct gpu_program *program = gpu_program_create(gpu, &source);
+    assert_non_null(program);
+    assert_int_equal(messages, 0);
+    assert_true(gpu_dispatch(gpu, program, 1, UINT32_MAX, NULL));
+    const uint32_t counted = messages;
+    gpu_program_destroy(gpu, program);
+    for (int i = 0; i < GPU_BINDINGS; i++)
+        gpu_buffer_destroy(gpu, source.buffers[i]);
+    gpu_destroy(gpu);
+    if (counted == 0)
+        skip(); // the layer is not installed
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_no_loader),
+        cmocka_unit_test_setup_teardown(test_no_driver, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_choice, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_messages_are_counted, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_buffers, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_too_large, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_layout, setup, teardown),
+    };
+    return cmocka_run_group_tests_name("gpu", tests, NULL, NULL);
+}
