@@ -123,6 +123,18 @@ if "$glint" devices >devices.txt 2>/dev/null; then
     expect "an unknown device" 4 - 'E702' "$glint" render good.yaml -o out.png --device nonesuch
     GLINT_DEVICE=nonesuch expect "an unknown device by environment" 4 - 'E702' env GLINT_DEVICE=nonesuch "$glint" render good.yaml -o out.png
     expect "no driver" 4 - 'mesa-vulkan-drivers' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json "$glint" render good.yaml -o out.png
+    # A long render, ended from outside: its own exit code, a message, and the old file.
+    printf 'precious' >kept.png
+    for end in INT:130 TERM:143; do
+        "$glint" render good.yaml --size 2048x2048 --samples 4096 -o kept.png >/dev/null 2>interrupted.txt &
+        process=$!
+        sleep 2
+        kill -"${end%:*}" $process
+        wait $process
+        expect "exit code of SIG${end%:*}" 0 "^${end#*:}$" - echo $?
+        expect "a message of SIG${end%:*}" 0 'interrupted.*E803' - cat interrupted.txt
+        expect "the old file after SIG${end%:*}" 0 '^precious$' - cat kept.png
+    done
     ls | grep -E '\.(png|pfm|hdr)\.' >leftovers.txt
     expect "no temporary file is left" 0 - - cat leftovers.txt
 else
