@@ -54,7 +54,7 @@ static const struct option_row rows[] = {
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and tell the median time of a frame and its spread"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
-     "tell times, rays, memory and the device on standard error"},
+     "tell times, rays, memory and the device: text on standard error, JSON on standard output"},
     {OPTION_QUIET, "quiet", 'q', NULL, "render check",
      "show errors and warnings only: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
