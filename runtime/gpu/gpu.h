@@ -41,8 +41,9 @@ struct gpu_device_info {
     char driver[520]; // name and version as the driver tells them; may be empty
     uint32_t number;  // what `device` may name
     enum gpu_kind kind;
-    uint64_t memory_bytes; // of the largest heap that is the device's own
-    bool preferred;        // what an empty choice takes
+    uint64_t memory_bytes;  // of the largest heap that is the device's own
+    uint64_t storage_bytes; // most that a GPU_STORAGE buffer may have
+    bool preferred;         // what an empty choice takes
 };
 
 struct gpu_options {

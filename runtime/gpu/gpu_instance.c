@@ -120,7 +120,9 @@ static void describe(VkPhysicalDevice physical, uint32_t number, struct gpu_devi
         properties.pNext = &driver;
         vkGetPhysicalDeviceProperties2(physical, &properties);
     }
-    *info = (struct gpu_device_info){.number = number, .kind = kind_of(properties.properties.deviceType)};
+    *info = (struct gpu_device_info){.number = number,
+                                     .kind = kind_of(properties.properties.deviceType),
+                                     .storage_bytes = properties.properties.limits.maxStorageBufferRange};
     snprintf(info->name, sizeof info->name, "%s", properties.properties.deviceName);
     snprintf(info->driver, sizeof info->driver, "%s%s%s", driver.driverName, driver.driverInfo[0] ? ", " : "",
              driver.driverInfo);
