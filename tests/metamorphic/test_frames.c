@@ -1,0 +1,217 @@
+// How a frame is made does not show in it: bands, slices, a frame cancelled before, and the part of the
+// picture that is asked for.
+//
+// Usage: test_frames SCENE, a scene in which paths branch and none is deeper than 20 levels by weight.
+#include "tests/pictures/picture_kit.h"
+
+#include <stdio.h>
+#include <string.h>
+
+struct frames {
+    struct picture_kit kit;
+    const char *path;
+    int failed;
+};
+
+static void expect(struct frames *f, bool good, const char *what) {
+    printf("%s %s\n", good ? "ok  " : "FAIL", what);
+    f->failed += !good;
+}
+
+// A scene on the device, with settings that a test may change before the renderer is made anew.
+struct stage {
+    struct session session;
+    struct shot shot;
+};
+
+static bool open_stage(struct frames *f, struct stage *stage, int32_t width, int32_t height,
+                       int32_t samples) {
+    const struct session_options options = {.path = str_from(f->path),
+                                            .limits = limits_default(),
+                                            .width = width,
+                                            .height = height,
+                                            .samples = samples};
+    session_load(&stage->session, &options, f->kit.store);
+    bool good = stage->session.state == SESSION_LOADED && stage->session.sink.errors == 0 &&
+                shot_open(&stage->shot, &stage->session, f->kit.gpu, 0) == SHOT_OK;
+    expect(f, good, "the scene is on the device");
+    return good;
+}
+
+static void close_stage(struct stage *stage) {
+    shot_close(&stage->shot);
+    session_finish(&stage->session);
+}
+
+static bool renew(struct stage *stage) {
+    renderer_destroy(stage->shot.renderer);
+    stage->shot.renderer = renderer_create(stage->shot.gpu, &stage->shot.flat, &stage->shot.settings);
+    return stage->shot.renderer != NULL;
+}
+
+static bool take(struct stage *stage, struct image *image, struct render_statistics *statistics) {
+    *image = (struct image){0};
+    return image_init(image, stage->shot.settings.width, stage->shot.settings.height) &&
+           shot_take(&stage->shot, image, NULL, statistics) == SHOT_OK && stage->session.sink.errors == 0;
+}
+
+// ---- cancelling
+
+struct countdown {
+    int left, calls;
+    double last;
+    bool ordered; // fractions rise, within 0..1
+};
+
+static bool count_down(void *context, double fraction) {
+    struct countdown *c = context;
+    c->ordered = c->ordered && fraction >= c->last && fraction >= 0 && fraction <= 1;
+    c->last = fraction;
+    c->calls++;
+    return c->left-- > 0;
+}
+
+static void test_cancel(struct frames *f) {
+    struct stage stage;
+    struct image whole, image;
+    struct render_statistics statistics;
+    if (!open_stage(f, &stage, 96, 72, 3))
+        return;
+    stage.shot.settings.slice_iterations = 40; // many dispatches, so that many places can be cancelled
+    bool good = renew(&stage) && take(&stage, &whole, &statistics) && picture_variety(&whole) > 1000;
+    expect(f, good && statistics.slices > 10, "a frame of many slices");
+    struct countdown all = {.left = 1 << 30, .ordered = true};
+    const struct render_progress watch = {count_down, &all};
+    good = image_init(&image, 96, 72) && shot_take(&stage.shot, &image, &watch, &statistics) == SHOT_OK;
+    expect(f, good && all.ordered && all.last == 1, "progress rises from 0 to 1");
+    expect(f, picture_differences(&whole, &image, "watched") == 0, "watching does not change it");
+    for (int left = 0; good && left < all.calls; left += 1 + left / 2) {
+        struct countdown c = {.left = left, .ordered = true};
+        const struct render_progress progress = {count_down, &c};
+        enum shot_status status = shot_take(&stage.shot, &image, &progress, &statistics);
+        good = status == SHOT_CANCELLED && c.calls == left + 1 && stage.session.sink.errors == 0 &&
+               shot_take(&stage.shot, &image, NULL, &statistics) == SHOT_OK &&
+               picture_differences(&whole, &image, "after a cancelled frame") == 0;
+    }
+    expect(f, good, "cancelled anywhere, the renderer makes the same picture again");
+    image_finish(&whole);
+    image_finish(&image);
+    close_stage(&stage);
+}
+
+// ---- bands and slices
+
+// A path's state grows with max_depth, so that fewer tiles fit a band; by weight no path gets that deep.
+static void test_bands(struct frames *f) {
+    struct stage stage;
+    struct image one, many, counted;
+    struct render_statistics of_one = {0}, of_many = {0};
+    struct render_rays rays = {0};
+    if (!open_stage(f, &stage, 320, 240, 2))
+        return;
+    stage.shot.settings.min_weight = 0.01;
+    stage.shot.settings.max_depth = 20;
+    bool good = renew(&stage) && take(&stage, &one, &of_one);
+    stage.shot.settings.max_depth = 64;
+    good = renew(&stage) && take(&stage, &many, &of_many) && good;
+    good = good && renderer_count(stage.shot.renderer, &stage.shot.view.camera, NULL, &rays) == RENDER_DONE;
+    expect(f, good && rays.deepest < 20 && rays.primary == (uint64_t)320 * 240 * 2,
+           "no path needs more depth");
+    expect(f, of_one.bands == 1 && of_many.bands > 1, "one band, and several");
+    expect(f, good && picture_differences(&one, &many, "bands") == 0, "bands do not show");
+    good = take(&stage, &counted, &of_many) && picture_differences(&one, &counted, "after counting") == 0;
+    expect(f, good, "counting rays does not show");
+    image_finish(&one);
+    image_finish(&many);
+    image_finish(&counted);
+    close_stage(&stage);
+}
+
+static void test_slices(struct frames *f) {
+    static const uint32_t sizes[] = {0, 1, 50, 300};
+    struct stage stage;
+    struct image whole, image;
+    struct render_statistics statistics;
+    if (!open_stage(f, &stage, 96, 72, 1))
+        return;
+    bool good = take(&stage, &whole, &statistics);
+    const uint32_t least = statistics.slices;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        stage.shot.settings.slice_iterations = sizes[i];
+        good = renew(&stage) && take(&stage, &image, &statistics) && statistics.slices > least && good &&
+               picture_differences(&whole, &image, "slices") == 0;
+        image_finish(&image);
+    }
+    expect(f, good, "slices do not show");
+    image_finish(&whole);
+    close_stage(&stage);
+}
+
+// ---- a part of the picture
+
+// With sizes that are powers of two, half the field is the middle of the whole field without a rounding.
+static void test_crop(struct frames *f) {
+    enum {
+        WIDTH = 2048,
+        HEIGHT = 1024
+    };
+    struct stage large, small;
+    struct image whole, middle, cut = {0};
+    struct render_statistics statistics;
+    if (!open_stage(f, &large, WIDTH, HEIGHT, 1))
+        return;
+    bool good = take(&large, &whole, &statistics);
+    expect(f, good && statistics.bands > 1, "a picture of several bands");
+    good = open_stage(f, &small, WIDTH / 2, HEIGHT / 2, 1) && good;
+    small.shot.view.camera.tan_half_fov = large.shot.view.camera.tan_half_fov / 2;
+    good = good && take(&small, &middle, &statistics) && image_init(&cut, WIDTH / 2, HEIGHT / 2);
+    for (size_t y = 0; good && y < HEIGHT / 2; y++)
+        memcpy(cut.rgb + y * (WIDTH / 2) * 3, whole.rgb + ((y + HEIGHT / 4) * WIDTH + WIDTH / 4) * 3,
+               WIDTH / 2 * 3 * sizeof(float));
+    expect(f, good && picture_variety(&cut) > 10000 && picture_differences(&cut, &middle, "middle") == 0,
+           "a picture of the middle is the middle of the picture");
+    image_finish(&whole);
+    image_finish(&middle);
+    image_finish(&cut);
+    close_stage(&small);
+    close_stage(&large);
+}
+
+// ---- faults
+
+// A sample of too many rays is a fault at its pixel, and only there: all other pixels are the same.
+static void test_segments(struct frames *f) {
+    struct stage stage;
+    struct image whole, image;
+    struct render_statistics statistics;
+    if (!open_stage(f, &stage, 96, 72, 1))
+        return;
+    bool good = take(&stage, &whole, &statistics) && statistics.faults[RENDER_SEGMENTS].pixels == 0;
+    stage.shot.settings.path_segments = 12;
+    good = good && renew(&stage) && image_init(&image, 96, 72) &&
+           shot_take(&stage.shot, &image, NULL, &statistics) == SHOT_OK;
+    const struct render_fault *fault = &statistics.faults[RENDER_SEGMENTS];
+    const int64_t changed = good ? picture_differences(&whole, &image, "fewer rays") : -1;
+    expect(f, good && fault->pixels > 0 && fault->pixels < 96 * 72 / 2, "some pixels need more than 12 rays");
+    expect(f, changed > 0 && changed <= fault->pixels, "no other pixel changes");
+    expect(f, good && fault->has_body && stage.session.sink.errors == 1, "one error tells it");
+    image_finish(&whole);
+    image_finish(&image);
+    close_stage(&stage);
+}
+
+int main(int argc, char **argv) {
+    struct frames f = {.path = argc > 1 ? argv[1] : NULL};
+    if (argc < 2)
+        return 2;
+    if (!picture_kit_open(&f.kit))
+        return 77;
+    test_cancel(&f);
+    test_bands(&f);
+    test_slices(&f);
+    test_crop(&f);
+    test_segments(&f);
+    uint32_t messages = picture_kit_close(&f.kit);
+    expect(&f, messages == 0, "the validation layer is silent");
+    return f.failed != 0;
+}
