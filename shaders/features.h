@@ -4,14 +4,14 @@
 #ifndef GLINT_SHADERS_FEATURES_H
 #define GLINT_SHADERS_FEATURES_H
 
-#define FEATURE_TRIANGLES        (1u << 0)  /* rectangles or models */
+#define FEATURE_TRIANGLES        (1u << 0) /* rectangles or models */
 #define FEATURE_SPHERES          (1u << 1)
-#define FEATURE_DIFFUSE          (1u << 2)  /* a diffuse weight that is not 0 */
-#define FEATURE_SPECULAR         (1u << 3)  /* a specular weight that is not 0 */
+#define FEATURE_DIFFUSE          (1u << 2) /* a diffuse weight that is not 0 */
+#define FEATURE_SPECULAR         (1u << 3) /* a specular weight that is not 0 */
 #define FEATURE_REFLECTION       (1u << 4)
 #define FEATURE_REFRACTION       (1u << 5)
 #define FEATURE_SHADOWS          (1u << 6)
-#define FEATURE_SMOOTH           (1u << 7)  /* interpolated vertex normals */
+#define FEATURE_SMOOTH           (1u << 7) /* interpolated vertex normals */
 #define FEATURE_CHECKER          (1u << 8)
 #define FEATURE_POINT_LIGHT      (1u << 9)
 #define FEATURE_DIRECTION_LIGHT  (1u << 10)

@@ -11,9 +11,9 @@
     FLOAT(min_weight)                                                                                        \
     VECTOR(camera_right) /* times tan(fov/2) and W/H */                                                      \
     UINT(max_depth)                                                                                          \
-    VECTOR(camera_up) /* times tan(fov/2) */                                                                 \
-    UINT(path_segments) /* most rays of a sample */                                                          \
-    VECTOR(background) /* colour times intensity */                                                          \
+    VECTOR(camera_up)           /* times tan(fov/2) */                                                       \
+    UINT(path_segments)         /* most rays of a sample */                                                  \
+    VECTOR(background)          /* colour times intensity */                                                 \
     FLOAT(background_intensity) /* of the image */                                                           \
     UINT(background_width)                                                                                   \
     UINT(background_height)                                                                                  \
@@ -26,18 +26,18 @@
     UINT(row_step) /* tile row r shows row r * row_step mod tiles_y */                                       \
     UINT(sphere_count)                                                                                       \
     UINT(slice_iterations) /* past these a path is saved at the next ray boundary */                         \
-    UINT(features) /* of the scene: what the mask only makes possible, these bits decide */
+    UINT(features)         /* of the scene: what the mask only makes possible, these bits decide */
 
 /* Push constants. */
 #define DISPATCH_FIELDS(FLOAT, UINT)                                                                         \
-    UINT(tile_begin)  /* first tile of the band */                                                           \
-    UINT(tile_count)  /* of the band; 64 slots each */                                                       \
-    UINT(grid_width)  /* workgroups in x */                                                                  \
+    UINT(tile_begin) /* first tile of the band */                                                            \
+    UINT(tile_count) /* of the band; 64 slots each */                                                        \
+    UINT(grid_width) /* workgroups in x */                                                                   \
     UINT(sample_index)                                                                                       \
-    FLOAT(offset_x)   /* of the sample inside the pixel */                                                   \
+    FLOAT(offset_x) /* of the sample inside the pixel */                                                     \
     FLOAT(offset_y)                                                                                          \
-    UINT(resume)      /* 0: paths begin; else how many saved ones go on */                                   \
-    UINT(read_list)   /* which of the two lists of saved slots is read; the other is written */              \
+    UINT(resume)       /* 0: paths begin; else how many saved ones go on */                                  \
+    UINT(read_list)    /* which of the two lists of saved slots is read; the other is written */             \
     UINT(pending_base) /* value of COUNTER_PENDING before this dispatch */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
@@ -54,28 +54,25 @@
 #define FAULT_SEGMENTS   2u /* the sample exceeded path_segments */
 #define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT */
 
-/* State of a path, word k of slot s at k * slots + s: ray origin, weight; direction, depth; radiance, segments; sum over lights,
-   light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare: kept between dispatches; then
-   two words for each refracted ray that waits. */
+/* State of a path, word k of slot s at k * slots + s: ray origin, weight; direction, depth; radiance,
+   segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare: kept
+   between dispatches; then two words for each refracted ray that waits. */
 #define STATE_WORDS       6
 #define STACK_ENTRY_WORDS 2
 
 /* Counters, 32-bit each, then two lists of slots. */
-#define COUNTER_PENDING        0
-#define COUNTER_PRIMARY        1
-#define COUNTER_REFLECTED      2
-#define COUNTER_REFRACTED      3
-#define COUNTER_SHADOW         4
-#define COUNTER_DEEPEST        5  /* deepest level of a ray that was traced */
-#define COUNTER_CUT_DEPTH      6  /* rays not sent at max_depth */
-#define COUNTER_CUT_WEIGHT     7  /* rays not sent below min_weight */
-#define COUNTER_LOST_DEPTH     8  /* largest weight cut at max_depth, as bits of a float */
-#define COUNTER_LOST_WEIGHT    9  /* largest weight cut below min_weight, as bits of a float */
-#define COUNTER_TOTAL_REFLECT  10 /* total reflections */
-#define COUNTER_NODES          11 /* iterations that opened a node, in units of COUNTER_UNIT, rounded down a path */
-#define COUNTER_ITEMS          12 /* likewise that tested a leaf item */
-#define COUNTER_COUNT          16
-#define COUNTER_UNIT           1
+#define COUNTER_PENDING       0
+#define COUNTER_PRIMARY       1
+#define COUNTER_REFLECTED     2
+#define COUNTER_REFRACTED     3
+#define COUNTER_SHADOW        4
+#define COUNTER_DEEPEST       5  /* deepest level of a ray that was traced */
+#define COUNTER_CUT_DEPTH     6  /* rays not sent at max_depth */
+#define COUNTER_CUT_WEIGHT    7  /* rays not sent below min_weight */
+#define COUNTER_LOST_DEPTH    8  /* largest weight cut at max_depth, as bits of a float */
+#define COUNTER_LOST_WEIGHT   9  /* largest weight cut below min_weight, as bits of a float */
+#define COUNTER_TOTAL_REFLECT 10 /* total reflections */
+#define COUNTER_COUNT         16
 
 /* lavapipe stops all loops of a vector of 8 invocations, silently, after 65535 iterations in sum over the
    8: an invocation ends its slice before its share of 8191. */

@@ -38,14 +38,14 @@
    Child boxes are decoded conservatively as t = (p - o)/d + q * (2^e/d), and the far distance is multiplied
    by BOX_FAR_SCALE: 2 gamma(4) for the rounding of the near and far distance (Ize 2013) and as much again
    for that of a watertight hit, whose vertices are rounded after the origin is subtracted, u = 2^-24. */
-#define NODE_WORDS 5
+#define NODE_WORDS    5
 #define BOX_FAR_SCALE 1.00000095367431640625 /* 1 + 16 u */
 
 /* Leaf item of the triangle tree, 3 words: vertices v0 v1 v2 in x,y,z and in w
    v0.w: triangle number (bodies in order, triangles in file order; spheres come before and are not counted)
    v1.w: body number
    v2.w: material (low 24 bits) and TRIANGLE_ flags */
-#define TRIANGLE_WORDS 3
+#define TRIANGLE_WORDS    3
 #define TRIANGLE_SMOOTH   0x01000000u
 #define TRIANGLE_SOLID    0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
 #define TRIANGLE_RECT     0x04000000u /* half of a rectangle */
@@ -63,8 +63,8 @@
 
 /* Body, 4 words:
    word 0: first triangle number; normal base; spare; spare
-   words 1..3: rows of the affine map from flat space to the body's own coordinates (checker), each x,y,z,offset;
-               for a rectangle word 1 holds |edge_u|, |edge_v| in scene units in x, y. Zero where unused. */
+   words 1..3: rows of the affine map from flat space to the body's own coordinates (checker), each
+   x,y,z,offset; for a rectangle word 1 holds |edge_u|, |edge_v| in scene units in x, y. Zero where unused. */
 #define BODY_WORDS 4
 
 /* Material, 4 words: weights diffuse specular reflection refraction; diffuse r g b and specular exponent;
@@ -73,7 +73,7 @@
 
 /* Light, 2 words: position, or unit vector to the light, in x,y,z and LIGHT_ flags in w; emission r g b (over
    inverse square: already times scale squared) and spare. */
-#define LIGHT_WORDS 2
+#define LIGHT_WORDS          2
 #define LIGHT_DIRECTIONAL    1u
 #define LIGHT_INVERSE_SQUARE 2u
 

@@ -43,6 +43,12 @@ void count(uint counter, bool yes) {
         atomicAdd(counters[counter], 1u);
 }
 
+void count_ray(path_state p, bool own) {
+    count(own ? COUNTER_PRIMARY + p.kind : COUNTER_SHADOW, true);
+    if (HAS_COUNTERS && own)
+        atomicMax(counters[COUNTER_DEEPEST], p.depth);
+}
+
 void count_cut(uint counter, uint lost, bool yes, float weight) {
     if (HAS_COUNTERS && yes) {
         atomicAdd(counters[counter], 1u);
@@ -92,6 +98,102 @@ void write_sample(uint slot, path_state p, uint fault) {
     pixels[slot] = uvec4(floatBitsToUint(uintBitsToFloat(before.xyz) + value), before.w != 0u ? before.w : fault);
 }
 
+// After a ray: whether the path may go on.
+uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint fault) {
+    if (iterations >= ITERATION_LIMIT) {
+        fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
+        return HAS_SLICES && !fresh ? SUSPENDED : STOPPED;
+    }
+    fresh = false;
+    p.segments++;
+    fault = p.segments > frame.path_segments ? FAULT_SEGMENTS << FAULT_KIND_SHIFT : fault;
+    return p.segments > frame.path_segments ? STOPPED : GOES_ON;
+}
+
+// From light `p.light` on, the next one that would add something; adds those that need no shadow ray.
+bool find_light(inout path_state p, surface s, vec3 start, inout light_ray shadow, inout uint iterations) {
+    uint count = frame.light_count + OPAQUE_ZERO;
+    bool found = false;
+    while (p.light < count && !found && iterations < ITERATION_LIMIT) {
+        iterations++;
+        shadow = light_at(p.light, s, start, p.direction);
+        found = HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
+        if (!(HAS_SHADOWS && wants(FEATURE_SHADOWS)))
+            p.light_sum += shadow.value;
+        p.light += found ? 0u : 1u;
+    }
+    return found;
+}
+
+// Follows a path until it ends, or until its slice does.
+uint follow(uint slot, inout path_state p, inout uint fault) {
+    uint iterations = 0u, state = GOES_ON;
+    uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
+    bool fresh = true; // no ray was finished in this slice
+    surface s;
+    vec3 start = vec3(0.0);
+    light_ray shadow = light_ray(vec3(0.0), vec3(0.0), 0.0);
+    while (state == GOES_ON) {
+        while (state == GOES_ON) {
+            iterations += SEGMENT_ITERATIONS;
+            bool own = phase == PHASE_RAY;
+            bool traced = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
+            if (HAS_SLICES && traced && !fresh && iterations > frame.slice_iterations) {
+                state = SUSPENDED;
+                break;
+            }
+            hit_record hit = hit_record(!traced ? -1.0 : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
+            vec3 origin = own ? p.origin : start, direction = own ? p.direction : shadow.direction;
+            if (HAS_SPHERES)
+                trace_spheres(origin, direction, !own, hit, iterations);
+            if (HAS_TRIANGLES && !(!own && hit.item != NO_ITEM))
+                trace_triangles(origin, direction, !own, hit, iterations);
+            if (traced) {
+                state = after_ray(p, iterations, fresh, fault);
+                if (state != GOES_ON)
+                    break;
+                count_ray(p, own);
+            }
+            if (own) {
+                state = hit.item == NO_ITEM ? MISSED : GOES_ON;
+                hit.number = hit.item == NO_ITEM ? p.hit.number : hit.number; // a fault names the last hit
+                p.hit = hit;
+                p.light = 0u;
+                p.light_sum = vec3(0.0);
+            }
+            if (phase == PHASE_SHADOW) {
+                p.light_sum = hit.item == NO_ITEM ? p.light_sum + shadow.value : p.light_sum;
+                p.light++;
+            }
+            if (state == GOES_ON && phase != PHASE_SHADOW) {
+                make_surface(p.hit, p.origin, p.direction, s);
+                start = ray_start(s.point, s.error, s.geometric);
+            }
+            if (state == GOES_ON) {
+                phase = PHASE_SHADOW;
+                bool found = find_light(p, s, start, shadow, iterations);
+                if (!found && p.light < frame.light_count) {
+                    fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
+                    state = HAS_SLICES ? SUSPENDED : STOPPED;
+                } else if (!found) {
+                    p.radiance += p.light_sum * p.weight;
+                    p.hit.item = NO_ITEM;
+                    phase = PHASE_RAY;
+                    state = send_rays(slot, p, s, start) ? GOES_ON : ENDED;
+                }
+            }
+        }
+        if (state == MISSED)
+            p.radiance += background(p.direction) * p.weight;
+        if (HAS_BRANCHES && (state == MISSED || state == ENDED) && p.stack_size > 0u) {
+            pop_branch(slot, p);
+            state = GOES_ON;
+            phase = PHASE_RAY;
+        }
+    }
+    return state;
+}
+
 void main() {
     uint index = (gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x) * TILE_PIXELS + gl_LocalInvocationID.x;
     uint slots = dispatch.tile_count * TILE_PIXELS;
@@ -107,104 +209,10 @@ void main() {
         p = load_path(slot);
     else
         p = begin_path(camera_direction(pixel));
-
-    uint iterations = 0u, fault = 0u, state = GOES_ON;
-    uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
-    bool fresh = true; // no ray was finished in this slice
-    surface s;
-    uint light_count = frame.light_count + OPAQUE_ZERO;
-    light_ray shadow = light_ray(vec3(0.0), vec3(0.0), 0.0);
-    vec3 start = vec3(0.0);
-    while (state == GOES_ON) {
-        while (state == GOES_ON) {
-            iterations += SEGMENT_ITERATIONS;
-            bool own = phase == PHASE_RAY;
-            bool traced = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
-            hit_record hit = hit_record(!traced ? -1.0 : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
-            if (HAS_SLICES && traced && !fresh && iterations > frame.slice_iterations) {
-                state = SUSPENDED;
-                break;
-            }
-            vec3 origin = own ? p.origin : start, direction = own ? p.direction : shadow.direction;
-            if (HAS_SPHERES)
-                trace_spheres(origin, direction, !own, hit, iterations);
-            if (HAS_TRIANGLES && !(!own && hit.item != NO_ITEM))
-                trace_triangles(origin, direction, !own, hit, iterations);
-            if (traced) {
-                if (iterations >= ITERATION_LIMIT) {
-                    state = HAS_SLICES && !fresh ? SUSPENDED : STOPPED;
-                    fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
-                    break;
-                }
-                fresh = false;
-                p.segments++;
-                if (p.segments > frame.path_segments) {
-                    state = STOPPED;
-                    fault = FAULT_SEGMENTS << FAULT_KIND_SHIFT;
-                    break;
-                }
-                count(own ? COUNTER_PRIMARY + p.kind : COUNTER_SHADOW, true);
-                if (HAS_COUNTERS && own)
-                    atomicMax(counters[COUNTER_DEEPEST], p.depth);
-            }
-            bool made = phase == PHASE_HIT;
-            if (own) {
-                state = hit.item == NO_ITEM ? MISSED : GOES_ON;
-                made = hit.item != NO_ITEM;
-                hit.number = made ? hit.number : p.hit.number; // a fault names what was hit last
-                p.hit = hit;
-                p.light = 0u;
-                p.light_sum = vec3(0.0);
-            }
-            if (made) {
-                make_surface(p.hit, p.origin, p.direction, s);
-                start = ray_start(s.point, s.error, s.geometric);
-            }
-            if (phase == PHASE_SHADOW) {
-                p.light_sum = hit.item == NO_ITEM ? p.light_sum + shadow.value : p.light_sum;
-                p.light++;
-            }
-            if (state == GOES_ON) {
-                bool found = false;
-                while (p.light < light_count && !found && iterations < ITERATION_LIMIT) {
-                    iterations++;
-                    shadow = light_at(p.light, s, start, p.direction);
-                    if (shadow.value != vec3(0.0)) {
-                        if (HAS_SHADOWS && wants(FEATURE_SHADOWS))
-                            found = true;
-                        else
-                            p.light_sum += shadow.value;
-                    }
-                    p.light += found ? 0u : 1u;
-                }
-                phase = PHASE_SHADOW;
-                if (!found) {
-                    if (p.light < light_count) {
-                        state = HAS_SLICES ? SUSPENDED : STOPPED;
-                        fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
-                    } else {
-                        p.radiance += p.light_sum * p.weight;
-                        phase = PHASE_RAY;
-                        p.hit.item = NO_ITEM;
-                        state = send_rays(slot, p, s, start) ? GOES_ON : ENDED;
-                    }
-                }
-            }
-        }
-        if (state == MISSED)
-            p.radiance += background(p.direction) * p.weight;
-        if (state == MISSED || state == ENDED) {
-            state = ENDED;
-            if (HAS_BRANCHES && p.stack_size > 0u) {
-                pop_branch(slot, p);
-                state = GOES_ON;
-                phase = PHASE_RAY;
-            }
-        }
-    }
-
+    uint fault = FAULT_NONE;
+    uint state = follow(slot, p, fault);
     if (HAS_SLICES && state == SUSPENDED)
         save_path(slot, p);
     else
-        write_sample(slot, p, state == STOPPED ? fault | p.hit.number : 0u);
+        write_sample(slot, p, state == STOPPED ? fault | p.hit.number : FAULT_NONE);
 }
