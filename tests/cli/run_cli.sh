@@ -123,6 +123,16 @@ if "$glint" devices >devices.txt 2>/dev/null; then
     expect "an unknown device" 4 - 'E702' "$glint" render good.yaml -o out.png --device nonesuch
     GLINT_DEVICE=nonesuch expect "an unknown device by environment" 4 - 'E702' env GLINT_DEVICE=nonesuch "$glint" render good.yaml -o out.png
     expect "no driver" 4 - 'mesa-vulkan-drivers' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json "$glint" render good.yaml -o out.png
+    # Faults of pixels: exit code 1, and the picture all the same. Facing mirrors with the camera between them;
+    # then mirrors whose weights grow beyond what a float holds.
+    printf 'glint: 1\nimage: {width: 16, height: 16}\ncamera: {}\nbackground: {color: 0.5}\nmaterials: {mirror: {albedo: [0, 0, 0.9, 0]}}\nrectangles:\n  - {corner: [-9, -9, -1], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: mirror}\n  - {corner: [-9, -9, 1], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: mirror}\n' >mirrors.yaml
+    expect "mirrors within the limit" 0 - 'mirrors\.png' "$glint" render mirrors.yaml --limit path-segments=18
+    expect "more rays than the limit" 1 - 'mirrors.yaml:[78]:5: error: [0-9]+ pixels needed more rays than the limit path-segments, the first at [0-9]+,[0-9]+.*\[E705\]' "$glint" render mirrors.yaml --limit path-segments=5 -o faulty.png
+    expect "what helps" 1 - 'help: .*--limit path-segments=' "$glint" render mirrors.yaml --limit path-segments=5 -o faulty.png
+    expect "the picture is written all the same" 0 'PNG' '' head -c 4 faulty.png
+    sed 's/0\.9/1.0e6/' mirrors.yaml >endless.yaml
+    expect "not a number" 1 - 'endless.yaml:[78]:5: error: [0-9]+ pixels got a value that is infinite or not a number.*\[E706\]' "$glint" render endless.yaml -o endless.pfm
+    expect "that picture too" 0 'PF' '' head -c 2 endless.pfm
     # A long render, ended from outside: its own exit code, a message, and the old file.
     printf 'precious' >kept.png
     for end in INT:130 TERM:143; do
