@@ -53,7 +53,7 @@ static void quote_yaml(struct strbuf *out, str text) {
     strbuf_char(out, '"');
 }
 
-// A mesh stands for a scene with that one model, in a source beside the mesh.
+// A mesh stands for a scene with that one model, which no one wrote.
 static str scene_around_mesh(struct session *session, str path) {
     struct strbuf text;
     strbuf_init(&text);
@@ -84,7 +84,7 @@ static enum session_state open_source(struct session *session, uint32_t *source)
         if (status != FILE_OK)
             return unreadable(session, path, status);
         text = scene_around_mesh(session, path);
-        *source = source_add(&session->sources, SOURCE_KIND_OVERLAY, path, text);
+        *source = source_add(&session->sources, SOURCE_KIND_DEFAULT, path, text);
         return SESSION_LOADED;
     }
     status = files_read(&session->files, path, session->options.limits.value[LIMIT_SCENE_BYTES],

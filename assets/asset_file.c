@@ -82,7 +82,8 @@ static span named_place(struct asset_file *file) {
 
 static void add_named_notes(struct asset_file *file) {
     for (struct asset_file *f = file; f; f = f->named_in)
-        diag_note(f->input->sink, named_place(f), "the %s is named here", f->what);
+        if (f->named_in || f->input->sources->items[f->named_at.source].kind != SOURCE_KIND_DEFAULT)
+            diag_note(f->input->sink, named_place(f), "the %s is named here", f->what);
 }
 
 static void add_named(struct asset_file *file, enum diag_code code, const char *message) {
@@ -194,9 +195,15 @@ void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
 
 static void report_missing(struct asset_file *file, str path) {
     asset_report_named(file, DIAG_FILE_MISSING, "the %s '%.*s' does not exist", file->what, STR_ARG(path));
-    str near = files_suggest(file->input->files, file->path);
+    static const char *const meshes[] = {".obj", NULL};
+    static const char *const images[] = {".png", ".jpg", ".jpeg", ".hdr", NULL};
+    bool is_image = file->limit == LIMIT_IMAGE_BYTES;
+    str near = files_suggest(file->input->files, file->path, is_image ? images : meshes);
     str folder = str_slice(path, 0, path.len - path_base(path).len);
-    if (near.len)
+    str advice = files_advice(file->input->files->arena, path);
+    if (advice.len)
+        diag_help(file->input->sink, "%.*s", STR_ARG(advice));
+    else if (near.len)
         diag_help(file->input->sink, "did you mean '%.*s%.*s'?", STR_ARG(folder), STR_ARG(near));
     else
         diag_help(file->input->sink, "it was looked for as '%.*s'; --asset-path DIR adds a folder to look in",

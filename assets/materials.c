@@ -58,10 +58,14 @@ static void report_missing_library(struct loaded_mesh *loaded, str name, uint32_
             "the material file '%.*s' does not exist; faces that need it have the default material",
             STR_ARG(name)))
         return;
-    str near =
-        files_suggest(files, arena_format(files->arena, "%.*s/%.*s", STR_ARG(path_folder(loaded->file.path)),
-                                          STR_ARG(path_base(name))));
-    if (near.len)
+    static const char *const endings[] = {".mtl", NULL};
+    str tried = arena_format(files->arena, "%.*s/%.*s", STR_ARG(path_folder(loaded->file.path)),
+                             STR_ARG(path_base(name)));
+    str near = files_suggest(files, tried, endings);
+    str advice = files_advice(files->arena, name);
+    if (advice.len)
+        diag_help(sink, "%.*s", STR_ARG(advice));
+    else if (near.len)
         diag_help(sink, "did you mean '%.*s'?", STR_ARG(near));
     else
         diag_help(sink, "put the file beside the mesh, or give the model a 'material'");

@@ -111,9 +111,18 @@ static bool read_color(struct mtl_reader *r, str keyword, double out[3]) {
     if (!read_range(r, keyword, SCHEMA_RANGE_WEIGHT, &value[0]))
         return false;
     value[1] = value[2] = value[0];
-    if (obj_lex_more(&r->lex) && (!read_range(r, keyword, SCHEMA_RANGE_WEIGHT, &value[1]) ||
-                                  !read_range(r, keyword, SCHEMA_RANGE_WEIGHT, &value[2])))
-        return false;
+    if (obj_lex_more(&r->lex)) {
+        if (!read_range(r, keyword, SCHEMA_RANGE_WEIGHT, &value[1]))
+            return false;
+        if (!obj_lex_more(&r->lex)) {
+            size_t at = (size_t)(keyword.ptr - r->lex.begin);
+            asset_report(r->file, DIAG_MTL_SYNTAX, at, obj_lex_offset(&r->lex),
+                         "'%.*s' has 2 numbers; it needs 3, or 1 for all three", STR_ARG(keyword));
+            return false;
+        }
+        if (!read_range(r, keyword, SCHEMA_RANGE_WEIGHT, &value[2]))
+            return false;
+    }
     for (int i = 0; i < 3; i++)
         out[i] = value[i];
     return true;

@@ -96,7 +96,8 @@ static void place_text(struct strbuf *out, struct source_place place) {
 }
 
 static bool has_text(const struct source_set *sources, span at) {
-    return at.source < sources->count && sources->items[at.source].text.len > 0;
+    return at.source < sources->count && sources->items[at.source].text.len > 0 &&
+           sources->items[at.source].kind != SOURCE_KIND_DEFAULT;
 }
 
 static void labelled(struct strbuf *out, const char *label, str text) {

@@ -260,7 +260,14 @@ static size_t ending_of(str name) {
     return name.len;
 }
 
-str files_suggest(struct files *files, str path) {
+static bool has_ending(str name, const char *const *endings) {
+    for (; endings && *endings; endings++)
+        if (str_ends_with_nocase(name, *endings))
+            return true;
+    return !endings;
+}
+
+str files_suggest(struct files *files, str path, const char *const *endings) {
     str folder = files_canonical(files, path_folder(path));
     const char *system = below_a_root(files, folder) ? system_path(files, folder) : NULL;
     DIR *directory = system ? opendir(system) : NULL;
@@ -275,6 +282,8 @@ str files_suggest(struct files *files, str path) {
     struct dirent *entry;
     for (int left = SUGGEST_ENTRIES_MAX; left > 0 && (entry = readdir(directory)); left--) {
         str candidate = str_from(entry->d_name);
+        if (!has_ending(candidate, endings))
+            continue;
         str stem = str_slice(candidate, 0, ending_of(candidate));
         bool same_ending = nearest_distance(str_slice(name, dot, name.len),
                                             str_slice(candidate, stem.len, candidate.len)) == 0;
@@ -293,6 +302,29 @@ str files_suggest(struct files *files, str path) {
     }
     closedir(directory);
     return arena_copy(files->arena, str_from(best));
+}
+
+static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+str files_advice(struct arena *arena, str path) {
+    if (path.len > 2 && is_letter(path.ptr[0]) && path.ptr[1] == ':')
+        return STR("paths are relative to the file that holds them, with '/' between folders");
+    if (path.len && path.ptr[0] == '~')
+        return STR("'~' is not expanded: paths are relative to the file that holds them");
+    if (path.len && path.ptr[0] == '$')
+        return STR("variables are not expanded: paths are relative to the file that holds them");
+    for (size_t at = 0; at + 3 <= path.len; at++)
+        if (memcmp(path.ptr + at, "://", 3) == 0)
+            return STR("only files are read, and no addresses");
+    if (path.len == 0 || !memchr(path.ptr, '\\', path.len))
+        return STR("");
+    str copy = arena_copy(arena, path);
+    for (size_t at = 0; at < copy.len; at++)
+        if (copy.ptr[at] == '\\')
+            ((char *)copy.ptr)[at] = '/';
+    return arena_format(arena, "write '%.*s': '/' stands between folders on every system", STR_ARG(copy));
 }
 
 const char *file_status_text(const struct files *files, enum file_status status) {

@@ -71,9 +71,13 @@ enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, s
 // Canonical path, size and time of a regular file (or overlay: its time is a hash of its text) without
 // reading it, for caches; enters the log of reads as a read does.
 enum file_status files_identify(struct files *files, str path, struct file_read *out);
-// The name in the folder of `path` that is nearest to its last part, for "did you mean"; the empty string
-// where none is near or the folder lies outside the roots.
-str files_suggest(struct files *files, str path);
+// The name in the folder of `path` that is nearest to its last part, for "did you mean", among those with one
+// of the endings (NULL at their end; NULL itself: any); the empty string where none is near or the folder
+// lies outside the roots.
+str files_suggest(struct files *files, str path, const char *const *endings);
+// What is wrong with a path that only another system or a shell would understand, and what to write ("write
+// 'a/b.obj': ..."); the empty string for all others.
+str files_advice(struct arena *arena, str path);
 // An absolute path with links followed, also where only its last part does not exist; else the path itself.
 str files_canonical(struct files *files, str path);
 // The folder part of a path ("." if it has none) and the part behind the last '/'.

@@ -91,8 +91,8 @@ struct source_place source_locate(struct source_set *set, span at) {
     struct source *source = &set->items[at.source < set->count ? at.source : SOURCE_DEFAULT];
     struct source_place place = {
         .path = source->path, .line = 1, .column = 1, .end_line = 1, .end_column = 1};
-    if (source->text.len == 0)
-        return place;
+    if (source->text.len == 0 || source->kind == SOURCE_KIND_DEFAULT)
+        return place; // what no one wrote has no lines to show
     if (!source->line_starts)
         map_lines(set, source);
     str text = source->text;

@@ -26,7 +26,7 @@ enum {
 #define SPAN_NONE ((span){0, 0, 0})
 
 enum source_kind {
-    SOURCE_KIND_DEFAULT, // values that no one wrote
+    SOURCE_KIND_DEFAULT, // values that no one wrote; its text, where it has one, is never shown
     SOURCE_KIND_FILE,
     SOURCE_KIND_OPTION,  // a --set option
     SOURCE_KIND_OVERLAY, // text from memory that stands for a file

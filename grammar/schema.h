@@ -97,6 +97,7 @@ struct schema_row {
     const char *name;    // YAML key of one value, XML attribute; snake_case
     const char *element; // XML child element, PascalCase; NULL: an attribute only
     const char *plural;  // YAML key of the list or map; NULL: as `name`
+    const char *also; // what other programs call it, separated by blanks: for "did you mean"; NULL: nothing
     enum schema_kind kind;
     uint32_t offset; // of the field in the element's struct
     uint32_t size;   // of the field in bytes
@@ -159,6 +160,8 @@ int schema_find_yaml(const struct schema_element *element, str key, bool *is_sin
 // Index of the row that an XML attribute or child element names, or -1.
 int schema_find_attribute(const struct schema_element *element, str name);
 int schema_find_child(const struct schema_element *element, str name);
+// Index of the row that other programs call `name` (snake_case), or -1.
+int schema_find_also(const struct schema_element *element, str name);
 // Index of the short row, or of the key row, or -1.
 int schema_short_row(const struct schema_element *element);
 int schema_key_row(const struct schema_element *element);

@@ -89,6 +89,20 @@ int schema_find_child(const struct schema_element *element, str name) {
     return -1;
 }
 
+int schema_find_also(const struct schema_element *element, str name) {
+    for (uint32_t i = 0; i < element->row_count; i++) {
+        str rest = str_from(element->rows[i].also);
+        while (rest.len) {
+            const char *blank = memchr(rest.ptr, ' ', rest.len);
+            size_t end = blank ? (size_t)(blank - rest.ptr) : rest.len;
+            if (str_equal(str_slice(rest, 0, end), name))
+                return (int)i;
+            rest = str_slice(rest, blank ? end + 1 : end, rest.len);
+        }
+    }
+    return -1;
+}
+
 int schema_short_row(const struct schema_element *element) {
     for (uint32_t i = 0; i < element->row_count; i++)
         if (element->rows[i].short_form)

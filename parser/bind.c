@@ -1,4 +1,5 @@
 #include "parser/bind.h"
+#include "parser/mend.h"
 #include "parser/say.h"
 
 #include <string.h>
@@ -34,11 +35,31 @@ void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint3
     frame->seen |= bind_bit(row);
 }
 
+// 'camera' beside 'cameras': the two forms of one row.
+static bool report_both_forms(struct bind_context *context, const struct schema_row *row,
+                              const struct ir_row_origin *first, struct bind_given given) {
+    str before = first ? source_text(context->sources, first->key) : STR("");
+    if (before.len > 2 && (before.ptr[0] == '"' || before.ptr[0] == '\''))
+        before = str_slice(before, 1, before.len - 1);
+    if (!row->single || context->tree->is_xml || before.len == 0 || !given.key ||
+        str_equal(before, tree_text(context->tree, given.key)))
+        return false;
+    diag_add(context->sink, DIAG_GIVEN_TWICE, given.key_span, "both '%s' and '%s' are given", row->name,
+             row->plural);
+    diag_note(context->sink, first->key, "'%.*s' is here", STR_ARG(before));
+    diag_help(context->sink, "'%s: {...}' is short for '%s: {%s: {...}}'; write all of them there", row->name,
+              row->plural, row->single);
+    return true;
+}
+
 void bind_report_twice(struct bind_context *context, struct bind_frame *frame, uint32_t row,
                        struct bind_given given) {
-    str s = say_subject(context->scratch, bind_subject(frame, &frame->schema->rows[row]));
-    diag_add(context->sink, DIAG_GIVEN_TWICE, given.key_span, "%.*s is given twice", STR_ARG(s));
+    const struct schema_row *r = &frame->schema->rows[row];
     const struct ir_row_origin *first = ir_origin_row(context->origin, bind_head(frame), row);
+    if (report_both_forms(context, r, first, given))
+        return;
+    str s = say_subject(context->scratch, bind_subject(frame, r));
+    diag_add(context->sink, DIAG_GIVEN_TWICE, given.key_span, "%.*s is given twice", STR_ARG(s));
     if (first)
         diag_note(context->sink, first->key, "first given here");
     diag_help(context->sink, "remove one of the two");
@@ -184,6 +205,8 @@ static void bind_keys(struct bind_context *context, struct bind_frame *frame, tr
         bool single = false;
         bool bad = bind_is_bad_pair(context, node, key);
         int row = bind_find_row(context, frame->schema, key, &single);
+        if (row >= 0 && !first && !bad)
+            bind_loose_columns(context, frame, &frame->schema->rows[row], key);
         if (row >= 0 && comes_first(&frame->schema->rows[row]) != first)
             continue;
         if (row < 0) {
@@ -202,6 +225,11 @@ static void bind_keys(struct bind_context *context, struct bind_frame *frame, tr
                 frame->name = *(const str *)schema_field_const(r, frame->memory);
         }
     }
+}
+
+void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_index node) {
+    bind_keys(context, frame, node, true);
+    bind_keys(context, frame, node, false);
 }
 
 // Whether a map is the short row's value and not the element: its keys are those of the short row alone.
@@ -267,11 +295,12 @@ bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_i
 
 // The root.
 
-static bool knows_any_key(const struct bind_context *context, const struct bind_frame *frame) {
+static bool knows_any_key(struct bind_context *context, const struct bind_frame *frame) {
     bool single;
     for (tree_index key = tree_first(context->tree, context->tree->root); key;
          key = tree_next_key(context->tree, key))
-        if (bind_find_row(context, frame->schema, key, &single) >= 0)
+        if (bind_find_row(context, frame->schema, key, &single) >= 0 ||
+            bind_find_style(context, frame, key) >= 0)
             return true;
     return false;
 }
@@ -293,12 +322,14 @@ static void report_no_scene(struct bind_context *context, const struct bind_fram
 static bool is_scene(struct bind_context *context, const struct bind_frame *frame) {
     const struct tree *tree = context->tree;
     bool is_map = tree->root && bind_kind(context, tree->root) == TREE_MAP;
+    str tag = mend_snake(context->scratch, tree->root_tag);
     bool good = is_map && (tree->is_xml ? str_equal_cstr(tree->root_tag, frame->schema->element)
                                         : knows_any_key(context, frame));
     bool known = tree->broken || (tree->root && bind_is_bad(context, tree->root));
     if (!good && !known)
         report_no_scene(context, frame, is_map ? tree->root_name : (span){tree->source, 0, 0});
-    return good;
+    // In another style it is a scene all the same, whose other mistakes are told too.
+    return good || (is_map && tree->is_xml && str_equal_cstr(tag, frame->schema->name));
 }
 
 struct ir_scene *bind_file(struct bind_context *context) {

@@ -92,6 +92,8 @@ struct ir_scene *bind_file(struct bind_context *context);
 // Binds all rows that `node` gives into frame->memory, and checks that what is required is there.
 // false: the node has not the shape of the element (reported, or known to the reader).
 bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node);
+// Binds all pairs of a map as rows of the element: names first, so that messages can use them.
+void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_index node);
 // Binds one row; `single` as schema_find_yaml gives it.
 void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
               struct bind_given given);
@@ -118,6 +120,19 @@ void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
 // Lists, named maps and fixed numbers of values.
 void bind_many(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
                struct bind_given given);
+
+// bind_loose.c: what is recognised in spite of a mistake that was reported is read on, so that its own
+// mistakes show in the same run and names in it are known. Rows touched are poisoned by the caller.
+// The entries that a value of the wrong shape holds; replaces the last diagnostic's help where there is a
+// better one than an example (`reported`).
+void bind_loose_entries(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                        struct bind_given given, bool reported);
+// Keys behind `key` that belong into its value, one column further right: `outer` (NULL: none) does not know
+// them, the elements of `row` do. Reports and marks them, and what they are missed by.
+void bind_loose_columns(struct bind_context *context, const struct bind_frame *outer,
+                        const struct schema_row *row, tree_index key);
+// The value of a key that names a row in another style.
+void bind_loose_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index key);
 
 // bind_entry.c
 // An entry of a list, bound into memory of its own and appended to the parent's row; `name`: its key.
@@ -152,13 +167,19 @@ void bind_help_example(struct bind_context *context, struct bind_subject subject
 // Adds how the value must be written: with the author's own numbers, where these are told apart, else an
 // example.
 void bind_help_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
+// The same, and nothing where they are not told apart. Of a list the text is taken. false: nothing.
+bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node);
 bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node);
 
 // bind_composite.c: vectors, colours, weights.
 bool bind_composite(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
 
 // bind_names.c
-// Reports a name that the element does not have, with what may have been meant.
+// The row that a key names in another style ('LookAt', 'lookAt', 'look-at'), or in the plural where one is
+// meant; -1: none.
+int bind_find_style(struct bind_context *context, const struct bind_frame *frame, tree_index key);
+// Reports a name that the element does not have, with what may have been meant, and reads what it holds where
+// that is clear.
 void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key);
 
 #endif

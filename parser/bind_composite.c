@@ -20,21 +20,35 @@ static struct bind_subject component_of(struct bind_subject subject, uint32_t i)
     return subject;
 }
 
+// Whether an item stands for more or less than one number, so that its list has another length than it seems.
+static bool is_several(const struct bind_context *context, tree_index item) {
+    enum tree_kind kind = bind_kind(context, item);
+    return kind == TREE_LIST || kind == TREE_MAP || bind_is_bad(context, item) ||
+           (kind == TREE_SCALAR && mend_is_numbers(tree_text(context->tree, item)));
+}
+
 static bool bind_list(struct bind_context *context, struct bind_subject subject, tree_index node,
                       double out[COMPONENTS_MAX]) {
     uint32_t wanted = component_count(subject.row->kind);
     uint32_t count = tree_node(context->tree, node)->count;
     bool good = true;
+    bool counts = true;
     uint32_t i = 0;
     for (tree_index item = tree_first(context->tree, node); item;
          item = tree_next(context->tree, item), i++) {
         double beyond;
         struct bind_subject of = i < wanted ? component_of(subject, i) : subject;
-        good = bind_number(context, of, item, i < wanted ? &out[i] : &beyond) && good;
+        bool is_good = bind_number(context, of, item, i < wanted ? &out[i] : &beyond);
+        good = is_good && good;
+        if (is_good || !is_several(context, item))
+            continue;
+        counts = false;
+        if (!bind_is_known(context, item))
+            bind_help_numbers(context, subject, node);
     }
     if (count == wanted)
         return good;
-    if (bind_is_known(context, node))
+    if (bind_is_known(context, node) || !counts)
         return false;
     const char *const *names = schema_components(subject.row->kind);
     diag_add(context->sink, DIAG_WRONG_COUNT, tree_span(context->tree, node),
@@ -71,8 +85,25 @@ static void unknown_component(struct bind_context *context, struct bind_subject 
     diag_fix(context->sink, mend_is_safe(&search), at, str_from(search.best));
 }
 
+// What is given, with 0 for the rest, in the form of the file.
+static void help_with_zeros(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    const struct tree *tree = context->tree;
+    const char *const *names = schema_components(subject.row->kind);
+    str list = STR("");
+    for (uint32_t i = 0; names[i]; i++) {
+        str value = STR("0");
+        for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key))
+            if (str_equal_cstr(tree_text(tree, key), names[i]))
+                value = tree_text(tree, tree_value(tree, key));
+        list = arena_format(context->scratch, "%.*s%s%.*s", STR_ARG(list), i ? ", " : "", STR_ARG(value));
+    }
+    str all = context->tree->is_xml ? say_components(context->scratch, subject, list)
+                                    : arena_format(context->scratch, "[%.*s]", STR_ARG(list));
+    diag_help(context->sink, "with 0 for the rest: %.*s", STR_ARG(say_text(context->scratch, all)));
+}
+
 static bool report_missing(struct bind_context *context, struct bind_subject subject, tree_index node,
-                           const bool given[COMPONENTS_MAX]) {
+                           const bool given[COMPONENTS_MAX], bool numbers_are_good) {
     const char *const *names = schema_components(subject.row->kind);
     str list = STR("");
     for (uint32_t i = 0; names[i]; i++)
@@ -86,7 +117,10 @@ static bool report_missing(struct bind_context *context, struct bind_subject sub
     diag_add(context->sink, DIAG_MISSING_COMPONENT, tree_span(context->tree, node),
              "%.*s lacks %.*s; every component is written, 0 too",
              STR_ARG(say_subject(context->scratch, subject)), STR_ARG(list));
-    bind_help_example(context, subject);
+    if (numbers_are_good && tree_node(context->tree, node)->count)
+        help_with_zeros(context, subject, node);
+    else
+        bind_help_example(context, subject);
     return false;
 }
 
@@ -113,7 +147,7 @@ static bool bind_named(struct bind_context *context, struct bind_subject subject
     }
     // A component that is missing was probably meant by a name that does not exist.
     if (all_known && subject.row->kind != SCHEMA_WEIGHTS)
-        good = report_missing(context, subject, node, given) && good;
+        good = report_missing(context, subject, node, given, good) && good;
     return good && all_known;
 }
 

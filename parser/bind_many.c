@@ -75,6 +75,8 @@ static void bind_entries(struct bind_context *context, struct bind_frame *frame,
     bind_note_row(context, frame, row, given);
     for (; values.at; values.at = following(context, frame, &values)) {
         bool has_key = values.repeated || values.named;
+        if (values.named && !bind_is_bad(context, values.at))
+            bind_loose_columns(context, NULL, r, values.at);
         struct bind_given entry = {.comments = tree_comments(context->tree, values.at), .value = values.at};
         if (has_key)
             entry = bind_given_by(context, values.at);
@@ -142,6 +144,7 @@ void bind_many(struct bind_context *context, struct bind_frame *frame, uint32_t 
         frame->seen |= bind_bit(row);
         bind_poison(frame, row);
         bind_wrong_shape(context, bind_subject(frame, r), given.value);
+        bind_loose_entries(context, frame, row, given, true);
         return;
     }
     struct values all = {.named = kind == TREE_MAP, .row = row, .at = tree_first(context->tree, given.value)};

@@ -24,12 +24,33 @@ static void offer_row(struct mend_search *search, const struct schema_row *row, 
         mend_offer(search, row->element, id);
 }
 
+static struct mend_search search_rows(struct bind_context *context, const struct bind_frame *frame,
+                                      str text) {
+    struct mend_search search = mend_begin(context->scratch, text);
+    for (uint32_t i = 0; i < frame->schema->row_count; i++)
+        offer_row(&search, &frame->schema->rows[i], (int)i);
+    return search;
+}
+
+int bind_find_style(struct bind_context *context, const struct bind_frame *frame, tree_index key) {
+    enum tree_key kind = tree_node(context->tree, key)->key;
+    struct mend_search search = search_rows(context, frame, tree_text(context->tree, key));
+    bool found = search.best && search.distance == 0;
+    return found && spelling(&frame->schema->rows[search.best_id], kind, false) ? search.best_id : -1;
+}
+
 // Whether a fix of the key alone makes the file right: an XML element's end tag must not be left behind.
 static bool key_stands_alone(struct bind_context *context, tree_index key) {
     if (tree_node(context->tree, key)->key != TREE_KEY_CHILD)
         return true;
     str element = source_text(context->sources, tree_span(context->tree, tree_value(context->tree, key)));
     return element.len >= 2 && element.ptr[element.len - 2] == '/' && element.ptr[element.len - 1] == '>';
+}
+
+static void add_unknown(struct bind_context *context, const struct bind_frame *frame, tree_index key) {
+    diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(context->tree, key), "%.*s has no '%.*s'",
+             STR_ARG(say_kind(context->scratch, frame)),
+             STR_ARG(say_text(context->scratch, tree_text(context->tree, key))));
 }
 
 // The name exists, and has another form in this spelling: a vector as an attribute, a number as an element.
@@ -66,7 +87,9 @@ static void did_you_mean(struct bind_context *context, struct bind_frame *frame,
     }
     str snake = mend_snake(context->scratch, str_from(right));
     bool style_only = str_equal(snake, search->snake);
-    if (style_only)
+    if (style_only && mend_quotes(search->word).len < search->word.len)
+        diag_help(context->sink, "write '%s' without these quotes", right);
+    else if (style_only)
         diag_help(context->sink, "did you mean '%s'? Names are %s here", right,
                   kind == TREE_KEY_CHILD ? "PascalCase" : "snake_case");
     else if (search->distance == 0)
@@ -92,6 +115,20 @@ static const struct schema_row *row_elsewhere(struct bind_context *context,
     return NULL;
 }
 
+// What the author knows the element by: its own name, or that of the row where it stands.
+static str element_in_words(struct bind_context *context, const struct schema_element *element) {
+    if (element == &SCHEMA_SCENE)
+        return STR("the scene itself");
+    for (const struct schema_element *const *e = schema_elements; *e; e++)
+        for (uint32_t i = 0; i < (*e)->row_count; i++) {
+            const struct schema_row *row = &(*e)->rows[i];
+            if (row->child == element && row->kind == SCHEMA_ELEMENT && strcmp(row->name, element->name) != 0)
+                return arena_format(context->scratch, "'%s' of %.*s", row->name,
+                                    STR_ARG(say_article(context->scratch, (*e)->name)));
+        }
+    return say_article(context->scratch, element->name);
+}
+
 // Where else the name exists: "'color' belongs to a background or a light"; empty: nowhere, or in many
 // places.
 static str elsewhere(struct bind_context *context, const struct bind_frame *frame, str snake, bool near) {
@@ -102,7 +139,7 @@ static str elsewhere(struct bind_context *context, const struct bind_frame *fram
         const struct schema_row *row = *e == frame->schema ? NULL : row_elsewhere(context, *e, snake, near);
         if (!row || ++count > 2)
             continue;
-        str kind = *e == &SCHEMA_SCENE ? STR("the scene itself") : say_article(context->scratch, (*e)->name);
+        str kind = element_in_words(context, *e);
         list = arena_format(context->scratch, "%.*s%s%.*s", STR_ARG(list), list.len ? " or " : "",
                             STR_ARG(kind));
         name = name ? name : row->name;
@@ -127,6 +164,121 @@ static void list_what_there_is(struct bind_context *context, const struct bind_f
     diag_help(context->sink, "it can have: %.*s", STR_ARG(list));
 }
 
+// A row under the name that other programs give it.
+static void other_word(struct bind_context *context, struct bind_frame *frame, tree_index key, int id) {
+    const struct schema_row *row = &frame->schema->rows[id];
+    const char *right = spelling(row, tree_node(context->tree, key)->key, false);
+    frame->guessed |= bind_bit((uint32_t)id);
+    if (right)
+        diag_help(context->sink, "did you mean '%s'?", right);
+    else
+        diag_help(context->sink, "did you mean %.*s?",
+                  STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+}
+
+// "radius:1", which YAML takes for one word.
+static bool is_glued(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    str text = tree_text(context->tree, key);
+    bool plain = !context->tree->is_xml && tree_node(context->tree, key)->style == TREE_PLAIN;
+    const char *colon = plain && text.len ? memchr(text.ptr, ':', text.len) : NULL;
+    if (!colon)
+        return false;
+    str name = str_slice(text, 0, (size_t)(colon - text.ptr));
+    struct mend_search search = search_rows(context, frame, name);
+    int id = search.best ? search.best_id : schema_find_also(frame->schema, search.snake);
+    if (id < 0)
+        return false;
+    frame->guessed |= bind_bit((uint32_t)id);
+    add_unknown(context, frame, key);
+    str value = str_slice(text, name.len + 1, text.len);
+    str mended = arena_format(context->scratch, "%.*s: %.*s", STR_ARG(name), STR_ARG(value));
+    diag_help(context->sink, "a blank is missing behind the ':'; write '%.*s'",
+              STR_ARG(say_text(context->scratch, mended)));
+    diag_fix(context->sink, true, tree_span(context->tree, key), mended);
+    return true;
+}
+
+// A key around what belongs in its own place: '- sphere: {...}', 'scene: {...}', <Spheres> around spheres.
+static bool is_wrapper(struct bind_context *context, struct bind_frame *frame, tree_index key, str snake) {
+    tree_index value = tree_value(context->tree, key);
+    enum tree_key kind = tree_node(context->tree, key)->key;
+    if (bind_kind(context, value) != TREE_MAP || bind_is_bad(context, value) || kind == TREE_KEY_ATTRIBUTE)
+        return false;
+    const struct schema_row *row = NULL;
+    for (uint32_t i = 0; i < frame->schema->row_count && kind == TREE_KEY_CHILD; i++)
+        if (frame->schema->rows[i].plural && str_equal_cstr(snake, frame->schema->rows[i].plural))
+            row = &frame->schema->rows[i];
+    bool own = str_equal_cstr(snake, frame->schema->name) && schema_find_row(frame->schema, snake) < 0;
+    if (!row && !own)
+        return false;
+    add_unknown(context, frame, key);
+    if (row)
+        diag_help(context->sink, "write each <%s> without <%.*s> around it", row->element,
+                  STR_ARG(say_text(context->scratch, tree_text(context->tree, key))));
+    else if (!frame->parent)
+        diag_help(context->sink, "the file itself is the %s: write what this holds in its place",
+                  frame->schema->name);
+    else
+        diag_help(context->sink, "this is %.*s already: write what it holds in its place",
+                  STR_ARG(say_article(context->scratch, frame->schema->name)));
+    uint64_t seen = frame->seen;
+    if (row)
+        frame->seen = 0; // <Sphere> may stand inside and outside
+    bind_pairs(context, frame, value);
+    frame->seen = row ? seen : frame->seen | seen;
+    return true;
+}
+
+// The key of the map that gives another row of the short row's choice: the one given before, or one behind
+// `key`. SPAN_NONE: none.
+static span excluding_key(const struct bind_context *context, const struct bind_frame *frame, uint32_t bare,
+                          tree_index key, const char **name) {
+    const struct schema_row *rows = frame->schema->rows;
+    for (uint32_t i = 0; i < frame->schema->row_count; i++) {
+        const struct ir_row_origin *there = ir_origin_row(context->origin, bind_head(frame), i);
+        *name = rows[i].name;
+        if (i != bare && rows[i].choice == rows[bare].choice && there)
+            return there->key;
+    }
+    for (; key; key = tree_next_key(context->tree, key)) {
+        bool single;
+        int row = bind_find_row(context, frame->schema, key, &single);
+        *name = row >= 0 ? rows[row].name : NULL;
+        if (row >= 0 && row != (int)bare && rows[row].choice == rows[bare].choice)
+            return tree_span(context->tree, key);
+    }
+    return SPAN_NONE;
+}
+
+// A component of the value that may stand alone, beside a row that excludes it: r, g, b beside a checker.
+static bool is_mixed(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    int bare = schema_short_row(frame->schema);
+    if (bare < 0 || frame->schema->rows[bare].choice == 0)
+        return false;
+    const struct schema_row *row = &frame->schema->rows[bare];
+    const char *const *names = schema_components(row->kind);
+    while (*names && !str_equal_cstr(tree_text(context->tree, key), *names))
+        names++;
+    if (!*names)
+        return false;
+    if (frame->guessed & bind_bit((uint32_t)bare))
+        return true;
+    const char *name = NULL;
+    span other = excluding_key(context, frame, (uint32_t)bare, key, &name);
+    if (span_is_none(other))
+        return false;
+    span here = tree_span(context->tree, key);
+    bool before = here.begin < other.begin;
+    frame->guessed |= bind_bit((uint32_t)bare);
+    diag_add(context->sink, DIAG_EXCLUSIVE, before ? other : here,
+             "%.*s has both '%s' and '%s'; only one can hold",
+             STR_ARG(say_subject(context->scratch, bind_subject(frame, NULL))), before ? row->name : name,
+             before ? name : row->name);
+    diag_note(context->sink, before ? here : other, "'%s' is here", before ? row->name : name);
+    diag_help(context->sink, "remove one of the two");
+    return true;
+}
+
 void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     enum tree_key kind = tree_node(context->tree, key)->key;
     str text = tree_text(context->tree, key);
@@ -134,9 +286,10 @@ void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, t
         diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(context->tree, key), "unknown name");
         return;
     }
-    struct mend_search search = mend_begin(context->scratch, text);
-    for (uint32_t i = 0; i < frame->schema->row_count; i++)
-        offer_row(&search, &frame->schema->rows[i], (int)i);
+    struct mend_search search = search_rows(context, frame, text);
+    if (is_mixed(context, frame, key) || is_glued(context, frame, key) ||
+        is_wrapper(context, frame, key, search.snake))
+        return;
     const struct schema_row *near = search.best ? &frame->schema->rows[search.best_id] : NULL;
     bool exact = near && search.distance == 0;
     bool style_is_right = near && (str_equal_cstr(text, near->name) || kind == TREE_KEY_CHILD);
@@ -144,18 +297,22 @@ void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, t
         wrong_form(context, frame, key, search.best_id);
         return;
     }
-    str other = exact ? STR("") : elsewhere(context, frame, search.snake, false);
-    if (!near && other.len == 0 && search.snake.len > 3)
+    int also = exact ? -1 : schema_find_also(frame->schema, search.snake);
+    str other = exact || also >= 0 ? STR("") : elsewhere(context, frame, search.snake, false);
+    if (!near && also < 0 && other.len == 0 && search.snake.len > 3)
         other = elsewhere(context, frame, search.snake, true);
-    diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(context->tree, key), "%.*s has no '%.*s'",
-             STR_ARG(say_kind(context->scratch, frame)), STR_ARG(say_text(context->scratch, text)));
+    add_unknown(context, frame, key);
     if (exact && near->key)
         diag_help(context->sink, frame->via->kind == SCHEMA_REFERENCE ? "written in place it needs no name"
                                                                       : "the key above it is its name");
+    else if (also >= 0)
+        other_word(context, frame, key, also);
     else if (near && (search.distance <= 1 || !other.len))
         did_you_mean(context, frame, key, &search);
     else if (other.len)
         diag_help(context->sink, "%.*s", STR_ARG(other));
     else
         list_what_there_is(context, frame, kind);
+    if (exact && !near->key && spelling(near, kind, false))
+        bind_loose_row(context, frame, (uint32_t)search.best_id, key);
 }

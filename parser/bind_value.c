@@ -20,18 +20,23 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
                   STR_ARG(tree_text(context->tree, node)));
     else if (subject.row && subject.row->required)
         bind_help_example(context, subject);
+    else if (!subject.row && subject.frame->via->many == SCHEMA_SEQUENCE)
+        diag_help(context->sink, "write the entry, or remove the '-'");
+    else if (!subject.row || subject.row->kind == SCHEMA_ELEMENT)
+        diag_help(context->sink, "write {} for the defaults, or leave the key out");
     else
         diag_help(context->sink, "write the value, or leave the key out");
     return false;
 }
 
-// The numbers that the author wrote as one text, in the form that they need. false: it is no such text.
-static bool help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node) {
+bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node) {
     const struct schema_row *row = subject.row;
-    if (!row || subject.component || bind_kind(context, node) != TREE_SCALAR)
+    enum tree_kind kind = bind_kind(context, node);
+    if (!row || subject.component || (kind != TREE_SCALAR && kind != TREE_LIST))
         return false;
-    str list =
-        mend_numbers(context->scratch, tree_text(context->tree, node), row->kind == SCHEMA_WEIGHTS ? 4 : 3);
+    str text = kind == TREE_SCALAR ? tree_text(context->tree, node)
+                                   : source_text(context->sources, tree_span(context->tree, node));
+    str list = mend_numbers(context->scratch, text, row->kind == SCHEMA_WEIGHTS ? 4 : 3);
     bool composite = row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
     if (list.len == 0 || !composite)
         return false;
@@ -46,7 +51,7 @@ static bool help_numbers(struct bind_context *context, struct bind_subject subje
 }
 
 void bind_help_shape(struct bind_context *context, struct bind_subject subject, tree_index node) {
-    if (!help_numbers(context, subject, node))
+    if (!bind_help_numbers(context, subject, node))
         bind_help_example(context, subject);
 }
 
@@ -66,6 +71,25 @@ static str found(struct bind_context *context, tree_index node) {
     return n->count ? STR("a group of attributes") : STR("an empty group");
 }
 
+// "position [0, 5, 5]" or "radius:1" where a map belongs: a key without its ':', or without the blank behind
+// it.
+static bool help_pair(struct bind_context *context, struct bind_subject subject, tree_index node) {
+    const struct schema_element *schema = subject.row ? subject.row->child : subject.frame->schema;
+    if (!schema || context->tree->is_xml || bind_kind(context, node) != TREE_SCALAR)
+        return false;
+    str text = tree_text(context->tree, node);
+    size_t end = 0;
+    while (end < text.len && text.ptr[end] != ' ' && text.ptr[end] != ':')
+        end++;
+    str name = str_slice(text, 0, end);
+    bool single;
+    if (end == text.len || schema_find_yaml(schema, name, &single) < 0)
+        return false;
+    str value = str_trim(str_slice(text, end + 1, text.len));
+    diag_help(context->sink, "write '%.*s: %.*s'", STR_ARG(name), STR_ARG(say_text(context->scratch, value)));
+    return true;
+}
+
 bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject, tree_index node) {
     if (bind_is_known(context, node))
         return false;
@@ -76,7 +100,8 @@ bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject,
     str expected = is_entry ? STR("a group of attributes") : say_expected_of(context->scratch, subject);
     diag_add(context->sink, DIAG_WRONG_SHAPE, tree_span(context->tree, node), "%.*s must be %.*s, not %.*s",
              STR_ARG(s), STR_ARG(expected), STR_ARG(found(context, node)));
-    bind_help_shape(context, subject, node);
+    if (!help_pair(context, subject, node))
+        bind_help_shape(context, subject, node);
     return false;
 }
 
@@ -240,7 +265,9 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
     if (text.len == 0 && !may_be_empty) {
         diag_add(context->sink, DIAG_EMPTY_TEXT, at, "%.*s is empty",
                  STR_ARG(say_subject(context->scratch, subject)));
-        bind_help_example(context, subject);
+        bool is_map_key = subject.row->key && !context->tree->is_xml && subject.frame->via;
+        bind_help_example(context,
+                          is_map_key ? bind_subject(subject.frame->parent, subject.frame->via) : subject);
         return false;
     }
     if (subject.row->kind != SCHEMA_TEXT || kind != SCHEMA_TEXT_NAME || str_is_name(text))

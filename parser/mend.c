@@ -75,6 +75,21 @@ static str with_minus(struct arena *arena, str text) {
     return arena_format(arena, "-%.*s", STR_ARG(str_slice(text, length, text.len)));
 }
 
+// U+2018 to U+201F are quotes of typesetting, three bytes long.
+static bool is_quote(str text, size_t at) {
+    return text.len >= at + 3 && memcmp(text.ptr + at, "\xE2\x80", 2) == 0 &&
+           (unsigned char)text.ptr[at + 2] >= 0x98 && (unsigned char)text.ptr[at + 2] <= 0x9F;
+}
+
+str mend_quotes(str text) {
+    text = str_trim(text);
+    while (is_quote(text, 0))
+        text = str_slice(text, 3, text.len);
+    while (text.len >= 3 && is_quote(text, text.len - 3))
+        text = str_slice(text, 0, text.len - 3);
+    return text;
+}
+
 str mend_number(struct arena *arena, enum number_status status, str text) {
     str copy;
     switch (status) {
@@ -95,19 +110,27 @@ str mend_number(struct arena *arena, enum number_status status, str text) {
     case NUMBER_NOT_INTEGER:
         return mend_integer(arena, text);
     case NUMBER_NOT_A_NUMBER:
-        return str_trim(text).len < text.len ? str_trim(text) : STR("");
+        return mend_quotes(text).len < text.len ? mend_quotes(text) : STR("");
     default:
         return STR("");
     }
 }
 
+// What may stand between numbers, or around them.
+static bool is_between(char c) {
+    return memchr(" ,;\t\r\n[](){}<>", c, 14) != NULL;
+}
+
 // The next number of a text, and what follows it; the empty string where there is none.
 static str next_number(str *rest) {
-    size_t end = 0;
-    while (end < rest->len && !strchr(" ,;\t\n", rest->ptr[end]))
+    size_t begin = 0;
+    while (begin < rest->len && is_between(rest->ptr[begin]))
+        begin++;
+    size_t end = begin;
+    while (end < rest->len && !is_between(rest->ptr[end]))
         end++;
-    str word = str_slice(*rest, 0, end);
-    while (end < rest->len && strchr(" ,;\t\n", rest->ptr[end]))
+    str word = str_slice(*rest, begin, end);
+    while (end < rest->len && is_between(rest->ptr[end]))
         end++;
     *rest = str_slice(*rest, end, rest->len);
     double ignored;
@@ -170,6 +193,7 @@ str mend_like(struct arena *arena, str written, str replacement) {
 }
 
 str mend_snake(struct arena *arena, str text) {
+    text = mend_quotes(text);
     char *out = arena_alloc(arena, 2 * text.len + 1);
     size_t length = 0;
     for (size_t i = 0; i < text.len; i++) {
@@ -187,11 +211,17 @@ struct mend_search mend_begin(struct arena *arena, str word) {
         .arena = arena, .word = word, .snake = mend_snake(arena, word), .distance = UINT_MAX};
 }
 
+enum {
+    PREFIX_DISTANCE = 2
+};
+
 void mend_offer_str(struct mend_search *search, str candidate, int id) {
     str snake = mend_snake(search->arena, candidate);
     struct nearest near = nearest_begin(search->snake);
     nearest_offer(&near, snake);
     unsigned distance = str_equal(snake, search->snake) ? 0 : near.best_distance;
+    if (distance > PREFIX_DISTANCE && search->snake.len >= 3 && str_starts_with(snake, search->snake))
+        distance = PREFIX_DISTANCE; // "dir", "pos", "spec"
     if (distance == UINT_MAX || distance > search->distance)
         return;
     if (distance == search->distance) {

@@ -12,6 +12,8 @@ str mend_number(struct arena *arena, enum number_status status, str text);
 bool mend_is_numbers(str text);
 // Exactly `count` such numbers as "1, 2, 3"; the empty string where it is not that.
 str mend_numbers(struct arena *arena, str text, uint32_t count);
+// The text without the blanks and typographic quotes around it.
+str mend_quotes(str text);
 // "true" or "false" for yes, On, TRUE, 1 ...; the empty string where it is neither.
 str mend_boolean(str text);
 // Letters that a name must not have become '_'; a digit in front gets one before it.
@@ -21,7 +23,8 @@ str mend_like(struct arena *arena, str written, str replacement);
 // "DiffuseColor", "diffuseColor", "diffuse-color" as diffuse_color.
 str mend_snake(struct arena *arena, str text);
 
-// The nearest of several candidates, compared in snake_case; ties are counted.
+// The nearest of several candidates, compared in snake_case; ties are counted. The beginning of a candidate,
+// of three letters and more, is near too.
 struct mend_search {
     struct arena *arena;
     str word; // as written

@@ -30,7 +30,9 @@ static struct ir_scene *load_source(struct loader *loader, uint32_t source, stru
         file->xsi_attributes = arena_copy(input->arena, tree.xsi_attributes);
         file->closing_comments = tree.closing_comments;
     }
-    loader->incomplete = loader->incomplete || !scene || tree.broken;
+    int includes = schema_find_row(&SCHEMA_SCENE, STR("include"));
+    bool lost = scene && (scene->head.poisoned & bind_bit((uint32_t)includes));
+    loader->incomplete = loader->incomplete || !scene || tree.broken || lost;
     file->scene = scene;
     arena_finish(&loader->scratch);
     return scene;

@@ -1,5 +1,8 @@
 #include "parser/read_xml.h"
 
+#include "core/number.h"
+#include "parser/mend.h"
+
 #include <string.h>
 
 enum {
@@ -92,12 +95,34 @@ static void take_comments(struct xml_reader *r, tree_index entry) {
 
 // ---- text between elements
 
+// <Radius>1</Radius>: what the author of other XML would write for an attribute.
+static void help_text(struct xml_reader *r, str text) {
+    const struct xml_frame *frame = r->depth > 1 ? &r->frames[r->depth - 1] : NULL;
+    struct diag_sink *sink = r->context->sink;
+    double number;
+    bool one = number_parse(text, &number) == NUMBER_OK || mend_boolean(text).len || text.ptr[0] == '#';
+    if (str_equal(text, STR(">")) || str_equal(text, STR("/>"))) {
+        diag_help(sink, "remove it: the tag before it has ended");
+    } else if (frame && tree_node(r->tree, frame->node)->count == 0 && one) {
+        str element = source_text(r->context->sources, frame[-1].name);
+        str attribute = mend_snake(r->context->arena, source_text(r->context->sources, frame->name));
+        diag_help(sink, "a value stands in an attribute, as in <%.*s %.*s=\"%.*s\">",
+                  STR_ARG(reader_clip(element)), STR_ARG(reader_clip(attribute)), STR_ARG(reader_clip(text)));
+    } else if (frame && mend_is_numbers(text)) {
+        str element = source_text(r->context->sources, frame->name);
+        diag_help(sink, "values stand in attributes, as in <%.*s x=\"1\" y=\"2\" z=\"3\"/>",
+                  STR_ARG(reader_clip(element)));
+    } else {
+        diag_help(sink, "values stand in attributes; a remark stands in <!-- ... -->");
+    }
+}
+
 static void end_run(struct xml_reader *r) {
     if (r->run.begin == r->run.end)
         return;
-    struct diag_sink *sink = r->context->sink;
-    diag_add(sink, DIAG_XML_TEXT, xml_span(r, r->run.begin, r->run.end), "text between elements");
-    diag_help(sink, "values stand in attributes; a remark stands in <!-- ... -->");
+    span at = xml_span(r, r->run.begin, r->run.end);
+    diag_add(r->context->sink, DIAG_XML_TEXT, at, "text between elements");
+    help_text(r, source_text(r->context->sources, at));
     r->run = (struct reader_range){0};
     // What the element lacks was probably written as text.
     if (r->depth > 0)

@@ -1,5 +1,7 @@
 #include "parser/read_xml.h"
 
+#include "parser/mend.h"
+
 #include <string.h>
 
 static span word_at(const struct xml_reader *r, uint32_t at) {
@@ -59,6 +61,11 @@ static void report_mismatch(struct xml_reader *r, uint32_t at) {
     diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> stands where </%.*s> is expected",
              STR_ARG(reader_clip(name)), STR_ARG(reader_clip(expected)));
     diag_note(sink, open->name, "<%.*s> was opened here", STR_ARG(reader_clip(expected)));
+    if (name.len == expected.len && str_ends_with_nocase(name, arena_copy(r->context->arena, expected).ptr))
+        diag_help(sink, "write </%.*s>: case matters", STR_ARG(reader_clip(expected)));
+    else
+        diag_help(sink, "write </%.*s> behind what it holds, or '/>' at the end of its tag",
+                  STR_ARG(reader_clip(expected)));
 }
 
 // Where the tag begins that the byte `at` stands in; `at` itself where it stands in none.
@@ -123,7 +130,7 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
         sign++;
     if (sign < text.len && text.ptr[sign] != '"' && text.ptr[sign] != '\'') {
         span value = word_at(r, sign);
-        str bare = str_slice(text, value.begin, value.end);
+        str bare = mend_quotes(str_slice(text, value.begin, value.end));
         diag_add(sink, DIAG_XML_SYNTAX, value, "the value of '%.*s' needs quotes",
                  STR_ARG(reader_clip(written)));
         diag_help(sink, "write %.*s=\"%.*s\"", STR_ARG(reader_clip(written)), STR_ARG(reader_clip(bare)));
@@ -186,6 +193,8 @@ static void report_simple(struct xml_reader *r, enum XML_Error error, uint32_t a
     case XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "the scene has ended before this");
         diag_note(sink, r->root_end, "it ended here");
+        diag_help(sink,
+                  "a file holds one element that holds all others; <Include file=\"...\"/> joins files");
         break;
     case XML_ERROR_BAD_CHAR_REF:
         diag_add(sink, DIAG_XML_ENTITY, word_at(r, at), "this reference names no character");
@@ -218,7 +227,11 @@ static void report_start(struct xml_reader *r, uint32_t at) {
         return;
     }
     diag_add(r->context->sink, DIAG_XML_SYNTAX, word_at(r, at), "this stands before the first element");
-    diag_help(r->context->sink, "a scene begins with <Scene glint=\"1\">");
+    str word = source_text(r->context->sources, word_at(r, at));
+    bool yaml = word.len && (word.ptr[0] == '{' || word.ptr[0] == '#' || word.ptr[word.len - 1] == ':' ||
+                             str_equal(word, STR("---")));
+    diag_help(r->context->sink,
+              yaml ? "the file looks like YAML: name it .yaml" : "a scene begins with <Scene glint=\"1\">");
 }
 
 void xml_report(struct xml_reader *r) {

@@ -151,6 +151,7 @@ static void begin_token(struct yaml_reader *r, tree_index node) {
 }
 
 static void end_token(struct yaml_reader *r, uint32_t end) {
+    r->closed = 0;
     r->gap = end > r->gap ? end : r->gap;
     r->seen_token = true;
 }
@@ -300,6 +301,7 @@ static void on_event(struct yaml_reader *r) {
         break;
     case YAML_DOCUMENT_END_EVENT:
         r->document_end = yaml_byte(r, r->event.end_mark);
+        r->closed = 0;
         break;
     case YAML_SCALAR_EVENT:
         on_scalar(r);
@@ -367,7 +369,8 @@ static void begin_attempt(struct yaml_reader *r) {
     r->place_bytes = r->gap = r->text->begin;
     r->anchors.count = 0;
     r->alias_nodes = 0;
-    r->line_entry = r->last_scalar = 0;
+    r->line_entry = r->last_scalar = r->closed = 0;
+    r->blamed = 0;
     r->pending = (struct tree_comment){0};
     r->lost_color = (struct reader_range){0};
     reader_names_clear(&r->anchor_names);

@@ -70,6 +70,8 @@ struct yaml_reader {
     bool seen_token;
     struct reader_range lost_color; // a colour that became a comment inside open brackets; equal: none
     tree_index last_scalar;
+    tree_index closed; // the block collection that ended last, with no token since; 0: none
+    uint32_t blamed;   // 1 + the place of a mistake that makes libyaml refuse the rest of the line; 0: none
 };
 
 // The span of `begin` to `end` in the reader's source.
@@ -121,7 +123,8 @@ void yaml_report_color(struct diag_sink *sink, str text, span at);
 bool yaml_repair(struct yaml_reader *reader, struct diag_sink *sink, bool *tabs_repaired);
 
 // ---- read_yaml_error.c
-// Marks the value that libyaml's error directly follows as bad: the error is about it.
+// Marks the value that libyaml's error directly follows as bad, as the error is about it, and the lists and
+// maps that ended before the error as cut.
 void yaml_blame(struct yaml_reader *reader);
 // Reports what libyaml says.
 void yaml_report(struct yaml_reader *reader);

@@ -33,6 +33,32 @@ static void link_child(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
     frame->last = child;
 }
 
+// "camera {position": the colon is missing, and libyaml will stumble over what follows on the line.
+static bool lacks_colon(struct yaml_reader *r, const struct tree_node *node, str text) {
+    size_t end = 0;
+    while (end < text.len && !strchr(" :{[", text.ptr[end]))
+        end++;
+    bool bracket = end > 0 && end + 1 < text.len && text.ptr[end] == ' ' &&
+                   (text.ptr[end + 1] == '{' || text.ptr[end + 1] == '[');
+    if (node->style != TREE_PLAIN || !bracket)
+        return false;
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, node->begin, node->begin + (uint32_t)end),
+             "a ':' is missing behind '%.*s'", STR_ARG(reader_clip(str_slice(text, 0, end))));
+    diag_help(&r->sink, "write '%.*s: %c'", STR_ARG(reader_clip(str_slice(text, 0, end))), text.ptr[end + 1]);
+    r->blamed = node->begin + 1;
+    return true;
+}
+
+// "// remark" in brackets, where YAML takes it for a key.
+static bool is_remark(struct yaml_reader *r, const struct tree_node *node, str text) {
+    if (node->style != TREE_PLAIN || !str_starts_with(text, STR("//")))
+        return false;
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, node->begin, node->begin + 2),
+             "'//' begins no remark in YAML");
+    diag_help(&r->sink, "a remark begins with '#' and ends with its line");
+    return true;
+}
+
 static void take_key(struct yaml_reader *r, struct yaml_frame *frame, tree_index key) {
     struct tree_node *node = tree_node(r->tree, key);
     frame->key = key;
@@ -45,6 +71,8 @@ static void take_key(struct yaml_reader *r, struct yaml_frame *frame, tree_index
         node->flags |= TREE_BAD;
     } else if (node->kind == TREE_SCALAR || node->kind == TREE_NULL) {
         node->kind = TREE_SCALAR;
+        if (lacks_colon(r, node, text) || is_remark(r, node, text))
+            node->flags |= TREE_BAD;
         frame->merges = node->style == TREE_PLAIN && str_equal(text, STR("<<"));
     } else {
         diag_add(&r->sink, DIAG_YAML_KEY, at, "a %s where a key belongs",
@@ -112,6 +140,8 @@ void yaml_close(struct yaml_reader *r, uint32_t end) {
         tree_node(r->tree, node)->end = end;
     if (frame->anchor)
         r->anchors.items[frame->anchor].open = false;
+    if (tree_node(r->tree, node)->style == TREE_BLOCK)
+        r->closed = node;
     r->depth--;
     bool in_brackets = r->depth && tree_node(r->tree, r->frames[r->depth - 1].node)->style == TREE_FLOW;
     if (!in_brackets)

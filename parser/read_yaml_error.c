@@ -33,9 +33,9 @@ static const struct yaml_words words[] = {
     {"did not find expected '-' indicator", NULL, "this does not fit into the list around it",
      "the list begins here", "the items of a list begin with '- ' in one column", DIAG_YAML_SYNTAX, false},
     {"did not find expected ',' or ']'", NULL, "a ',' or ']' is missing before this", "the list begins here",
-     NULL, DIAG_YAML_SYNTAX, false},
+     "items are parted by ','; ']' closes the list", DIAG_YAML_SYNTAX, false},
     {"did not find expected ',' or '}'", NULL, "a ',' or '}' is missing before this", "the map begins here",
-     NULL, DIAG_YAML_SYNTAX, false},
+     "pairs are parted by ','; '}' closes the map", DIAG_YAML_SYNTAX, false},
     {"did not find expected node content", NULL, "a value is missing before this", NULL, NULL,
      DIAG_YAML_SYNTAX, false},
     {"found unexpected end of stream", NULL, "the text that begins here has no closing quote", NULL,
@@ -51,7 +51,7 @@ static const struct yaml_words words[] = {
     {"found invalid Unicode character escape code", NULL, "this escape names no character",
      "the text begins here", "write the character itself", DIAG_YAML_SYNTAX, false},
     {"found unexpected ':'", NULL, "a ':' inside brackets needs a blank behind it, or quotes around the text",
-     NULL, NULL, DIAG_YAML_SYNTAX, false},
+     NULL, "write 'key: value'", DIAG_YAML_SYNTAX, false},
     {"did not find expected comment or line break", NULL,
      "'|' and '>' begin a text of several lines on the next line", NULL,
      "a text that begins with '|' or '>' needs quotes", DIAG_YAML_SYNTAX, true},
@@ -97,6 +97,10 @@ static bool is_break(char c) {
 }
 static bool is_blank(char c) {
     return c == ' ' || c == '\t';
+}
+
+static bool is_digit(char c) {
+    return c >= '0' && c <= '9';
 }
 
 static char byte_at(const struct yaml_reader *r, uint32_t at) {
@@ -146,7 +150,20 @@ static bool only_blanks(const struct yaml_reader *r, uint32_t begin, uint32_t en
     return begin <= end;
 }
 
+static tree_index last_child(const struct tree *tree, tree_index node) {
+    tree_index last = 0;
+    for (tree_index child = tree_first(tree, node); child; child = tree_next(tree, child))
+        last = child;
+    return last;
+}
+
 void yaml_blame(struct yaml_reader *r) {
+    // What these lack probably stands behind the mistake.
+    for (tree_index node = r->closed; node; node = last_child(r->tree, node)) {
+        if (tree_node(r->tree, node)->style != TREE_BLOCK)
+            break;
+        tree_node(r->tree, node)->flags |= TREE_CUT;
+    }
     if (!r->last_scalar)
         return;
     struct tree_node *node = tree_node(r->tree, r->last_scalar);
@@ -154,8 +171,68 @@ void yaml_blame(struct yaml_reader *r) {
         node->flags |= TREE_BAD;
 }
 
+static str rest_of_line(const struct yaml_reader *r, uint32_t at) {
+    uint32_t end = at;
+    while (end < r->text->bytes.len && !is_break(byte_at(r, end)))
+        end++;
+    return str_slice(r->text->bytes, at, end);
+}
+
+// Whether `c` is the last character before `at`, blanks aside.
+static bool precedes(const struct yaml_reader *r, uint32_t at, char c) {
+    while (at > r->text->begin && is_blank(byte_at(r, at - 1)))
+        at--;
+    return at > r->text->begin && byte_at(r, at - 1) == c;
+}
+
+// How a key and the value behind it are written.
+static void help_pair(struct yaml_reader *r, str key, str value) {
+    static const char *const remarks[] = {"//", "/*", "--", ";"};
+    for (size_t i = 0; i < sizeof remarks / sizeof *remarks; i++) {
+        if (!str_starts_with(key, str_from(remarks[i])))
+            continue;
+        diag_help(&r->sink, "a remark begins with '#'");
+        return;
+    }
+    value = str_trim(value);
+    if (value.len && value.ptr[0] == '=')
+        value = str_trim(str_slice(value, 1, value.len));
+    diag_help(&r->sink, "write '%.*s:%s%.*s'", STR_ARG(reader_clip(key)), value.len ? " " : "",
+              STR_ARG(reader_clip(value)));
+}
+
+// "glint:1" or "camera" on the line above: YAML takes it for the beginning of a text that goes on here.
+static bool report_line_above(struct yaml_reader *r, uint32_t at) {
+    uint32_t end = at;
+    while (end > r->text->begin && !is_break(byte_at(r, end - 1)))
+        end--;
+    while (end > r->text->begin && (is_break(byte_at(r, end - 1)) || is_blank(byte_at(r, end - 1))))
+        end--;
+    uint32_t begin = end;
+    while (begin > r->text->begin && !is_break(byte_at(r, begin - 1)))
+        begin--;
+    while (begin < end &&
+           (is_blank(byte_at(r, begin)) || (byte_at(r, begin) == '-' && is_blank(byte_at(r, begin + 1)))))
+        begin++;
+    uint32_t stop = begin;
+    while (stop < end && !is_blank(byte_at(r, stop)) && byte_at(r, stop) != ':')
+        stop++;
+    str word = str_slice(r->text->bytes, begin, stop);
+    const struct tree_node *text = tree_node(r->tree, r->last_scalar);
+    bool goes_on = r->last_scalar && text->style == TREE_PLAIN && text->begin == begin && text->end > end;
+    if ((begin < r->gap && !goes_on) || !str_is_name(word))
+        return false;
+    bool colon = byte_at(r, stop) == ':';
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, colon ? end : stop),
+             colon ? "a blank is missing behind the ':'" : "a ':' is missing behind this key");
+    help_pair(r, word, str_slice(r->text->bytes, colon ? stop + 1 : stop, end));
+    return true;
+}
+
 // A ':' that begins no value: the second on its line, or that of a key in the wrong column.
 static void report_colon(struct yaml_reader *r, uint32_t at) {
+    if (report_line_above(r, at))
+        return;
     uint32_t begin = at;
     bool second = false;
     while (begin > r->text->begin && !is_break(byte_at(r, begin - 1))) {
@@ -176,8 +253,32 @@ static void report_colon(struct yaml_reader *r, uint32_t at) {
     }
 }
 
+// "-center: ..." as the first key of the map that the error is about.
+static bool report_dash(struct yaml_reader *r, uint32_t begin) {
+    if (byte_at(r, begin) != '-' || is_blank(byte_at(r, begin + 1)))
+        return false;
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, begin), "a blank is missing behind the '-'");
+    diag_help(&r->sink, "write '- %.*s'",
+              STR_ARG(reader_clip(str_slice(r->text->bytes, begin + 1, word_at(r, begin).end))));
+    return true;
+}
+
 // What follows a value on its line.
 static void report_behind(struct yaml_reader *r, uint32_t at) {
+    uint32_t begin = at;
+    while (begin > r->text->begin && !is_break(byte_at(r, begin - 1)))
+        begin--;
+    while (begin < at && is_blank(byte_at(r, begin)))
+        begin++;
+    if (byte_at(r, begin) == '-' && (byte_at(r, begin + 1) == '{' || byte_at(r, begin + 1) == '[')) {
+        report_dash(r, begin);
+        return;
+    }
+    if (byte_at(r, at) == '}' || byte_at(r, at) == ']') {
+        diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "this '%c' closes nothing", byte_at(r, at));
+        diag_help(&r->sink, "remove it, or write the '%c' that it closes", byte_at(r, at) == '}' ? '{' : '[');
+        return;
+    }
     diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, at), "this stands behind a value that has ended");
     diag_help(&r->sink, "put the whole text in quotes; inside single quotes a quote is written ''");
 }
@@ -220,10 +321,18 @@ static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint
         report_behind(r, at);
         return;
     }
+    if (strstr(row->problem, "expected key") && report_dash(r, context))
+        return;
     diag_add(&r->sink, row->code, word ? word_at(r, at) : character_at(r, at), "%s", row->message);
     if (row->note && context != problem)
         diag_note(&r->sink, character_at(r, context), "%s", row->note);
-    if (row->help)
+    if (strstr(row->problem, "expected ':'"))
+        help_pair(r, source_text(r->context->sources, word_at(r, at)), rest_of_line(r, word_at(r, at).end));
+    else if (strstr(row->problem, "expected ','") && precedes(r, at, '='))
+        diag_help(&r->sink, "a key and its value are joined by ':', not by '='");
+    else if (strstr(row->problem, "block sequence") && is_digit(byte_at(r, at + 2)))
+        diag_help(&r->sink, "a negative number is written without the blank: -%c", byte_at(r, at + 2));
+    else if (row->help)
         diag_help(&r->sink, "%s", row->help);
 }
 
@@ -240,6 +349,9 @@ void yaml_report(struct yaml_reader *r) {
     if (p->error == YAML_READER_ERROR)
         at = context = r->text->begin + (uint32_t)p->problem_offset;
     const struct yaml_words *row = find_words(problem, p->context);
+    bool told = r->blamed && r->blamed <= at && !memchr(r->text->bytes.ptr + r->blamed, '\n', at - r->blamed);
+    if (told)
+        return;
     if (r->is_option) {
         diag_add(&r->sink, DIAG_SET_SYNTAX, character_at(r, row && row->at_context ? context : at), "%s",
                  row ? row->message : "the value cannot be read");

@@ -21,7 +21,10 @@ static void merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_inde
     const struct tree_node *node = tree_node(r->tree, value);
     if (node->kind == TREE_MAP) {
         move_pairs(r, frame, value);
-    } else if (!(node->flags & TREE_BAD)) {
+        return;
+    }
+    tree_node(r->tree, frame->node)->flags |= TREE_CUT; // what it lacks was to come from there
+    if (!(node->flags & TREE_BAD)) {
         diag_add(&r->sink, DIAG_YAML_MERGE, tree_span(r->tree, value), "'<<' merges maps, and this is none");
         diag_help(&r->sink, "write '<<: *name', where the anchor '&name' stands before a map");
     }
@@ -91,7 +94,7 @@ static void report_twice(struct yaml_reader *r, tree_index first, tree_index sec
     if (r->sink.errors < JOINS_MAX && joins(r->tree, a, b)) {
         // The entries of both are checked, and references to them hold: the mistake is reported once.
         join(r, a, b);
-        diag_help(&r->sink, "put the entries of both under one key");
+        diag_help(&r->sink, "put what both hold under one key, or rename one of the two");
     } else {
         diag_help(&r->sink, "remove one of the two");
     }

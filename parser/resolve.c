@@ -11,9 +11,13 @@ static str shown(const struct loader *loader, uint32_t file) {
 static void report_missing(struct loader *loader, span at, str path, str tried) {
     struct diag_sink *sink = loader->input->sink;
     diag_add(sink, DIAG_FILE_MISSING, at, "the included file '%.*s' does not exist", STR_ARG(path));
-    str near = files_suggest(loader->input->files, tried);
+    static const char *const endings[] = {".yaml", ".yml", ".json", ".xml", NULL};
+    str near = files_suggest(loader->input->files, tried, endings);
     str folder = str_slice(path, 0, path.len - path_base(path).len);
-    if (near.len)
+    str advice = files_advice(loader->input->arena, path);
+    if (advice.len)
+        diag_help(sink, "%.*s", STR_ARG(advice));
+    else if (near.len)
         diag_help(sink, "did you mean '%.*s%.*s'?", STR_ARG(folder), STR_ARG(near));
     else
         diag_help(sink, "it was looked for as '%.*s'; --asset-path DIR adds a folder to look in",

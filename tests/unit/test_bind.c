@@ -227,7 +227,7 @@ static void mistakes_in_shape(void **state) {
     loaded_check(HEAD_YAML "materials: [glass]\n", "E209",
                  "'materials' must be a map of material entries by name, not a list");
     loaded_check(HEAD_YAML "lights: [5]\n", "E209", "this light must be a group of attributes, not '5'");
-    loaded_check(HEAD_YAML "include: base.yaml\n", "E209", "for example include: [base.yaml]");
+    loaded_check(HEAD_YAML "include: base.yaml\n", "E209 E601", "write [base.yaml]");
     loaded_check(HEAD_YAML "camera: {position: [[1], 2, 3]}\n", "E209",
                  "'position.x' of camera 'main' must be one number, not a list");
     loaded_check_twins(
@@ -274,7 +274,7 @@ static void what_is_missing(void **state) {
 
 static void what_is_there_twice(void **state) {
     (void)state;
-    loaded_check(HEAD_YAML "camera: {}\ncameras: {a: {}}\n", "E203", "'cameras' is given twice");
+    loaded_check(HEAD_YAML "camera: {}\ncameras: {a: {}}\n", "E203", "both 'camera' and 'cameras' are given");
     loaded_check(HEAD_XML "<Image/><Image/>" END_XML, "E203", "'image' is given twice");
     loaded_check(HEAD_XML "<Light color=\"1\"><Position x=\"0\" y=\"0\" z=\"0\"/><Color r=\"1\" g=\"1\" "
                           "b=\"1\"/></Light>" END_XML,
@@ -302,7 +302,7 @@ static void names_that_do_not_exist(void **state) {
                  "did you mean 'diffuse_color'? Names are snake_case here");
     loaded_check(HEAD_YAML "materials: {m: {diffuseColor: 1}}\n", "E202", "did you mean 'diffuse_color'?");
     loaded_check(HEAD_YAML "light: [{position: [0, 0, 0]}]\n", "E202", "did you mean 'lights'?");
-    loaded_check(HEAD_XML "<lights/>" END_XML, "E202", "did you mean 'Light'?");
+    loaded_check(HEAD_XML "<lights/>" END_XML, "E202", "write each <Light> without <lights> around it");
     loaded_check(HEAD_XML "<diffuse_color/>" END_XML, "E202", "belongs to a material");
     loaded_check(HEAD_XML "<Camera lookAt=\"0 0 0\"/>" END_XML, "E202", "<LookAt x=");
     loaded_check(HEAD_YAML "materials: {m: {name: x}}\n", "E202", "the key above it is its name");
@@ -394,7 +394,20 @@ static void near_words(void **state) {
     mend_offer(&search, "abcdeh", 1);
     assert_string_equal(search.best, "abcdeg");
     assert_false(mend_is_safe(&search)); // two are as near
+    search = mend_begin(&arena, STR("pos"));
+    mend_offer(&search, "name", 0);
+    mend_offer(&search, "position", 1);
+    assert_string_equal(search.best, "position"); // its beginning
+    search = mend_begin(&arena, STR("po"));
+    mend_offer(&search, "position", 0);
+    assert_null(search.best);
     assert_true(mend_is_numbers(STR("1, 2 3")));
+    assert_true(mend_is_numbers(STR("(1, 2)")));
+    assert_true(str_equal_cstr(mend_numbers(&arena, STR("[[0, 5 1]]"), 3), "0, 5, 1"));
+    assert_int_equal(mend_numbers(&arena, STR("[0, 5]"), 3).len, 0);
+    assert_int_equal(mend_numbers(&arena, STR("[0, 5, 1, 2]"), 3).len, 0);
+    assert_true(str_equal_cstr(mend_quotes(STR(" \xE2\x80\x9Cred\xE2\x80\x9D ")), "red"));
+    assert_int_equal(mend_quotes(STR("\xE2\x80\x9C\xE2\x80\x9D")).len, 0);
     assert_false(mend_is_numbers(STR("1 two")));
     arena_finish(&arena);
 }

@@ -298,7 +298,7 @@ static void leaves_no_descriptor_open(void **state) {
     read_file(f, "in/scene.yaml", 1, &contents);
     read_file(f, "in", 100, &contents);
     read_file(f, "nothing", 100, &contents);
-    files_suggest(&f->files, at(f, "in/scen.yaml"));
+    files_suggest(&f->files, at(f, "in/scen.yaml"), NULL);
     int after = dup(0);
     close(after);
     assert_int_equal(before, after);
@@ -362,16 +362,39 @@ static void overlays_stand_for_files(void **state) {
 static void suggests_near_names_inside_the_roots_only(void **state) {
     struct fixture *f = *state;
     files_add_scene_root(&f->files, at(f, "in/scene.yaml"));
-    assert_true(str_equal_cstr(files_suggest(&f->files, at(f, "in/scnee.yaml")), "scene.yaml"));
-    assert_true(str_equal_cstr(files_suggest(&f->files, at(f, "in/sub/Mesh.OBJ")), "mesh.obj"));
-    assert_int_equal(files_suggest(&f->files, at(f, "in/entirely-different.png")).len, 0);
-    assert_int_equal(files_suggest(&f->files, at(f, "out/secrets")).len, 0);
-    assert_int_equal(files_suggest(&f->files, at(f, "nowhere/scene.yaml")).len, 0);
+    assert_true(str_equal_cstr(files_suggest(&f->files, at(f, "in/scnee.yaml"), NULL), "scene.yaml"));
+    assert_true(str_equal_cstr(files_suggest(&f->files, at(f, "in/sub/Mesh.OBJ"), NULL), "mesh.obj"));
+    assert_int_equal(files_suggest(&f->files, at(f, "in/entirely-different.png"), NULL).len, 0);
+    assert_int_equal(files_suggest(&f->files, at(f, "out/secrets"), NULL).len, 0);
+    assert_int_equal(files_suggest(&f->files, at(f, "nowhere/scene.yaml"), NULL).len, 0);
     // Of equals the first by name, whatever the order of the folder.
     scratch_write(&f->scratch, "in/sky3.png", "");
     scratch_write(&f->scratch, "in/sky1.png", "");
     scratch_write(&f->scratch, "in/sky2.png", "");
-    assert_true(str_equal_cstr(files_suggest(&f->files, at(f, "in/sky.png")), "sky1.png"));
+    assert_true(str_equal_cstr(files_suggest(&f->files, at(f, "in/sky.png"), NULL), "sky1.png"));
+}
+
+static void suggests_names_of_the_right_kind(void **state) {
+    struct fixture *f = *state;
+    static const char *const endings[] = {".obj", NULL};
+    files_add_scene_root(&f->files, at(f, "in/scene.yaml"));
+    scratch_write(&f->scratch, "in/fox.mtl", "");
+    assert_true(str_equal_cstr(files_suggest(&f->files, at(f, "in/fox.stl"), NULL), "fox.mtl"));
+    assert_int_equal(files_suggest(&f->files, at(f, "in/fox.stl"), endings).len, 0);
+    scratch_write(&f->scratch, "in/fox.OBJ", "");
+    assert_true(str_equal_cstr(files_suggest(&f->files, at(f, "in/fox.stl"), endings), "fox.OBJ"));
+}
+
+static void foreign_paths_get_advice(void **state) {
+    struct fixture *f = *state;
+    static const char *const foreign[] = {"C:\\a.obj", "c:/a.obj", "~/a.obj", "$HOME/a.obj",
+                                          "http://a/b.obj"};
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
+        assert_true(files_advice(&f->arena, str_from(foreign[i])).len > 0);
+    assert_true(str_starts_with(files_advice(&f->arena, STR("a\\b\\c.obj")), STR("write 'a/b/c.obj'")));
+    static const char *const good[] = {"a.obj", "../a/b.obj", "/a/b.obj", "a b.obj", "", ":"};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        assert_int_equal(files_advice(&f->arena, str_from(good[i])).len, 0);
 }
 
 static void every_status_has_words(void **state) {
@@ -416,6 +439,8 @@ int main(void) {
         T(logs_each_file_once),
         T(overlays_stand_for_files),
         T(suggests_near_names_inside_the_roots_only),
+        T(suggests_names_of_the_right_kind),
+        T(foreign_paths_get_advice),
         T(every_status_has_words),
         T(memory_for_paths_has_a_guard),
     };

@@ -115,7 +115,7 @@ static void bad_values_are_errors(void **state) {
         {"Kd 1 x 0", "own.mtl:2:6: error: 'x' is not a number [E615]"},
         {"Ns nan", "own.mtl:2:4: error: 'nan' is not a finite number [E615]"},
         {"Kd", "own.mtl:2:1: error: 'Kd' needs a number [E615]"},
-        {"Kd 1 1", "own.mtl:2:1: error: 'Kd' needs a number [E615]"},
+        {"Kd 1 1", "own.mtl:2:1: error: 'Kd' has 2 numbers; it needs 3, or 1 for all three [E615]"},
         {"newmtl", "own.mtl:2:1: error: 'newmtl' needs a name [E615]"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

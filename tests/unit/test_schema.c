@@ -254,6 +254,26 @@ static void test_spellings_find_their_row(void **state) {
 
 // ---- columns that belong together
 
+// A word of other programs must not be a name of this language at the same place, nor mean two rows.
+static void test_words_of_other_programs(void **state) {
+    (void)state;
+    for (const struct schema_element *const *e = schema_elements; *e; e++)
+        for (uint32_t i = 0; i < (*e)->row_count; i++) {
+            char words[200] = "";
+            snprintf(words, sizeof words, "%s", (*e)->rows[i].also ? (*e)->rows[i].also : "");
+            char *rest = words;
+            for (char *word = strsep(&rest, " "); word && *word; word = strsep(&rest, " ")) {
+                bool single;
+                assert_snake(word);
+                assert_int_equal(schema_find_row(*e, str_from(word)), -1);
+                assert_int_equal(schema_find_yaml(*e, str_from(word), &single), -1);
+                assert_int_equal(schema_find_also(*e, str_from(word)), i);
+            }
+        }
+    assert_int_equal(schema_find_also(&SCHEMA_MATERIAL, STR("io")), -1);
+    assert_int_equal(schema_find_also(&SCHEMA_MATERIAL, STR("")), -1);
+}
+
 static void check_row(const struct schema_element *schema, const struct schema_row *row) {
     assert_int_equal(has_numbers(row), row->range != SCHEMA_RANGE_NONE);
     assert_int_equal(row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH,
@@ -457,6 +477,7 @@ int main(void) {
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_docs),
         cmocka_unit_test(test_spellings_find_their_row),
+        cmocka_unit_test(test_words_of_other_programs),
         cmocka_unit_test(test_columns),
         cmocka_unit_test(test_choices),
         cmocka_unit_test(test_ranges_end_where_they_say),
