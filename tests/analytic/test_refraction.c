@@ -218,6 +218,74 @@ static void check_critical(struct analytic *a, double index) {
     }
 }
 
+// ---- normals that bend far from the face: where a ray would end on the wrong side, the face's own normal
+
+struct bent {
+    vec3 normal; // of the face z = 0, whose own is +z
+    double index, reflection, refraction;
+};
+
+static bool bent_color(const void *context, vec3 origin, vec3 direction, double rgb[3]) {
+    const struct bent *b = context;
+    const bool enters = direction.z < 0;
+    const vec3 face = {0, 0, enters ? 1 : -1};
+    vec3 n = vec3_unit(enters ? b->normal : vec3_neg(b->normal)), mirrored = analytic_mirrored(direction, n);
+    double c = -vec3_dot(direction, n), eta = enters ? 1 / b->index : b->index;
+    bool near = fabs(c) < 1e-3 || fabs(vec3_dot(mirrored, face)) < 1e-4;
+    (void)origin;
+    if (vec3_dot(mirrored, face) <= 0)
+        mirrored = analytic_mirrored(direction, face);
+    vec3 used = c <= 0 ? face : n, out;
+    c = -vec3_dot(direction, used);
+    near = near || fabs(1 - eta * eta * (1 - c * c)) < 1e-3;
+    bool passes = analytic_refracted(direction, used, eta, &out);
+    near = near || (passes && fabs(vec3_dot(out, face)) < 1e-4);
+    if (passes && vec3_dot(out, face) >= 0) {
+        near = near || fabs(1 - eta * eta * (1 - direction.z * direction.z)) < 1e-3;
+        passes = analytic_refracted(direction, face, eta, &out);
+    }
+    rgb[0] = rgb[1] = rgb[2] = (b->reflection + (passes ? 0 : b->refraction)) * two_rows(mirrored) +
+                               (passes ? b->refraction * two_rows(out) : 0);
+    return !near;
+}
+
+static void check_bent(struct analytic *a, struct bent b, bool inside) {
+    char scene[1024], mesh[1024], name[128];
+    // The slab with one normal at the corners of its front.
+    int length = snprintf(mesh, sizeof mesh,
+                          "v -40 -40 0\nv 40 -40 0\nv 40 40 0\nv -40 40 0\n"
+                          "v -40 -40 -9\nv 40 -40 -9\nv 40 40 -9\nv -40 40 -9\n"
+                          "vn %.17g %.17g %.17g\nvn 0 0 -1\nvn -1 0 0\nvn 1 0 0\nvn 0 1 0\nvn 0 -1 0\n"
+                          "f 1//1 2//1 3//1 4//1\nf 6//2 5//2 8//2 7//2\nf 5//3 1//3 4//3 8//3\n"
+                          "f 2//4 6//4 7//4 3//4\nf 4//5 3//5 7//5 8//5\nf 5//6 6//6 2//6 1//6\n",
+                          b.normal.x, b.normal.y, b.normal.z);
+    snprintf(name, sizeof name, "normals %g %g %g, index %g, seen from %s", b.normal.x, b.normal.y,
+             b.normal.z, b.index, inside ? "inside" : "outside");
+    snprintf(scene, sizeof scene,
+             "trace: {max_depth: 0}\nbackground: {image: rows.png}\nmodels:\n  - mesh: bent.obj\n"
+             "    smooth: true\n    material: {albedo: [0, 0, %.17g, %.17g], refractive_index: %.17g}\n",
+             b.reflection, b.refraction, b.index);
+    struct analytic_picture picture = {
+        .name = name,
+        .scene = scene,
+        .camera = {{0, 0, inside ? -3 : 3}, {0.1, 0.2, inside ? 1 : -1}, {0, 1, 0}, 120},
+        .color = bent_color,
+        .context = &b,
+        .tolerance = 2e-5,
+        .most_beside = 0.05};
+    if (analytic_write(a, "bent.obj", mesh, (size_t)length))
+        analytic_check(a, &picture);
+}
+
+static void check_all_bent(struct analytic *a) {
+    static const vec3 bends[] = {{0, 0, 1}, {0, 0.5, 1}, {0.5, -2, 1}, {0, 5, 1}, {1, 0.3, 0.1}};
+    for (size_t i = 0; i < sizeof bends / sizeof bends[0]; i++)
+        for (int inside = 0; inside < 2; inside++) {
+            check_bent(a, (struct bent){bends[i], 1.5, 0.25, 0.5}, inside);
+            check_bent(a, (struct bent){bends[i], 0.7, 0.5, 0.25}, inside);
+        }
+}
+
 // ---- what is not bent
 
 // A picture with these bodies is `factor` times the one without, bit for bit.
@@ -309,6 +377,7 @@ int main(int argc, char **argv) {
         check_critical(&a, 1.5);
         check_critical(&a, 1.33);
         check_critical(&a, 2.42);
+        check_all_bent(&a);
         check_all_straight(&a);
     }
     return analytic_close(&a);

@@ -199,6 +199,9 @@ static void check_triangles(struct analytic *a) {
         {{2, 0.75, 1}, {20, 30, 10}, {0.25, 0, -4.5}, false, 0},
         {{-1.5, 1, 2}, {20, -30, 10}, {0.25, 0, -4.5}, false, 0}, // mirrored
         {{1.5, 1, 1}, {10, 170, -20}, {0, 0, -4}, false, 0},      // from behind
+        {{1, 1, 1}, {62, 0, 0}, {0, 0, -4}, false, 0},
+        // The light is behind the face, and before the normals at its tip.
+        {{1, 1, 1}, {67, 0, 0}, {0, 0, -4}, false, 0},
     };
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
         struct placed m = places[i];

@@ -25,7 +25,7 @@ function foreign(path, target) {
     if (target ~ /^expat/) return path ~ /^parser\/read_xml/
     if (target ~ /^(volk|vulkan)/) return path ~ /^runtime\/gpu\//
     if (target ~ /^stb/) return path ~ /^(assets|runtime\/image|tools|tests)\//
-    if (target ~ /^png\.h/) return path ~ /^runtime\/image\//
+    if (target ~ /^png\.h/) return path ~ /^(runtime\/image|tests)\//
     if (target ~ /^jansson/) return path ~ /^(grammar|app|cli|tests|bench)\//
     if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//
     if (target ~ /^cmocka/) return path ~ /^tests\//
