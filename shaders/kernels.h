@@ -14,5 +14,10 @@ extern const uint32_t kernel_layout_texels[];
 extern const size_t kernel_layout_texels_words;
 extern const uint32_t kernel_layout_storage[];
 extern const size_t kernel_layout_storage_words;
+// Traces single rays, for tests.
+extern const uint32_t kernel_probe_texels[];
+extern const size_t kernel_probe_texels_words;
+extern const uint32_t kernel_probe_storage[];
+extern const size_t kernel_probe_storage_words;
 
 #endif

@@ -37,9 +37,10 @@ float next_float(float x, float outward) {
 }
 
 // A start for rays that leave a surface on the side of `side` (unit): displaced by the point's error, then
-// one float outward (Pharr, Jakob, Humphreys 2023, section 6.8.6).
+// one float outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not only by the error along the normal: the
+// error along the surface can carry the point across an edge, where a neighbour bends away from it.
 vec3 ray_start(vec3 point, vec3 error, vec3 side) {
-    float distance = dot3(abs(side), error);
+    float distance = max(dot3(abs(side), error), largest3(error));
     vec3 shift = side * distance;
     vec3 moved = point + shift;
     return vec3(next_float(moved.x, shift.x), next_float(moved.y, shift.y), next_float(moved.z, shift.z));
