@@ -84,7 +84,7 @@ static enum session_state open_source(struct session *session, uint32_t *source)
         if (status != FILE_OK)
             return unreadable(session, path, status);
         text = scene_around_mesh(session, path);
-        *source = source_add(&session->sources, SOURCE_KIND_DEFAULT, path, text);
+        *source = source_add(&session->sources, SOURCE_KIND_GENERATED, path, text);
         return SESSION_LOADED;
     }
     status = files_read(&session->files, path, session->options.limits.value[LIMIT_SCENE_BYTES],

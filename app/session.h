@@ -62,6 +62,10 @@ bool session_view(struct session *session, uint32_t camera, struct view *view);
 // The origin for flattening: the position of the first camera, or of `view` where the scene has none.
 vec3 session_origin(const struct session *session, const struct view *view);
 
+// Changes the paths of a loaded file so that it may be written to `out`, in whatever folder; warns where a
+// file lies outside what it may read from there. false: no memory.
+bool session_rebase(struct session *session, str out);
+
 // One file alone, for `convert`: no includes, no assets. The IR is origin.files[0].scene too.
 enum session_state session_load_text(struct session *session, const struct session_options *options);
 

@@ -23,7 +23,9 @@ static str base_of(const struct assets_input *input, span at) {
     const struct source *s = &input->sources->items[source < input->sources->count ? source : SOURCE_DEFAULT];
     if ((s->kind == SOURCE_KIND_OPTION || s->kind == SOURCE_KIND_DEFAULT) && input->origin->files.count)
         s = &input->sources->items[input->origin->files.items[0].source];
-    return s->kind == SOURCE_KIND_FILE || s->kind == SOURCE_KIND_OVERLAY ? s->path : STR("");
+    bool is_file =
+        s->kind == SOURCE_KIND_FILE || s->kind == SOURCE_KIND_OVERLAY || s->kind == SOURCE_KIND_GENERATED;
+    return is_file ? s->path : STR("");
 }
 
 static bool is_poisoned(const struct ir_head *head, const struct schema_element *schema, const char *row) {

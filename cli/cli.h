@@ -38,6 +38,7 @@ struct cli_options {
     struct limits limits;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
+    int output_arg; // where it stands on the command line; 0: not given
 };
 
 struct cli {
@@ -73,6 +74,8 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command);
 
 // The place of an argument on the command line.
 span cli_place(const struct cli *cli, int arg);
+// The argument that is operand number `index`, from 0.
+int cli_operand_place(const struct cli *cli, int index);
 // Gives one error of the command line and returns CLI_USAGE.
 int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((format(printf, 3, 4)));
 // Prints the command line's own diagnostics.

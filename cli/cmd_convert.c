@@ -3,6 +3,9 @@
 
 #include "grammar/ir_print.h"
 
+#include <string.h>
+#include <sys/stat.h>
+
 enum spelling {
     SPELLING_YAML,
     SPELLING_XML,
@@ -30,7 +33,7 @@ static void write_as(struct session *session, enum spelling spelling, struct str
         ir_write_yaml(session->scene, &session->origin, &session->sources, options, text);
 }
 
-static int convert(struct cli *cli, struct session *session) {
+static int write_scene(struct cli *cli, struct session *session) {
     struct strbuf text;
     strbuf_init(&text);
     write_as(session, wanted_spelling(session, cli->operands[1]), &text);
@@ -45,13 +48,31 @@ static int convert(struct cli *cli, struct session *session) {
     return status;
 }
 
+// Anchors, and comments inside of entries, would be lost for good.
+static bool is_onto_itself(const struct cli *cli) {
+    struct stat in;
+    struct stat out;
+    return stat(cli->operands[0], &in) == 0 && stat(cli->operands[1], &out) == 0 && S_ISREG(out.st_mode) &&
+           in.st_dev == out.st_dev && in.st_ino == out.st_ino;
+}
+
 int cmd_convert(struct cli *cli) {
     struct session session;
     struct session_options options = cli_session_options(cli, cli->operands[0]);
+    const char *out = cli->operands[1];
+    if (is_onto_itself(cli)) {
+        int status = cli_usage(cli, cli_operand_place(cli, 1), "OUT is IN itself");
+        diag_help(&cli->sink, "a scene is written anew, without its anchors and some of its comments; "
+                              "choose another name");
+        return status;
+    }
     session_load_text(&session, &options);
+    bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
+    if (good && strcmp(out, "-") != 0 && !session_rebase(&session, str_from(out)))
+        diag_add(&session.sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to convert this scene");
     int status = cli_report(cli, &session, false);
     if (status == CLI_OK)
-        status = convert(cli, &session);
+        status = write_scene(cli, &session);
     session_finish(&session);
     return status;
 }

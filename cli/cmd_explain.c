@@ -15,7 +15,7 @@ int cmd_explain(struct cli *cli) {
     if (explain(str_from(cli->operands[0]), color, &text))
         status = cli_print(cli, strbuf_view(&text));
     else
-        status = cli_usage(cli, cli->argc - 1, "%.*s", STR_ARG(str_trim(strbuf_view(&text))));
+        status = cli_usage(cli, cli_operand_place(cli, 0), "%.*s", STR_ARG(str_trim(strbuf_view(&text))));
     strbuf_finish(&text);
     return status;
 }

@@ -53,8 +53,9 @@ static int open_device(struct job *job) {
     job->stats.device_seconds = clock_seconds() - start;
     if (status == GPU_OK)
         return CLI_OK;
+    const char *asked = job->cli->options.device ? "--device" : environment ? "GLINT_DEVICE" : "device";
     if (status == GPU_NO_DEVICE)
-        cli_error(job->cli, DIAG_NO_DEVICE, "device", "'glint devices' lists the devices", "%s", error);
+        cli_error(job->cli, DIAG_NO_DEVICE, asked, "'glint devices' lists the devices", "%s", error);
     else if (status == GPU_NO_LOADER || status == GPU_NO_DRIVER)
         cli_error(job->cli, DIAG_NO_VULKAN, "device",
                   "on Debian: apt-get install libvulkan1 mesa-vulkan-drivers", "%s", error);
@@ -253,8 +254,13 @@ int cmd_render(struct cli *cli) {
     job.output = cli->options.output ? cli->options.output : default_output(cli, cli->operands[0]);
     if (strcmp(job.output, "-") != 0 && strncmp(job.output, "/dev/", 5) != 0 &&
         !image_format_of_path(str_from(job.output), &job.format))
-        return cli_usage(cli, cli->argc - 1, "the output '%s' must end in %s", job.output,
+        return cli_usage(cli, cli->options.output_arg, "the output '%s' must end in %s", job.output,
                          image_format_endings());
+    if (strcmp(job.output, "-") == 0 && str_equal(cli->options.camera, STR("all"))) {
+        int status = cli_usage(cli, cli->options.output_arg, "'--camera all' makes a file for each camera");
+        diag_help(&cli->sink, "name a file; '-' takes one picture");
+        return status;
+    }
     interrupt_catch();
     struct asset_store *store = asset_store_create();
     int status = run_job(&job, store);

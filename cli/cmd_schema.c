@@ -34,7 +34,7 @@ int cmd_schema(struct cli *cli) {
         strbuf_finish(&text);
         return status;
     }
-    int status = cli_usage(cli, cli->argc - 1,
+    int status = cli_usage(cli, cli_operand_place(cli, 0),
                            "'%s' is no kind of schema; they are json, relaxng and markdown", wanted);
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));

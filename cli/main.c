@@ -3,6 +3,7 @@
 
 #include "core/nearest.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +32,8 @@ const struct cli_command cli_commands[] = {
     {"convert", "IN OUT", "translate between the YAML and the XML spelling",
      "The endings of IN and OUT (.yaml .yml .json, .xml) tell the spellings; OUT '-' writes the other "
      "spelling\n"
-     "to standard output. Comments before entries and includes are kept.\n\n"
+     "to standard output. Comments before entries and includes are kept (JSON has no comments). Where OUT\n"
+     "lies in another folder than IN, paths are changed so that they name the same files.\n\n"
      "  glint convert scene.xml scene.yaml\n",
      2, 2, cmd_convert},
     {"schema", "json|relaxng|markdown", "print the language's schema or reference page",
@@ -120,17 +122,27 @@ static int show_limits(struct cli *cli) {
     return status;
 }
 
-static int unknown_command(struct cli *cli) {
-    struct nearest search = nearest_begin(str_from(cli->argv[1]));
+static int unknown_command(struct cli *cli, int arg) {
+    struct nearest search = nearest_begin(str_from(cli->argv[arg]));
     for (const struct cli_command *c = cli_commands; c->name; c++)
         nearest_offer(&search, str_from(c->name));
-    int status = cli_usage(cli, 1, "there is no command '%s'", cli->argv[1]);
+    int status = cli_usage(cli, arg, "there is no command '%s'", cli->argv[arg]);
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
+    else if (arg == 1)
         diag_help(&cli->sink, "'glint --help' lists the commands; to render a file: glint render %s",
-                  cli->argv[1]);
+                  cli->argv[arg]);
+    else
+        diag_help(&cli->sink, "'glint --help' lists the commands");
     return status;
+}
+
+static int too_many_operands(struct cli *cli, const struct cli_command *command) {
+    int arg = cli_operand_place(cli, command->most_operands);
+    if (command->most_operands == 0)
+        return cli_usage(cli, arg, "'glint %s' takes no argument", command->name);
+    return cli_usage(cli, arg, "'glint %s' takes no more than %d argument%s", command->name,
+                     command->most_operands, command->most_operands == 1 ? "" : "s");
 }
 
 static int run_command(struct cli *cli, const struct cli_command *command) {
@@ -143,8 +155,11 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
     if (cli->operand_count < command->least_operands)
         return cli_usage(cli, 1, "'glint %s' needs %s", command->name, command->operands);
     if (command->most_operands >= 0 && cli->operand_count > command->most_operands)
-        return cli_usage(cli, cli->argc - 1, "'glint %s' takes no more than %d argument%s", command->name,
-                         command->most_operands, command->most_operands == 1 ? "" : "s");
+        return too_many_operands(cli, command);
+    for (int i = 0; i < cli->operand_count; i++)
+        if (cli->operands[i][0] == '\0')
+            return cli_usage(cli, cli_operand_place(cli, i), "'glint %s' needs %s, and this is empty",
+                             command->name, command->operands);
     return command->run(cli);
 }
 
@@ -165,14 +180,28 @@ static int run(struct cli *cli) {
             return show_help(cli, NULL);
         return good ? cli_usage(cli, 1, "a command is needed before its options") : CLI_USAGE;
     }
-    if (strcmp(cli->argv[1], "help") == 0)
-        return show_help(cli, cli->argc > 2 ? cli_find_command(cli->argv[2]) : NULL);
-    const struct cli_command *command = cli_find_command(cli->argv[1]);
-    return command ? run_command(cli, command) : unknown_command(cli);
+    bool help = strcmp(cli->argv[1], "help") == 0;
+    if (help && cli->argc == 2)
+        return show_help(cli, NULL);
+    const struct cli_command *command = cli_find_command(cli->argv[help ? 2 : 1]);
+    if (!command)
+        return unknown_command(cli, help ? 2 : 1);
+    return help ? show_help(cli, command) : run_command(cli, command);
+}
+
+// A stream that the caller has closed must not become the first file that is opened.
+static void keep_streams(void) {
+    int fd;
+    do
+        fd = open("/dev/null", O_RDONLY);
+    while (fd >= 0 && fd <= STDERR_FILENO);
+    if (fd >= 0)
+        close(fd);
 }
 
 int main(int argc, char **argv) {
     struct cli cli;
+    keep_streams();
     // A closed pipe and a full disk are errors of the write, with a message, not the end of the process.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);

@@ -4,9 +4,11 @@
 #include "core/nearest.h"
 #include "core/number.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum option_id {
     OPTION_HELP = 1000,
@@ -150,6 +152,14 @@ static bool read_limit(struct cli *cli, int arg, const char *text) {
     return false;
 }
 
+static bool read_folder(struct cli *cli, int arg, const char *text) {
+    struct stat info;
+    int error = stat(text, &info) != 0 ? errno : S_ISDIR(info.st_mode) ? 0 : ENOTDIR;
+    if (error)
+        cli_usage(cli, arg, "--asset-path: '%s' is no folder that can be read: %s", text, strerror(error));
+    return error == 0;
+}
+
 static void append(struct cli *cli, struct cli_list *list, const char *text) {
     str *item = ARENA_PUSH(&cli->arena, list);
     *item = str_from(text);
@@ -166,6 +176,7 @@ static bool apply(struct cli *cli, int arg, enum option_id id, const char *value
         return true;
     case OPTION_OUTPUT:
         options->output = value;
+        options->output_arg = arg;
         return true;
     case OPTION_SIZE:
         return read_size(cli, arg, value);
@@ -181,6 +192,8 @@ static bool apply(struct cli *cli, int arg, enum option_id id, const char *value
         options->device = value;
         return true;
     case OPTION_ASSET_PATH:
+        if (!read_folder(cli, arg, value))
+            return false;
         append(cli, &options->asset_paths, value);
         return true;
     case OPTION_LIMIT:

@@ -15,6 +15,13 @@ span cli_place(const struct cli *cli, int arg) {
     return (span){1, begin, begin + (uint32_t)strlen(cli->argv[arg])};
 }
 
+int cli_operand_place(const struct cli *cli, int index) {
+    for (int i = 0; i < cli->argc && index < cli->operand_count; i++)
+        if (cli->argv[i] == cli->operands[index])
+            return i;
+    return cli->argc - 1;
+}
+
 int cli_usage(struct cli *cli, int arg, const char *format, ...) {
     va_list args;
     char fixed[1024];

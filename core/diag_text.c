@@ -97,7 +97,7 @@ static void place_text(struct strbuf *out, struct source_place place) {
 
 static bool has_text(const struct source_set *sources, span at) {
     return at.source < sources->count && sources->items[at.source].text.len > 0 &&
-           sources->items[at.source].kind != SOURCE_KIND_DEFAULT;
+           sources->items[at.source].kind != SOURCE_KIND_GENERATED;
 }
 
 static void labelled(struct strbuf *out, const char *label, str text) {

@@ -78,6 +78,9 @@ str files_suggest(struct files *files, str path, const char *const *endings);
 // What is wrong with a path that only another system or a shell would understand, and what to write ("write
 // 'a/b.obj': ..."); the empty string for all others.
 str files_advice(struct arena *arena, str path);
+// What a file that will lie at `to_file` must write to name the file that `from_file` names `path`: the path
+// as it is where it is absolute, where both lie in one folder, and where nothing lies there beside from_file.
+str files_rebase(struct files *files, str path, str from_file, str to_file);
 // An absolute path with links followed, also where only its last part does not exist; else the path itself.
 str files_canonical(struct files *files, str path);
 // The folder part of a path ("." if it has none) and the part behind the last '/'.

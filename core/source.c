@@ -88,10 +88,13 @@ static uint32_t column_at(str text, size_t begin, size_t offset) {
 }
 
 struct source_place source_locate(struct source_set *set, span at) {
+    if (set->count == 0) // memory ended before anything was read
+        return (struct source_place){
+            .path = STR("default"), .line = 1, .column = 1, .end_line = 1, .end_column = 1};
     struct source *source = &set->items[at.source < set->count ? at.source : SOURCE_DEFAULT];
     struct source_place place = {
         .path = source->path, .line = 1, .column = 1, .end_line = 1, .end_column = 1};
-    if (source->text.len == 0 || source->kind == SOURCE_KIND_DEFAULT)
+    if (source->text.len == 0 || source->kind == SOURCE_KIND_GENERATED)
         return place; // what no one wrote has no lines to show
     if (!source->line_starts)
         map_lines(set, source);

@@ -26,10 +26,11 @@ enum {
 #define SPAN_NONE ((span){0, 0, 0})
 
 enum source_kind {
-    SOURCE_KIND_DEFAULT, // values that no one wrote; its text, where it has one, is never shown
+    SOURCE_KIND_DEFAULT, // values that no one wrote
     SOURCE_KIND_FILE,
-    SOURCE_KIND_OPTION,  // a --set option
-    SOURCE_KIND_OVERLAY, // text from memory that stands for a file
+    SOURCE_KIND_OPTION,    // a --set option
+    SOURCE_KIND_OVERLAY,   // text from memory that stands for a file
+    SOURCE_KIND_GENERATED, // text that no one wrote, around a file: it is never shown
 };
 
 struct source {

@@ -198,9 +198,30 @@ static void put_example(struct explainer *e, const char *title, struct strbuf *e
     strbuf_clear(example);
 }
 
+// Where the element stands: under its own name, or as the value of an attribute of another.
+static void put_spellings(struct explainer *e, const struct schema_element *schema) {
+    const struct schema_row *holder = NULL;
+    const struct schema_element *owner = NULL;
+    bool own = schema == &SCHEMA_SCENE;
+    for (const struct schema_element *const *s = schema_elements; *s; s++)
+        for (uint32_t i = 0; i < (*s)->row_count; i++) {
+            const struct schema_row *row = &(*s)->rows[i];
+            if (row->child != schema || !row->element)
+                continue;
+            own = own || strcmp(row->element, schema->element) == 0;
+            owner = *s;
+            holder = row;
+        }
+    if (own || !holder)
+        strbuf_format(e->out, "  (XML: <%s>)\n\n", schema->element);
+    else
+        strbuf_format(e->out, "  (the value of %s.%s, XML: <%s>)\n\n", owner->name, holder->name,
+                      holder->element);
+}
+
 static void explain_element(struct explainer *e, const struct schema_element *schema) {
     put(e, bold, schema->name);
-    strbuf_format(e->out, "  (XML: <%s>)\n\n", schema->element);
+    put_spellings(e, schema);
     paragraph(e, 2, schema->doc);
     for (uint32_t i = 0; i < schema->row_count; i++) {
         strbuf_cstr(e->out, "\n  ");
@@ -219,14 +240,32 @@ static void explain_element(struct explainer *e, const struct schema_element *sc
 
 // ---- what is meant
 
+static char folded(char c) {
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+// Whether two names differ in style only: LookAt, look_at, look-at, lookat.
+static bool is_called(str name, const char *known) {
+    size_t at = 0;
+    for (;; known++, at++) {
+        while (at < name.len && (name.ptr[at] == '_' || name.ptr[at] == '-'))
+            at++;
+        while (*known == '_')
+            known++;
+        if (at == name.len || !*known)
+            return at == name.len && !*known;
+        if (folded(name.ptr[at]) != folded(*known))
+            return false;
+    }
+}
+
 static bool is_row(const struct schema_row *row, str name) {
-    return str_equal_cstr(name, row->name) || str_equal_cstr(name, schema_yaml_key(row)) ||
-           (row->element && str_equal_cstr(name, row->element));
+    return is_called(name, row->name) || is_called(name, schema_yaml_key(row));
 }
 
 static const struct schema_element *find_element(str name) {
     for (const struct schema_element *const *e = schema_elements; *e; e++)
-        if (str_equal_cstr(name, (*e)->name) || str_equal_cstr(name, (*e)->element))
+        if (is_called(name, (*e)->name))
             return *e;
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         if (SCHEMA_SCENE.rows[i].child && is_row(&SCHEMA_SCENE.rows[i], name))
@@ -241,22 +280,61 @@ static int find_row(const struct schema_element *schema, str name) {
     return -1;
 }
 
-// "material.diffuse_color.checker": an element, then rows, each inside the one before.
-static bool explain_path(struct explainer *e, str what) {
+// The element that alone has this attribute, and its row; NULL: none, or several.
+static const struct schema_element *find_alone(str name, int *row) {
+    const struct schema_element *only = NULL;
+    for (const struct schema_element *const *s = schema_elements; *s; s++) {
+        int i = find_row(*s, name);
+        if (i >= 0 && only)
+            return NULL;
+        only = i >= 0 ? *s : only;
+        *row = i >= 0 ? i : *row;
+    }
+    return only;
+}
+
+static bool is_component(const struct schema_row *row, str name) {
+    const char *const *names = schema_components(row->kind);
+    while (*names && !is_called(name, *names))
+        names++;
+    return *names != NULL;
+}
+
+// The part of a path up to the next '.', an index in brackets left out.
+static str next_part(str *rest) {
     size_t end = 0;
-    while (end < what.len && what.ptr[end] != '.')
+    while (end < rest->len && rest->ptr[end] != '.')
         end++;
-    const struct schema_element *schema = find_element(str_slice(what, 0, end));
+    str part = str_slice(*rest, 0, end);
+    *rest = str_slice(*rest, end < rest->len ? end + 1 : end, rest->len);
+    const char *bracket = part.len ? memchr(part.ptr, '[', part.len) : NULL;
+    return bracket ? str_slice(part, 0, (size_t)(bracket - part.ptr)) : part;
+}
+
+// "material.diffuse_color.checker": an element, then rows, each inside the one before. Paths of --set, with
+// indices and names of entries, are understood too.
+static bool explain_path(struct explainer *e, str what) {
+    if (what.len && what.ptr[what.len - 1] == '.')
+        return false;
+    str first = next_part(&what);
+    const struct schema_element *schema = find_element(first);
+    bool may_be_name = schema && schema_key_row(schema) >= 0;
     int row = -1;
-    while (schema && end < what.len) {
-        size_t begin = ++end;
-        while (end < what.len && what.ptr[end] != '.')
-            end++;
-        if (row >= 0)
-            schema = schema->rows[row].child;
-        row = schema ? find_row(schema, str_slice(what, begin, end)) : -1;
-        if (row < 0)
+    if (!schema && what.len)
+        schema = find_alone(first, &row);
+    while (schema && what.len) {
+        str part = next_part(&what);
+        const struct schema_row *above = row >= 0 ? &schema->rows[row] : NULL;
+        if (above && what.len == 0 && is_component(above, part))
+            break;
+        if (above)
+            schema = above->child;
+        row = schema ? find_row(schema, part) : -1;
+        if (schema && row < 0)
+            row = schema_find_also(schema, part);
+        if (row < 0 && !(may_be_name && what.len))
             return false;
+        may_be_name = false;
     }
     if (!schema)
         return false;
@@ -267,24 +345,35 @@ static bool explain_path(struct explainer *e, str what) {
     return true;
 }
 
+// A word of other programs, where it means one thing only.
+static bool explain_other_word(struct explainer *e, str what) {
+    const struct schema_element *only = NULL;
+    for (const struct schema_element *const *s = schema_elements; *s; s++) {
+        bool has = schema_find_also(*s, what) >= 0;
+        if (has && only)
+            return false;
+        only = has ? *s : only;
+    }
+    if (only)
+        explain_attribute(e, only, (uint32_t)schema_find_also(only, what));
+    return only != NULL;
+}
+
 // An attribute without its element: explained where only one has it, else the elements are listed.
 static bool explain_alone(struct explainer *e, str what, bool *known) {
-    const struct schema_element *only = NULL;
-    unsigned count = 0;
-    for (const struct schema_element *const *s = schema_elements; *s; s++)
-        if (find_row(*s, what) >= 0) {
-            only = *s;
-            count++;
-        }
-    *known = count > 0;
-    if (count == 1)
-        explain_attribute(e, only, (uint32_t)find_row(only, what));
-    if (count <= 1)
-        return count == 1;
+    int row = -1;
+    const struct schema_element *only = find_alone(what, &row);
+    *known = only || row >= 0;
+    if (only)
+        explain_attribute(e, only, (uint32_t)row);
+    if (only || row < 0)
+        return only || explain_other_word(e, what);
     strbuf_format(e->out, "several elements have '%.*s'; say which: ", STR_ARG(what));
-    unsigned left = count;
+    unsigned left = 0;
+    for (const struct schema_element *const *s = schema_elements; *s; s++)
+        left += find_row(*s, what) >= 0;
     for (const struct schema_element *const *s = schema_elements; *s; s++) {
-        int row = find_row(*s, what);
+        row = find_row(*s, what);
         if (row < 0)
             continue;
         strbuf_format(e->out, "'%s.%s'", (*s)->name, (*s)->rows[row].name);

@@ -114,3 +114,21 @@ uint32_t ir_walk_components(const struct schema_row *row, const void *field, dou
     }
     return 0;
 }
+
+static void walk_paths(const struct schema_element *schema, void *element, ir_walk_visit_path *visit,
+                       void *context) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        struct ir_any_list list = ir_walk_list(row, element);
+        if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH && ir_walk_written(schema, i, element))
+            visit(context, schema, element, row, schema_field(row, element));
+        if (row->kind == SCHEMA_ELEMENT)
+            walk_paths(row->child, schema_field(row, element), visit, context);
+        for (uint32_t k = 0; k < list.count; k++)
+            walk_paths(row->child, ir_walk_item(row, list, k), visit, context);
+    }
+}
+
+void ir_walk_paths(struct ir_scene *scene, ir_walk_visit_path *visit, void *context) {
+    walk_paths(&SCHEMA_SCENE, scene, visit, context);
+}

@@ -44,6 +44,11 @@ int ir_walk_short(const struct ir_scene *scene, const struct schema_element *sch
 // The components of a vector, colour or weights; gives their number, 0 for other kinds.
 uint32_t ir_walk_components(const struct schema_row *row, const void *field, double out[4]);
 
+// Calls `visit` for each path of a file that the scene holds, and may change it.
+typedef void ir_walk_visit_path(void *context, const struct schema_element *schema, void *element,
+                                const struct schema_row *row, str *path);
+void ir_walk_paths(struct ir_scene *scene, ir_walk_visit_path *visit, void *context);
+
 static inline const struct ir_head *ir_walk_head(const void *element) {
     return element;
 }

@@ -60,6 +60,8 @@ for command in render check inspect convert schema explain devices; do
     expect "help of $command" 0 "^Usage: glint $command" - "$glint" $command --help
     expect "help names $command" 0 "^  $command " - "$glint" --help
 done
+expect "help of a command by its name" 0 '^Usage: glint check' - "$glint" help check
+expect "help of no command" 2 - "command-line:1:12: error: there is no command 'chek'" "$glint" help chek
 expect "no command" 2 - 'command-line:1:1: error: a command is needed' "$glint"
 expect "unknown command" 2 - "command-line:1:7: error: there is no command 'rendr'" "$glint" rendr good.yaml
 expect "nearest command" 2 - "did you mean 'render'" "$glint" rendr good.yaml
@@ -75,9 +77,42 @@ expect "limit out of range" 2 - 'from 1 to' "$glint" check good.yaml --limit mes
 expect "limits listed" 0 '^scene-bytes' - "$glint" check --limit help
 expect "too few operands" 2 - 'needs SCENE' "$glint" render
 expect "too many operands" 2 - 'no more than 1 argument' "$glint" render good.yaml two.yaml
+expect "the place of what is too much" 2 - 'command-line:1:52: error: .*no more than 2 arguments' \
+    "$glint" convert good.yaml --limit messages=9 out.xml x
+expect "no argument at all" 2 - "'glint devices' takes no argument" "$glint" devices x
+expect "an empty path" 2 - 'command-line:1:13: error: .* is empty' "$glint" check ''
+expect "an asset path that is no folder" 2 - 'command-line:1:23: error: --asset-path: .good.yaml. is no folder' \
+    "$glint" check good.yaml --asset-path good.yaml
+expect "the place of a bad output" 2 - 'command-line:1:24: error: the output' "$glint" render good.yaml -o out.gif --size 8x8
+expect "all cameras into one stream" 2 - "'--camera all' makes a file for each camera" \
+    "$glint" render two.yaml --camera all -o -
 expect "check is silent" 0 - - "$glint" check good.yaml
 expect "check finds the mistake" 1 - 'bad.yaml:2:39: error: .*\[E206\]' "$glint" check bad.yaml
 expect "the highest code of several" 3 - 'none.yaml:1:1: error: .*\[E601\]' "$glint" check bad.yaml none.yaml good.yaml
+"$glint" check bad.yaml two.yaml none.yaml bad.yaml >all.txt 2>&1
+printf 'bad.yaml:2:39\nnone.yaml:1:1\nbad.yaml:2:39\n' >wanted.txt
+grep -oE '^[a-z]+\.yaml:[0-9]+:[0-9]+' all.txt >places.txt
+expect "files are reported in the order of the command line" 0 - - cmp places.txt wanted.txt
+expect "no colours where no terminal is" 1 - - grep -q "$(printf '\033')" all.txt
+expect "messages have a limit" 1 - '1 more message not shown; --limit messages=N shows more' \
+    "$glint" check two.yaml --set image.width=0 --set image.height=0 --limit messages=1
+expect "a mesh is checked" 0 - - "$glint" check tri.obj
+printf 'v 0 0 0\nv 1 0\nf 1 2 3\n' >broken.obj
+expect "a broken mesh shows itself alone" 1 - 'broken.obj:2:1: error: .v. needs three numbers' "$glint" check broken.obj
+expect "and no scene that no one wrote" 1 - - grep -q 'mesh:' err.txt
+expect "a closed stream is an error of the write" 3 - 'cannot be written' sh -c '"$1" schema json >&-' sh "$glint"
+expect "a full disk is an error of the write" 3 - 'cannot be written: No space' sh -c '"$1" schema json >/dev/full' sh "$glint"
+expect "a closed pipe is an error of the write" 3 - 'cannot be written: Broken pipe' \
+    sh -c '{ "$1" schema json; echo $? >status.txt; } | :; exit $(cat status.txt)' sh "$glint"
+expect "closed streams do not become files" 0 - - sh -c '"$1" convert good.yaml closed.xml >&- 2>&- <&-' sh "$glint"
+expect "what was written is whole" 0 - - "$glint" check closed.xml
+expect "Vulkan is only looked for when it is needed" 1 - - sh -c 'ldd "$1" | grep -q vulkan' sh "$glint"
+if command -v script >/dev/null; then
+    script -qec "$glint check bad.yaml" /dev/null >tty.txt 2>&1
+    expect "colours on a terminal" 0 - - grep -q "$(printf '\033')" tty.txt
+    script -qec "env NO_COLOR=1 $glint check bad.yaml" /dev/null >tty.txt 2>&1
+    expect "NO_COLOR" 1 - - grep -q "$(printf '\033')" tty.txt
+fi
 expect "a limit is obeyed" 3 - 'E501' "$glint" check good.yaml --limit scene-bytes=10
 expect "inspect" 0 'spheres +1' '' "$glint" inspect good.yaml
 expect "inspect names the reason" 0 'good.yaml:[0-9]+:[0-9]+: ' '' "$glint" inspect good.yaml
@@ -85,6 +120,10 @@ expect "inspect shows no refraction" 0 'not required:.* refraction' '' "$glint" 
 expect "inspect --ir" 0 'radius: 1' - "$glint" inspect --ir good.yaml
 expect "explain a code" 0 'range' - "$glint" explain e206
 expect "explain an attribute" 0 'refraction' - "$glint" explain material.albedo
+expect "explain in another style" 0 '^camera.look_at' - "$glint" explain LookAt
+expect "explain a path of --set" 0 '^material.albedo' - "$glint" explain materials.glass.albedo.refraction
+expect "explain what others say" 0 '^material.refractive_index' - "$glint" explain ior
+expect "explain which of several" 2 - "say which: 'camera.position' or 'light.position'" "$glint" explain position
 expect "explain nonsense" 2 - 'error:' "$glint" explain nonsense
 expect "schema json" 0 'draft-07' - "$glint" schema json
 expect "schema relaxng" 0 'relaxng.org' - "$glint" schema relaxng
@@ -95,6 +134,36 @@ expect "the comment came along" 0 'a small picture' - cat good.xml
 "$glint" inspect --ir good.yaml >a.ir && "$glint" inspect --ir good.xml >b.ir
 expect "twins are equal" 0 - - cmp a.ir b.ir
 expect "convert to standard output" 0 '^<Scene|^  <Image' - "$glint" convert good.yaml -
+expect "convert to JSON" 0 - - "$glint" convert good.yaml good.json
+expect "JSON is good" 0 - - "$glint" check good.json
+"$glint" inspect --ir good.json >c.ir
+expect "and the same" 0 - - cmp a.ir c.ir
+cp good.yaml itself.yaml
+expect "convert onto itself" 2 - 'command-line:1:27: error: OUT is IN itself' "$glint" convert itself.yaml ./itself.yaml
+expect "which stays" 0 - - cmp good.yaml itself.yaml
+expect "convert what is wrong" 1 - 'E206' "$glint" convert bad.yaml bad.xml
+expect "writes nothing" 2 - '' ls bad.xml
+expect "convert into no folder" 3 - 'none/x.xml:1:1: error: cannot be written' "$glint" convert good.yaml none/x.xml
+mkdir -p moved/deep/meshes moved/out
+cp tri.obj moved/deep/meshes/
+printf 'glint: 1\nmaterials: {red: {}}\n' >moved/deep/red.yaml
+printf '<Scene glint="1"><Include file="red.yaml"/><Model mesh="meshes/tri.obj" material="red"/></Scene>\n' >moved/deep/a.xml
+expect "convert into the folder above" 0 - - "$glint" convert moved/deep/a.xml moved/up.yaml
+expect "paths follow" 0 'mesh: deep/meshes/tri.obj' - cat moved/up.yaml
+expect "and includes" 0 'include: \[deep/red.yaml\]' - cat moved/up.yaml
+expect "and are found" 0 - - "$glint" check moved/up.yaml
+expect "convert beside" 0 - 'warning: from .moved/out/a.yaml. 2 paths .*\[W604\]' "$glint" convert moved/deep/a.xml moved/out/a.yaml
+expect "which needs the way out" 1 - 'E602' "$glint" check moved/out/a.yaml
+expect "that the message names" 0 - - "$glint" check moved/out/a.yaml --asset-path moved/deep
+: >moved/.glintrc.yaml
+expect "convert below a marked root" 0 - - "$glint" convert moved/deep/a.xml moved/out/a.yaml
+expect "is good" 0 - - "$glint" check moved/out/a.yaml
+expect "paths stay on standard output" 0 'mesh: meshes/tri.obj' - "$glint" convert moved/deep/a.xml -
+expect "--set with a colour" 0 'color: "#ff8000"' - "$glint" inspect --ir good.yaml --set 'background.color=#ff8000'
+expect "--set with blanks" 0 'fov: 30' - "$glint" inspect --ir good.yaml --set 'camera.fov = 30'
+expect "--set with a whole entry" 0 'radius: 7' - "$glint" inspect --ir good.yaml --set 'spheres[0]={center: [0, 0, 0], radius: 7}'
+expect "--set that cannot be read" 2 - "'=' is missing" "$glint" check good.yaml --set 'camera.fov'
+expect "--set through a name" 1 - 'E221.*|to change it wherever it is used: --set materials' "$glint" check moved/up.yaml --set 'models[0].material.albedo=[1, 0, 0, 0]'
 expect "--set changes a value" 0 'radius: 2' - "$glint" inspect --ir good.yaml --set 'spheres[0].radius=2'
 expect "--set with a mistake" 1 - 'error:.*E206' "$glint" inspect --ir good.yaml --set 'spheres[0].radius=-2'
 expect "--set that leads nowhere" 1 - 'error:.*E220' "$glint" check good.yaml --set 'sphere[0].radius=2'

@@ -197,6 +197,14 @@ static void test_every_row_is_explained(void **state) {
     assert_explained("fov", "camera.fov");
     assert_explained("Light.Position", "not together with 'direction'");
     assert_explained("materials.diffuse_color.checker.colors", "checker.color");
+    // As --set, other styles and other programs have them.
+    assert_explained("materials.glass.albedo", "material.albedo");
+    assert_explained("lights[0].position.x", "light.position");
+    assert_explained("albedo.diffuse", "material.albedo");
+    assert_explained("sphere.Radius", "sphere.radius");
+    assert_explained("lookat", "camera.look_at");
+    assert_explained("ior", "material.refractive_index");
+    assert_explained("paint", "XML: <DiffuseColor>");
     assert_explained("image.tone", "clip: Values above 1 are cut.");
 }
 
