@@ -188,13 +188,37 @@ static bool is_hex(struct override *o, const struct override_target *target) {
     return true;
 }
 
+// "#aabbcc" alone: in a file it would be a comment, here it can mean one thing only.
+static bool read_color(struct override *o, struct arena *arena, struct tree *tree) {
+    str rest = str_slice(o->text, o->value_begin, o->text.len);
+    str text = str_trim(rest);
+    if (text.len != 7 || text.ptr[0] != '#')
+        return false;
+    for (size_t i = 1; i < text.len; i++)
+        if (!memchr("0123456789abcdefABCDEF", text.ptr[i], 22))
+            return false;
+    uint32_t begin = (uint32_t)(text.ptr - o->text.ptr);
+    tree_init(tree, arena, o->source, false);
+    tree->root = tree_add(tree, (struct tree_node){.kind = TREE_SCALAR,
+                                                   .style = TREE_QUOTED,
+                                                   .begin = begin,
+                                                   .end = begin + (uint32_t)text.len,
+                                                   .value = tree_add_text(tree, text),
+                                                   .count = (uint32_t)text.len});
+    return true;
+}
+
 static void set_target(struct override *o, const struct override_target *target) {
     struct reader_context reader = {.sources = o->loader->input->sources,
                                     .sink = o->loader->input->sink,
                                     .limits = o->loader->input->limits,
                                     .arena = &o->loader->scratch};
     struct tree tree = {.source = o->source};
-    if (is_hex(o, target) || !read_yaml_value(&reader, o->source, o->value_begin, &tree) || tree.root == 0)
+    if (is_hex(o, target))
+        return;
+    if (!read_color(o, reader.arena, &tree) && !read_yaml_value(&reader, o->source, o->value_begin, &tree))
+        return;
+    if (tree.root == 0)
         return;
     o->context.tree = &tree;
     mark_written(o, target->frame);

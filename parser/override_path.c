@@ -101,5 +101,8 @@ bool override_parse(struct override *o) {
     if (end == 0)
         return syntax(o, at(o, 0, 1), "the path is missing before '='");
     o->value_begin = (uint32_t)end + 1;
+    while (end > 1 && o->text.ptr[end - 1] == ' ')
+        end--; // "radius = 2"
+    o->path = at(o, 0, end);
     return parse_steps(o, end);
 }

@@ -45,6 +45,10 @@ static void rows_and_their_places(void **state) {
     assert_int_equal(file->image.height, 768);
     assert_null(ir_origin_row(&l.output.origin, &file->image.head, 1));
     loaded_finish(&l);
+    s = good(&l, "background.color=#8090a0", "image.height = 50");
+    assert_true(s->background.color.is_hex && s->background.color.hex == 0x8090A0);
+    assert_int_equal(s->image.height, 50);
+    loaded_finish(&l);
 }
 
 static void later_options_win(void **state) {
@@ -160,10 +164,14 @@ static void mistakes_in_the_value(void **state) {
     expect("spheres[0].material=glas", "E301", "did you mean 'glass'?");
     expect("materials.glass={albdo: 1}", "E202", "--set:1:18: error: a material has no 'albdo'");
     expect("image.width=[1", "E219", "--set:1:");
+    expect("image.width=#ffffff", "E205", "'#ffffff' is not a number");
+    expect("background.color=[#ffffff]", "E120", "write \"#ffffff\"");
 }
 
 static void mistakes_in_the_path(void **state) {
     (void)state;
+    expect("image.width =x", "E205", "--set:1:14: error: 'image.width': 'x' is not a number");
+    expect("image .width=5", "E220", "did you mean 'image'?");
     expect("image", "E219", "'=' is missing behind the path");
     expect("=5", "E219", "the path is missing before '='");
     expect("a..b=5", "E219", "--set:1:3: error: a key is missing here");
