@@ -9,6 +9,7 @@
 enum {
     SHORT_PATH_RAYS = 4,    // paths of at most these are never saved
     BAND_TILES_MAX = 16384, // a megapixel: progress is told, and Ctrl-C seen, between bands
+    RUN_TILES = 32,         // 65536 runs at most in 64 megapixels: their products fit 32 bits
     SLOT_OUTPUT_BYTES = 16,
     WORD_BYTES = 16,
 };
@@ -32,10 +33,10 @@ struct render_settings render_settings_of(const struct ir_scene *scene, const st
     };
 }
 
-// A step through the tile rows that is coprime to their number and near the golden section of it.
-static uint32_t row_step_of(uint32_t rows) {
-    for (uint32_t step = (uint32_t)(rows * 0.618); step > 1; step--) {
-        uint32_t a = rows, b = step;
+// A step through the runs that is coprime to their number and near the golden section of it.
+static uint32_t run_step_of(uint32_t runs) {
+    for (uint32_t step = (uint32_t)(runs * 0.618); step > 1; step--) {
+        uint32_t a = runs, b = step;
         while (b) {
             const uint32_t rest = a % b;
             a = b;
@@ -74,15 +75,19 @@ static void plan(struct renderer *renderer) {
     if ((renderer->features & bounces) == bounces)
         renderer->path_stack = settings->max_depth + 1;
     renderer->tiles_x = (settings->width + TILE_SIDE - 1) / TILE_SIDE;
-    renderer->tiles_y = (settings->height + TILE_SIDE - 1) / TILE_SIDE;
-    renderer->row_step = row_step_of(renderer->tiles_y);
+    const uint32_t tiles_y = (settings->height + TILE_SIDE - 1) / TILE_SIDE;
+    renderer->run_tiles = RUN_TILES;
+    renderer->runs = (renderer->tiles_x * tiles_y + renderer->run_tiles - 1) / renderer->run_tiles;
+    renderer->run_step = run_step_of(renderer->runs);
+    renderer->tiles = renderer->runs * renderer->run_tiles;
     uint64_t slot_bytes = slot_state_bytes(renderer);
     slot_bytes = slot_bytes > SLOT_OUTPUT_BYTES ? slot_bytes : SLOT_OUTPUT_BYTES;
     const struct gpu_device_info *device = gpu_info(renderer->gpu);
     uint64_t tiles = band_bytes(device) / (slot_bytes * TILE_PIXELS);
     tiles = device->kind != GPU_CPU || tiles < BAND_TILES_MAX ? tiles : BAND_TILES_MAX;
-    const uint64_t all = (uint64_t)renderer->tiles_x * renderer->tiles_y;
-    renderer->band_tiles = (uint32_t)(tiles < all ? tiles : all);
+    // Bands of equal size: a small last one would keep few threads busy.
+    const uint64_t bands = (renderer->tiles + tiles - 1) / tiles;
+    renderer->band_tiles = (uint32_t)((renderer->tiles + bands - 1) / bands);
 }
 
 static bool upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,

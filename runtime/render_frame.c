@@ -17,9 +17,10 @@ enum {
 void renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y) {
     const uint32_t tile = tile_begin + slot / TILE_PIXELS, i = slot % TILE_PIXELS;
-    const uint32_t row = tile / renderer->tiles_x * renderer->row_step % renderer->tiles_y;
-    *x = tile % renderer->tiles_x * TILE_SIDE + ((i & 1) | (i >> 1 & 2) | (i >> 2 & 4));
-    *y = row * TILE_SIDE + ((i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4));
+    const uint32_t run = tile / renderer->run_tiles * renderer->run_step % renderer->runs;
+    const uint32_t place = run * renderer->run_tiles + tile % renderer->run_tiles;
+    *x = place % renderer->tiles_x * TILE_SIDE + ((i & 1) | (i >> 1 & 2) | (i >> 2 & 4));
+    *y = place / renderer->tiles_x * TILE_SIDE + ((i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4));
 }
 
 static void put(float out[3], vec3 v) {
@@ -55,8 +56,9 @@ static bool write_frame(struct renderer *renderer, const struct view_camera *cam
         .width = settings->width,
         .height = settings->height,
         .tiles_x = renderer->tiles_x,
-        .tiles_y = renderer->tiles_y,
-        .row_step = renderer->row_step,
+        .run_tiles = renderer->run_tiles,
+        .runs = renderer->runs,
+        .run_step = renderer->run_step,
         .sphere_count = flat->sphere_count,
         .slice_iterations = settings->slice_iterations,
         .features = flat->features,
@@ -217,7 +219,7 @@ static enum render_result draw_band(struct frame_run *run, uint32_t tile_begin, 
 
 static enum render_result draw_frame(struct frame_run *run, const struct view_camera *camera, float *rgb) {
     struct renderer *renderer = run->renderer;
-    const uint32_t tiles = renderer->tiles_x * renderer->tiles_y;
+    const uint32_t tiles = renderer->tiles;
     const double start = clock_seconds();
     *run->statistics = (struct render_statistics){0};
     run->statistics->bands = (tiles + renderer->band_tiles - 1) / renderer->band_tiles;

@@ -24,9 +24,10 @@ struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
     struct render_settings settings;
-    uint32_t features;   // of the scene, and FEATURE_SLICES
-    uint32_t path_stack; // entries
-    uint32_t tiles_x, tiles_y, row_step;
+    uint32_t features;       // of the scene, and FEATURE_SLICES
+    uint32_t path_stack;     // entries
+    uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
+    uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
     struct gpu_program *program;

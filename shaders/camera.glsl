@@ -7,12 +7,13 @@ uvec2 morton(uint index) {
                  ((index >> 1u) & 1u) | ((index >> 2u) & 2u) | ((index >> 3u) & 4u));
 }
 
-// Slots count through the band: 64 a tile. Tile rows are permuted, since CPU devices give each thread a
-// contiguous range of workgroups, and sky is cheaper than ground.
+// Slots count through the band: 64 a tile. CPU devices give each thread a contiguous range of workgroups, and
+// sky is cheaper than ground: so short runs of tiles are scattered over the picture.
 uvec2 pixel_of_slot(uint slot) {
     uint tile = dispatch.tile_begin + slot / TILE_PIXELS;
-    uint row = (tile / frame.tiles_x) * frame.row_step % frame.tiles_y;
-    return uvec2(tile % frame.tiles_x, row) * TILE_SIDE + morton(slot % TILE_PIXELS);
+    uint run = (tile / frame.run_tiles) * frame.run_step % frame.runs;
+    uint place = run * frame.run_tiles + tile % frame.run_tiles;
+    return uvec2(place % frame.tiles_x, place / frame.tiles_x) * TILE_SIDE + morton(slot % TILE_PIXELS);
 }
 
 vec3 camera_direction(uvec2 pixel) {

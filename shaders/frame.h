@@ -22,8 +22,9 @@
     UINT(width) /* of the picture, in pixels */                                                              \
     UINT(height)                                                                                             \
     UINT(tiles_x)                                                                                            \
-    UINT(tiles_y)                                                                                            \
-    UINT(row_step) /* tile row r shows row r * row_step mod tiles_y */                                       \
+    UINT(run_tiles) /* runs of so many tiles lie side by side */                                             \
+    UINT(runs)                                                                                               \
+    UINT(run_step) /* run k is the picture's run k * run_step mod runs */                                    \
     UINT(sphere_count)                                                                                       \
     UINT(slice_iterations) /* past these a path is saved at the next ray boundary */                         \
     UINT(features)         /* of the scene: what the mask only makes possible, these bits decide */

@@ -118,7 +118,7 @@ struct original *original_create(struct renderer *renderer, enum original_fetch 
     if (o) {
         o->renderer = renderer;
         o->fetch = fetch;
-        o->tiles = renderer->tiles_x * renderer->tiles_y;
+        o->tiles = renderer->tiles;
         if (prepare(o))
             return o;
         original_destroy(o);
