@@ -11,7 +11,7 @@ static const double RADIANS = 3.14159265358979323846 / 180;
 
 enum {
     TILES_A_PIECE = 256,
-    GRID_WIDTH = 1024, // workgroups in x; the rest go to y
+    GRID_WIDTH_MAX = 65535, // what every device allows; more workgroups go to further rows
 };
 
 void renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
@@ -91,8 +91,10 @@ static bool run_once(struct frame_run *run, const struct dispatch_block *block, 
     return true;
 }
 
+// Rows of one length: empty workgroups at the end would all fall to one of a CPU's threads.
 static uint32_t grid_width(uint32_t groups) {
-    return groups < GRID_WIDTH ? groups : GRID_WIDTH;
+    const uint32_t rows = (groups + GRID_WIDTH_MAX - 1) / GRID_WIDTH_MAX;
+    return (groups + rows - 1) / rows;
 }
 
 static bool is_wanted(const struct frame_run *run, double part) {
