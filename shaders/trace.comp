@@ -125,6 +125,21 @@ bool find_light(inout path_state p, surface s, vec3 start, inout light_ray shado
     return found;
 }
 
+// What the path's own ray met.
+uint take_hit(inout path_state p, hit_record hit) {
+    hit.number = hit.item == NO_ITEM ? p.hit.number : hit.number; // a fault names the last hit
+    p.hit = hit;
+    p.light = 0u;
+    p.light_sum = vec3(0.0);
+    return hit.item == NO_ITEM ? MISSED : GOES_ON;
+}
+
+// What a shadow ray met: nothing lets the light through.
+void take_light(inout path_state p, hit_record hit, light_ray shadow) {
+    p.light_sum = hit.item == NO_ITEM ? p.light_sum + shadow.value : p.light_sum;
+    p.light++;
+}
+
 // Follows a path until it ends, or until its slice does.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON;
@@ -154,17 +169,10 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     break;
                 count_ray(p, own);
             }
-            if (own) {
-                state = hit.item == NO_ITEM ? MISSED : GOES_ON;
-                hit.number = hit.item == NO_ITEM ? p.hit.number : hit.number; // a fault names the last hit
-                p.hit = hit;
-                p.light = 0u;
-                p.light_sum = vec3(0.0);
-            }
-            if (phase == PHASE_SHADOW) {
-                p.light_sum = hit.item == NO_ITEM ? p.light_sum + shadow.value : p.light_sum;
-                p.light++;
-            }
+            if (own)
+                state = take_hit(p, hit);
+            if (phase == PHASE_SHADOW)
+                take_light(p, hit, shadow);
             if (state == GOES_ON && phase != PHASE_SHADOW) {
                 make_surface(p.hit, p.origin, p.direction, s);
                 start = ray_start(s.point, s.error, s.geometric);
