@@ -134,13 +134,18 @@ static bool make_band(struct renderer *renderer) {
            upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block));
 }
 
+// The root has no siblings that could wait, and nodes without inner children leave nothing to come back from.
+static uint32_t stack_levels(uint32_t depth) {
+    return depth > 3 ? depth - 2 : 1;
+}
+
 struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features) {
     const struct flat_scene *flat = renderer->flat;
     const bool texels = gpu_fetches_texels(renderer->gpu);
     const uint32_t constants[CONSTANT_COUNT] = {
         [CONSTANT_FEATURES] = features,
-        [CONSTANT_TRIANGLE_STACK] = flat->triangle_depth ? flat->triangle_depth : 1,
-        [CONSTANT_SPHERE_STACK] = flat->sphere_depth ? flat->sphere_depth : 1,
+        [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
+        [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
     };
     struct gpu_program_source source = {
         .spirv = texels ? kernel_trace_texels : kernel_trace_storage,

@@ -82,7 +82,7 @@
 
 /* Specialization constants. */
 #define CONSTANT_FEATURES       0
-#define CONSTANT_TRIANGLE_STACK 1 /* levels of the triangle tree */
+#define CONSTANT_TRIANGLE_STACK 1 /* groups of nodes that wait at most */
 #define CONSTANT_SPHERE_STACK   2
 #define CONSTANT_COUNT          3
 

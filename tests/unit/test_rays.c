@@ -65,6 +65,11 @@ static struct gpu_buffer *buffer(struct gpu *gpu, enum gpu_use use, const void *
     return made;
 }
 
+// As the renderer has it.
+static uint32_t levels(uint32_t depth) {
+    return depth > 3 ? depth - 2 : 1;
+}
+
 static void probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat) {
     const struct flat_array *arrays[] = {[BINDING_TRIANGLE_NODES] = &flat->triangle_nodes,
                                          [BINDING_TRIANGLES] = &flat->triangles,
@@ -76,7 +81,7 @@ static void probe_init(struct probe *probe, struct gpu *gpu, const struct flat_s
     const struct frame_block frame = {.sphere_count = flat->sphere_count};
     const uint32_t constants[CONSTANT_COUNT] = {flat->features &
                                                     (FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_SMOOTH),
-                                                flat->triangle_depth, flat->sphere_depth};
+                                                levels(flat->triangle_depth), levels(flat->sphere_depth)};
     const bool texels = gpu_fetches_texels(gpu);
     *probe = (struct probe){.gpu = gpu};
     probe->source = (struct gpu_program_source){.spirv = texels ? kernel_probe_texels : kernel_probe_storage,
