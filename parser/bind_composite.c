@@ -208,7 +208,8 @@ static bool bind_color_text(struct bind_context *context, struct bind_subject su
     bool letter = text.len &&
                   ((text.ptr[0] >= 'a' && text.ptr[0] <= 'z') || (text.ptr[0] >= 'A' && text.ptr[0] <= 'Z'));
     bool looks_like_color = text.len && (text.ptr[0] == '#' || (letter && status == NUMBER_NOT_A_NUMBER));
-    bool six_digits = text.len == 6 && status == NUMBER_UNIT && hex_digits(text, &hex);
+    bool is_quoted = tree_node(context->tree, node)->style == TREE_QUOTED;
+    bool six_digits = text.len == 6 && (status == NUMBER_UNIT || is_quoted) && hex_digits(text, &hex);
     if (looks_like_color || six_digits)
         return bad_color(context, subject, node);
     if (!bind_number(context, subject, node, &value))

@@ -15,14 +15,15 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
         return false;
     str s = say_subject(context->scratch, subject);
     diag_add(context->sink, DIAG_NO_VALUE, tree_span(context->tree, node), "%.*s has no value", STR_ARG(s));
-    if (subject.row && subject.row->kind == SCHEMA_TEXT && tree_text(context->tree, node).len)
+    bool is_text = subject.row && (subject.row->kind == SCHEMA_TEXT || subject.row->kind == SCHEMA_REFERENCE);
+    if (is_text && tree_text(context->tree, node).len > 1)
         diag_help(context->sink, "'%.*s' stands for nothing in YAML; quote it if you mean the word",
                   STR_ARG(tree_text(context->tree, node)));
     else if (subject.row && subject.row->required)
         bind_help_example(context, subject);
     else if (!subject.row && subject.frame->via->many == SCHEMA_SEQUENCE)
         diag_help(context->sink, "write the entry, or remove the '-'");
-    else if (!subject.row || subject.row->kind == SCHEMA_ELEMENT)
+    else if (!subject.row && schema_short_row(subject.frame->schema) < 0)
         diag_help(context->sink, "write {} for the defaults, or leave the key out");
     else
         diag_help(context->sink, "write the value, or leave the key out");

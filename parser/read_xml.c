@@ -170,6 +170,7 @@ static void report_element_prefix(struct xml_reader *r, str name, span at) {
         diag_add(sink, DIAG_XML_FOREIGN, at, "XInclude has no meaning in a scene");
         diag_help(sink, "write <Include file=\"...\"/>");
         r->xinclude = SPAN_NONE;
+        r->uses_xinclude = true;
         return;
     }
     diag_add(sink, DIAG_XML_NAMESPACE, at, "the elements of a scene have no prefix");
@@ -198,7 +199,7 @@ static bool is_foreign(struct xml_reader *r, str name, str value, struct xml_att
         diag_help(sink, "%s",
                   base ? "remove it: paths are relative to the file that holds them" : "remove it");
     } else if (declares && str_equal(value, STR(XINCLUDE))) {
-        r->xinclude = at;
+        r->xinclude = r->uses_xinclude ? SPAN_NONE : at;
     } else {
         diag_add(sink, DIAG_XML_NAMESPACE, at, "a scene has no namespaces: '%.*s'",
                  STR_ARG(reader_clip(name)));

@@ -51,6 +51,7 @@ struct xml_reader {
     tree_index line_entry;       // the element whose tag ended last, on this line
     uint32_t tag_end;            // where the last tag or comment ended
     span xinclude;               // the declaration of XInclude's prefix, until an element uses it
+    bool uses_xinclude;          // an element did, which was reported
     span root_end;               // the tag that closed the root
 };
 
