@@ -6,6 +6,10 @@ static int check_one(struct cli *cli, struct asset_store *store, const char *pat
     struct session_options options = cli_session_options(cli, path);
     options.skip_pixels = true;
     session_load(&session, &options, store);
+    // The notes about what stands in for a camera or a light that is not written.
+    struct view view;
+    if (cli->options.verbose && session.state == SESSION_LOADED && session.sink.errors == 0)
+        session_view(&session, 0, &view);
     int status = cli_report(cli, &session, cli->options.verbose);
     session_finish(&session);
     return status;
