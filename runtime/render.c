@@ -142,10 +142,12 @@ static uint32_t stack_levels(uint32_t depth) {
 struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features) {
     const struct flat_scene *flat = renderer->flat;
     const bool texels = gpu_fetches_texels(renderer->gpu);
+    const uint64_t most = (uint64_t)NODE_WORDS << 16;
     const uint32_t constants[CONSTANT_COUNT] = {
         [CONSTANT_FEATURES] = features,
         [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
+        [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
     };
     struct gpu_program_source source = {
         .spirv = texels ? kernel_trace_texels : kernel_trace_storage,

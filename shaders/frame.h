@@ -84,6 +84,7 @@
 #define CONSTANT_FEATURES       0
 #define CONSTANT_TRIANGLE_STACK 1 /* groups of nodes that wait at most */
 #define CONSTANT_SPHERE_STACK   2
-#define CONSTANT_COUNT          3
+#define CONSTANT_PACKED_GROUPS  3 /* 1: both trees have at most 65536 nodes */
+#define CONSTANT_COUNT          4
 
 #endif

@@ -9,6 +9,7 @@
 layout(constant_id = CONSTANT_FEATURES) const uint FEATURES = 0xffffffffu;
 layout(constant_id = CONSTANT_TRIANGLE_STACK) const uint TRIANGLE_STACK = 32u;
 layout(constant_id = CONSTANT_SPHERE_STACK) const uint SPHERE_STACK = 32u;
+layout(constant_id = CONSTANT_PACKED_GROUPS) const bool PACKED_GROUPS = false;
 
 const bool HAS_TRIANGLES = (FEATURES & FEATURE_TRIANGLES) != 0u;
 const bool HAS_SPHERES = (FEATURES & FEATURE_SPHERES) != 0u;

@@ -83,23 +83,39 @@ uint next_node(inout uvec2 group, uint flip) {
 }
 
 // The groups that wait on the way back to the root. lavapipe writes an indexed private array lane by lane, a
-// fifth of the whole time: there all levels move by one instead, which costs two blends a level. An empty
-// group is the bottom.
+// fifth of the whole time: there all levels move by one instead, which costs two blends a level and word, and a
+// group is one word where node numbers are short enough. An empty group, 0, is the bottom.
 #ifdef FETCH_TEXELS
+uint packed_group(uvec2 group) {
+    return PACKED_GROUPS ? (group.x << 16u) | ((group.y >> 16u) & 0xff00u) | (group.y & 0xffu) : group.y;
+}
+uvec2 unpacked_group(uint word, uint base) {
+    return PACKED_GROUPS ? uvec2(word >> 16u, ((word << 16u) & 0xff000000u) | (word & 0xffu)) : uvec2(base, word);
+}
 #define STACK(levels)                                                                                        \
-    uvec2 stack[levels];                                                                                     \
-    for (int i = 0; i < int(levels); i++)                                                                    \
-        stack[i] = uvec2(0u);
+    uint stack[levels], bases[PACKED_GROUPS ? 1u : levels];                                                  \
+    for (int i = 0; i < int(levels); i++) {                                                                  \
+        stack[i] = 0u;                                                                                       \
+        if (!PACKED_GROUPS)                                                                                  \
+            bases[i] = 0u;                                                                                   \
+    }
+#define STACK_MOVE(levels, words, below, push, pop)                                                          \
+    {                                                                                                        \
+        uint under = below;                                                                                  \
+        for (int i = 0; i < int(levels); i++) {                                                              \
+            uint here = words[i], above = i + 1 < int(levels) ? words[i + 1] : 0u;                           \
+            words[i] = push ? under : pop ? above : here;                                                    \
+            under = here;                                                                                    \
+        }                                                                                                    \
+    }
 #define STACK_NEXT(levels, group, rest, found, more)                                                         \
     {                                                                                                        \
         bool push = has_nodes(found) && has_nodes(rest), pop = !has_nodes(found) && !has_nodes(rest);        \
-        group = has_nodes(found) ? found : has_nodes(rest) ? rest : stack[0];                                \
-        uvec2 below = rest;                                                                                  \
-        for (int i = 0; i < int(levels); i++) {                                                              \
-            uvec2 here = stack[i], above = i + 1 < int(levels) ? stack[i + 1] : uvec2(0u);                   \
-            stack[i] = push ? below : pop ? above : here;                                                    \
-            below = here;                                                                                    \
-        }                                                                                                    \
+        uvec2 top = unpacked_group(stack[0], PACKED_GROUPS ? 0u : bases[0]);                                 \
+        group = has_nodes(found) ? found : has_nodes(rest) ? rest : top;                                     \
+        STACK_MOVE(levels, stack, packed_group(rest), push, pop)                                             \
+        if (!PACKED_GROUPS)                                                                                  \
+            STACK_MOVE(levels, bases, rest.x, push, pop)                                                     \
         more = has_nodes(group);                                                                             \
     }
 #else
