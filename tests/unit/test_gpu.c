@@ -75,21 +75,28 @@ static void test_no_loader(void **state) {
 
 static void test_no_driver(void **state) {
     needed(state);
+    // Newer loaders read the second name first.
+    static const char *const names[] = {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"};
+    char *kept[2];
+    for (int i = 0; i < 2; i++) {
+        const char *old = getenv(names[i]);
+        kept[i] = old ? strdup(old) : NULL;
+        setenv(names[i], "/nonexistent/driver.json", 1);
+    }
     char error[GPU_ERROR_BYTES] = "";
     uint32_t count = 7;
     struct gpu *gpu = NULL;
-    const char *old = getenv("VK_ICD_FILENAMES");
-    char *kept = old ? strdup(old) : NULL;
-    setenv("VK_ICD_FILENAMES", "/nonexistent/driver.json", 1);
     assert_int_equal(gpu_list(NULL, 0, &count, error), GPU_NO_DRIVER);
     assert_int_equal(count, 0);
     assert_non_null(strstr(error, "driver"));
     assert_int_equal(gpu_create(&(struct gpu_options){0}, &gpu, error), GPU_NO_DRIVER);
-    if (kept)
-        setenv("VK_ICD_FILENAMES", kept, 1);
-    else
-        unsetenv("VK_ICD_FILENAMES");
-    free(kept);
+    for (int i = 0; i < 2; i++) {
+        if (kept[i])
+            setenv(names[i], kept[i], 1);
+        else
+            unsetenv(names[i]);
+        free(kept[i]);
+    }
 }
 
 // ---- devices
