@@ -253,8 +253,10 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
     if (anchor)
         number = yaml_anchor_add(r, str_from((const char *)anchor), p.anchor, 0);
     yaml_open(r, added, number);
-    if (number)
+    if (number) {
         r->anchors.items[number].node = added;
+        tree_node(r->tree, added)->flags |= TREE_SHARED;
+    }
 }
 
 // `[ #aabbcc` with the bracket closed on a later line: a list that seems to be empty.

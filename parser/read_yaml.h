@@ -98,6 +98,8 @@ void yaml_close_cut(struct yaml_reader *reader);
 // Remembers a name for a node (0: one that is yet to be added); gives its number.
 uint32_t yaml_anchor_add(struct yaml_reader *reader, str name, span at, tree_index node);
 void yaml_alias(struct yaml_reader *reader, str name, span at);
+// A copy of a node, within the budget of aliases; 0 where that is used up (reported).
+tree_index yaml_copy(struct yaml_reader *reader, tree_index node);
 
 // ---- read_yaml_keys.c
 // Moves the pairs of the value of '<<' into the map of the frame.

@@ -7,6 +7,8 @@ uint32_t yaml_anchor_add(struct yaml_reader *r, str name, span at, tree_index no
     struct yaml_anchor *anchor = ARENA_PUSH(r->context->arena, &r->anchors);
     *anchor = (struct yaml_anchor){arena_copy(r->context->arena, name), at, node, node == 0};
     uint32_t index = r->anchors.count - 1;
+    if (node)
+        tree_node(r->tree, node)->flags |= TREE_SHARED;
     reader_names_at(&r->anchor_names, anchor->name)->value = index;
     return index;
 }
@@ -61,6 +63,7 @@ static tree_index copy_node(struct yaml_reader *r, tree_index from, uint64_t dep
         return 0;
     tree_index child = nests ? node.value : 0;
     node.next = 0;
+    node.flags &= (uint8_t)~TREE_SHARED;
     if (nests)
         node.value = 0;
     tree_index copy = yaml_add(r, node);
@@ -73,6 +76,10 @@ static tree_index copy_node(struct yaml_reader *r, tree_index from, uint64_t dep
         last = copied;
     }
     return copy;
+}
+
+tree_index yaml_copy(struct yaml_reader *r, tree_index node) {
+    return copy_node(r, node, r->depth, tree_span(r->tree, node));
 }
 
 void yaml_alias(struct yaml_reader *r, str name, span at) {

@@ -20,7 +20,10 @@ static void move_pairs(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
 static void merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_index value) {
     const struct tree_node *node = tree_node(r->tree, value);
     if (node->kind == TREE_MAP) {
-        move_pairs(r, frame, value);
+        bool shared = (node->flags & TREE_SHARED) != 0;
+        tree_index pairs = shared ? yaml_copy(r, value) : value;
+        if (!r->stopped)
+            move_pairs(r, frame, pairs);
         return;
     }
     tree_node(r->tree, frame->node)->flags |= TREE_CUT; // what it lacks was to come from there
@@ -51,6 +54,8 @@ enum {
 // either: both are maps, or lists of maps.
 static bool joins(const struct tree *tree, tree_index a, tree_index b) {
     unsigned kind = tree_node(tree, a)->kind;
+    if ((tree_node(tree, a)->flags | tree_node(tree, b)->flags) & TREE_SHARED)
+        return false;
     if (kind != tree_node(tree, b)->kind || (kind != TREE_LIST && kind != TREE_MAP))
         return false;
     if (!tree_first(tree, a) || !tree_first(tree, b))

@@ -40,6 +40,7 @@ enum tree_flag {
     TREE_BAD = 1,    // a diagnostic was given for this node; later stages stay silent about it
     TREE_CUT = 2,    // the file broke off inside this list, map or element: what it lacks is not missing
     TREE_MERGED = 4, // YAML: a key that came by '<<'
+    TREE_SHARED = 8, // YAML: the node has an anchor, so that what it holds must not be moved
 };
 
 typedef uint32_t tree_index;

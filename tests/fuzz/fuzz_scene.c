@@ -1,0 +1,123 @@
+// libFuzzer entry: any bytes as a scene, through all stages behind the readers. A form feed ends the scene;
+// what follows is a --set option. A scene without errors must come back the same from both writers.
+#include "core/strbuf.h"
+#include "grammar/ir_print.h"
+#include "parser/parser.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MEMORY_BYTES = 64 * 1024 * 1024
+};
+
+struct loaded {
+    struct arena arena;
+    struct source_set sources;
+    struct files files;
+    struct diag_sink sink;
+    struct limits limits;
+    struct parser_output output;
+    bool found;
+};
+
+static void require(bool holds, const char *what) {
+    if (holds)
+        return;
+    fprintf(stderr, "the parser broke its promise: %s\n", what);
+    abort();
+}
+
+static void load(struct loaded *l, const char *name, str text, const str *set) {
+    memset(l, 0, sizeof *l);
+    l->limits = limits_default();
+    l->limits.value[LIMIT_ALIAS_NODES] = 2000;
+    l->limits.value[LIMIT_SCENE_DEPTH] = 24;
+    arena_init(&l->arena, MEMORY_BYTES);
+    source_set_init(&l->sources, &l->arena);
+    files_init(&l->files, &l->arena);
+    diag_sink_init(&l->sink);
+    uint32_t source = source_add(&l->sources, SOURCE_KIND_OVERLAY, str_from(name), text);
+    struct parser_input input = {.sources = &l->sources,
+                                 .files = &l->files,
+                                 .sink = &l->sink,
+                                 .limits = &l->limits,
+                                 .arena = &l->arena,
+                                 .sets = set,
+                                 .set_count = set ? 1 : 0};
+    l->found = parser_load(&input, source, &l->output);
+    require(l->found || l->sink.errors > 0, "what is no scene has a diagnostic");
+}
+
+static void finish(struct loaded *l) {
+    diag_sink_finish(&l->sink);
+    arena_finish(&l->arena);
+}
+
+static void check_diagnostics(struct loaded *l) {
+    for (uint32_t i = 0; i < l->sink.count && i < 50; i++) {
+        const struct diag *d = &l->sink.items[i];
+        require(d->at.source < l->sources.count, "the source of a diagnostic");
+        size_t size = l->sources.items[d->at.source].text.len;
+        require(d->at.begin <= d->at.end && d->at.end <= size, "the place of a diagnostic");
+        require(d->message.len > 0, "the message of a diagnostic");
+        require(!d->has_fix || (d->fix_at.begin <= d->fix_at.end && d->fix_at.end <= size),
+                "the place of a fix");
+    }
+}
+
+static void check_same(const char *name, struct strbuf *written, const struct strbuf *wanted) {
+    struct loaded again;
+    struct strbuf dump;
+    strbuf_init(&dump);
+    load(&again, name, strbuf_view(written), NULL);
+    require(again.found && again.sink.errors == 0, "what is written can be read");
+    ir_dump(again.output.scene, &dump);
+    require(str_equal(strbuf_view(&dump), strbuf_view(wanted)), "what is written means the same");
+    strbuf_finish(&dump);
+    finish(&again);
+}
+
+static void check_writers(struct loaded *l) {
+    struct strbuf dump;
+    struct strbuf text;
+    struct ir_write_options options = {0};
+    strbuf_init(&dump);
+    strbuf_init(&text);
+    ir_dump(l->output.scene, &dump);
+    check_same("dump.yaml", &dump, &dump);
+    ir_write_yaml(l->output.scene, &l->output.origin, &l->sources, options, &text);
+    check_same("again.yaml", &text, &dump);
+    strbuf_clear(&text);
+    ir_write_xml(l->output.scene, &l->output.origin, &l->sources, options, &text);
+    check_same("again.xml", &text, &dump);
+    strbuf_clear(&text);
+    ir_write_json(l->output.scene, &text);
+    check_same("again.json", &text, &dump);
+    strbuf_finish(&text);
+    strbuf_finish(&dump);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    char *copy = malloc(size + 1);
+    if (!copy)
+        abort();
+    if (size)
+        memcpy(copy, data, size);
+    copy[size] = '\0';
+    char *feed = memchr(copy, '\f', size);
+    str scene = {copy, feed ? (size_t)(feed - copy) : size};
+    str option = feed ? (str){feed + 1, size - scene.len - 1} : STR("");
+    struct loaded loaded;
+    load(&loaded, "fuzz", scene, feed ? &option : NULL);
+    check_diagnostics(&loaded);
+    if (loaded.found && loaded.sink.errors == 0)
+        check_writers(&loaded);
+    finish(&loaded);
+    free(copy);
+    return 0;
+}
