@@ -116,7 +116,7 @@ refuses banned assets/b.c '/* " */ fprintf(stderr, "x");'
 refuses banned assets/b.c 'FILE *f = fopen(a, "r");'
 
 fresh
-plant a.c 'int work; // a/work/b' 'char *x = "XXXXXX";'
+plant a.c 'int work; // a/wo''rk/b' 'char *x = "XXXXXX";'
 plant b.sh 'f=${TMPDIR:-/t''mp}/x'
 plant a.md 'TO''DO is a word that we do not use.'
 passes words
