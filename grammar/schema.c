@@ -73,7 +73,7 @@ const struct schema_element SCHEMA_INCLUDE = {ELEMENT("include", "Include", ir_i
 
 static const struct schema_row image_rows[] = {
     {.name = "width", FIELD(ir_image, width), .example = "1920", .unit = SCHEMA_UNIT_PIXELS,
-     .also = "w res_x xres",
+     .also = "w res_x xres size resolution",
      .range = SCHEMA_RANGE_EXTENT, .standard = "1024", .doc = "Width of the picture."},
     {.name = "height", FIELD(ir_image, height), .example = "1080", .unit = SCHEMA_UNIT_PIXELS,
      .also = "h res_y yres",
@@ -110,7 +110,8 @@ const struct schema_element SCHEMA_TRACE = {
     ELEMENT("trace", "Trace", ir_trace, trace_rows, "How far rays are followed.")};
 
 static const struct schema_row camera_rows[] = {
-    {.name = "name", FIELD(ir_camera, name), .example = "main", .text = SCHEMA_TEXT_NAME, .key = true,
+    {.name = "name", FIELD(ir_camera, name), .example = "main",
+     .also = "id", .text = SCHEMA_TEXT_NAME, .key = true,
      .doc = "Name for --camera; the camera without a name is 'main'."},
     {.name = "position", .element = "Position", FIELD(ir_camera, position), .example = "0 2 8",
      .also = "eye origin location from center translation",
@@ -159,7 +160,8 @@ const struct schema_element SCHEMA_BACKGROUND = {
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_background, kind)}}};
 
 static const struct schema_row light_rows[] = {
-    {.name = "name", FIELD(ir_light, name), .example = "sun", .text = SCHEMA_TEXT_NAME,
+    {.name = "name", FIELD(ir_light, name), .example = "sun",
+     .also = "id", .text = SCHEMA_TEXT_NAME,
      .doc = "Name for messages and --set."},
     {.name = "position", .element = "Position", FIELD(ir_light, position), .example = "-20 20 20",
      .also = "location origin center translation",
@@ -206,7 +208,8 @@ const struct schema_element SCHEMA_PAINT = {
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_paint, kind)}}};
 
 static const struct schema_row material_rows[] = {
-    {.name = "name", FIELD(ir_material, name), .example = "glass", .text = SCHEMA_TEXT_NAME, .key = true,
+    {.name = "name", FIELD(ir_material, name), .example = "glass",
+     .also = "id", .text = SCHEMA_TEXT_NAME, .key = true,
      .doc = "Name for references."},
     {.name = "albedo", .element = "Albedo", FIELD(ir_material, albedo), .example = "0 0.5 0.1 0.8",
      .range = SCHEMA_RANGE_WEIGHT, .standard = "1 0 0 0",
@@ -234,7 +237,7 @@ const struct schema_element SCHEMA_MATERIAL = {
 
 #define BODY_NAME(type, sample)                                                                                      \
     {                                                                                                        \
-        .name = "name", FIELD(type, name), .example = sample, .text = SCHEMA_TEXT_NAME,                      \
+        .name = "name", FIELD(type, name), .example = sample, .text = SCHEMA_TEXT_NAME, .also = "id",        \
         .doc = "Name for messages and --set."                                                                \
     }
 #define BODY_MATERIAL(type)                                                                                  \

@@ -124,6 +124,18 @@ static bool report_missing(struct bind_context *context, struct bind_subject sub
     return false;
 }
 
+// {0, 0, 0}: numbers without keys.
+static bool is_braced_list(const struct bind_context *context, tree_index node) {
+    const struct tree *tree = context->tree;
+    for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key)) {
+        double ignored;
+        bool empty = bind_kind(context, tree_value(tree, key)) == TREE_NULL;
+        if (!empty || number_parse(tree_text(tree, key), &ignored) != NUMBER_OK)
+            return false;
+    }
+    return tree_first(tree, node) != 0;
+}
+
 static bool bind_named(struct bind_context *context, struct bind_subject subject, tree_index node,
                        double out[COMPONENTS_MAX]) {
     const struct tree *tree = context->tree;
@@ -252,6 +264,8 @@ bool bind_composite(struct bind_context *context, struct bind_subject subject, t
         if (!bind_list(context, subject, node, numbers))
             return false;
     } else if (n->kind == TREE_MAP) {
+        if (is_braced_list(context, node))
+            return bind_wrong_shape(context, subject, node);
         if (!bind_named(context, subject, node, numbers))
             return false;
     } else if (n->kind == TREE_SCALAR && row->kind == SCHEMA_COLOR && !(n->flags & TREE_BAD)) {

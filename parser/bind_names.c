@@ -24,11 +24,14 @@ static void offer_row(struct mend_search *search, const struct schema_row *row, 
         mend_offer(search, row->element, id);
 }
 
+// Of rows that are as near, one that is not given yet was probably meant.
 static struct mend_search search_rows(struct bind_context *context, const struct bind_frame *frame,
                                       str text) {
     struct mend_search search = mend_begin(context->scratch, text);
-    for (uint32_t i = 0; i < frame->schema->row_count; i++)
-        offer_row(&search, &frame->schema->rows[i], (int)i);
+    for (int given = 0; given < 2; given++)
+        for (uint32_t i = 0; i < frame->schema->row_count; i++)
+            if (((frame->seen >> i) & 1) == (uint64_t)given)
+                offer_row(&search, &frame->schema->rows[i], (int)i);
     return search;
 }
 
@@ -302,7 +305,8 @@ void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, t
     if (!near && also < 0 && other.len == 0 && search.snake.len > 3)
         other = elsewhere(context, frame, search.snake, true);
     add_unknown(context, frame, key);
-    if (exact && near->key)
+    bool is_key = (exact && near->key) || (also >= 0 && frame->schema->rows[also].key);
+    if (is_key && kind == TREE_KEY_PLAIN)
         diag_help(context->sink, frame->via->kind == SCHEMA_REFERENCE ? "written in place it needs no name"
                                                                       : "the key above it is its name");
     else if (also >= 0)

@@ -17,7 +17,8 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
     diag_add(context->sink, DIAG_NO_VALUE, tree_span(context->tree, node), "%.*s has no value", STR_ARG(s));
     bool is_text = subject.row && (subject.row->kind == SCHEMA_TEXT || subject.row->kind == SCHEMA_REFERENCE);
     if (is_text && tree_text(context->tree, node).len > 1)
-        diag_help(context->sink, "'%.*s' stands for nothing in YAML; quote it if you mean the word",
+        diag_help(context->sink,
+                  "'%.*s' stands for nothing: leave the key out, or quote it if you mean the word",
                   STR_ARG(tree_text(context->tree, node)));
     else if (subject.row && subject.row->required)
         bind_help_example(context, subject);
@@ -33,7 +34,7 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node) {
     const struct schema_row *row = subject.row;
     enum tree_kind kind = bind_kind(context, node);
-    if (!row || subject.component || (kind != TREE_SCALAR && kind != TREE_LIST))
+    if (!row || subject.component || kind == TREE_NULL)
         return false;
     str text = kind == TREE_SCALAR ? tree_text(context->tree, node)
                                    : source_text(context->sources, tree_span(context->tree, node));

@@ -102,8 +102,8 @@ void yaml_alias(struct yaml_reader *reader, str name, span at);
 tree_index yaml_copy(struct yaml_reader *reader, tree_index node);
 
 // ---- read_yaml_keys.c
-// Moves the pairs of the value of '<<' into the map of the frame.
-void yaml_merge(struct yaml_reader *reader, struct yaml_frame *frame, tree_index value);
+// Moves the pairs of the value of '<<', the key, into the map of the frame.
+void yaml_merge(struct yaml_reader *reader, struct yaml_frame *frame, tree_index key, tree_index value);
 // Keeps one pair of each key: the first written, else the first merged.
 void yaml_unique_keys(struct yaml_reader *reader, struct yaml_frame *frame);
 

@@ -93,7 +93,7 @@ static void take_value(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
     tree_index key = frame->key;
     frame->key = 0;
     if (frame->merges) {
-        yaml_merge(r, frame, value);
+        yaml_merge(r, frame, key, value);
         return;
     }
     // The pair of a key that is none was reported; it is left out.

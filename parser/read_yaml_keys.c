@@ -17,30 +17,36 @@ static void move_pairs(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
     frame->has_merged = true;
 }
 
-static void merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_index value) {
+// Merges a map; false: it is none (reported, unless the reader has).
+static bool merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_index key, tree_index value) {
     const struct tree_node *node = tree_node(r->tree, value);
     if (node->kind == TREE_MAP) {
         bool shared = (node->flags & TREE_SHARED) != 0;
         tree_index pairs = shared ? yaml_copy(r, value) : value;
         if (!r->stopped)
             move_pairs(r, frame, pairs);
-        return;
+        return true;
     }
     tree_node(r->tree, frame->node)->flags |= TREE_CUT; // what it lacks was to come from there
-    if (!(node->flags & TREE_BAD)) {
-        diag_add(&r->sink, DIAG_YAML_MERGE, tree_span(r->tree, value), "'<<' merges maps, and this is none");
-        diag_help(&r->sink, "write '<<: *name', where the anchor '&name' stands before a map");
-    }
+    if (node->flags & TREE_BAD)
+        return false;
+    // What came by an alias has its place where it is anchored.
+    bool is_alias = node->begin < tree_node(r->tree, key)->begin;
+    diag_add(&r->sink, DIAG_YAML_MERGE, tree_span(r->tree, is_alias ? key : value),
+             "'<<' merges maps, and this is none");
+    diag_help(&r->sink, "write '<<: *name', where the anchor '&name' stands before a map");
+    return false;
 }
 
-void yaml_merge(struct yaml_reader *r, struct yaml_frame *frame, tree_index value) {
+void yaml_merge(struct yaml_reader *r, struct yaml_frame *frame, tree_index key, tree_index value) {
     if (tree_node(r->tree, value)->kind != TREE_LIST) {
-        merge_one(r, frame, value);
+        merge_one(r, frame, key, value);
         return;
     }
-    for (tree_index item = tree_first(r->tree, value); item;) {
+    bool good = true;
+    for (tree_index item = tree_first(r->tree, value); item && good;) {
         tree_index next = tree_next(r->tree, item);
-        merge_one(r, frame, item);
+        good = merge_one(r, frame, key, item) || (tree_node(r->tree, item)->flags & TREE_BAD);
         item = next;
     }
 }
@@ -105,6 +111,12 @@ static void report_twice(struct yaml_reader *r, tree_index first, tree_index sec
     }
 }
 
+// "0" in {0, 0, 0}, which was probably meant as a list: that will be reported.
+static bool is_item(const struct tree *tree, tree_index value) {
+    const struct tree_node *node = tree_node(tree, value);
+    return node->kind == TREE_NULL && node->begin == node->end && !(node->flags & TREE_BAD);
+}
+
 // One walk over the pairs; `merged` ones or those that the map itself holds.
 static void unique(struct yaml_reader *r, struct yaml_frame *frame, bool merged) {
     struct tree *tree = r->tree;
@@ -115,7 +127,7 @@ static void unique(struct yaml_reader *r, struct yaml_frame *frame, bool merged)
         bool concerns = ((tree_node(tree, key)->flags & TREE_MERGED) != 0) == merged;
         struct reader_name *name = concerns ? reader_names_at(&r->keys, tree_text(tree, key)) : NULL;
         if (name && name->value) {
-            if (!merged)
+            if (!merged && !is_item(r->tree, value))
                 report_twice(r, name->value, key);
             if (before)
                 tree_node(tree, before)->next = next;
