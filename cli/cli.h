@@ -34,6 +34,8 @@ struct cli_options {
     int32_t width, height, samples, repeat; // 0: not given
     str camera;
     const char *device; // NULL: not given
+    const char *format; // NULL: not given
+    int format_arg;
     struct cli_list sets, asset_paths;
     struct limits limits;
     enum cli_stats stats;
@@ -69,6 +71,9 @@ const struct cli_command *cli_find_command(const char *name);
 // Reads argv into cli->options and cli->operands; mistakes go to cli->sink. `command` NULL: the program's
 // own options only.
 bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first);
+// What --format asks for: its index in `kinds`, which NULL ends; the first where it was not given. false: it
+// is none of them, and the mistake is in cli->sink.
+bool cli_format(struct cli *cli, const char *const *kinds, int *kind);
 // The options of a command (NULL: of the program), one line each.
 void cli_option_help(struct strbuf *out, const struct cli_command *command);
 

@@ -26,6 +26,7 @@ enum option_id {
     OPTION_QUIET,
     OPTION_VERBOSE,
     OPTION_IR,
+    OPTION_FORMAT,
 };
 
 struct option_row {
@@ -60,6 +61,8 @@ static const struct option_row rows[] = {
     {OPTION_QUIET, "quiet", 'q', NULL, "render check",
      "show errors and warnings only: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
+    {OPTION_FORMAT, "format", 0, "KIND", "check compare tradeoff extremes pick diff deps",
+     "the form of the report; the text above lists the kinds"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as it was understood, in canonical form"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
@@ -216,6 +219,10 @@ static bool apply(struct cli *cli, int arg, enum option_id id, const char *value
     case OPTION_IR:
         options->ir = true;
         return true;
+    case OPTION_FORMAT:
+        options->format = value;
+        options->format_arg = arg;
+        return true;
     }
     return false;
 }
@@ -289,4 +296,30 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
     cli->operands = argv + optind;
     cli->operand_count = argc - optind;
     return good;
+}
+
+bool cli_format(struct cli *cli, const char *const *kinds, int *kind) {
+    const char *text = cli->options.format;
+    *kind = 0;
+    if (!text)
+        return true;
+    struct nearest search = nearest_begin(str_from(text));
+    for (int i = 0; kinds[i]; i++) {
+        nearest_offer(&search, str_from(kinds[i]));
+        *kind = i;
+        if (strcmp(text, kinds[i]) == 0)
+            return true;
+    }
+    cli_usage(cli, cli->options.format_arg, "--format does not know '%s'", text);
+    struct strbuf list;
+    strbuf_init(&list);
+    for (int i = 0; kinds[i]; i++)
+        strbuf_format(&list, "%s%s", i ? ", " : "", kinds[i]);
+    str best = nearest_best(&search);
+    if (best.len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
+    else
+        diag_help(&cli->sink, "it takes one of: %.*s", (int)list.len, list.data ? list.data : "");
+    strbuf_finish(&list);
+    return false;
 }
