@@ -139,7 +139,8 @@ static uint32_t stack_levels(uint32_t depth) {
     return depth > 3 ? depth - 2 : 1;
 }
 
-struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features) {
+struct gpu_program *renderer_compile_kernel(struct renderer *renderer, const struct renderer_kernel *kernel,
+                                            uint32_t features, struct gpu_buffer *output) {
     const struct flat_scene *flat = renderer->flat;
     const bool texels = gpu_fetches_texels(renderer->gpu);
     const uint64_t most = (uint64_t)NODE_WORDS << 16;
@@ -150,14 +151,22 @@ struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t feature
         [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
     };
     struct gpu_program_source source = {
-        .spirv = texels ? kernel_trace_texels : kernel_trace_storage,
-        .spirv_words = texels ? kernel_trace_texels_words : kernel_trace_storage_words,
+        .spirv = texels ? kernel->texels : kernel->storage,
+        .spirv_words = texels ? kernel->texels_words : kernel->storage_words,
         .constants = constants,
         .constant_count = CONSTANT_COUNT,
         .push_bytes = sizeof(struct dispatch_block),
     };
     memcpy(source.buffers, renderer->buffers, sizeof source.buffers);
+    if (output)
+        source.buffers[BINDING_OUTPUT] = output;
     return gpu_program_create(renderer->gpu, &source);
+}
+
+struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features) {
+    const struct renderer_kernel trace = {kernel_trace_texels, kernel_trace_storage,
+                                          kernel_trace_texels_words, kernel_trace_storage_words};
+    return renderer_compile_kernel(renderer, &trace, features, NULL);
 }
 
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
@@ -180,6 +189,7 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
 void renderer_destroy(struct renderer *renderer) {
     if (!renderer)
         return;
+    renderer_hits_destroy(renderer);
     gpu_program_destroy(renderer->gpu, renderer->counting);
     gpu_program_destroy(renderer->gpu, renderer->program);
     for (int i = 0; i < GPU_BINDINGS; i++)

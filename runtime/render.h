@@ -10,6 +10,7 @@
 
 #include "runtime/flatten.h"
 #include "runtime/gpu/gpu.h"
+#include "runtime/hits.h"
 
 struct render_settings {
     uint32_t width, height; // pixels
@@ -87,6 +88,14 @@ enum render_result renderer_render(struct renderer *renderer, const struct view_
 // Renders the frame once more with a kernel that counts, and throws the picture away.
 enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
                                   const struct render_progress *progress, struct render_rays *rays);
+// What each pixel's first ray meets (runtime/hits.h), by the tracer's own code: width * height entries, rows
+// from the top. Sends, for each pixel, the camera's ray, one to each of the first 32 lights that would add
+// something, and the mirrored and refracted one where they have a weight (total reflection mirrors), whatever
+// max_depth and min_weight say. Numbers are those of the picture that renderer_render makes.
+enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
+                                 struct hit_pixel *out, const struct render_progress *progress);
+// Rays of the last renderer_hits that did not end; what they would have met is told as nothing.
+uint64_t renderer_hits_unfinished(const struct renderer *renderer);
 // Bytes on the device: scene, and band.
 uint64_t renderer_scene_bytes(const struct renderer *renderer);
 uint64_t renderer_band_bytes(const struct renderer *renderer);

@@ -37,7 +37,7 @@ static double cos_degrees(double degrees) {
     return cos(turn * RADIANS);
 }
 
-static bool write_frame(struct renderer *renderer, const struct view_camera *camera) {
+bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera) {
     const struct render_settings *settings = &renderer->settings;
     const struct flat_scene *flat = renderer->flat;
     const double scale = ldexp(1, flat->scale_exponent);
@@ -92,7 +92,7 @@ static bool run_once(struct frame_run *run, const struct dispatch_block *block, 
 }
 
 // Rows of one length: empty workgroups at the end would all fall to one of a CPU's threads.
-static uint32_t grid_width(uint32_t groups) {
+uint32_t renderer_grid_width(uint32_t groups) {
     const uint32_t rows = (groups + GRID_WIDTH_MAX - 1) / GRID_WIDTH_MAX;
     return (groups + rows - 1) / rows;
 }
@@ -109,7 +109,7 @@ static enum render_result draw_sample(struct frame_run *run, struct dispatch_blo
     const bool slices = renderer->features & FEATURE_SLICES;
     uint32_t groups = block.tile_count;
     for (;;) {
-        block.grid_width = grid_width(groups);
+        block.grid_width = renderer_grid_width(groups);
         block.pending_base = renderer->pending;
         if (!run_once(run, &block, groups))
             return RENDER_FAILED;
@@ -154,9 +154,28 @@ static void unpack_tiles(void *context, size_t begin, size_t end) {
     }
 }
 
+void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle) {
+    const struct flat_scene *flat = renderer->flat;
+    *triangle = 0;
+    *body = number;
+    if (number < flat->sphere_count)
+        return;
+    // The last body whose first triangle is not behind this one.
+    const uint32_t wanted = number - flat->sphere_count;
+    uint32_t low = flat->sphere_count, high = flat->body_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (flat->bodies.words[(size_t)middle * BODY_WORDS].x <= wanted)
+            low = middle;
+        else
+            high = middle;
+    }
+    *body = low;
+    *triangle = wanted - flat->bodies.words[(size_t)low * BODY_WORDS].x;
+}
+
 static void note_fault(const struct renderer *renderer, uint32_t word, uint32_t x, uint32_t y,
                        struct render_fault *fault) {
-    const struct flat_scene *flat = renderer->flat;
     const bool first = fault->pixels++ == 0 || y < fault->y || (y == fault->y && x < fault->x);
     if (!first)
         return;
@@ -165,19 +184,8 @@ static void note_fault(const struct renderer *renderer, uint32_t word, uint32_t 
     fault->y = y;
     fault->has_body = number != FAULT_NUMBER;
     fault->body = fault->triangle = 0;
-    if (number < flat->sphere_count) {
-        fault->body = number;
-    } else if (fault->has_body) {
-        // The last body whose first triangle is not behind this one.
-        const uint32_t triangle = number - flat->sphere_count;
-        for (uint32_t body = flat->sphere_count; body < flat->body_count; body++) {
-            const uint32_t base = flat->bodies.words[(size_t)body * BODY_WORDS].x;
-            if (base > triangle)
-                break;
-            fault->body = body;
-            fault->triangle = triangle - base;
-        }
-    }
+    if (fault->has_body)
+        renderer_number(renderer, number, &fault->body, &fault->triangle);
 }
 
 static void note_faults(const struct renderer *renderer, uint32_t tile_begin, uint32_t slots,
@@ -226,7 +234,7 @@ static enum render_result draw_frame(struct frame_run *run, const struct view_ca
     *run->statistics = (struct render_statistics){0};
     run->statistics->bands = (tiles + renderer->band_tiles - 1) / renderer->band_tiles;
     run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
-    enum render_result result = write_frame(renderer, camera) ? RENDER_DONE : RENDER_FAILED;
+    enum render_result result = renderer_write_frame(renderer, camera) ? RENDER_DONE : RENDER_FAILED;
     for (uint32_t begin = 0; result == RENDER_DONE && begin < tiles; begin += renderer->band_tiles) {
         const uint32_t left = tiles - begin;
         result = draw_band(run, begin, left < renderer->band_tiles ? left : renderer->band_tiles, rgb);

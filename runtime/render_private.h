@@ -20,6 +20,8 @@ struct dispatch_block {
 #undef FLOAT_FIELD
 #undef UINT_FIELD
 
+struct renderer_hits;
+
 struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
@@ -33,10 +35,25 @@ struct renderer {
     struct gpu_program *program;
     struct gpu_program *counting; // made by the first renderer_count
     uint32_t *band;               // the band's output, read back: 4 words a slot
+    struct renderer_hits *hits;   // made by the first renderer_hits
     uint32_t pending;             // value of COUNTER_PENDING after the last dispatch
 };
 
 struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features);
+// Any kernel over the renderer's scene and trees; `output` takes the place of the band's where not NULL.
+struct renderer_kernel {
+    const uint32_t *texels, *storage; // by what the device fetches
+    size_t texels_words, storage_words;
+};
+struct gpu_program *renderer_compile_kernel(struct renderer *renderer, const struct renderer_kernel *kernel,
+                                            uint32_t features, struct gpu_buffer *output);
+// The frame's uniforms for a camera.
+bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera);
+// Width of a grid of so many workgroups, which rows of one length hold.
+uint32_t renderer_grid_width(uint32_t groups);
+// Body in IR order, and its triangle in file order, of a number as in FAULT_NUMBER.
+void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);
+void renderer_hits_destroy(struct renderer *renderer); // what renderer_hits made
 // Which pixel of the picture a slot of the band at `tile_begin` shows.
 void renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y);

@@ -9,6 +9,11 @@ extern const uint32_t kernel_trace_texels[];
 extern const size_t kernel_trace_texels_words;
 extern const uint32_t kernel_trace_storage[];
 extern const size_t kernel_trace_storage_words;
+// What every pixel's first ray meets.
+extern const uint32_t kernel_hits_texels[];
+extern const size_t kernel_hits_texels_words;
+extern const uint32_t kernel_hits_storage[];
+extern const size_t kernel_hits_storage_words;
 // Writes the fields of each record back, for tests.
 extern const uint32_t kernel_layout_texels[];
 extern const size_t kernel_layout_texels_words;

@@ -1,0 +1,22 @@
+/* What hits.comp writes for each pixel (runtime/hits.h), and which of a pixel's rays a dispatch traces;
+   compiled by C and by GLSL. */
+#ifndef GLINT_SHADERS_HITS_H
+#define GLINT_SHADERS_HITS_H
+
+/* Words of a slot in OUTPUT:
+   0: t, b1, b2 of the first ray's hit as bits, its leaf item (HITS_NOTHING: none)
+   1: its number as in FAULT_NUMBER; lights that would add something; those that do; rays that did not end
+   2: shading normal as bits; spare
+   3: numbers of what the mirrored and the refracted ray meet (HITS_NOTHING: not sent, or nothing); spare */
+#define HITS_WORDS   4
+#define HITS_NOTHING 0xffffffffu
+
+/* dispatch.resume: the camera's ray, which must come first; the mirrored one; the refracted one; the shadow
+   ray to light i. One kind a dispatch, so that each ray has all of ITERATION_LIMIT to itself. */
+#define HITS_FIRST      0
+#define HITS_MIRRORED   1
+#define HITS_REFRACTED  2
+#define HITS_LIGHTS     3
+#define HITS_LIGHTS_MAX 32
+
+#endif
