@@ -3,9 +3,14 @@ find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
 # glint_kernel(OUT NAME SOURCE.comp DEFINE...): compiles SOURCE with the macros given, and appends the C
-# file that defines `kernel_NAME` and `kernel_NAME_words` to the list OUT.
+# file that defines `kernel_NAME` and `kernel_NAME_words` to the list OUT. With the macro MAY_FUSE among them the
+# operations stay undecorated.
 function(glint_kernel out name source)
   set(base ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  set(plain)
+  if(MAY_FUSE IN_LIST ARGN)
+    set(plain plain)
+  endif()
   list(TRANSFORM ARGN PREPEND -D OUTPUT_VARIABLE defines)
   add_custom_command(
     OUTPUT ${base}.c
@@ -15,7 +20,7 @@ function(glint_kernel out name source)
             --depfile ${base}.d -o ${base}.plain.spv ${CMAKE_CURRENT_SOURCE_DIR}/${source}
     COMMAND ${CMAKE_COMMAND} -DDEPFILE=${base}.d -DTARGET=${base}.c
             -P ${CMAKE_SOURCE_DIR}/cmake/retarget_depfile.cmake
-    COMMAND spirv_exact ${base}.plain.spv ${base}.spv ${base}.c kernel_${name}
+    COMMAND spirv_exact ${base}.plain.spv ${base}.spv ${base}.c kernel_${name} ${plain}
     COMMAND ${SPIRV_VAL} --target-env vulkan1.1 ${base}.spv
     COMMENT "Compiling kernel ${name}"
     VERBATIM)

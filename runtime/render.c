@@ -1,7 +1,5 @@
 #include "runtime/render_private.h"
 
-#include "shaders/kernels.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -134,41 +132,6 @@ static bool make_band(struct renderer *renderer) {
            upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block));
 }
 
-// The root has no siblings that could wait, and nodes without inner children leave nothing to come back from.
-static uint32_t stack_levels(uint32_t depth) {
-    return depth > 3 ? depth - 2 : 1;
-}
-
-struct gpu_program *renderer_compile_kernel(struct renderer *renderer, const struct renderer_kernel *kernel,
-                                            uint32_t features, struct gpu_buffer *output) {
-    const struct flat_scene *flat = renderer->flat;
-    const bool texels = gpu_fetches_texels(renderer->gpu);
-    const uint64_t most = (uint64_t)NODE_WORDS << 16;
-    const uint32_t constants[CONSTANT_COUNT] = {
-        [CONSTANT_FEATURES] = features,
-        [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
-        [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
-        [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
-    };
-    struct gpu_program_source source = {
-        .spirv = texels ? kernel->texels : kernel->storage,
-        .spirv_words = texels ? kernel->texels_words : kernel->storage_words,
-        .constants = constants,
-        .constant_count = CONSTANT_COUNT,
-        .push_bytes = sizeof(struct dispatch_block),
-    };
-    memcpy(source.buffers, renderer->buffers, sizeof source.buffers);
-    if (output)
-        source.buffers[BINDING_OUTPUT] = output;
-    return gpu_program_create(renderer->gpu, &source);
-}
-
-struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features) {
-    const struct renderer_kernel trace = {kernel_trace_texels, kernel_trace_storage,
-                                          kernel_trace_texels_words, kernel_trace_storage_words};
-    return renderer_compile_kernel(renderer, &trace, features, NULL);
-}
-
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
                                  const struct render_settings *settings) {
     struct renderer *renderer = calloc(1, sizeof *renderer);
@@ -179,7 +142,7 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
     renderer->settings = *settings;
     plan(renderer);
     if (upload_scene(renderer) && make_band(renderer))
-        renderer->program = renderer_compile(renderer, renderer->features);
+        renderer->program = renderer_compile_kernel(renderer, RENDERER_TRACE, renderer->features, NULL);
     if (renderer->program)
         return renderer;
     renderer_destroy(renderer);

@@ -12,6 +12,22 @@
 #include "runtime/gpu/gpu.h"
 #include "runtime/hits.h"
 
+// Ways of other tracers, to be measured beside glint's own (shaders/study.glsl); none is for pictures. An
+// offset moves a ray's start along the normal by so many scene units, and takes hits from t > 0 on.
+enum render_study {
+    RENDER_STUDY_NONE,
+    RENDER_STUDY_OFFSET_3,        // by 1e-3
+    RENDER_STUDY_OFFSET_4,        // by 1e-4
+    RENDER_STUDY_OFFSET_7,        // by 1e-7
+    RENDER_STUDY_OFFSET_DISTANCE, // by 1e-4 of the way that the ray came, at least 1e-4
+    RENDER_STUDY_MOELLER,         // triangles by Moeller and Trumbore, none of a determinant below 1e-7
+    RENDER_STUDY_ORIGINAL,        // that, and the offset 1e-3
+    RENDER_STUDY_FUSED,           // glint's own, but the device's compiler may fuse operations
+    RENDER_STUDIES,
+};
+// "offset 1e-3", for reports.
+const char *render_study_name(enum render_study study);
+
 struct render_settings {
     uint32_t width, height; // pixels
     uint32_t samples;       // per pixel, at least 1
@@ -25,6 +41,7 @@ struct render_settings {
     uint32_t features;
     uint64_t path_segments;    // LIMIT_PATH_SEGMENTS
     uint32_t slice_iterations; // SLICE_ITERATIONS of shaders/frame.h; 0 gives slices of one ray
+    enum render_study study;   // in single precision only
 };
 
 // What scene, flat scene and limits ask for.

@@ -261,7 +261,8 @@ enum render_result renderer_count(struct renderer *renderer, const struct view_c
     struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
     uint32_t values[COUNTER_COUNT] = {0};
     if (!renderer->counting)
-        renderer->counting = renderer_compile(renderer, renderer->features | FEATURE_COUNTERS);
+        renderer->counting =
+            renderer_compile_kernel(renderer, RENDERER_TRACE, renderer->features | FEATURE_COUNTERS, NULL);
     if (!renderer->counting || !gpu_write(renderer->gpu, counters, 0, values, sizeof values))
         return RENDER_FAILED;
     renderer->pending = 0;

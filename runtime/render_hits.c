@@ -3,7 +3,6 @@
 
 #include "core/parallel.h"
 #include "shaders/hits.h"
-#include "shaders/kernels.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,8 +22,6 @@ struct renderer_hits {
 };
 
 static bool make(struct renderer *renderer) {
-    const struct renderer_kernel kernel = {kernel_hits_texels, kernel_hits_storage, kernel_hits_texels_words,
-                                           kernel_hits_storage_words};
     struct renderer_hits *hits = calloc(1, sizeof *hits);
     if (!hits)
         return false;
@@ -35,7 +32,8 @@ static bool make(struct renderer *renderer) {
     hits->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, words * sizeof *hits->words);
     const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
     if (hits->words && hits->output)
-        hits->program = renderer_compile_kernel(renderer, &kernel, renderer->features & ~own, hits->output);
+        hits->program =
+            renderer_compile_kernel(renderer, RENDERER_HITS, renderer->features & ~own, hits->output);
     if (!hits->program)
         renderer_hits_destroy(renderer);
     return renderer->hits != NULL;

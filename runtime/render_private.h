@@ -39,13 +39,14 @@ struct renderer {
     uint32_t pending;             // value of COUNTER_PENDING after the last dispatch
 };
 
-struct gpu_program *renderer_compile(struct renderer *renderer, uint32_t features);
-// Any kernel over the renderer's scene and trees; `output` takes the place of the band's where not NULL.
-struct renderer_kernel {
-    const uint32_t *texels, *storage; // by what the device fetches
-    size_t texels_words, storage_words;
+// A kernel over the renderer's scene and trees, as its settings want it; `output` takes the place of the
+// band's where not NULL.
+enum renderer_kernel {
+    RENDERER_TRACE,
+    RENDERER_HITS,
+    RENDERER_KERNELS,
 };
-struct gpu_program *renderer_compile_kernel(struct renderer *renderer, const struct renderer_kernel *kernel,
+struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
                                             uint32_t features, struct gpu_buffer *output);
 // The frame's uniforms for a camera.
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera);

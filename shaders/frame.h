@@ -29,6 +29,21 @@
     UINT(slice_iterations) /* past these a path is saved at the next ray boundary */                         \
     UINT(features)         /* of the scene: what the mask only makes possible, these bits decide */
 
+/* The camera once more, behind those, for kernels that trace in double precision. */
+#define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
+    DOUBLE(double_position_x)                                                                                \
+    DOUBLE(double_position_y)                                                                                \
+    DOUBLE(double_position_z)                                                                                \
+    DOUBLE(double_forward_x)                                                                                 \
+    DOUBLE(double_forward_y)                                                                                 \
+    DOUBLE(double_forward_z)                                                                                 \
+    DOUBLE(double_right_x)                                                                                   \
+    DOUBLE(double_right_y)                                                                                   \
+    DOUBLE(double_right_z)                                                                                   \
+    DOUBLE(double_up_x)                                                                                      \
+    DOUBLE(double_up_y)                                                                                      \
+    DOUBLE(double_up_z)
+
 /* Push constants. */
 #define DISPATCH_FIELDS(FLOAT, UINT)                                                                         \
     UINT(tile_begin) /* first tile of the band */                                                            \
@@ -57,9 +72,12 @@
 
 /* State of a path, word k of slot s at k * slots + s: ray origin, weight; direction, depth; radiance,
    segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare: kept
-   between dispatches; then two words for each refracted ray that waits. */
-#define STATE_WORDS       6
-#define STACK_ENTRY_WORDS 2
+   between dispatches; then two words for each refracted ray that waits. In double precision places, directions,
+   t, b1 and b2 take two numbers each: path_words.glsl has the order. */
+#define STATE_WORDS         6
+#define STACK_ENTRY_WORDS   2
+#define STATE64_WORDS       8
+#define STACK64_ENTRY_WORDS 4
 
 /* Counters, 32-bit each, then two lists of slots. */
 #define COUNTER_PENDING       0
@@ -85,6 +103,10 @@
 #define CONSTANT_TRIANGLE_STACK 1 /* groups of nodes that wait at most */
 #define CONSTANT_SPHERE_STACK   2
 #define CONSTANT_PACKED_GROUPS  3 /* 1: both trees have at most 65536 nodes */
-#define CONSTANT_COUNT          4
+/* Of study kernels alone, floats: study.glsl. */
+#define CONSTANT_STUDY_OFFSET   4
+#define CONSTANT_STUDY_DISTANCE 5
+#define CONSTANT_STUDY_CUT      6
+#define CONSTANT_COUNT          7
 
 #endif

@@ -14,6 +14,23 @@ extern const uint32_t kernel_hits_texels[];
 extern const size_t kernel_hits_texels_words;
 extern const uint32_t kernel_hits_storage[];
 extern const size_t kernel_hits_storage_words;
+// The same two by other tracers' ways (study.glsl), and with operations that may be fused.
+extern const uint32_t kernel_trace_study_texels[];
+extern const size_t kernel_trace_study_texels_words;
+extern const uint32_t kernel_trace_study_storage[];
+extern const size_t kernel_trace_study_storage_words;
+extern const uint32_t kernel_hits_study_texels[];
+extern const size_t kernel_hits_study_texels_words;
+extern const uint32_t kernel_hits_study_storage[];
+extern const size_t kernel_hits_study_storage_words;
+extern const uint32_t kernel_trace_fused_texels[];
+extern const size_t kernel_trace_fused_texels_words;
+extern const uint32_t kernel_trace_fused_storage[];
+extern const size_t kernel_trace_fused_storage_words;
+extern const uint32_t kernel_hits_fused_texels[];
+extern const size_t kernel_hits_fused_texels_words;
+extern const uint32_t kernel_hits_fused_storage[];
+extern const size_t kernel_hits_fused_storage_words;
 // Writes the fields of each record back, for tests.
 extern const uint32_t kernel_layout_texels[];
 extern const size_t kernel_layout_texels_words;
