@@ -244,6 +244,21 @@ static void refuse(struct asset_file *file, str path, enum file_status status, u
     }
 }
 
+static void note_use(const struct asset_file *file, str named, const struct file_read *identity) {
+    const struct assets_input *input = file->input;
+    if (!input->uses)
+        return;
+    *ARENA_PUSH(input->arena, input->uses) =
+        (struct asset_use){.what = file->what,
+                           .named = arena_copy(input->arena, named),
+                           .path = file->path,
+                           .canonical = arena_copy(input->arena, identity->path),
+                           .size_bytes = identity->size_bytes,
+                           .at = file->named_in ? file->named_in->named_at : file->named_at,
+                           .named_in = file->named_in ? file->named_in->path : STR(""),
+                           .named_line = file->named_line};
+}
+
 bool asset_find(struct asset_file *file, str base_path, str path, struct file_read *identity, bool *missing) {
     struct files *files = file->input->files;
     enum file_status status = files_resolve(files, base_path, path, &file->path);
@@ -255,7 +270,9 @@ bool asset_find(struct asset_file *file, str base_path, str path, struct file_re
         status = files_identify(files, file->path, identity);
     if (status == FILE_OK && identity->size_bytes > file->input->limits->value[file->limit])
         status = FILE_TOO_LARGE;
-    if (status != FILE_OK)
+    if (status == FILE_OK)
+        note_use(file, path, identity);
+    else
         refuse(file, path, status, status == FILE_TOO_LARGE ? identity->size_bytes : 0);
     return status == FILE_OK;
 }

@@ -290,11 +290,14 @@ static void add_scene_materials(struct loader *loader) {
     schema_init(&SCHEMA_MATERIAL, ARENA_PUSH(loader->input->arena, &loader->materials));
 }
 
-void assets_load(struct asset_store *store, const struct assets_input *input, bool geometry_only,
+void assets_load(struct asset_store *store, const struct assets_input *given, bool geometry_only,
                  struct assets *out) {
     assert(store);
-    const struct ir_scene *scene = input->scene;
-    *out = (struct assets){.hold = store_hold(store), .origin = input->origin};
+    const struct ir_scene *scene = given->scene;
+    *out = (struct assets){.hold = store_hold(store), .origin = given->origin};
+    struct assets_input *input = ARENA_NEW(given->arena, struct assets_input);
+    *input = *given;
+    input->uses = &out->uses;
     if (!out->hold) {
         diag_add(input->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory to load the scene's files");

@@ -23,6 +23,22 @@ struct asset_store *asset_store_create(void); // NULL: no memory
 // All assets that were loaded with the store must be finished before.
 void asset_store_destroy(struct asset_store *store);
 
+// A file that was found under a name, each time that it was named: what `deps` and `pack` tell.
+struct asset_use {
+    const char *what; // "mesh", "material file", "image"
+    str named;        // as it is written there
+    str path;         // to open
+    str canonical;    // absolute, links resolved
+    uint64_t size_bytes;
+    span at;      // where the scene names it, or the mesh that names it
+    str named_in; // the mesh that names it, to open; empty: the scene
+    uint32_t named_line;
+};
+struct asset_uses {
+    struct asset_use *items;
+    uint32_t count, capacity;
+};
+
 struct assets_model {
     const struct mesh *mesh;  // NULL where it could not be loaded (a diagnostic says why)
     uint32_t *group_material; // per mesh group: index into assets.materials
@@ -39,6 +55,7 @@ struct assets {
     uint32_t model_count;
     const struct picture *background; // NULL: none, or not loaded
     uint64_t triangle_count;          // of all models
+    struct asset_uses uses;           // in the order of loading; texts in the arena of the scene
 };
 
 struct assets_input {
@@ -49,6 +66,7 @@ struct assets_input {
     const struct limits *limits;
     struct diag_sink *sink;
     struct arena *arena; // for what belongs to this scene; its guard is set by the caller
+    struct asset_uses *uses; // of the assets being loaded: set by assets_load
 };
 
 // Loads all; goes on after a fault. `geometry_only` skips decoding the background (its header is still

@@ -91,6 +91,9 @@ int cli_report(struct cli *cli, struct session *session, bool notes);
 void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
                ...) __attribute__((format(printf, 5, 6)));
 struct session_options cli_session_options(const struct cli *cli, const char *path);
+// Where render writes without -o: the scene's name without its endings, in the current folder:
+// showcase.glint.yaml becomes showcase.png. In cli->arena.
+const char *cli_default_picture(struct cli *cli, const char *scene);
 // Writes `text` to standard output; CLI_OK or CLI_FILE with an error printed.
 int cli_print(struct cli *cli, str text);
 // Writes a whole file (or "-"); CLI_OK or CLI_FILE with an error printed.
@@ -103,5 +106,7 @@ int cmd_convert(struct cli *cli);
 int cmd_schema(struct cli *cli);
 int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);
+int cmd_deps(struct cli *cli);
+int cmd_pack(struct cli *cli);
 
 #endif

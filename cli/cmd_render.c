@@ -23,15 +23,6 @@ struct job {
     const char *output; // without the camera's name
 };
 
-// The scene's name without its endings, in the current folder: showcase.glint.yaml becomes showcase.png.
-static const char *default_output(struct cli *cli, const char *scene) {
-    str base = path_base(str_from(scene));
-    size_t end = 1;
-    while (end < base.len && base.ptr[end] != '.')
-        end++;
-    return arena_format(&cli->arena, "%.*s.png", STR_ARG(str_slice(base, 0, end))).ptr;
-}
-
 // OUT.NAME.png for OUT.png.
 static const char *camera_output(struct job *job, str camera) {
     str path = str_from(job->output);
@@ -251,7 +242,7 @@ static int run_job(struct job *job, struct asset_store *store) {
 
 int cmd_render(struct cli *cli) {
     struct job job = {.cli = cli, .format = IMAGE_PNG};
-    job.output = cli->options.output ? cli->options.output : default_output(cli, cli->operands[0]);
+    job.output = cli->options.output ? cli->options.output : cli_default_picture(cli, cli->operands[0]);
     if (strcmp(job.output, "-") != 0 && strncmp(job.output, "/dev/", 5) != 0 &&
         !image_format_of_path(str_from(job.output), &job.format))
         return cli_usage(cli, cli->options.output_arg, "the output '%s' must end in %s", job.output,

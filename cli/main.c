@@ -36,6 +36,17 @@ const struct cli_command cli_commands[] = {
      "lies in another folder than IN, paths are changed so that they name the same files.\n\n"
      "  glint convert scene.xml scene.yaml\n",
      2, 2, cmd_convert},
+    {"deps", "SCENE...", "list every file that scenes read",
+     "One path a line, each once: scene files, includes, meshes, their material files, the background.\n"
+     "--format text; json, with the role of each file and the places that name it; make, a rule for each\n"
+     "picture.\n\n"
+     "  glint deps --format make scenes/showcase.glint.yaml >showcase.d\n",
+     1, -1, cmd_deps},
+    {"pack", "SCENE OUT", "put a scene and all its files into one folder or ZIP archive",
+     "OUT is a ZIP archive where it ends in .zip, else a new folder. Paths are rewritten in the text of the\n"
+     "scene; nothing else is changed, and the package renders the same wherever it is put.\n\n"
+     "  glint pack scenes/showcase.glint.yaml showcase.zip\n",
+     2, 2, cmd_pack},
     {"schema", "json|relaxng|markdown", "print the language's schema or reference page",
      "json: JSON Schema (draft-07) for YAML editors. relaxng: RELAX NG for XML editors.\n"
      "markdown: the reference page.\n",

@@ -107,3 +107,11 @@ int cli_write(struct cli *cli, const char *path, str bytes) {
 int cli_print(struct cli *cli, str text) {
     return cli_write(cli, "-", text);
 }
+
+const char *cli_default_picture(struct cli *cli, const char *scene) {
+    str base = path_base(str_from(scene));
+    size_t end = 1;
+    while (end < base.len && base.ptr[end] != '.')
+        end++;
+    return arena_format(&cli->arena, "%.*s.png", STR_ARG(str_slice(base, 0, end))).ptr;
+}

@@ -29,6 +29,7 @@ struct ir_element_origin {
 struct ir_file_origin {
     uint32_t source;
     bool is_xml;
+    span included_at;       // the path in the file that includes it; the main file: SPAN_NONE
     span schema_line;       // the editor's line: `# yaml-language-server: ...` or `<?xml-model ...?>`
     str xsi_attributes;     // schema attributes of <Scene>, kept as text; empty: none
     struct ir_scene *scene; // this file alone, before merging

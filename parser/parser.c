@@ -49,6 +49,7 @@ uint32_t loader_add_file(struct loader *loader, uint32_t source, uint32_t parent
         .include = include};
     struct ir_file_origin origin;
     struct ir_scene *scene = load_source(loader, source, &origin);
+    origin.included_at = include;
     *ARENA_PUSH(arena, &loader->output->origin.files) = origin;
     loader->files.items[index].scene = scene;
     return index;

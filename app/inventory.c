@@ -1,0 +1,97 @@
+#include "app/inventory.h"
+
+#include "grammar/schema.h"
+
+const char *inventory_role_name(enum inventory_role role) {
+    static const char *const names[INVENTORY_ROLES] = {"scene",     "include", "mesh",
+                                                       "materials", "image",   "settings"};
+    return names[role];
+}
+
+static bool same_span(span a, span b) {
+    return a.source == b.source && a.begin == b.begin && a.end == b.end;
+}
+
+// The path of an include as it is written, from the place where that stands.
+static str include_name(const struct session *session, span at) {
+    for (uint32_t f = 0; f < session->origin.files.count; f++) {
+        const struct ir_scene *scene = session->origin.files.items[f].scene;
+        for (uint32_t i = 0; scene && i < scene->includes.count; i++) {
+            const struct ir_include *include = &scene->includes.items[i];
+            if (same_span(ir_place_value(&session->origin, &include->head, &SCHEMA_INCLUDE, "file"), at))
+                return include->file;
+        }
+    }
+    return STR("");
+}
+
+static void add_scene_files(struct session *session, struct inventory *out) {
+    for (uint32_t i = 0; i < session->origin.files.count; i++) {
+        const struct ir_file_origin *file = &session->origin.files.items[i];
+        const struct source *source = &session->sources.items[file->source];
+        if (source->kind == SOURCE_KIND_GENERATED)
+            continue; // a mesh stands for the scene; it follows as a mesh
+        *ARENA_PUSH(&session->arena, out) =
+            (struct inventory_use){.role = i == 0 ? INVENTORY_SCENE : INVENTORY_INCLUDE,
+                                   .named = i == 0 ? STR("") : include_name(session, file->included_at),
+                                   .path = source->path,
+                                   .canonical = files_canonical(&session->files, source->path),
+                                   .size_bytes = source->text.len,
+                                   .at = file->included_at};
+    }
+}
+
+static enum inventory_role role_of(const struct asset_use *use) {
+    if (use->named_in.len)
+        return INVENTORY_MATERIALS;
+    return assets_is_mesh_path(use->path) ? INVENTORY_MESH : INVENTORY_IMAGE;
+}
+
+static void add_assets(struct session *session, struct inventory *out) {
+    const struct asset_uses *uses = &session->assets.uses;
+    for (uint32_t i = 0; i < uses->count; i++) {
+        const struct asset_use *use = &uses->items[i];
+        *ARENA_PUSH(&session->arena, out) = (struct inventory_use){.role = role_of(use),
+                                                                   .named = use->named,
+                                                                   .path = use->path,
+                                                                   .canonical = use->canonical,
+                                                                   .size_bytes = use->size_bytes,
+                                                                   .at = use->at,
+                                                                   .named_in = use->named_in,
+                                                                   .named_line = use->named_line};
+    }
+}
+
+static void add_settings(struct session *session, struct inventory *out) {
+    for (uint32_t i = 0; i < session->files.log.count; i++) {
+        const struct file_read *read = &session->files.log.items[i];
+        if (!str_equal(path_base(read->path), STR(".glintrc.yaml")))
+            continue;
+        *ARENA_PUSH(&session->arena, out) = (struct inventory_use){.role = INVENTORY_SETTINGS,
+                                                                   .path = read->path,
+                                                                   .canonical = read->path,
+                                                                   .size_bytes = read->size_bytes};
+    }
+}
+
+bool inventory_make(struct session *session, struct inventory *out) {
+    struct arena_guard guard;
+    volatile bool done = false;
+    *out = (struct inventory){0};
+    arena_set_guard(&session->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        add_scene_files(session, out);
+        add_assets(session, out);
+        add_settings(session, out);
+        done = true;
+    }
+    arena_set_guard(&session->arena, NULL);
+    return done;
+}
+
+bool inventory_is_repeat(const struct inventory *inventory, uint32_t use) {
+    for (uint32_t i = 0; i < use; i++)
+        if (str_equal(inventory->items[i].canonical, inventory->items[use].canonical))
+            return true;
+    return false;
+}

@@ -1,0 +1,50 @@
+// A scene with all its files in one folder or ZIP archive, to be rendered elsewhere.
+//
+// The scene file lies on top under its own name, what it includes in includes/, meshes with their material
+// files in meshes/, the background in images/; of two files of one name the second goes to meshes-2/ and so
+// on. Paths in scene files are rewritten where they stand: not a byte else of any file is changed. Before
+// it is given its name the packed scene is loaded and compared: same meaning, same files.
+// Thread safety: the session's thread.
+#ifndef GLINT_APP_PACK_H
+#define GLINT_APP_PACK_H
+
+#include "app/inventory.h"
+#include "app/session.h"
+
+// A file of the package.
+struct pack_file {
+    str target;    // relative to the package, with '/'
+    str path;      // where its bytes are; empty: they are `text`
+    str canonical; // of the file it is made from
+    str text;
+};
+
+struct pack_plan {
+    struct pack_file *items; // the scene first
+    uint32_t count, capacity;
+    uint32_t rewritten; // paths
+};
+
+enum pack_status {
+    PACK_OK,
+    PACK_SCENE,  // the session's sink says why it cannot be packed
+    PACK_OUTPUT, // pack_error.text says what could not be written
+};
+
+struct pack_error {
+    char text[512];
+};
+
+// Where each file goes, and the rewritten scene files. `session` has been loaded without errors. The plan
+// lies in the session's arena. PACK_OK or PACK_SCENE.
+enum pack_status pack_make_plan(struct session *session, const struct inventory *inventory,
+                                struct pack_plan *plan);
+// Writes the plan to `out`: a ZIP archive where it ends in .zip, else a new or empty folder. All or nothing.
+enum pack_status pack_write(struct session *session, const struct pack_plan *plan, const char *out,
+                            struct pack_error *error);
+
+// Writes the files of `folder` that the plan names to a ZIP archive: stored in the plan's order, with one
+// fixed time, so that equal scenes give equal archives. false: *error has the text.
+bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, struct pack_error *error);
+
+#endif

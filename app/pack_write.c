@@ -1,0 +1,230 @@
+// A package on the disk: made under a temporary name, loaded again and compared, then named.
+#define _XOPEN_SOURCE 700 // nftw
+
+#include "app/pack.h"
+
+#include "core/output.h"
+#include "core/strbuf.h"
+#include "grammar/ir_print.h"
+#include "grammar/ir_walk.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <ftw.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+    PATH_BYTES = 4096,
+    FOLDERS_OPEN = 16,
+};
+
+static bool fail(struct pack_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static bool fail(struct pack_error *error, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    vsnprintf(error->text, sizeof error->text, format, args);
+    va_end(args);
+    return false;
+}
+
+// ---- files
+
+static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *place) {
+    (void)info;
+    (void)kind;
+    (void)place;
+    return remove(path);
+}
+
+static void remove_folder(const char *path) {
+    nftw(path, remove_one, FOLDERS_OPEN, FTW_DEPTH | FTW_PHYS);
+}
+
+// The folders above a file of the package.
+static bool make_folders(char *path, size_t from) {
+    for (char *slash = strchr(path + from, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        int made = mkdir(path, 0777);
+        *slash = '/';
+        if (made != 0 && errno != EEXIST)
+            return false;
+    }
+    return true;
+}
+
+static bool write_file(struct session *session, const struct pack_file *file, const char *folder,
+                       struct pack_error *error) {
+    char path[PATH_BYTES];
+    struct arena arena;
+    struct arena_guard guard;
+    volatile bool good = false;
+    if (snprintf(path, sizeof path, "%s/%.*s", folder, STR_ARG(file->target)) >= (int)sizeof path)
+        return fail(error, "the path of '%.*s' is too long", STR_ARG(file->target));
+    if (!make_folders(path, strlen(folder) + 1))
+        return fail(error, "cannot make the folder of '%s': %s", path, strerror(errno));
+    arena_init(&arena, SIZE_MAX / 2);
+    arena_set_guard(&arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        str bytes = file->text;
+        enum file_status status = FILE_OK;
+        if (file->path.len)
+            status = files_read(&session->files, file->path, UINT64_MAX / 4, &arena, &bytes);
+        int wrong = status == FILE_OK ? output_whole(path, bytes.ptr, bytes.len) : 0;
+        good = status == FILE_OK && wrong == 0;
+        if (status != FILE_OK)
+            fail(error, "'%.*s' %s", STR_ARG(file->path), file_status_text(&session->files, status));
+        else if (wrong)
+            fail(error, "'%s' cannot be written: %s", path, strerror(wrong));
+    } else {
+        fail(error, "there is not enough memory for '%.*s'", STR_ARG(file->target));
+    }
+    arena_finish(&arena);
+    return good;
+}
+
+// ---- comparing
+
+static void forget_path(void *context, const struct schema_element *schema, void *element,
+                        const struct schema_row *row, str *path) {
+    (void)context;
+    (void)schema;
+    (void)element;
+    (void)row;
+    *path = STR("x");
+}
+
+// What the scene means beside its paths. It changes the scene.
+static void dump(struct session *session, struct strbuf *out) {
+    strbuf_init(out);
+    ir_walk_paths(session->scene, forget_path, NULL);
+    ir_dump(session->scene, out);
+}
+
+// The file that the packed scene reads in the place of each one that the scene reads.
+static bool same_files(struct session *session, const struct inventory *before, const struct inventory *after,
+                       const struct pack_plan *plan, const char *folder) {
+    uint32_t a = 0;
+    uint32_t b = 0;
+    char path[PATH_BYTES];
+    for (;; a++, b++) {
+        while (a < before->count && before->items[a].role == INVENTORY_SETTINGS)
+            a++;
+        while (b < after->count && after->items[b].role == INVENTORY_SETTINGS)
+            b++;
+        if (a == before->count || b == after->count)
+            return a == before->count && b == after->count;
+        bool same = false;
+        for (uint32_t i = 0; i < plan->count && !same; i++) {
+            snprintf(path, sizeof path, "%s/%.*s", folder, STR_ARG(plan->items[i].target));
+            same = str_equal(plan->items[i].canonical, before->items[a].canonical) &&
+                   str_equal(files_canonical(&session->files, str_from(path)), after->items[b].canonical);
+        }
+        if (!same)
+            return false;
+    }
+}
+
+static bool compare(struct session *session, struct session *packed, const struct pack_plan *plan,
+                    const char *folder) {
+    struct inventory before;
+    struct inventory after;
+    if (packed->state != SESSION_LOADED || packed->sink.errors || !inventory_make(session, &before) ||
+        !inventory_make(packed, &after))
+        return false;
+    struct arena_guard guard;
+    volatile bool same = false;
+    arena_set_guard(&session->arena, &guard);
+    if (setjmp(guard.jump) == 0)
+        same = same_files(session, &before, &after, plan, folder);
+    arena_set_guard(&session->arena, NULL);
+    if (!same)
+        return false;
+    struct strbuf old_text;
+    struct strbuf new_text;
+    dump(session, &old_text);
+    dump(packed, &new_text);
+    same = !old_text.failed && !new_text.failed && str_equal(strbuf_view(&old_text), strbuf_view(&new_text));
+    strbuf_finish(&old_text);
+    strbuf_finish(&new_text);
+    return same;
+}
+
+// Loads the package from its folder and compares it with what was packed.
+static bool verify(struct session *session, const struct pack_plan *plan, const char *folder,
+                   struct pack_error *error) {
+    char path[PATH_BYTES];
+    struct session packed;
+    if (snprintf(path, sizeof path, "%s/%.*s", folder, STR_ARG(plan->items[0].target)) >= (int)sizeof path)
+        return fail(error, "the path is too long");
+    struct asset_store *store = asset_store_create();
+    if (!store)
+        return fail(error, "there is not enough memory to load the package");
+    struct session_options options = {
+        .path = str_from(path), .limits = session->options.limits, .skip_pixels = true};
+    session_load(&packed, &options, store);
+    bool same = compare(session, &packed, plan, folder);
+    session_finish(&packed);
+    asset_store_destroy(store);
+    return same ||
+           fail(error, "a path in the scene is spelled so that it cannot be rewritten in place; write "
+                       "each path on one line, without a YAML tag or a block");
+}
+
+// ---- all
+
+// A folder that exists and holds nothing may be taken.
+static bool is_taken(const char *path) {
+    struct stat info;
+    if (lstat(path, &info) != 0)
+        return false;
+    DIR *folder = S_ISDIR(info.st_mode) ? opendir(path) : NULL;
+    if (!folder)
+        return true;
+    int entries = 0;
+    while (readdir(folder))
+        entries++;
+    closedir(folder);
+    return entries > 2;
+}
+
+enum pack_status pack_write(struct session *session, const struct pack_plan *plan, const char *out,
+                            struct pack_error *error) {
+    char folder[PATH_BYTES];
+    size_t length = strlen(out);
+    while (length > 1 && out[length - 1] == '/')
+        length--;
+    bool zips = str_ends_with_nocase((str){out, length}, ".zip");
+    if (snprintf(folder, sizeof folder, "%.*s.XXXXXX", (int)length, out) >= (int)sizeof folder) {
+        fail(error, "the path is too long");
+        return PACK_OUTPUT;
+    }
+    if (!zips && is_taken(out)) {
+        fail(error, "it exists, and is not an empty folder");
+        return PACK_OUTPUT;
+    }
+    if (!mkdtemp(folder)) {
+        fail(error, "cannot make a folder beside it: %s", strerror(errno));
+        return PACK_OUTPUT;
+    }
+    bool good = true;
+    for (uint32_t i = 0; good && i < plan->count; i++)
+        good = write_file(session, &plan->items[i], folder, error);
+    good = good && verify(session, plan, folder, error);
+    if (good && zips) {
+        good = pack_zip(plan, folder, out, error);
+    } else if (good) {
+        const mode_t mask = umask(0);
+        umask(mask);
+        good = chmod(folder, 0777 & ~mask) == 0 && rename(folder, out) == 0;
+        if (!good)
+            fail(error, "%s", strerror(errno));
+    }
+    if (!good || zips)
+        remove_folder(folder);
+    return good ? PACK_OK : PACK_OUTPUT;
+}

@@ -1,0 +1,41 @@
+// glint pack SCENE OUT: a scene and all its files in one folder or archive.
+#include "cli/cli.h"
+
+#include "app/pack.h"
+
+#include <string.h>
+
+static int pack(struct cli *cli, struct session *session) {
+    struct inventory inventory;
+    struct pack_plan plan;
+    struct pack_error error = {""};
+    const char *out = cli->operands[1];
+    bool listed = inventory_make(session, &inventory);
+    if (!listed)
+        diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to pack this scene");
+    if (!listed || pack_make_plan(session, &inventory, &plan) != PACK_OK)
+        return cli_report(cli, session, false);
+    if (pack_write(session, &plan, out, &error) == PACK_OK)
+        return CLI_OK;
+    cli_error(cli, DIAG_OUTPUT, out, NULL, "%s", error.text);
+    return CLI_FILE;
+}
+
+int cmd_pack(struct cli *cli) {
+    struct session session;
+    struct session_options options = cli_session_options(cli, cli->operands[0]);
+    if (assets_is_mesh_path(options.path))
+        return cli_usage(cli, cli_operand_place(cli, 0),
+                         "'glint pack' takes a scene file, and this is a mesh");
+    if (strcmp(cli->operands[1], "-") == 0)
+        return cli_usage(cli, cli_operand_place(cli, 1), "a package cannot be written to standard output");
+    struct asset_store *store = asset_store_create();
+    options.skip_pixels = true;
+    session_load(&session, &options, store);
+    int status = cli_report(cli, &session, false);
+    if (status == CLI_OK)
+        status = pack(cli, &session);
+    session_finish(&session);
+    asset_store_destroy(store);
+    return status;
+}

@@ -1,0 +1,175 @@
+#!/bin/sh
+# glint deps and glint pack: what they list, and that a package means and shows the same elsewhere.
+# Usage: run_pack.sh GLINT SOURCE_FOLDER WORK_FOLDER
+set -u
+glint=$1
+source=$2
+work=$3
+failed=0
+cd "$work" || exit 2
+rm -rf -- ./*
+
+fail() {
+    echo "FAIL $1"
+    failed=1
+}
+ok() { echo "ok   $1"; }
+# same NAME FILE FILE
+same() { if cmp -s "$2" "$3"; then ok "$1"; else
+    fail "$1"
+    diff "$2" "$3" | head -20
+fi; }
+# quits NAME STATUS PATTERN command...
+quits() {
+    name=$1 wanted=$2 pattern=$3
+    shift 3
+    "$@" >out.txt 2>err.txt
+    got=$?
+    if [ "$got" -eq "$wanted" ] && { [ -z "$pattern" ] || cat out.txt err.txt | grep -qE -e "$pattern"; }; then ok "$name"; else
+        fail "$name: exit $got"
+        cat out.txt err.txt | head -20
+    fi
+}
+
+# A scene whose files lie in many places, some under one name, spelled in many ways.
+mkdir -p in/sub/deep in/one in/two other
+cat >in/one/tri.obj <<'S'
+mtllib tri.mtl
+v 0 0 0
+v 1 0 0
+v 0 1 0
+usemtl red
+f 1 2 3
+S
+sed 's/^v 1 0 0/v 2 0 0/' in/one/tri.obj >in/two/tri.obj
+sed 's/tri.mtl/..\\mats\\deep.mtl/' in/one/tri.obj >other/away.obj
+printf 'newmtl red\nKd 1 0 0\n' >in/one/tri.mtl
+printf 'newmtl red\nKd 0 1 0\n' >in/two/tri.mtl
+mkdir -p mats && printf 'newmtl red\nKd 0 0 1\n' >mats/deep.mtl
+: >.glintrc.yaml
+convert_png() { cp "$source/tests/golden/minimal.png" "$1"; }
+convert_png in/two/sky.png
+cat >in/sub/scene.yaml <<'S'
+# kept: a comment
+glint: 1
+include: [deep/parts.xml, "../two/more.yaml"]
+x-path: &shared ../one/tri.obj
+image: {width: 24, height: 16}
+background: {image: '../two/sky.png'}   # kept too
+camera: {position: [0.3, 0.3, 4]}
+models:
+  - mesh: ../one/tri.obj
+  - {mesh: *shared, translation: [0, 0, -1]}
+  - mesh: &other "../../other/away.obj"
+    translation: [-1, 0, 0]
+  - mesh: *other
+    translation: [-1, -1, 0]
+S
+cat >in/sub/deep/parts.xml <<'S'
+<?xml version="1.0"?>
+<Scene glint="1">
+  <!-- kept -->
+  <Light><Position x="5" y="5" z="5"/></Light>
+  <Model mesh='../../two/tri.obj'><Translation x="0" y="-1" z="0"/></Model>
+</Scene>
+S
+printf 'glint: 1\r\nmodels:\r\n- {mesh: tri.obj, translation: [1, 1, 0]}\r\n' >in/two/more.yaml
+
+# ---- deps
+"$glint" deps in/sub/scene.yaml | sed "s|^$work/||" | sort >deps.txt || fail "deps"
+cat >wanted.txt <<'S'
+in/one/tri.mtl
+in/one/tri.obj
+in/sub/deep/parts.xml
+in/sub/scene.yaml
+in/two/more.yaml
+in/two/sky.png
+in/two/tri.mtl
+in/two/tri.obj
+mats/deep.mtl
+other/away.obj
+S
+"$glint" deps in/sub/scene.yaml | while read -r file; do realpath --relative-to=. "$file"; done | sort >deps.txt
+same "deps lists every file once" deps.txt wanted.txt
+"$glint" deps in/sub/scene.yaml in/two/more.yaml | wc -l >count.txt
+[ "$(cat count.txt)" -eq 10 ] && ok "deps of two scenes tells a file once" || fail "deps of two scenes"
+quits "deps tells roles" 0 '"role": "materials"' "$glint" deps --format json in/sub/scene.yaml
+quits "deps tells places" 0 '"line": 11' "$glint" deps --format json in/sub/scene.yaml
+"$glint" deps --format make in/sub/scene.yaml >scene.d
+printf 'all: scene.png\ninclude scene.d\nscene.png: ; @echo built\n' >makefile
+if command -v make >/dev/null 2>&1; then quits "make reads the rule" 0 built make -s -f makefile; else
+    echo "skip make reads the rule: make is not installed"
+fi
+printf 'glint: 1\nmodels: [{mesh: gone.obj}]\n' >gone.yaml
+quits "deps of a scene with a missing mesh" 1 'gone.yaml:2:17: error: .*E601' "$glint" deps gone.yaml
+quits "deps knows its formats" 2 "make" "$glint" deps --format mak gone.yaml
+
+# ---- pack
+quits "pack into a folder" 0 '' "$glint" pack in/sub/scene.yaml packed
+[ ! -s err.txt ] && [ ! -s out.txt ] && ok "pack is silent" || fail "pack is silent"
+(cd packed && find . -type f | sort) >packed.txt
+cat >wanted.txt <<'S'
+./images/sky.png
+./includes/more.yaml
+./includes/parts.xml
+./mats/deep.mtl
+./meshes-2/tri.mtl
+./meshes-2/tri.obj
+./meshes/away.obj
+./meshes/tri.mtl
+./meshes/tri.obj
+./scene.yaml
+S
+same "pack's layout" packed.txt wanted.txt
+sed -e 's|deep/parts.xml|includes/parts.xml|; s|"../two/more.yaml"|includes/more.yaml|' \
+    -e "s|&shared ../one|\&shared meshes-2|; s|'../two/sky.png'|images/sky.png|" \
+    -e 's|mesh: ../one/tri|mesh: meshes-2/tri|; s|&other "../../other/away.obj"|\&other meshes/away.obj|' \
+    in/sub/scene.yaml >wanted.txt
+same "pack changes paths alone" packed/scene.yaml wanted.txt
+[ "$(grep -c 'kept' packed/includes/parts.xml)" -eq 1 ] && ok "pack keeps comments" || fail "pack keeps comments"
+[ "$(tr -dc '\r' <packed/includes/more.yaml | wc -c)" -eq 3 ] && ok "pack keeps line ends" || fail "pack keeps line ends"
+mkdir elsewhere && mv packed elsewhere/scene && mv in away && mv other away2
+"$glint" render elsewhere/scene/scene.yaml -o packed.pfm -q || fail "the package renders"
+mv away in && mv away2 other
+"$glint" render in/sub/scene.yaml -o whole.pfm -q || fail "the scene renders"
+same "a package renders the same elsewhere" whole.pfm packed.pfm
+
+"$glint" pack in/sub/scene.yaml one.zip && "$glint" pack in/sub/scene.yaml two.zip || fail "pack into archives"
+same "equal scenes give equal archives" one.zip two.zip
+if command -v unzip >/dev/null 2>&1; then
+    mkdir unzipped && (cd unzipped && unzip -q ../one.zip) && (cd unzipped && find . -type f | sort) >unzipped.txt
+    same "an archive holds the folder's files" unzipped.txt packed.txt
+    diff -r unzipped elsewhere/scene >/dev/null && ok "and their bytes" || fail "and their bytes"
+else
+    echo "skip what an archive holds: unzip is not installed"
+fi
+for scene in "$source"/scenes/*.yaml "$source"/scenes/*.xml "$source"/scenes/elements/*.yaml; do
+    [ -f "$scene" ] || continue
+    name=$(basename "$scene")
+    mkdir -p all
+    "$glint" pack "$scene" "all/$name.d" >err.txt 2>&1 || {
+        fail "pack $name"
+        head -5 err.txt
+    }
+    rm -rf "all/$name.d"
+done
+[ $failed -eq 0 ] && ok "every scene that ships can be packed"
+
+# ---- what must not happen
+mkdir full && : >full/mine
+quits "pack into a folder with files" 3 'is not an empty folder' "$glint" pack in/sub/scene.yaml full
+quits "pack of a mesh" 2 'is a mesh' "$glint" pack in/one/tri.obj x
+quits "pack into a folder that is not there" 3 'error: .*E802' "$glint" pack in/sub/scene.yaml nowhere/x
+quits "pack of a scene with a missing mesh" 1 'E601' "$glint" pack gone.yaml x
+printf 'glint: 1\nmodels:\n  - mesh: >-\n      in/one/tri.obj\n' >block.yaml
+"$glint" pack block.yaml block >err.txt 2>&1
+status=$?
+if [ $status -eq 0 ]; then
+    "$glint" check block/block.yaml && ok "a path in a block is packed" || fail "a path in a block is packed"
+elif grep -q 'on one line' err.txt && [ ! -e block ]; then ok "a path in a block is refused"; else fail "a path in a block"; fi
+printf 'mtllib %s/mats/deep.mtl\n' "$(pwd -P)" >abs.obj
+sed 1d in/one/tri.obj >>abs.obj
+printf 'glint: 1\nmodels: [{mesh: abs.obj}]\n' >abs.yaml
+quits "pack of a mesh with an absolute path" 1 'E804' "$glint" pack abs.yaml x
+find . -maxdepth 1 -name '*.??????' -type d | grep . && fail "nothing is left behind" || ok "nothing is left behind"
+exit $failed
