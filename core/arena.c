@@ -15,7 +15,7 @@ struct arena_block {
     struct arena_block *previous;
     size_t used;
     size_t size;
-    size_t reserved; // keeps the bytes behind the header aligned to 16
+    struct arena_block *next; // also keeps the bytes behind the header aligned to 16
 };
 
 void arena_init(struct arena *arena, size_t cap_bytes) {
@@ -35,10 +35,53 @@ void arena_finish(struct arena *arena) {
     arena->used_bytes = 0;
 }
 
+void arena_reset(struct arena *arena) {
+    struct arena_block *kept = arena->last;
+    if (!kept || kept->size != ARENA_BLOCK_BYTES) {
+        arena_finish(arena);
+        return;
+    }
+    arena->last = kept->previous;
+    arena_finish(arena);
+    memset(kept + 1, 0, kept->used);
+    kept->previous = NULL;
+    kept->used = 0;
+    arena->last = kept;
+}
+
 void arena_set_guard(struct arena *arena, struct arena_guard *guard) {
     arena->guard = guard;
     if (guard)
         guard->fault = ARENA_FAULT_NONE;
+}
+
+// Whether an allocation of this size has a block of its own.
+static bool is_single(size_t need) {
+#ifdef GLINT_ARENA_EXACT
+    (void)need;
+    return true;
+#else
+    return need > ARENA_SHARED_BYTES;
+#endif
+}
+
+// Whether one that was made is known to have one: smaller ones may lie where a shared block had room.
+static bool has_own_block(size_t need) {
+#ifdef GLINT_ARENA_EXACT
+    (void)need;
+    return true;
+#else
+    return need > ARENA_BLOCK_BYTES;
+#endif
+}
+
+// What an allocation takes of its block.
+static size_t rounded(size_t size) {
+#ifdef GLINT_ARENA_EXACT
+    return size ? size : 1;
+#else
+    return size ? (size + ARENA_ALIGN - 1) & ~(size_t)(ARENA_ALIGN - 1) : ARENA_ALIGN;
+#endif
 }
 
 static struct arena_block *new_block(size_t size) {
@@ -48,25 +91,38 @@ static struct arena_block *new_block(size_t size) {
     return block;
 }
 
+static void link_block(struct arena *arena, struct arena_block *block, bool behind_last) {
+    struct arena_block *last = arena->last;
+    behind_last = behind_last && last;
+    block->previous = behind_last ? last->previous : last;
+    block->next = behind_last ? last : NULL;
+    if (block->previous)
+        block->previous->next = block;
+    if (block->next)
+        block->next->previous = block;
+    else
+        arena->last = block;
+}
+
+static void unlink_block(struct arena *arena, struct arena_block *block) {
+    if (block->previous)
+        block->previous->next = block->next;
+    if (block->next)
+        block->next->previous = block->previous;
+    else
+        arena->last = block->previous;
+}
+
 // A block with room for `need` bytes. A block of a single allocation goes behind the last one, which
 // stays in use: what it has left is not lost.
 static struct arena_block *block_with_room(struct arena *arena, size_t need) {
     struct arena_block *last = arena->last;
     if (last && last->size - last->used >= need)
         return last;
-#ifdef GLINT_ARENA_EXACT
-    bool single = true;
-#else
-    bool single = need > ARENA_SHARED_BYTES;
-#endif
+    bool single = is_single(need);
     struct arena_block *block = new_block(single ? need : ARENA_BLOCK_BYTES);
-    if (block && single && last) {
-        block->previous = last->previous;
-        last->previous = block;
-    } else if (block) {
-        block->previous = last;
-        arena->last = block;
-    }
+    if (block)
+        link_block(arena, block, single);
     return block;
 }
 
@@ -77,11 +133,7 @@ static void *alloc_or_fault(struct arena *arena, size_t size, enum arena_fault *
     *fault = ARENA_FAULT_SYSTEM;
     if (size > SIZE_MAX / 2)
         return NULL;
-#ifdef GLINT_ARENA_EXACT
-    size_t need = size ? size : 1;
-#else
-    size_t need = size ? (size + ARENA_ALIGN - 1) & ~(size_t)(ARENA_ALIGN - 1) : ARENA_ALIGN;
-#endif
+    size_t need = rounded(size);
     struct arena_block *block = block_with_room(arena, need);
     if (!block)
         return NULL;
@@ -149,4 +201,43 @@ void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capac
         memcpy(moved, items, count * item_size);
     *capacity = wanted;
     return moved;
+}
+
+// The block of an array of its own, with room for `need` bytes: moved, mostly by the system's page tables.
+static void *move_block(struct arena *arena, void *items, size_t need) {
+    struct arena_block *block = (struct arena_block *)items - 1;
+    size_t had = block->size;
+    if (arena->used_bytes - had > arena->cap_bytes - need)
+        arena_raise(arena, ARENA_FAULT_CAP);
+    unlink_block(arena, block);
+    struct arena_block *moved = realloc(block, sizeof *moved + need);
+    struct arena_block *kept = moved ? moved : block;
+    link_block(arena, kept, true);
+    if (!moved)
+        arena_raise(arena, ARENA_FAULT_SYSTEM);
+    moved->size = moved->used = need;
+    arena->used_bytes = arena->used_bytes - had + need;
+    return moved + 1;
+}
+
+void *arena_regrow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size) {
+    if (count < *capacity)
+        return items;
+    uint32_t wanted = *capacity < 8 ? 8 : *capacity > UINT32_MAX / 2 ? UINT32_MAX : *capacity + *capacity / 2;
+    size_t had = rounded(*capacity * item_size);
+    if (!items || !has_own_block(had) || count >= wanted || wanted > SIZE_MAX / 2 / item_size ||
+        wanted * item_size > arena->cap_bytes)
+        return arena_grow(arena, items, count, capacity, item_size);
+    items = move_block(arena, items, rounded(wanted * item_size));
+    *capacity = wanted;
+    return items;
+}
+
+void arena_give_back(struct arena *arena, void *items, uint32_t capacity, size_t item_size) {
+    if (!items || !has_own_block(rounded(capacity * item_size)))
+        return;
+    struct arena_block *block = (struct arena_block *)items - 1;
+    arena->used_bytes -= block->size;
+    unlink_block(arena, block);
+    free(block);
 }

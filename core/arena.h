@@ -42,6 +42,8 @@ struct arena {
 void arena_init(struct arena *arena, size_t cap_bytes);
 // Frees all; the arena may be used again, with the same cap and guard. NULL does nothing.
 void arena_finish(struct arena *arena);
+// Frees all but a block that is kept for what comes next: for memory that is needed item by item.
+void arena_reset(struct arena *arena);
 // The guard stays until another one is set; it must be taken away (NULL) before the function that called
 // `setjmp` returns, where the arena lives on.
 void arena_set_guard(struct arena *arena, struct arena_guard *guard);
@@ -67,6 +69,11 @@ str arena_format(struct arena *arena, const char *format, ...) __attribute__((fo
 // Makes room for one more item in an array that lives in an arena: `items` holds `count` of `*capacity`
 // items; returns the array, moved to twice the room where it was full. The old array stays in the arena.
 void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size);
+// As `arena_grow`, for large arrays: the old array is given back, so that pointers into it are void, and the
+// room behind the `count` items is not zeroed.
+void *arena_regrow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size);
+// Gives back an array that arena_regrow made; small ones stay with the arena. NULL does nothing.
+void arena_give_back(struct arena *arena, void *items, uint32_t capacity, size_t item_size);
 // Appends a zeroed item to a list {items, count, capacity}; gives its address.
 #define ARENA_PUSH(arena, list)                                                                              \
     ((list)->items =                                                                                         \

@@ -102,7 +102,7 @@ struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, cons
         item = &sink->items[sink->count++];
     else
         sink->dropped++;
-    *item = (struct diag){.code = code, .at = at, .message = message};
+    *item = (struct diag){.code = code, .severity = infos[code].severity, .at = at, .message = message};
     return item;
 }
 
@@ -206,7 +206,7 @@ static void drop_repeats(struct diag_sink *sink, uint32_t *slots, size_t slot_co
         while (slots[at] && !same(&sink->items[slots[at] - 1], item))
             at = (at + 1) & (slot_count - 1);
         if (slots[at]) {
-            uncount(sink, infos[item->code].severity);
+            uncount(sink, item->severity);
             continue;
         }
         sink->items[kept++] = *item;
@@ -254,8 +254,29 @@ void diag_group(struct diag_sink *sink, uint32_t most) {
     sink->count = kept;
 }
 
+void diag_filter(struct diag_sink *sink, diag_keep *keep, void *context) {
+    uint32_t kept = 0;
+    sink->last_kept = false;
+    for (uint32_t i = 0; i < sink->count; i++) {
+        struct diag item = sink->items[i];
+        enum diag_severity before = item.severity;
+        uint32_t members = 1 + item.repeats;
+        bool keeps = keep(context, &item);
+        for (uint32_t k = 0; k < members; k++) {
+            uncount(sink, before);
+            if (keeps)
+                count(sink, item.severity);
+        }
+        if (keeps)
+            sink->items[kept++] = item;
+    }
+    sink->count = kept;
+}
+
 static void copy_diag(struct diag_sink *into, const struct diag *d) {
-    diag_add(into, d->code, d->at, "%.*s", STR_ARG(d->message))->repeats = d->repeats;
+    struct diag *copy = diag_add(into, d->code, d->at, "%.*s", STR_ARG(d->message));
+    copy->repeats = d->repeats;
+    copy->severity = d->severity;
     for (const struct diag_related *n = d->notes; n; n = n->next)
         diag_note(into, n->at, "%.*s", STR_ARG(n->message));
     if (d->help.len)

@@ -53,6 +53,7 @@ struct diag_related {
 
 struct diag {
     enum diag_code code;
+    enum diag_severity severity; // the code's own, unless a policy changed it (core/diag_policy.h)
     span at;
     str message;
     struct diag_related *notes; // in the order they were added
@@ -107,6 +108,10 @@ void diag_sort(struct diag_sink *sink);
 // Keeps the first `most` (at least 1) diagnostics of each code and source; the last one kept counts the
 // others in `repeats`. The counts of errors, warnings and notes stay. For a sorted sink.
 void diag_group(struct diag_sink *sink, uint32_t most);
+// Removes what `keep` refuses, in order; the counts follow what is left, with its severities as they now are.
+// Diagnostics that were dropped are kept in the counts.
+typedef bool diag_keep(void *context, struct diag *item);
+void diag_filter(struct diag_sink *sink, diag_keep *keep, void *context);
 // Adds a copy of all of `from` behind those of `into`, the counts of dropped ones included.
 void diag_merge(struct diag_sink *into, const struct diag_sink *from);
 

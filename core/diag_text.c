@@ -4,6 +4,7 @@
 
 enum {
     LINE_SHOWN_MAX = 160, // bytes
+    MESSAGE_BYTES = 500,  // of one message with its notes, on average: `most` bounds the text too
     TAB_COLUMNS = 8,
 };
 
@@ -39,8 +40,7 @@ static size_t put_character(struct strbuf *out, str s, size_t at, unsigned *colu
     return size ? size : 1;
 }
 
-// A text that may quote the scene: on one line, whatever it holds.
-static void put_text(struct strbuf *out, str s) {
+void diag_text_plain(struct strbuf *out, str s) {
     for (size_t at = 0; at < s.len;) {
         unsigned column = TAB_COLUMNS - 1;
         at += put_character(out, s, at, &column);
@@ -91,7 +91,7 @@ static void excerpt(struct strbuf *out, struct source_place place, struct diag_t
 }
 
 static void place_text(struct strbuf *out, struct source_place place) {
-    put_text(out, place.path);
+    diag_text_plain(out, place.path);
     strbuf_format(out, ":%u:%u: ", place.line, place.column);
 }
 
@@ -102,7 +102,7 @@ static bool has_text(const struct source_set *sources, span at) {
 
 static void labelled(struct strbuf *out, const char *label, str text) {
     strbuf_cstr(out, label);
-    put_text(out, text);
+    diag_text_plain(out, text);
     strbuf_char(out, '\n');
 }
 
@@ -112,10 +112,10 @@ static void one(struct strbuf *out, const struct diag *d, struct source_set *sou
     struct source_place place = source_locate(sources, d->at);
     paint(out, options, "\033[1m");
     place_text(out, place);
-    paint(out, options, severity_colors[info->severity]);
-    strbuf_format(out, "%s: ", severity_names[info->severity]);
+    paint(out, options, severity_colors[d->severity]);
+    strbuf_format(out, "%s: ", severity_names[d->severity]);
     paint(out, options, "\033[0m");
-    put_text(out, d->message);
+    diag_text_plain(out, d->message);
     if (d->repeats)
         strbuf_format(out, " (and %u more like it)", d->repeats);
     strbuf_format(out, " [%s]\n", info->code);
@@ -141,14 +141,16 @@ void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_s
     uint32_t shown = 0;
     uint32_t hidden = sink->dropped;
     bool error_shown = false;
+    size_t begin = out->len;
     for (uint32_t i = 0; i < sink->count; i++) {
         const struct diag *d = &sink->items[i];
-        enum diag_severity severity = diag_info(d->code)->severity;
+        enum diag_severity severity = d->severity;
         if (severity == DIAG_NOTE && !options.notes)
             continue;
         // A run that fails shows why, however many warnings come first.
         bool first_error = severity == DIAG_ERROR && !error_shown;
-        if (options.most && shown >= options.most && !first_error) {
+        bool full = shown >= options.most || out->len - begin >= (size_t)options.most * MESSAGE_BYTES;
+        if (options.most && full && !first_error) {
             hidden++;
             continue;
         }

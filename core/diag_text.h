@@ -17,13 +17,15 @@
 struct diag_text_options {
     bool color;    // ANSI colours
     bool notes;    // show diagnostics of severity "note" too
-    uint32_t most; // messages shown; 0 is all
+    uint32_t most; // messages shown, and 500 bytes of text for each; 0 is all
 };
 
 // Writes all diagnostics of a sorted sink, errors, warnings and notes as they stand, and a closing line
 // that tells how many more there were. The first error is shown even where `most` is reached before it.
 void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_set *sources,
                struct diag_text_options options);
+// A text that may quote a scene, on one line, with what a terminal might obey shown as '?'.
+void diag_text_plain(struct strbuf *out, str text);
 // "error", "warning", "note".
 const char *diag_severity_name(enum diag_severity severity);
 

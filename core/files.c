@@ -107,19 +107,22 @@ enum file_status files_add_root(struct files *files, str directory) {
     return FILE_OK;
 }
 
-enum file_status files_add_scene_root(struct files *files, str scene_path) {
-    str folder = files_canonical(files, path_folder(scene_path));
-    str above = folder;
+str files_find_config(struct files *files, str scene_path) {
+    str above = files_canonical(files, path_folder(scene_path));
     for (;;) {
-        const char *marker = join(files->arena, above, STR(".glintrc.yaml")).ptr;
+        str marker = join(files->arena, above, STR(".glintrc.yaml"));
         struct stat info;
-        if (stat(marker, &info) == 0 && S_ISREG(info.st_mode))
-            return files_add_root(files, above);
+        if (stat(marker.ptr, &info) == 0 && S_ISREG(info.st_mode))
+            return marker;
         if (above.len <= 1)
-            break;
+            return STR("");
         above = path_folder(above);
     }
-    return files_add_root(files, folder);
+}
+
+enum file_status files_add_scene_root(struct files *files, str scene_path) {
+    str config = files_find_config(files, scene_path);
+    return files_add_root(files, path_folder(config.len ? config : scene_path));
 }
 
 static bool below(str path, str root) {

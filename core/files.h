@@ -59,6 +59,10 @@ void files_add_overlay(struct files *files, str path, str text);
 // scene's folder. `scene_path` is as given by the user. On FILE_OK the root has been added.
 enum file_status files_add_scene_root(struct files *files, str scene_path);
 
+// The nearest `.glintrc.yaml` at or above the folder of `scene_path`, absolute; the empty string where there
+// is none.
+str files_find_config(struct files *files, str scene_path);
+
 // Where the file lies that `base_path` (a file) names `path`: relative paths are tried beside base_path,
 // then below each root after the first, in order. On FILE_OK *out is the path to open, as readable text;
 // for FILE_OUTSIDE *out is where it led. A path that exists but lies outside is FILE_OUTSIDE; a device or

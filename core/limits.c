@@ -9,7 +9,7 @@ static const struct limit_info infos[LIMIT_COUNT] = {
 };
 
 struct limits limits_default(void) {
-    struct limits limits;
+    struct limits limits = {.given = 0};
     for (int i = 0; i < LIMIT_COUNT; i++)
         limits.value[i] = infos[i].standard;
     return limits;
@@ -33,7 +33,16 @@ enum limit_status limits_set(struct limits *limits, str assignment, enum limit *
             value < (int64_t)infos[i].least || value > (int64_t)infos[i].greatest)
             return LIMIT_BAD_VALUE;
         limits->value[i] = (uint64_t)value;
+        limits->given |= (uint64_t)1 << i;
         return LIMIT_SET;
     }
     return LIMIT_UNKNOWN_NAME;
+}
+
+void limits_fill(struct limits *limits, const struct limits *from) {
+    uint64_t taken = from->given & ~limits->given;
+    for (int i = 0; i < LIMIT_COUNT; i++)
+        if (taken >> i & 1)
+            limits->value[i] = from->value[i];
+    limits->given |= taken;
 }

@@ -15,6 +15,7 @@ enum limit {
 
 struct limits {
     uint64_t value[LIMIT_COUNT];
+    uint64_t given; // bit i: limits_set has set limit i
 };
 
 enum limit_status {
@@ -34,6 +35,8 @@ struct limit_info {
 struct limits limits_default(void);
 // Applies "name=value". On LIMIT_BAD_VALUE *which tells the row.
 enum limit_status limits_set(struct limits *limits, str assignment, enum limit *which);
+// Takes from `from` what it was given and `limits` was not.
+void limits_fill(struct limits *limits, const struct limits *from);
 const struct limit_info *limit_info(enum limit which);
 
 #endif

@@ -1,0 +1,26 @@
+// The scenes in a folder and in the folders below it.
+//
+// Ownership: paths go into the arena given, whose guard the caller sets. Thread safety: pure but for the
+// arena.
+#ifndef GLINT_CORE_FILES_WALK_H
+#define GLINT_CORE_FILES_WALK_H
+
+#include "core/files.h"
+
+struct files_found {
+    struct arena *arena;
+    const char *const *endings; // ".glint.yaml", ...; NULL at the end; case matters
+    struct {
+        str *items;
+        uint32_t count, capacity;
+    } paths;        // sorted by their bytes, folder by folder
+    uint32_t depth; // folders that are open
+};
+
+bool files_is_folder(str path);
+// Adds the regular files below `folder` whose names have one of the endings. Names that begin with a dot are
+// left out, and so are links to folders. FILE_UNREADABLE: errno says why `folder` could not be opened;
+// folders below it that cannot be opened are left out.
+enum file_status files_walk(struct files_found *found, str folder);
+
+#endif

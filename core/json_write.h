@@ -1,0 +1,35 @@
+// JSON as text, written from the front to the back into a buffer.
+//
+// Commas, line ends and indentation come by themselves; below `flat_depth` open brackets a value stands on
+// one line, so that a list of records has a line for each. Text that is no UTF-8 becomes U+FFFD, so that what
+// is written is always JSON. Ownership: the buffer is the caller's, its `failed` flag tells of memory. Thread
+// safety: one writer belongs to one thread.
+#ifndef GLINT_CORE_JSON_WRITE_H
+#define GLINT_CORE_JSON_WRITE_H
+
+#include "core/strbuf.h"
+
+enum {
+    JSON_WRITE_DEPTH_MAX = 32
+};
+
+struct json_writer {
+    struct strbuf *out;
+    unsigned flat_depth; // from this depth on all stands on one line
+    unsigned depth;
+    bool filled[JSON_WRITE_DEPTH_MAX]; // something stands in the list or object already
+};
+
+void json_writer_init(struct json_writer *writer, struct strbuf *out, unsigned flat_depth);
+// `key` NULL: an item of a list, or the root.
+void json_open_object(struct json_writer *writer, const char *key);
+void json_close_object(struct json_writer *writer);
+void json_open_list(struct json_writer *writer, const char *key);
+void json_close_list(struct json_writer *writer);
+void json_text(struct json_writer *writer, const char *key, str value);
+void json_integer(struct json_writer *writer, const char *key, uint64_t value);
+void json_boolean(struct json_writer *writer, const char *key, bool value);
+// A line end behind the whole.
+void json_end(struct json_writer *writer);
+
+#endif
