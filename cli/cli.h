@@ -4,6 +4,7 @@
 #define GLINT_CLI_CLI_H
 
 #include "app/session.h"
+#include "cli/options_measure.h"
 #include "core/diag.h"
 #include "core/limits.h"
 #include "core/strbuf.h"
@@ -38,6 +39,7 @@ struct cli_options {
     int format_arg;
     struct cli_list sets, asset_paths;
     struct limits limits;
+    struct cli_measure measure;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
     int output_arg; // where it stands on the command line; 0: not given
@@ -106,6 +108,7 @@ int cmd_convert(struct cli *cli);
 int cmd_schema(struct cli *cli);
 int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);
+int cmd_compare(struct cli *cli);
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);
 

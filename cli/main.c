@@ -53,6 +53,14 @@ const struct cli_command cli_commands[] = {
      1, 1, cmd_schema},
     {"explain", "CODE|ELEMENT[.ATTRIBUTE]", "explain a message's code or a part of the language",
      "  glint explain E206\n  glint explain material.albedo\n", 1, 1, cmd_explain},
+    {"compare", "PICTURE REFERENCE", "measure how far one picture is from another",
+     "Reads PNG, JPEG, PFM and Radiance HDR pictures of one size. Two float pictures are compared as linear\n"
+     "values; 8-bit ones, and one of each kind, as displayed values from 0 to 1 (floats are clamped and\n"
+     "encoded, see --tone and --transfer). SSIM and FLIP are always of displayed values. --format takes "
+     "text\n"
+     "and json. The exit status is 1 where a bound is not kept.\n\n"
+     "  glint compare picture.png reference.png --max-share 0.001 --heatmap errors.png\n",
+     2, 2, cmd_compare},
     {"devices", "", "list the devices that can render", "", 0, 0, cmd_devices},
     {0},
 };

@@ -27,10 +27,11 @@ enum option_id {
     OPTION_VERBOSE,
     OPTION_IR,
     OPTION_FORMAT,
+    OPTION_MEASURE = 2000, // and enum cli_measure_option behind it
 };
 
 struct option_row {
-    enum option_id id;
+    int id; // enum option_id
     const char *name;
     char letter;          // 0: none
     const char *argument; // NULL: none; "[=X]": optional
@@ -52,7 +53,7 @@ static const struct option_row rows[] = {
      "the device to render on, see 'glint devices'; also GLINT_DEVICE"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR", "render check inspect convert deps pack",
      "a folder in which files of the scene are looked for too"},
-    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render check inspect convert deps pack",
+    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render check inspect convert deps pack compare",
      "change a limit on the size of inputs; NAME 'help' lists them"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and tell the median time of a frame and its spread"},
@@ -63,6 +64,38 @@ static const struct option_row rows[] = {
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_FORMAT, "format", 0, "KIND", "check compare tradeoff extremes pick diff deps",
      "the form of the report; the text above lists the kinds"},
+    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_MAE, "max-mae", 0, "X", "compare",
+     "fail where the mean difference is larger"},
+    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_RMSE, "max-rmse", 0, "X", "compare",
+     "fail where the root of the mean squared difference is larger"},
+    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_RELMSE, "max-relmse", 0, "X", "compare",
+     "fail where the relative mean squared difference is larger"},
+    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_LARGEST, "max-largest", 0, "X", "compare",
+     "fail where the largest difference is larger"},
+    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_PSNR, "min-psnr", 0, "DB", "compare",
+     "fail where the signal to noise ratio is lower"},
+    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_SSIM, "min-ssim", 0, "X", "compare",
+     "fail where the structural similarity is lower"},
+    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_FLIP, "max-flip", 0, "X", "compare",
+     "fail where the mean of FLIP is larger"},
+    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_SHARE, "max-share", 0, "X", "compare",
+     "fail where the share of pixels over the threshold is larger"},
+    {OPTION_MEASURE + CLI_MEASURE_NOT_FINITE, "max-not-finite", 0, "N", "compare",
+     "pixels that may be no number where there is any bound, instead of 0"},
+    {OPTION_MEASURE + CLI_MEASURE_THRESHOLD, "threshold", 0, "X", "compare",
+     "of the share of pixels, instead of 1/255"},
+    {OPTION_MEASURE + CLI_MEASURE_PPD, "ppd", 0, "N", "compare",
+     "pixels per degree of sight, for FLIP, instead of 67"},
+    {OPTION_MEASURE + CLI_MEASURE_SPACE, "space", 0, "KIND", "compare",
+     "auto, displayed or linear: the values that are compared"},
+    {OPTION_MEASURE + CLI_MEASURE_TONE, "tone", 0, "KIND", "compare",
+     "clip or normalize: how float pictures are displayed"},
+    {OPTION_MEASURE + CLI_MEASURE_TRANSFER, "transfer", 0, "KIND", "compare",
+     "none or srgb: how float pictures are displayed"},
+    {OPTION_MEASURE + CLI_MEASURE_HEATMAP, "heatmap", 0, "FILE", "compare",
+     "write the error of each pixel as colours to FILE (.png)"},
+    {OPTION_MEASURE + CLI_MEASURE_HEATMAP_OF, "heatmap-of", 0, "KIND", "compare",
+     "difference (black to 0.001, then three decades) or flip (0 to 1)"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as it was understood, in canonical form"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
@@ -168,9 +201,14 @@ static void append(struct cli *cli, struct cli_list *list, const char *text) {
     *item = str_from(text);
 }
 
-static bool apply(struct cli *cli, int arg, enum option_id id, const char *value) {
+static bool apply(struct cli *cli, int arg, const struct option_row *row, const char *value) {
     struct cli_options *options = &cli->options;
-    switch (id) {
+    if (row->id >= OPTION_MEASURE)
+        return cli_measure_apply(cli, arg, (enum cli_measure_option)(row->id - OPTION_MEASURE), row->name,
+                                 value);
+    switch ((enum option_id)row->id) {
+    case OPTION_MEASURE:
+        break;
     case OPTION_HELP:
         options->help = true;
         return true;
@@ -254,7 +292,7 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
         int has = !rows[i].argument            ? no_argument
                   : rows[i].argument[0] == '[' ? optional_argument
                                                : required_argument;
-        longs[count++] = (struct option){rows[i].name, has, NULL, (int)rows[i].id};
+        longs[count++] = (struct option){rows[i].name, has, NULL, rows[i].id};
         if (rows[i].letter) {
             letters[letter_count++] = rows[i].letter;
             if (has == required_argument)
@@ -289,9 +327,10 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
             continue;
         }
         for (int i = 0; i < ROW_COUNT; i++)
-            if (rows[i].letter == id)
-                id = (int)rows[i].id;
-        good = apply(cli, arg, (enum option_id)id, optarg) && good;
+            if (rows[i].id == id || rows[i].letter == id) {
+                good = apply(cli, arg, &rows[i], optarg) && good;
+                break;
+            }
     }
     cli->operands = argv + optind;
     cli->operand_count = argc - optind;

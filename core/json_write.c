@@ -1,6 +1,9 @@
 #include "core/json_write.h"
 
+#include "core/number.h"
+
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 void json_writer_init(struct json_writer *writer, struct strbuf *out, unsigned flat_depth) {
@@ -88,6 +91,15 @@ void json_text(struct json_writer *writer, const char *key, str value) {
 void json_integer(struct json_writer *writer, const char *key, uint64_t value) {
     begin_value(writer, key);
     strbuf_format(writer->out, "%llu", (unsigned long long)value);
+}
+
+void json_real(struct json_writer *writer, const char *key, double value) {
+    char digits[NUMBER_FORMAT_MAX];
+    begin_value(writer, key);
+    if (isfinite(value))
+        strbuf_add(writer->out, digits, number_format(value, digits));
+    else
+        strbuf_cstr(writer->out, "null");
 }
 
 void json_boolean(struct json_writer *writer, const char *key, bool value) {

@@ -10,31 +10,7 @@ cd "$work" || exit 2
 rm -rf -- ./*
 unset GLINT_DEVICE
 
-# expect NAME EXIT PATTERN_OUT PATTERN_ERR command...: patterns are extended regular expressions; '-' means empty.
-expect() {
-    name=$1 wanted=$2 out=$3 err=$4
-    shift 4
-    "$@" >out.txt 2>err.txt </dev/null
-    got=$?
-    good=yes
-    [ "$got" -eq "$wanted" ] || good=no
-    for stream in out err; do
-        pattern=$out && [ $stream = err ] && pattern=$err
-        if [ "$pattern" = - ]; then
-            [ ! -s $stream.txt ] || good=no
-        elif [ -n "$pattern" ]; then
-            grep -qE -e "$pattern" $stream.txt || good=no
-        fi
-    done
-    if [ $good = yes ]; then
-        echo "ok   $name"
-    else
-        echo "FAIL $name: exit $got, wanted $wanted with out '$out', err '$err'"
-        sed 's/^/     out: /' out.txt | head -20
-        sed 's/^/     err: /' err.txt | head -20
-        failed=1
-    fi
-}
+. "$source/tests/cli/expect.sh"
 
 cat >good.yaml <<'S'
 glint: 1
@@ -56,7 +32,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >tri.obj
 
 expect "version" 0 '^glint [0-9]+\.[0-9]+' - "$glint" --version
 expect "program help" 0 '^Usage: glint COMMAND' - "$glint" --help
-for command in render check inspect convert schema explain devices; do
+for command in render check inspect convert schema explain devices compare; do
     expect "help of $command" 0 "^Usage: glint $command" - "$glint" $command --help
     expect "help names $command" 0 "^  $command " - "$glint" --help
 done

@@ -1,0 +1,166 @@
+// glint compare A B: how far one picture is from another, and whether that is near enough.
+#include "cli/cli.h"
+
+#include "core/files.h"
+#include "runtime/measure/compare_report.h"
+#include "runtime/measure/heatmap.h"
+#include "runtime/measure/picture_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct comparison {
+    struct cli *cli;
+    struct files files;
+    struct arena arena; // of the files' bytes
+    struct arena_guard guard;
+    struct picture_file pictures[2];
+    struct measure_options options;
+    struct measure_result result;
+    float *map; // a value a pixel, for the heat map; NULL where there is none
+};
+
+static int cannot_read(struct comparison *c, const char *path, enum diag_code code, const char *why) {
+    cli_error(c->cli, code, path, NULL, "%s", why);
+    return CLI_FILE;
+}
+
+static int read_picture(struct comparison *c, int which) {
+    static const enum diag_code codes[] = {[FILE_MISSING] = DIAG_FILE_MISSING,
+                                           [FILE_OUTSIDE] = DIAG_FILE_OUTSIDE,
+                                           [FILE_NOT_REGULAR] = DIAG_FILE_NOT_REGULAR,
+                                           [FILE_UNREADABLE] = DIAG_FILE_UNREADABLE,
+                                           [FILE_TOO_LARGE] = DIAG_LIMIT,
+                                           [FILE_NO_MEMORY] = DIAG_OUT_OF_MEMORY};
+    const char *path = c->cli->operands[which];
+    const struct limits *limits = &c->cli->options.limits;
+    str bytes;
+    enum file_status status =
+        files_read(&c->files, str_from(path), limits->value[LIMIT_IMAGE_BYTES], &c->arena, &bytes);
+    if (status != FILE_OK)
+        return cannot_read(c, path, codes[status], file_status_text(&c->files, status));
+    bool unknown;
+    const char *fault =
+        picture_file_decode(bytes, limits->value[LIMIT_IMAGE_PIXELS], &c->pictures[which], &unknown);
+    return fault ? cannot_read(c, path, unknown ? DIAG_IMAGE_KIND : DIAG_IMAGE_BROKEN, fault) : CLI_OK;
+}
+
+// Linear floats in place of displayed values cannot be had, the other way round is exact: pictures of two
+// kinds are compared as displayed.
+static int choose_space(struct comparison *c) {
+    const struct cli_measure *m = &c->cli->options.measure;
+    const bool linear = c->pictures[0].space == MEASURE_LINEAR && c->pictures[1].space == MEASURE_LINEAR;
+    if (m->space == CLI_SPACE_LINEAR && !linear) {
+        cli_usage(c->cli, m->space_arg, "an 8-bit picture holds displayed values only");
+        diag_help(&c->cli->sink, "compare two of .pfm and .hdr, or leave '--space linear' out");
+        return CLI_USAGE;
+    }
+    c->options = measure_options_default();
+    c->options.space = linear && m->space != CLI_SPACE_DISPLAYED ? MEASURE_LINEAR : MEASURE_DISPLAYED;
+    c->options.threshold = m->has_threshold ? m->threshold : c->options.threshold;
+    c->options.pixels_per_degree =
+        m->pixels_per_degree > 0 ? m->pixels_per_degree : c->options.pixels_per_degree;
+    c->options.display = m->display;
+    for (int i = 0; i < 2; i++)
+        if (c->options.space == MEASURE_DISPLAYED && c->pictures[i].space == MEASURE_LINEAR)
+            measure_display(c->pictures[i].rgb, (size_t)c->pictures[i].width * c->pictures[i].height,
+                            m->display, c->pictures[i].rgb);
+    return CLI_OK;
+}
+
+static int check_sizes(struct comparison *c) {
+    const struct picture_file *p = c->pictures;
+    if (p[0].width == p[1].width && p[0].height == p[1].height)
+        return CLI_OK;
+    return cli_usage(c->cli, cli_operand_place(c->cli, 1),
+                     "the pictures differ in size: %u x %u and %u x %u pixels", p[0].width, p[0].height,
+                     p[1].width, p[1].height);
+}
+
+static int write_heatmap(struct comparison *c) {
+    const struct cli_measure *m = &c->cli->options.measure;
+    struct strbuf png;
+    strbuf_init(&png);
+    heatmap_png(c->pictures[0].width, c->pictures[0].height, c->map,
+                m->heatmap_flip ? HEATMAP_LINEAR : HEATMAP_LOGARITHMIC, &png);
+    int status = CLI_SCENE;
+    if (png.failed)
+        cli_error(c->cli, DIAG_OUT_OF_MEMORY, m->heatmap, NULL, "not enough memory for the heat map");
+    else
+        status = cli_write(c->cli, m->heatmap, strbuf_view(&png));
+    strbuf_finish(&png);
+    return status;
+}
+
+static int report(struct comparison *c, int format) {
+    struct cli *cli = c->cli;
+    const struct compare_report report = {.path = {cli->operands[0], cli->operands[1]},
+                                          .kind = {c->pictures[0].kind, c->pictures[1].kind},
+                                          .width = c->pictures[0].width,
+                                          .height = c->pictures[0].height,
+                                          .options = &c->options,
+                                          .result = &c->result,
+                                          .bounds = &cli->options.measure.bounds};
+    struct strbuf text;
+    strbuf_init(&text);
+    if (format == 1)
+        compare_json(&report, &text);
+    else
+        compare_text(&report, &text);
+    int status = cli_print(cli, strbuf_view(&text));
+    strbuf_finish(&text);
+    return status == CLI_OK && !compare_keeps_bounds(&report) ? CLI_SCENE : status;
+}
+
+static int compare(struct comparison *c, int format) {
+    const struct cli_measure *m = &c->cli->options.measure;
+    int status = CLI_OK;
+    for (int i = 0; i < 2 && status == CLI_OK; i++)
+        status = read_picture(c, i);
+    if (status == CLI_OK)
+        status = check_sizes(c);
+    if (status == CLI_OK)
+        status = choose_space(c);
+    if (status != CLI_OK)
+        return status;
+    const struct picture_file *p = c->pictures;
+    if (m->heatmap)
+        c->map = malloc((size_t)p[0].width * p[0].height * sizeof *c->map);
+    if ((m->heatmap && !c->map) ||
+        !measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &c->options, &c->result,
+                          m->heatmap_flip ? NULL : c->map, m->heatmap_flip ? c->map : NULL)) {
+        cli_error(c->cli, DIAG_OUT_OF_MEMORY, c->cli->operands[0], NULL,
+                  "not enough memory to compare the pictures");
+        return CLI_SCENE;
+    }
+    if (m->heatmap && (status = write_heatmap(c)) != CLI_OK)
+        return status;
+    return report(c, format);
+}
+
+int cmd_compare(struct cli *cli) {
+    static const char *const formats[] = {"text", "json", NULL};
+    int format;
+    if (!cli_format(cli, formats, &format))
+        return CLI_USAGE;
+    struct comparison *c = calloc(1, sizeof *c);
+    int status = CLI_SCENE;
+    if (!c) {
+        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory");
+        return status;
+    }
+    c->cli = cli;
+    arena_init(&c->arena, SIZE_MAX / 2);
+    arena_set_guard(&c->arena, &c->guard);
+    files_init(&c->files, &c->arena);
+    if (setjmp(c->guard.jump) == 0)
+        status = compare(c, format);
+    else
+        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the pictures");
+    for (int i = 0; i < 2; i++)
+        picture_file_finish(&c->pictures[i]);
+    free(c->map);
+    arena_finish(&c->arena);
+    free(c);
+    return status;
+}
