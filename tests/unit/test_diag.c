@@ -63,7 +63,7 @@ static void codes_are_well_formed_and_unique(void **state) {
                                        : info->code[0] == 'W' ? DIAG_WARNING
                                                               : DIAG_NOTE));
         assert_non_null(strchr("EWN", info->code[0]));
-        assert_in_range(info->code[1], '1', '8');
+        assert_in_range(info->code[1], '1', '9');
         assert_in_range(info->where, 1, 31);
         assert_true(strlen(info->title) > 3 && strlen(info->title) < 80);
         assert_true(info->meaning[strlen(info->meaning) - 1] == '.');

@@ -1,0 +1,120 @@
+#include "app/check.h"
+
+#include <stdlib.h>
+
+// ---- judging
+
+struct judge {
+    const struct diag_policy *policy;
+    const bool *ignored; // by source
+    uint32_t sources;
+};
+
+static bool keeps(void *context, struct diag *item) {
+    const struct judge *judge = context;
+    bool ignored = item->at.source < judge->sources && judge->ignored[item->at.source];
+    return diag_policy_keeps(judge->policy, item, ignored);
+}
+
+static void apply_policy(struct session *session) {
+    struct arena_guard guard;
+    arena_set_guard(&session->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        uint32_t count = session->sources.count;
+        bool *ignored = ARENA_ARRAY(&session->arena, bool, count);
+        for (uint32_t i = 0; i < count && session->policy.ignored.count; i++) {
+            const struct source *source = &session->sources.items[i];
+            ignored[i] =
+                source->kind == SOURCE_KIND_FILE &&
+                diag_policy_ignores(&session->policy, files_canonical(&session->files, source->path));
+        }
+        struct judge judge = {&session->policy, ignored, count};
+        diag_filter(&session->sink, keeps, &judge);
+    }
+    arena_set_guard(&session->arena, NULL);
+}
+
+// The notes about what stands in for a camera or a light that is not written.
+static void note_view(struct session *session) {
+    struct view view;
+    if (session->state == SESSION_LOADED && session->sink.errors == 0)
+        session_view(session, 0, &view);
+}
+
+enum session_state check_scene(struct session *session, const struct session_options *options,
+                               struct asset_store *store) {
+    struct session_options judged = *options;
+    judged.judged = true;
+    judged.skip_pixels = true;
+    session_load(session, &judged, store);
+    note_view(session);
+    check_allow(session);
+    apply_policy(session);
+    session_group(session);
+    return session->state;
+}
+
+bool check_failed(const struct session *session) {
+    return session->state == SESSION_UNREADABLE || diag_policy_fails(&session->policy, &session->sink);
+}
+
+// ---- the record
+
+static void fill_assets(struct report_scene *out, const struct session *session, const char *root) {
+    const struct ir_scene *scene = session->scene;
+    struct report_assets *a = &out->assets;
+    a->cameras = scene->cameras.count;
+    a->lights = scene->lights.count;
+    a->materials = scene->materials.count;
+    a->spheres = scene->spheres.count;
+    a->rectangles = scene->rectangles.count;
+    a->models = scene->models.count;
+    a->triangles = session->assets.triangle_count;
+    if (session->assets.background) {
+        a->image_width = session->assets.background->width;
+        a->image_height = session->assets.background->height;
+    }
+    a->files = ARENA_ARRAY(&out->arena, struct report_file, session->files.log.count);
+    for (uint32_t i = 0; i < session->files.log.count; i++) {
+        const struct file_read *read = &session->files.log.items[i];
+        str path = arena_copy(&out->arena, report_path(&out->arena, root, read->path));
+        a->files[a->file_count++] = (struct report_file){path, read->size_bytes};
+    }
+    out->has_assets = true;
+}
+
+struct path_finder {
+    const struct session *session;
+};
+
+static str find_path(void *context, struct arena *arena, span at) {
+    const struct path_finder *finder = context;
+    return check_scene_path(finder->session, arena, at);
+}
+
+static enum report_state state_of(const struct session *session) {
+    if (session->state == SESSION_IGNORED)
+        return session->sink.errors ? REPORT_FAILED : REPORT_IGNORED;
+    if (session->state == SESSION_UNREADABLE)
+        return REPORT_UNREADABLE;
+    return check_failed(session) ? REPORT_FAILED : REPORT_PASSED;
+}
+
+bool check_report(struct report_scene *out, struct session *session, const char *root) {
+    struct path_finder finder = {session};
+    struct report_input input = {.sink = &session->sink,
+                                 .sources = &session->sources,
+                                 .root = root,
+                                 .most = (uint32_t)session->options.limits.value[LIMIT_MESSAGES],
+                                 .find_path = find_path,
+                                 .context = &finder};
+    struct arena_guard guard = {.fault = ARENA_FAULT_NONE};
+    out->state = state_of(session);
+    if (!report_scene_add(out, &input))
+        return false;
+    arena_set_guard(&out->arena, &guard);
+    if (setjmp(guard.jump) == 0 && session->scene)
+        fill_assets(out, session, root);
+    arena_set_guard(&out->arena, NULL);
+    return guard.fault == ARENA_FAULT_NONE;
+}

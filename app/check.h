@@ -1,0 +1,29 @@
+// Judging a scene: everything that `glint check` has to say about one file.
+//
+// Loads it, asks for what stands in for camera and light, runs the rules for scenes, and then judges all
+// findings: comments (`glint: allow W401`) and the policy of configuration and options take some away or
+// change their severity. Ownership: as session_load. Thread safety: one call belongs to one thread; the store
+// too.
+#ifndef GLINT_APP_CHECK_H
+#define GLINT_APP_CHECK_H
+
+#include "app/session.h"
+#include "core/diag_report.h"
+
+// The session's sink then holds the findings, sorted and grouped. Whatever the result, session_finish takes
+// it.
+enum session_state check_scene(struct session *session, const struct session_options *options,
+                               struct asset_store *store);
+// Whether the findings make the run fail.
+bool check_failed(const struct session *session);
+
+// Takes away what comments in the scene files allow, and reports comments that allow nothing (W901, W902).
+void check_allow(struct session *session);
+// The path in the scene of a place: "models[2].material", as --set takes it. Empty: it has none.
+str check_scene_path(const struct session *session, struct arena *arena, span at);
+
+// Copies the findings and what is known of the scene into a record, with paths relative to `root`.
+// false: no memory.
+bool check_report(struct report_scene *out, struct session *session, const char *root);
+
+#endif

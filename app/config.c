@@ -1,0 +1,341 @@
+#include "app/config.h"
+
+#include "core/nearest.h"
+#include "core/unicode.h"
+#include "parser/reader.h"
+
+#include <string.h>
+
+enum {
+    CONFIG_BYTES_MAX = 1024 * 1024,
+    PATTERN_BYTES_MAX = 1024,
+    WORD_SHOWN_MAX = 60,
+};
+
+struct binder {
+    const struct config_input *input;
+    const struct tree *tree;
+    struct config *config;
+    str folder; // of the configuration
+};
+
+enum shape {
+    SHAPE_VALUE, // one scalar
+    SHAPE_LIST,  // each item is taken
+    SHAPE_MAP,   // each pair is taken
+};
+
+// A setting: its name, what it looks like and what takes each of its values. `key`: of a pair of a map, else
+// 0.
+struct setting {
+    const char *name;
+    enum shape shape;
+    const char *form; // for "'only' takes ..."
+    const char *example;
+    void (*take)(struct binder *b, tree_index key, tree_index value);
+};
+
+// ---- saying what is wrong
+
+// Text from the file, short and without what a terminal might obey.
+static str shown(const struct binder *b, tree_index node) {
+    str text = tree_text(b->tree, node);
+    str clipped = str_slice(text, 0, WORD_SHOWN_MAX);
+    while (clipped.len && utf8_first_error(clipped) != clipped.len)
+        clipped.len--;
+    return clipped;
+}
+
+static void bad_value(const struct binder *b, tree_index node, const char *what, str word) {
+    diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node), what, STR_ARG(word));
+}
+
+static void did_you_mean(const struct binder *b, tree_index node, const struct nearest *search) {
+    str best = nearest_best(search);
+    if (!best.len)
+        return;
+    diag_help(b->input->sink, "did you mean '%.*s'?", STR_ARG(best));
+    diag_fix(b->input->sink, false, tree_span(b->tree, node), best);
+}
+
+static void offer_words(struct nearest *search, const char *const *words) {
+    for (; *words; words++)
+        nearest_offer(search, str_from(*words));
+}
+
+// A code that is unknown or that no policy changes; false: it was reported.
+static bool accept_codes(const struct binder *b, tree_index node, enum diag_policy_status status) {
+    str word = shown(b, node);
+    if (status == DIAG_POLICY_UNKNOWN_CODE) {
+        diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node), "there is no code '%.*s'",
+                 STR_ARG(word));
+        diag_help(
+            b->input->sink,
+            "a code is a letter and three digits, W401, or a family, W4xx; it stands at the end of each "
+            "message");
+    } else if (status == DIAG_POLICY_ERROR_CODE) {
+        diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node),
+                 "errors cannot be silenced or lowered, and '%.*s' is one", STR_ARG(word));
+        diag_help(b->input->sink, "only warnings (W) and notes (N) can be changed");
+    }
+    return status == DIAG_POLICY_SET;
+}
+
+// ---- what takes a value
+
+static void take_asset_path(struct binder *b, tree_index key, tree_index value) {
+    (void)key;
+    str path = tree_text(b->tree, value);
+    struct arena *arena = b->input->arena;
+    bool absolute = path.len && path.ptr[0] == '/';
+    str joined = absolute ? path : arena_format(arena, "%.*s/%.*s", STR_ARG(b->folder), STR_ARG(path));
+    str canonical = files_canonical(b->input->files, joined);
+    size_t length = b->folder.len;
+    bool below = str_starts_with(canonical, b->folder) &&
+                 (canonical.len == length || length == 1 || canonical.ptr[length] == '/');
+    struct files probe;
+    files_init(&probe, arena);
+    if (!below) {
+        bad_value(b, value, "the folder '%.*s' lies outside the configuration's own", shown(b, value));
+        diag_help(b->input->sink, "move .glintrc.yaml to a folder above both, or name it with --asset-path");
+    } else if (files_add_root(&probe, canonical) != FILE_OK) {
+        bad_value(b, value, "there is no folder '%.*s'", shown(b, value));
+        diag_help(b->input->sink, "folders are relative to the folder of .glintrc.yaml");
+    } else {
+        *ARENA_PUSH(arena, &b->config->asset_paths) = canonical;
+    }
+}
+
+static void take_severity(struct binder *b, tree_index key, tree_index value) {
+    str word = tree_text(b->tree, value);
+    enum diag_policy_status status = diag_policy_level(&b->config->policy, tree_text(b->tree, key), word);
+    if (status != DIAG_POLICY_BAD_WORD) {
+        accept_codes(b, key, status);
+        return;
+    }
+    struct nearest search = nearest_begin(word);
+    offer_words(&search, diag_level_words);
+    bad_value(b, value, "'%.*s' is no severity", shown(b, value));
+    if (nearest_best(&search).len)
+        did_you_mean(b, value, &search);
+    else
+        diag_help(b->input->sink, "it is one of error, warning, note and off");
+}
+
+static void take_ignore(struct binder *b, tree_index key, tree_index value) {
+    (void)key;
+    str text = tree_text(b->tree, value);
+    if (diag_is_code_text(text)) {
+        accept_codes(b, value, diag_policy_level(&b->config->policy, text, STR("off")));
+    } else if (text.len == 0 || text.len > PATTERN_BYTES_MAX) {
+        bad_value(b, value, "this is no code and no path%.*s", STR(""));
+        diag_help(b->input->sink, "write a code, W401, or a pattern of paths, \"drafts/**\"");
+    } else {
+        diag_policy_ignore_path(&b->config->policy, b->input->arena, b->folder, text);
+    }
+}
+
+static void take_only(struct binder *b, tree_index key, tree_index value) {
+    (void)key;
+    accept_codes(b, value, diag_policy_only(&b->config->policy, tree_text(b->tree, value)));
+}
+
+static void take_fail_on(struct binder *b, tree_index key, tree_index value) {
+    (void)key;
+    str word = tree_text(b->tree, value);
+    if (diag_policy_fail_on(&b->config->policy, word) == DIAG_POLICY_SET)
+        return;
+    struct nearest search = nearest_begin(word);
+    offer_words(&search, diag_fail_words);
+    bad_value(b, value, "'fail_on' is error or warning, not '%.*s'", shown(b, value));
+    did_you_mean(b, value, &search);
+}
+
+static void take_limit_named(struct binder *b, tree_index key, tree_index value, str name) {
+    struct arena *arena = b->input->arena;
+    enum limit which = LIMIT_COUNT;
+    str assignment = arena_format(arena, "%.*s=%.*s", STR_ARG(name), STR_ARG(tree_text(b->tree, value)));
+    enum limit_status status = limits_set(&b->config->limits, assignment, &which);
+    if (status == LIMIT_BAD_VALUE) {
+        const struct limit_info *info = limit_info(which);
+        diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, value),
+                 "'%.*s' takes a whole number from %llu to %llu", STR_ARG(shown(b, key)),
+                 (unsigned long long)info->least, (unsigned long long)info->greatest);
+    } else if (status == LIMIT_UNKNOWN_NAME) {
+        struct nearest search = nearest_begin(name);
+        for (int i = 0; i < LIMIT_COUNT; i++)
+            nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
+        bad_value(b, key, "there is no limit '%.*s'", shown(b, key));
+        if (nearest_best(&search).len)
+            did_you_mean(b, key, &search);
+        else
+            diag_help(b->input->sink, "'glint check --limit help' lists the limits");
+    }
+}
+
+static void take_limit(struct binder *b, tree_index key, tree_index value) {
+    take_limit_named(b, key, value, tree_text(b->tree, key));
+}
+
+static void take_max_messages(struct binder *b, tree_index key, tree_index value) {
+    take_limit_named(b, key, value, str_from(limit_info(LIMIT_MESSAGES)->name));
+}
+
+static const struct setting settings[] = {
+    {"asset_paths", SHAPE_LIST, "a list of folders", "asset_paths: [textures]", take_asset_path},
+    {"severity", SHAPE_MAP, "a map from codes to severities", "severity: {W401: error, N601: off}",
+     take_severity},
+    {"ignore", SHAPE_LIST, "a list of codes and paths", "ignore: [N401, \"drafts/**\"]", take_ignore},
+    {"only", SHAPE_LIST, "a list of codes", "only: [W4xx]", take_only},
+    {"fail_on", SHAPE_VALUE, "error or warning", "fail_on: warning", take_fail_on},
+    {"max_messages", SHAPE_VALUE, "a whole number", "max_messages: 20", take_max_messages},
+    {"limits", SHAPE_MAP, "a map from limits to numbers", "limits: {mesh-bytes: 1000000}", take_limit},
+};
+enum {
+    SETTING_COUNT = sizeof settings / sizeof *settings
+};
+
+// ---- walking the file
+
+static bool is_reported(const struct binder *b, tree_index node) {
+    return (tree_node(b->tree, node)->flags & (TREE_BAD | TREE_CUT)) != 0;
+}
+
+static void wrong_shape(struct binder *b, const struct setting *setting, tree_index node) {
+    if (is_reported(b, node))
+        return;
+    diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node), "'%s' takes %s", setting->name,
+             setting->form);
+    diag_help(b->input->sink, "write %s", setting->example);
+}
+
+static void take_one(struct binder *b, const struct setting *setting, tree_index key, tree_index value) {
+    if (is_reported(b, value))
+        return;
+    if (tree_node(b->tree, value)->kind == TREE_SCALAR)
+        setting->take(b, key, value);
+    else
+        wrong_shape(b, setting, value);
+}
+
+static void take_setting(struct binder *b, const struct setting *setting, tree_index key, tree_index value) {
+    enum tree_kind kind = tree_node(b->tree, value)->kind;
+    if (kind == TREE_NULL && setting->shape != SHAPE_VALUE)
+        return; // an empty list or map
+    if (setting->shape == SHAPE_VALUE) {
+        take_one(b, setting, key, value);
+    } else if (setting->shape == SHAPE_LIST && kind == TREE_LIST) {
+        for (tree_index i = tree_first(b->tree, value); i; i = tree_next(b->tree, i))
+            take_one(b, setting, 0, i);
+    } else if (setting->shape == SHAPE_MAP && kind == TREE_MAP) {
+        for (tree_index k = tree_first(b->tree, value); k; k = tree_next_key(b->tree, k))
+            take_one(b, setting, k, tree_value(b->tree, k));
+    } else {
+        wrong_shape(b, setting, value);
+    }
+}
+
+static void unknown_key(struct binder *b, tree_index key) {
+    struct nearest search = nearest_begin(tree_text(b->tree, key));
+    for (int i = 0; i < SETTING_COUNT; i++)
+        nearest_offer(&search, str_from(settings[i].name));
+    diag_add(b->input->sink, DIAG_CONFIG_KEY, tree_span(b->tree, key), "there is no setting '%.*s'",
+             STR_ARG(shown(b, key)));
+    if (nearest_best(&search).len)
+        did_you_mean(b, key, &search);
+    else
+        diag_help(b->input->sink,
+                  "the settings are asset_paths, severity, ignore, only, fail_on, max_messages "
+                  "and limits");
+}
+
+static void bind(struct binder *b) {
+    for (tree_index key = tree_first(b->tree, b->tree->root); key; key = tree_next_key(b->tree, key)) {
+        const struct setting *found = NULL;
+        if (is_reported(b, key))
+            continue;
+        for (int i = 0; i < SETTING_COUNT; i++)
+            if (str_equal_cstr(tree_text(b->tree, key), settings[i].name))
+                found = &settings[i];
+        if (found)
+            take_setting(b, found, key, tree_value(b->tree, key));
+        else
+            unknown_key(b, key);
+    }
+}
+
+// The reader knows scenes: what it says of a file without anything, and of one that is no map, has other
+// words here.
+static bool keep_for_config(void *context, struct diag *item) {
+    (void)context;
+    if (item->code == DIAG_NOT_A_SCENE) {
+        item->code = DIAG_CONFIG_VALUE;
+        item->message = STR("a configuration is a map of settings");
+        item->help =
+            STR("write a setting, such as fail_on: warning; an empty file marks its folder as the root");
+    }
+    return item->code != DIAG_EMPTY_FILE;
+}
+
+// The sink of the reading is on the heap: a jump out of the reader passes through here.
+static bool read_guarded(struct binder *b, const struct reader_context *context, uint32_t source,
+                         struct tree *tree) {
+    struct arena *arena = b->input->arena;
+    struct arena_guard *outer = arena->guard;
+    struct arena_guard guard;
+    arena_set_guard(arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        bool readable = read_yaml(context, source, tree);
+        arena_set_guard(arena, outer);
+        return readable;
+    }
+    arena_set_guard(arena, outer);
+    diag_sink_finish(context->sink);
+    arena_raise(arena, guard.fault);
+}
+
+static void read_and_bind(struct binder *b, uint32_t source, const struct limits *limits) {
+    struct diag_sink sink;
+    struct tree tree;
+    diag_sink_init(&sink);
+    struct reader_context context = {
+        .sources = b->input->sources, .sink = &sink, .limits = limits, .arena = b->input->arena};
+    bool readable = read_guarded(b, &context, source, &tree);
+    diag_filter(&sink, keep_for_config, NULL);
+    diag_merge(b->input->sink, &sink);
+    diag_sink_finish(&sink);
+    b->tree = &tree;
+    if (readable)
+        bind(b);
+}
+
+// How a user who names the scene so would name the configuration.
+static str path_shown(const struct config_input *input, str scene_path, str config_path) {
+    str wanted = path_folder(config_path);
+    str base = path_base(config_path);
+    for (str at = path_folder(scene_path);; at = path_folder(at)) {
+        bool ends = str_equal_cstr(at, ".") || str_equal_cstr(at, "/");
+        if (str_equal(files_canonical(input->files, at), wanted))
+            return ends ? base : arena_format(input->arena, "%.*s/%.*s", STR_ARG(at), STR_ARG(base));
+        if (ends || str_equal_cstr(path_base(at), ".."))
+            return config_path;
+    }
+}
+
+void config_load(const struct config_input *input, str scene_path, struct config *config) {
+    struct limits limits = limits_default();
+    str text;
+    *config = (struct config){.path = files_find_config(input->files, scene_path), .limits = limits};
+    if (config->path.len == 0)
+        return;
+    enum file_status status = files_read(input->files, config->path, CONFIG_BYTES_MAX, input->arena, &text);
+    uint32_t source =
+        source_add(input->sources, SOURCE_KIND_FILE, path_shown(input, scene_path, config->path), text);
+    if (status != FILE_OK) {
+        diag_add(input->sink, status == FILE_TOO_LARGE ? DIAG_LIMIT : DIAG_FILE_UNREADABLE,
+                 (span){source, 0, 0}, "the configuration %s", file_status_text(input->files, status));
+        return;
+    }
+    struct binder binder = {.input = input, .config = config, .folder = path_folder(config->path)};
+    read_and_bind(&binder, source, &limits);
+}

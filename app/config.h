@@ -1,0 +1,42 @@
+// The settings of a folder: `.glintrc.yaml`, the nearest one at or above a scene's folder.
+//
+//     asset_paths: [textures]          # folders below this file's own, searched too
+//     severity: {W401: error, N6xx: off}
+//     ignore: [N401, "drafts/**"]      # codes and paths
+//     only: [W4xx]
+//     fail_on: warning
+//     max_messages: 20
+//     limits: {mesh-bytes: 1000000}
+//
+// An empty file is one that only marks its folder as the root. What is wrong in it is reported at its place,
+// and the rest counts. Ownership: everything lies in the arena given, whose guard the caller sets. Thread
+// safety: one call belongs to one thread.
+#ifndef GLINT_APP_CONFIG_H
+#define GLINT_APP_CONFIG_H
+
+#include "core/diag_policy.h"
+#include "core/files.h"
+#include "core/limits.h"
+#include "core/source.h"
+
+struct config {
+    str path; // empty: there is none
+    struct {
+        str *items;
+        uint32_t count, capacity;
+    } asset_paths; // absolute
+    struct diag_policy policy;
+    struct limits limits; // those given
+};
+
+struct config_input {
+    struct files *files;
+    struct source_set *sources;
+    struct diag_sink *sink;
+    struct arena *arena;
+};
+
+// Finds and reads it; a zeroed config where there is none.
+void config_load(const struct config_input *input, str scene_path, struct config *config);
+
+#endif
