@@ -42,6 +42,7 @@ struct cli_options {
     struct cli_measure measure;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
+    bool as_file, no_cache; // of the reference
     int output_arg; // where it stands on the command line; 0: not given
 };
 

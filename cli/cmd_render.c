@@ -1,8 +1,5 @@
 // glint render SCENE: load, flatten, trace, write.
-#include "app/shot.h"
-#include "cli/cli.h"
-#include "cli/progress.h"
-#include "cli/stats.h"
+#include "cli/render_job.h"
 #include "core/clock.h"
 #include "core/output.h"
 
@@ -11,20 +8,8 @@
 #include <string.h>
 #include <sys/resource.h>
 
-struct job {
-    struct cli *cli;
-    struct session session;
-    struct gpu *gpu;
-    struct shot shot;
-    struct image image;
-    struct stats stats;
-    struct progress progress;
-    enum image_format format;
-    const char *output; // without the camera's name
-};
-
 // OUT.NAME.png for OUT.png.
-static const char *camera_output(struct job *job, str camera) {
+static const char *camera_output(struct render_job *job, str camera) {
     str path = str_from(job->output);
     size_t dot = path.len;
     while (dot > 0 && path.ptr[dot - 1] != '.')
@@ -34,7 +19,7 @@ static const char *camera_output(struct job *job, str camera) {
         .ptr;
 }
 
-static int open_device(struct job *job) {
+static int open_device(struct render_job *job) {
     char error[GPU_ERROR_BYTES] = "";
     const char *environment = getenv("GLINT_DEVICE");
     const char *wanted = job->cli->options.device ? job->cli->options.device : environment;
@@ -55,17 +40,17 @@ static int open_device(struct job *job) {
     return CLI_DEVICE;
 }
 
-static int interrupted(struct job *job) {
+int render_interrupted(struct render_job *job) {
     int signal_number = interrupt_signal();
     progress_end(&job->progress);
     cli_error(job->cli, DIAG_INTERRUPTED, job->cli->operands[0], NULL, "interrupted; nothing was written");
     return signal_number == 15 ? CLI_TERMINATED : CLI_INTERRUPTED;
 }
 
-static int shot_failed(struct job *job, enum shot_status status) {
+static int shot_failed(struct render_job *job, enum shot_status status) {
     progress_end(&job->progress);
     if (status == SHOT_CANCELLED)
-        return interrupted(job);
+        return render_interrupted(job);
     if (status == SHOT_SCENE)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
     bool memory = gpu_last_status(job->gpu) == GPU_NO_MEMORY;
@@ -81,7 +66,7 @@ static int compare_doubles(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-static int take_frames(struct job *job) {
+static int take_frames(struct render_job *job) {
     int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
     double *times = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);
     struct render_progress callback = progress_callback(&job->progress);
@@ -107,7 +92,7 @@ static int take_frames(struct job *job) {
     return CLI_OK;
 }
 
-static int write_picture(struct job *job, const char *path) {
+int render_write_picture(struct render_job *job, const char *path) {
     struct strbuf file;
     struct image_display display = {job->session.image.tone, job->session.image.transfer};
     strbuf_init(&file);
@@ -125,7 +110,7 @@ static int write_picture(struct job *job, const char *path) {
     return status;
 }
 
-static int report_stats(struct job *job) {
+static int report_stats(struct render_job *job) {
     struct stats *s = &job->stats;
     struct render_progress callback = progress_callback(&job->progress);
     enum render_result result =
@@ -168,12 +153,12 @@ static int report_stats(struct job *job) {
 }
 
 // One camera: frames, picture, statistics. The shot is open and looks through it.
-static int render_camera(struct job *job, const char *path) {
+static int render_camera(struct render_job *job, const char *path) {
     progress_begin(&job->progress, job->cli->options.quiet);
     int status = take_frames(job);
     progress_end(&job->progress);
     if (status == CLI_OK)
-        status = write_picture(job, path);
+        status = render_write_picture(job, path);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
     if (status != CLI_OK || job->cli->options.quiet)
@@ -188,33 +173,49 @@ static int render_camera(struct job *job, const char *path) {
     return status;
 }
 
-static int render_cameras(struct job *job) {
-    const struct ir_cameras *cameras = &job->session.scene->cameras;
-    bool all = str_equal(job->cli->options.camera, STR("all")) && cameras->count > 0;
-    uint32_t first = all ? 0 : session_camera(&job->session, job->cli->options.camera);
-    if (str_equal(job->cli->options.camera, STR("all")) && cameras->count == 0)
-        first = 0;
-    if (first == IR_NO_INDEX)
-        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
+const char *render_output_of(struct render_job *job, uint32_t camera) {
+    return job->all_cameras ? camera_output(job, job->session.scene->cameras.items[camera].name)
+                            : job->output;
+}
+
+static int render_by_device(struct render_job *job, uint32_t first, uint32_t end) {
+    int status = open_device(job);
+    if (status != CLI_OK)
+        return status;
     enum shot_status opened = shot_open(&job->shot, &job->session, job->gpu, first);
     if (opened != SHOT_OK)
         return shot_failed(job, opened);
-    if (!image_init(&job->image, job->shot.settings.width, job->shot.settings.height)) {
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->output, NULL, "not enough memory for the picture");
-        return CLI_SCENE;
-    }
-    int status = CLI_OK;
-    for (uint32_t i = first; i < (all ? cameras->count : first + 1) && status == CLI_OK; i++) {
+    for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
             return shot_failed(job, opened);
-        status = render_camera(job, all ? camera_output(job, cameras->items[i].name) : job->output);
+        status = render_camera(job, render_output_of(job, i));
     }
     int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
     return status != CLI_OK ? status : reported;
 }
 
+static bool is_reference(const struct cli *cli) {
+    const char *wanted = cli->options.device ? cli->options.device : getenv("GLINT_DEVICE");
+    return wanted && strcmp(wanted, "reference") == 0;
+}
+
+static int render_cameras(struct render_job *job) {
+    const struct ir_cameras *cameras = &job->session.scene->cameras;
+    bool all = str_equal(job->cli->options.camera, STR("all"));
+    job->all_cameras = all && cameras->count > 0;
+    uint32_t first = all ? 0 : session_camera(&job->session, job->cli->options.camera);
+    if (first == IR_NO_INDEX)
+        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
+    if (!image_init(&job->image, (uint32_t)job->session.image.width, (uint32_t)job->session.image.height)) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->output, NULL, "not enough memory for the picture");
+        return CLI_SCENE;
+    }
+    uint32_t end = job->all_cameras ? cameras->count : first + 1;
+    return is_reference(job->cli) ? render_by_reference(job, first, end) : render_by_device(job, first, end);
+}
+
 // Whether the output can be made at all is better known before the work than behind it.
-static int try_output(struct job *job) {
+static int try_output(struct render_job *job) {
     struct output probe;
     if (strcmp(job->output, "-") == 0)
         return CLI_OK;
@@ -227,21 +228,19 @@ static int try_output(struct job *job) {
     return CLI_FILE;
 }
 
-static int run_job(struct job *job, struct asset_store *store) {
+static int run_job(struct render_job *job, struct asset_store *store) {
     struct session_options options = cli_session_options(job->cli, job->cli->operands[0]);
     session_load(&job->session, &options, store);
     if (job->session.state != SESSION_LOADED || job->session.sink.errors)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
     if (interrupt_signal())
-        return interrupted(job);
+        return render_interrupted(job);
     int status = try_output(job);
-    if (status == CLI_OK)
-        status = open_device(job);
     return status == CLI_OK ? render_cameras(job) : status;
 }
 
 int cmd_render(struct cli *cli) {
-    struct job job = {.cli = cli, .format = IMAGE_PNG};
+    struct render_job job = {.cli = cli, .format = IMAGE_PNG};
     job.output = cli->options.output ? cli->options.output : cli_default_picture(cli, cli->operands[0]);
     if (strcmp(job.output, "-") != 0 && strncmp(job.output, "/dev/", 5) != 0 &&
         !image_format_of_path(str_from(job.output), &job.format))

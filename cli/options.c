@@ -26,6 +26,8 @@ enum option_id {
     OPTION_QUIET,
     OPTION_VERBOSE,
     OPTION_IR,
+    OPTION_AS_FILE,
+    OPTION_NO_CACHE,
     OPTION_FORMAT,
     OPTION_MEASURE = 2000, // and enum cli_measure_option behind it
 };
@@ -50,7 +52,11 @@ static const struct option_row rows[] = {
     {OPTION_SET, "set", 0, "PATH=VALUE", "render check inspect deps",
      "change one value of the scene: materials.glass.refractive_index=1.6"},
     {OPTION_DEVICE, "device", 0, "NAME|N", "render",
-     "the device to render on, see 'glint devices'; also GLINT_DEVICE"},
+     "the device to render on, see 'glint devices'; 'reference' is the tracer in double precision; also "
+     "GLINT_DEVICE"},
+    {OPTION_AS_FILE, "as-file", 0, NULL, "render",
+     "the reference obeys max_depth, min_weight and depth_limit of the scene"},
+    {OPTION_NO_CACHE, "no-cache", 0, NULL, "render", "the reference neither reads nor writes its cache"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR", "render check inspect convert deps pack",
      "a folder in which files of the scene are looked for too"},
     {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render check inspect convert deps pack compare",
@@ -256,6 +262,12 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
         return true;
     case OPTION_IR:
         options->ir = true;
+        return true;
+    case OPTION_AS_FILE:
+        options->as_file = true;
+        return true;
+    case OPTION_NO_CACHE:
+        options->no_cache = true;
         return true;
     case OPTION_FORMAT:
         options->format = value;

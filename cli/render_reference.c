@@ -1,0 +1,124 @@
+// glint render --device reference: the same files as a device makes, by the tracer in double precision.
+#include "app/exact.h"
+#include "cli/render_job.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The progress bar speaks of render_progress; both are the same question.
+static bool report(void *context, double fraction) {
+    const struct render_progress *progress = context;
+    return progress->report(progress->context, fraction);
+}
+
+static void text_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
+    const struct reference_settings *settings = &exact->settings;
+    strbuf_format(
+        out, "device: reference, double precision%s\npicture: %u x %u, %u sample%s, computed in %.3f s\n",
+        exact->source.found ? ", from its cache" : "", settings->width, settings->height, settings->samples,
+        settings->samples == 1 ? "" : "s", s->seconds);
+    const struct {
+        const char *name;
+        uint64_t value;
+    } counts[] = {{"primary", s->primary},
+                  {"reflected", s->reflected},
+                  {"refracted", s->refracted},
+                  {"shadow", s->shadow},
+                  {"total reflections", s->total_reflections},
+                  {"cut by depth", s->cut_by_depth},
+                  {"cut by weight", s->cut_by_weight},
+                  {"cut by segments", s->cut_by_segments},
+                  {"deepest level", s->deepest}};
+    strbuf_cstr(out, "rays\n");
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
+        strbuf_format(out, "  %-18s %12llu\n", counts[i].name, (unsigned long long)counts[i].value);
+    strbuf_format(
+        out,
+        "weight of the rays not followed\n  worst pixel        %12.3g\n  mean               %12.3g\n"
+        "  brightest in view  %12.3g\n  could add at most  %12.3g\n",
+        s->left_weight_most, s->left_weight_mean, s->brightest, s->bound);
+}
+
+static bool json_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
+    const struct reference_settings *settings = &exact->settings;
+    json_t *root = json_pack(
+        "{s:s, s:b, s:b, s:I, s:I, s:I, s:f, s:{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}, s:{s:f, s:f, "
+        "s:f, s:f}}",
+        "device", "reference", "as_file", settings->as_file, "cached", exact->source.found > 0, "width",
+        (json_int_t)settings->width, "height", (json_int_t)settings->height, "samples",
+        (json_int_t)settings->samples, "seconds", s->seconds, "rays", "primary", (json_int_t)s->primary,
+        "reflected", (json_int_t)s->reflected, "refracted", (json_int_t)s->refracted, "shadow",
+        (json_int_t)s->shadow, "total_reflections", (json_int_t)s->total_reflections, "cut_by_depth",
+        (json_int_t)s->cut_by_depth, "cut_by_weight", (json_int_t)s->cut_by_weight, "cut_by_segments",
+        (json_int_t)s->cut_by_segments, "deepest", (json_int_t)s->deepest, "left", "worst_pixel",
+        s->left_weight_most, "mean", s->left_weight_mean, "brightest", s->brightest, "bound", s->bound);
+    char *text = root ? json_dumps(root, JSON_INDENT(2)) : NULL;
+    bool made = text != NULL;
+    if (made)
+        strbuf_format(out, "%s\n", text);
+    free(text);
+    json_decref(root);
+    return made;
+}
+
+static int tell_statistics(struct render_job *job, const struct exact *exact,
+                           const struct reference_statistics *statistics) {
+    struct strbuf text;
+    strbuf_init(&text);
+    int status = CLI_OK;
+    bool json = job->cli->options.stats == CLI_STATS_JSON;
+    if (!json)
+        text_of(exact, statistics, &text);
+    else if (!json_of(exact, statistics, &text))
+        status = CLI_FILE;
+    if (json && strcmp(job->output, "-") != 0)
+        status = cli_print(job->cli, strbuf_view(&text));
+    else
+        fwrite(text.data ? text.data : "", 1, text.len, stderr);
+    strbuf_finish(&text);
+    return status;
+}
+
+static void tell_end(struct render_job *job, const struct exact *exact, const char *path,
+                     const struct reference_statistics *statistics) {
+    if (job->cli->options.quiet)
+        return;
+    fprintf(stderr, "glint: the reference left weight %.3g of a pixel at most, which is worth %.3g%s\n",
+            statistics->left_weight_most, statistics->bound,
+            exact->source.found ? " (picture from its cache)" : "");
+    if (strcmp(path, "-") != 0)
+        fprintf(stderr, "glint: wrote %s, %u x %u\n", path, job->image.width, job->image.height);
+}
+
+static int render_camera(struct render_job *job, uint32_t camera) {
+    const struct cli_options *options = &job->cli->options;
+    const char *path = render_output_of(job, camera);
+    struct exact exact;
+    struct reference_statistics statistics;
+    struct render_progress callback = progress_callback(&job->progress);
+    struct reference_progress progress = {report, &callback};
+    enum shot_status taken = exact_open(&exact, &job->session, camera,
+                                        (struct exact_options){options->as_file, options->no_cache});
+    progress_begin(&job->progress, options->quiet);
+    if (taken == SHOT_OK)
+        taken = exact_take(&exact, &job->image, NULL, &progress, &statistics);
+    progress_end(&job->progress);
+    int status = taken == SHOT_OK ? CLI_OK : taken == SHOT_CANCELLED ? render_interrupted(job) : CLI_SCENE;
+    if (status == CLI_OK)
+        status = render_write_picture(job, path);
+    if (status == CLI_OK && options->stats)
+        status = tell_statistics(job, &exact, &statistics);
+    if (status == CLI_OK)
+        tell_end(job, &exact, path, &statistics);
+    exact_close(&exact);
+    return status;
+}
+
+int render_by_reference(struct render_job *job, uint32_t first, uint32_t end) {
+    int status = CLI_OK;
+    for (uint32_t i = first; i < end && status == CLI_OK; i++)
+        status = render_camera(job, i);
+    int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
+    return status != CLI_OK ? status : reported;
+}
