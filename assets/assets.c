@@ -245,6 +245,8 @@ static void decode_image(struct asset_file *file, str name, bool header_only, st
         fault = picture_decode(file->text, &header, out);
     if (fault)
         asset_report_line(file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s", fault);
+    out->width = header.width;
+    out->height = header.height;
     out->ignored = header.ignored;
 }
 
@@ -258,7 +260,7 @@ static void read_image(struct loader *loader, struct asset_file *file, str name,
     arena_finish(scratch);
 }
 
-static const struct picture *load_background(struct loader *loader, bool header_only) {
+static const struct picture *load_background(struct loader *loader, bool header_only, struct assets *out) {
     const struct assets_input *input = loader->input;
     const struct ir_background *background = &input->scene->background;
     span at = ir_place_value(input->origin, &background->head, &SCHEMA_BACKGROUND, "image");
@@ -278,6 +280,8 @@ static const struct picture *load_background(struct loader *loader, bool header_
     }
     if (file.errors == 0 && entry->picture.ignored)
         asset_report_line(&file, DIAG_IMAGE_CHUNKS, 0, "the image's %s ignored", entry->picture.ignored);
+    out->background_width = file.errors ? 0 : entry->picture.width;
+    out->background_height = file.errors ? 0 : entry->picture.height;
     return entry->is_whole ? &entry->picture : NULL;
 }
 
@@ -312,7 +316,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, bo
     const struct ir_background *background = &scene->background;
     if (background->kind == IR_BACKDROP_IMAGE && background->image.len &&
         !is_poisoned(&background->head, &SCHEMA_BACKGROUND, "image"))
-        out->background = load_background(&loader, geometry_only);
+        out->background = load_background(&loader, geometry_only, out);
     out->materials = loader.materials.items;
     out->material_count = loader.materials.count;
     store_sweep(store);

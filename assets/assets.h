@@ -54,6 +54,8 @@ struct assets {
     struct assets_model *models; // one per scene model
     uint32_t model_count;
     const struct picture *background; // NULL: none, or not loaded
+    // Of the background, also where only its header was read; 0: none.
+    uint32_t background_width, background_height;
     uint64_t triangle_count;          // of all models
     struct asset_uses uses;           // in the order of loading; texts in the arena of the scene
 };

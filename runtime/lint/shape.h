@@ -1,0 +1,57 @@
+// Triangles against triangles, points and rays, in double precision with tolerances of the caller's.
+//
+// A tolerance is a length: what is nearer counts as touching, never as crossing. That is what keeps good
+// meshes free of false alarms: a file with six digits places a vertex no better than 2^-20 of its
+// coordinates, which is a billion times the rounding of the double arithmetic here, so that no exact
+// predicates are needed. Thread safety: pure functions.
+#ifndef GLINT_RUNTIME_LINT_SHAPE_H
+#define GLINT_RUNTIME_LINT_SHAPE_H
+
+#include "core/vec3.h"
+
+#include <stdint.h>
+
+struct lint_triangle {
+    vec3 p[3];
+};
+
+// With its unit normal; zero where it has no area.
+struct lint_face {
+    struct lint_triangle t;
+    vec3 normal;
+};
+
+struct lint_box {
+    vec3 lower, upper;
+};
+
+// The empty box, which any point makes its own.
+struct lint_box lint_box_empty(void);
+void lint_box_add(struct lint_box *box, vec3 point);
+struct lint_box lint_box_join(struct lint_box a, struct lint_box b);
+struct lint_box lint_box_grow(struct lint_box box, double by);
+struct lint_box lint_box_of(const struct lint_triangle *triangle);
+bool lint_box_meets(const struct lint_box *a, const struct lint_box *b);
+bool lint_box_holds(const struct lint_box *box, vec3 point);
+// The box around the images of all points of `box`.
+struct lint_box lint_box_place(struct lint_box box, const affine3 *place);
+
+struct lint_face lint_face_of(struct lint_triangle triangle);
+
+// Whether an edge of one passes through the inside of the other: its ends lie on both sides of the plane, and
+// the point between them inside all three edges, each by more than the tolerance and a thousandth of the
+// length of the edge.
+bool lint_faces_cross(const struct lint_face *a, const struct lint_face *b, double tolerance);
+// Whether they lie in one plane (all six corners within `near` of the other's) and cover a common area, wider
+// than the tolerance and a hundredth of the narrower one in every direction (separating axes: Gottschalk, Lin
+// and Manocha 1996). Neighbours along an edge do not.
+bool lint_faces_coincide(const struct lint_face *a, const struct lint_face *b, double near, double tolerance);
+// The point of a triangle that is nearest to `point` (Ericson 2005, section 5.1.5): its distance.
+double lint_triangle_distance(const struct lint_triangle *triangle, vec3 point);
+// Where the line origin + t·direction crosses the triangle: *t, and in *side 1 where it leaves along the
+// normal and -1 where it enters (Möller and Trumbore 1997, with signed volumes). false: it does not, or lies
+// in its plane.
+bool lint_triangle_ray(const struct lint_triangle *triangle, vec3 origin, vec3 direction, double *t,
+                       int *side);
+
+#endif
