@@ -1,0 +1,20 @@
+// The rules about light, over a loaded session.
+#include "app/session.h"
+
+#include "core/clock.h"
+
+void session_lint(struct session *session) {
+    if (session->options.lint == LINT_NONE || session->sink.errors > 0)
+        return;
+    double start = clock_seconds();
+    struct assets_input scene = {.scene = session->scene,
+                                 .origin = &session->origin,
+                                 .sources = &session->sources,
+                                 .files = &session->files,
+                                 .limits = &session->options.limits,
+                                 .sink = &session->sink,
+                                 .arena = &session->arena};
+    struct lint_input input = {.scene = &scene, .assets = &session->assets, .image = &session->image};
+    lint_run(&input, session->options.lint);
+    session->lint_seconds = clock_seconds() - start;
+}
