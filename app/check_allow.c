@@ -90,8 +90,9 @@ static void find_lines(struct session *session, span comment, struct allow *allo
 
 // ---- reading a comment
 
-static void bad_comment(struct allows *allows, span at, const char *message, str word) {
-    diag_add(&allows->session->sink, DIAG_ALLOW_UNKNOWN, at, message, STR_ARG(word));
+// "<before><word><after>"
+static void bad_comment(struct allows *allows, span at, const char *before, str word, const char *after) {
+    diag_add(&allows->session->sink, DIAG_ALLOW_UNKNOWN, at, "%s%.*s%s", before, STR_ARG(word), after);
     diag_help(&allows->session->sink, "write for example 'glint: allow W401: the pane is meant to be thin'");
 }
 
@@ -117,9 +118,9 @@ static void read_code(struct allows *allows, span comment, span word) {
         can_be_allowed = can_be_allowed || (matches && diag_info((enum diag_code)i)->severity != DIAG_ERROR);
     }
     if (!known) {
-        bad_comment(allows, word, "there is no code '%.*s'", text);
+        bad_comment(allows, word, "there is no code '", text, "'");
     } else if (!can_be_allowed) {
-        bad_comment(allows, word, "errors cannot be silenced, and %.*s is one", text);
+        bad_comment(allows, word, "errors cannot be silenced, and ", text, " is one");
     } else {
         struct allow *allow = ARENA_PUSH(&session->arena, &allows->list);
         *allow = (struct allow){.code = word, .comment = comment};
@@ -141,7 +142,7 @@ static void read_comment(struct allows *allows, span comment) {
     bool any = next_word(text, &at, end, &word, comment.source);
     str verb = source_text(&allows->session->sources, word);
     if (!any || !str_equal_cstr(verb, "allow")) {
-        bad_comment(allows, any ? word : comment, "a comment for glint says 'allow'%.*s", STR(""));
+        bad_comment(allows, any ? word : comment, "a comment for glint says 'allow'", STR(""), "");
         return;
     }
     uint32_t codes = 0;
@@ -150,7 +151,7 @@ static void read_comment(struct allows *allows, span comment) {
         codes++;
     }
     if (codes == 0)
-        bad_comment(allows, comment, "this comment allows nothing: it names no code%.*s", STR(""));
+        bad_comment(allows, comment, "this comment allows nothing: it names no code", STR(""), "");
 }
 
 // ---- using them

@@ -46,8 +46,11 @@ static str shown(const struct binder *b, tree_index node) {
     return clipped;
 }
 
-static void bad_value(const struct binder *b, tree_index node, const char *what, str word) {
-    diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node), what, STR_ARG(word));
+// "<before>'<the node's text>'<after>"
+static void bad_value(const struct binder *b, tree_index node, const char *before, const char *after) {
+    str word = shown(b, node);
+    diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node), "%s'%.*s'%s", before, STR_ARG(word),
+             after);
 }
 
 static void did_you_mean(const struct binder *b, tree_index node, const struct nearest *search) {
@@ -65,17 +68,14 @@ static void offer_words(struct nearest *search, const char *const *words) {
 
 // A code that is unknown or that no policy changes; false: it was reported.
 static bool accept_codes(const struct binder *b, tree_index node, enum diag_policy_status status) {
-    str word = shown(b, node);
     if (status == DIAG_POLICY_UNKNOWN_CODE) {
-        diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node), "there is no code '%.*s'",
-                 STR_ARG(word));
+        bad_value(b, node, "there is no code ", "");
         diag_help(
             b->input->sink,
             "a code is a letter and three digits, W401, or a family, W4xx; it stands at the end of each "
             "message");
     } else if (status == DIAG_POLICY_ERROR_CODE) {
-        diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node),
-                 "errors cannot be silenced or lowered, and '%.*s' is one", STR_ARG(word));
+        bad_value(b, node, "errors cannot be silenced or lowered, and ", " is one");
         diag_help(b->input->sink, "only warnings (W) and notes (N) can be changed");
     }
     return status == DIAG_POLICY_SET;
@@ -96,10 +96,10 @@ static void take_asset_path(struct binder *b, tree_index key, tree_index value) 
     struct files probe;
     files_init(&probe, arena);
     if (!below) {
-        bad_value(b, value, "the folder '%.*s' lies outside the configuration's own", shown(b, value));
+        bad_value(b, value, "the folder ", " lies outside the configuration's own");
         diag_help(b->input->sink, "move .glintrc.yaml to a folder above both, or name it with --asset-path");
     } else if (files_add_root(&probe, canonical) != FILE_OK) {
-        bad_value(b, value, "there is no folder '%.*s'", shown(b, value));
+        bad_value(b, value, "there is no folder ", "");
         diag_help(b->input->sink, "folders are relative to the folder of .glintrc.yaml");
     } else {
         *ARENA_PUSH(arena, &b->config->asset_paths) = canonical;
@@ -115,7 +115,7 @@ static void take_severity(struct binder *b, tree_index key, tree_index value) {
     }
     struct nearest search = nearest_begin(word);
     offer_words(&search, diag_level_words);
-    bad_value(b, value, "'%.*s' is no severity", shown(b, value));
+    bad_value(b, value, "", " is no severity");
     if (nearest_best(&search).len)
         did_you_mean(b, value, &search);
     else
@@ -128,7 +128,7 @@ static void take_ignore(struct binder *b, tree_index key, tree_index value) {
     if (diag_is_code_text(text)) {
         accept_codes(b, value, diag_policy_level(&b->config->policy, text, STR("off")));
     } else if (text.len == 0 || text.len > PATTERN_BYTES_MAX) {
-        bad_value(b, value, "this is no code and no path%.*s", STR(""));
+        bad_value(b, value, "", " is no code and no path");
         diag_help(b->input->sink, "write a code, W401, or a pattern of paths, \"drafts/**\"");
     } else {
         diag_policy_ignore_path(&b->config->policy, b->input->arena, b->folder, text);
@@ -147,7 +147,7 @@ static void take_fail_on(struct binder *b, tree_index key, tree_index value) {
         return;
     struct nearest search = nearest_begin(word);
     offer_words(&search, diag_fail_words);
-    bad_value(b, value, "'fail_on' is error or warning, not '%.*s'", shown(b, value));
+    bad_value(b, value, "'fail_on' is error or warning, not ", "");
     did_you_mean(b, value, &search);
 }
 
@@ -165,7 +165,7 @@ static void take_limit_named(struct binder *b, tree_index key, tree_index value,
         struct nearest search = nearest_begin(name);
         for (int i = 0; i < LIMIT_COUNT; i++)
             nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
-        bad_value(b, key, "there is no limit '%.*s'", shown(b, key));
+        bad_value(b, key, "there is no limit ", "");
         if (nearest_best(&search).len)
             did_you_mean(b, key, &search);
         else

@@ -65,9 +65,27 @@ static str scene_around_mesh(struct session *session, str path) {
     return copy;
 }
 
+static void load_config(struct session *session) {
+    struct config_input input = {.files = &session->files,
+                                 .sources = &session->sources,
+                                 .sink = &session->sink,
+                                 .arena = &session->arena};
+    config_load(&input, session->options.path, &session->config);
+    session->config_failed = session->sink.errors > 0;
+    limits_fill(&session->options.limits, &session->config.limits);
+    session->arena.cap_bytes = (size_t)session->options.limits.value[LIMIT_SCENE_MEMORY];
+    session->policy = session->config.policy;
+    if (session->options.policy)
+        diag_policy_overlay(&session->policy, &session->arena, session->options.policy);
+}
+
 static enum session_state open_source(struct session *session, uint32_t *source) {
     str path = session->options.path;
     str text = STR("");
+    load_config(session);
+    if (session->options.judged &&
+        diag_policy_ignores(&session->policy, files_canonical(&session->files, path)))
+        return SESSION_IGNORED;
     enum file_status status = files_add_scene_root(&session->files, path);
     if (status != FILE_OK)
         return unreadable(session, path, status);
@@ -78,6 +96,8 @@ static enum session_state open_source(struct session *session, uint32_t *source)
         diag_add(&session->sink, DIAG_USAGE, SPAN_NONE, "--asset-path %.*s is not a folder", STR_ARG(folder));
         return SESSION_UNREADABLE;
     }
+    for (uint32_t i = 0; i < session->config.asset_paths.count; i++)
+        files_add_root(&session->files, session->config.asset_paths.items[i]);
     if (assets_is_mesh_path(path)) {
         struct file_read identity;
         status = files_identify(&session->files, path, &identity);
@@ -141,6 +161,8 @@ static enum session_state load_stages(struct session *session, struct asset_stor
     take_image_options(session);
     if (!alone && !session->options.text_only)
         load_assets(session, store);
+    if (!alone && !session->options.text_only)
+        session_lint(session);
     return SESSION_LOADED;
 }
 
@@ -154,6 +176,8 @@ static enum session_state guarded_load(struct session *session, const struct ses
     if (setjmp(guard.jump) == 0) {
         source_set_init(&session->sources, &session->arena);
         files_init(&session->files, &session->arena);
+        for (uint32_t i = 0; i < options->overlay_count; i++)
+            files_add_overlay(&session->files, options->overlays[i].path, options->overlays[i].text);
         session->state = load_stages(session, store, alone);
     } else {
         diag_add(&session->sink, guard.fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
@@ -164,9 +188,14 @@ static enum session_state guarded_load(struct session *session, const struct ses
         session->state = SESSION_NO_SCENE;
     }
     arena_set_guard(&session->arena, NULL);
+    if (!options->judged)
+        session_group(session);
+    return session->state;
+}
+
+void session_group(struct session *session) {
     diag_sort(&session->sink);
     diag_group(&session->sink, SAME_CODE_MAX);
-    return session->state;
 }
 
 enum session_state session_load(struct session *session, const struct session_options *options,

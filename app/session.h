@@ -7,13 +7,16 @@
 #ifndef GLINT_APP_SESSION_H
 #define GLINT_APP_SESSION_H
 
+#include "app/config.h"
 #include "assets/assets.h"
 #include "assets/view.h"
 #include "core/diag.h"
+#include "core/diag_policy.h"
 #include "core/files.h"
 #include "core/limits.h"
 #include "grammar/ir.h"
 #include "grammar/ir_origin.h"
+#include "runtime/lint/lint.h"
 
 struct session_options {
     str path; // of the scene, or of a mesh, which is then a scene with that one model
@@ -22,20 +25,30 @@ struct session_options {
     const str *sets; // PATH=VALUE
     uint32_t set_count;
     struct limits limits;
-    bool text_only;        // neither meshes nor images are opened
-    bool skip_pixels;      // the background's header is checked, its pixels are not decoded
-    int32_t width, height; // 0: as the scene says
-    int32_t samples;       // 0: as the scene says
+    const struct file_overlay *overlays; // texts that stand for files; they are copied
+    uint32_t overlay_count;
+    bool text_only;                   // neither meshes nor images are opened
+    bool skip_pixels;                 // the background's header is checked, its pixels are not decoded
+    int32_t width, height;            // 0: as the scene says
+    int32_t samples;                  // 0: as the scene says
+    enum lint_level lint;             // rules about light that run where the scene has no error
+    const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
+    bool judged; // the caller judges the findings by policy and comments (app/check.h): they are not yet
+                 // grouped
 };
 
 enum session_state {
     SESSION_LOADED,     // there is a scene; the sink may still hold errors
     SESSION_NO_SCENE,   // the text could not be understood at all
     SESSION_UNREADABLE, // the file named on the command line could not be read
+    SESSION_IGNORED,    // the policy leaves the file out (where findings are judged)
 };
 
 struct session {
-    struct session_options options;
+    struct session_options options; // with the configuration's limits where none were given
+    struct config config;
+    bool config_failed;        // errors are in it
+    struct diag_policy policy; // the configuration's and, over it, the options'
     struct arena arena;
     struct source_set sources;
     struct files files;
@@ -45,13 +58,17 @@ struct session {
     struct ir_image image; // the scene's, with the options' size and samples
     struct assets assets;
     enum session_state state;
-    double read_seconds, assets_seconds;
+    double read_seconds, assets_seconds, lint_seconds;
 };
 
 // Loads `options->path`. Always leaves a session that session_finish takes, whatever the result.
 enum session_state session_load(struct session *session, const struct session_options *options,
                                 struct asset_store *store);
 void session_finish(struct session *session);
+// What session_load does last, as options.lint says.
+void session_lint(struct session *session);
+// Sorts the diagnostics and groups those of one code and file.
+void session_group(struct session *session);
 
 // Index of the camera of this name, or IR_NO_INDEX with a diagnostic E302. An empty name is the first
 // (0, also where the scene has none).

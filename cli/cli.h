@@ -6,6 +6,7 @@
 #include "app/session.h"
 #include "cli/options_measure.h"
 #include "core/diag.h"
+#include "core/diag_policy.h"
 #include "core/limits.h"
 #include "core/strbuf.h"
 
@@ -39,11 +40,12 @@ struct cli_options {
     int format_arg;
     struct cli_list sets, asset_paths;
     struct limits limits;
+    struct diag_policy policy; // what a check tells, over the folder's configuration
     struct cli_measure measure;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
     bool as_file, no_cache; // of the reference
-    int output_arg; // where it stands on the command line; 0: not given
+    int output_arg;         // where it stands on the command line; 0: not given
 };
 
 struct cli {
@@ -77,6 +79,14 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
 // What --format asks for: its index in `kinds`, which NULL ends; the first where it was not given. false: it
 // is none of them, and the mistake is in cli->sink.
 bool cli_format(struct cli *cli, const char *const *kinds, int *kind);
+enum cli_policy_option {
+    CLI_POLICY_SEVERITY,
+    CLI_POLICY_IGNORE,
+    CLI_POLICY_ONLY,
+    CLI_POLICY_FAIL_ON,
+};
+// One of these options; false: a mistake went to cli->sink.
+bool cli_policy_apply(struct cli *cli, int arg, enum cli_policy_option option, const char *value);
 // The options of a command (NULL: of the program), one line each.
 void cli_option_help(struct strbuf *out, const struct cli_command *command);
 
@@ -90,6 +100,10 @@ int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((
 void cli_print_usage(struct cli *cli);
 // Prints a session's diagnostics, notes too unless `quiet`; gives the exit code that they ask for.
 int cli_report(struct cli *cli, struct session *session, bool notes);
+// The exit code alone.
+int cli_session_status(const struct session *session);
+// Text for people, to standard error.
+void cli_write_error(str text);
 // One error with the place 1:1 of `path`, printed at once.
 void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
                ...) __attribute__((format(printf, 5, 6)));
@@ -112,5 +126,6 @@ int cmd_devices(struct cli *cli);
 int cmd_compare(struct cli *cli);
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);
+int cmd_lsp(struct cli *cli);
 
 #endif

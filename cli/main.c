@@ -20,10 +20,16 @@ const struct cli_command cli_commands[] = {
      "  glint render scene.xml -o picture.png --size 640x480 --samples 4\n"
      "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n",
      1, 1, cmd_render},
-    {"check", "SCENE...", "find every mistake in scene files",
-     "Reads each scene with all that it names and reports every mistake at its line and column. The exit\n"
-     "status is 0 where there is no error.\n\n"
-     "  glint check scenes/*.yaml\n",
+    {"check", "SCENE|FOLDER...", "find every mistake in scene files",
+     "Reads each scene with all that it names and reports every mistake at its line and column; in folders "
+     "the\n"
+     "files named *.glint.yaml, *.glint.yml and *.glint.xml. The exit status is 0 where there is no error.\n"
+     "Settings come from the nearest .glintrc.yaml above each scene, and options go before them. A comment\n"
+     "'glint: allow W401' silences a warning on the next line. --format is one of text, json, sarif, "
+     "github,\n"
+     "gitlab and junit; notes are told with --verbose and in reports.\n\n"
+     "  glint check scenes\n"
+     "  glint check scenes --format sarif -o glint.sarif --fail-on warning\n",
      1, -1, cmd_check},
     {"inspect", "SCENE", "tell what a scene holds and requires",
      "Counts, bounds, the features that the scene switches on and where, and the sizes of the buffers.\n"
@@ -47,6 +53,12 @@ const struct cli_command cli_commands[] = {
      "scene; nothing else is changed, and the package renders the same wherever it is put.\n\n"
      "  glint pack scenes/showcase.glint.yaml showcase.zip\n",
      2, 2, cmd_pack},
+    {"lsp", "", "serve an editor through the Language Server Protocol",
+     "Over standard input and output. While one types: every finding of 'glint check' with its fixes; where\n"
+     "names are defined and used, over includes; renaming; completion of names, words and files; the "
+     "outline;\n"
+     "formatting. docs/editors.md shows how editors are told to start it.\n",
+     0, 0, cmd_lsp},
     {"schema", "json|relaxng|markdown", "print the language's schema or reference page",
      "json: JSON Schema (draft-07) for YAML editors. relaxng: RELAX NG for XML editors.\n"
      "markdown: the reference page.\n",

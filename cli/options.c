@@ -29,6 +29,8 @@ enum option_id {
     OPTION_AS_FILE,
     OPTION_NO_CACHE,
     OPTION_FORMAT,
+    OPTION_MAX_MESSAGES,
+    OPTION_POLICY = 1500,  // and enum cli_policy_option behind it
     OPTION_MEASURE = 2000, // and enum cli_measure_option behind it
 };
 
@@ -44,6 +46,8 @@ struct option_row {
 static const struct option_row rows[] = {
     {OPTION_OUTPUT, "output", 'o', "FILE", "render",
      "write to FILE (.png .pfm .hdr); '-' writes PNG to standard output"},
+    {OPTION_OUTPUT, "output", 'o', "FILE", "check",
+     "write the report to FILE instead of standard error (text) or output (others)"},
     {OPTION_SIZE, "size", 0, "WxH", "render inspect",
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render inspect", "rays through each pixel, instead of the scene's"},
@@ -70,6 +74,16 @@ static const struct option_row rows[] = {
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_FORMAT, "format", 0, "KIND", "check compare tradeoff extremes pick diff deps",
      "the form of the report; the text above lists the kinds"},
+    {OPTION_POLICY + CLI_POLICY_SEVERITY, "severity", 0, "CODE=LEVEL", "check",
+     "change the severity of a code: error, warning, note or off"},
+    {OPTION_POLICY + CLI_POLICY_IGNORE, "ignore", 0, "CODE|PATH", "check",
+     "leave out a warning's or note's code, or files by a pattern: 'drafts/**'"},
+    {OPTION_POLICY + CLI_POLICY_ONLY, "only", 0, "CODE", "check",
+     "tell no other warnings and notes than these; errors are always told"},
+    {OPTION_POLICY + CLI_POLICY_FAIL_ON, "fail-on", 0, "LEVEL", "check",
+     "what makes the exit status 1: error (as it is) or warning"},
+    {OPTION_MAX_MESSAGES, "max-messages", 0, "N", "check",
+     "findings told of one scene; the rest are counted"},
     {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_MAE, "max-mae", 0, "X", "compare",
      "fail where the mean difference is larger"},
     {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_RMSE, "max-rmse", 0, "X", "compare",
@@ -209,10 +223,13 @@ static void append(struct cli *cli, struct cli_list *list, const char *text) {
 
 static bool apply(struct cli *cli, int arg, const struct option_row *row, const char *value) {
     struct cli_options *options = &cli->options;
+    if (row->id >= OPTION_POLICY && row->id < OPTION_MEASURE)
+        return cli_policy_apply(cli, arg, (enum cli_policy_option)(row->id - OPTION_POLICY), value);
     if (row->id >= OPTION_MEASURE)
         return cli_measure_apply(cli, arg, (enum cli_measure_option)(row->id - OPTION_MEASURE), row->name,
                                  value);
     switch ((enum option_id)row->id) {
+    case OPTION_POLICY:
     case OPTION_MEASURE:
         break;
     case OPTION_HELP:
@@ -245,6 +262,13 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
         return true;
     case OPTION_LIMIT:
         return read_limit(cli, arg, value);
+    case OPTION_MAX_MESSAGES: {
+        int32_t most = 0;
+        bool good = read_count(cli, arg, "max-messages", value, 1000000, &most);
+        options->limits.value[LIMIT_MESSAGES] = good ? (uint64_t)most : options->limits.value[LIMIT_MESSAGES];
+        options->limits.given |= (uint64_t)1 << LIMIT_MESSAGES;
+        return good;
+    }
     case OPTION_REPEAT:
         return read_count(cli, arg, "repeat", value, 100000, &options->repeat);
     case OPTION_STATS:

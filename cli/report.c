@@ -53,16 +53,26 @@ static bool has_code(const struct diag_sink *sink, enum diag_code code) {
     return false;
 }
 
-int cli_report(struct cli *cli, struct session *session, bool notes) {
-    diag_sort(&session->sink);
-    print(cli, &session->sink, &session->sources, notes);
+int cli_session_status(const struct session *session) {
     if (session->state == SESSION_UNREADABLE)
         return has_code(&session->sink, DIAG_USAGE) ? CLI_USAGE : CLI_FILE;
+    if (session->config_failed)
+        return CLI_USAGE;
     if (session->sink.errors == 0)
         return CLI_OK;
     return has_code(&session->sink, DIAG_UNKNOWN_CAMERA) || has_code(&session->sink, DIAG_SET_SYNTAX)
                ? CLI_USAGE
                : CLI_SCENE;
+}
+
+int cli_report(struct cli *cli, struct session *session, bool notes) {
+    diag_sort(&session->sink);
+    print(cli, &session->sink, &session->sources, notes);
+    return cli_session_status(session);
+}
+
+void cli_write_error(str text) {
+    fwrite(text.ptr, 1, text.len, stderr);
 }
 
 void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,

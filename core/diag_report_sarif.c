@@ -65,16 +65,25 @@ static void text_object(struct json_writer *w, const char *key, str text) {
     json_close_object(w);
 }
 
+static void put_sentence(struct strbuf *out, str text) {
+    strbuf_str(out, text);
+    if (text.len == 0 || !strchr(".?!", text.ptr[text.len - 1]))
+        strbuf_char(out, '.');
+}
+
 // The message ends in a full stop; its help follows as a line of its own.
 static void message(struct json_writer *w, const struct report_finding *f) {
     struct strbuf text;
     strbuf_init(&text);
-    report_message(&text, f);
-    strbuf_char(&text, '.');
+    struct strbuf whole;
+    strbuf_init(&whole);
+    report_message(&whole, f);
+    put_sentence(&text, strbuf_view(&whole));
+    text.failed = text.failed || whole.failed;
+    strbuf_finish(&whole);
     if (f->help.len) {
         strbuf_cstr(&text, "\nHelp: ");
-        strbuf_str(&text, f->help);
-        strbuf_char(&text, '.');
+        put_sentence(&text, f->help);
     }
     text_object(w, "message", strbuf_view(&text));
     w->out->failed = w->out->failed || text.failed;
@@ -178,7 +187,9 @@ static void rule(struct json_writer *w, const struct diag_info *info) {
     json_text(w, "id", str_from(info->code));
     json_text(w, "name", strbuf_view(&text));
     strbuf_clear(&text);
-    strbuf_format(&text, "A finding about %s.", info->title);
+    put_sentence(&text, str_from(info->title));
+    if (text.len && text.data[0] >= 'a' && text.data[0] <= 'z')
+        text.data[0] = (char)(text.data[0] - 'a' + 'A');
     text_object(w, "shortDescription", strbuf_view(&text));
     text_object(w, "fullDescription", str_from(info->meaning));
     strbuf_clear(&text);

@@ -1,0 +1,77 @@
+// The options that say what a check tells and when it fails: --severity, --ignore, --only, --fail-on.
+#include "cli/cli.h"
+
+#include "core/nearest.h"
+
+#include <string.h>
+#include <unistd.h>
+
+static bool refuse_codes(struct cli *cli, int arg, const char *name, str codes,
+                         enum diag_policy_status status) {
+    if (status == DIAG_POLICY_UNKNOWN_CODE) {
+        cli_usage(cli, arg, "--%s: there is no code '%.*s'", name, STR_ARG(codes));
+        diag_help(&cli->sink, "a code is a letter and three digits, W401, or a family, W4xx");
+    } else if (status == DIAG_POLICY_ERROR_CODE) {
+        cli_usage(cli, arg, "--%s: errors cannot be silenced or lowered, and '%.*s' is one", name,
+                  STR_ARG(codes));
+        diag_help(&cli->sink, "only warnings (W) and notes (N) can be changed");
+    }
+    return status == DIAG_POLICY_SET;
+}
+
+static bool refuse_word(struct cli *cli, int arg, const char *name, str word, const char *const *words) {
+    struct nearest search = nearest_begin(word);
+    for (int i = 0; words[i]; i++)
+        nearest_offer(&search, str_from(words[i]));
+    cli_usage(cli, arg, "--%s does not know '%.*s'", name, STR_ARG(word));
+    if (nearest_best(&search).len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    else
+        diag_help(&cli->sink, words == diag_fail_words ? "it takes error or warning"
+                                                       : "a severity is error, warning, note or off");
+    return false;
+}
+
+static bool read_severity(struct cli *cli, int arg, const char *text) {
+    size_t length = strcspn(text, "=");
+    str codes = {text, length};
+    if (text[length] != '=') {
+        cli_usage(cli, arg, "--severity takes CODE=SEVERITY, such as W401=error, not '%s'", text);
+        return false;
+    }
+    str word = str_from(text + length + 1);
+    enum diag_policy_status status = diag_policy_level(&cli->options.policy, codes, word);
+    if (status == DIAG_POLICY_BAD_WORD)
+        return refuse_word(cli, arg, "severity", word, diag_level_words);
+    return refuse_codes(cli, arg, "severity", codes, status);
+}
+
+static bool read_ignore(struct cli *cli, int arg, const char *text) {
+    char folder[4096];
+    str pattern = str_from(text);
+    if (diag_is_code_text(pattern))
+        return refuse_codes(cli, arg, "ignore", pattern,
+                            diag_policy_level(&cli->options.policy, pattern, STR("off")));
+    if (pattern.len == 0 || !getcwd(folder, sizeof folder)) {
+        cli_usage(cli, arg, "--ignore takes a code, W401, or a pattern of paths, 'drafts/**'");
+        return false;
+    }
+    diag_policy_ignore_path(&cli->options.policy, &cli->arena, str_from(folder), pattern);
+    return true;
+}
+
+bool cli_policy_apply(struct cli *cli, int arg, enum cli_policy_option option, const char *value) {
+    struct diag_policy *policy = &cli->options.policy;
+    switch (option) {
+    case CLI_POLICY_SEVERITY:
+        return read_severity(cli, arg, value);
+    case CLI_POLICY_IGNORE:
+        return read_ignore(cli, arg, value);
+    case CLI_POLICY_ONLY:
+        return refuse_codes(cli, arg, "only", str_from(value), diag_policy_only(policy, str_from(value)));
+    case CLI_POLICY_FAIL_ON:
+        return diag_policy_fail_on(policy, str_from(value)) == DIAG_POLICY_SET ||
+               refuse_word(cli, arg, "fail-on", str_from(value), diag_fail_words);
+    }
+    return false;
+}
