@@ -38,6 +38,11 @@ enum ir_depth_limit {
     IR_DEPTH_BACKGROUND,
     IR_DEPTH_BLACK
 };
+enum ir_precision {
+    IR_PRECISION_AUTO,
+    IR_PRECISION_SINGLE,
+    IR_PRECISION_DOUBLE
+};
 enum ir_falloff {
     IR_FALLOFF_NONE,
     IR_FALLOFF_INVERSE_SQUARE
@@ -84,6 +89,7 @@ struct ir_trace {
     int32_t max_depth;
     double min_weight;
     unsigned depth_limit; // ir_depth_limit
+    unsigned precision;   // ir_precision
     bool shadows;
 };
 

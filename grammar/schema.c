@@ -55,6 +55,10 @@ static const char *const transfer_docs[] = {
 static const char *const depth_words[] = {"background", "black", NULL};
 static const char *const depth_docs[] = {"A ray beyond the depth sees the background.",
                                          "A ray beyond the depth sees nothing.", NULL};
+static const char *const precision_words[] = {"auto", "single", "double", NULL};
+static const char *const precision_docs[] = {
+    "Double where the scene's sizes and distances need it, else single; `glint inspect` says which and why.",
+    "Single precision whatever the scene.", "Double precision: slower.", NULL};
 static const char *const falloff_words[] = {"none", "inverse_square", NULL};
 static const char *const falloff_docs[] = {"The light is equally strong everywhere.",
                                            "The light's strength is divided by the square of the distance.",
@@ -103,6 +107,9 @@ static const struct schema_row trace_rows[] = {
     {.name = "depth_limit", FIELD(ir_trace, depth_limit), .example = "black", .words = depth_words,
      .word_docs = depth_docs, .standard = "background", .feature = FEATURE_DEPTH_BLACK,
      .doc = "What a ray beyond 'max_depth' sees."},
+    {.name = "precision", FIELD(ir_trace, precision), .example = "double", .words = precision_words,
+     .word_docs = precision_docs, .standard = "auto", .also = "float fp64",
+     .doc = "How exactly places and distances are computed."},
     {.name = "shadows", FIELD(ir_trace, shadows), .standard = "true", .feature = FEATURE_SHADOWS,
      .doc = "Whether bodies keep light from other bodies."},
 };

@@ -22,6 +22,12 @@ uint32_t flat_bits(double value) {
     return bits;
 }
 
+struct flat_pair flat_double(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (struct flat_pair){(uint32_t)bits, (uint32_t)(bits >> 32)};
+}
+
 bool flat_array_make(struct flat_array *array, uint64_t words) {
     array->count = words;
     array->words =
@@ -65,7 +71,7 @@ static bool make_tree(struct bvh_item *items, uint32_t count, const struct gpu_w
 static enum flatten_fault make_triangles(struct flattening *f) {
     struct flat_scene *out = f->out;
     size_t total = f->triangle_total;
-    f->records = malloc((total ? total : 1) * TRIANGLE_WORDS * sizeof *f->records);
+    f->records = malloc((total ? total : 1) * out->strides.triangle * sizeof *f->records);
     f->items = malloc((total ? total : 1) * sizeof *f->items);
     if (!f->records || !f->items)
         return FLATTEN_NO_MEMORY;
@@ -75,7 +81,7 @@ static enum flatten_fault make_triangles(struct flattening *f) {
     out->triangle_count = f->item_count;
     out->dropped_triangles = f->triangle_total - f->item_count;
     double start = clock_seconds();
-    bool done = make_tree(f->items, f->item_count, f->records, TRIANGLE_WORDS, &out->triangle_nodes,
+    bool done = make_tree(f->items, f->item_count, f->records, out->strides.triangle, &out->triangle_nodes,
                           &out->triangles, &out->triangle_depth);
     out->build_seconds += clock_seconds() - start;
     return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
@@ -84,13 +90,13 @@ static enum flatten_fault make_triangles(struct flattening *f) {
 static enum flatten_fault make_spheres(struct flattening *f) {
     struct flat_scene *out = f->out;
     uint32_t count = f->input->scene->spheres.count;
-    struct gpu_word *words = malloc(((size_t)count + 1) * SPHERE_WORDS * sizeof *words);
+    struct gpu_word *words = malloc(((size_t)count + 1) * out->strides.sphere * sizeof *words);
     struct bvh_item *items = malloc(((size_t)count + 1) * sizeof *items);
     bool done = words && items;
     if (done) {
         flatten_spheres(f, words, items);
         double start = clock_seconds();
-        done = make_tree(items, count, words, SPHERE_WORDS, &out->sphere_nodes, &out->spheres,
+        done = make_tree(items, count, words, out->strides.sphere, &out->sphere_nodes, &out->spheres,
                          &out->sphere_depth);
         out->build_seconds += clock_seconds() - start;
         out->sphere_count = count;
@@ -135,7 +141,13 @@ static enum flatten_fault run(struct flattening *f) {
 }
 
 bool flatten(const struct flat_input *input, struct flat_scene *out) {
-    *out = (struct flat_scene){.origin = input->origin, .background = input->assets->background};
+    static const struct flat_strides strides[2] = {
+        {TRIANGLE_WORDS, SPHERE_WORDS, 1, BODY_WORDS, MATERIAL_WORDS, LIGHT_WORDS},
+        {TRIANGLE64_WORDS, SPHERE64_WORDS, NORMAL64_WORDS, BODY64_WORDS, MATERIAL64_WORDS, LIGHT64_WORDS}};
+    *out = (struct flat_scene){.is_double = input->is_double,
+                               .strides = strides[input->is_double],
+                               .origin = input->origin,
+                               .background = input->assets->background};
     struct flattening f = {.input = input, .out = out};
     enum flatten_fault fault = run(&f);
     free(f.material_used);

@@ -2,9 +2,10 @@
 //
 // The origin (the camera's position, or the first of several) is subtracted from the transforms in double
 // before any vertex is touched; the scale is 2^-ilogb(largest |coordinate - origin| of bodies), lights
-// excluded; then values are rounded to float. A point light further than 2^40 after scaling is flattened
-// as a direction, its 1/|P-p|^2 taken once in double.
-// Ownership: flat_finish frees everything. Thread safety: immutable once made.
+// excluded; then values are rounded to float, or stay
+// double for the kernels in double precision, whose boxes alone are float. A point light further than 2^40
+// after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double. Ownership: flat_finish frees
+// everything. Thread safety: immutable once made.
 #ifndef GLINT_RUNTIME_FLATTEN_H
 #define GLINT_RUNTIME_FLATTEN_H
 
@@ -17,7 +18,14 @@ struct flat_array {
     uint64_t count; // words
 };
 
+// Words of a record of each kind, and of an entry of `normals`.
+struct flat_strides {
+    uint32_t triangle, sphere, normal, body, material, light;
+};
+
 struct flat_scene {
+    bool is_double; // for the kernels in double precision: records with 64 in their names
+    struct flat_strides strides;
     vec3 origin;
     int scale_exponent; // flat = (scene - origin) * 2^scale_exponent
     struct flat_array triangle_nodes, triangles, normals, sphere_nodes, spheres, bodies, materials, lights;
@@ -41,6 +49,7 @@ struct flat_input {
     const struct assets *assets;
     const struct view *view;
     vec3 origin; // scene units
+    bool is_double;
     const struct limits *limits;
     struct diag_sink *sink;
 };
@@ -48,5 +57,10 @@ struct flat_input {
 // false: too large or no memory (the sink says which).
 bool flatten(const struct flat_input *input, struct flat_scene *out);
 void flat_finish(struct flat_scene *flat);
+
+// The number of a body's first triangle.
+static inline uint32_t flat_first_triangle(const struct flat_scene *flat, uint32_t body) {
+    return flat->bodies.words[(size_t)body * flat->strides.body].x;
+}
 
 #endif

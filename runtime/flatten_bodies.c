@@ -168,10 +168,15 @@ void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_it
         const struct ir_sphere *sphere = &scene->spheres.items[i];
         vec3 center = vec3_mul(vec3_sub(sphere->center, f->input->origin), f->factor);
         uint32_t material = assets_material(scene, &sphere->material);
-        words[SPHERE_WORDS * (size_t)i] = flat_word(center, flat_bits(sphere->radius * f->factor));
-        words[SPHERE_WORDS * (size_t)i + 1] =
-            (struct gpu_word){i, material_flags(f, material) | TRIANGLE_SOLID, 0, 0};
-        items[i] = bvh_sphere_item(words + SPHERE_WORDS * (size_t)i, i);
+        struct gpu_word *record = words + f->out->strides.sphere * (size_t)i;
+        struct gpu_word *last = record + f->out->strides.sphere - 1;
+        double radius = sphere->radius * f->factor;
+        if (f->out->is_double)
+            flat_put_real3(record, center, flat_double(radius));
+        else
+            record[0] = flat_word(center, flat_bits(radius));
+        *last = (struct gpu_word){i, material_flags(f, material) | TRIANGLE_SOLID, 0, 0};
+        items[i] = f->out->is_double ? bvh_sphere64_item(record, i) : bvh_sphere_item(record, i);
     }
 }
 
@@ -203,11 +208,38 @@ static bool has_area(const struct gpu_word *words) {
     return false;
 }
 
-// A triangle without area gets an item that flatten_triangles leaves out.
-static void finish_triangle(const struct flattening *f, uint32_t number) {
-    const struct gpu_word *words = f->records + (size_t)TRIANGLE_WORDS * number;
-    f->items[number] = bvh_triangle_item(words, number);
-    f->items[number].spare = !has_area(words);
+// The same in double precision.
+static bool has_area64(const vec3 corners[3]) {
+    vec3 u = vec3_sub(corners[1], corners[0]), v = vec3_sub(corners[2], corners[0]);
+    double largest = fmax(vec3_max_abs(u), vec3_max_abs(v));
+    if (largest < DBL_MIN)
+        return false;
+    double scale = ldexp(1, -ilogb(largest));
+    return vec3_max_abs(vec3_cross(vec3_mul(u, scale), vec3_mul(v, scale))) != 0;
+}
+
+// What a triangle's record holds besides its vertices.
+struct triangle_head {
+    uint32_t number, body, shade;
+};
+
+// `corners` in flat units. A triangle without area gets an item that flatten_triangles leaves out.
+static void put_triangle(const struct flattening *f, const vec3 corners[3], struct triangle_head head) {
+    struct gpu_word *words = f->records + (size_t)f->out->strides.triangle * head.number;
+    struct bvh_item *item = &f->items[head.number];
+    if (f->out->is_double) {
+        const struct flat_pair more[3] = {{head.number, head.body}, {head.shade, 0}, {0, 0}};
+        for (int k = 0; k < 3; k++)
+            flat_put_real3(words + 2 * k, corners[k], more[k]);
+        *item = bvh_triangle64_item(words, head.number);
+        item->spare = !has_area64(corners);
+        return;
+    }
+    const uint32_t more[3] = {head.number, head.body, head.shade};
+    for (int k = 0; k < 3; k++)
+        words[k] = flat_word(corners[k], more[k]);
+    *item = bvh_triangle_item(words, head.number);
+    item->spare = !has_area(words);
 }
 
 static void fill_rectangle(struct flattening *f, uint32_t rectangle) {
@@ -219,11 +251,10 @@ static void fill_rectangle(struct flattening *f, uint32_t rectangle) {
     rectangle_corners(f, r, corners);
     for (uint32_t half = 0; half < RECTANGLE_TRIANGLES; half++) {
         uint32_t number = f->first_triangle[body] + half;
-        const uint32_t spare[3] = {number, body, shade | (half ? TRIANGLE_RECT_TOP : 0)};
+        vec3 flat[3];
         for (int k = 0; k < 3; k++)
-            f->records[(size_t)TRIANGLE_WORDS * number + k] =
-                flat_word(vec3_mul(corners[corner_of[half][k]], f->factor), spare[k]);
-        finish_triangle(f, number);
+            flat[k] = vec3_mul(corners[corner_of[half][k]], f->factor);
+        put_triangle(f, flat, (struct triangle_head){number, body, shade | (half ? TRIANGLE_RECT_TOP : 0)});
     }
 }
 
@@ -240,14 +271,14 @@ static void fill_mesh(void *context, size_t begin, size_t end) {
     for (size_t i = begin; i < end; i++) {
         const struct mesh_triangle *triangle = &fill->mesh->triangles[i];
         uint32_t number = fill->first + (uint32_t)i;
-        const uint32_t spare[3] = {number, fill->body, fill->group_shade[triangle->group]};
+        vec3 flat[3];
         for (int k = 0; k < 3; k++) {
             uint32_t corner = triangle->corners[flatten_corner(&fill->placing, k)];
             vec3 point = place(&fill->placing, fill->mesh->positions[corner]);
-            fill->f->records[(size_t)TRIANGLE_WORDS * number + k] =
-                flat_word(vec3_mul(point, fill->f->factor), spare[k]);
+            flat[k] = vec3_mul(point, fill->f->factor);
         }
-        finish_triangle(fill->f, number);
+        put_triangle(fill->f, flat,
+                     (struct triangle_head){number, fill->body, fill->group_shade[triangle->group]});
     }
 }
 

@@ -34,14 +34,17 @@ static void put_material(const struct flattening *f, const struct ir_material *m
     if (is_checker)
         words[3] =
             flat_word(view_linear_color(paint->checker.colors[1], transfer), flat_bits(paint->checker.size));
+    if (f->out->is_double)
+        words[4] = flat_doubles(material->refractive_index, is_checker ? paint->checker.size : 0);
 }
 
 enum flatten_fault flatten_materials(struct flattening *f) {
     const struct assets *assets = f->input->assets;
-    if (!flat_array_make(&f->out->materials, (uint64_t)assets->material_count * MATERIAL_WORDS))
+    if (!flat_array_make(&f->out->materials, (uint64_t)assets->material_count * f->out->strides.material))
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < assets->material_count; i++)
-        put_material(f, &assets->materials[i], f->out->materials.words + (size_t)MATERIAL_WORDS * i);
+        put_material(f, &assets->materials[i],
+                     f->out->materials.words + (size_t)f->out->strides.material * i);
     return FLATTEN_DONE;
 }
 
@@ -52,34 +55,39 @@ static double emission_bound(double value) {
     return fmin(value, FLT_MAX);
 }
 
-static void put_light(const struct flattening *f, const struct view_light *light,
-                      struct gpu_word words[LIGHT_WORDS]) {
+static void put_light(const struct flattening *f, const struct view_light *light, struct gpu_word *words) {
     vec3 from_origin = vec3_sub(light->position, f->input->origin);
     vec3 position = vec3_mul(from_origin, f->factor);
     vec3 emission = light->emission;
+    vec3 place = position;
+    uint32_t flags = LIGHT_DIRECTIONAL;
     if (light->directional) {
-        words[0] = flat_word(light->to_light, LIGHT_DIRECTIONAL);
+        place = light->to_light;
     } else if (vec3_length(position) > LIGHT_DISTANCE_MAX) {
         double distance = vec3_length(from_origin);
-        words[0] = flat_word(vec3_unit(from_origin), LIGHT_DIRECTIONAL);
+        place = vec3_unit(from_origin);
         if (light->inverse_square)
             emission = vec3_mul(emission, 1 / (distance * distance));
     } else {
-        words[0] = flat_word(position, light->inverse_square ? LIGHT_INVERSE_SQUARE : 0);
+        flags = light->inverse_square ? LIGHT_INVERSE_SQUARE : 0;
         if (light->inverse_square)
             emission = vec3_mul(emission, f->factor * f->factor);
     }
     emission = (vec3){emission_bound(emission.x), emission_bound(emission.y), emission_bound(emission.z)};
-    words[1] = flat_word(emission, 0);
+    if (f->out->is_double)
+        flat_put_real3(words, place, (struct flat_pair){flags, 0});
+    else
+        words[0] = flat_word(place, flags);
+    words[f->out->strides.light - 1] = flat_word(emission, 0);
 }
 
 enum flatten_fault flatten_lights(struct flattening *f) {
     const struct view *view = f->input->view;
     f->out->light_count = view->light_count;
-    if (!flat_array_make(&f->out->lights, (uint64_t)view->light_count * LIGHT_WORDS))
+    if (!flat_array_make(&f->out->lights, (uint64_t)view->light_count * f->out->strides.light))
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < view->light_count; i++)
-        put_light(f, &view->lights[i], f->out->lights.words + (size_t)LIGHT_WORDS * i);
+        put_light(f, &view->lights[i], f->out->lights.words + (size_t)f->out->strides.light * i);
     return FLATTEN_DONE;
 }
 
@@ -154,7 +162,8 @@ static uint32_t used_material_features(const struct flattening *f) {
 static uint32_t light_features(const struct flat_scene *flat) {
     uint32_t mask = 0;
     for (uint32_t i = 0; i < flat->light_count; i++) {
-        uint32_t flags = flat->lights.words[(size_t)LIGHT_WORDS * i].w;
+        const struct gpu_word *words = flat->lights.words + (size_t)flat->strides.light * i;
+        uint32_t flags = flat->is_double ? words[1].z : words[0].w;
         mask |= flags & LIGHT_DIRECTIONAL ? FEATURE_DIRECTION_LIGHT : FEATURE_POINT_LIGHT;
         mask |= flags & LIGHT_INVERSE_SQUARE ? FEATURE_INVERSE_SQUARE : 0;
     }

@@ -77,5 +77,20 @@ uint32_t flat_bits(double value); // of the nearest float
 static inline struct gpu_word flat_word(vec3 v, uint32_t w) {
     return (struct gpu_word){flat_bits(v.x), flat_bits(v.y), flat_bits(v.z), w};
 }
+// REAL and REAL3 of shaders/records.h: a double in half a word, three of them in one and a half, with what
+// the other half holds.
+struct flat_pair {
+    uint32_t low, high;
+};
+struct flat_pair flat_double(double value);
+static inline struct gpu_word flat_doubles(double a, double b) {
+    struct flat_pair p = flat_double(a), q = flat_double(b);
+    return (struct gpu_word){p.low, p.high, q.low, q.high};
+}
+static inline void flat_put_real3(struct gpu_word words[2], vec3 v, struct flat_pair more) {
+    struct flat_pair z = flat_double(v.z);
+    words[0] = flat_doubles(v.x, v.y);
+    words[1] = (struct gpu_word){z.low, z.high, more.low, more.high};
+}
 
 #endif

@@ -34,11 +34,17 @@ static affine3 own_of_flat(const struct flattening *f, const mat3 *linear, vec3 
     return own;
 }
 
-static void put_map(struct gpu_word *words, affine3 map) {
+static void put_row(const struct flattening *f, struct gpu_word *words, int row, vec3 v, double offset) {
+    if (f->out->is_double)
+        flat_put_real3(words + 1 + 2 * row, v, flat_double(offset));
+    else
+        words[1 + row] = flat_word(v, flat_bits(offset));
+}
+
+static void put_map(const struct flattening *f, struct gpu_word *words, affine3 map) {
     const double offset[3] = {map.offset.x, map.offset.y, map.offset.z};
     for (int i = 0; i < 3; i++)
-        words[1 + i] = (struct gpu_word){flat_bits(map.linear.m[i][0]), flat_bits(map.linear.m[i][1]),
-                                         flat_bits(map.linear.m[i][2]), flat_bits(offset[i])};
+        put_row(f, words, i, (vec3){map.linear.m[i][0], map.linear.m[i][1], map.linear.m[i][2]}, offset[i]);
 }
 
 static bool is_checker(const struct flattening *f, uint32_t material) {
@@ -56,24 +62,25 @@ static bool has_checker(const struct flattening *f, uint32_t model) {
 enum flatten_fault flatten_body_records(struct flattening *f) {
     static const mat3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     const struct ir_scene *scene = f->input->scene;
-    if (!flat_array_make(&f->out->bodies, (uint64_t)f->out->body_count * BODY_WORDS))
+    const uint32_t stride = f->out->strides.body;
+    if (!flat_array_make(&f->out->bodies, (uint64_t)f->out->body_count * stride))
         return FLATTEN_NO_MEMORY;
     struct gpu_word *words = f->out->bodies.words;
     for (uint32_t body = 0; body < f->out->body_count; body++)
-        words[(size_t)BODY_WORDS * body].x = f->first_triangle[body];
-    for (uint32_t i = 0; i < scene->spheres.count; i++, words += BODY_WORDS)
+        words[(size_t)stride * body].x = f->first_triangle[body];
+    for (uint32_t i = 0; i < scene->spheres.count; i++, words += stride)
         if (is_checker(f, assets_material(scene, &scene->spheres.items[i].material)))
-            put_map(words,
+            put_map(f, words,
                     own_of_flat(f, &identity, vec3_sub(scene->spheres.items[i].center, f->input->origin)));
-    for (uint32_t i = 0; i < scene->rectangles.count; i++, words += BODY_WORDS) {
+    for (uint32_t i = 0; i < scene->rectangles.count; i++, words += stride) {
         const struct ir_rectangle *r = &scene->rectangles.items[i];
         if (is_checker(f, assets_material(scene, &r->material)))
-            words[1] = flat_word((vec3){vec3_length(r->edge_u), vec3_length(r->edge_v), 0}, 0);
+            put_row(f, words, 0, (vec3){vec3_length(r->edge_u), vec3_length(r->edge_v), 0}, 0);
     }
-    for (uint32_t i = 0; i < scene->models.count; i++, words += BODY_WORDS)
+    for (uint32_t i = 0; i < scene->models.count; i++, words += stride)
         if (has_checker(f, i)) {
             struct placing placing = flatten_placing(f, i);
-            put_map(words, own_of_flat(f, &placing.linear, placing.offset));
+            put_map(f, words, own_of_flat(f, &placing.linear, placing.offset));
         }
     return FLATTEN_DONE;
 }
@@ -100,23 +107,26 @@ static enum flatten_fault list_uses(struct flattening *f, struct smooth_use **us
     *uses = malloc(((size_t)scene->models.count + 1) * sizeof **uses);
     if (!*uses)
         return FLATTEN_NO_MEMORY;
-    uint64_t words = 0;
+    uint64_t normals = 0;
     for (uint32_t i = 0; i < scene->models.count; i++) {
         const struct mesh *mesh = f->input->assets->models[i].mesh;
         if (!scene->models.items[i].smooth || !mesh)
             continue;
-        f->out->bodies.words[(size_t)BODY_WORDS * flatten_model_body(scene, i)].y = (uint32_t)words;
-        words += (uint64_t)mesh->triangle_count * 3;
+        f->out->bodies.words[(size_t)f->out->strides.body * flatten_model_body(scene, i)].y =
+            (uint32_t)normals;
+        normals += (uint64_t)mesh->triangle_count * 3;
         (*uses)[(*count)++] = (struct smooth_use){mesh, i};
     }
     qsort(*uses, *count, sizeof **uses, compare_uses);
-    return flat_array_make(&f->out->normals, words) ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
+    return flat_array_make(&f->out->normals, normals * f->out->strides.normal) ? FLATTEN_DONE
+                                                                               : FLATTEN_NO_MEMORY;
 }
 
 struct turning {
     const vec3 *normals; // of the mesh, three a triangle
     struct placing placing;
     mat3 turn; // the inverse transpose, times a positive number
+    bool is_double;
     struct gpu_word *words;
 };
 
@@ -139,7 +149,12 @@ static void turn_normals(void *context, size_t begin, size_t end) {
     for (size_t i = begin; i < end; i++)
         for (int k = 0; k < 3; k++) {
             vec3 normal = t->normals[3 * i + (size_t)flatten_corner(&t->placing, k)];
-            t->words[3 * i + (size_t)k] = flat_word(vec3_unit(mat3_apply(t->turn, normal)), 0);
+            vec3 unit = vec3_unit(mat3_apply(t->turn, normal));
+            if (t->is_double)
+                flat_put_real3(t->words + NORMAL64_WORDS * (3 * i + (size_t)k), unit,
+                               (struct flat_pair){0, 0});
+            else
+                t->words[3 * i + (size_t)k] = flat_word(unit, 0);
         }
 }
 
@@ -156,7 +171,9 @@ static enum flatten_fault turn_mesh(struct flattening *f, const struct smooth_us
         uint32_t body = flatten_model_body(f->input->scene, uses[i].model);
         struct turning turning = {.normals = normals, .placing = flatten_placing(f, uses[i].model)};
         turning.turn = normal_map(&turning.placing);
-        turning.words = f->out->normals.words + f->out->bodies.words[(size_t)BODY_WORDS * body].y;
+        size_t base = f->out->bodies.words[(size_t)f->out->strides.body * body].y;
+        turning.is_double = f->out->is_double;
+        turning.words = f->out->normals.words + base * f->out->strides.normal;
         parallel_for(mesh->triangle_count, PIECE, turn_normals, &turning);
     }
     return FLATTEN_DONE;

@@ -59,7 +59,10 @@ static uint64_t band_bytes(const struct gpu_device_info *device) {
 static uint64_t slot_state_bytes(const struct renderer *renderer) {
     if (!(renderer->features & FEATURE_SLICES))
         return 0;
-    return (STATE_WORDS + (uint64_t)renderer->path_stack * STACK_ENTRY_WORDS) * WORD_BYTES;
+    const bool is_double = renderer->flat->is_double;
+    const uint64_t state = is_double ? STATE64_WORDS : STATE_WORDS;
+    const uint64_t entry = is_double ? STACK64_ENTRY_WORDS : STACK_ENTRY_WORDS;
+    return (state + renderer->path_stack * entry) * WORD_BYTES;
 }
 
 static void plan(struct renderer *renderer) {
@@ -142,7 +145,7 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
     renderer->settings = *settings;
     plan(renderer);
     if (upload_scene(renderer) && make_band(renderer))
-        renderer->program = renderer_compile_kernel(renderer, RENDERER_TRACE, renderer->features, NULL);
+        renderer->program = renderer_compile_kernel(renderer, RENDERER_TRACE, renderer->features, NULL, NULL);
     if (renderer->program)
         return renderer;
     renderer_destroy(renderer);
@@ -153,6 +156,7 @@ void renderer_destroy(struct renderer *renderer) {
     if (!renderer)
         return;
     renderer_hits_destroy(renderer);
+    renderer_log_destroy(renderer);
     gpu_program_destroy(renderer->gpu, renderer->counting);
     gpu_program_destroy(renderer->gpu, renderer->program);
     for (int i = 0; i < GPU_BINDINGS; i++)

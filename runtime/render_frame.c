@@ -29,6 +29,14 @@ static void put(float out[3], vec3 v) {
     out[2] = (float)v.z;
 }
 
+#define PUT_DOUBLES(frame, name, v)                                                                          \
+    do {                                                                                                     \
+        const vec3 put_vector = v;                                                                           \
+        (frame).double_##name##_x = put_vector.x;                                                            \
+        (frame).double_##name##_y = put_vector.y;                                                            \
+        (frame).double_##name##_z = put_vector.z;                                                            \
+    } while (false)
+
 // Exact at multiples of 90 degrees.
 static double cos_degrees(double degrees) {
     const double turn = remainder(degrees, 360);
@@ -63,11 +71,18 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .slice_iterations = settings->slice_iterations,
         .features = flat->features,
     };
-    put(frame.camera_position, vec3_mul(vec3_sub(camera->position, flat->origin), scale));
+    const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
+    const vec3 right = vec3_mul(camera->right, camera->tan_half_fov * aspect);
+    const vec3 up = vec3_mul(camera->up, camera->tan_half_fov);
+    put(frame.camera_position, position);
     put(frame.camera_forward, camera->forward);
-    put(frame.camera_right, vec3_mul(camera->right, camera->tan_half_fov * aspect));
-    put(frame.camera_up, vec3_mul(camera->up, camera->tan_half_fov));
+    put(frame.camera_right, right);
+    put(frame.camera_up, up);
     put(frame.background, settings->background);
+    PUT_DOUBLES(frame, position, position);
+    PUT_DOUBLES(frame, forward, camera->forward);
+    PUT_DOUBLES(frame, right, right);
+    PUT_DOUBLES(frame, up, up);
     return gpu_write(renderer->gpu, renderer->buffers[BINDING_FRAME], 0, &frame, sizeof frame);
 }
 
@@ -149,8 +164,9 @@ static void unpack_tiles(void *context, size_t begin, size_t end) {
         float sum[3];
         memcpy(sum, u->renderer->band + 4 * slot, sizeof sum);
         float *out = u->rgb + ((size_t)y * settings->width + x) * 3;
+        const bool sound = u->renderer->band[4 * slot + 3] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
         for (int i = 0; i < 3; i++)
-            out[i] = sum[i] / samples;
+            out[i] = sound ? sum[i] / samples : NAN;
     }
 }
 
@@ -165,13 +181,13 @@ void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t 
     uint32_t low = flat->sphere_count, high = flat->body_count;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
-        if (flat->bodies.words[(size_t)middle * BODY_WORDS].x <= wanted)
+        if (flat_first_triangle(flat, middle) <= wanted)
             low = middle;
         else
             high = middle;
     }
     *body = low;
-    *triangle = wanted - flat->bodies.words[(size_t)low * BODY_WORDS].x;
+    *triangle = wanted - flat_first_triangle(flat, low);
 }
 
 static void note_fault(const struct renderer *renderer, uint32_t word, uint32_t x, uint32_t y,
@@ -261,8 +277,8 @@ enum render_result renderer_count(struct renderer *renderer, const struct view_c
     struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
     uint32_t values[COUNTER_COUNT] = {0};
     if (!renderer->counting)
-        renderer->counting =
-            renderer_compile_kernel(renderer, RENDERER_TRACE, renderer->features | FEATURE_COUNTERS, NULL);
+        renderer->counting = renderer_compile_kernel(renderer, RENDERER_TRACE,
+                                                     renderer->features | FEATURE_COUNTERS, NULL, NULL);
     if (!renderer->counting || !gpu_write(renderer->gpu, counters, 0, values, sizeof values))
         return RENDER_FAILED;
     renderer->pending = 0;

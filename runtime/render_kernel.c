@@ -18,11 +18,15 @@ struct kernel_code {
     }
 
 static const struct kernel_code exact_code[RENDERER_KERNELS] = {
-    [RENDERER_TRACE] = KERNEL(trace), [RENDERER_HITS] = KERNEL(hits)};
-static const struct kernel_code study_code[RENDERER_KERNELS] = {
-    [RENDERER_TRACE] = KERNEL(trace_study), [RENDERER_HITS] = KERNEL(hits_study)};
-static const struct kernel_code fused_code[RENDERER_KERNELS] = {
-    [RENDERER_TRACE] = KERNEL(trace_fused), [RENDERER_HITS] = KERNEL(hits_fused)};
+    [RENDERER_TRACE] = KERNEL(trace), [RENDERER_HITS] = KERNEL(hits), [RENDERER_LOG] = KERNEL(log)};
+static const struct kernel_code double_code[RENDERER_KERNELS] = {
+    [RENDERER_TRACE] = KERNEL(trace64), [RENDERER_HITS] = KERNEL(hits64), [RENDERER_LOG] = KERNEL(log64)};
+static const struct kernel_code study_code[RENDERER_KERNELS] = {[RENDERER_TRACE] = KERNEL(trace_study),
+                                                                [RENDERER_HITS] = KERNEL(hits_study),
+                                                                [RENDERER_LOG] = KERNEL(log_study)};
+static const struct kernel_code fused_code[RENDERER_KERNELS] = {[RENDERER_TRACE] = KERNEL(trace_fused),
+                                                                [RENDERER_HITS] = KERNEL(hits_fused),
+                                                                [RENDERER_LOG] = KERNEL(log_fused)};
 
 static const struct study {
     const char *name;
@@ -43,6 +47,8 @@ const char *render_study_name(enum render_study study) {
 }
 
 static const struct kernel_code *code_of(const struct renderer *renderer, enum renderer_kernel kernel) {
+    if (renderer->flat->is_double)
+        return &double_code[kernel];
     switch (renderer->settings.study) {
     case RENDER_STUDY_NONE:
         return &exact_code[kernel];
@@ -65,8 +71,18 @@ static uint32_t bits_of(double value) {
     return bits;
 }
 
+double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high) {
+    const uint64_t bits = (uint64_t)high << 32 | low;
+    float single;
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    memcpy(&single, &low, sizeof single);
+    return renderer->flat->is_double ? value : (double)single;
+}
+
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
-                                            uint32_t features, struct gpu_buffer *output) {
+                                            uint32_t features, struct gpu_buffer *output,
+                                            struct gpu_buffer *state) {
     const struct flat_scene *flat = renderer->flat;
     const bool texels = gpu_fetches_texels(renderer->gpu);
     const uint64_t most = (uint64_t)NODE_WORDS << 16;
@@ -91,5 +107,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
     memcpy(source.buffers, renderer->buffers, sizeof source.buffers);
     if (output)
         source.buffers[BINDING_OUTPUT] = output;
+    if (state)
+        source.buffers[BINDING_STATE] = state;
     return gpu_program_create(renderer->gpu, &source);
 }

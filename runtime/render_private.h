@@ -10,8 +10,10 @@
 #define VECTOR_FIELD(name) float name[3];
 #define FLOAT_FIELD(name)  float name;
 #define UINT_FIELD(name)   uint32_t name;
+#define DOUBLE_FIELD(name) double name;
 struct frame_block {
     FRAME_FIELDS(VECTOR_FIELD, FLOAT_FIELD, UINT_FIELD)
+    FRAME_DOUBLE_FIELDS(DOUBLE_FIELD)
 };
 struct dispatch_block {
     DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
@@ -19,8 +21,10 @@ struct dispatch_block {
 #undef VECTOR_FIELD
 #undef FLOAT_FIELD
 #undef UINT_FIELD
+#undef DOUBLE_FIELD
 
 struct renderer_hits;
+struct renderer_log;
 
 struct renderer {
     struct gpu *gpu;
@@ -36,18 +40,23 @@ struct renderer {
     struct gpu_program *counting; // made by the first renderer_count
     uint32_t *band;               // the band's output, read back: 4 words a slot
     struct renderer_hits *hits;   // made by the first renderer_hits
+    struct renderer_log *log;     // made by the first renderer_log
     uint32_t pending;             // value of COUNTER_PENDING after the last dispatch
 };
 
-// A kernel over the renderer's scene and trees, as its settings want it; `output` takes the place of the
-// band's where not NULL.
+// A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` take the place
+// of the band's where not NULL.
 enum renderer_kernel {
     RENDERER_TRACE,
     RENDERER_HITS,
+    RENDERER_LOG,
     RENDERER_KERNELS,
 };
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
-                                            uint32_t features, struct gpu_buffer *output);
+                                            uint32_t features, struct gpu_buffer *output,
+                                            struct gpu_buffer *state);
+// A number that a kernel wrote in its own precision (shaders/bits.glsl).
+double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
 // The frame's uniforms for a camera.
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera);
 // Width of a grid of so many workgroups, which rows of one length hold.
@@ -55,6 +64,7 @@ uint32_t renderer_grid_width(uint32_t groups);
 // Body in IR order, and its triangle in file order, of a number as in FAULT_NUMBER.
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);
 void renderer_hits_destroy(struct renderer *renderer); // what renderer_hits made
+void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made
 // Which pixel of the picture a slot of the band at `tile_begin` shows.
 void renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y);

@@ -16,8 +16,8 @@ uvec2 pixel_of_slot(uint slot) {
     return uvec2(place % frame.tiles_x, place / frame.tiles_x) * TILE_SIDE + morton(slot % TILE_PIXELS);
 }
 
-vec3 camera_direction(uvec2 pixel) {
-    float x = 2.0 * (float(pixel.x) + dispatch.offset_x) / float(frame.width) - 1.0;
-    float y = 1.0 - 2.0 * (float(pixel.y) + dispatch.offset_y) / float(frame.height);
-    return unit3(frame.camera_forward + frame.camera_right * x + frame.camera_up * y);
+REAL3 camera_direction(uvec2 pixel) {
+    REAL x = 2.0 * (REAL(pixel.x) + REAL(dispatch.offset_x)) / REAL(frame.width) - 1.0;
+    REAL y = 1.0 - 2.0 * (REAL(pixel.y) + REAL(dispatch.offset_y)) / REAL(frame.height);
+    return unit3(CAMERA(forward) + CAMERA(right) * x + CAMERA(up) * y);
 }

@@ -66,7 +66,7 @@
 #define FAULT_NUMBER     0x3fffffffu
 #define FAULT_KIND_SHIFT 30
 #define FAULT_NONE       0u
-#define FAULT_NOT_FINITE 1u /* the sample was infinite or not a number, and counts as 0 */
+#define FAULT_NOT_FINITE 1u /* a value on the way was infinite or no number; the sample counts as 0 */
 #define FAULT_SEGMENTS   2u /* the sample exceeded path_segments */
 #define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT */
 

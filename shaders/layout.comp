@@ -17,14 +17,34 @@ layout(local_size_x = 1) in;
         FIELDS(STORE_VECTOR, STORE_FLOAT, STORE_UINT)                                                        \
     }
 
+// Vectors of doubles take two words.
+#define STORE_REAL3(name, word)                                                                              \
+    pixels[place++] = uvec4(unpackDouble2x32(record.name.x), unpackDouble2x32(record.name.y));               \
+    pixels[place++] = uvec4(unpackDouble2x32(record.name.z), 0u, 0u);
+#define STORE_REAL(name, word, half) pixels[place++] = uvec4(unpackDouble2x32(record.name), 0u, 0u);
+#define STORE64(type, loader, FIELDS)                                                                        \
+    {                                                                                                        \
+        type record = loader(0u);                                                                            \
+        FIELDS(STORE_REAL3, STORE_REAL, STORE_VECTOR, STORE_FLOAT, STORE_UINT)                               \
+    }
+
 void main() {
     uint place = 0u;
     STORE(node_record, load_triangle_node, NODE_FIELDS)
     STORE(node_record, load_sphere_node, NODE_FIELDS)
+#ifdef DOUBLE_PRECISION
+    STORE64(triangle_record, load_triangle, TRIANGLE64_FIELDS)
+    STORE64(sphere_record, load_sphere, SPHERE64_FIELDS)
+    STORE64(normal_record, load_normal_record, NORMAL64_FIELDS)
+    STORE64(body_record, load_body, BODY64_FIELDS)
+    STORE64(material_record, load_material, MATERIAL64_FIELDS)
+    STORE64(light_record, load_light, LIGHT64_FIELDS)
+#else
     STORE(triangle_record, load_triangle, TRIANGLE_FIELDS)
     STORE(sphere_record, load_sphere, SPHERE_FIELDS)
     STORE(body_record, load_body, BODY_FIELDS)
     STORE(material_record, load_material, MATERIAL_FIELDS)
     STORE(light_record, load_light, LIGHT_FIELDS)
     pixels[place++] = uvec4(floatBitsToUint(load_normal(0u)), 0u);
+#endif
 }

@@ -2,28 +2,28 @@
 
 struct light_ray {
     vec3 value;     // what the light adds where nothing stands before it
-    vec3 direction; // from `start`; the light is at t = 1, or at infinity
-    float t_max;
+    REAL3 direction; // from `start`; the light is at t = 1, or at infinity
+    REAL t_max;
 };
 
-light_ray light_at(uint index, surface s, vec3 start, vec3 direction) {
+light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction) {
     light_record light = load_light(index);
     vec3 emission = light.emission;
     bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
-    vec3 way = light.place - s.point;
-    float distance2 = dot3(way, way);
-    vec3 l = directional ? light.place : way * (1.0 / sqrt(distance2));
+    REAL3 way = light.place - s.point;
+    REAL distance2 = dot3(way, way);
+    REAL3 l = directional ? light.place : way * (1.0 / sqrt(distance2));
     if (HAS_INVERSE_SQUARE)
-        emission = (light.flags & LIGHT_INVERSE_SQUARE) != 0u ? emission / distance2 : emission;
-    float facing = dot3(s.shading, l);
+        emission = (light.flags & LIGHT_INVERSE_SQUARE) != 0u ? emission / float(distance2) : emission;
+    REAL facing = dot3(s.shading, l);
     bool lit = facing > 0.0 && dot3(s.geometric, l) > 0.0 && (directional || distance2 > 0.0);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
     if (HAS_DIFFUSE)
-        diffuse = s.diffuse * facing;
+        diffuse = s.diffuse * float(facing);
     if (HAS_SPECULAR) {
         // r . v = 1 - |r - v|^2 / 2 with v = -direction
-        vec3 gap = s.shading * (2.0 * facing) - l + direction;
-        specular = s.specular * highlight(0.5 * dot3(gap, gap), s.exponent);
+        REAL3 gap = s.shading * (2.0 * facing) - l + direction;
+        specular = s.specular * highlight(float(0.5 * dot3(gap, gap)), s.exponent);
     }
     vec3 sum = diffuse;
     if (HAS_SPECULAR)

@@ -1,7 +1,19 @@
 // Small arithmetic with a fixed order of operations: the module's own dot, cross and friends, because the
-// built-in ones may be reordered or fused by a driver. gamma(n) = n u / (1 - n u) with u = 2^-24 bounds the
-// relative error of n roundings (Higham 2002, section 3.1).
+// built-in ones may be reordered or fused by a driver. gamma(n) = n u / (1 - n u) with u = 2^-24, or 2^-53 in
+// double precision, bounds the relative error of n roundings (Higham 2002, section 3.1).
+#ifdef STUDY
+#include "study.glsl"
+#endif
 
+#ifdef DOUBLE_PRECISION
+const double GAMMA_1 = 1.1102230246251568e-16lf;
+const double GAMMA_2 = 2.2204460492503136e-16lf;
+const double GAMMA_3 = 3.3306690738754706e-16lf;
+const double GAMMA_4 = 4.4408920985006281e-16lf;
+const double GAMMA_5 = 5.5511151231257858e-16lf;
+const double GAMMA_6 = 6.6613381477509439e-16lf;
+const double GAMMA_7 = 7.7715611723761022e-16lf;
+#else
 const float GAMMA_1 = 5.9604648e-8;
 const float GAMMA_2 = 1.1920930e-7;
 const float GAMMA_3 = 1.7881397e-7;
@@ -9,41 +21,66 @@ const float GAMMA_4 = 2.3841864e-7;
 const float GAMMA_5 = 2.9802331e-7;
 const float GAMMA_6 = 3.5762799e-7;
 const float GAMMA_7 = 4.1723270e-7;
-const float FAR_AWAY = 3.0e38;
+#endif
+const REAL FAR_AWAY = 3.0e38;
 const float PI = 3.14159265358979;
 
-float dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+REAL dot3(REAL3 a, REAL3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-vec3 cross3(vec3 a, vec3 b) {
-    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+REAL3 cross3(REAL3 a, REAL3 b) {
+    return REAL3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-vec3 unit3(vec3 v) { return v * (1.0 / sqrt(dot3(v, v))); }
+REAL3 unit3(REAL3 v) { return v * (1.0 / sqrt(dot3(v, v))); }
 
-float largest3(vec3 v) { return max(v.x, max(v.y, v.z)); }
+REAL largest3(REAL3 v) { return max(v.x, max(v.y, v.z)); }
 
 // Bits, because a compiler may take NaN and infinity for absent.
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 bool is_finite3(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
-// The float next to `x` away from zero's side that `outward` points to: up where positive, down where
+// The power of two that takes `x`, positive and normal, to 1 .. 2.
+#ifdef DOUBLE_PRECISION
+double inverse_power(double x) {
+    return packDouble2x32(uvec2(0u, 0x7fe00000u - (unpackDouble2x32(x).y & 0x7ff00000u)));
+}
+#else
+float inverse_power(float x) { return uintBitsToFloat(0x7f000000u - (floatBitsToUint(x) & 0x7f800000u)); }
+#endif
+
+// The number next to `x` away from zero's side that `outward` points to: up where positive, down where
 // negative, `x` itself where zero.
-float next_float(float x, float outward) {
+#ifdef DOUBLE_PRECISION
+double next_real(double x, double outward) {
+    uvec2 bits = unpackDouble2x32(x);
+    uvec2 away = uvec2(bits.x + 1u, bits.y + (bits.x == 0xffffffffu ? 1u : 0u));
+    uvec2 towards = uvec2(bits.x - 1u, bits.y - (bits.x == 0u ? 1u : 0u));
+    uvec2 moved = (x > 0.0lf) == (outward > 0.0lf) ? away : towards;
+    moved = x == 0.0lf ? uvec2(0u, outward > 0.0lf ? 0x00100000u : 0x80100000u) : moved;
+    return outward == 0.0lf ? x : packDouble2x32(moved);
+}
+#else
+float next_real(float x, float outward) {
     int bits = floatBitsToInt(x);
     int away = bits + 1, towards = bits - 1;
     int moved = (x > 0.0) == (outward > 0.0) ? away : towards;
     moved = x == 0.0 ? (outward > 0.0 ? 0x00800000 : int(0x80800000u)) : moved;
     return outward == 0.0 ? x : intBitsToFloat(moved);
 }
+#endif
 
 // A start for rays that leave a surface on the side of `side` (unit): displaced by the point's error, then
-// one float outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not only by the error along the normal: the
+// one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not only by the error along the normal: the
 // error along the surface can carry the point across an edge, where a neighbour bends away from it.
-vec3 ray_start(vec3 point, vec3 error, vec3 side) {
-    float distance = max(dot3(abs(side), error), largest3(error));
-    vec3 shift = side * distance;
-    vec3 moved = point + shift;
-    return vec3(next_float(moved.x, shift.x), next_float(moved.y, shift.y), next_float(moved.z, shift.z));
+REAL3 ray_start(REAL3 point, REAL3 error, REAL3 side) {
+#ifdef STUDY
+    if (study_moves())
+        return point + side * error.x;
+#endif
+    REAL distance = max(dot3(abs(side), error), largest3(error));
+    REAL3 shift = side * distance;
+    REAL3 moved = point + shift;
+    return REAL3(next_real(moved.x, shift.x), next_real(moved.y, shift.y), next_real(moved.z, shift.z));
 }
 
 // arctan for |x| <= tan(pi/8): own minimax fit of degree 5 in x^2, relative error 6.3e-10.

@@ -3,10 +3,15 @@
 // In STATE three words a ray: origin, end; direction, -; direction of the second ray, -. In OUTPUT two: t, number
 // of the closest hit (NO_ITEM in `item` where none), item, 1 where the search for any hit found one too; then t,
 // number, item of the second ray's closest hit, and whether it left on the side that the first one came from.
+// In double precision six words a ray: each vector in two, the end in the rest of the second one; and three of
+// output: t, number, item of one ray, then of the other; then the two answers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_spirv_intrinsics : require
 spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
+#ifdef DOUBLE_PRECISION
+spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 64);
+#endif
 
 #include "scene.glsl"
 #include "records.glsl"
@@ -18,7 +23,7 @@ spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [44
 
 layout(local_size_x = TILE_PIXELS) in;
 
-hit_record trace(vec3 origin, vec3 direction, float end, bool any) {
+hit_record trace(REAL3 origin, REAL3 direction, REAL end, bool any) {
     hit_record hit = hit_record(end, 0.0, 0.0, NO_ITEM, 0u);
     uint iterations = 0u;
     if (HAS_SPHERES)
@@ -28,22 +33,54 @@ hit_record trace(vec3 origin, vec3 direction, float end, bool any) {
     return hit;
 }
 
+struct probe_ray {
+    REAL3 origin, direction, next;
+    REAL end;
+};
+
+#ifdef DOUBLE_PRECISION
+probe_ray read_ray(uint index) {
+    uvec4 w[6];
+    for (uint i = 0u; i < 6u; i++)
+        w[i] = states[6u * index + i];
+    return probe_ray(double3_of(w[0], w[1].xy), double3_of(w[2], w[3].xy), double3_of(w[4], w[5].xy),
+                     packDouble2x32(w[1].zw));
+}
+void write_first(uint index, hit_record hit, bool any) {
+    pixels[3u * index] = uvec4(unpackDouble2x32(hit.t), hit.number, hit.item);
+    pixels[3u * index + 2u] = uvec4(any ? 1u : 0u, 0u, 0u, 0u);
+}
+void write_second(uint index, hit_record hit, bool same_side) {
+    pixels[3u * index + 1u] = uvec4(unpackDouble2x32(hit.t), hit.number, hit.item);
+    pixels[3u * index + 2u].y = same_side ? 1u : 0u;
+}
+#else
+probe_ray read_ray(uint index) {
+    uvec4 w0 = states[3u * index], w1 = states[3u * index + 1u], w2 = states[3u * index + 2u];
+    return probe_ray(uintBitsToFloat(w0.xyz), uintBitsToFloat(w1.xyz), uintBitsToFloat(w2.xyz),
+                     uintBitsToFloat(w0.w));
+}
+void write_first(uint index, hit_record hit, bool any) {
+    pixels[2u * index] = uvec4(floatBitsToUint(hit.t), hit.number, hit.item, any ? 1u : 0u);
+}
+void write_second(uint index, hit_record hit, bool same_side) {
+    pixels[2u * index + 1u] = uvec4(floatBitsToUint(hit.t), hit.number, hit.item, same_side ? 1u : 0u);
+}
+#endif
+
 void main() {
     uint index = gl_WorkGroupID.x * TILE_PIXELS + gl_LocalInvocationID.x;
     if (index >= dispatch.tile_count)
         return;
-    uvec4 w0 = states[3u * index], w1 = states[3u * index + 1u], w2 = states[3u * index + 2u];
-    vec3 origin = uintBitsToFloat(w0.xyz), direction = uintBitsToFloat(w1.xyz), next = uintBitsToFloat(w2.xyz);
-    hit_record hit = trace(origin, direction, uintBitsToFloat(w0.w), false);
-    hit_record any = trace(origin, direction, uintBitsToFloat(w0.w), true);
-    pixels[2u * index] = uvec4(floatBitsToUint(hit.t), hit.number, hit.item, any.item != NO_ITEM ? 1u : 0u);
+    probe_ray ray = read_ray(index);
+    hit_record hit = trace(ray.origin, ray.direction, ray.end, false);
+    hit_record any = trace(ray.origin, ray.direction, ray.end, true);
+    write_first(index, hit, any.item != NO_ITEM);
     if (hit.item == NO_ITEM)
         return;
     surface s;
-    make_surface(hit, origin, direction, s);
-    bool same_side = dot3(next, s.geometric) > 0.0;
-    vec3 start = ray_start(s.point, s.error, same_side ? s.geometric : -s.geometric);
-    hit_record second = trace(start, next, FAR_AWAY, false);
-    pixels[2u * index + 1u] =
-        uvec4(floatBitsToUint(second.t), second.number, second.item, same_side ? 1u : 0u);
+    make_surface(hit, ray.origin, ray.direction, s);
+    bool same_side = dot3(ray.next, s.geometric) > 0.0;
+    REAL3 start = ray_start(s.point, s.error, same_side ? s.geometric : -s.geometric);
+    write_second(index, trace(start, ray.next, FAR_AWAY, false), same_side);
 }

@@ -1,6 +1,8 @@
 /* The fields of the records of gpu_scene.h, word by word: one list expands to the C struct and its asserts
    (runtime/gpu_records.h) and to the GLSL struct and its loader (records.glsl). VECTOR(name, word) takes
-   x, y, z of a word; FLOAT and UINT(name, word, component) one component. In the order of memory. */
+   x, y, z of a word; FLOAT and UINT(name, word, component) one component. In the order of memory.
+   Lists with 64 in their names are of scenes in double precision: REAL3(name, word) takes a word and half of the
+   next, REAL(name, word, half) the xy or zw of a word. */
 #ifndef GLINT_SHADERS_RECORDS_H
 #define GLINT_SHADERS_RECORDS_H
 
@@ -69,5 +71,62 @@
     UINT(flags, 0, w)                                                                                        \
     VECTOR(emission, 1)                                                                                      \
     UINT(spare, 1, w)
+
+#define TRIANGLE64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                  \
+    REAL3(v0, 0)                                                                                             \
+    UINT(number, 1, z)                                                                                       \
+    UINT(body, 1, w)                                                                                         \
+    REAL3(v1, 2)                                                                                             \
+    UINT(shade, 3, z)                                                                                        \
+    UINT(spare_3w, 3, w)                                                                                     \
+    REAL3(v2, 4)                                                                                             \
+    UINT(spare_5z, 5, z)                                                                                     \
+    UINT(spare_5w, 5, w)
+
+#define SPHERE64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                    \
+    REAL3(center, 0)                                                                                         \
+    REAL(radius, 1, zw)                                                                                      \
+    UINT(body, 2, x)                                                                                         \
+    UINT(shade, 2, y)                                                                                        \
+    UINT(spare_z, 2, z)                                                                                      \
+    UINT(spare_w, 2, w)
+
+#define NORMAL64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                    \
+    REAL3(unit, 0)                                                                                           \
+    UINT(spare_z, 1, z)                                                                                      \
+    UINT(spare_w, 1, w)
+
+#define BODY64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                      \
+    UINT(first_triangle, 0, x)                                                                               \
+    UINT(normal_base, 0, y)                                                                                  \
+    UINT(spare_z, 0, z)                                                                                      \
+    UINT(spare_w, 0, w)                                                                                      \
+    REAL3(row_x, 1)                                                                                          \
+    REAL(offset_x, 2, zw)                                                                                    \
+    REAL3(row_y, 3)                                                                                          \
+    REAL(offset_y, 4, zw)                                                                                    \
+    REAL3(row_z, 5)                                                                                          \
+    REAL(offset_z, 6, zw)
+
+#define MATERIAL64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                  \
+    FLOAT(weight_diffuse, 0, x)                                                                              \
+    FLOAT(weight_specular, 0, y)                                                                             \
+    FLOAT(weight_reflection, 0, z)                                                                           \
+    FLOAT(weight_refraction, 0, w)                                                                           \
+    VECTOR(diffuse, 1)                                                                                       \
+    FLOAT(exponent, 1, w)                                                                                    \
+    VECTOR(specular, 2)                                                                                      \
+    UINT(spare_2w, 2, w)                                                                                     \
+    VECTOR(second, 3)                                                                                        \
+    UINT(spare_3w, 3, w)                                                                                     \
+    REAL(index, 4, xy)                                                                                       \
+    REAL(cell, 4, zw)
+
+#define LIGHT64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                     \
+    REAL3(place, 0)                                                                                          \
+    UINT(flags, 1, z)                                                                                        \
+    UINT(spare_1w, 1, w)                                                                                     \
+    VECTOR(emission, 2)                                                                                      \
+    UINT(spare_2w, 2, w)
 
 #endif

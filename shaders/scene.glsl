@@ -5,6 +5,7 @@
 #include "features.h"
 #include "frame.h"
 #include "gpu_scene.h"
+#include "real.h"
 
 layout(constant_id = CONSTANT_FEATURES) const uint FEATURES = 0xffffffffu;
 layout(constant_id = CONSTANT_TRIANGLE_STACK) const uint TRIANGLE_STACK = 32u;
@@ -54,9 +55,19 @@ layout(set = 0, binding = BINDING_COUNTERS, std430) restrict buffer counter_word
 #define VECTOR_FIELD(name) vec3 name;
 #define FLOAT_FIELD(name)  float name;
 #define UINT_FIELD(name)   uint name;
+#ifdef DOUBLE_PRECISION
+#define DOUBLE_FIELD(name) double name;
+layout(set = 0, binding = BINDING_FRAME, std140) uniform frame_block {
+    FRAME_FIELDS(VECTOR_FIELD, FLOAT_FIELD, UINT_FIELD)
+    FRAME_DOUBLE_FIELDS(DOUBLE_FIELD)
+} frame;
+#define CAMERA(name) dvec3(frame.double_##name##_x, frame.double_##name##_y, frame.double_##name##_z)
+#else
 layout(set = 0, binding = BINDING_FRAME, std140) uniform frame_block {
     FRAME_FIELDS(VECTOR_FIELD, FLOAT_FIELD, UINT_FIELD)
 } frame;
+#define CAMERA(name) frame.camera_##name
+#endif
 layout(push_constant) uniform dispatch_block {
     DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
 } dispatch;

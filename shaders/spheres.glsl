@@ -4,25 +4,28 @@
 // Gems, chapter 7), with the start of the ray placed by its error: where |o - c|^2 - r^2 is within its
 // rounding error of 0 the ray starts on the sphere, and that crossing is not a hit.
 
-void test_sphere(uint item, vec3 origin, vec3 direction, inout hit_record hit) {
+void test_sphere(uint item, REAL3 origin, REAL3 direction, inout hit_record hit) {
     sphere_record sphere = load_sphere(item);
-    vec3 f = origin - sphere.center;
-    float r = sphere.radius;
-    float a = dot3(direction, direction);
-    float b = -dot3(f, direction);
-    vec3 nearest = f + direction * (b / a);
-    float discriminant = r * r - dot3(nearest, nearest);
-    float f2 = dot3(f, f);
-    float c = f2 - r * r;
-    float c_error = GAMMA_6 * f2 + GAMMA_2 * (r * r);
-    float root = sqrt(max(a * discriminant, 0.0));
-    float q = b < 0.0 ? b - root : b + root;
-    float b_error = GAMMA_4 * dot3(abs(f), abs(direction));
+    REAL3 f = origin - sphere.center;
+    REAL r = sphere.radius;
+    REAL a = dot3(direction, direction);
+    REAL b = -dot3(f, direction);
+    REAL3 nearest = f + direction * (b / a);
+    REAL discriminant = r * r - dot3(nearest, nearest);
+    REAL f2 = dot3(f, f);
+    REAL c = f2 - r * r;
+    REAL c_error = GAMMA_6 * f2 + GAMMA_2 * (r * r);
+    REAL root = sqrt(max(a * discriminant, 0.0));
+    REAL q = b < 0.0 ? b - root : b + root;
+    REAL b_error = GAMMA_4 * dot3(abs(f), abs(direction));
     bool on_sphere = abs(c) <= c_error;
-    float t0 = c / q, t1 = q / a;
+#ifdef STUDY
+    on_sphere = on_sphere && !study_moves();
+#endif
+    REAL t0 = c / q, t1 = q / a;
     bool first = !on_sphere && t0 > 0.0;
     bool second = t1 > 0.0 && (!on_sphere || b > b_error);
-    float t = first && second ? min(t0, t1) : first ? t0 : t1;
+    REAL t = first && second ? min(t0, t1) : first ? t0 : t1;
     uint number = sphere.body;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
     if (discriminant >= 0.0 && q != 0.0 && (first || second) && nearer) {
@@ -33,7 +36,7 @@ void test_sphere(uint item, vec3 origin, vec3 direction, inout hit_record hit) {
 }
 
 // As trace_triangles.
-void trace_spheres(vec3 origin, vec3 direction, bool any, inout hit_record hit, inout uint iterations) {
+void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
     tree_ray ray = make_tree_ray(origin, direction);
     STACK(SPHERE_STACK)
     uvec2 group = root_group();

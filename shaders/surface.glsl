@@ -1,32 +1,33 @@
 // What a hit is made of: point, error, normals, colours (docs/language.md, "Hit" and "Checker").
 
 struct surface {
-    vec3 point;
-    vec3 error;      // bound of the point's error, by component
-    vec3 geometric;  // unit, towards the viewer
-    vec3 shading;    // unit, on the same side
+    REAL3 point;
+    REAL3 error;     // bound of the point's error, by component
+    REAL3 geometric; // unit, towards the viewer
+    REAL3 shading;   // unit, on the same side
     bool enters;     // the ray comes from outside
     bool solid;      // refraction bends; else a thin pane
     vec3 diffuse;    // weight times colour
     vec3 specular;   // weight times colour
     float exponent;
     bool has_diffuse, has_specular;
-    float reflection, refraction, index;
+    float reflection, refraction;
+    REAL index;
 };
 
-bool is_odd(float cells) { return cells - 2.0 * floor(cells * 0.5) != 0.0; }
+bool is_odd(REAL cells) { return cells - 2.0 * floor(cells * 0.5) != 0.0; }
 
 // `shade`: material and flags; `along`: the place on a rectangle, 0..1 along its edges.
-void read_material(uint shade, uint body, vec2 along, inout surface s) {
+void read_material(uint shade, uint body, REAL2 along, inout surface s) {
     material_record material = load_material(shade & TRIANGLE_MATERIAL);
     if (HAS_DIFFUSE) {
         vec3 color = material.diffuse;
         if (HAS_CHECKER) {
             body_record map = load_body(body);
-            vec3 own = vec3(dot3(map.row_x, s.point) + map.offset_x, dot3(map.row_y, s.point) + map.offset_y,
-                            dot3(map.row_z, s.point) + map.offset_z);
+            REAL3 own = REAL3(dot3(map.row_x, s.point) + map.offset_x, dot3(map.row_y, s.point) + map.offset_y,
+                              dot3(map.row_z, s.point) + map.offset_z);
             bool rectangle = (shade & TRIANGLE_RECT) != 0u;
-            own = (rectangle ? vec3(along * map.row_x.xy, 0.0) : own) / material.cell;
+            own = (rectangle ? REAL3(along * map.row_x.xy, 0.0) : own) / material.cell;
             bool odd = is_odd(floor(own.x) + floor(own.y) + floor(own.z));
             color = (shade & TRIANGLE_CHECKER) != 0u && odd ? material.second : color;
         }
@@ -43,19 +44,18 @@ void read_material(uint shade, uint body, vec2 along, inout surface s) {
 
 // Unit; the edges are divided by a power of two first, so that the product of small ones does not vanish.
 // Flattening leaves out triangles for which this is not finite.
-vec3 triangle_normal(vec3 u, vec3 v) {
-    float most = max(largest3(abs(u)), largest3(abs(v)));
-    float scale = uintBitsToFloat(0x7f000000u - (floatBitsToUint(most) & 0x7f800000u));
+REAL3 triangle_normal(REAL3 u, REAL3 v) {
+    REAL scale = inverse_power(max(largest3(abs(u)), largest3(abs(v))));
     return unit3(cross3(u * scale, v * scale));
 }
 
-void triangle_surface(hit_record hit, vec3 direction, inout surface s) {
+void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
     triangle_record triangle = load_triangle(hit.item);
-    float b0 = 1.0 - hit.b1 - hit.b2;
-    vec3 q0 = triangle.v0 * b0, q1 = triangle.v1 * hit.b1, q2 = triangle.v2 * hit.b2;
+    REAL b0 = 1.0 - hit.b1 - hit.b2;
+    REAL3 q0 = triangle.v0 * b0, q1 = triangle.v1 * hit.b1, q2 = triangle.v2 * hit.b2;
     s.point = q0 + q1 + q2;
     s.error = (abs(q0) + abs(q1) + abs(q2)) * GAMMA_7;
-    vec3 outward = triangle_normal(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
+    REAL3 outward = triangle_normal(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
     s.enters = dot3(outward, direction) <= 0.0;
     s.geometric = s.enters ? outward : -outward;
     s.shading = s.geometric;
@@ -64,35 +64,41 @@ void triangle_surface(hit_record hit, vec3 direction, inout surface s) {
         body_record body = load_body(triangle.body);
         bool smooth_shaded = (triangle.shade & TRIANGLE_SMOOTH) != 0u;
         uint base = smooth_shaded ? 3u * (triangle.number - body.first_triangle) + body.normal_base : 0u;
-        vec3 n = load_normal(base) * b0 + load_normal(base + 1u) * hit.b1 + load_normal(base + 2u) * hit.b2;
-        float length2 = dot3(n, n);
+        REAL3 n = load_normal(base) * b0 + load_normal(base + 1u) * hit.b1 + load_normal(base + 2u) * hit.b2;
+        REAL length2 = dot3(n, n);
         n = n * (1.0 / sqrt(length2));
         n = dot3(n, s.geometric) < 0.0 ? -n : n;
         s.shading = smooth_shaded && length2 > 0.0 ? n : s.geometric;
     }
     bool second_half = (triangle.shade & TRIANGLE_RECT_TOP) != 0u;
-    float sum = hit.b1 + hit.b2;
-    read_material(triangle.shade, triangle.body, second_half ? vec2(hit.b1, sum) : vec2(sum, hit.b2), s);
+    REAL sum = hit.b1 + hit.b2;
+    read_material(triangle.shade, triangle.body, second_half ? REAL2(hit.b1, sum) : REAL2(sum, hit.b2), s);
 }
 
-void sphere_surface(hit_record hit, vec3 origin, vec3 direction, inout surface s) {
+void sphere_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface s) {
     sphere_record sphere = load_sphere(hit.item & ~ITEM_SPHERE);
     // Back onto the sphere: the point's error is then that of the radius, whatever the ray's length.
-    vec3 outward = unit3(origin + direction * hit.t - sphere.center);
-    vec3 arm = outward * sphere.radius;
+    REAL3 outward = unit3(origin + direction * hit.t - sphere.center);
+    REAL3 arm = outward * sphere.radius;
     s.point = sphere.center + arm;
     s.error = abs(arm) * GAMMA_5 + abs(s.point) * GAMMA_1;
     s.enters = dot3(outward, direction) <= 0.0;
     s.geometric = s.enters ? outward : -outward;
     s.shading = s.geometric;
     s.solid = true;
-    read_material(sphere.shade, sphere.body, vec2(0.0), s);
+    read_material(sphere.shade, sphere.body, REAL2(0.0), s);
 }
 
-void make_surface(hit_record hit, vec3 origin, vec3 direction, inout surface s) {
+void make_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface s) {
     bool sphere = (hit.item & ITEM_SPHERE) != 0u;
     if (HAS_TRIANGLES && !(HAS_SPHERES && sphere))
         triangle_surface(hit, direction, s);
     if (HAS_SPHERES && (!HAS_TRIANGLES || sphere))
         sphere_surface(hit, origin, direction, s);
+#ifdef STUDY
+    if (study_moves()) {
+        s.point = origin + direction * hit.t;
+        s.error = vec3(study_offset(hit.t));
+    }
+#endif
 }

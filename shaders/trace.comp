@@ -9,6 +9,9 @@
 #extension GL_EXT_spirv_intrinsics : require
 // SignedZeroInfNanPreserve, or a compiler may take NaN for absent; stripped where a device lacks it.
 spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
+#ifdef DOUBLE_PRECISION
+spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 64);
+#endif
 
 #include "scene.glsl"
 #include "records.glsl"
@@ -22,6 +25,7 @@ spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [44
 #include "background.glsl"
 #include "bounce.glsl"
 #include "path.glsl"
+#include "path_words.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;
 
@@ -56,6 +60,14 @@ void count_cut(uint counter, uint lost, bool yes, float weight) {
     }
 }
 
+// A surface or a ray with a value that is infinite or no number: whatever came of it could look like any other
+// pixel, so the sample becomes a fault.
+void taint(inout path_state p, bool exists, REAL3 v, float weight) {
+    // The sum of finite parts of unit vectors is finite.
+    bool sound = is_finite(float(v.x + v.y + v.z) + weight);
+    p.radiance = exists && !sound ? vec3(uintBitsToFloat(0x7fc00000u)) : p.radiance;
+}
+
 // Whether a child ray of this weight is followed; one cut by depth is, to see the background.
 bool is_followed(path_state p, float weight) {
     bool heavy = weight > 0.0 && weight >= frame.min_weight;
@@ -66,10 +78,10 @@ bool is_followed(path_state p, float weight) {
 }
 
 // Sends the rays that leave the surface: the path goes on with one, the other waits. false: none.
-bool send_rays(uint slot, inout path_state p, surface s, vec3 start) {
+bool send_rays(uint slot, inout path_state p, surface s, REAL3 start) {
     float reflection = HAS_REFLECTION ? s.reflection : 0.0;
     bool through = false;
-    vec3 bent = p.direction;
+    REAL3 bent = p.direction;
     if (HAS_REFRACTION) {
         bool refracts = s.refraction > 0.0;
         through = refracted(p.direction, s, bent) && refracts;
@@ -77,7 +89,7 @@ bool send_rays(uint slot, inout path_state p, surface s, vec3 start) {
         count(COUNTER_TOTAL_REFLECT, refracts && !through);
     }
     through = through && is_followed(p, p.weight * s.refraction);
-    vec3 behind = ray_start(s.point, s.error, -s.geometric);
+    REAL3 behind = ray_start(s.point, s.error, -s.geometric);
     bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, p.weight * reflection);
     float weight = p.weight;
     if (HAS_BRANCHES && back && through)
@@ -87,15 +99,17 @@ bool send_rays(uint slot, inout path_state p, surface s, vec3 start) {
     p.weight = weight * (back ? reflection : s.refraction);
     p.kind = back ? RAY_REFLECTED : RAY_REFRACTED;
     p.depth++;
+    taint(p, back || through, p.direction, p.weight);
+    taint(p, HAS_BRANCHES && back && through, bent, weight * s.refraction);
     return back || through;
 }
 
 void write_sample(uint slot, path_state p, uint fault) {
-    bool finite = is_finite3(p.radiance);
-    vec3 value = finite ? p.radiance : vec3(0.0);
-    fault = finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT | p.hit.number;
     uvec4 before = dispatch.sample_index == OPAQUE_ZERO ? uvec4(0u) : pixels[slot];
-    pixels[slot] = uvec4(floatBitsToUint(uintBitsToFloat(before.xyz) + value), before.w != 0u ? before.w : fault);
+    vec3 sum = uintBitsToFloat(before.xyz) + p.radiance;
+    bool finite = is_finite3(sum);
+    fault = finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT | p.hit.number;
+    pixels[slot] = uvec4(finite ? floatBitsToUint(sum) : before.xyz, before.w != 0u ? before.w : fault);
 }
 
 // After a ray: whether the path may go on.
@@ -111,7 +125,7 @@ uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint
 }
 
 // From light `p.light` on, the next one that would add something; adds those that need no shadow ray.
-bool find_light(inout path_state p, surface s, vec3 start, inout light_ray shadow, inout uint iterations) {
+bool find_light(inout path_state p, surface s, REAL3 start, inout light_ray shadow, inout uint iterations) {
     uint count = frame.light_count + OPAQUE_ZERO;
     bool found = false;
     while (p.light < count && !found && iterations < ITERATION_LIMIT) {
@@ -146,8 +160,8 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
     bool fresh = true; // no ray was finished in this slice
     surface s;
-    vec3 start = vec3(0.0);
-    light_ray shadow = light_ray(vec3(0.0), vec3(0.0), 0.0);
+    REAL3 start = REAL3(0.0);
+    light_ray shadow = light_ray(vec3(0.0), REAL3(0.0), 0.0);
     while (state == GOES_ON) {
         while (state == GOES_ON) {
             iterations += SEGMENT_ITERATIONS;
@@ -157,8 +171,8 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                 state = SUSPENDED;
                 break;
             }
-            hit_record hit = hit_record(!traced ? -1.0 : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
-            vec3 origin = own ? p.origin : start, direction = own ? p.direction : shadow.direction;
+            hit_record hit = hit_record(!traced ? REAL(-1.0) : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
+            REAL3 origin = own ? p.origin : start, direction = own ? p.direction : shadow.direction;
             if (HAS_SPHERES)
                 trace_spheres(origin, direction, !own, hit, iterations);
             if (HAS_TRIANGLES && !(!own && hit.item != NO_ITEM))
@@ -176,6 +190,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             if (state == GOES_ON && phase != PHASE_SHADOW) {
                 make_surface(p.hit, p.origin, p.direction, s);
                 start = ray_start(s.point, s.error, s.geometric);
+                taint(p, true, s.point + s.shading, 0.0);
             }
             if (state == GOES_ON) {
                 phase = PHASE_SHADOW;
@@ -192,7 +207,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             }
         }
         if (state == MISSED)
-            p.radiance += background(p.direction) * p.weight;
+            p.radiance += background(vec3(p.direction)) * p.weight;
         if (HAS_BRANCHES && (state == MISSED || state == ENDED) && p.stack_size > 0u) {
             pop_branch(slot, p);
             state = GOES_ON;

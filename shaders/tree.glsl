@@ -2,22 +2,23 @@
 //
 // Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
 // sections 4.1 and 4.2, with a decoding that never loses a hit: t = (p - o)/d + q * (2^e/d), the far side
-// multiplied by BOX_FAR_SCALE.
+// multiplied by BOX_FAR_SCALE. In double precision t counts from where the ray enters the node, so that single
+// precision suffices behind it: see gpu_scene.h.
 
 struct tree_ray {
-    vec3 origin;
-    vec3 inverse; // 1/direction, finite
+    REAL3 origin;
+    REAL3 inverse; // 1/direction, finite
     uint flip;    // 7 - octant: slots are visited in the order of slot ^ flip, highest first
     uint flip4;   // in each byte
 };
 
-tree_ray make_tree_ray(vec3 origin, vec3 direction) {
+tree_ray make_tree_ray(REAL3 origin, REAL3 direction) {
     tree_ray ray;
     ray.origin = origin;
     // A component of 0 would give 0 * infinity on the planes of a box.
-    vec3 size = max(abs(direction), vec3(1.0e-20));
-    ray.inverse = vec3(direction.x < 0.0 ? -1.0 : 1.0, direction.y < 0.0 ? -1.0 : 1.0,
-                       direction.z < 0.0 ? -1.0 : 1.0) / size;
+    REAL3 size = max(abs(direction), REAL3(1.0e-20));
+    ray.inverse = REAL3(direction.x < 0.0 ? -1.0 : 1.0, direction.y < 0.0 ? -1.0 : 1.0,
+                        direction.z < 0.0 ? -1.0 : 1.0) / size;
     ray.flip = (direction.x < 0.0 ? 0u : 4u) | (direction.y < 0.0 ? 0u : 2u) | (direction.z < 0.0 ? 0u : 1u);
     ray.flip4 = ray.flip * 0x01010101u;
     return ray;
@@ -28,34 +29,70 @@ float byte_scaled(uint bytes, uint k) {
     return k == 3u ? float(int(bytes >> 24u)) : float(int(bytes & (0xffu << (8u * k))));
 }
 
+// A node as a ray sees it: plane q of an axis lies at base + q * scale.
+#ifdef DOUBLE_PRECISION
+struct node_frame {
+    vec3 base, scale;
+    float t_max, t_min; // all t less that of entering the node
+    float slack;
+};
+#define NODE_BEGIN(f)    f.t_min
+#define NODE_LEAVE(f, t) (t + f.slack)
+#else
+struct node_frame {
+    vec3 base, scale;
+    float t_max;
+};
+#define NODE_BEGIN(f)    0.0
+#define NODE_LEAVE(f, t) (t * BOX_FAR_SCALE)
+#endif
+
+node_frame make_node_frame(node_record node, tree_ray ray, bvec3 up, REAL t_max) {
+    uint e = node.exponents;
+    vec3 cell = vec3(uintBitsToFloat((e & 0xffu) << 23u), uintBitsToFloat((e & 0xff00u) << 15u),
+                     uintBitsToFloat((e & 0xff0000u) << 7u));
+    node_frame f;
+#ifdef DOUBLE_PRECISION
+    dvec3 base = (dvec3(node.corner) - ray.origin) * ray.inverse;
+    dvec3 enter = base + dvec3(up.x ? 0.0 : 255.0, up.y ? 0.0 : 255.0, up.z ? 0.0 : 255.0) * dvec3(cell) * ray.inverse;
+    double t = largest3(enter);
+    f.base = vec3(base - t);
+    f.scale = cell * vec3(ray.inverse);
+    f.t_max = float(t_max - t);
+    f.t_min = float(-t);
+    f.slack = float(abs(t)) * BOX_SLACK;
+#else
+    f.scale = cell * ray.inverse;
+    f.base = (node.corner - ray.origin) * ray.inverse;
+    f.t_max = t_max;
+#endif
+    return f;
+}
+
 // Hits of children 4h .. 4h+3, whose near and far planes are given: bits 24..31 inner nodes by order of
 // visit, bits 0..23 leaf items.
-uint node_half(uvec3 near, uvec3 far, uint meta, vec3 base, vec3 scale, float t_max, uint flip4) {
+uint node_half(uvec3 near, uvec3 far, uint meta, node_frame f, uint flip4) {
     uint inner = (meta & (meta << 1u)) & 0x10101010u;
     uint bits = (meta ^ (flip4 & ((inner >> 4u) * 0xffu))) & 0x1f1f1f1fu;
     uint counts = (meta >> 5u) & 0x07070707u;
     uint hits = 0u;
     for (uint k = 0u; k < 4u; k++) {
-        vec3 unit = scale * (k == 1u ? 1.0 / 256.0 : k == 2u ? 1.0 / 65536.0 : 1.0);
+        vec3 unit = f.scale * (k == 1u ? 1.0 / 256.0 : k == 2u ? 1.0 / 65536.0 : 1.0);
         vec3 q_near = vec3(byte_scaled(near.x, k), byte_scaled(near.y, k), byte_scaled(near.z, k));
         vec3 q_far = vec3(byte_scaled(far.x, k), byte_scaled(far.y, k), byte_scaled(far.z, k));
         // Fused or not, the boxes stay conservative, and what they let through is tested exactly.
-        vec3 t_near = fma(q_near, unit, base), t_far = fma(q_far, unit, base);
-        float enter = max(max(t_near.x, t_near.y), max(t_near.z, 0.0));
-        float leave = min(min(t_far.x, t_far.y), min(t_far.z, t_max)) * BOX_FAR_SCALE;
+        vec3 t_near = fma(q_near, unit, f.base), t_far = fma(q_far, unit, f.base);
+        float enter = max(max(t_near.x, t_near.y), max(t_near.z, NODE_BEGIN(f)));
+        float leave = NODE_LEAVE(f, min(min(t_far.x, t_far.y), min(t_far.z, f.t_max)));
         uint found = ((counts >> (8u * k)) & 0xffu) << ((bits >> (8u * k)) & 0x1fu);
         hits |= enter <= leave ? found : 0u;
     }
     return hits;
 }
 
-uint node_hits(node_record node, tree_ray ray, float t_max) {
-    uint e = node.exponents;
-    vec3 cell = vec3(uintBitsToFloat((e & 0xffu) << 23u), uintBitsToFloat((e & 0xff00u) << 15u),
-                     uintBitsToFloat((e & 0xff0000u) << 7u));
-    vec3 scale = cell * ray.inverse;
-    vec3 base = (node.corner - ray.origin) * ray.inverse;
+uint node_hits(node_record node, tree_ray ray, REAL t_max) {
     bool x_up = (ray.flip & 4u) != 0u, y_up = (ray.flip & 2u) != 0u, z_up = (ray.flip & 1u) != 0u;
+    node_frame f = make_node_frame(node, ray, bvec3(x_up, y_up, z_up), t_max);
     uvec3 near_a = uvec3(x_up ? node.low_x_a : node.high_x_a, y_up ? node.low_y_a : node.high_y_a,
                          z_up ? node.low_z_a : node.high_z_a);
     uvec3 near_b = uvec3(x_up ? node.low_x_b : node.high_x_b, y_up ? node.low_y_b : node.high_y_b,
@@ -64,8 +101,8 @@ uint node_hits(node_record node, tree_ray ray, float t_max) {
                         z_up ? node.high_z_a : node.low_z_a);
     uvec3 far_b = uvec3(x_up ? node.high_x_b : node.low_x_b, y_up ? node.high_y_b : node.low_y_b,
                         z_up ? node.high_z_b : node.low_z_b);
-    return node_half(near_a, far_a, node.meta_a, base, scale, t_max, ray.flip4) |
-           node_half(near_b, far_b, node.meta_b, base, scale, t_max, ray.flip4);
+    return node_half(near_a, far_a, node.meta_a, f, ray.flip4) |
+           node_half(near_b, far_b, node.meta_b, f, ray.flip4);
 }
 
 // Inner nodes still to be visited below one parent: first child, hits in bits 24..31, the parent's mask of

@@ -4,9 +4,9 @@
 // Humphreys 2023, section 6.8.7. Equal t goes to the lower number, so that the tree never shows.
 
 struct hit_record {
-    float t;     // the ray's end before, where nothing was hit
-    float b1;    // barycentrics of v1 and v2 as stored
-    float b2;
+    REAL t;      // the ray's end before, where nothing was hit
+    REAL b1;     // barycentrics of v1 and v2 as stored
+    REAL b2;
     uint item;   // leaf item, with ITEM_SPHERE for spheres; NO_ITEM: nothing
     uint number; // spheres by body, then triangles: decides ties
 };
@@ -14,53 +14,82 @@ const uint NO_ITEM = 0xffffffffu;
 const uint ITEM_SPHERE = 0x80000000u;
 
 struct shear_ray {
-    vec3 origin;
+    REAL3 origin;
     bool along_x, along_z; // the largest component of the direction; else along y
-    float sx, sy, sz;
+    REAL sx, sy, sz;
+#ifdef STUDY
+    vec3 direction;
+#endif
 };
 
-vec3 turn(vec3 v, bool along_x, bool along_z) { return along_z ? v : along_x ? v.yzx : v.zxy; }
+REAL3 turn(REAL3 v, bool along_x, bool along_z) { return along_z ? v : along_x ? v.yzx : v.zxy; }
 
-shear_ray make_shear_ray(vec3 origin, vec3 direction) {
+shear_ray make_shear_ray(REAL3 origin, REAL3 direction) {
     shear_ray ray;
-    vec3 size = abs(direction);
+    REAL3 size = abs(direction);
     ray.origin = origin;
     ray.along_z = size.z >= size.x && size.z >= size.y;
     ray.along_x = !ray.along_z && size.x >= size.y;
-    vec3 d = turn(direction, ray.along_x, ray.along_z);
+    REAL3 d = turn(direction, ray.along_x, ray.along_z);
     ray.sz = 1.0 / d.z;
     ray.sx = d.x * ray.sz;
     ray.sy = d.y * ray.sz;
+#ifdef STUDY
+    ray.direction = direction;
+#endif
     return ray;
 }
 
+#ifdef STUDY
+// Barycentrics come times the determinant, which counts for a unit direction.
+bool test_moeller(triangle_record triangle, shear_ray ray, inout float v, inout float w, inout float det,
+                  inout float t) {
+    vec3 ab = triangle.v1 - triangle.v0, ac = triangle.v2 - triangle.v0;
+    vec3 p = cross3(ray.direction, ac), s = ray.origin - triangle.v0, q = cross3(s, ab);
+    det = dot3(ab, p);
+    v = dot3(s, p);
+    w = dot3(ray.direction, q);
+    float inverse = 1.0 / det;
+    t = dot3(ac, q) * inverse;
+    return abs(det) >= STUDY_CUT * sqrt(dot3(ray.direction, ray.direction)) && v * inverse >= 0.0 &&
+           w * inverse >= 0.0 && (v + w) * inverse <= 1.0;
+}
+#endif
+
 void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
     triangle_record triangle = load_triangle(item);
-    vec3 a = turn(triangle.v0 - ray.origin, ray.along_x, ray.along_z);
-    vec3 b = turn(triangle.v1 - ray.origin, ray.along_x, ray.along_z);
-    vec3 c = turn(triangle.v2 - ray.origin, ray.along_x, ray.along_z);
-    float ax = a.x - ray.sx * a.z, ay = a.y - ray.sy * a.z;
-    float bx = b.x - ray.sx * b.z, by = b.y - ray.sy * b.z;
-    float cx = c.x - ray.sx * c.z, cy = c.y - ray.sy * c.z;
-    float u = cx * by - cy * bx;
-    float v = ax * cy - ay * cx;
-    float w = bx * ay - by * ax;
-    float det = u + v + w;
+    REAL3 a = turn(triangle.v0 - ray.origin, ray.along_x, ray.along_z);
+    REAL3 b = turn(triangle.v1 - ray.origin, ray.along_x, ray.along_z);
+    REAL3 c = turn(triangle.v2 - ray.origin, ray.along_x, ray.along_z);
+    REAL ax = a.x - ray.sx * a.z, ay = a.y - ray.sy * a.z;
+    REAL bx = b.x - ray.sx * b.z, by = b.y - ray.sy * b.z;
+    REAL cx = c.x - ray.sx * c.z, cy = c.y - ray.sy * c.z;
+    REAL u = cx * by - cy * bx;
+    REAL v = ax * cy - ay * cx;
+    REAL w = bx * ay - by * ax;
+    REAL det = u + v + w;
     bool inside = max(max(u, v), w) <= 0.0 || min(min(u, v), w) >= 0.0;
-    float inverse = 1.0 / det;
-    float t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
-    float x_most = max(max(abs(ax), abs(bx)), abs(cx));
-    float y_most = max(max(abs(ay), abs(by)), abs(cy));
-    float z_most = max(max(abs(a.z), abs(b.z)), abs(c.z));
-    float delta_x = GAMMA_5 * (x_most + z_most);
-    float delta_y = GAMMA_5 * (y_most + z_most);
-    float delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
+    REAL inverse = 1.0 / det;
+    REAL t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
+    REAL x_most = max(max(abs(ax), abs(bx)), abs(cx));
+    REAL y_most = max(max(abs(ay), abs(by)), abs(cy));
+    REAL z_most = max(max(abs(a.z), abs(b.z)), abs(c.z));
+    REAL delta_x = GAMMA_5 * (x_most + z_most);
+    REAL delta_y = GAMMA_5 * (y_most + z_most);
+    REAL delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
     // t is a mean of the vertices' z: an error of its weights moves it by their spread at most, not by their
     // size. With the size, small triangles far away would all be refused; without the limit of 1, triangles
     // seen edge-on.
-    float spread = max(max(a.z, b.z), c.z) - min(min(a.z, b.z), c.z);
-    float wrong = min(3.0 * delta_e * abs(inverse), 1.0);
-    float delta_t = (6.0 * GAMMA_3 * z_most + spread * wrong) * abs(ray.sz);
+    REAL spread = max(max(a.z, b.z), c.z) - min(min(a.z, b.z), c.z);
+    REAL wrong = min(3.0 * delta_e * abs(inverse), 1.0);
+    REAL delta_t = (6.0 * GAMMA_3 * z_most + spread * wrong) * abs(ray.sz);
+#ifdef STUDY
+    if (study_cuts()) {
+        inside = test_moeller(triangle, ray, v, w, det, t);
+        inverse = 1.0 / det;
+    }
+    delta_t = study_moves() ? 0.0 : delta_t;
+#endif
     uint number = triangle.number + frame.sphere_count;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
     if (inside && det != 0.0 && t > delta_t && nearer) {
@@ -73,7 +102,7 @@ void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
 }
 
 // `any`: the first hit found ends the search. Stops unfinished at ITERATION_LIMIT.
-void trace_triangles(vec3 origin, vec3 direction, bool any, inout hit_record hit, inout uint iterations) {
+void trace_triangles(REAL3 origin, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
     tree_ray ray = make_tree_ray(origin, direction);
     shear_ray shear = make_shear_ray(origin, direction);
     STACK(TRIANGLE_STACK)

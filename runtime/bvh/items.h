@@ -11,5 +11,8 @@
 // `words`: TRIANGLE_WORDS of a triangle, SPHERE_WORDS of a sphere, finite.
 struct bvh_item bvh_triangle_item(const struct gpu_word *words, uint32_t index);
 struct bvh_item bvh_sphere_item(const struct gpu_word *words, uint32_t index);
+// The same of records in double precision: the pad is by their ulp, the box rounded outward to float.
+struct bvh_item bvh_triangle64_item(const struct gpu_word *words, uint32_t index);
+struct bvh_item bvh_sphere64_item(const struct gpu_word *words, uint32_t index);
 
 #endif

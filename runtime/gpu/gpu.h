@@ -43,6 +43,7 @@ struct gpu_device_info {
     enum gpu_kind kind;
     uint64_t memory_bytes;  // of the largest heap that is the device's own
     uint64_t storage_bytes; // most that a GPU_STORAGE buffer may have
+    bool has_double;        // kernels may compute in double precision
     bool preferred;         // what an empty choice takes
 };
 

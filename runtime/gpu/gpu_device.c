@@ -92,6 +92,7 @@ static void read_properties(struct gpu *gpu) {
                                                   .pNext = &controls};
         vkGetPhysicalDeviceProperties2(gpu->physical, &properties);
         gpu->preserves_nan = controls.shaderSignedZeroInfNanPreserveFloat32;
+        gpu->preserves_nan64 = controls.shaderSignedZeroInfNanPreserveFloat64;
     }
 }
 
@@ -101,9 +102,11 @@ static bool create_device(struct gpu *gpu) {
                                      .queueFamilyIndex = gpu->queue_family,
                                      .queueCount = 1,
                                      .pQueuePriorities = &priority};
+    const VkPhysicalDeviceFeatures features = {.shaderFloat64 = gpu->info.has_double};
     VkDeviceCreateInfo create = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                  .queueCreateInfoCount = 1,
-                                 .pQueueCreateInfos = &queue};
+                                 .pQueueCreateInfos = &queue,
+                                 .pEnabledFeatures = &features};
     if (!gpu_check(gpu, vkCreateDevice(gpu->physical, &create, NULL, &gpu->device), "vkCreateDevice"))
         return false;
     volkLoadDeviceTable(&gpu->vk, gpu->device);

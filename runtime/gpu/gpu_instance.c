@@ -126,6 +126,9 @@ static void describe(VkPhysicalDevice physical, uint32_t number, struct gpu_devi
     snprintf(info->name, sizeof info->name, "%s", properties.properties.deviceName);
     snprintf(info->driver, sizeof info->driver, "%s%s%s", driver.driverName, driver.driverInfo[0] ? ", " : "",
              driver.driverInfo);
+    VkPhysicalDeviceFeatures features;
+    vkGetPhysicalDeviceFeatures(physical, &features);
+    info->has_double = features.shaderFloat64;
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
     for (uint32_t i = 0; i < memory.memoryHeapCount; i++)

@@ -20,8 +20,9 @@ struct gpu {
     VkPhysicalDevice physical;
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceMemoryProperties memory;
-    bool texels;        // GPU_WORDS are uniform texel buffers
-    bool preserves_nan; // SignedZeroInfNanPreserve for 32-bit floats
+    bool texels;          // GPU_WORDS are uniform texel buffers
+    bool preserves_nan;   // SignedZeroInfNanPreserve for 32-bit floats
+    bool preserves_nan64; // and for 64-bit ones
     uint32_t queue_family;
     VkDevice device;
     struct VolkDeviceTable vk;

@@ -11,31 +11,36 @@ enum {
     OP_CAPABILITY = 17,
     CAPABILITY_SIGNED_ZERO_INF_NAN_PRESERVE = 4466,
     MODE_SIGNED_ZERO_INF_NAN_PRESERVE = 4461,
+    DOUBLE_BITS = 64,
 };
 
-static bool asks_to_preserve_nan(const uint32_t *instruction) {
+// Whether an instruction asks for what the device does not know: one width of floats, or all of it.
+static bool is_unknown(const struct gpu *gpu, const uint32_t *instruction) {
     static const char extension[] = "SPV_KHR_float_controls";
+    const bool none = !gpu->preserves_nan && !gpu->preserves_nan64;
     switch (instruction[0] & 0xffff) {
     case OP_CAPABILITY:
-        return instruction[1] == CAPABILITY_SIGNED_ZERO_INF_NAN_PRESERVE;
+        return none && instruction[1] == CAPABILITY_SIGNED_ZERO_INF_NAN_PRESERVE;
     case OP_EXECUTION_MODE:
-        return instruction[2] == MODE_SIGNED_ZERO_INF_NAN_PRESERVE;
+        return instruction[2] == MODE_SIGNED_ZERO_INF_NAN_PRESERVE &&
+               !(instruction[3] == DOUBLE_BITS ? gpu->preserves_nan64 : gpu->preserves_nan);
     case OP_EXTENSION:
-        return strncmp((const char *)(instruction + 1), extension, sizeof extension) == 0;
+        return none && strncmp((const char *)(instruction + 1), extension, sizeof extension) == 0;
     default:
         return false;
     }
 }
 
-// A copy of the module without the request that the device does not know; the caller frees it.
-static uint32_t *without_float_controls(const uint32_t *spirv, size_t words, size_t *out_words) {
+// A copy of the module without the requests that the device does not know; the caller frees it.
+static uint32_t *without_float_controls(const struct gpu *gpu, const uint32_t *spirv, size_t words,
+                                        size_t *out_words) {
     uint32_t *copy = malloc(words * sizeof *copy);
     if (!copy)
         return NULL;
     memcpy(copy, spirv, SPIRV_HEADER_WORDS * sizeof *copy);
     size_t count = SPIRV_HEADER_WORDS;
     for (size_t at = SPIRV_HEADER_WORDS; at < words; at += spirv[at] >> 16) {
-        if (asks_to_preserve_nan(spirv + at))
+        if (is_unknown(gpu, spirv + at))
             continue;
         memcpy(copy + count, spirv + at, (spirv[at] >> 16) * sizeof *copy);
         count += spirv[at] >> 16;
@@ -47,8 +52,8 @@ static uint32_t *without_float_controls(const uint32_t *spirv, size_t words, siz
 static bool create_module(struct gpu *gpu, const struct gpu_program_source *source, VkShaderModule *out) {
     size_t words = source->spirv_words;
     uint32_t *copy = NULL;
-    if (!gpu->preserves_nan) {
-        copy = without_float_controls(source->spirv, words, &words);
+    if (!gpu->preserves_nan || !gpu->preserves_nan64) {
+        copy = without_float_controls(gpu, source->spirv, words, &words);
         if (!copy) {
             gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
             return false;

@@ -309,7 +309,7 @@ static void names_that_do_not_exist(void **state) {
     loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, material: {name: x}}]\n", "E202",
                  "needs no name");
     loaded_check(HEAD_YAML "trace: {epsilon: 1}\n", "E202",
-                 "it can have: max_depth, min_weight, depth_limit, shadows");
+                 "it can have: max_depth, min_weight, depth_limit, precision, shadows");
     loaded_check(
         HEAD_XML
         "<Sphere radius=\"1\"><Center x=\"0\" y=\"0\" z=\"0\"/><Material name=\"x\"/></Sphere>" END_XML,

@@ -1,0 +1,126 @@
+// How a path is kept from one dispatch to the next, and the refracted rays that wait in it.
+
+// Words lie by kind first, then by slot, so that neighbours lie together. The refracted rays that wait
+// until the reflected ones before them are done are there from the start: lavapipe writes and reads an
+// indexed private array for all lanes, and a storage buffer only for those that want it.
+uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TILE_PIXELS) + slot; }
+
+#ifdef DOUBLE_PRECISION
+const uint PATH_WORDS = STATE64_WORDS;
+const uint BRANCH_WORDS = STACK64_ENTRY_WORDS;
+
+// Two numbers to a word, the third with two more components.
+void put_real3(uint slot, uint word, dvec3 v, uvec2 more) {
+    states[state_word(slot, word)] = uvec4(unpackDouble2x32(v.x), unpackDouble2x32(v.y));
+    states[state_word(slot, word + 1u)] = uvec4(unpackDouble2x32(v.z), more);
+}
+dvec3 get_real3(uint slot, uint word, out uvec2 more) {
+    uvec4 a = states[state_word(slot, word)], b = states[state_word(slot, word + 1u)];
+    more = b.zw;
+    return double3_of(a, b.xy);
+}
+
+void put_path(uint slot, path_state p) {
+    put_real3(slot, 0u, p.origin, uvec2(floatBitsToUint(p.weight), p.depth));
+    put_real3(slot, 2u, p.direction, uvec2(p.stack_size, p.kind));
+    states[state_word(slot, 4u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
+    states[state_word(slot, 5u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
+    put_real3(slot, 6u, dvec3(p.hit.t, p.hit.b1, p.hit.b2), uvec2(p.hit.item, p.hit.number));
+}
+
+path_state load_path(uint slot) {
+    path_state p;
+    uvec2 a, b, c;
+    p.origin = get_real3(slot, 0u, a);
+    p.direction = get_real3(slot, 2u, b);
+    uvec4 w4 = states[state_word(slot, 4u)], w5 = states[state_word(slot, 5u)];
+    dvec3 hit = get_real3(slot, 6u, c);
+    p.weight = uintBitsToFloat(a.x);
+    p.depth = a.y;
+    p.stack_size = b.x;
+    p.kind = b.y;
+    p.radiance = uintBitsToFloat(w4.xyz);
+    p.segments = w4.w;
+    p.light_sum = uintBitsToFloat(w5.xyz);
+    p.light = w5.w;
+    p.hit = hit_record(hit.x, hit.y, hit.z, c.x, c.y);
+    return p;
+}
+
+void put_branch(uint slot, uint word, dvec3 origin, dvec3 direction, float weight, uint depth) {
+    put_real3(slot, word, origin, uvec2(floatBitsToUint(weight), depth));
+    put_real3(slot, word + 2u, direction, uvec2(0u));
+}
+
+void get_branch(uint slot, uint word, inout path_state p) {
+    uvec2 more, none;
+    p.origin = get_real3(slot, word, more);
+    p.direction = get_real3(slot, word + 2u, none);
+    p.weight = uintBitsToFloat(more.x);
+    p.depth = more.y;
+}
+#else
+const uint PATH_WORDS = STATE_WORDS;
+const uint BRANCH_WORDS = STACK_ENTRY_WORDS;
+
+void put_path(uint slot, path_state p) {
+    states[state_word(slot, 0u)] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.weight));
+    states[state_word(slot, 1u)] = uvec4(floatBitsToUint(p.direction), p.depth);
+    states[state_word(slot, 2u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
+    states[state_word(slot, 3u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
+    states[state_word(slot, 4u)] = uvec4(floatBitsToUint(vec3(p.hit.t, p.hit.b1, p.hit.b2)), p.hit.item);
+    states[state_word(slot, 5u)] = uvec4(p.hit.number, p.stack_size, p.kind, 0u);
+}
+
+path_state load_path(uint slot) {
+    path_state p;
+    uvec4 w0 = states[state_word(slot, 0u)], w1 = states[state_word(slot, 1u)];
+    uvec4 w2 = states[state_word(slot, 2u)], w3 = states[state_word(slot, 3u)];
+    uvec4 w4 = states[state_word(slot, 4u)], w5 = states[state_word(slot, 5u)];
+    p.origin = uintBitsToFloat(w0.xyz);
+    p.weight = uintBitsToFloat(w0.w);
+    p.direction = uintBitsToFloat(w1.xyz);
+    p.depth = w1.w;
+    p.radiance = uintBitsToFloat(w2.xyz);
+    p.segments = w2.w;
+    p.light_sum = uintBitsToFloat(w3.xyz);
+    p.light = w3.w;
+    p.hit = hit_record(uintBitsToFloat(w4.x), uintBitsToFloat(w4.y), uintBitsToFloat(w4.z), w4.w, w5.x);
+    p.stack_size = w5.y;
+    p.kind = w5.z;
+    return p;
+}
+
+void put_branch(uint slot, uint word, vec3 origin, vec3 direction, float weight, uint depth) {
+    states[state_word(slot, word)] = uvec4(floatBitsToUint(origin), floatBitsToUint(weight));
+    states[state_word(slot, word + 1u)] = uvec4(floatBitsToUint(direction), depth);
+}
+
+void get_branch(uint slot, uint word, inout path_state p) {
+    uvec4 a = states[state_word(slot, word)], b = states[state_word(slot, word + 1u)];
+    p.origin = uintBitsToFloat(a.xyz);
+    p.weight = uintBitsToFloat(a.w);
+    p.direction = uintBitsToFloat(b.xyz);
+    p.depth = b.w;
+}
+#endif
+
+void save_path(uint slot, path_state p) {
+    put_path(slot, p);
+    // Each saved path takes a place in the list that the next dispatch reads. Their order may differ from
+    // run to run; the picture does not know it.
+    uint slots = dispatch.tile_count * TILE_PIXELS;
+    uint place = atomicAdd(counters[COUNTER_PENDING], 1u) - dispatch.pending_base;
+    counters[COUNTER_COUNT + (1u - dispatch.read_list) * slots + place] = slot;
+}
+
+void push_branch(uint slot, inout path_state p, REAL3 origin, REAL3 direction, float weight, uint depth) {
+    put_branch(slot, PATH_WORDS + BRANCH_WORDS * p.stack_size, origin, direction, weight, depth);
+    p.stack_size++;
+}
+
+void pop_branch(uint slot, inout path_state p) {
+    p.stack_size--;
+    get_branch(slot, PATH_WORDS + BRANCH_WORDS * p.stack_size, p);
+    p.kind = RAY_REFRACTED;
+}
