@@ -4,43 +4,60 @@
 
 #include <assert.h>
 
+static uint32_t push_row(struct ir_origin *origin, struct ir_row_origin row) {
+    origin->rows.items = arena_regrow(origin->arena, origin->rows.items, origin->rows.count,
+                                      &origin->rows.capacity, sizeof *origin->rows.items);
+    origin->rows.items[origin->rows.count++] = row;
+    return origin->rows.count - 1;
+}
+
 void ir_origin_init(struct ir_origin *origin, struct arena *arena) {
     *origin = (struct ir_origin){.arena = arena};
     ir_origin_add(origin, (struct ir_element_origin){.at = SPAN_NONE});
+    push_row(origin, (struct ir_row_origin){.row = 0});
 }
 
 uint32_t ir_origin_add(struct ir_origin *origin, struct ir_element_origin element) {
-    struct ir_element_origin *added = ARENA_PUSH(origin->arena, &origin->elements);
-    *added = element;
+    origin->elements.items = arena_regrow(origin->arena, origin->elements.items, origin->elements.count,
+                                          &origin->elements.capacity, sizeof *origin->elements.items);
+    origin->elements.items[origin->elements.count++] = element;
     return origin->elements.count - 1;
 }
 
 void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row_origin row) {
-    struct ir_row_origin **at = &origin->elements.items[element].rows;
-    while (*at && (*at)->row != row.row)
-        at = &(*at)->next;
-    if (!*at)
-        *at = ARENA_NEW(origin->arena, struct ir_row_origin);
-    struct ir_row_origin *next = (*at)->next;
-    **at = row;
-    (*at)->next = next;
+    uint32_t last = 0;
+    for (uint32_t r = origin->elements.items[element].rows; r; r = origin->rows.items[r].next) {
+        struct ir_row_origin *there = &origin->rows.items[r];
+        if (there->row == row.row) {
+            row.next = there->next;
+            *there = row;
+            return;
+        }
+        last = r;
+    }
+    row.next = 0;
+    uint32_t added = push_row(origin, row);
+    if (last)
+        origin->rows.items[last].next = added;
+    else
+        origin->elements.items[element].rows = added;
 }
 
 void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t row) {
-    struct ir_row_origin **at = &origin->elements.items[element].rows;
-    while (*at && (*at)->row != row)
-        at = &(*at)->next;
+    uint32_t *at = &origin->elements.items[element].rows;
+    while (*at && origin->rows.items[*at].row != row)
+        at = &origin->rows.items[*at].next;
     if (*at)
-        *at = (*at)->next;
+        *at = origin->rows.items[*at].next;
 }
 
 const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head,
                                           uint32_t row) {
     if (head->origin >= origin->elements.count)
         return NULL;
-    for (const struct ir_row_origin *r = origin->elements.items[head->origin].rows; r; r = r->next)
-        if (r->row == row)
-            return r;
+    for (uint32_t r = origin->elements.items[head->origin].rows; r; r = origin->rows.items[r].next)
+        if (origin->rows.items[r].row == row)
+            return &origin->rows.items[r];
     return NULL;
 }
 

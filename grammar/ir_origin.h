@@ -16,14 +16,14 @@ struct ir_row_origin {
     span key;      // the key, attribute name or child's tag name
     span value;    // the value; a child element's whole extent
     span comments; // from the first to the last comment that stands before it; none: SPAN_NONE
-    struct ir_row_origin *next;
+    uint32_t next; // in ir_origin.rows, in the order of the calls; 0: none
 };
 
 struct ir_element_origin {
     span at;       // the whole element (an entry of a list: its value)
     span label;    // what to point at: the name, the key or the tag name
     span comments; // comments before an entry of a list
-    struct ir_row_origin *rows;
+    uint32_t rows; // the first in ir_origin.rows; 0: none
 };
 
 struct ir_file_origin {
@@ -43,9 +43,17 @@ struct ir_origin {
         uint32_t count, capacity;
     } elements; // [0] is "no place"
     struct {
+        struct ir_row_origin *items;
+        uint32_t count, capacity;
+    } rows; // of all elements; [0] is none
+    struct {
         struct ir_file_origin *items;
         uint32_t count, capacity;
     } files; // [0] is the main scene's
+    struct {
+        span *items;
+        uint32_t count, capacity;
+    } directives; // comments to glint itself ("glint: allow W401"), file by file
 };
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);
@@ -56,7 +64,7 @@ void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row
 // Forgets the row's places, where it has any.
 void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t row);
 
-// NULL where the row has no place.
+// NULL where the row has no place. Valid until something is added.
 const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head,
                                           uint32_t row);
 // The span to show for a row: its value, else the element's label. `row_name` must exist in the schema.

@@ -6,16 +6,11 @@
 
 int bind_find_row(const struct bind_context *context, const struct schema_element *schema, tree_index key,
                   bool *is_single) {
-    str name = tree_text(context->tree, key);
-    *is_single = false;
-    switch (tree_node(context->tree, key)->key) {
-    case TREE_KEY_ATTRIBUTE:
-        return schema_find_attribute(schema, name);
-    case TREE_KEY_CHILD:
-        return schema_find_child(schema, name);
-    default:
-        return schema_find_yaml(schema, name, is_single);
-    }
+    static const enum schema_name_kind kinds[] = {[TREE_KEY_PLAIN] = SCHEMA_NAME_KEY,
+                                                  [TREE_KEY_ATTRIBUTE] = SCHEMA_NAME_ATTRIBUTE,
+                                                  [TREE_KEY_CHILD] = SCHEMA_NAME_CHILD};
+    enum schema_name_kind kind = kinds[tree_node(context->tree, key)->key];
+    return schema_index_find(context->index, schema, kind, tree_text(context->tree, key), is_single);
 }
 
 struct bind_given bind_given_by(const struct bind_context *context, tree_index key) {
@@ -69,10 +64,17 @@ struct bind_frame bind_aside(struct bind_context *context, const struct bind_fra
     struct bind_frame aside = *frame;
     aside.seen = 0;
     aside.memory = arena_alloc(context->scratch, frame->schema->size);
-    schema_init(frame->schema, aside.memory);
+    schema_index_defaults(context->index, frame->schema, aside.memory);
     bind_head(&aside)->origin =
         ir_origin_add(context->origin, (struct ir_element_origin){.label = frame->label});
     return aside;
+}
+
+str bind_copy_once(struct bind_context *context, str text) {
+    struct reader_name *there = reader_names_at(context->texts, text);
+    if (there->value == 0)
+        *there = (struct reader_name){arena_copy(context->arena, text), 1, there->stamp};
+    return there->name;
 }
 
 // One row.
@@ -85,13 +87,13 @@ static bool bind_reference(struct bind_context *context, struct bind_frame *fram
         str name = tree_text(context->tree, given.value);
         if (!bind_name_text(context, bind_subject(frame, row), name, tree_span(context->tree, given.value)))
             return false;
-        *ref = (struct ir_material_ref){arena_copy(context->arena, name), IR_NO_INDEX};
+        *ref = (struct ir_material_ref){bind_copy_once(context, name), IR_NO_INDEX};
         return true;
     }
     if (kind != TREE_MAP)
         return bind_wrong_shape(context, bind_subject(frame, row), given.value);
     void *memory = arena_alloc(context->scratch, row->child->size);
-    schema_init(row->child, memory);
+    schema_index_defaults(context->index, row->child, memory);
     struct bind_frame child = {
         .parent = frame, .schema = row->child, .via = row, .memory = memory, .label = given.key_span};
     bind_element(context, &child, given.value);
@@ -332,11 +334,17 @@ static bool is_scene(struct bind_context *context, const struct bind_frame *fram
     return good || (is_map && tree->is_xml && str_equal_cstr(tag, frame->schema->name));
 }
 
-struct ir_scene *bind_file(struct bind_context *context) {
+struct ir_scene *bind_new_scene(struct bind_context *context) {
     struct ir_scene *scene = ARENA_NEW(context->arena, struct ir_scene);
+    schema_index_defaults(context->index, &SCHEMA_SCENE, scene);
+    return scene;
+}
+
+struct ir_scene *bind_file(struct bind_context *context) {
     const struct tree *tree = context->tree;
-    context->scene = scene;
-    schema_init(&SCHEMA_SCENE, scene);
+    if (!context->scene)
+        context->scene = bind_new_scene(context);
+    struct ir_scene *scene = context->scene;
     struct bind_frame root = {.schema = &SCHEMA_SCENE, .memory = scene, .label = tree->root_name};
     if (!is_scene(context, &root))
         return NULL;

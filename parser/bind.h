@@ -11,7 +11,8 @@
 #include "core/diag.h"
 #include "grammar/ir.h"
 #include "grammar/ir_origin.h"
-#include "grammar/schema.h"
+#include "grammar/schema_index.h"
+#include "parser/reader_text.h"
 #include "parser/tree.h"
 
 struct bind_context {
@@ -20,7 +21,10 @@ struct bind_context {
     struct ir_origin *origin;
     struct arena *arena;
     struct arena *scratch;
-    struct ir_scene *scene; // takes the anonymous elements of references
+    struct ir_scene *scene; // takes the anonymous elements of references; NULL before bind_file, or where
+                            // entries were taken beforehand
+    const struct schema_index *index;
+    struct reader_names *texts; // paths and names of references, each kept once in `arena`
     const struct tree *tree;
     bool other_version; // the file says that it is written in a version that this program does not know
 };
@@ -87,6 +91,8 @@ static inline enum tree_kind bind_kind(const struct bind_context *context, tree_
 }
 
 // bind.c
+// A scene at its defaults.
+struct ir_scene *bind_new_scene(struct bind_context *context);
 // The scene of a tree, alone; NULL where the tree is no scene, or one of another version (reported).
 struct ir_scene *bind_file(struct bind_context *context);
 // Binds all rows that `node` gives into frame->memory, and checks that what is required is there.
@@ -107,6 +113,8 @@ void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint3
                    struct bind_given given);
 void bind_report_twice(struct bind_context *context, struct bind_frame *frame, uint32_t row,
                        struct bind_given given);
+// The text in the scene's arena; equal ones are one.
+str bind_copy_once(struct bind_context *context, str text);
 // A frame for values that cannot be kept, yet may have mistakes of their own.
 struct bind_frame bind_aside(struct bind_context *context, const struct bind_frame *frame);
 
@@ -145,10 +153,12 @@ bool bind_entry_into(struct bind_context *context, struct bind_frame *child, str
 void bind_default_key(struct bind_context *context, struct bind_frame *child);
 
 // bind_list.c
-// Appends a copy of `item` to the list in `field`, whose items have `size` bytes; gives its index.
+// Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; gives its index.
 uint32_t bind_list_push(struct arena *arena, void *field, const void *item, uint32_t size);
 void *bind_list_item(void *field, uint32_t index, uint32_t size);
 uint32_t bind_list_count(const void *field);
+// Forgets all items; a large list's memory is free again.
+void bind_list_give_back(struct arena *arena, void *field, uint32_t size);
 void bind_list_remove(void *field, uint32_t index, uint32_t size);
 // Puts a row back to its default and forgets that it was written.
 void bind_clear_row(struct arena *scratch, struct ir_origin *origin, const struct schema_element *schema,

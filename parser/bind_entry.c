@@ -77,7 +77,7 @@ bool bind_entry_into(struct bind_context *context, struct bind_frame *child, str
 bool bind_entry(struct bind_context *context, struct bind_frame *parent, const struct schema_row *row,
                 str name, struct bind_given given) {
     void *memory = arena_alloc(context->scratch, row->child->size);
-    schema_init(row->child, memory);
+    schema_index_defaults(context->index, row->child, memory);
     struct bind_frame child = {.parent = parent,
                                .schema = row->child,
                                .via = row,

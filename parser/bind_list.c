@@ -14,7 +14,7 @@ static_assert(sizeof(struct any_list) == sizeof(struct ir_lights), "lists of the
 uint32_t bind_list_push(struct arena *arena, void *field, const void *item, uint32_t size) {
     struct any_list list;
     memcpy(&list, field, sizeof list);
-    list.items = arena_grow(arena, list.items, list.count, &list.capacity, size);
+    list.items = arena_regrow(arena, list.items, list.count, &list.capacity, size);
     memcpy((char *)list.items + (size_t)list.count * size, item, size);
     list.count++;
     memcpy(field, &list, sizeof list);
@@ -32,6 +32,13 @@ uint32_t bind_list_count(const void *field) {
     struct any_list list;
     memcpy(&list, field, sizeof list);
     return list.count;
+}
+
+void bind_list_give_back(struct arena *arena, void *field, uint32_t size) {
+    struct any_list list;
+    memcpy(&list, field, sizeof list);
+    arena_give_back(arena, list.items, list.capacity, size);
+    memset(field, 0, sizeof list);
 }
 
 void bind_list_remove(void *field, uint32_t index, uint32_t size) {

@@ -73,7 +73,8 @@ static void bind_entries(struct bind_context *context, struct bind_frame *frame,
                          struct bind_given given, struct values values) {
     const struct schema_row *r = &frame->schema->rows[row];
     bind_note_row(context, frame, row, given);
-    for (; values.at; values.at = following(context, frame, &values)) {
+    bool taken = values.repeated && (tree_node(context->tree, values.at)->flags & TREE_TAKEN);
+    for (; values.at && !taken; values.at = following(context, frame, &values)) {
         bool has_key = values.repeated || values.named;
         if (values.named && !bind_is_bad(context, values.at))
             bind_loose_columns(context, NULL, r, values.at);

@@ -292,8 +292,9 @@ static bool bind_text(struct bind_context *context, struct bind_subject subject,
     str text = tree_text(context->tree, node);
     bool good = bind_name_text(context, subject, text, tree_span(context->tree, node));
     // A bad name is kept, so that references to it are not reported as well.
+    bool is_path = subject.row->text == SCHEMA_TEXT_PATH;
     if (good || subject.row->text == SCHEMA_TEXT_NAME)
-        *out = arena_copy(context->arena, text);
+        *out = is_path ? bind_copy_once(context, text) : arena_copy(context->arena, text);
     return good;
 }
 

@@ -3,8 +3,10 @@
 #ifndef GLINT_PARSER_LOADER_H
 #define GLINT_PARSER_LOADER_H
 
-#include "grammar/schema.h"
+#include "grammar/schema_index.h"
+#include "parser/bind_stream.h"
 #include "parser/parser.h"
+#include "parser/reader_text.h"
 #include "parser/tree.h"
 
 struct loader_file {
@@ -20,6 +22,11 @@ struct loader {
     const struct parser_input *input;
     struct parser_output *output;
     struct arena scratch; // emptied between files
+    struct arena steady;  // not emptied
+    struct schema_index index;
+    struct reader_names texts; // see bind_context
+    struct bind_stream stream;
+    struct diag_sink trial; // of the attempt to bind what is read entry by entry
     struct {
         struct loader_file *items;
         uint32_t count, capacity;

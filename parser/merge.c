@@ -8,11 +8,11 @@
 // A file's own places stay as they are: what is merged has places of its own.
 void merge_own_places(struct ir_origin *origin, struct ir_head *into, const struct ir_head *from) {
     struct ir_element_origin element = origin->elements.items[from->origin];
-    const struct ir_row_origin *rows = origin->elements.items[into->origin].rows;
-    element.rows = NULL;
+    uint32_t row = origin->elements.items[into->origin].rows;
+    element.rows = 0;
     into->origin = ir_origin_add(origin, element);
-    for (; rows; rows = rows->next)
-        ir_origin_add_row(origin, into->origin, *rows);
+    for (; row; row = origin->rows.items[row].next)
+        ir_origin_add_row(origin, into->origin, origin->rows.items[row]);
 }
 
 struct merging {
@@ -157,7 +157,7 @@ struct ir_scene *merge_files(struct loader *loader) {
     struct ir_scene *scene = ARENA_NEW(loader->input->arena, struct ir_scene);
     schema_init(&SCHEMA_SCENE, scene);
     struct ir_element_origin root = origin->elements.items[loader->files.items[0].scene->head.origin];
-    root.rows = NULL;
+    root.rows = 0;
     scene->head.origin = ir_origin_add(origin, root);
     uint32_t *first = ARENA_ARRAY(loader->input->arena, uint32_t, SCHEMA_SCENE.row_count);
     for (uint32_t i = 0; i < loader->order.count; i++) {

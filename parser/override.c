@@ -243,6 +243,8 @@ static void apply(struct loader *loader, struct ir_scene *scene, str option) {
                                        .arena = input->arena,
                                        .scratch = &loader->scratch,
                                        .scene = scene,
+                                       .index = &loader->index,
+                                       .texts = &loader->texts,
                                        .tree = &nothing};
     struct override_target target;
     if (!override_parse(o) || !override_walk(o, &target))

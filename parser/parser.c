@@ -5,26 +5,73 @@
 #include "parser/reader.h"
 #include "parser/reader_text.h"
 
-static struct ir_scene *bind_tree(struct loader *loader, const struct tree *tree) {
-    struct bind_context context = {.sink = loader->input->sink,
-                                   .sources = loader->input->sources,
-                                   .origin = &loader->output->origin,
-                                   .arena = loader->input->arena,
-                                   .scratch = &loader->scratch,
-                                   .tree = tree};
-    return bind_file(&context);
+static struct bind_context binding(struct loader *loader, struct diag_sink *sink, const struct tree *tree) {
+    return (struct bind_context){.sink = sink,
+                                 .sources = loader->input->sources,
+                                 .origin = &loader->output->origin,
+                                 .arena = loader->input->arena,
+                                 .scratch = &loader->scratch,
+                                 .index = &loader->index,
+                                 .texts = &loader->texts,
+                                 .tree = tree};
+}
+
+static struct reader_context reading(struct loader *loader, struct diag_sink *sink) {
+    return (struct reader_context){.sources = loader->input->sources,
+                                   .sink = sink,
+                                   .limits = loader->input->limits,
+                                   .arena = &loader->scratch};
+}
+
+typedef bool read_file(const struct reader_context *context, uint32_t source, struct tree *tree);
+
+// Binds the entries of large lists while they are read. NULL, and nothing is said, where there is anything to
+// say: then the file is read whole.
+static struct ir_scene *stream_file(struct loader *loader, read_file *read, uint32_t source,
+                                    struct tree *tree) {
+    struct diag_sink *sink = &loader->trial;
+    struct bind_stream *stream = &loader->stream;
+    diag_sink_init(sink);
+    struct bind_context context = binding(loader, sink, tree);
+    bind_stream_begin(stream, &context, (size_t)loader->input->limits->value[LIMIT_SCENE_MEMORY]);
+    struct reader_context reader = reading(loader, sink);
+    reader.taker = &stream->taker;
+    struct ir_scene *scene = read(&reader, source, tree) ? bind_file(&context) : NULL;
+    if (!scene || sink->count) {
+        scene = NULL;
+        bind_stream_forget(stream);
+        arena_finish(&loader->scratch);
+        *tree = (struct tree){.source = source};
+    }
+    bind_stream_finish(stream);
+    diag_sink_finish(sink);
+    return scene;
+}
+
+static void keep_directives(struct loader *loader, const struct tree *tree) {
+    for (uint32_t i = 0; i < tree->directives.count; i++) {
+        struct tree_comment at = tree->directives.items[i];
+        *ARENA_PUSH(loader->input->arena, &loader->output->origin.directives) =
+            (span){tree->source, at.begin, at.end};
+    }
 }
 
 static struct ir_scene *load_source(struct loader *loader, uint32_t source, struct ir_file_origin *file) {
     const struct parser_input *input = loader->input;
     const struct source *text = &input->sources->items[source];
-    struct reader_context context = {
-        .sources = input->sources, .sink = input->sink, .limits = input->limits, .arena = &loader->scratch};
     struct tree tree = {.source = source};
     bool is_xml = reader_is_xml(text->path, text->text);
-    bool readable = (is_xml ? read_xml : read_yaml)(&context, source, &tree);
+    read_file *read = is_xml ? read_xml : read_yaml;
     *file = (struct ir_file_origin){.source = source, .is_xml = is_xml};
-    struct ir_scene *scene = readable ? bind_tree(loader, &tree) : NULL;
+    struct ir_scene *scene = stream_file(loader, read, source, &tree);
+    bool readable = scene != NULL;
+    if (!scene) {
+        struct reader_context reader = reading(loader, input->sink);
+        struct bind_context context = binding(loader, input->sink, &tree);
+        readable = read(&reader, source, &tree);
+        scene = readable ? bind_file(&context) : NULL;
+    }
+    keep_directives(loader, &tree);
     if (readable) {
         file->schema_line = tree.schema_line;
         file->xsi_attributes = arena_copy(input->arena, tree.xsi_attributes);
@@ -59,6 +106,8 @@ uint32_t loader_add_file(struct loader *loader, uint32_t source, uint32_t parent
 static bool run(struct loader *loader, uint32_t main_source, bool alone) {
     struct parser_output *output = loader->output;
     ir_origin_init(&output->origin, loader->input->arena);
+    schema_index_init(&loader->index, &loader->steady);
+    reader_names_init(&loader->texts, &loader->steady);
     loader_add_file(loader, main_source, 0, SPAN_NONE);
     output->scene = loader->files.items[0].scene;
     if (alone || !output->scene)
@@ -83,7 +132,7 @@ static void report_fault(const struct parser_input *input, uint32_t source, enum
 
 // The arenas that the stages allocate from, and the guards that they had before.
 enum {
-    ARENAS = 4
+    ARENAS = 5
 };
 struct guards {
     struct arena *arena[ARENAS];
@@ -92,8 +141,8 @@ struct guards {
 
 static struct guards take_guards(struct loader *loader, struct arena_guard *guard) {
     const struct parser_input *input = loader->input;
-    struct guards guards = {
-        .arena = {input->arena, input->sources->arena, input->files->arena, &loader->scratch}};
+    struct guards guards = {.arena = {input->arena, input->sources->arena, input->files->arena,
+                                      &loader->scratch, &loader->steady}};
     for (int i = 0; i < ARENAS; i++)
         guards.before[i] = guards.arena[i]->guard;
     for (int i = 0; i < ARENAS; i++)
@@ -125,8 +174,12 @@ static bool load(const struct parser_input *input, uint32_t main_source, bool al
     struct loader loader = {.input = input, .output = output};
     *output = (struct parser_output){.scene = NULL};
     arena_init(&loader.scratch, (size_t)input->limits->value[LIMIT_SCENE_MEMORY]);
+    arena_init(&loader.steady, (size_t)input->limits->value[LIMIT_SCENE_MEMORY]);
     bool done = guarded(&loader, main_source, alone);
+    diag_sink_finish(&loader.trial);
+    bind_stream_finish(&loader.stream);
     arena_finish(&loader.scratch);
+    arena_finish(&loader.steady);
     return done;
 }
 

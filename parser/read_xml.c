@@ -52,7 +52,7 @@ static void exceed(struct xml_reader *r, enum limit which, span at, const char *
 }
 
 static tree_index add(struct xml_reader *r, struct tree_node node) {
-    if (r->tree->nodes.count > r->context->limits->value[LIMIT_SCENE_NODES] && !r->stopped)
+    if (r->tree->nodes.count + r->taken.nodes > r->context->limits->value[LIMIT_SCENE_NODES] && !r->stopped)
         exceed(r, LIMIT_SCENE_NODES, xml_span(r, node.begin, node.end), "too many values in the file");
     return tree_add(r->tree, node);
 }
@@ -269,17 +269,26 @@ static void open_child(struct xml_reader *r, const struct xml_event *event, str 
         report_element_prefix(r, name, at);
         flags = TREE_BAD;
     }
+    if (r->depth == 1)
+        xml_take_mark(r);
     tree_index key = add_scalar(r, name, at, TREE_KEY_CHILD, flags);
     tree_index node = add_element(r, event);
     tree_node(r->tree, node)->flags |= (uint8_t)flags;
     take_comments(r, key);
-    link_pair(r, &r->frames[r->depth - 1], key, node);
+    if (xml_take(r, key, node) != XML_TAKEN)
+        link_pair(r, &r->frames[r->depth - 1], key, node);
+    else
+        r->frames[r->depth - 1].last_key = key;
     r->frames[r->depth++] = (struct xml_frame){.node = node, .key = key, .name = at};
     r->line_entry = key;
 }
 
 static void on_start(struct xml_reader *r, const struct xml_event *event) {
     end_run(r);
+    if (r->depth == 1 && !xml_take_ready(r)) {
+        stop(r);
+        return;
+    }
     str name = str_from(event->name);
     span at = xml_span(r, event->begin + 1, event->begin + 1 + (uint32_t)name.len);
     if (r->depth >= r->context->limits->value[LIMIT_SCENE_DEPTH]) {
@@ -306,8 +315,12 @@ static void on_end(struct xml_reader *r, const struct xml_event *event) {
     tree_node(r->tree, frame->node)->end = event->end;
     r->tag_end = event->end;
     r->line_entry = frame->key;
+    if (r->depth == 1)
+        xml_take_close(r, frame->key);
     if (r->depth == 0) {
         r->root_end = xml_span(r, event->end - 1, event->end);
+        if (!xml_take_ready(r))
+            stop(r);
         return;
     }
     // Comments before a closing tag have no entry behind them.
@@ -323,6 +336,7 @@ static void on_comment(struct xml_reader *r, const struct xml_event *event) {
     if (memchr(between.ptr, '\n', between.len) || memchr(between.ptr, '\r', between.len))
         r->line_entry = 0;
     r->tag_end = event->end;
+    tree_add_directive(r->tree, str_slice(r->text->bytes, event->begin, event->end), event->begin, event->end);
     if (r->line_entry)
         tree_add_trailing(r->tree, r->line_entry, event->begin, event->end);
     else if (r->pending.begin == r->pending.end)
@@ -439,9 +453,10 @@ static bool prepare(const struct reader_context *context, uint32_t source, struc
         diag_help(context->sink, "a scene begins with <Scene glint=\"1\">");
         return false;
     }
-    xml_repair(context, text);
+    if (!context->taker)
+        xml_repair(context, text);
     reader_text_seal(text);
-    return true;
+    return !context->taker || context->sink->count == 0;
 }
 
 bool read_xml(const struct reader_context *context, uint32_t source, struct tree *tree) {
@@ -461,5 +476,6 @@ bool read_xml(const struct reader_context *context, uint32_t source, struct tree
     XML_ParserFree(reader.parser);
     if (reader.fault)
         arena_raise(context->arena, reader.fault);
-    return tree->root != 0;
+    bool read_again = context->taker && (tree->broken || context->sink->count);
+    return tree->root != 0 && !read_again;
 }

@@ -2,9 +2,10 @@
 //
 // read_xml_scan.c walks over tags by itself: it knows the place of each attribute, which expat does not
 // tell, and repairs beforehand what would otherwise end the file ('/ >', attributes given twice, unknown
-// entities). read_xml.c runs expat and builds the tree, read_xml_error.c puts expat's errors in words.
-// Ownership: the arena of the reader_context. Nothing ever jumps through expat's frames.
-// Thread safety: one reader belongs to one thread.
+// entities). read_xml.c runs expat and builds the tree, read_xml_take.c hands children of the root over
+// before the file is read to its end, read_xml_error.c puts expat's errors in words. Ownership: the arena of
+// the reader_context. Nothing ever jumps through expat's frames. Thread safety: one reader belongs to one
+// thread.
 #ifndef GLINT_PARSER_READ_XML_H
 #define GLINT_PARSER_READ_XML_H
 
@@ -34,6 +35,17 @@ struct xml_frame {
     span name;       // in the opening tag
 };
 
+enum {
+    XML_FIRST_MAX = 32
+};
+
+// Whether a child of the root is taken, and whether it is linked all the same.
+enum xml_taking {
+    XML_NOT_TAKEN,
+    XML_TAKEN_FIRST,
+    XML_TAKEN,
+};
+
 struct xml_reader {
     const struct reader_context *context;
     struct reader_text *text;
@@ -53,6 +65,15 @@ struct xml_reader {
     span xinclude;               // the declaration of XInclude's prefix, until an element uses it
     bool uses_xinclude;          // an element did, which was reported
     span root_end;               // the tag that closed the root
+
+    struct {
+        tree_index open;                                // the key of a child that is being read
+        tree_index entry;                               // the key of one that waits for the next
+        uint64_t nodes;                                 // that are gone
+        uint32_t nodes_mark, texts_mark, comments_mark; // before the child
+        tree_index first[XML_FIRST_MAX];                // of each name
+        uint32_t first_count;
+    } taken;
 };
 
 // ---- read_xml_scan.c
@@ -64,6 +85,16 @@ enum xml_tag_end xml_next_attribute(str text, uint32_t *at, struct xml_attribute
 bool xml_declared_encoding(str text, struct reader_range *encoding);
 // Reports and repairs, in the whole text.
 void xml_repair(const struct reader_context *context, struct reader_text *text);
+
+// ---- read_xml_take.c
+// What is read from here on goes when the next child has been taken.
+void xml_take_mark(struct xml_reader *reader);
+// A child of the root begins, or the root ends: hands over the child that waits. false: read the file whole.
+bool xml_take_ready(struct xml_reader *reader);
+// Whether the child that begins is taken.
+enum xml_taking xml_take(struct xml_reader *reader, tree_index key, tree_index value);
+// A child of the root was closed.
+void xml_take_close(struct xml_reader *reader, tree_index key);
 
 // ---- read_xml_error.c
 void xml_report(struct xml_reader *reader);

@@ -174,6 +174,7 @@ static void on_scalar(struct yaml_reader *r) {
     bool plain = r->event.data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
     uint32_t token = r->gap;
     yaml_gap(r, begin);
+    yaml_take_ready(r);
     bool any = r->event.data.scalar.anchor || r->event.data.scalar.tag;
     struct properties p = find_properties(r, begin, end, any);
     uint32_t stop = scalar_end(r, p.end, end);
@@ -215,6 +216,7 @@ static void on_alias(struct yaml_reader *r) {
     uint32_t begin = yaml_byte(r, r->event.start_mark);
     uint32_t end = yaml_byte(r, r->event.end_mark);
     yaml_gap(r, begin);
+    yaml_take_ready(r);
     yaml_alias(r, str_from((const char *)r->event.data.alias.anchor), yaml_span(r, begin, end));
     end_token(r, end);
 }
@@ -225,8 +227,10 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
     uint32_t end = yaml_byte(r, r->event.end_mark);
     // A block collection in a value's place is no token: comments before it are its first entry's.
     bool entry = yaml_at_entry(r);
-    if (flow || entry)
+    if (flow || entry) {
         yaml_gap(r, begin);
+        yaml_take_ready(r);
+    }
     struct properties p = find_properties(r, begin, (uint32_t)r->text->bytes.len, anchor || tag);
     if (r->is_option && !flow) {
         diag_add(&r->sink, DIAG_SET_SYNTAX, yaml_span(r, p.end, p.end + 1),
@@ -325,6 +329,7 @@ static void on_event(struct yaml_reader *r) {
         break;
     case YAML_STREAM_END_EVENT:
         yaml_end_comments(r);
+        yaml_take_ready(r);
         break;
     default:
         break;
@@ -349,7 +354,7 @@ static enum outcome run_events(struct yaml_reader *r) {
         end = r->event.type == YAML_STREAM_END_EVENT;
         on_event(r);
         yaml_event_delete(&r->event);
-        if (r->stopped)
+        if (r->stopped || r->taken.failed)
             return READ_STOPPED;
     }
     return READ_WHOLE;
@@ -359,7 +364,7 @@ static enum outcome run_events(struct yaml_reader *r) {
 static void begin_attempt(struct yaml_reader *r) {
     struct tree *tree = r->tree;
     tree->nodes.count = tree->comments.count = 1;
-    tree->texts.count = 0;
+    tree->texts.count = tree->directives.count = 0;
     tree->root = 0;
     tree->schema_line = tree->closing_comments = SPAN_NONE;
     diag_sink_finish(&r->sink);
@@ -390,6 +395,8 @@ static void run_attempts(struct yaml_reader *r) {
     reader_names_init(&r->anchor_names, arena);
     reader_names_init(&r->keys, arena);
     reader_names_init(&r->joined_keys, arena);
+    reader_names_init(&r->taken.keys, arena);
+    r->taken.on = r->context->taker && !r->is_option;
     bool tabs_repaired = false;
     for (unsigned attempt = 0;; attempt++) {
         begin_attempt(r);
@@ -398,6 +405,10 @@ static void run_attempts(struct yaml_reader *r) {
             return;
         }
         enum outcome outcome = run_events(r);
+        if (r->taken.on) {
+            r->taken.failed = r->taken.failed || outcome != READ_WHOLE || r->sink.count;
+            return;
+        }
         bool again = outcome != READ_WHOLE && may_read_again(r, attempt);
         if (again && yaml_repair(r, r->context->sink, &tabs_repaired)) {
             yaml_parser_delete(&r->parser);
@@ -444,6 +455,8 @@ static void read_text(const struct reader_context *context, struct reader_text *
     struct yaml_reader reader = {.context = context, .text = text, .tree = tree, .is_option = is_option};
     reader.ascii = is_ascii(str_slice(text->bytes, text->begin, text->bytes.len));
     run_guarded(&reader);
+    if (reader.taken.failed)
+        tree->root = 0;
     if (!is_option || tree->root || reader.stopped || tree->broken)
         return;
     struct reader_range color;
@@ -480,6 +493,8 @@ bool read_yaml(const struct reader_context *context, uint32_t source, struct tre
     if (!reader_text_open(context, source, 0, false, &text))
         return false;
     uint32_t errors = context->sink->errors;
+    if (context->taker && errors)
+        return false;
     read_text(context, &text, false, tree);
     if (tree->root && tree_node(tree, tree->root)->kind == TREE_MAP) {
         tree_index first = tree_first(tree, tree->root);

@@ -1,6 +1,7 @@
 // What the files of the YAML reader share: its state, one libyaml parser at a time.
 //
-// read_yaml.c runs libyaml's events, read_yaml_build.c links nodes into the tree, read_yaml_alias.c
+// read_yaml.c runs libyaml's events, read_yaml_build.c links nodes into the tree, read_yaml_take.c hands
+// entries of the root's lists over before the file is read to its end, read_yaml_alias.c
 // copies what aliases stand for, read_yaml_keys.c merges maps and finds keys given twice,
 // read_yaml_comment.c finds comments between tokens, read_yaml_repair.c repairs what glint understands
 // better than libyaml, read_yaml_error.c puts libyaml's errors in words. All places are bytes of the source.
@@ -16,6 +17,7 @@
 enum {
     YAML_NO_ANCHOR = 0
 };
+#define YAML_LOST_ENTRY UINT32_MAX
 
 // A list or map that is being read.
 struct yaml_frame {
@@ -64,14 +66,25 @@ struct yaml_reader {
     uint64_t alias_nodes;
 
     // Comments are looked for between tokens.
-    uint32_t gap;                // what stands before was looked at
-    tree_index line_entry;       // the first entry that begins on the line of the last token
+    uint32_t gap; // what stands before was looked at
+    tree_index
+        line_entry; // the first entry that begins on the line of the last token; YAML_LOST_ENTRY: taken
     struct tree_comment pending; // comments that wait for the entry they stand before
     bool seen_token;
     struct reader_range lost_color; // a colour that became a comment inside open brackets; equal: none
     tree_index last_scalar;
     tree_index closed; // the block collection that ended last, with no token since; 0: none
-    uint32_t blamed;   // 1 + the place of a mistake that makes libyaml refuse the rest of the line; 0: none
+    struct {
+        bool on;
+        bool failed;          // the file must be read whole
+        tree_index list_key;  // of the list or map whose entries are taken; 0: none is open
+        tree_index entry;     // one that waits for the token behind it
+        tree_index entry_key; // its list's
+        uint64_t nodes;       // that are gone
+        uint32_t nodes_mark, texts_mark, comments_mark, anchors_mark; // before the entry
+        struct reader_names keys;                                     // of the map
+    } taken;
+    uint32_t blamed; // 1 + the place of a mistake that makes libyaml refuse the rest of the line; 0: none
 };
 
 // The span of `begin` to `end` in the reader's source.
@@ -93,6 +106,16 @@ void yaml_open(struct yaml_reader *reader, tree_index node, uint32_t anchor);
 void yaml_close(struct yaml_reader *reader, uint32_t end);
 // Closes what is open when the reading ends early; marked TREE_CUT.
 void yaml_close_cut(struct yaml_reader *reader);
+
+// ---- read_yaml_take.c
+// A collection was opened: its entries may be taken.
+void yaml_take_open(struct yaml_reader *reader);
+// One was closed.
+void yaml_take_close(struct yaml_reader *reader);
+// A token was found, and what stands before it: hands over the entry that waits.
+void yaml_take_ready(struct yaml_reader *reader);
+// Whether the entry, an item or a key with its value, is taken and not to be linked.
+bool yaml_take(struct yaml_reader *reader, tree_index entry);
 
 // ---- read_yaml_alias.c
 // Remembers a name for a node (0: one that is yet to be added); gives its number.

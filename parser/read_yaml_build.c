@@ -3,7 +3,7 @@
 #include <string.h>
 
 tree_index yaml_add(struct yaml_reader *r, struct tree_node node) {
-    if (r->tree->nodes.count > r->context->limits->value[LIMIT_SCENE_NODES] && !r->stopped) {
+    if (r->tree->nodes.count + r->taken.nodes > r->context->limits->value[LIMIT_SCENE_NODES] && !r->stopped) {
         reader_limit(&r->sink, r->context->limits, LIMIT_SCENE_NODES, yaml_span(r, node.begin, node.end),
                      "too many values in the file");
         r->stopped = true;
@@ -93,12 +93,18 @@ static void take_value(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
     tree_index key = frame->key;
     frame->key = 0;
     if (frame->merges) {
+        r->taken.failed = r->taken.failed || (r->taken.list_key && r->depth == 2);
         yaml_merge(r, frame, key, value);
         return;
     }
     // The pair of a key that is none was reported; it is left out.
     if (tree_node(r->tree, key)->flags & TREE_BAD)
         return;
+    if (r->taken.list_key) {
+        tree_node(r->tree, key)->next = value;
+        if (yaml_take(r, key))
+            return;
+    }
     link_child(r, frame, key);
     link_child(r, frame, value);
     tree_node(r->tree, frame->node)->count++;
@@ -109,6 +115,8 @@ void yaml_put(struct yaml_reader *r, tree_index node) {
     if (!frame) {
         r->tree->root = node;
     } else if (tree_node(r->tree, frame->node)->kind == TREE_LIST) {
+        if (yaml_take(r, node))
+            return;
         link_child(r, frame, node);
         tree_node(r->tree, frame->node)->count++;
     } else if (frame->key == 0) {
@@ -129,6 +137,7 @@ void yaml_open(struct yaml_reader *r, tree_index node, uint32_t anchor) {
     }
     r->frames[r->depth] = (struct yaml_frame){.node = node, .anchor = anchor, .is_key = yaml_at_key(r)};
     r->depth++;
+    yaml_take_open(r);
 }
 
 void yaml_close(struct yaml_reader *r, uint32_t end) {
@@ -143,6 +152,7 @@ void yaml_close(struct yaml_reader *r, uint32_t end) {
     if (tree_node(r->tree, node)->style == TREE_BLOCK)
         r->closed = node;
     r->depth--;
+    yaml_take_close(r);
     bool in_brackets = r->depth && tree_node(r->tree, r->frames[r->depth - 1].node)->style == TREE_FLOW;
     if (!in_brackets)
         r->lost_color = (struct reader_range){0};

@@ -26,6 +26,7 @@ static uint32_t line_end(str text, uint32_t at) {
 
 static void add_comment(struct yaml_reader *r, uint32_t begin, uint32_t end, bool trailing) {
     str comment = str_slice(r->text->bytes, begin, end);
+    tree_add_directive(r->tree, comment, begin, end);
     struct reader_range color;
     bool in_brackets = r->depth && tree_node(r->tree, r->frames[r->depth - 1].node)->style == TREE_FLOW;
     if (in_brackets && r->lost_color.begin == r->lost_color.end && yaml_comment_color(r, begin, &color))
@@ -35,7 +36,9 @@ static void add_comment(struct yaml_reader *r, uint32_t begin, uint32_t end, boo
         r->tree->schema_line = yaml_span(r, begin, end);
     if (trailing) {
         // It belongs to the first entry that begins on the line.
-        if (r->line_entry)
+        if (r->line_entry == YAML_LOST_ENTRY)
+            r->taken.failed = true;
+        else if (r->line_entry)
             tree_add_trailing(r->tree, r->line_entry, begin, end);
     } else if (r->pending.begin == r->pending.end) {
         if (!first_schema)

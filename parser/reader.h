@@ -13,11 +13,25 @@
 #include "core/limits.h"
 #include "parser/tree.h"
 
+// Takes the entries of the root's lists and named maps one by one as they are read, so that a large file needs
+// no large tree. What was taken is not in the tree: of a YAML list its count alone, of XML children the first
+// key of each name, marked TREE_TAKEN.
+struct reader_taker {
+    // Whether entries are to be taken: those of the list or map of the root's pair `key`, or, in XML, the
+    // children of the root that have this key.
+    bool (*wants)(struct reader_taker *taker, const struct tree *tree, tree_index key, enum tree_kind kind);
+    // Takes an entry of the pair `list_key`: an item of a list, or a key with its value. The nodes are gone
+    // afterwards. false: the file must be read whole. Does not jump.
+    bool (*take)(struct reader_taker *taker, const struct tree *tree, tree_index list_key, tree_index entry);
+};
+
 struct reader_context {
     struct source_set *sources;
     struct diag_sink *sink;
     const struct limits *limits;
-    struct arena *arena; // for the tree; its guard is set by the caller
+    struct arena *arena;        // for the tree; its guard is set by the caller
+    struct reader_taker *taker; // NULL: the tree keeps everything. Else the file is not repaired, the reading
+                                // ends (false) at the first diagnostic, and the file is to be read again.
 };
 
 // Checks what both spellings share: UTF-8, control characters, emptiness; then reads.

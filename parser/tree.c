@@ -45,6 +45,15 @@ uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment) {
     return tree->comments.count - 1;
 }
 
+void tree_add_directive(struct tree *tree, str comment, uint32_t begin, uint32_t end) {
+    size_t skipped = 0;
+    while (skipped < comment.len && memchr("#<!-", comment.ptr[skipped], 4))
+        skipped++;
+    str body = str_trim(str_slice(comment, skipped, comment.len));
+    if (str_starts_with(body, STR("glint:")))
+        *ARENA_PUSH(tree->arena, &tree->directives) = (struct tree_comment){.begin = begin, .end = end};
+}
+
 void tree_add_trailing(struct tree *tree, tree_index entry, uint32_t begin, uint32_t end) {
     if (!tree_node(tree, entry)->comments) {
         uint32_t added = tree_add_comment(tree, (struct tree_comment){0});

@@ -41,6 +41,7 @@ enum tree_flag {
     TREE_CUT = 2,    // the file broke off inside this list, map or element: what it lacks is not missing
     TREE_MERGED = 4, // YAML: a key that came by '<<'
     TREE_SHARED = 8, // YAML: the node has an anchor, so that what it holds must not be moved
+    TREE_TAKEN = 16, // XML: a key that stands for all children of its name, which were taken one by one
 };
 
 typedef uint32_t tree_index;
@@ -78,6 +79,10 @@ struct tree {
         struct tree_comment *items;
         uint32_t count, capacity;
     } comments;
+    struct {
+        struct tree_comment *items; // begin and end alone
+        uint32_t count, capacity;
+    } directives;          // comments to glint itself: "glint: allow W401"
     tree_index root;       // a map (a --set value: anything), or TREE_NONE (0) where there is nothing to bind
     span root_name;        // XML: the root's tag name; YAML: the map's first key
     str root_tag;          // XML: "Scene"; YAML: empty
@@ -92,6 +97,8 @@ tree_index tree_add(struct tree *tree, struct tree_node node);
 // Copies decoded text; gives its offset.
 uint32_t tree_add_text(struct tree *tree, str text);
 uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment);
+// Keeps a comment where its text, without what makes it a comment, begins with "glint:".
+void tree_add_directive(struct tree *tree, str comment, uint32_t begin, uint32_t end);
 // Gives an entry a comment behind it on its line, where it has none yet.
 void tree_add_trailing(struct tree *tree, tree_index entry, uint32_t begin, uint32_t end);
 

@@ -246,7 +246,7 @@ json_t *json_from_yaml(str text) {
     arena_init(&arena, (size_t)1 << 28);
     source_set_init(&sources, &arena);
     diag_sink_init(&sink);
-    struct reader_context context = {&sources, &sink, &limits, &arena};
+    struct reader_context context = {.sources = &sources, .sink = &sink, .limits = &limits, .arena = &arena};
     uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, STR("in.yaml"), text);
     json_t *result = NULL;
     if (read_yaml(&context, source, &tree) && tree.root)

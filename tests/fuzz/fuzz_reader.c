@@ -84,7 +84,8 @@ struct job {
 
 // The job lies outside, so that it is whole after a jump.
 static void run(struct job *job, uint32_t size) {
-    struct reader_context context = {&job->sources, &job->sink, &job->limits, &job->arena};
+    struct reader_context context = {
+        .sources = &job->sources, .sink = &job->sink, .limits = &job->limits, .arena = &job->arena};
     struct arena_guard guard;
     arena_set_guard(&job->arena, &guard);
     if (setjmp(guard.jump) == 0) {

@@ -6,7 +6,8 @@
 #include <string.h>
 
 static void read_guarded(struct reader_kit *kit, struct reader_kit_options options) {
-    struct reader_context context = {&kit->sources, &kit->sink, &kit->limits, &kit->arena};
+    struct reader_context context = {
+        .sources = &kit->sources, .sink = &kit->sink, .limits = &kit->limits, .arena = &kit->arena};
     struct arena_guard guard;
     arena_set_guard(&kit->arena, &guard);
     if (setjmp(guard.jump) == 0) {
