@@ -46,6 +46,7 @@ enum session_state check_scene(struct session *session, const struct session_opt
     struct session_options judged = *options;
     judged.judged = true;
     judged.skip_pixels = true;
+    judged.lint = LINT_ALL;
     session_load(session, &judged, store);
     note_view(session);
     check_allow(session);
