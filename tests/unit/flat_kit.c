@@ -168,6 +168,7 @@ bool kit_flatten(struct kit *kit, struct flat_scene *flat) {
                                .assets = &kit->assets,
                                .view = &kit->view,
                                .origin = kit->origin,
+                               .is_double = kit->is_double,
                                .limits = &kit->limits,
                                .sink = &kit->sink};
     return flatten(&input, flat);
@@ -180,13 +181,22 @@ float kit_float(uint32_t bits) {
 }
 
 vec3 kit_vertex(const struct flat_scene *flat, uint32_t item, int corner) {
+    if (flat->is_double) {
+        const struct gpu_word *words =
+            &flat->triangles.words[(size_t)TRIANGLE64_WORDS * item + 2 * (size_t)corner];
+        double place[3];
+        memcpy(place, words, sizeof place);
+        return (vec3){place[0], place[1], place[2]};
+    }
     const struct gpu_word *word = &flat->triangles.words[(size_t)TRIANGLE_WORDS * item + (size_t)corner];
     return (vec3){kit_float(word->x), kit_float(word->y), kit_float(word->z)};
 }
 
 uint32_t kit_find_triangle(const struct flat_scene *flat, uint32_t number) {
-    for (uint32_t i = 0; i < flat->triangle_count; i++)
-        if (flat->triangles.words[(size_t)TRIANGLE_WORDS * i].w == number)
+    for (uint32_t i = 0; i < flat->triangle_count; i++) {
+        const struct gpu_word *words = &flat->triangles.words[(size_t)flat->strides.triangle * i];
+        if ((flat->is_double ? words[1].z : words[0].w) == number)
             return i;
+    }
     return UINT32_MAX;
 }

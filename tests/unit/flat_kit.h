@@ -20,6 +20,7 @@ struct kit {
     struct limits limits;
     struct diag_sink sink;
     vec3 origin;
+    bool is_double; // flatten for the kernels in double precision
 };
 
 void kit_init(struct kit *kit);

@@ -1,13 +1,13 @@
 // Rays on the device, through the kernel's own tree, tests and starts: none slips through a closed mesh, none
-// hits the surface that it leaves, none leaks out of a body.
+// hits the surface that it leaves, none leaks out of a body or through a gap; in single and double precision.
 //
 // Rays are aimed at edges and vertices of icospheres, and at spheres. A second ray leaves each hit: outward
 // from a convex body it must meet nothing, inward it must meet the body again, elsewhere.
+// Usage: test_rays [full]: `full` sends ten million rays in each precision, at all sizes and distances.
 #include "flat_kit.h"
-#include "runtime/gpu/gpu.h"
-#include "runtime/render_private.h"
-#include "shaders/kernels.h"
+#include "probe_kit.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,17 +17,12 @@
 
 #include <cmocka.h>
 
-enum {
-    RAYS = 1 << 18,
-    RAY_WORDS = 3,
-    HIT_WORDS = 2,
-    BATCHES = 4, // a million rays a place
-};
-#define NO_ITEM 0xffffffffu
-
 struct fixture {
     struct gpu *gpu;
     uint32_t messages;
+    struct probe_ray *rays;
+    struct probe_hit *hits;
+    uint64_t sent;
 };
 
 static int setup(void **state) {
@@ -37,6 +32,8 @@ static int setup(void **state) {
         .device = getenv("GLINT_DEVICE"), .validate = true, .validation_messages = &f->messages};
     if (gpu_create(&options, &f->gpu, error) != GPU_OK)
         fprintf(stderr, "skipped: %s\n", error);
+    f->rays = calloc(PROBE_RAYS, sizeof *f->rays);
+    f->hits = calloc(PROBE_RAYS, sizeof *f->hits);
     *state = f;
     return 0;
 }
@@ -45,102 +42,32 @@ static int teardown(void **state) {
     struct fixture *f = *state;
     gpu_destroy(f->gpu);
     const uint32_t messages = f->messages;
+    printf("%llu rays were sent\n", (unsigned long long)f->sent);
+    free(f->rays);
+    free(f->hits);
     free(f);
     return messages ? -1 : 0;
 }
 
-// ---- the device's side
+static struct fixture *needed(void **state, bool is_double) {
+    struct fixture *f = *state;
+    if (!f->gpu || (is_double && !gpu_info(f->gpu)->has_double))
+        skip();
+    return f;
+}
 
-struct probe {
-    struct gpu *gpu;
-    struct gpu_program_source source;
-    struct gpu_program *program;
-    struct gpu_word *rays, *hits;
+// ---- closed bodies
+
+// A body, and how it is looked at.
+struct place {
+    bool is_double;
+    vec3 center; // scene units
+    double radius;
+    vec3 origin; // where the camera stands
 };
 
-static struct gpu_buffer *buffer(struct gpu *gpu, enum gpu_use use, const void *data, uint64_t bytes) {
-    struct gpu_buffer *made = gpu_buffer_create(gpu, use, bytes);
-    assert_non_null(made);
-    assert_true(!data || gpu_write(gpu, made, 0, data, bytes));
-    return made;
-}
-
-// As the renderer has it.
-static uint32_t levels(uint32_t depth) {
-    return depth > 3 ? depth - 2 : 1;
-}
-
-static void probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, uint32_t packed) {
-    const struct flat_array *arrays[] = {[BINDING_TRIANGLE_NODES] = &flat->triangle_nodes,
-                                         [BINDING_TRIANGLES] = &flat->triangles,
-                                         [BINDING_NORMALS] = &flat->normals,
-                                         [BINDING_SPHERE_NODES] = &flat->sphere_nodes,
-                                         [BINDING_SPHERES] = &flat->spheres,
-                                         [BINDING_BODIES] = &flat->bodies,
-                                         [BINDING_MATERIALS] = &flat->materials};
-    const struct frame_block frame = {.sphere_count = flat->sphere_count};
-    const uint32_t constants[CONSTANT_COUNT] = {
-        flat->features & (FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_SMOOTH), levels(flat->triangle_depth),
-        levels(flat->sphere_depth), packed};
-    const bool texels = gpu_fetches_texels(gpu);
-    *probe = (struct probe){.gpu = gpu};
-    probe->source = (struct gpu_program_source){.spirv = texels ? kernel_probe_texels : kernel_probe_storage,
-                                                .spirv_words = texels ? kernel_probe_texels_words
-                                                                      : kernel_probe_storage_words,
-                                                .constants = constants,
-                                                .constant_count = CONSTANT_COUNT,
-                                                .push_bytes = sizeof(struct dispatch_block)};
-    struct gpu_buffer **buffers = probe->source.buffers;
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        buffers[i] = buffer(gpu, GPU_WORDS, arrays[i]->words, arrays[i]->count * sizeof(struct gpu_word));
-    buffers[BINDING_FRAME] = buffer(gpu, GPU_UNIFORM, &frame, sizeof frame);
-    buffers[BINDING_STATE] = buffer(gpu, GPU_STORAGE, NULL, RAYS * RAY_WORDS * sizeof(struct gpu_word));
-    buffers[BINDING_OUTPUT] = buffer(gpu, GPU_STORAGE, NULL, RAYS * HIT_WORDS * sizeof(struct gpu_word));
-    probe->program = gpu_program_create(gpu, &probe->source);
-    assert_non_null(probe->program);
-    probe->rays = calloc(RAYS * RAY_WORDS, sizeof *probe->rays);
-    probe->hits = calloc(RAYS * HIT_WORDS, sizeof *probe->hits);
-}
-
-static void probe_run(struct probe *probe) {
-    const struct dispatch_block block = {.tile_count = RAYS};
-    struct gpu_buffer **buffers = probe->source.buffers;
-    assert_true(gpu_write(probe->gpu, buffers[BINDING_STATE], 0, probe->rays,
-                          RAYS * RAY_WORDS * sizeof *probe->rays));
-    assert_true(gpu_dispatch(probe->gpu, probe->program, RAYS / TILE_PIXELS, 1, &block));
-    assert_true(gpu_submit(probe->gpu));
-    assert_true(gpu_wait(probe->gpu, NULL));
-    assert_true(gpu_read(probe->gpu, buffers[BINDING_OUTPUT], 0, probe->hits,
-                         RAYS * HIT_WORDS * sizeof *probe->hits));
-}
-
-static void probe_finish(struct probe *probe) {
-    gpu_program_destroy(probe->gpu, probe->program);
-    for (int i = 0; i < GPU_BINDINGS; i++)
-        gpu_buffer_destroy(probe->gpu, probe->source.buffers[i]);
-    free(probe->rays);
-    free(probe->hits);
-}
-
-// ---- rays
-
-static uint64_t mix(uint64_t *state) { // SplitMix64
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
-static double mix_unit(uint64_t *state) {
-    return (double)(mix(state) >> 11) * 0x1p-53;
-}
-
-static vec3 random_direction(uint64_t *state) {
-    const double z = 2 * mix_unit(state) - 1, angle = 6.283185307179586 * mix_unit(state),
-                 r = sqrt(1 - z * z);
-    return (vec3){r * cos(angle), r * sin(angle), z};
-}
-
 struct aim {
+    const struct probe *probe;
     const struct flat_scene *flat;
     vec3 center; // flat
     double radius;
@@ -148,41 +75,35 @@ struct aim {
 
 static vec3 choose_target(const struct aim *aim, uint64_t *state) {
     if (aim->flat->sphere_count)
-        return vec3_add(aim->center, vec3_mul(random_direction(state), aim->radius * (1 - 1e-6)));
-    const uint32_t item = (uint32_t)(mix(state) % aim->flat->triangle_count);
-    const int corner = (int)(mix(state) % 3);
+        return vec3_add(aim->center, vec3_mul(probe_direction(state), aim->radius * (1 - 1e-6)));
+    const uint32_t item = (uint32_t)(probe_mix(state) % aim->flat->triangle_count);
+    const int corner = (int)(probe_mix(state) % 3);
     const vec3 a = kit_vertex(aim->flat, item, corner), b = kit_vertex(aim->flat, item, (corner + 1) % 3);
-    return mix(state) % 2 ? a : vec3_add(a, vec3_mul(vec3_sub(b, a), mix_unit(state)));
+    return probe_mix(state) % 2 ? a : vec3_add(a, vec3_mul(vec3_sub(b, a), probe_unit(state)));
 }
 
-static struct gpu_word word_of(vec3 v, float w) {
-    const float values[4] = {(float)v.x, (float)v.y, (float)v.z, w};
-    struct gpu_word word;
-    memcpy(&word, values, sizeof word);
-    return word;
-}
-
-static vec3 vec3_of(const struct gpu_word *word) {
-    return (vec3){kit_float(word->x), kit_float(word->y), kit_float(word->z)};
+// From inside, from near by outside, and in double precision also from the camera: in single precision a ray
+// from there is rounded by more than the body's triangles where it is far away.
+static vec3 choose_start(const struct aim *aim, bool inside, uint64_t *state) {
+    if (!inside && aim->probe->is_double && probe_mix(state) % 4 == 0)
+        return (vec3){0, 0, 0};
+    const double away = aim->radius * (inside ? 0.9 * probe_unit(state) : 1.2 + 8 * probe_unit(state));
+    return vec3_add(aim->center, vec3_mul(probe_direction(state), away));
 }
 
 // A ray at an edge, vertex or sphere, from inside or outside, and one that leaves its target: at least 0.6
 // degrees from the surface, since a mesh of rounded vertices is not quite convex.
-static void choose_ray(const struct aim *aim, uint64_t seed, struct gpu_word *ray) {
+static void choose_ray(const struct aim *aim, uint64_t seed, struct probe_ray *ray) {
     uint64_t state = seed;
     for (;;) {
         const vec3 target = choose_target(aim, &state);
         const vec3 out = vec3_unit(vec3_sub(target, aim->center));
-        const bool inside = mix(&state) % 2;
-        const double away = aim->radius * (inside ? 0.9 * mix_unit(&state) : 1.2 + 8 * mix_unit(&state));
-        const struct gpu_word start =
-            word_of(vec3_add(aim->center, vec3_mul(random_direction(&state), away)), 3e38f);
-        const vec3 to = vec3_sub(target, vec3_of(&start)), next = random_direction(&state);
+        const bool inside = probe_mix(&state) % 2;
+        const vec3 start = probe_round(aim->probe, choose_start(aim, inside, &state));
+        const vec3 to = vec3_sub(target, start), next = probe_direction(&state);
         if ((!inside && vec3_dot(out, vec3_unit(to)) > -0.2) || fabs(vec3_dot(out, next)) < 0.1)
             continue;
-        ray[0] = start;
-        ray[1] = word_of(aim->flat->sphere_count ? vec3_unit(to) : to, 0);
-        ray[2] = word_of(next, 0);
+        *ray = (struct probe_ray){start, aim->flat->sphere_count ? vec3_unit(to) : to, 3e38, next};
         return;
     }
 }
@@ -191,160 +112,227 @@ struct misses {
     unsigned closest, any, self, leaks;
 };
 
-static void judge(const struct aim *aim, const struct gpu_word *ray, const struct gpu_word *hit,
+static void judge(const struct aim *aim, const struct probe_ray *ray, const struct probe_hit *hit,
                   struct misses *misses) {
-    const vec3 origin = vec3_of(&ray[0]), direction = vec3_of(&ray[1]), next = vec3_of(&ray[2]);
-    misses->any += hit[0].w != 1;
-    if (hit[0].z == NO_ITEM) {
+    misses->any += !hit->any;
+    if (!hit->first.found) {
         misses->closest++;
         return;
     }
-    const vec3 at = vec3_add(origin, vec3_mul(direction, kit_float(hit[0].x)));
+    const vec3 at = vec3_add(ray->origin, vec3_mul(ray->direction, hit->first.t));
     const vec3 out = vec3_sub(at, aim->center);
     misses->closest += fabs(vec3_length(out) / aim->radius - 1) > 0.2;
-    const bool leaves = vec3_dot(vec3_unit(out), next) > 0, found = hit[1].z != NO_ITEM;
-    misses->self += leaves ? found : found && !aim->flat->sphere_count && hit[1].y == hit[0].y;
+    const bool leaves = vec3_dot(vec3_unit(out), ray->next) > 0, found = hit->second.found;
+    misses->self +=
+        leaves ? found : found && !aim->flat->sphere_count && hit->second.number == hit->first.number;
     // A chord at 0.1 from the tangent is 0.2 radii long.
-    misses->leaks += !leaves && !(found && kit_float(hit[1].x) > 0.05 * aim->radius);
+    misses->leaks += !leaves && !(found && hit->second.t > 0.05 * aim->radius);
 }
 
-static void check(void **state, const struct flat_scene *flat, vec3 center, double radius) {
+static void check(struct fixture *f, const struct flat_scene *flat, const struct place *place,
+                  unsigned batches) {
     struct probe probe;
-    const struct aim aim = {flat, center, radius};
+    const double factor = ldexp(1, flat->scale_exponent);
+    const struct aim aim = {&probe, flat, vec3_mul(vec3_sub(place->center, place->origin), factor),
+                            place->radius * factor};
     struct misses misses = {0, 0, 0, 0};
-    for (uint64_t batch = 0; batch < BATCHES; batch++) {
+    for (uint64_t batch = 0; batch < batches; batch++) {
         // Both ways to keep groups of nodes; this tree is small enough for the short one.
-        probe_init(&probe, ((struct fixture *)*state)->gpu, flat, batch % 2);
-        for (uint64_t i = 0; i < RAYS; i++)
-            choose_ray(&aim, batch * RAYS + i, probe.rays + RAY_WORDS * i);
-        probe_run(&probe);
-        for (size_t i = 0; i < RAYS; i++)
-            judge(&aim, probe.rays + RAY_WORDS * i, probe.hits + HIT_WORDS * i, &misses);
+        assert_true(probe_init(&probe, f->gpu, flat, batch % 2));
+        for (uint64_t i = 0; i < PROBE_RAYS; i++)
+            choose_ray(&aim, batch * PROBE_RAYS + i, &f->rays[i]);
+        assert_true(probe_trace(&probe, f->rays, PROBE_RAYS, f->hits));
+        for (size_t i = 0; i < PROBE_RAYS; i++)
+            judge(&aim, &f->rays[i], &f->hits[i], &misses);
         probe_finish(&probe);
+        f->sent += PROBE_RAYS;
     }
     if (misses.closest || misses.any || misses.self || misses.leaks)
-        fail_msg("of %d rays at radius %g, center %g %g %g: %u without their hit, %u without any, %u hit "
-                 "what they left, "
-                 "%u leaked",
-                 BATCHES * RAYS, radius, center.x, center.y, center.z, misses.closest, misses.any,
-                 misses.self, misses.leaks);
+        fail_msg("%s: of %u rays at radius %g, center %g %g %g, seen from %g %g %g: %u without their hit, %u "
+                 "without any, %u hit what they left, %u leaked",
+                 place->is_double ? "double" : "single", batches * PROBE_RAYS, place->radius, place->center.x,
+                 place->center.y, place->center.z, place->origin.x, place->origin.y, place->origin.z,
+                 misses.closest, misses.any, misses.self, misses.leaks);
 }
 
-static void needs_device(void **state) {
-    if (!((struct fixture *)*state)->gpu)
-        skip();
-}
-
-static void check_mesh(void **state, vec3 offset, double radius, vec3 origin) {
+static void check_mesh(void **state, struct place place, unsigned batches) {
+    struct fixture *f = needed(state, place.is_double);
     struct kit kit;
     struct flat_scene flat;
     kit_init(&kit);
-    kit.origin = origin;
+    kit.origin = place.origin;
+    kit.is_double = place.is_double;
     struct ir_model *model = kit_model(&kit, kit_icosphere(&kit, 3, 0));
-    model->scale = (vec3){radius, radius, radius};
+    model->scale = (vec3){place.radius, place.radius, place.radius};
     model->rotation = (vec3){10, 20, 30};
-    model->translation = offset;
+    model->translation = place.center;
     assert_true(kit_flatten(&kit, &flat));
-    const double factor = ldexp(1, flat.scale_exponent);
-    check(state, &flat, vec3_mul(vec3_sub(offset, origin), factor), radius * factor);
+    check(f, &flat, &place, batches);
     flat_finish(&flat);
     kit_finish(&kit);
 }
 
-static void check_sphere(void **state, vec3 offset, double radius) {
+static void check_sphere(void **state, struct place place, unsigned batches) {
+    struct fixture *f = needed(state, place.is_double);
     struct kit kit;
     struct flat_scene flat;
     kit_init(&kit);
+    kit.origin = place.origin;
+    kit.is_double = place.is_double;
     struct ir_sphere *sphere = kit_sphere(&kit);
-    sphere->center = offset;
-    sphere->radius = radius;
+    sphere->center = place.center;
+    sphere->radius = place.radius;
     assert_true(kit_flatten(&kit, &flat));
-    const double factor = ldexp(1, flat.scale_exponent);
-    check(state, &flat, vec3_mul(offset, factor), radius * factor);
+    check(f, &flat, &place, batches);
     flat_finish(&flat);
     kit_finish(&kit);
+}
+
+// So many sizes (diameters) from the camera.
+static struct place far_away(bool is_double, double radius, double sizes) {
+    return (struct place){is_double, {0, 0, 0}, radius, {1.2 * radius * sizes, 0, 1.6 * radius * sizes}};
 }
 
 static void test_mesh(void **state) {
-    needs_device(state);
-    check_mesh(state, (vec3){0, 0, 0}, 1, (vec3){3, 1, 0});
-}
-
-static void test_mesh_small_and_far(void **state) {
-    needs_device(state);
-    check_mesh(state, (vec3){1e3, 750, -1e3}, 1e-3, (vec3){1e3, 750, -1e3 + 5e-3});
-    check_mesh(state, (vec3){1e5, 7.5e4, -1e5}, 2, (vec3){1e5 + 6, 7.5e4 + 2, -1e5});
-    check_mesh(state, (vec3){0, 0, 0}, 1, (vec3){0, 0, 100});
+    for (int is_double = 0; is_double < 2; is_double++) {
+        check_mesh(state, (struct place){is_double, {0, 0, 0}, 1, {3, 1, 0}}, 2);
+        check_mesh(state, (struct place){is_double, {1e3, 750, -1e3}, 1e-3, {1e3, 750, -1e3 + 5e-3}}, 1);
+        check_mesh(state, (struct place){is_double, {1e5, 7.5e4, -1e5}, 2, {1e5 + 6, 7.5e4 + 2, -1e5}}, 1);
+        check_mesh(state, far_away(is_double, 1, is_double ? 1e6 : 100), 1);
+    }
 }
 
 static void test_sphere(void **state) {
-    needs_device(state);
-    check_sphere(state, (vec3){0, 0, -3}, 1);
-    check_sphere(state, (vec3){60, 50, -70}, 1);
-    check_sphere(state, (vec3){0.1, 0.2, 0.3}, 1e3);
+    for (int is_double = 0; is_double < 2; is_double++) {
+        check_sphere(state, (struct place){is_double, {0, 0, -3}, 1, {0, 0, 0}}, 1);
+        check_sphere(state, far_away(is_double, 1, is_double ? 1e6 : 100), 1);
+        check_sphere(state, (struct place){is_double, {0.1, 0.2, 0.3}, 1e3, {0, 0, 0}}, 1);
+    }
 }
 
-// Two plates with a gap of 2e-5 of their size between them: what leaves the first one towards the second
-// arrives there.
-static void check_gap(void **state, vec3 corner, double size) {
+static void test_all_meshes(void **state) {
+    static const double offsets[] = {0, 1e3, 1e5};
+    for (int is_double = 0; is_double < 2; is_double++)
+        for (int i = 0; i < 3; i++)
+            for (double radius = 1e-3; radius < 2e3; radius *= 10) {
+                const double at = offsets[i];
+                const vec3 center = {at, 0.75 * at, -at};
+                const vec3 origin = vec3_add(center, (vec3){3 * radius, radius, 0});
+                check_mesh(state, (struct place){is_double, center, radius, origin}, 2);
+            }
+}
+
+static void test_all_distances(void **state) {
+    for (double radius = 1e-6; radius < 2e6; radius *= 100) {
+        check_mesh(state, far_away(false, radius, 100), 1);
+        check_sphere(state, far_away(false, radius, 100), 1);
+        for (double sizes = 100; sizes < 2e6; sizes *= 100) {
+            check_mesh(state, far_away(true, radius, sizes), 1);
+            check_sphere(state, far_away(true, radius, sizes), 1);
+        }
+    }
+}
+
+// ---- gaps
+
+// Two plates, and how they are looked at.
+struct gap {
+    bool is_double;
+    double size, width; // of the plates; between them, in sizes
+    double sizes;       // between camera and plates
+};
+
+struct plates {
+    vec3 corner, u, v, normal; // of the first one; the other lies behind it
+};
+
+static struct plates plates_of(const struct gap *gap) {
+    const double size = gap->size;
+    struct plates p = {.u = {size, 0.3 * size, 0.2 * size}, .v = {-0.1 * size, 0.9 * size, -0.4 * size}};
+    p.normal = vec3_unit(vec3_cross(p.u, p.v));
+    p.corner = vec3_mul((vec3){0.48, 0.36, -0.8}, size * gap->sizes);
+    return p;
+}
+
+// A ray at the first plate, and on from there towards the second.
+static struct probe_ray choose_gap_ray(const struct probe *probe, const struct plates *p,
+                                       const struct gap *gap, double factor, uint64_t seed) {
+    vec3 from, next;
+    do
+        from = probe_direction(&seed);
+    while (vec3_dot(from, p->normal) < 0.1);
+    do
+        next = probe_direction(&seed);
+    while (vec3_dot(next, p->normal) > -0.1);
+    const vec3 place = vec3_add(vec3_mul(p->u, 0.1 + 0.8 * probe_unit(&seed)),
+                                vec3_mul(p->v, 0.1 + 0.8 * probe_unit(&seed)));
+    const vec3 target = vec3_mul(vec3_add(p->corner, place), factor);
+    const vec3 start = probe_round(probe, vec3_add(target, vec3_mul(from, gap->size * factor * 2)));
+    return (struct probe_ray){start, vec3_neg(from), 3e38, next};
+}
+
+static void check_gap(void **state, struct gap gap) {
+    struct fixture *f = needed(state, gap.is_double);
     struct kit kit;
     struct flat_scene flat;
+    struct probe probe;
+    const struct plates plates = plates_of(&gap);
     kit_init(&kit);
-    const vec3 u = {size, 0.3 * size, 0.2 * size}, v = {-0.1 * size, 0.9 * size, -0.4 * size};
-    const vec3 normal = vec3_unit(vec3_cross(u, v));
+    kit.is_double = gap.is_double;
     for (int plate = 0; plate < 2; plate++) {
         struct ir_rectangle *r = kit_rectangle(&kit);
-        r->corner = vec3_sub(corner, vec3_mul(normal, plate * 2e-5 * size));
-        r->edge_u = u;
-        r->edge_v = v;
+        r->corner = vec3_sub(plates.corner, vec3_mul(plates.normal, plate * gap.width * gap.size));
+        r->edge_u = plates.u;
+        r->edge_v = plates.v;
     }
     assert_true(kit_flatten(&kit, &flat));
-    const double factor = ldexp(1, flat.scale_exponent);
-    struct probe probe;
+    assert_true(probe_init(&probe, f->gpu, &flat, true));
+    for (uint64_t i = 0; i < PROBE_RAYS; i++)
+        f->rays[i] = choose_gap_ray(&probe, &plates, &gap, ldexp(1, flat.scale_exponent), i);
+    assert_true(probe_trace(&probe, f->rays, PROBE_RAYS, f->hits));
     unsigned lost = 0;
-    probe_init(&probe, ((struct fixture *)*state)->gpu, &flat, 1);
-    for (size_t i = 0; i < RAYS; i++) {
-        uint64_t seed = i;
-        struct gpu_word *ray = probe.rays + RAY_WORDS * i;
-        vec3 target =
-            vec3_add(vec3_mul(u, 0.1 + 0.8 * mix_unit(&seed)), vec3_mul(v, 0.1 + 0.8 * mix_unit(&seed)));
-        vec3 from, next;
-        do
-            from = random_direction(&seed);
-        while (vec3_dot(from, normal) < 0.1);
-        do
-            next = random_direction(&seed);
-        while (vec3_dot(next, normal) > -0.1);
-        target = vec3_mul(vec3_add(corner, target), factor);
-        ray[0] = word_of(vec3_add(target, vec3_mul(from, size * factor * 2)), 3e38f);
-        ray[1] = word_of(vec3_neg(from), 0);
-        ray[2] = word_of(next, 0);
-    }
-    probe_run(&probe);
-    for (size_t i = 0; i < RAYS; i++) {
-        const struct gpu_word *hit = probe.hits + HIT_WORDS * i;
-        lost += !(hit[0].z != NO_ITEM && hit[0].y < 2 && hit[1].z != NO_ITEM && hit[1].y >= 2);
+    for (size_t i = 0; i < PROBE_RAYS; i++) {
+        const struct probe_hit *hit = &f->hits[i];
+        lost += !(hit->first.found && hit->first.number < 2 && hit->second.found && hit->second.number >= 2);
     }
     probe_finish(&probe);
     flat_finish(&flat);
     kit_finish(&kit);
+    f->sent += PROBE_RAYS;
     if (lost)
-        fail_msg("size %g: %u of %d rays were lost in the gap", size, lost, RAYS);
+        fail_msg("%s, size %g, %g sizes away: %u of %d rays were lost in a gap of %g sizes",
+                 gap.is_double ? "double" : "single", gap.size, gap.sizes, lost, PROBE_RAYS, gap.width);
 }
 
 static void test_gap(void **state) {
-    needs_device(state);
-    check_gap(state, (vec3){1, 1, -3}, 1);
-    check_gap(state, (vec3){1e-3, 2e-3, -3e-3}, 1e-3);
-    check_gap(state, (vec3){-2e3, 1e3, -3e3}, 1e3);
+    check_gap(state, (struct gap){false, 1, 2e-5, 3});
+    check_gap(state, (struct gap){false, 1e-3, 2e-5, 3});
+    check_gap(state, (struct gap){false, 1e3, 1e-4, 100});
+    check_gap(state, (struct gap){true, 1, 1e-4, 1e6});
+    check_gap(state, (struct gap){true, 1e-3, 1e-8, 3});
 }
 
-int main(void) {
+static void test_all_gaps(void **state) {
+    for (double size = 1e-6; size < 2e6; size *= 10) {
+        check_gap(state, (struct gap){false, size, 1e-4, 3});
+        check_gap(state, (struct gap){false, size, 1e-4, 100});
+        for (double sizes = 1; sizes < 2e6; sizes *= 100)
+            check_gap(state, (struct gap){true, size, 1e-4, sizes});
+    }
+}
+
+int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_mesh),
-        cmocka_unit_test(test_mesh_small_and_far),
         cmocka_unit_test(test_sphere),
         cmocka_unit_test(test_gap),
     };
+    const struct CMUnitTest all[] = {
+        cmocka_unit_test(test_all_meshes),
+        cmocka_unit_test(test_all_distances),
+        cmocka_unit_test(test_all_gaps),
+    };
+    if (argc > 1 && strcmp(argv[1], "full") == 0)
+        return cmocka_run_group_tests_name("rays, all", all, setup, teardown);
     return cmocka_run_group_tests_name("rays", tests, setup, teardown);
 }

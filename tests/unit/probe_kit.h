@@ -1,0 +1,53 @@
+// Single rays through the tracer's own tree, tests and starts on a device, in the precision of a flat scene.
+//
+// A probe holds the scene on the device. Rays are in flat units; probe_trace rounds them to the precision of
+// the scene, as a ray of the tracer would be: aim from probe_round. Ownership: probe_finish frees.
+#ifndef GLINT_TESTS_UNIT_PROBE_KIT_H
+#define GLINT_TESTS_UNIT_PROBE_KIT_H
+
+#include "core/vec3.h"
+#include "runtime/flatten.h"
+#include "runtime/gpu/gpu.h"
+
+enum {
+    PROBE_RAYS = 1 << 18 // of one probe_trace at most
+};
+
+struct probe_ray {
+    vec3 origin, direction;
+    double end; // hits lie before, in multiples of the direction
+    vec3 next;  // direction of a second ray, which leaves the surface that the first one meets
+};
+
+struct probe_met {
+    bool found;
+    double t;        // in multiples of the direction
+    uint32_t number; // spheres by body, then triangles
+};
+
+struct probe_hit {
+    struct probe_met first, second;
+    bool any;       // the search for any hit found one too
+    bool same_side; // the second ray left on the side that the first one came from
+};
+
+struct probe {
+    struct gpu *gpu;
+    bool is_double;
+    struct gpu_program_source source;
+    struct gpu_program *program;
+    struct gpu_word *words;
+};
+
+// `packed`: keep waiting groups in one word, as for small trees. false: no memory on the device.
+bool probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed);
+void probe_finish(struct probe *probe);
+vec3 probe_round(const struct probe *probe, vec3 v);
+bool probe_trace(struct probe *probe, const struct probe_ray *rays, uint32_t count, struct probe_hit *hits);
+
+// SplitMix64, and what is made of it: 0 .. 1, and a point on the unit sphere.
+uint64_t probe_mix(uint64_t *state);
+double probe_unit(uint64_t *state);
+vec3 probe_direction(uint64_t *state);
+
+#endif
