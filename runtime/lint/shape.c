@@ -1,5 +1,10 @@
 #include "runtime/lint/shape.h"
 
+// Less of a triangle than this part of it reaches through nothing: rounded corners of neighbours do.
+static const double SHALLOW = 0.001;
+// Planes that meet at a smaller angle meet nowhere in particular.
+static const double PARALLEL_SINE = 1e-6;
+
 // ---- boxes
 
 struct lint_box lint_box_empty(void) {
@@ -61,31 +66,55 @@ static bool is_inside(const struct lint_triangle *t, vec3 unit_normal, vec3 poin
     return true;
 }
 
-static bool edge_pierces(vec3 p, vec3 q, const struct lint_triangle *t, vec3 unit_normal, double tolerance) {
-    double from = vec3_dot(unit_normal, vec3_sub(p, t->p[0]));
-    double to = vec3_dot(unit_normal, vec3_sub(q, t->p[0]));
-    if (!((from > tolerance && to < -tolerance) || (from < -tolerance && to > tolerance)))
-        return false;
-    vec3 along = vec3_sub(q, p);
-    double margin = fmax(tolerance, 0.001 * sqrt(vec3_dot(along, along)));
-    if (fabs(from) < margin || fabs(to) < margin)
-        return false;
-    return is_inside(t, unit_normal, vec3_add(p, vec3_mul(along, from / (from - to))), margin);
-}
-
 struct lint_face lint_face_of(struct lint_triangle triangle) {
     return (struct lint_face){triangle, vec3_unit(normal_of(&triangle))};
 }
 
-static bool any_edge_pierces(const struct lint_triangle *a, const struct lint_face *b, double tolerance) {
+// What of a triangle lies in the plane of another: a part of the line where the planes meet.
+struct cut {
+    double least, greatest; // along the line
+    double depth;           // of the part of the triangle on the shallower side
+    double size;            // its longest edge
+};
+
+// false: the triangle does not reach through the plane.
+static bool cut_by(const struct lint_triangle *t, const struct lint_face *plane, vec3 along, vec3 origin,
+                   struct cut *out) {
+    double d[3];
     for (int k = 0; k < 3; k++)
-        if (edge_pierces(a->p[k], a->p[(k + 1) % 3], &b->t, b->normal, tolerance))
-            return true;
-    return false;
+        d[k] = vec3_dot(plane->normal, vec3_sub(t->p[k], plane->t.p[0]));
+    *out = (struct cut){INFINITY, -INFINITY, 0, 0};
+    out->depth = fmin(fmax(fmax(d[0], d[1]), d[2]), -fmin(fmin(d[0], d[1]), d[2]));
+    if (!(out->depth > 0))
+        return false;
+    for (int k = 0; k < 3; k++) {
+        double from = d[k];
+        double to = d[(k + 1) % 3];
+        vec3 edge = vec3_sub(t->p[(k + 1) % 3], t->p[k]);
+        out->size = fmax(out->size, vec3_dot(edge, edge));
+        if ((from > 0 && to > 0) || (from < 0 && to < 0) || from == to)
+            continue;
+        vec3 at = vec3_add(t->p[k], vec3_mul(edge, from / (from - to)));
+        double here = vec3_dot(along, vec3_sub(at, origin));
+        out->least = fmin(out->least, here);
+        out->greatest = fmax(out->greatest, here);
+    }
+    out->size = sqrt(out->size);
+    return true;
 }
 
 bool lint_faces_cross(const struct lint_face *a, const struct lint_face *b, double tolerance) {
-    return any_edge_pierces(&a->t, b, tolerance) || any_edge_pierces(&b->t, a, tolerance);
+    vec3 along = vec3_cross(a->normal, b->normal);
+    double sine = sqrt(vec3_dot(along, along));
+    struct cut of_a, of_b;
+    if (!(sine > PARALLEL_SINE) || !cut_by(&a->t, b, along, a->t.p[0], &of_a) || of_a.depth <= tolerance ||
+        !cut_by(&b->t, a, along, a->t.p[0], &of_b))
+        return false;
+    if (of_a.depth <= fmax(tolerance, SHALLOW * of_a.size) ||
+        of_b.depth <= fmax(tolerance, SHALLOW * of_b.size))
+        return false;
+    double common = fmin(of_a.greatest, of_b.greatest) - fmax(of_a.least, of_b.least);
+    return common > sine * fmax(tolerance, SHALLOW * fmin(of_a.size, of_b.size));
 }
 
 // ---- lying in one plane

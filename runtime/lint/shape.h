@@ -38,9 +38,9 @@ struct lint_box lint_box_place(struct lint_box box, const affine3 *place);
 
 struct lint_face lint_face_of(struct lint_triangle triangle);
 
-// Whether an edge of one passes through the inside of the other: its ends lie on both sides of the plane, and
-// the point between them inside all three edges, each by more than the tolerance and a thousandth of the
-// length of the edge.
+// Whether they cut through each other: each has corners on both sides of the other's plane, and the parts in
+// which the planes' common line crosses them have a piece in common (Möller 1997), each of these by more than
+// the tolerance and a thousandth of the triangle's size. Triangles that share a corner or an edge do not.
 bool lint_faces_cross(const struct lint_face *a, const struct lint_face *b, double tolerance);
 // Whether they lie in one plane (all six corners within `near` of the other's) and cover a common area, wider
 // than the tolerance and a hundredth of the narrower one in every direction (separating axes: Gottschalk, Lin
