@@ -1,5 +1,7 @@
 #include "app/exact.h"
 
+#include "app/where.h"
+
 #include <stdlib.h>
 
 static enum shot_status no_memory(struct session *session) {
@@ -31,31 +33,16 @@ void exact_close(struct exact *exact) {
     exact->store_path = NULL;
 }
 
-static const struct ir_head *body_head(const struct ir_scene *scene, uint32_t body) {
-    if (body < scene->spheres.count)
-        return &scene->spheres.items[body].head;
-    body -= scene->spheres.count;
-    if (body < scene->rectangles.count)
-        return &scene->rectangles.items[body].head;
-    body -= scene->rectangles.count;
-    return body < scene->models.count ? &scene->models.items[body].head : &scene->head;
-}
-
-static void report_fault(struct session *s, enum diag_code code, const struct reference_fault *fault,
+static void report_fault(struct session *session, enum diag_code code, const struct reference_fault *fault,
                          const char *words) {
-    bool has_body = fault->body != HIT_NONE;
-    const struct ir_head *head = has_body ? body_head(s->scene, fault->body) : &s->scene->head;
-    if (fault->pixels == 0)
-        return;
-    diag_add(&s->sink, code, ir_place_label(&s->origin, head), "%u pixel%s %s, the first at %u,%u%s",
-             fault->pixels, fault->pixels == 1 ? "" : "s", words, fault->x, fault->y,
-             has_body ? ", where the ray last met this body" : "");
-    uint32_t first_model = s->scene->spheres.count + s->scene->rectangles.count;
-    if (!has_body || fault->body < first_model)
-        return;
-    const struct mesh *mesh = s->assets.models[fault->body - first_model].mesh;
-    diag_note(&s->sink, SPAN_NONE, "at line %u of %.*s", mesh->triangles[fault->triangle].line,
-              STR_ARG(mesh->path));
+    if (fault->pixels)
+        where_report_fault(session, &(struct where_fault){.code = code,
+                                                          .words = words,
+                                                          .pixels = fault->pixels,
+                                                          .x = fault->x,
+                                                          .y = fault->y,
+                                                          .body = fault->body,
+                                                          .triangle = fault->triangle});
 }
 
 enum shot_status exact_take(struct exact *exact, struct image *image, double *rgb,

@@ -1,0 +1,94 @@
+#include "app/shot.h"
+
+#include "app/where.h"
+#include "core/clock.h"
+
+static bool flatten_shot(struct shot *shot) {
+    struct session *s = shot->session;
+    double start = clock_seconds();
+    struct flat_input input = {.scene = s->scene,
+                               .origin_places = &s->origin,
+                               .assets = &s->assets,
+                               .view = &shot->view,
+                               .origin = session_origin(s, &shot->view),
+                               .is_double = s->scene->trace.precision == IR_PRECISION_DOUBLE,
+                               .limits = &s->options.limits,
+                               .sink = &s->sink};
+    bool good = flatten(&input, &shot->flat);
+    shot->flatten_seconds += clock_seconds() - start;
+    return good;
+}
+
+enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera) {
+    *shot = (struct shot){.session = session, .gpu = gpu};
+    if (!session_view(session, camera, &shot->view)) {
+        diag_add(&session->sink, DIAG_OUT_OF_MEMORY, ir_place_label(&session->origin, &session->scene->head),
+                 "not enough memory for the view");
+        return SHOT_SCENE;
+    }
+    if (!flatten_shot(shot))
+        return SHOT_SCENE;
+    shot->settings = render_settings_of(session->scene, &shot->flat, &session->options.limits);
+    shot->settings.width = (uint32_t)session->image.width;
+    shot->settings.height = (uint32_t)session->image.height;
+    shot->settings.samples = (uint32_t)session->image.samples;
+    double start = clock_seconds();
+    shot->renderer = renderer_create(gpu, &shot->flat, &shot->settings);
+    shot->upload_seconds = clock_seconds() - start;
+    return shot->renderer ? SHOT_OK : SHOT_DEVICE;
+}
+
+void shot_close(struct shot *shot) {
+    if (!shot)
+        return;
+    renderer_destroy(shot->renderer);
+    flat_finish(&shot->flat);
+    shot->renderer = NULL;
+}
+
+enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
+    if (shot->session->scene->lights.count && shot->renderer)
+        return session_view(shot->session, camera, &shot->view) ? SHOT_OK : SHOT_SCENE;
+    struct session *session = shot->session;
+    struct gpu *gpu = shot->gpu;
+    shot_close(shot);
+    return shot_open(shot, session, gpu, camera);
+}
+
+static void report_fault(struct shot *shot, enum render_fault_kind kind, const struct render_fault *fault) {
+    static const char *const words[RENDER_FAULT_KINDS] = {
+        [RENDER_NOT_FINITE] = "got a value that is infinite or not a number",
+        [RENDER_SEGMENTS] = "needed more rays than the limit path-segments",
+        [RENDER_ITERATIONS] = "sent a ray that did not end",
+    };
+    struct session *s = shot->session;
+    where_report_fault(
+        s, &(struct where_fault){.code = kind == RENDER_NOT_FINITE ? DIAG_NOT_FINITE : DIAG_PATH_SEGMENTS,
+                                 .words = words[kind],
+                                 .pixels = fault->pixels,
+                                 .x = fault->x,
+                                 .y = fault->y,
+                                 .body = fault->has_body ? fault->body : HIT_NONE,
+                                 .triangle = fault->triangle});
+    if (kind == RENDER_NOT_FINITE)
+        diag_help(&s->sink,
+                  "they are magenta in PNG and HDR, and NaN in PFM; 'glint pick SCENE %u,%u' tells "
+                  "what happens there",
+                  fault->x, fault->y);
+    if (kind == RENDER_SEGMENTS)
+        diag_help(
+            &s->sink,
+            "lower trace.max_depth, raise trace.min_weight, or raise the limit with --limit path-segments=N");
+}
+
+enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,
+                           struct render_statistics *statistics) {
+    enum render_result result =
+        renderer_render(shot->renderer, &shot->view.camera, image->rgb, progress, statistics);
+    if (result != RENDER_DONE)
+        return result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
+    for (int kind = RENDER_NOT_FINITE; kind < RENDER_FAULT_KINDS; kind++)
+        if (statistics->faults[kind].pixels)
+            report_fault(shot, (enum render_fault_kind)kind, &statistics->faults[kind]);
+    return SHOT_OK;
+}

@@ -73,6 +73,13 @@ const struct cli_command cli_commands[] = {
      "and json. The exit status is 1 where a bound is not kept.\n\n"
      "  glint compare picture.png reference.png --max-share 0.001 --heatmap errors.png\n",
      2, 2, cmd_compare},
+    {"pick", "SCENE X,Y", "tell what is seen at a pixel, and why",
+     "Body, material, the lines of scene and mesh, distance and normal, then the path of the ray: each ray's\n"
+     "weight, what it meets, which lights shine there, what it adds; as the device traces it and as the\n"
+     "reference does in double precision, with the differences. Pixels count from 0,0 at the top left.\n"
+     "--format takes text and json; --device reference needs no device.\n\n"
+     "  glint pick scenes/showcase.glint.yaml 320,200\n",
+     2, 2, cmd_pick},
     {"devices", "", "list the devices that can render", "", 0, 0, cmd_devices},
     {0},
 };

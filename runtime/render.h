@@ -49,7 +49,7 @@ struct render_settings render_settings_of(const struct ir_scene *scene, const st
                                           const struct limits *limits);
 
 enum render_fault_kind {
-    RENDER_NOT_FINITE = 1, // the sample counts as 0
+    RENDER_NOT_FINITE = 1, // a value on the way was infinite or no number; the pixel is NaN
     RENDER_SEGMENTS,       // more rays than path_segments; the rest of the sample is missing
     RENDER_ITERATIONS,     // one ray did not end; the rest of the sample is missing
     RENDER_FAULT_KINDS,
@@ -98,7 +98,7 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
                                  const struct render_settings *settings);
 void renderer_destroy(struct renderer *renderer);
 // Renders a frame into width * height * 3 floats, rows from the top: the mean of the samples, before tone
-// and transfer. `progress` may be NULL.
+// and transfer; NaN in all three where a sample has the fault RENDER_NOT_FINITE. `progress` may be NULL.
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
                                    const struct render_progress *progress,
                                    struct render_statistics *statistics);
@@ -113,6 +113,43 @@ enum render_result renderer_hits(struct renderer *renderer, const struct view_ca
                                  struct hit_pixel *out, const struct render_progress *progress);
 // Rays of the last renderer_hits that did not end; what they would have met is told as nothing.
 uint64_t renderer_hits_unfinished(const struct renderer *renderer);
+
+enum render_ray {
+    RENDER_RAY_CAMERA,
+    RENDER_RAY_REFLECTED,
+    RENDER_RAY_REFRACTED,
+};
+
+// A ray of a sample's path. Numbers are the kernel's own, told in double and scene units.
+struct render_segment {
+    enum render_ray kind;
+    uint32_t parent; // index in the log; UINT32_MAX for the camera's ray
+    uint32_t depth;  // max_depth + 1: not traced, sees what depth_limit says
+    double weight;
+    vec3 origin, direction;         // scene units; unit
+    uint32_t body, triangle;        // as in struct hit_pixel
+    uint32_t material;              // in assets.materials; UINT32_MAX where nothing was hit
+    bool enters;                    // the ray comes from outside the body
+    bool total_reflection;          // the refracted ray was turned back
+    bool unfinished;                // a ray to it or to a light did not end
+    double distance;                // scene units; 0 where nothing was hit
+    vec3 point, geometric, shading; // scene units; unit, towards the ray; 0 where nothing was hit
+    uint32_t considered, lit;       // as in struct hit_pixel
+    vec3 radiance; // direct light of the surface, or the background; times weight it is what the pixel gets
+    double cut_weight; // of the rays that this surface would have sent and that were not followed
+};
+
+struct render_log {
+    struct render_segment *segments; // the caller's, in the order in which the tracer adds them
+    uint32_t capacity, count;
+    bool whole;   // false: `capacity` ended the path
+    float rgb[3]; // of the sample, bit for bit the picture's where it is whole and its only sample
+};
+
+// Follows one sample of one pixel and tells of each ray.
+enum render_result renderer_log(struct renderer *renderer, const struct view_camera *camera, uint32_t x,
+                                uint32_t y, uint32_t sample, struct render_log *log);
+
 // Bytes on the device: scene, and band.
 uint64_t renderer_scene_bytes(const struct renderer *renderer);
 uint64_t renderer_band_bytes(const struct renderer *renderer);

@@ -33,7 +33,7 @@ static bool make(struct renderer *renderer) {
     const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
     if (hits->words && hits->output)
         hits->program =
-            renderer_compile_kernel(renderer, RENDERER_HITS, renderer->features & ~own, hits->output);
+            renderer_compile_kernel(renderer, RENDERER_HITS, renderer->features & ~own, hits->output, NULL);
     if (!hits->program)
         renderer_hits_destroy(renderer);
     return renderer->hits != NULL;
@@ -113,15 +113,15 @@ static uint32_t body_of(const struct renderer *renderer, uint32_t number) {
 
 static struct hit_pixel read_hit(const struct renderer *renderer, const struct gpu_word words[HITS_WORDS]) {
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
-    if (words[1].x == HITS_NOTHING)
+    if (words[1].w == HITS_NOTHING)
         return hit;
-    renderer_number(renderer, words[1].x, &hit.body, &hit.triangle);
-    hit.considered = words[1].y;
-    hit.lit = words[1].z;
-    hit.reflected = body_of(renderer, words[3].x);
-    hit.refracted = body_of(renderer, words[3].y);
-    hit.distance = ldexp(number_of(words[0].x), -renderer->flat->scale_exponent);
-    hit.normal = (vec3){number_of(words[2].x), number_of(words[2].y), number_of(words[2].z)};
+    renderer_number(renderer, words[1].w, &hit.body, &hit.triangle);
+    hit.considered = words[2].x;
+    hit.lit = words[2].y;
+    hit.reflected = body_of(renderer, words[2].z);
+    hit.refracted = body_of(renderer, words[2].w);
+    hit.distance = ldexp(renderer_real(renderer, words[0].x, words[0].y), -renderer->flat->scale_exponent);
+    hit.normal = (vec3){number_of(words[3].x), number_of(words[3].y), number_of(words[3].z)};
     return hit;
 }
 
@@ -148,7 +148,7 @@ static void count_unfinished(struct renderer *renderer, uint32_t tile_begin, uin
         uint32_t x, y;
         renderer_pixel(renderer, tile_begin, slot, &x, &y);
         if (x < renderer->settings.width && y < renderer->settings.height)
-            renderer->hits->unfinished += renderer->hits->words[(size_t)slot * HITS_WORDS + 1].w;
+            renderer->hits->unfinished += renderer->hits->words[(size_t)slot * HITS_WORDS + 3].w;
     }
 }
 

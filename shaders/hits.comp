@@ -6,6 +6,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_spirv_intrinsics : require
 spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
+#ifdef DOUBLE_PRECISION
+spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 64);
+#endif
 
 #include "scene.glsl"
 #include "records.glsl"
@@ -17,58 +20,61 @@ spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [44
 #include "surface.glsl"
 #include "lights.glsl"
 #include "bounce.glsl"
+#include "bits.glsl"
 #include "hits.h"
 
 layout(local_size_x = TILE_PIXELS) in;
 
 struct hits_ray {
-    vec3 origin, direction;
-    float end;
+    REAL3 origin, direction;
+    REAL end;
     bool any;
     bool sent;
 };
 
 hit_record load_hit(uint at) {
     uvec4 a = pixels[at], b = pixels[at + 1u];
-    return hit_record(uintBitsToFloat(a.x), uintBitsToFloat(a.y), uintBitsToFloat(a.z), a.w, b.x);
+    return hit_record(number_of(a.xy), number_of(a.zw), number_of(b.xy), b.z, b.w);
 }
 
-hits_ray mirrored_ray(surface s, vec3 direction) {
-    vec3 bent;
+hits_ray mirrored_ray(surface s, REAL3 direction) {
+    REAL3 bent;
     bool total = s.refraction > 0.0 && !refracted(direction, s, bent);
     return hits_ray(ray_start(s.point, s.error, s.geometric), reflected(direction, s), FAR_AWAY, false,
                     s.reflection > 0.0 || total);
 }
 
-hits_ray refracted_ray(surface s, vec3 direction) {
-    vec3 bent;
+hits_ray refracted_ray(surface s, REAL3 direction) {
+    REAL3 bent;
     bool through = refracted(direction, s, bent);
     return hits_ray(ray_start(s.point, s.error, -s.geometric), bent, FAR_AWAY, false, through && s.refraction > 0.0);
 }
 
-hits_ray shadow_ray(surface s, vec3 direction, uint light) {
-    vec3 start = ray_start(s.point, s.error, s.geometric);
+hits_ray shadow_ray(surface s, REAL3 direction, uint light) {
+    REAL3 start = ray_start(s.point, s.error, s.geometric);
     light_ray shadow = light_at(light, s, start, direction);
     return hits_ray(start, shadow.direction, shadow.t_max, true, shadow.value != vec3(0.0));
 }
 
 void write_first(uint at, hit_record hit, surface s, bool ended) {
     bool nothing = hit.item == NO_ITEM;
-    pixels[at] = uvec4(floatBitsToUint(vec3(hit.t, hit.b1, hit.b2)), hit.item);
-    pixels[at + 1u] = uvec4(nothing ? HITS_NOTHING : hit.number, 0u, 0u, ended ? 0u : 1u);
-    pixels[at + 2u] = nothing ? uvec4(0u) : uvec4(floatBitsToUint(s.shading), 0u);
-    pixels[at + 3u] = uvec4(HITS_NOTHING);
+    pixels[at] = uvec4(bits_of(hit.t), bits_of(hit.b1));
+    pixels[at + 1u] = uvec4(bits_of(hit.b2), hit.item, nothing ? HITS_NOTHING : hit.number);
+    pixels[at + 2u] = uvec4(0u, 0u, HITS_NOTHING, HITS_NOTHING);
+    pixels[at + 3u] = uvec4(nothing ? uvec3(0u) : floatBitsToUint(vec3(s.shading)), ended ? 0u : 1u);
 }
 
 void write_later(uint at, uint kind, hit_record hit, bool ended) {
-    if (kind >= HITS_LIGHTS) {
-        uint bit = 1u << (kind - HITS_LIGHTS);
-        pixels[at + 1u].y |= bit;
-        pixels[at + 1u].z |= hit.item == NO_ITEM ? bit : 0u;
-    } else if (hit.item != NO_ITEM) {
-        pixels[at + 3u][kind - HITS_MIRRORED] = hit.number;
-    }
-    pixels[at + 1u].w += ended ? 0u : 1u;
+    bool nothing = hit.item == NO_ITEM;
+    uvec4 found = pixels[at + 2u];
+    uint bit = kind < HITS_LIGHTS ? 0u : 1u << (kind - HITS_LIGHTS);
+    found.x |= bit;
+    found.y |= nothing ? bit : 0u;
+    found.z = kind == HITS_MIRRORED && !nothing ? hit.number : found.z;
+    found.w = kind == HITS_REFRACTED && !nothing ? hit.number : found.w;
+    pixels[at + 2u] = found;
+    if (!ended)
+        pixels[at + 3u].w++;
 }
 
 void main() {
@@ -78,14 +84,14 @@ void main() {
         return;
     uint kind = dispatch.resume + OPAQUE_ZERO, at = slot * HITS_WORDS;
     bool first = kind == HITS_FIRST;
-    vec3 direction = camera_direction(pixel);
-    hits_ray ray = hits_ray(frame.camera_position, direction, FAR_AWAY, false, true);
+    REAL3 direction = camera_direction(pixel);
+    hits_ray ray = hits_ray(CAMERA(position), direction, FAR_AWAY, false, true);
     surface s;
     if (!first) {
         hit_record before = load_hit(at);
         if (before.item == NO_ITEM)
             return;
-        make_surface(before, frame.camera_position, direction, s);
+        make_surface(before, CAMERA(position), direction, s);
         if (kind == HITS_MIRRORED)
             ray = mirrored_ray(s, direction);
         else if (kind == HITS_REFRACTED)

@@ -3,11 +3,13 @@
 #ifndef GLINT_SHADERS_HITS_H
 #define GLINT_SHADERS_HITS_H
 
-/* Words of a slot in OUTPUT:
-   0: t, b1, b2 of the first ray's hit as bits, its leaf item (HITS_NOTHING: none)
-   1: its number as in FAULT_NUMBER; lights that would add something; those that do; rays that did not end
-   2: shading normal as bits; spare
-   3: numbers of what the mirrored and the refracted ray meet (HITS_NOTHING: not sent, or nothing); spare */
+/* Words of a slot in OUTPUT. A number of the kernel's precision takes two components: a double's halves, the
+   lower first, or a float's bits and 0.
+   0: t, b1 of the first ray's hit
+   1: its b2; leaf item; number as in FAULT_NUMBER (HITS_NOTHING: none)
+   2: lights that would add something; those that do; numbers of what the mirrored and the refracted ray meet
+      (HITS_NOTHING: not sent, or nothing)
+   3: shading normal as bits of floats; rays that did not end */
 #define HITS_WORDS   4
 #define HITS_NOTHING 0xffffffffu
 

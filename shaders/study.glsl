@@ -8,7 +8,6 @@ layout(constant_id = CONSTANT_STUDY_OFFSET) const float STUDY_OFFSET = 0.0;     
 layout(constant_id = CONSTANT_STUDY_DISTANCE) const float STUDY_DISTANCE = 0.0; // of the way that the ray came
 layout(constant_id = CONSTANT_STUDY_CUT) const float STUDY_CUT = 0.0; // flat, squared; 0: glint's own test
 
-const bool STUDY_MOVES = STUDY_OFFSET > 0.0;
-const bool STUDY_CUTS = STUDY_CUT > 0.0;
-
+bool study_moves() { return STUDY_OFFSET > 0.0; }
+bool study_cuts() { return STUDY_CUT > 0.0; }
 float study_offset(float t) { return max(STUDY_OFFSET, STUDY_DISTANCE * t); }

@@ -1,6 +1,7 @@
 // Radiance pictures: three mantissas and a shared exponent a pixel (Ward 1991, "Real Pixels"), each row
 // as four run-length coded planes where its width allows.
 #include "runtime/image/encode_parts.h"
+#include "runtime/image/image.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,13 +14,15 @@ enum {
     LITERAL_MAX = 128,
 };
 
-// Negative values and NaN have no form here; infinity is the greatest that has one.
+// Negative values have no form here; infinity is the greatest that has one.
 static float storable(float c) {
     return c > 0 ? fminf(c, 0x1.fep126f) : 0;
 }
 
 static void put_pixel(const float *rgb, uint8_t rgbe[4]) {
-    float c[3] = {storable(rgb[0]), storable(rgb[1]), storable(rgb[2])};
+    const bool marked = image_is_marked(rgb);
+    float c[3] = {marked ? 1 : storable(rgb[0]), marked ? 0 : storable(rgb[1]),
+                  marked ? 1 : storable(rgb[2])};
     float largest = fmaxf(c[0], fmaxf(c[1], c[2]));
     int exponent;
     frexpf(largest, &exponent);

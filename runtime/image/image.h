@@ -2,7 +2,8 @@
 //
 // image_to_bytes is the one place where tone, transfer and rounding to 8 bits happen (LANGUAGE "Output"):
 // mean -> tone -> transfer -> floor(255 * clamp(c) + 1/2). The float formats hold the mean before them.
-// A channel that is no number becomes black in bytes and in HDR; PFM keeps it.
+// A pixel with a channel that is no number is a fault of the renderer, and marked: magenta in bytes (whatever
+// tone and transfer) and in HDR; PFM keeps it.
 // Ownership: image_finish frees the pixels. Errors: writers set out->failed when memory ends.
 // Thread safety: an image is plain data; writers work on as many threads as there are processors.
 #ifndef GLINT_RUNTIME_IMAGE_IMAGE_H
@@ -10,6 +11,8 @@
 
 #include "core/strbuf.h"
 #include "grammar/ir.h"
+
+#include <math.h>
 
 struct image {
     uint32_t width, height;
@@ -31,6 +34,11 @@ struct image_display {
 // Black; false: no memory. width and height are at least 1.
 bool image_init(struct image *image, uint32_t width, uint32_t height);
 void image_finish(struct image *image);
+
+// Whether a pixel's three channels mark a fault: one of them is no number.
+static inline bool image_is_marked(const float rgb[3]) {
+    return isnan(rgb[0]) || isnan(rgb[1]) || isnan(rgb[2]);
+}
 
 // `bytes` has room for 3 * width * height.
 void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes);

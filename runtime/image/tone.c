@@ -2,6 +2,7 @@
 #include "runtime/image/image.h"
 
 #include <math.h>
+#include <string.h>
 
 enum {
     PIECE_PIXELS = 16384
@@ -71,6 +72,10 @@ static void convert_pixels(void *context, size_t begin, size_t end) {
     const struct conversion *job = context;
     for (size_t i = begin; i < end; i++) {
         const float *c = job->rgb + 3 * i;
+        if (image_is_marked(c)) {
+            memcpy(job->bytes + 3 * i, (uint8_t[3]){255, 0, 255}, 3);
+            continue;
+        }
         float divisor = tone_divisor(c, job->display.tone);
         for (int k = 0; k < 3; k++) {
             // Also where both are infinite: the largest channel is full.

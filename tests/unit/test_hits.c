@@ -60,8 +60,9 @@ static vec3 pixel_direction(double x, double y) {
 
 // The hits of the kit's scene; the caller frees. *unfinished may be NULL where there must be none.
 static struct hit_pixel *take(void **state, struct kit *kit, const struct flat_scene *flat, vec3 position,
-                              uint64_t *unfinished) {
+                              enum render_study study, uint64_t *unfinished) {
     struct render_settings settings = render_settings_of(&kit->scene, flat, &kit->limits);
+    settings.study = study;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     struct gpu *gpu = ((struct fixture *)*state)->gpu;
@@ -222,7 +223,7 @@ static void test_closed_forms(void **state) {
     struct flat_scene flat;
     make_scene(&kit);
     assert_true(kit_flatten(&kit, &flat));
-    struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, NULL);
+    struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, RENDER_STUDY_NONE, NULL);
     int uncertain = 0, seen[BODIES] = {0}, shadows = 0, mirrored = 0, through = 0, nothing = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -273,7 +274,7 @@ static void test_mesh(void **state) {
     model->translation = (vec3){1e3 + 3, -2e3 + 2, 300 - 120};
     model->smooth = true;
     assert_true(kit_flatten(&kit, &flat));
-    struct hit_pixel *hits = take(state, &kit, &flat, kit.origin, NULL);
+    struct hit_pixel *hits = take(state, &kit, &flat, kit.origin, RENDER_STUDY_NONE, NULL);
     int different = 0, met = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -290,6 +291,66 @@ static void test_mesh(void **state) {
     // The directions may differ in their last bit, which decides at edges.
     assert_in_range(different, 0, PIXELS / 500);
     free(hits);
+    flat_finish(&flat);
+    kit_finish(&kit);
+}
+
+// ---- the path of a pixel, told: its rays add up to the picture, bit for bit
+
+static void test_log(void **state) {
+    needs_device(state);
+    enum {
+        SEGMENTS = 512
+    };
+    struct kit kit;
+    struct flat_scene flat;
+    make_scene(&kit);
+    kit.scene.materials.items[GLASS].albedo.reflection = 0.25;
+    kit.scene.trace.max_depth = 5;
+    assert_true(kit_flatten(&kit, &flat));
+    struct render_settings settings = render_settings_of(&kit.scene, &flat, &kit.limits);
+    settings.width = WIDTH;
+    settings.height = HEIGHT;
+    settings.background = (vec3){0.2, 0.7, 0.8};
+    const struct view_camera camera = camera_at((vec3){0, 0, 0});
+    struct renderer *renderer = renderer_create(((struct fixture *)*state)->gpu, &flat, &settings);
+    assert_non_null(renderer);
+    float *rgb = calloc(3 * PIXELS, sizeof *rgb);
+    struct hit_pixel *hits = calloc(PIXELS, sizeof *hits);
+    struct render_segment *segments = calloc(SEGMENTS, sizeof *segments);
+    struct render_statistics statistics;
+    assert_int_equal(renderer_render(renderer, &camera, rgb, NULL, &statistics), RENDER_DONE);
+    assert_int_equal(renderer_hits(renderer, &camera, hits, NULL), RENDER_DONE);
+    uint32_t most = 0, deepest = 0, cut = 0;
+    for (uint32_t y = 0; y < HEIGHT; y += 9)
+        for (uint32_t x = 0; x < WIDTH; x += 7) {
+            struct render_log log = {.segments = segments, .capacity = SEGMENTS};
+            const struct hit_pixel *hit = hits + y * WIDTH + x;
+            assert_int_equal(renderer_log(renderer, &camera, x, y, 0, &log), RENDER_DONE);
+            assert_true(log.whole && log.count >= 1);
+            assert_memory_equal(log.rgb, rgb + 3 * ((size_t)y * WIDTH + x), sizeof log.rgb);
+            assert_int_equal(segments[0].body, hit->body);
+            assert_int_equal(segments[0].triangle, hit->triangle);
+            assert_int_equal(segments[0].considered, hit->considered);
+            assert_int_equal(segments[0].lit, hit->lit);
+            for (uint32_t i = 1; i < log.count; i++) {
+                assert_true(segments[i].parent < i);
+                assert_int_equal(segments[i].depth, segments[segments[i].parent].depth + 1);
+                deepest = segments[i].depth > deepest ? segments[i].depth : deepest;
+                cut += segments[i].cut_weight > 0;
+            }
+            most = log.count > most ? log.count : most;
+        }
+    assert_in_range(most, 8, SEGMENTS);
+    assert_int_equal(deepest, 6);
+    assert_true(cut);
+    struct render_log log = {.segments = segments, .capacity = 2};
+    assert_int_equal(renderer_log(renderer, &camera, WIDTH * 5 / 8, HEIGHT / 2, 0, &log), RENDER_DONE);
+    assert_true(!log.whole && log.count == 2);
+    free(segments);
+    free(hits);
+    free(rgb);
+    renderer_destroy(renderer);
     flat_finish(&flat);
     kit_finish(&kit);
 }
@@ -311,7 +372,7 @@ static void test_unfinished(void **state) {
     kit_model(&kit, kit_mesh(&kit, corners, 3, (const uint32_t(*)[3])faces, LAYERS, false));
     assert_true(kit_flatten(&kit, &flat));
     uint64_t unfinished = 0;
-    struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, &unfinished);
+    struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, RENDER_STUDY_NONE, &unfinished);
     assert_int_equal(unfinished, PIXELS);
     free(hits);
     flat_finish(&flat);
@@ -319,11 +380,97 @@ static void test_unfinished(void **state) {
     free(faces);
 }
 
+// ---- other tracers' ways fail as they are known to, and glint's own does not
+
+struct counts {
+    int met, dark, lit; // pixels with a body; lights that would add and do not; that do
+};
+
+static struct counts count(void **state, struct kit *kit, vec3 position, enum render_study study) {
+    struct flat_scene flat;
+    struct counts counts = {0, 0, 0};
+    assert_true(kit_flatten(kit, &flat));
+    struct hit_pixel *hits = take(state, kit, &flat, position, study, NULL);
+    for (int i = 0; i < PIXELS; i++) {
+        counts.met += hits[i].body != HIT_NONE;
+        counts.dark += hits[i].considered != hits[i].lit;
+        counts.lit += hits[i].lit != 0;
+    }
+    free(hits);
+    flat_finish(&flat);
+    return counts;
+}
+
+static void test_study_small_mesh(void **state) {
+    needs_device(state);
+    struct kit kit;
+    kit_init(&kit);
+    struct ir_model *model = kit_model(&kit, kit_icosphere(&kit, 3, 0));
+    model->scale = (vec3){1e-3, 1e-3, 1e-3};
+    model->translation = (vec3){0, 0, -4e-3};
+    const vec3 eye = {0, 0, 0};
+    const int own = count(state, &kit, eye, RENDER_STUDY_NONE).met;
+    assert_in_range(own, PIXELS / 10, PIXELS / 2);
+    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_FUSED).met, own);
+    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_OFFSET_3).met, own);
+    // Every triangle is smaller than the cut.
+    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_MOELLER).met, 0);
+    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_ORIGINAL).met, 0);
+    model->scale = (vec3){1, 1, 1};
+    model->translation = (vec3){0, 0, -4};
+    assert_in_range(count(state, &kit, eye, RENDER_STUDY_MOELLER).met, own - own / 50, own);
+    kit_finish(&kit);
+}
+
+// A wide sloping plane, lit from above: no point of it lies in shadow.
+static void test_study_self_hits(void **state) {
+    needs_device(state);
+    struct kit kit;
+    kit_init(&kit);
+    struct ir_rectangle *r = kit_rectangle(&kit);
+    r->corner = (vec3){-3001, -1003, 7};
+    r->edge_u = (vec3){6007, 503, 11};
+    r->edge_v = (vec3){-13, 701, -4001};
+    kit_light(&kit, (vec3){100, 5000, 300});
+    const vec3 eye = {0, 0, 0};
+    const struct counts own = count(state, &kit, eye, RENDER_STUDY_NONE);
+    assert_in_range(own.lit, PIXELS / 10, PIXELS);
+    assert_int_equal(own.dark, 0);
+    assert_in_range(count(state, &kit, eye, RENDER_STUDY_OFFSET_7).dark, PIXELS / 100, PIXELS);
+    assert_in_range(count(state, &kit, eye, RENDER_STUDY_OFFSET_DISTANCE).dark, 0, 0);
+    kit_finish(&kit);
+}
+
+// Between two plates that are nearer to each other than a ray's start is moved: no light from above.
+static void test_study_leaks(void **state) {
+    needs_device(state);
+    struct kit kit;
+    kit_init(&kit);
+    for (int plate = 0; plate < 2; plate++) {
+        struct ir_rectangle *r = kit_rectangle(&kit);
+        r->corner = (vec3){-4, plate ? 2.5e-4 : -2.5e-4, 1};
+        r->edge_u = (vec3){8, 0, 0};
+        r->edge_v = (vec3){0, 0, -8};
+    }
+    kit_light(&kit, (vec3){0, 5, -2});
+    const vec3 eye = {0, 0, 0};
+    const struct counts own = count(state, &kit, eye, RENDER_STUDY_NONE);
+    assert_in_range(own.dark, PIXELS / 3, PIXELS);
+    assert_int_equal(own.lit, 0);
+    assert_in_range(count(state, &kit, eye, RENDER_STUDY_OFFSET_3).lit, PIXELS / 3, PIXELS);
+    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_OFFSET_7).lit, 0);
+    kit_finish(&kit);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_closed_forms),
         cmocka_unit_test(test_mesh),
+        cmocka_unit_test(test_log),
         cmocka_unit_test(test_unfinished),
+        cmocka_unit_test(test_study_small_mesh),
+        cmocka_unit_test(test_study_self_hits),
+        cmocka_unit_test(test_study_leaks),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

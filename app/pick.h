@@ -1,0 +1,65 @@
+// What is seen at one pixel, and the path of its ray: as the device's tracer sees it, and as the reference
+// does.
+//
+// Errors: as app/shot.h. Ownership: pick_finish frees the logs; the session must outlive the pick.
+// Thread safety: the gpu's thread.
+#ifndef GLINT_APP_PICK_H
+#define GLINT_APP_PICK_H
+
+#include "app/shot.h"
+#include "core/strbuf.h"
+#include "runtime/reference/reference.h"
+
+enum {
+    PICK_SEGMENTS_MAX = 4096,  // rays of a path that are told
+    PICK_DIFFERENCES_MAX = 16, // that are told
+};
+
+// One tracer's path, in the reference's words. Rays deeper than max_depth are not traced: they see the
+// background.
+struct pick_log {
+    struct reference_segment *segments;
+    uint32_t count;
+    bool whole; // else PICK_SEGMENTS_MAX ended it
+    vec3 color; // of the sample
+};
+
+enum pick_difference_kind {
+    PICK_OTHER_BODY, // or another triangle
+    PICK_OTHER_LIGHTS,
+    PICK_OTHER_DISTANCE, // by more than PICK_DISTANCE_ERROR of it
+    PICK_OTHER_RAYS,     // one sends a ray that the other does not
+};
+#define PICK_DISTANCE_ERROR 1e-4
+
+struct pick_difference {
+    enum pick_difference_kind kind;
+    uint32_t device, reference; // the ray in each log
+};
+
+struct pick {
+    struct session *session;
+    uint32_t x, y;
+    str camera;
+    str device;     // its name; empty: the reference alone
+    bool is_double; // the device's precision
+    uint32_t max_depth;
+    struct pick_log logs[2]; // device, reference
+    struct pick_difference differences[PICK_DIFFERENCES_MAX];
+    uint32_t difference_count; // told or not
+};
+
+enum {
+    PICK_DEVICE,
+    PICK_REFERENCE
+};
+
+// Sample 0 of pixel x, y of the session's picture. `gpu` NULL: the reference alone.
+enum shot_status pick_take(struct pick *pick, struct session *session, struct gpu *gpu, uint32_t camera,
+                           uint32_t x, uint32_t y);
+void pick_finish(struct pick *pick); // NULL and zeroed ones are fine
+
+void pick_text(const struct pick *pick, struct strbuf *out);
+void pick_json(const struct pick *pick, struct strbuf *out);
+
+#endif

@@ -1,0 +1,41 @@
+// From a body and its triangle to words and places: what people call it, where the scene and the mesh have
+// it.
+//
+// Ownership: text points into session and assets. Thread safety: pure reads.
+#ifndef GLINT_APP_WHERE_H
+#define GLINT_APP_WHERE_H
+
+#include "app/session.h"
+#include "core/strbuf.h"
+
+struct where {
+    const char *kind;          // "sphere", "rectangle" or "model": the list of the scene
+    uint32_t index;            // in that list
+    str name;                  // empty: it has none
+    span at;                   // in the scene
+    uint32_t material;         // in assets.materials
+    str material_name;         // empty: inline, or the default
+    const char *material_kind; // "material", "inline material", "default material", "material of the mesh"
+    span material_at;          // in the scene; SPAN_NONE where it is not written there
+    str mesh;                  // path; empty: no mesh
+    uint32_t mesh_line;        // 0: no mesh
+};
+
+// `body` in IR order, `triangle` in file order. false: there is no such body.
+bool where_find(const struct session *session, uint32_t body, uint32_t triangle, struct where *out);
+// "model 'dragon'", "rectangles[2]"; "the background" where `where` is NULL.
+void where_body_words(const struct where *where, struct strbuf *out);
+// "material 'jade'", "the default material".
+void where_material_words(const struct where *where, struct strbuf *out);
+
+// Says in the sink that pixels have a fault, with the body (HIT_NONE: none) that the first one's path met
+// last: its material, and the lines of scene and mesh.
+struct where_fault {
+    enum diag_code code;
+    const char *words; // "got a value that is ..."
+    uint32_t pixels, x, y;
+    uint32_t body, triangle;
+};
+void where_report_fault(struct session *session, const struct where_fault *fault);
+
+#endif

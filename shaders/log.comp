@@ -1,0 +1,137 @@
+// What single rays meet and where they go on, told in full, with the code of the tracer: the host walks one
+// sample's path with it, ray by ray (runtime/render_log.c).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_spirv_intrinsics : require
+spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
+#ifdef DOUBLE_PRECISION
+spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 64);
+#endif
+
+#include "scene.glsl"
+#include "records.glsl"
+#include "math.glsl"
+#include "camera.glsl"
+#include "tree.glsl"
+#include "triangles.glsl"
+#include "spheres.glsl"
+#include "surface.glsl"
+#include "lights.glsl"
+#include "background.glsl"
+#include "bounce.glsl"
+#include "bits.glsl"
+#include "log.h"
+
+layout(local_size_x = TILE_PIXELS) in;
+
+struct log_ray {
+    REAL3 origin, direction;
+};
+
+log_ray load_ray(uint at) {
+    uvec4 a = states[at], b = states[at + 1u], c = states[at + 2u], d = states[at + 3u];
+    return log_ray(REAL3(number_of(a.xy), number_of(a.zw), number_of(b.xy)),
+                   REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)));
+}
+
+void write_camera_ray() {
+    REAL3 o = CAMERA(position), d = camera_direction(uvec2(dispatch.read_list, dispatch.pending_base));
+    states[0] = uvec4(bits_of(o.x), bits_of(o.y));
+    states[1] = uvec4(bits_of(o.z), 0u, 0u);
+    states[2] = uvec4(bits_of(d.x), bits_of(d.y));
+    states[3] = uvec4(bits_of(d.z), 0u, 0u);
+}
+
+hit_record load_hit(uint at) {
+    uvec4 a = pixels[at], b = pixels[at + 1u];
+    return hit_record(number_of(a.xy), number_of(a.zw), number_of(b.xy), b.z, b.w);
+}
+
+void write3(uint at, REAL3 v, uvec2 more) {
+    pixels[at] = uvec4(bits_of(v.x), bits_of(v.y));
+    pixels[at + 1u] = uvec4(bits_of(v.z), more);
+}
+
+uint material_of(hit_record hit) {
+    bool sphere = (hit.item & ITEM_SPHERE) != 0u;
+    uint shade = 0u;
+    if (HAS_TRIANGLES && !sphere)
+        shade = load_triangle(hit.item).shade;
+    if (HAS_SPHERES && sphere)
+        shade = load_sphere(hit.item & ~ITEM_SPHERE).shade;
+    return shade & TRIANGLE_MATERIAL;
+}
+
+// As send_rays of the tracer.
+void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
+    REAL3 bent = ray.direction;
+    bool refracts = s.refraction > 0.0;
+    bool through = refracted(ray.direction, s, bent) && refracts;
+    float reflection = refracts && !through ? s.reflection + s.refraction : s.reflection;
+    uint flags = (s.enters ? LOG_ENTERS : 0u) | (refracts && !through ? LOG_TOTAL : 0u);
+    pixels[at + 2u] = uvec4(0u, 0u, flags, pixels[at + 2u].w);
+    pixels[at + 3u] = uvec4(0u, 0u, 0u, material_of(hit));
+    write3(at + 4u, s.point, uvec2(floatBitsToUint(reflection), floatBitsToUint(through ? s.refraction : 0.0)));
+    write3(at + 6u, s.geometric, uvec2(0u));
+    write3(at + 8u, s.shading, uvec2(0u));
+    write3(at + 10u, ray_start(s.point, s.error, s.geometric), uvec2(0u));
+    write3(at + 12u, reflected(ray.direction, s), uvec2(0u));
+    write3(at + 14u, ray_start(s.point, s.error, -s.geometric), uvec2(0u));
+    write3(at + 16u, bent, uvec2(0u));
+}
+
+bool trace(REAL3 origin, REAL3 direction, bool any, inout hit_record hit) {
+    uint iterations = 0u;
+    if (HAS_SPHERES)
+        trace_spheres(origin, direction, any, hit, iterations);
+    if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM))
+        trace_triangles(origin, direction, any, hit, iterations);
+    return iterations < ITERATION_LIMIT;
+}
+
+void main() {
+    uint index = gl_WorkGroupID.x * TILE_PIXELS + gl_LocalInvocationID.x;
+    uint kind = dispatch.resume + OPAQUE_ZERO, at = index * LOG_WORDS;
+    if (kind == LOG_CAMERA && index == 0u)
+        write_camera_ray();
+    if (kind == LOG_CAMERA || index >= dispatch.tile_count)
+        return;
+    log_ray ray = load_ray(index * LOG_RAY_WORDS);
+    bool lights = kind >= LOG_LIGHTS;
+    hit_record hit = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
+    surface s;
+    light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY);
+    REAL3 origin = ray.origin;
+    if (lights) {
+        hit_record before = load_hit(at);
+        if (before.item == NO_ITEM)
+            return;
+        make_surface(before, ray.origin, ray.direction, s);
+        origin = ray_start(s.point, s.error, s.geometric);
+        shadow = light_at(kind - LOG_LIGHTS, s, origin, ray.direction);
+        hit.t = shadow.t_max;
+        if (shadow.value == vec3(0.0))
+            return;
+    }
+    bool ended = true, blind = states[index * LOG_RAY_WORDS + 1u].z == LOG_BLIND;
+    if (lights ? (HAS_SHADOWS && wants(FEATURE_SHADOWS)) : !blind)
+        ended = trace(origin, shadow.direction, lights, hit);
+    bool nothing = hit.item == NO_ITEM;
+    if (lights) {
+        uvec4 found = pixels[at + 2u], sum = pixels[at + 3u];
+        uint light = kind - LOG_LIGHTS, bit = light < 32u ? 1u << light : 0u;
+        pixels[at + 2u] = uvec4(found.x | bit, nothing ? found.y | bit : found.y, found.z, found.w + (ended ? 0u : 1u));
+        if (nothing)
+            pixels[at + 3u].xyz = floatBitsToUint(uintBitsToFloat(sum.xyz) + shadow.value);
+        return;
+    }
+    pixels[at] = uvec4(bits_of(hit.t), bits_of(hit.b1));
+    pixels[at + 1u] = uvec4(bits_of(hit.b2), hit.item, hit.number);
+    pixels[at + 2u] = uvec4(0u, 0u, 0u, ended ? 0u : 1u);
+    if (nothing) {
+        pixels[at + 3u] = uvec4(floatBitsToUint(background(vec3(ray.direction))), LOG_NOTHING);
+    } else {
+        make_surface(hit, ray.origin, ray.direction, s);
+        write_surface(at, ray, hit, s);
+    }
+}

@@ -1,0 +1,30 @@
+/* What log.comp reads and writes for each ray that it is given; compiled by C and by GLSL. Numbers of the
+   kernel's precision take two components (bits.glsl), three of them two words with two components to spare. */
+#ifndef GLINT_SHADERS_LOG_H
+#define GLINT_SHADERS_LOG_H
+
+/* STATE, a ray: its origin, LOG_BLIND or 0, one spare; its direction, unit, two spare. */
+#define LOG_RAY_WORDS 4
+#define LOG_BLIND     1u /* it is not traced, and sees the background */
+
+/* OUTPUT, a ray:
+   0: t, b1 of its hit
+   1: its b2; leaf item (LOG_NOTHING: none); number as in FAULT_NUMBER
+   2: lights below 32 that would add something; those that do; LOG_ flags; rays that did not end
+   3: sum over the lights, or the background, as bits of floats; material
+   4: point; weights of the mirrored and of the refracted ray as bits of floats
+   6: geometric normal   8: shading normal
+   10: origin of the mirrored ray    12: its direction
+   14: origin of the refracted ray   16: its direction */
+#define LOG_WORDS     18
+#define LOG_NOTHING   0xffffffffu
+#define LOG_ENTERS    1u
+#define LOG_TOTAL     2u /* the material refracts, and the ray is turned back: its weight is the mirrored one's */
+
+/* dispatch.resume: make the camera's ray of pixel (read_list, pending_base) the first ray; follow the rays and
+   make their surfaces; send the shadow ray to light i. tile_count is the number of rays. */
+#define LOG_CAMERA 0
+#define LOG_FOLLOW 1
+#define LOG_LIGHTS 2
+
+#endif
