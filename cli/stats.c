@@ -42,6 +42,8 @@ void stats_text(const struct stats *s, struct strbuf *out) {
     count(out, "shadow", r->shadow);
     count(out, "total reflection", r->total_reflections);
     strbuf_format(out, "  deepest level    %10u\n", r->deepest);
+    count(out, "nodes tested", r->nodes);
+    count(out, "items tested", r->items);
     strbuf_cstr(out, "dropped\n");
     count(out, "by max_depth", r->cut_by_depth);
     count(out, "by min_weight", r->cut_by_weight);
@@ -94,6 +96,8 @@ static json_t *rays_object(const struct render_rays *r) {
     set_integer(rays, "shadow", r->shadow);
     set_integer(rays, "total_reflections", r->total_reflections);
     set_integer(rays, "deepest", r->deepest);
+    set_integer(rays, "nodes_tested", r->nodes);
+    set_integer(rays, "items_tested", r->items);
     set_integer(rays, "cut_by_depth", r->cut_by_depth);
     set_integer(rays, "cut_by_weight", r->cut_by_weight);
     set_real(rays, "largest_lost_by_depth", r->lost_by_depth);

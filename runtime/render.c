@@ -135,6 +135,39 @@ static bool make_band(struct renderer *renderer) {
            upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block));
 }
 
+// What depends on the settings: the band's buffers and the kernel.
+static bool make_frame(struct renderer *renderer) {
+    plan(renderer);
+    if (make_band(renderer))
+        renderer->program = renderer_compile_kernel(renderer, RENDERER_TRACE, renderer->features, NULL, NULL);
+    return renderer->program != NULL;
+}
+
+static void drop_frame(struct renderer *renderer) {
+    static const int bindings[] = {BINDING_OUTPUT, BINDING_STATE, BINDING_COUNTERS, BINDING_FRAME};
+    renderer_hits_destroy(renderer);
+    renderer_log_destroy(renderer);
+    gpu_program_destroy(renderer->gpu, renderer->counting);
+    gpu_program_destroy(renderer->gpu, renderer->program);
+    renderer->counting = renderer->program = NULL;
+    for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++) {
+        gpu_buffer_destroy(renderer->gpu, renderer->buffers[bindings[i]]);
+        renderer->buffers[bindings[i]] = NULL;
+    }
+    free(renderer->band);
+    renderer->band = NULL;
+    renderer->pending = 0;
+}
+
+bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
+                     const struct render_settings *settings) {
+    drop_frame(renderer);
+    renderer->flat = flat;
+    renderer->settings = *settings;
+    renderer->path_stack = 0;
+    return make_frame(renderer);
+}
+
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
                                  const struct render_settings *settings) {
     struct renderer *renderer = calloc(1, sizeof *renderer);
@@ -143,10 +176,7 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
     renderer->gpu = gpu;
     renderer->flat = flat;
     renderer->settings = *settings;
-    plan(renderer);
-    if (upload_scene(renderer) && make_band(renderer))
-        renderer->program = renderer_compile_kernel(renderer, RENDERER_TRACE, renderer->features, NULL, NULL);
-    if (renderer->program)
+    if (upload_scene(renderer) && make_frame(renderer))
         return renderer;
     renderer_destroy(renderer);
     return NULL;
@@ -155,13 +185,9 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
 void renderer_destroy(struct renderer *renderer) {
     if (!renderer)
         return;
-    renderer_hits_destroy(renderer);
-    renderer_log_destroy(renderer);
-    gpu_program_destroy(renderer->gpu, renderer->counting);
-    gpu_program_destroy(renderer->gpu, renderer->program);
+    drop_frame(renderer);
     for (int i = 0; i < GPU_BINDINGS; i++)
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[i]);
-    free(renderer->band);
     free(renderer);
 }
 

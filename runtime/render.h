@@ -67,6 +67,7 @@ struct render_rays {
     uint64_t primary, reflected, refracted, shadow;
     uint64_t cut_by_depth, cut_by_weight; // not sent
     uint64_t total_reflections;
+    uint64_t nodes, items; // of the trees that were tested; items are triangles and spheres
     uint32_t deepest;      // level of a ray that was traced; the camera's is 0
     double lost_by_depth;  // largest weight of a ray cut at max_depth
     double lost_by_weight; // and below min_weight
@@ -97,6 +98,11 @@ struct renderer;
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
                                  const struct render_settings *settings);
 void renderer_destroy(struct renderer *renderer);
+// Other settings, or other features of the flat scene, for what lies on the device already: `flat` is the
+// renderer's own or a copy of it. Compiles anew where that is needed. false: see gpu_error; then the renderer
+// is of no use but to be destroyed.
+bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
+                     const struct render_settings *settings);
 // Renders a frame into width * height * 3 floats, rows from the top: the mean of the samples, before tone
 // and transfer; NaN in all three where a sample has the fault RENDER_NOT_FINITE. `progress` may be NULL.
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,

@@ -272,6 +272,10 @@ static double float_of(uint32_t bits) {
     return value;
 }
 
+static uint64_t wide(const uint32_t words[2]) {
+    return (uint64_t)words[1] << 32 | words[0];
+}
+
 enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
                                   const struct render_progress *progress, struct render_rays *rays) {
     struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
@@ -294,6 +298,8 @@ enum render_result renderer_count(struct renderer *renderer, const struct view_c
                                  .cut_by_depth = values[COUNTER_CUT_DEPTH],
                                  .cut_by_weight = values[COUNTER_CUT_WEIGHT],
                                  .total_reflections = values[COUNTER_TOTAL_REFLECT],
+                                 .nodes = wide(values + COUNTER_NODES),
+                                 .items = wide(values + COUNTER_ITEMS),
                                  .deepest = values[COUNTER_DEEPEST],
                                  .lost_by_depth = float_of(values[COUNTER_LOST_DEPTH]),
                                  .lost_by_weight = float_of(values[COUNTER_LOST_WEIGHT])};

@@ -91,6 +91,8 @@
 #define COUNTER_LOST_DEPTH    8  /* largest weight cut at max_depth, as bits of a float */
 #define COUNTER_LOST_WEIGHT   9  /* largest weight cut below min_weight, as bits of a float */
 #define COUNTER_TOTAL_REFLECT 10 /* total reflections */
+#define COUNTER_NODES         11 /* nodes of both trees tested, and the word above it */
+#define COUNTER_ITEMS         13 /* triangles and spheres tested, and the word above it */
 #define COUNTER_COUNT         16
 
 /* lavapipe stops all loops of a vector of 8 invocations, silently, after 65535 iterations in sum over the

@@ -43,6 +43,8 @@ void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit
     bool more = true;
     do {
         iterations += 2u; // this loop, and the inner one where no lane enters it
+        if (HAS_COUNTERS)
+            counted_nodes++;
         node_record node = load_sphere_node(next_node(group, ray.flip));
         uint hits = node_hits(node, ray, hit.t);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
@@ -50,6 +52,8 @@ void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit
         uint items = hits & 0x00ffffffu;
         while (items != 0u && iterations < ITERATION_LIMIT) {
             iterations++;
+            if (HAS_COUNTERS)
+                counted_items++;
             uint bit = items & (0u - items);
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.

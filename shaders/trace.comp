@@ -47,6 +47,13 @@ void count(uint counter, bool yes) {
         atomicAdd(counters[counter], 1u);
 }
 
+// A sum of two words.
+void count_many(uint counter, uint amount) {
+    uint before = atomicAdd(counters[counter], amount);
+    if (before + amount < before)
+        atomicAdd(counters[counter + 1u], 1u);
+}
+
 void count_ray(path_state p, bool own) {
     count(own ? COUNTER_PRIMARY + p.kind : COUNTER_SHADOW, true);
     if (HAS_COUNTERS && own)
@@ -234,6 +241,10 @@ void main() {
         p = begin_path(camera_direction(pixel));
     uint fault = FAULT_NONE;
     uint state = follow(slot, p, fault);
+    if (HAS_COUNTERS) {
+        count_many(COUNTER_NODES, counted_nodes);
+        count_many(COUNTER_ITEMS, counted_items);
+    }
     if (HAS_SLICES && state == SUSPENDED)
         save_path(slot, p);
     else

@@ -110,6 +110,8 @@ void trace_triangles(REAL3 origin, REAL3 direction, bool any, inout hit_record h
     bool more = true;
     do {
         iterations += 2u; // this loop, and the inner one where no lane enters it
+        if (HAS_COUNTERS)
+            counted_nodes++;
         node_record node = load_triangle_node(next_node(group, ray.flip));
         uint hits = node_hits(node, ray, hit.t);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
@@ -117,6 +119,8 @@ void trace_triangles(REAL3 origin, REAL3 direction, bool any, inout hit_record h
         uint items = hits & 0x00ffffffu;
         while (items != 0u && iterations < ITERATION_LIMIT) {
             iterations++;
+            if (HAS_COUNTERS)
+                counted_items++;
             uint bit = items & (0u - items);
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
