@@ -170,6 +170,8 @@ static bool check_keyword(const json_t *root, const char *keyword, const json_t 
         return check_type(operand, value);
     if (strcmp(keyword, "enum") == 0)
         return check_enum(operand, value);
+    if (strcmp(keyword, "const") == 0)
+        return json_equal((json_t *)operand, (json_t *)value);
     if (strcmp(keyword, "anyOf") == 0)
         return count_accepting(root, operand, value) > 0;
     if (strcmp(keyword, "oneOf") == 0)
