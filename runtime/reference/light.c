@@ -2,6 +2,8 @@
 #include "runtime/reference/parts.h"
 
 #define PI 3.14159265358979323846
+// Less than the smallest normal float adds nothing that a picture could hold: tails of highlights.
+#define LEAST_LIGHT 0x1p-126
 
 // ---- lights
 
@@ -46,7 +48,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
     for (uint32_t i = 0; i < view->light_count; i++) {
         const struct view_light *light = &view->lights[i];
         vec3 value = unshadowed(r, light, s, direction);
-        if (vec3_is_zero(value))
+        if (vec3_max_abs(value) < LEAST_LIGHT)
             continue;
         uint32_t bit = i < 32 ? UINT32_C(1) << i : 0;
         out->considered |= bit;

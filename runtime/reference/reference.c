@@ -189,8 +189,7 @@ static void draw_pixel(const struct work *w, uint32_t x, uint32_t y, struct queu
         vec3 direction = reference_camera_ray(w->r, settings, x, y, n);
         reference_follow(w->r, settings, direction, queue, NULL, &sample);
         bool bad = !is_finite(sample.radiance);
-        if (!bad)
-            sum = vec3_add(sum, sample.radiance);
+        sum = bad ? (vec3){NAN, NAN, NAN} : vec3_add(sum, sample.radiance);
         if ((bad || sample.over_segments) && !not_finite && !over_segments)
             first_bad = sample;
         not_finite |= bad;

@@ -70,7 +70,7 @@ struct reference_statistics {
     double left_weight_most, left_weight_mean;
     double brightest; // of anything in view: background, direct light of a surface, pixel; one channel
     double bound;     // left_weight_most * brightest: what following all rays could add to a pixel
-    struct reference_fault not_finite;    // the sample counts as 0
+    struct reference_fault not_finite;    // the pixel is NaN
     struct reference_fault over_segments; // as_file: part of the pixel's light is missing
     double seconds;
 };
@@ -94,7 +94,8 @@ struct reference *reference_create(const struct reference_input *input);
 void reference_destroy(struct reference *reference); // NULL does nothing
 double reference_build_seconds(const struct reference *reference);
 
-// width * height * 3 linear values, rows from the top: the mean of the samples, before tone and transfer.
+// width * height * 3 linear values, rows from the top: the mean of the samples, before tone and transfer; NaN
+// in all three where a sample is not finite.
 // `progress` and `statistics` may be NULL.
 enum reference_result reference_render(const struct reference *reference,
                                        const struct reference_settings *settings, double *rgb,

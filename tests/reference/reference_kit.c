@@ -1,0 +1,74 @@
+#include "reference_kit.h"
+
+#include "grammar/schema.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+void reference_kit_camera(struct kit *kit, vec3 position) {
+    kit->view.camera = (struct view_camera){
+        .position = position, .right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1}, .tan_half_fov = 1};
+}
+
+struct reference *reference_kit_make(struct kit *kit, enum reference_test test, bool no_tree) {
+    uint32_t count = kit->scene.materials.count;
+    memcpy(kit->assets.materials, kit->scene.materials.items, count * sizeof *kit->assets.materials);
+    schema_init(&SCHEMA_MATERIAL, &kit->assets.materials[count]);
+    kit->assets.material_count = count + 1;
+    for (uint32_t i = 0; i < kit->scene.models.count; i++)
+        if (kit->scene.models.items[i].material.index == IR_NO_INDEX)
+            kit->assets.models[i].group_material[0] = count;
+    struct reference_input input = {
+        .scene = &kit->scene, .assets = &kit->assets, .view = &kit->view, .test = test, .no_tree = no_tree};
+    struct reference *reference = reference_create(&input);
+    assert_non_null(reference);
+    return reference;
+}
+
+// SplitMix64 (Steele, Lea, Flood 2014).
+static uint64_t next_bits(struct random *random) {
+    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+}
+
+double random_unit(struct random *random) {
+    return (double)(next_bits(random) >> 11) * 0x1p-53;
+}
+
+uint32_t random_below(struct random *random, uint32_t end) {
+    return (uint32_t)(random_unit(random) * end);
+}
+
+vec3 random_direction(struct random *random) {
+    double z = 2 * random_unit(random) - 1;
+    double angle = 6.283185307179586 * random_unit(random);
+    double r = sqrt(1 - z * z);
+    return (vec3){r * cos(angle), r * sin(angle), z};
+}
+
+vec3 random_in_cube(struct random *random) {
+    double x = 2 * random_unit(random) - 1;
+    double y = 2 * random_unit(random) - 1;
+    return (vec3){x, y, 2 * random_unit(random) - 1};
+}
+
+struct mesh *reference_kit_soup(struct kit *kit, uint32_t triangles, uint64_t seed) {
+    struct random random = {seed};
+    vec3 *positions = ARENA_ARRAY(&kit->arena, vec3, 3 * triangles);
+    uint32_t(*faces)[3] = arena_alloc_array(&kit->arena, triangles, sizeof *faces);
+    for (uint32_t i = 0; i < triangles; i++) {
+        vec3 center = random_in_cube(&random);
+        double size = exp2(-8 * random_unit(&random));
+        for (uint32_t k = 0; k < 3; k++) {
+            positions[3 * i + k] = vec3_add(center, vec3_mul(random_direction(&random), size));
+            faces[i][k] = 3 * i + k;
+        }
+    }
+    return kit_mesh(kit, positions, 3 * triangles, (const uint32_t(*)[3])faces, triangles, false);
+}

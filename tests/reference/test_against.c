@@ -1,0 +1,195 @@
+// The device's tracer against the reference, which obeys the file: first hits and pictures of whole scenes.
+//
+// Usage: test_against [WxH] SCENE... ; scenes whose meshes are not here are skipped by name.
+#include "tests/pictures/picture_kit.h"
+
+#include "app/exact.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// What must hold.
+#define WRONG_HITS_PER_MILLION 20.0
+#define FAR_PIXELS_SHARE       0.001
+
+struct pair {
+    uint32_t width, height;
+    struct image device, reference;
+    struct hit_pixel *device_hits, *reference_hits;
+};
+
+struct verdict {
+    uint32_t outside, wrong_hits, wrong_outside; // outside: of the silhouette band
+    uint32_t wrong_lights, wrong_bounces;        // outside the band, where both see the same
+    uint32_t far_pixels, not_finite;
+    double worst;
+    uint32_t x, y; // the first wrong hit outside
+};
+
+static bool same_hit(const struct hit_pixel *a, const struct hit_pixel *b) {
+    return a->body == b->body && a->triangle == b->triangle;
+}
+
+// Whether the pixel or one of its neighbours sees another body than the pixel does.
+static bool in_band(const struct pair *p, uint32_t x, uint32_t y) {
+    uint32_t body = p->reference_hits[(size_t)y * p->width + x].body;
+    for (uint32_t j = y ? y - 1 : 0; j <= y + 1 && j < p->height; j++)
+        for (uint32_t i = x ? x - 1 : 0; i <= x + 1 && i < p->width; i++)
+            if (p->reference_hits[(size_t)j * p->width + i].body != body)
+                return true;
+    return false;
+}
+
+static void compare_hits(const struct pair *p, struct verdict *v) {
+    for (uint32_t y = 0; y < p->height; y++)
+        for (uint32_t x = 0; x < p->width; x++) {
+            const struct hit_pixel *a = &p->device_hits[(size_t)y * p->width + x];
+            const struct hit_pixel *b = &p->reference_hits[(size_t)y * p->width + x];
+            bool same = same_hit(a, b);
+            v->wrong_hits += !same;
+            if (in_band(p, x, y))
+                continue;
+            v->outside++;
+            if (!same && v->wrong_outside++ == 0) {
+                v->x = x;
+                v->y = y;
+            }
+            // A highlight's tail may be nothing in single precision.
+            uint32_t both = a->considered & b->considered;
+            v->wrong_lights += same && ((a->lit ^ b->lit) & both) != 0;
+            v->wrong_bounces += same && (a->reflected != b->reflected || a->refracted != b->refracted);
+        }
+}
+
+// As displayed: bytes that differ by one step are within 1/255.
+static bool compare_pictures(const struct pair *p, struct image_display display, struct verdict *v) {
+    size_t count = (size_t)p->width * p->height;
+    uint8_t *a = malloc(6 * count);
+    if (!a)
+        return false;
+    uint8_t *b = a + 3 * count;
+    image_to_bytes(&p->device, display, a);
+    image_to_bytes(&p->reference, display, b);
+    for (size_t i = 0; i < count; i++) {
+        bool is_far = false;
+        bool finite = true;
+        for (size_t c = 3 * i; c < 3 * i + 3; c++) {
+            is_far |= abs(a[c] - b[c]) > 1;
+            finite &= isfinite(p->device.rgb[c]) && isfinite(p->reference.rgb[c]);
+            v->worst = fmax(v->worst, abs(a[c] - b[c]) / 255.0);
+        }
+        v->far_pixels += is_far;
+        if (is_far && getenv("DBG"))
+            printf("far %zu,%zu body %d diff %d %d %d\n", i % p->width, i / p->width,
+                   (int)p->reference_hits[i].body, a[3 * i] - b[3 * i], a[3 * i + 1] - b[3 * i + 1],
+                   a[3 * i + 2] - b[3 * i + 2]);
+        v->not_finite += !finite;
+    }
+    free(a);
+    return true;
+}
+
+static bool judge(const struct pair *p, const char *path, struct image_display display) {
+    struct verdict v = {0};
+    if (!compare_pictures(p, display, &v))
+        return false;
+    compare_hits(p, &v);
+    double count = (double)p->width * p->height;
+    double per_million = v.outside ? 1e6 * v.wrong_outside / v.outside : 0;
+    bool good = v.not_finite == 0 && v.far_pixels <= FAR_PIXELS_SHARE * count &&
+                per_million <= WRONG_HITS_PER_MILLION;
+    printf(
+        "%s %s %ux%u: other hits %u, outside silhouettes %u of %u (%.1f a million); other lights %u, other "
+        "bounces %u; pixels off by more than 1/255: %u (%.4f %%), largest %.3f\n",
+        good ? "ok  " : "FAIL", path, p->width, p->height, v.wrong_hits, v.wrong_outside, v.outside,
+        per_million, v.wrong_lights, v.wrong_bounces, v.far_pixels, 100 * v.far_pixels / count, v.worst);
+    if (v.wrong_outside) {
+        const struct hit_pixel *a = &p->device_hits[(size_t)v.y * p->width + v.x];
+        const struct hit_pixel *b = &p->reference_hits[(size_t)v.y * p->width + v.x];
+        printf("     at %u,%u body %d triangle %u at %.9g, the reference body %d triangle %u at %.9g\n", v.x,
+               v.y, (int)a->body, a->triangle, a->distance, (int)b->body, b->triangle, b->distance);
+    }
+    return good;
+}
+
+static bool take_device(struct picture_kit *kit, struct session *session, struct pair *p) {
+    struct shot shot;
+    struct render_statistics statistics;
+    bool good = shot_open(&shot, session, kit->gpu, 0) == SHOT_OK &&
+                shot_take(&shot, &p->device, NULL, &statistics) == SHOT_OK &&
+                renderer_hits(shot.renderer, &shot.view.camera, p->device_hits, NULL) == RENDER_DONE;
+    shot_close(&shot);
+    return good;
+}
+
+static bool take_reference(struct session *session, struct pair *p) {
+    struct exact exact;
+    struct reference_statistics statistics;
+    bool good =
+        exact_open(&exact, session, 0, (struct exact_options){.as_file = true, .no_cache = true}) ==
+            SHOT_OK &&
+        exact_take(&exact, &p->reference, NULL, NULL, &statistics) == SHOT_OK &&
+        reference_source_hits(&exact.source, &exact.settings, p->reference_hits, NULL) == REFERENCE_DONE;
+    exact_close(&exact);
+    return good;
+}
+
+static bool check_session(struct picture_kit *kit, struct session *session) {
+    struct pair p = {.width = (uint32_t)session->image.width, .height = (uint32_t)session->image.height};
+    size_t count = (size_t)p.width * p.height;
+    p.device_hits = calloc(count, sizeof *p.device_hits);
+    p.reference_hits = calloc(count, sizeof *p.reference_hits);
+    bool good = p.device_hits && p.reference_hits && image_init(&p.device, p.width, p.height) &&
+                image_init(&p.reference, p.width, p.height) && take_device(kit, session, &p) &&
+                take_reference(session, &p) && session->sink.errors == 0;
+    struct image_display display = {session->image.tone, session->image.transfer};
+    if (!good)
+        fprintf(stderr, "%.*s: %s\n", STR_ARG(session->options.path), gpu_error(kit->gpu));
+    else
+        good = judge(&p, session->options.path.ptr, display);
+    image_finish(&p.device);
+    image_finish(&p.reference);
+    free(p.device_hits);
+    free(p.reference_hits);
+    return good;
+}
+
+static bool check_scene(struct picture_kit *kit, const char *path, int32_t width, int32_t height) {
+    struct session session;
+    const char *seed = picture_seed_folder();
+    str asset_path = str_from(seed);
+    bool needs_seed = strstr(path, "original") || strstr(path, "halfmirror");
+    struct session_options options = {.path = str_from(path),
+                                      .asset_paths = &asset_path,
+                                      .asset_path_count = needs_seed && seed ? 1 : 0,
+                                      .limits = limits_default(),
+                                      .width = width,
+                                      .height = height};
+    if (needs_seed && !seed) {
+        printf("skip %s: its meshes are not here\n", path);
+        return true;
+    }
+    session_load(&session, &options, kit->store);
+    bool good = session.state == SESSION_LOADED && session.sink.errors == 0 && check_session(kit, &session);
+    if (!good)
+        fprintf(stderr, "FAIL %s\n", path);
+    session_finish(&session);
+    return good;
+}
+
+int main(int argc, char **argv) {
+    struct picture_kit kit;
+    int width = 0;
+    int height = 0;
+    int failed = 0;
+    int first = argc > 1 && sscanf(argv[1], "%dx%d", &width, &height) == 2 ? 2 : 1;
+    if (!picture_kit_open(&kit))
+        return 77;
+    for (int i = first; i < argc; i++)
+        failed += !check_scene(&kit, argv[i], width, height);
+    uint32_t messages = picture_kit_close(&kit);
+    if (messages)
+        fprintf(stderr, "%u validation messages\n", messages);
+    return failed || messages || argc <= first;
+}
