@@ -14,27 +14,27 @@ static void issue(struct json_writer *w, const struct report_item *item) {
     struct strbuf text;
     strbuf_init(&text);
     json_open_object(w, NULL);
-    json_text(w, "type", STR("issue"));
-    json_text(w, "check_name", str_from(diag_info(f->code)->code));
+    json_write_text(w, "type", STR("issue"));
+    json_write_text(w, "check_name", str_from(diag_info(f->code)->code));
     report_message(&text, f);
-    json_text(w, "description", strbuf_view(&text));
+    json_write_text(w, "description", strbuf_view(&text));
     if (f->help.len) {
         json_open_object(w, "content");
-        json_text(w, "body", f->help);
+        json_write_text(w, "body", f->help);
         json_close_object(w);
     }
     json_open_list(w, "categories");
-    json_text(w, NULL, STR("Bug Risk"));
+    json_write_text(w, NULL, STR("Bug Risk"));
     json_close_list(w);
-    json_text(w, "severity", str_from(severities[f->severity]));
+    json_write_text(w, "severity", str_from(severities[f->severity]));
     strbuf_clear(&text);
     strbuf_format(&text, "%016llx%08x", (unsigned long long)item->fingerprint, item->occurrence);
-    json_text(w, "fingerprint", strbuf_view(&text));
+    json_write_text(w, "fingerprint", strbuf_view(&text));
     json_open_object(w, "location");
-    json_text(w, "path", f->at.path);
+    json_write_text(w, "path", f->at.path);
     json_open_object(w, "lines");
-    json_integer(w, "begin", f->at.line);
-    json_integer(w, "end", f->at.end_line);
+    json_write_integer(w, "begin", f->at.line);
+    json_write_integer(w, "end", f->at.end_line);
     json_close_object(w);
     json_close_object(w);
     json_close_object(w);

@@ -35,9 +35,9 @@ static void artifact(struct json_writer *w, str path) {
     strbuf_init(&uri);
     put_uri(&uri, path);
     json_open_object(w, "artifactLocation");
-    json_text(w, "uri", strbuf_view(&uri));
+    json_write_text(w, "uri", strbuf_view(&uri));
     if (path.len && path.ptr[0] != '/')
-        json_text(w, "uriBaseId", STR("%SRCROOT%"));
+        json_write_text(w, "uriBaseId", STR("%SRCROOT%"));
     json_close_object(w);
     w->out->failed = w->out->failed || uri.failed;
     strbuf_finish(&uri);
@@ -45,10 +45,10 @@ static void artifact(struct json_writer *w, str path) {
 
 static void region(struct json_writer *w, const char *key, const struct report_place *at) {
     json_open_object(w, key);
-    json_integer(w, "startLine", at->line);
-    json_integer(w, "startColumn", at->column);
-    json_integer(w, "endLine", at->end_line);
-    json_integer(w, "endColumn", at->end_column);
+    json_write_integer(w, "startLine", at->line);
+    json_write_integer(w, "startColumn", at->column);
+    json_write_integer(w, "endLine", at->end_line);
+    json_write_integer(w, "endColumn", at->end_column);
     json_close_object(w);
 }
 
@@ -61,7 +61,7 @@ static void physical(struct json_writer *w, const struct report_place *at) {
 
 static void text_object(struct json_writer *w, const char *key, str text) {
     json_open_object(w, key);
-    json_text(w, "text", text);
+    json_write_text(w, "text", text);
     json_close_object(w);
 }
 
@@ -101,7 +101,7 @@ static void related(struct json_writer *w, const struct report_finding *f) {
         if (!f->notes[i].at.path.len)
             continue;
         json_open_object(w, NULL);
-        json_integer(w, "id", i + 1);
+        json_write_integer(w, "id", i + 1);
         physical(w, &f->notes[i].at);
         text_object(w, "message", f->notes[i].message);
         json_close_object(w);
@@ -136,7 +136,7 @@ static void fingerprint(struct json_writer *w, const struct report_item *item) {
     strbuf_init(&text);
     strbuf_format(&text, "%016llx:%u", (unsigned long long)item->fingerprint, item->occurrence);
     json_open_object(w, "partialFingerprints");
-    json_text(w, "primaryLocationLineHash", strbuf_view(&text));
+    json_write_text(w, "primaryLocationLineHash", strbuf_view(&text));
     json_close_object(w);
     strbuf_finish(&text);
 }
@@ -144,9 +144,9 @@ static void fingerprint(struct json_writer *w, const struct report_item *item) {
 static void result(struct json_writer *w, const struct report_item *item, uint32_t rule_index) {
     const struct report_finding *f = item->finding;
     json_open_object(w, NULL);
-    json_text(w, "ruleId", str_from(diag_info(f->code)->code));
-    json_integer(w, "ruleIndex", rule_index);
-    json_text(w, "level", str_from(report_severity(f)));
+    json_write_text(w, "ruleId", str_from(diag_info(f->code)->code));
+    json_write_integer(w, "ruleIndex", rule_index);
+    json_write_text(w, "level", str_from(report_severity(f)));
     message(w, f);
     json_open_list(w, "locations");
     json_open_object(w, NULL);
@@ -154,7 +154,7 @@ static void result(struct json_writer *w, const struct report_item *item, uint32
     if (f->scene_path.len) {
         json_open_list(w, "logicalLocations");
         json_open_object(w, NULL);
-        json_text(w, "fullyQualifiedName", f->scene_path);
+        json_write_text(w, "fullyQualifiedName", f->scene_path);
         json_close_object(w);
         json_close_list(w);
     }
@@ -184,8 +184,8 @@ static void rule(struct json_writer *w, const struct diag_info *info) {
     strbuf_init(&text);
     put_rule_name(&text, info->name);
     json_open_object(w, NULL);
-    json_text(w, "id", str_from(info->code));
-    json_text(w, "name", strbuf_view(&text));
+    json_write_text(w, "id", str_from(info->code));
+    json_write_text(w, "name", strbuf_view(&text));
     strbuf_clear(&text);
     put_sentence(&text, str_from(info->title));
     if (text.len && text.data[0] >= 'a' && text.data[0] <= 'z')
@@ -195,18 +195,18 @@ static void rule(struct json_writer *w, const struct diag_info *info) {
     strbuf_clear(&text);
     strbuf_format(&text, "%s\n\n%s", info->meaning, info->remedy);
     json_open_object(w, "help");
-    json_text(w, "text", strbuf_view(&text));
-    json_text(w, "markdown", strbuf_view(&text));
+    json_write_text(w, "text", strbuf_view(&text));
+    json_write_text(w, "markdown", strbuf_view(&text));
     json_close_object(w);
     json_open_object(w, "defaultConfiguration");
-    json_text(w, "level", str_from(levels[info->severity]));
+    json_write_text(w, "level", str_from(levels[info->severity]));
     json_close_object(w);
     json_open_object(w, "properties");
     json_open_list(w, "tags");
-    json_text(w, NULL, str_from(stages[(unsigned)(info->code[1] - '0') % 10]));
+    json_write_text(w, NULL, str_from(stages[(unsigned)(info->code[1] - '0') % 10]));
     json_close_list(w);
-    json_text(w, "precision", STR("very-high"));
-    json_text(w, "problem.severity", str_from(problems[info->severity]));
+    json_write_text(w, "precision", STR("very-high"));
+    json_write_text(w, "problem.severity", str_from(problems[info->severity]));
     json_close_object(w);
     json_close_object(w);
     w->out->failed = w->out->failed || text.failed;
@@ -223,9 +223,9 @@ static void tool(struct json_writer *w, const struct report *report, const struc
     w->flat_depth = RULE_DEPTH;
     json_open_object(w, "tool");
     json_open_object(w, "driver");
-    json_text(w, "name", STR("glint"));
-    json_text(w, "version", str_from(report->program_version));
-    json_text(w, "semanticVersion", str_from(report->program_version));
+    json_write_text(w, "name", STR("glint"));
+    json_write_text(w, "version", str_from(report->program_version));
+    json_write_text(w, "semanticVersion", str_from(report->program_version));
     json_open_list(w, "rules");
     for (int i = 0; i < DIAG_CODE_COUNT; i++) {
         if (!used[i])
@@ -247,8 +247,8 @@ void report_sarif(struct strbuf *out, const struct report *report) {
         out->failed = true;
     json_writer_init(&w, out, RESULT_DEPTH);
     json_open_object(&w, NULL);
-    json_text(&w, "$schema", STR("https://json.schemastore.org/sarif-2.1.0.json"));
-    json_text(&w, "version", STR("2.1.0"));
+    json_write_text(&w, "$schema", STR("https://json.schemastore.org/sarif-2.1.0.json"));
+    json_write_text(&w, "version", STR("2.1.0"));
     json_open_list(&w, "runs");
     json_open_object(&w, NULL);
     tool(&w, report, &list, index);
@@ -257,7 +257,7 @@ void report_sarif(struct strbuf *out, const struct report *report) {
     text_object(&w, "description", STR("The folder in which glint was run."));
     json_close_object(&w);
     json_close_object(&w);
-    json_text(&w, "columnKind", STR("unicodeCodePoints"));
+    json_write_text(&w, "columnKind", STR("unicodeCodePoints"));
     json_open_list(&w, "results");
     for (uint32_t i = 0; i < list.count; i++)
         result(&w, &list.items[i], index[list.items[i].finding->code]);

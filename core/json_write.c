@@ -83,17 +83,17 @@ void json_close_list(struct json_writer *writer) {
     close(writer, ']');
 }
 
-void json_text(struct json_writer *writer, const char *key, str value) {
+void json_write_text(struct json_writer *writer, const char *key, str value) {
     begin_value(writer, key);
     put_string(writer->out, value);
 }
 
-void json_integer(struct json_writer *writer, const char *key, uint64_t value) {
+void json_write_integer(struct json_writer *writer, const char *key, uint64_t value) {
     begin_value(writer, key);
     strbuf_format(writer->out, "%llu", (unsigned long long)value);
 }
 
-void json_real(struct json_writer *writer, const char *key, double value) {
+void json_write_real(struct json_writer *writer, const char *key, double value) {
     char digits[NUMBER_FORMAT_MAX];
     begin_value(writer, key);
     if (isfinite(value))
@@ -102,7 +102,7 @@ void json_real(struct json_writer *writer, const char *key, double value) {
         strbuf_cstr(writer->out, "null");
 }
 
-void json_boolean(struct json_writer *writer, const char *key, bool value) {
+void json_write_boolean(struct json_writer *writer, const char *key, bool value) {
     begin_value(writer, key);
     strbuf_cstr(writer->out, value ? "true" : "false");
 }

@@ -26,11 +26,11 @@ void json_open_object(struct json_writer *writer, const char *key);
 void json_close_object(struct json_writer *writer);
 void json_open_list(struct json_writer *writer, const char *key);
 void json_close_list(struct json_writer *writer);
-void json_text(struct json_writer *writer, const char *key, str value);
-void json_integer(struct json_writer *writer, const char *key, uint64_t value);
+void json_write_text(struct json_writer *writer, const char *key, str value);
+void json_write_integer(struct json_writer *writer, const char *key, uint64_t value);
 // null where it is infinite or no number; else the fewest digits that read back to the same double.
-void json_real(struct json_writer *writer, const char *key, double value);
-void json_boolean(struct json_writer *writer, const char *key, bool value);
+void json_write_real(struct json_writer *writer, const char *key, double value);
+void json_write_boolean(struct json_writer *writer, const char *key, bool value);
 // A line end behind the whole.
 void json_end(struct json_writer *writer);
 

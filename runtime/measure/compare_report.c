@@ -90,31 +90,31 @@ void compare_text(const struct compare_report *report, struct strbuf *out) {
 static void json_picture(const struct compare_report *report, int which, const char *key,
                          struct json_writer *json) {
     json_open_object(json, key);
-    json_text(json, "path", str_from(report->path[which]));
-    json_text(json, "kind", str_from(report->kind[which]));
-    json_integer(json, "not_finite_pixels", report->result->not_finite[which]);
+    json_write_text(json, "path", str_from(report->path[which]));
+    json_write_text(json, "kind", str_from(report->kind[which]));
+    json_write_integer(json, "not_finite_pixels", report->result->not_finite[which]);
     json_close_object(json);
 }
 
 static void json_metric(const struct compare_report *report, enum metric metric, struct json_writer *json) {
     json_open_object(json, metric_infos[metric].name);
-    json_real(json, "value", report->result->value[metric]);
-    json_text(json, "space", str_from(metric_space(report, metric)));
+    json_write_real(json, "value", report->result->value[metric]);
+    json_write_text(json, "space", str_from(metric_space(report, metric)));
     if (report->bounds->has[metric]) {
-        json_real(json, metric_infos[metric].higher_is_better ? "at_least" : "at_most",
-                  report->bounds->bound[metric]);
-        json_boolean(json, "kept", measure_keeps(report->bounds, report->result, metric));
+        json_write_real(json, metric_infos[metric].higher_is_better ? "at_least" : "at_most",
+                        report->bounds->bound[metric]);
+        json_write_boolean(json, "kept", measure_keeps(report->bounds, report->result, metric));
     }
     json_close_object(json);
 }
 
 static void json_largest(const struct measure_place *place, struct json_writer *json) {
     json_open_object(json, "largest_at");
-    json_integer(json, "x", place->x);
-    json_integer(json, "y", place->y);
-    json_integer(json, "channel", place->channel);
-    json_real(json, "value", place->value);
-    json_real(json, "reference", place->reference);
+    json_write_integer(json, "x", place->x);
+    json_write_integer(json, "y", place->y);
+    json_write_integer(json, "channel", place->channel);
+    json_write_real(json, "value", place->value);
+    json_write_real(json, "reference", place->reference);
     json_close_object(json);
 }
 
@@ -125,19 +125,19 @@ void compare_json(const struct compare_report *report, struct strbuf *out) {
     json_open_object(&json, NULL);
     json_picture(report, 0, "picture", &json);
     json_picture(report, 1, "reference", &json);
-    json_integer(&json, "width", report->width);
-    json_integer(&json, "height", report->height);
-    json_text(&json, "space", str_from(space_name(report)));
-    json_real(&json, "threshold", report->options->threshold);
-    json_real(&json, "pixels_per_degree", report->options->pixels_per_degree);
+    json_write_integer(&json, "width", report->width);
+    json_write_integer(&json, "height", report->height);
+    json_write_text(&json, "space", str_from(space_name(report)));
+    json_write_real(&json, "threshold", report->options->threshold);
+    json_write_real(&json, "pixels_per_degree", report->options->pixels_per_degree);
     json_open_object(&json, "metrics");
     for (int i = 0; i < METRIC_COUNT; i++)
         json_metric(report, (enum metric)i, &json);
     json_close_object(&json);
     json_largest(&r->largest, &json);
-    json_integer(&json, "pixels_over", r->over);
-    json_integer(&json, "not_finite_pixels", r->not_finite_together);
-    json_boolean(&json, "bounds_kept", compare_keeps_bounds(report));
+    json_write_integer(&json, "pixels_over", r->over);
+    json_write_integer(&json, "not_finite_pixels", r->not_finite_together);
+    json_write_boolean(&json, "bounds_kept", compare_keeps_bounds(report));
     json_close_object(&json);
     json_end(&json);
 }
