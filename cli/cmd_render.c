@@ -1,4 +1,5 @@
 // glint render SCENE: load, flatten, trace, write.
+#include "cli/device.h"
 #include "cli/render_job.h"
 #include "core/clock.h"
 #include "core/output.h"
@@ -20,24 +21,10 @@ static const char *camera_output(struct render_job *job, str camera) {
 }
 
 static int open_device(struct render_job *job) {
-    char error[GPU_ERROR_BYTES] = "";
-    const char *environment = getenv("GLINT_DEVICE");
-    const char *wanted = job->cli->options.device ? job->cli->options.device : environment;
-    struct gpu_options options = {.device = wanted};
     double start = clock_seconds();
-    enum gpu_status status = gpu_create(&options, &job->gpu, error);
+    int status = cli_open_device(job->cli, &job->gpu);
     job->stats.device_seconds = clock_seconds() - start;
-    if (status == GPU_OK)
-        return CLI_OK;
-    const char *asked = job->cli->options.device ? "--device" : environment ? "GLINT_DEVICE" : "device";
-    if (status == GPU_NO_DEVICE)
-        cli_error(job->cli, DIAG_NO_DEVICE, asked, "'glint devices' lists the devices", "%s", error);
-    else if (status == GPU_NO_LOADER || status == GPU_NO_DRIVER)
-        cli_error(job->cli, DIAG_NO_VULKAN, "device",
-                  "on Debian: apt-get install libvulkan1 mesa-vulkan-drivers", "%s", error);
-    else
-        cli_error(job->cli, DIAG_DEVICE_FAILED, "device", NULL, "%s", error);
-    return CLI_DEVICE;
+    return status;
 }
 
 int render_interrupted(struct render_job *job) {
@@ -53,11 +40,7 @@ static int shot_failed(struct render_job *job, enum shot_status status) {
         return render_interrupted(job);
     if (status == SHOT_SCENE)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
-    bool memory = gpu_last_status(job->gpu) == GPU_NO_MEMORY;
-    cli_error(job->cli, memory ? DIAG_DEVICE_MEMORY : DIAG_DEVICE_FAILED, job->cli->operands[0],
-              memory ? "use a smaller scene or background, or another device" : NULL, "%s",
-              gpu_error(job->gpu));
-    return CLI_DEVICE;
+    return cli_device_failed(job->cli, job->gpu);
 }
 
 static int compare_doubles(const void *a, const void *b) {
@@ -194,11 +177,6 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     return status != CLI_OK ? status : reported;
 }
 
-static bool is_reference(const struct cli *cli) {
-    const char *wanted = cli->options.device ? cli->options.device : getenv("GLINT_DEVICE");
-    return wanted && strcmp(wanted, "reference") == 0;
-}
-
 static int render_cameras(struct render_job *job) {
     const struct ir_cameras *cameras = &job->session.scene->cameras;
     bool all = str_equal(job->cli->options.camera, STR("all"));
@@ -211,7 +189,8 @@ static int render_cameras(struct render_job *job) {
         return CLI_SCENE;
     }
     uint32_t end = job->all_cameras ? cameras->count : first + 1;
-    return is_reference(job->cli) ? render_by_reference(job, first, end) : render_by_device(job, first, end);
+    return cli_device_is_reference(job->cli) ? render_by_reference(job, first, end)
+                                             : render_by_device(job, first, end);
 }
 
 // Whether the output can be made at all is better known before the work than behind it.

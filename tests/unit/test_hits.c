@@ -217,11 +217,11 @@ static void needs_device(void **state) {
         skip();
 }
 
-static void test_closed_forms(void **state) {
-    needs_device(state);
+static void check_closed_forms(void **state, bool is_double) {
     struct kit kit;
     struct flat_scene flat;
     make_scene(&kit);
+    kit.is_double = is_double;
     assert_true(kit_flatten(&kit, &flat));
     struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, RENDER_STUDY_NONE, NULL);
     int uncertain = 0, seen[BODIES] = {0}, shadows = 0, mirrored = 0, through = 0, nothing = 0;
@@ -247,6 +247,16 @@ static void test_closed_forms(void **state) {
     free(hits);
     flat_finish(&flat);
     kit_finish(&kit);
+}
+
+static void test_closed_forms(void **state) {
+    needs_device(state);
+    check_closed_forms(state, false);
+}
+
+static void test_closed_forms_double(void **state) {
+    needs_device(state);
+    check_closed_forms(state, true);
 }
 
 // ---- a mesh, against the traversal on the processor
@@ -297,8 +307,7 @@ static void test_mesh(void **state) {
 
 // ---- the path of a pixel, told: its rays add up to the picture, bit for bit
 
-static void test_log(void **state) {
-    needs_device(state);
+static void check_log(void **state, bool is_double) {
     enum {
         SEGMENTS = 512
     };
@@ -307,6 +316,7 @@ static void test_log(void **state) {
     make_scene(&kit);
     kit.scene.materials.items[GLASS].albedo.reflection = 0.25;
     kit.scene.trace.max_depth = 5;
+    kit.is_double = is_double;
     assert_true(kit_flatten(&kit, &flat));
     struct render_settings settings = render_settings_of(&kit.scene, &flat, &kit.limits);
     settings.width = WIDTH;
@@ -353,6 +363,16 @@ static void test_log(void **state) {
     renderer_destroy(renderer);
     flat_finish(&flat);
     kit_finish(&kit);
+}
+
+static void test_log(void **state) {
+    needs_device(state);
+    check_log(state, false);
+}
+
+static void test_log_double(void **state) {
+    needs_device(state);
+    check_log(state, true);
 }
 
 // ---- one ray with more to do than lavapipe lets it: told, not hidden
@@ -465,6 +485,8 @@ static void test_study_leaks(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_closed_forms),
+        cmocka_unit_test(test_closed_forms_double),
+        cmocka_unit_test(test_log_double),
         cmocka_unit_test(test_mesh),
         cmocka_unit_test(test_log),
         cmocka_unit_test(test_unfinished),

@@ -1,0 +1,83 @@
+#!/bin/sh
+# glint pick as a user sees it, and faults of numbers from the picture to the path that shows them.
+# Usage: run_pick.sh GLINT SOURCE_FOLDER WORK_FOLDER
+set -u
+glint=$1
+source=$2
+work=$3
+failed=0
+cd "$work" || exit 2
+rm -rf -- ./*
+. "$source/tests/cli/expect.sh"
+
+# A glass ball before a mirror of one quad, on a floor, two lights; the camera looks along -z.
+printf 'v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\n# a mirror\nusemtl front\nf 1 2 3 4\n' >wall.obj
+cat >scene.yaml <<'END'
+glint: 1
+image: {width: 64, height: 64}
+camera: {position: [0, 0, 4]}
+background: {color: 0.25}
+trace: {max_depth: 6}
+lights:
+  - {name: sun, direction: [0, -1, -0.2]}
+  - {position: [0, -5, 0]}
+materials:
+  glass: {albedo: [0, 0.5, 0.1, 0.8], refractive_index: 1.5}
+  mirror: {albedo: [0.1, 0, 0.9, 0]}
+spheres:
+  - {name: ball, center: [0, 0, 0], radius: 1, material: glass}
+rectangles:
+  - {corner: [-9, -3, 9], edge_u: [18, 0, 0], edge_v: [0, 0, -18]}
+models:
+  - {name: wall, mesh: wall.obj, material: mirror, translation: [0, 0, -6]}
+END
+
+expect "a place outside" 2 - 'from 0,0 to 63,63' "$glint" pick scene.yaml 64,0 --device reference
+expect "no place" 2 - "such as 320,200, not '1;2'" "$glint" pick scene.yaml '1;2' --device reference
+expect "an unknown kind" 2 - 'xml' "$glint" pick scene.yaml 1,2 --device reference --format xml
+printf 'glint: 9\n' >bad.yaml
+expect "a broken scene" 1 - 'bad.yaml:1:8: error' "$glint" pick bad.yaml 1,2 --device reference
+expect "a missing scene" 3 - 'error' "$glint" pick missing.yaml 1,2 --device reference
+expect "the reference alone" 0 "^sees       sphere 'ball', scene.yaml:13:12" - "$glint" pick scene.yaml 32,32 --device reference
+expect "its material" 0 "^with       material 'glass', scene.yaml:10:3" - "$glint" pick scene.yaml 32,32 --device reference
+expect "the line of a mesh" 0 '^face       triangle [01], wall.obj:7$' - "$glint" pick scene.yaml 20,10 --device reference
+expect "the background" 0 '^sees       the background' - "$glint" pick scene.yaml 32,0 --device reference --set 'models='
+
+if "$glint" devices | grep -q .; then
+    expect "two paths" 0 '^differences: 0$' - "$glint" pick scene.yaml 32,32
+    expect "a refracted ray" 0 '^ +[0-9]+  refracted from 0, weight 0.8: sphere .ball., at 1.9' - "$glint" pick scene.yaml 32,32
+    expect "a cut ray" 0 'the background, cut by max_depth' - "$glint" pick scene.yaml 32,32
+    expect "a shadow" 0 "rectangles\[0\], at [0-9.]+; 'sun' in shadow; adds 0 0 0" - "$glint" pick scene.yaml 32,63
+    expect "a light below" 0 "rectangles\[0\], at [0-9.]+; 'sun' lit; adds 0\.[0-9]" - "$glint" pick scene.yaml 4,62
+    expect "JSON" 0 '"difference_count": 0' - "$glint" pick scene.yaml 32,32 --format json
+    expect "JSON's mesh line" 0 '"mesh_line": 7' - "$glint" pick scene.yaml 20,10 --format json
+
+    # Values that a float does not hold, from attributes inside their ranges: weights that grow from mirror to
+    # mirror, a background, a sum of samples, a light at a hair's breadth.
+    sed 's/0.1, 0, 0.9, 0/0, 0, 1.0e6, 0/; s/translation: \[0, 0, -6\]/translation: [0, 0, -6]}\n  - {mesh: wall.obj, material: mirror, translation: [0, 0, 9]/; /^spheres:/d; /ball/d; s/max_depth: 6/max_depth: 20/' scene.yaml >mirrors.yaml
+    expect "growing weights" 1 - "^mirrors.yaml:1[3-6]:[0-9]+: error: [0-9]+ pixels got a value that is infinite or not a number, the first at [0-9]+,[0-9]+, where the ray last met model" "$glint" render mirrors.yaml -o mirrors.pfm
+    expect "the line of the mesh" 1 - 'note: there it is the face at line 7 of wall.obj' "$glint" render mirrors.yaml -o mirrors.pfm
+    expect "the line of the material" 1 - "^mirrors.yaml:11:3: note: its material 'mirror'" "$glint" render mirrors.yaml -o mirrors.pfm
+    expect "what helps" 1 - "magenta in PNG and HDR, and NaN in PFM; 'glint pick SCENE" "$glint" render mirrors.yaml -o mirrors.png
+    expect "the marked pixels" 0 '^[1-9][0-9]* pixels are infinite or not a number' - "$glint" compare mirrors.pfm mirrors.pfm
+    expect "the path" 0 'colour     .*: infinite or not a number \(single precision\)' - "$glint" pick mirrors.yaml 32,32
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\377\377\377\377' >sky.hdr
+    sed 's/background: .*/background: {image: sky.hdr, intensity: 4}/' scene.yaml >sky.yaml
+    expect "a background" 1 - 'pixels got a value that is infinite.*E706' "$glint" render sky.yaml -o sky.pfm
+    expect "seen at once" 1 - 'E706' "$glint" render sky.yaml -o sky.pfm --set 'models=' --set 'spheres=' --set 'rectangles='
+    expect "a sum of samples" 1 - 'E706' "$glint" render sky.yaml -o sky.pfm --samples 4 --set 'background.intensity=1.5' --set 'models=' --set 'spheres=' --set 'rectangles='
+    expect "each of them is finite" 0 - 'wrote sky.pfm' "$glint" render sky.yaml -o sky.pfm --set 'background.intensity=1.5' --set 'models=' --set 'spheres=' --set 'rectangles='
+    cat >near.yaml <<'END'
+glint: 1
+image: {width: 16, height: 16}
+camera: {}
+lights: [{position: [0, 0, 0], intensity: 1.0e6, color: 1.0e6, falloff: inverse_square}]
+rectangles:
+  - {corner: [-1.0e-17, -1.0e-17, -1.0e-17], edge_u: [2.0e-17, 0, 0], edge_v: [0, 2.0e-17, 0], material: {diffuse_color: 1.0e6}}
+END
+    expect "a light nearby" 1 - "near.yaml:6:5: error: .*the ray last met rectangles\[0\] \[E706\]" "$glint" render near.yaml -o near.pfm
+    expect "its material" 1 - "near.yaml:6:[0-9]+: note: its inline material" "$glint" render near.yaml -o near.pfm
+else
+    echo "skip: no Vulkan device"
+fi
+exit $failed
