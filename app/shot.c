@@ -1,5 +1,6 @@
 #include "app/shot.h"
 
+#include "app/precision.h"
 #include "app/where.h"
 #include "core/clock.h"
 
@@ -11,10 +12,9 @@ static bool flatten_shot(struct shot *shot) {
                                .assets = &s->assets,
                                .view = &shot->view,
                                .origin = session_origin(s, &shot->view),
-                               .is_double = s->scene->trace.precision == IR_PRECISION_DOUBLE,
                                .limits = &s->options.limits,
                                .sink = &s->sink};
-    bool good = flatten(&input, &shot->flat);
+    bool good = precision_choose(s, &input, gpu_info(shot->gpu)->has_double) && flatten(&input, &shot->flat);
     shot->flatten_seconds += clock_seconds() - start;
     return good;
 }

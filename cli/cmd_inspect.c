@@ -1,4 +1,5 @@
 // glint inspect SCENE [--ir]: counts, bounds, features with their reasons, buffers; or the canonical dump.
+#include "app/precision.h"
 #include "cli/cli.h"
 
 #include "core/number.h"
@@ -133,11 +134,13 @@ static bool describe(struct session *session, struct strbuf *out) {
                                .origin = session_origin(session, &view),
                                .limits = &session->options.limits,
                                .sink = &session->sink};
-    if (!flatten(&input, &flat))
+    struct precision_report precision;
+    if (!precision_measure(&input, &precision) || !flatten(&input, &flat))
         return false;
     counts(out, session);
     bounds(out, session);
     meshes(out, session);
+    precision_words(session, &precision, out);
     features(out, session, flat.features);
     buffers(out, &flat);
     flat_finish(&flat);

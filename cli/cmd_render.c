@@ -115,6 +115,7 @@ static int report_stats(struct render_job *job) {
     s->spheres = job->shot.flat.sphere_count;
     s->triangle_depth = job->shot.flat.triangle_depth;
     s->features = job->shot.settings.features;
+    s->is_double = job->shot.flat.is_double;
     s->width = job->shot.settings.width;
     s->height = job->shot.settings.height;
     s->samples = job->shot.settings.samples;

@@ -19,8 +19,9 @@ static void bytes(struct strbuf *out, const char *name, uint64_t value) {
 }
 
 void stats_text(const struct stats *s, struct strbuf *out) {
-    strbuf_format(out, "device: %s\npicture: %u x %u, %u sample%s\ntimes\n", s->device, s->width, s->height,
-                  s->samples, s->samples == 1 ? "" : "s");
+    strbuf_format(out, "device: %s\npicture: %u x %u, %u sample%s, in %s precision\ntimes\n", s->device,
+                  s->width, s->height, s->samples, s->samples == 1 ? "" : "s",
+                  s->is_double ? "double" : "single");
     seconds(out, "read", s->read_seconds);
     seconds(out, "assets", s->assets_seconds);
     seconds(out, "flatten", s->flatten_seconds);
@@ -119,6 +120,7 @@ void stats_json(const struct stats *s, struct strbuf *out) {
     set_integer(root, "width", s->width);
     set_integer(root, "height", s->height);
     set_integer(root, "samples", s->samples);
+    json_object_set_new(root, "precision", json_string(s->is_double ? "double" : "single"));
     json_object_set_new(root, "times", times_object(s));
     json_object_set_new(root, "rays", rays_object(&s->rays));
     json_object_set_new(root, "features", features_array(s->features));

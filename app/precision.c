@@ -1,0 +1,99 @@
+#include "app/precision.h"
+
+#include "app/where.h"
+#include "grammar/schema.h"
+
+static const char *const feature_words[PRECISION_FEATURES] = {
+    [PRECISION_EDGE] = "shortest edge",
+    [PRECISION_SIZE] = "smallest body",
+    [PRECISION_GAP] = "smallest gap",
+    [PRECISION_HEIGHT] = "lowest camera",
+};
+
+static void put_body(const struct session *session, uint32_t body, uint32_t triangle, struct strbuf *out) {
+    struct where where;
+    bool found = where_find(session, body, triangle, &where);
+    where_body_words(found ? &where : NULL, out);
+    if (!found || span_is_none(where.at))
+        return;
+    struct source_place place = source_locate(&session->sources, where.at);
+    strbuf_format(out, " (%.*s:%u:%u)", STR_ARG(place.path), place.line, place.column);
+}
+
+// "0.02 at a distance of 300: 1118 steps; model 'dragon' (scene.yaml:3:5), line 12 of dragon.obj"
+static void put_measure(const struct session *session, enum precision_feature feature,
+                        const struct precision_measure *m, struct strbuf *out) {
+    const char *against = feature == PRECISION_HEIGHT || m->part == PRECISION_HEIGHT_PART
+                              ? "against a surface as long as"
+                              : "at a distance of";
+    strbuf_format(out, "%.3g %s %.3g: %.3g steps; ", m->length, against, m->distance, m->steps);
+    put_body(session, m->body, m->triangle, out);
+    if (feature == PRECISION_GAP) {
+        strbuf_cstr(out, " and ");
+        put_body(session, m->other, 0, out);
+    }
+    struct where where;
+    if ((feature == PRECISION_EDGE || feature == PRECISION_HEIGHT) &&
+        where_find(session, m->body, m->triangle, &where) && where.mesh_line)
+        strbuf_format(out, ", line %u of %.*s", where.mesh_line, STR_ARG(where.mesh));
+}
+
+void precision_words(const struct session *session, const struct precision_report *report,
+                     struct strbuf *out) {
+    static const char *const settings[] = {"auto", "single", "double"};
+    const unsigned setting = session->scene->trace.precision;
+    strbuf_format(out, "precision   %s", precision_is_double(session->scene, report) ? "double" : "single");
+    strbuf_format(out, ", the setting is %s; ", settings[setting]);
+    if (report->suffices)
+        strbuf_cstr(out, "single precision suffices\n");
+    else
+        strbuf_format(out, "single precision does not suffice: the %s decides\n",
+                      feature_words[report->decides]);
+    for (int i = 0; i < PRECISION_FEATURES; i++) {
+        if (!report->least[i].any)
+            continue;
+        strbuf_format(out, "  %-17s", feature_words[i]);
+        put_measure(session, (enum precision_feature)i, &report->least[i], out);
+        strbuf_char(out, '\n');
+    }
+    strbuf_format(out, "  a step is 2^-24 of the distance; %g steps are enough\n", PRECISION_STEPS);
+    if (!report->all_pairs)
+        strbuf_cstr(out, "  there are too many bodies close together to look for gaps between all of them\n");
+}
+
+static void warn(struct session *session, const struct precision_report *report) {
+    const struct precision_measure *m = &report->least[report->decides];
+    struct where where;
+    struct strbuf words;
+    strbuf_init(&words);
+    put_measure(session, report->decides, m, &words);
+    bool found = where_find(session, m->body, m->triangle, &where);
+    diag_add(&session->sink, DIAG_SINGLE_ONLY, found ? where.at : SPAN_NONE,
+             "the device computes in single precision only, and this scene needs double");
+    diag_note(&session->sink, SPAN_NONE, "%s %.*s", feature_words[report->decides],
+              STR_ARG(strbuf_view(&words)));
+    strbuf_finish(&words);
+}
+
+bool precision_choose(struct session *session, struct flat_input *input, bool has_double) {
+    struct precision_report report;
+    const struct ir_trace *trace = &session->scene->trace;
+    input->is_double = trace->precision == IR_PRECISION_DOUBLE;
+    if (input->is_double && !has_double) {
+        diag_add(&session->sink, DIAG_NO_DOUBLE,
+                 ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
+                 "'trace.precision' is 'double', and the device cannot compute in double precision");
+        return false;
+    }
+    if (trace->precision != IR_PRECISION_AUTO)
+        return true;
+    if (!precision_measure(input, &report)) {
+        diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
+                 "there is not enough memory to measure the scene");
+        return false;
+    }
+    if (!report.suffices && !has_double)
+        warn(session, &report);
+    input->is_double = !report.suffices && has_double;
+    return true;
+}

@@ -1,0 +1,18 @@
+// The precision that a shot is traced in: the scene's setting, what its numbers need, what the device has.
+//
+// Ownership: nothing is kept. Thread safety: as the session.
+#ifndef GLINT_APP_PRECISION_H
+#define GLINT_APP_PRECISION_H
+
+#include "app/session.h"
+#include "core/strbuf.h"
+#include "runtime/precision.h"
+
+// Sets input->is_double. The scene is measured where its setting is auto. `has_double`: the device can. Its
+// sink gets the error E707, or the warning W701. false: an error, or no memory.
+bool precision_choose(struct session *session, struct flat_input *input, bool has_double);
+// What was measured, what it means, and which body decides: lines of `glint inspect`.
+void precision_words(const struct session *session, const struct precision_report *report,
+                     struct strbuf *out);
+
+#endif

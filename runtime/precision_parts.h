@@ -1,0 +1,22 @@
+// Inside of precision.h: what precision.c and precision_gaps.c share.
+#ifndef GLINT_RUNTIME_PRECISION_PARTS_H
+#define GLINT_RUNTIME_PRECISION_PARTS_H
+
+#include "runtime/precision.h"
+
+struct precision_body {
+    vec3 lower, upper; // box, scene units minus the origin
+    double reach;      // largest |coordinate| of it
+    uint32_t body;     // in IR order
+};
+
+// Keeps the lesser; equal ones by body and triangle, so that the result knows nothing of threads.
+void precision_keep(struct precision_measure *least, const struct precision_measure *found);
+// Fills steps from the rest, and keeps.
+void precision_note(struct precision_measure *least, struct precision_measure found);
+
+// Gaps between the bodies. false: no memory.
+bool precision_gaps(const struct flat_input *input, const struct precision_body *bodies, uint32_t count,
+                    struct precision_report *out);
+
+#endif
