@@ -1,0 +1,107 @@
+// What the tests of reports ask of JSON files:
+//
+//     report_tool validate SCHEMA FILE...   each file is valid by the schema, whose keywords are all known
+//     report_tool get FILE PATH             the value at PATH: keys and indices, separated by '/'
+//     report_tool unique FILE PATH          the values at PATH, where '*' is every item of a list, all differ
+#include "tests/equal/json_schema.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static json_t *load(const char *path) {
+    json_error_t error;
+    json_t *json = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
+    if (!json)
+        fprintf(stderr, "%s:%d:%d: %s\n", path, error.line, error.column, error.text);
+    return json;
+}
+
+static int validate(const char *schema_path, int count, char **paths) {
+    json_t *schema = load(schema_path);
+    int bad = schema ? 0 : 1;
+    for (int i = 0; i < count && schema; i++) {
+        json_t *value = load(paths[i]);
+        if (!value || !json_schema_accepts(schema, schema, value)) {
+            fprintf(stderr, "%s: not valid by %s\n", paths[i], schema_path);
+            bad = 1;
+        }
+        json_decref(value);
+    }
+    json_decref(schema);
+    return bad;
+}
+
+// The next part of a path, at most `size` - 1 bytes; gives what follows it.
+static const char *part_of(const char *path, char *part, size_t size) {
+    size_t length = strcspn(path, "/");
+    snprintf(part, size, "%.*s", (int)length, path);
+    return path[length] ? path + length + 1 : path + length;
+}
+
+// Appends all values at the path to `found`.
+static void collect(json_t *value, const char *path, json_t *found) {
+    char part[128];
+    size_t i;
+    json_t *item;
+    if (!value)
+        return;
+    if (!*path) {
+        json_array_append(found, value);
+        return;
+    }
+    const char *rest = part_of(path, part, sizeof part);
+    if (strcmp(part, "*") == 0) {
+        json_array_foreach(value, i, item) collect(item, rest, found);
+    } else if (json_is_array(value)) {
+        collect(json_array_get(value, strtoul(part, NULL, 10)), rest, found);
+    } else {
+        collect(json_object_get(value, part), rest, found);
+    }
+}
+
+static int get(const json_t *found) {
+    const json_t *value = json_array_get(found, 0);
+    if (json_is_string(value)) {
+        puts(json_string_value(value));
+    } else if (value) {
+        char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_SORT_KEYS);
+        puts(text ? text : "");
+        free(text);
+    }
+    return value ? 0 : 1;
+}
+
+static int unique(const json_t *found) {
+    size_t i;
+    json_t *item;
+    json_t *seen = json_object();
+    int bad = json_array_size(found) == 0;
+    json_array_foreach(found, i, item) {
+        const char *text = json_string_value(item);
+        if (!text || json_object_get(seen, text)) {
+            fprintf(stderr, "twice: %s\n", text ? text : "(no text)");
+            bad = 1;
+        } else {
+            json_object_set_new(seen, text, json_true());
+        }
+    }
+    json_decref(seen);
+    return bad;
+}
+
+int main(int argc, char **argv) {
+    if (argc > 3 && strcmp(argv[1], "validate") == 0)
+        return validate(argv[2], argc - 3, argv + 3);
+    if (argc != 4) {
+        fprintf(stderr, "usage: report_tool validate SCHEMA FILE..., get FILE PATH, unique FILE PATH\n");
+        return 2;
+    }
+    json_t *json = load(argv[2]);
+    json_t *found = json_array();
+    collect(json, argv[3], found);
+    int status = strcmp(argv[1], "get") == 0 ? get(found) : unique(found);
+    json_decref(found);
+    json_decref(json);
+    return json ? status : 1;
+}
