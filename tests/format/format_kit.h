@@ -1,0 +1,21 @@
+// Texts through the formatter, for the tests of this folder.
+#ifndef GLINT_TESTS_FORMAT_KIT_H
+#define GLINT_TESTS_FORMAT_KIT_H
+
+#include "parser/format.h"
+
+// Formats `text` as a file of that name; `out` begins empty.
+enum format_status format_text(const char *path, str text, const struct upgrade_table *upgrade,
+                               struct strbuf *out);
+
+// Fails unless the text can be formatted, keeps its IR and every character but white space, keeps each
+// comment at its entry, and is left as it is by formatting it again. `out`: the formatted text.
+void assert_formats(const char *path, str text, struct strbuf *out);
+
+// Everything of `out` that is not white space equals that of `text`.
+bool same_without_blanks(str a, str b);
+
+// The text of a valid scene, laid out at random, with comments at random places.
+void add_noise(uint64_t seed, bool xml, str text, struct strbuf *out);
+
+#endif
