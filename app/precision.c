@@ -16,7 +16,8 @@ static void put_body(const struct session *session, uint32_t body, uint32_t tria
     where_body_words(found ? &where : NULL, out);
     if (!found || span_is_none(where.at))
         return;
-    struct source_place place = source_locate(&session->sources, where.at);
+    // Line maps are made on first use.
+    struct source_place place = source_locate((struct source_set *)&session->sources, where.at);
     strbuf_format(out, " (%.*s:%u:%u)", STR_ARG(place.path), place.line, place.column);
 }
 
