@@ -12,6 +12,7 @@ struct allow {
 
 struct allows {
     struct session *session;
+    bool report; // what is wrong with the comments
     struct {
         struct allow *items;
         uint32_t count, capacity;
@@ -92,6 +93,8 @@ static void find_lines(struct session *session, span comment, struct allow *allo
 
 // "<before><word><after>"
 static void bad_comment(struct allows *allows, span at, const char *before, str word, const char *after) {
+    if (!allows->report)
+        return;
     diag_add(&allows->session->sink, DIAG_ALLOW_UNKNOWN, at, "%s%.*s%s", before, STR_ARG(word), after);
     diag_help(&allows->session->sink, "write for example 'glint: allow W401: the pane is meant to be thin'");
 }
@@ -219,9 +222,9 @@ static void report_unused(struct allows *allows) {
     }
 }
 
-void check_allow(struct session *session) {
+void check_allow(struct session *session, bool report) {
     struct arena_guard guard;
-    struct allows allows = {.session = session};
+    struct allows allows = {.session = session, .report = report};
     if (session->origin.directives.count == 0)
         return;
     arena_set_guard(&session->arena, &guard);
@@ -230,7 +233,8 @@ void check_allow(struct session *session) {
             read_comment(&allows, session->origin.directives.items[i]);
         if (allows.list.count)
             diag_filter(&session->sink, keeps, &allows);
-        report_unused(&allows);
+        if (report)
+            report_unused(&allows);
     }
     arena_set_guard(&session->arena, NULL);
 }

@@ -1,5 +1,6 @@
 #include "app/session.h"
 
+#include "app/check.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
 #include "parser/parser.h"
@@ -188,8 +189,10 @@ static enum session_state guarded_load(struct session *session, const struct ses
         session->state = SESSION_NO_SCENE;
     }
     arena_set_guard(&session->arena, NULL);
-    if (!options->judged)
+    if (!options->judged) {
+        check_silence(session);
         session_group(session);
+    }
     return session->state;
 }
 
