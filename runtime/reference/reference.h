@@ -69,7 +69,9 @@ struct reference_statistics {
     // and the mean over all.
     double left_weight_most, left_weight_mean;
     double brightest; // of anything in view: background, direct light of a surface, pixel; one channel
-    double bound;     // left_weight_most * brightest: what following all rays could add to a pixel
+    // left_weight_most * brightest: what following all rays could add to a pixel, unless they meet something
+    // brighter than all that was met.
+    double bound;
     struct reference_fault not_finite;    // the pixel is NaN
     struct reference_fault over_segments; // as_file: part of the pixel's light is missing
     double seconds;

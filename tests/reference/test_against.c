@@ -80,10 +80,6 @@ static bool compare_pictures(const struct pair *p, struct image_display display,
             v->worst = fmax(v->worst, abs(a[c] - b[c]) / 255.0);
         }
         v->far_pixels += is_far;
-        if (is_far && getenv("DBG"))
-            printf("far %zu,%zu body %d diff %d %d %d\n", i % p->width, i / p->width,
-                   (int)p->reference_hits[i].body, a[3 * i] - b[3 * i], a[3 * i + 1] - b[3 * i + 1],
-                   a[3 * i + 2] - b[3 * i + 2]);
         v->not_finite += !finite;
     }
     free(a);
