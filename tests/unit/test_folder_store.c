@@ -1,0 +1,150 @@
+// A cache's folder: entries come back whole, the oldest go first, and nothing that fails is an error.
+#include "core/folder_store.h"
+#include "core/xxh64.h"
+
+#include <fcntl.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char folder[256];
+
+static struct folder_store fresh(uint64_t cap_bytes) {
+    const char *base = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/glint-store-XXXXXX", base ? base : ".");
+    assert_non_null(mkdtemp(folder));
+    return (struct folder_store){folder, cap_bytes};
+}
+
+static void clear(void) {
+    char command[300];
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    assert_int_equal(system(command), 0);
+}
+
+static bool keep(const struct folder_store *store, const char *name, const char *text) {
+    const struct folder_store_part parts[2] = {{text, 2}, {text + 2, strlen(text) - 2}};
+    return folder_store_write(store, name, parts, 2);
+}
+
+static bool holds(const struct folder_store *store, const char *name, const char *text) {
+    size_t count;
+    char *bytes = folder_store_read(store, name, 100, &count);
+    bool same = bytes && count == strlen(text) && memcmp(bytes, text, count) == 0;
+    free(bytes);
+    return same;
+}
+
+static void age(const char *name, long seconds) {
+    char path[300];
+    struct timespec times[2] = {{0, UTIME_OMIT}, {1000000 - seconds, 0}};
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+}
+
+static void test_entries_come_back(void **state) {
+    (void)state;
+    char deep[300];
+    struct folder_store store = fresh(1000);
+    snprintf(deep, sizeof deep, "%s/not/there/yet", folder);
+    store.path = deep;
+    assert_true(keep(&store, "a", "first"));
+    assert_true(holds(&store, "a", "first"));
+    assert_true(keep(&store, "a", "second"));
+    assert_true(holds(&store, "a", "second"));
+    assert_false(holds(&store, "b", "second"));
+    size_t count;
+    assert_null(folder_store_read(&store, "a", 3, &count));
+    folder_store_remove(&store, "a");
+    assert_false(holds(&store, "a", "second"));
+    clear();
+}
+
+static void test_the_oldest_go(void **state) {
+    (void)state;
+    struct folder_store store = fresh(30);
+    assert_true(keep(&store, "a", "0123456789"));
+    assert_true(keep(&store, "b", "0123456789"));
+    assert_true(keep(&store, "c", "0123456789"));
+    age("a", 100);
+    age("b", 300);
+    age("c", 200);
+    assert_true(holds(&store, "b", "0123456789")); // used now
+    assert_true(keep(&store, "d", "0123456789"));
+    assert_false(holds(&store, "c", "0123456789"));
+    assert_true(holds(&store, "a", "0123456789"));
+    assert_true(holds(&store, "b", "0123456789"));
+    assert_true(holds(&store, "d", "0123456789"));
+    assert_false(keep(&store, "e", "a text of more than thirty bytes"));
+    assert_true(holds(&store, "d", "0123456789"));
+    clear();
+}
+
+static void test_nothing_is_an_error(void **state) {
+    (void)state;
+    struct folder_store none = {NULL, 100};
+    assert_false(keep(&none, "a", "text"));
+    assert_false(holds(&none, "a", "text"));
+    folder_store_remove(&none, "a");
+    struct folder_store store = fresh(100);
+    char file[300];
+    snprintf(file, sizeof file, "%s/a", folder);
+    assert_true(keep(&store, "a", "text"));
+    struct folder_store inside = {file, 100}; // a file, no folder
+    assert_false(keep(&inside, "b", "text"));
+    assert_false(holds(&inside, "b", "text"));
+    clear();
+}
+
+static void test_where_it_lies(void **state) {
+    (void)state;
+    const char *old = getenv("XDG_CACHE_HOME");
+    char *kept = old ? strdup(old) : NULL;
+    setenv("XDG_CACHE_HOME", "/somewhere", 1);
+    char *path = folder_store_path("x");
+    assert_string_equal(path, "/somewhere/glint/x");
+    free(path);
+    setenv("XDG_CACHE_HOME", "relative", 1);
+    setenv("HOME", "/me", 1);
+    path = folder_store_path("x");
+    assert_string_equal(path, "/me/.cache/glint/x");
+    free(path);
+    unsetenv("HOME");
+    assert_null(folder_store_path("x"));
+    if (kept)
+        setenv("XDG_CACHE_HOME", kept, 1);
+    free(kept);
+}
+
+// Values of the specification's own program.
+static void test_hash(void **state) {
+    (void)state;
+    const char *text = "Call me Ishmael. Some years ago--never mind how long precisely-";
+    assert_true(xxh64_of("", 0, 0) == UINT64_C(0xEF46DB3751D8E999));
+    assert_true(xxh64_of("abc", 3, 0) == UINT64_C(0x44BC2CF5AD770999));
+    assert_true(xxh64_of(text, 63, 0) == UINT64_C(0x02A2E85470D6FD96));
+    struct xxh64 pieces;
+    xxh64_begin(&pieces, 0);
+    for (size_t at = 0, step = 1; at < 63; at += step, step = step % 40 + 1) {
+        step = step < 63 - at ? step : 63 - at;
+        xxh64_add(&pieces, text + at, step);
+    }
+    assert_true(xxh64_end(&pieces) == UINT64_C(0x02A2E85470D6FD96));
+    assert_true(xxh64_of(text, 63, 1) != xxh64_of(text, 63, 0));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_entries_come_back),   cmocka_unit_test(test_the_oldest_go),
+        cmocka_unit_test(test_nothing_is_an_error), cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_where_it_lies),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
