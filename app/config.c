@@ -148,7 +148,10 @@ static void take_fail_on(struct binder *b, tree_index key, tree_index value) {
     struct nearest search = nearest_begin(word);
     offer_words(&search, diag_fail_words);
     bad_value(b, value, "'fail_on' is error or warning, not ", "");
-    did_you_mean(b, value, &search);
+    if (nearest_best(&search).len)
+        did_you_mean(b, value, &search);
+    else
+        diag_help(b->input->sink, "fail_on: warning makes warnings fail, too");
 }
 
 static void take_limit_named(struct binder *b, tree_index key, tree_index value, str name) {

@@ -5,7 +5,7 @@
 //     run_invalid case FOLDER      compares
 //     run_invalid update FOLDER    writes expected.txt, to be read before it is committed
 //     run_invalid complete CORPUS  every code has a case for each kind of input where it can occur
-#include "app/session.h"
+#include "app/check.h"
 #include "core/diag_text.h"
 #include "core/output.h"
 
@@ -111,12 +111,9 @@ static bool check(struct strbuf *out, const char *corpus) {
     options->session.path = str_from(file);
     struct asset_store *store = asset_store_create();
     struct session session;
-    enum session_state state = session_load(&session, &options->session, store);
-    if (state == SESSION_LOADED && session.sink.errors == 0) {
-        struct view view;
-        uint32_t camera = session_camera(&session, options->camera);
-        if (camera != IR_NO_INDEX)
-            session_view(&session, camera, &view);
+    enum session_state state = check_scene(&session, &options->session, store);
+    if (state == SESSION_LOADED && session.sink.errors == 0 && options->camera.len) {
+        session_camera(&session, options->camera);
         diag_sort(&session.sink);
     }
     struct strbuf text;
