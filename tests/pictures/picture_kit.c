@@ -1,5 +1,6 @@
 #include "picture_kit.h"
 
+#include "app/exact.h"
 #include "core/diag_text.h"
 
 #include <stdio.h>
@@ -9,15 +10,19 @@
 
 bool picture_kit_open(struct picture_kit *kit) {
     char error[GPU_ERROR_BYTES] = "";
-    *kit = (struct picture_kit){0};
+    const char *device = getenv("GLINT_DEVICE");
+    *kit = (struct picture_kit){.by_reference = device && strcmp(device, "reference") == 0};
+    kit->store = asset_store_create();
+    if (kit->by_reference)
+        return kit->store != NULL;
     struct gpu_options options = {
-        .device = getenv("GLINT_DEVICE"), .validate = true, .validation_messages = &kit->validation_messages};
+        .device = device, .validate = true, .validation_messages = &kit->validation_messages};
     enum gpu_status status = gpu_create(&options, &kit->gpu, error);
     if (status != GPU_OK) {
         fprintf(stderr, "skipped: %s\n", error);
+        asset_store_destroy(kit->store);
         return false;
     }
-    kit->store = asset_store_create();
     return kit->store != NULL;
 }
 
@@ -60,6 +65,17 @@ static bool take(struct picture_kit *kit, struct session *session, const struct 
     return good;
 }
 
+static bool take_by_reference(struct session *session, struct image *image) {
+    struct exact exact;
+    struct reference_statistics statistics;
+    struct exact_options options = {.as_file = true, .no_cache = true};
+    bool good = exact_open(&exact, session, 0, options) == SHOT_OK &&
+                image_init(image, exact.settings.width, exact.settings.height) &&
+                exact_take(&exact, image, NULL, NULL, &statistics) == SHOT_OK && session->sink.errors == 0;
+    exact_close(&exact);
+    return good;
+}
+
 // The assets hold copies of the scene's materials, in the same order.
 static void edit_scene(struct session *session, const struct picture_options *options) {
     const struct ir_materials *materials = &session->scene->materials;
@@ -84,7 +100,8 @@ bool picture_take(struct picture_kit *kit, const char *path, const struct pictur
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
     if (good && options->edit)
         edit_scene(&session, options);
-    good = good && take(kit, &session, options, image);
+    good = good &&
+           (kit->by_reference ? take_by_reference(&session, image) : take(kit, &session, options, image));
     if (!good)
         print_diagnostics(&session);
     session_finish(&session);

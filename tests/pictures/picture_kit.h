@@ -17,6 +17,7 @@ struct picture_options {
 
 struct picture_kit {
     struct gpu *gpu;
+    bool by_reference; // GLINT_DEVICE is "reference": the tracer in double precision, which has no device
     struct asset_store *store;
     uint32_t validation_messages;
 };

@@ -1,6 +1,7 @@
 // The cache of the reference: found again, not mistaken, and replaced where it is damaged.
 #include "reference_kit.h"
 #include "runtime/reference/cache.h"
+#include "tests/unit/scratch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,20 +19,17 @@ enum {
     VALUES = WIDTH * HEIGHT * 3,
 };
 
-static char folder[256];
+static struct scratch scratch;
 
 static int make_folder(void **state) {
     (void)state;
-    const char *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/glint-cache-XXXXXX", base ? base : ".");
-    return mkdtemp(folder) ? 0 : -1;
+    return scratch_make(&scratch) ? 0 : -1;
 }
 
 static int remove_folder(void **state) {
     (void)state;
-    char command[300];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
+    scratch_finish(&scratch);
+    return 0;
 }
 
 static void scene(struct kit *kit) {
@@ -59,7 +57,7 @@ static bool ask(struct kit *kit, const struct reference_settings *settings, doub
     struct reference_source source;
     struct reference_statistics statistics;
     struct reference_input input = {.scene = &kit->scene, .assets = &kit->assets, .view = &kit->view};
-    reference_source_init(&source, &input, (struct folder_store){folder, 1000000});
+    reference_source_init(&source, &input, (struct folder_store){scratch.folder, 1000000});
     assert_int_equal(reference_source_render(&source, settings, rgb, NULL, &statistics), REFERENCE_DONE);
     assert_int_equal(statistics.primary, (uint64_t)WIDTH * HEIGHT * settings->samples);
     assert_int_equal(source.found + source.computed, 1);
@@ -96,7 +94,7 @@ static void test_hits_are_kept_too(void **state) {
     scene(&kit);
     struct reference_input input = {.scene = &kit.scene, .assets = &kit.assets, .view = &kit.view};
     for (int i = 0; i < 2; i++) {
-        reference_source_init(&source, &input, (struct folder_store){folder, 1000000});
+        reference_source_init(&source, &input, (struct folder_store){scratch.folder, 1000000});
         assert_int_equal(reference_source_hits(&source, &settings, hits[i], NULL), REFERENCE_DONE);
         assert_int_equal(source.found, i);
         reference_source_finish(&source);
@@ -175,9 +173,7 @@ static void test_words_do_not_matter(void **state) {
 }
 
 static void damage(const char *name, long at, bool shorter) {
-    char path[320];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "r+b");
+    FILE *file = fopen(scratch_path(&scratch, name), "r+b");
     assert_non_null(file);
     assert_int_equal(fseek(file, at, at < 0 ? SEEK_END : SEEK_SET), 0);
     if (shorter) {

@@ -1,6 +1,7 @@
 // A cache's folder: entries come back whole, the oldest go first, and nothing that fails is an error.
 #include "core/folder_store.h"
 #include "core/xxh64.h"
+#include "scratch.h"
 
 #include <fcntl.h>
 #include <setjmp.h>
@@ -14,19 +15,17 @@
 
 #include <cmocka.h>
 
-static char folder[256];
+static struct scratch scratch;
+static const char *folder;
 
 static struct folder_store fresh(uint64_t cap_bytes) {
-    const char *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/glint-store-XXXXXX", base ? base : ".");
-    assert_non_null(mkdtemp(folder));
+    assert_true(scratch_make(&scratch));
+    folder = scratch.folder;
     return (struct folder_store){folder, cap_bytes};
 }
 
 static void clear(void) {
-    char command[300];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    assert_int_equal(system(command), 0);
+    scratch_finish(&scratch);
 }
 
 static bool keep(const struct folder_store *store, const char *name, const char *text) {
@@ -43,7 +42,7 @@ static bool holds(const struct folder_store *store, const char *name, const char
 }
 
 static void age(const char *name, long seconds) {
-    char path[300];
+    char path[PATH_MAX + 20];
     struct timespec times[2] = {{0, UTIME_OMIT}, {1000000 - seconds, 0}};
     snprintf(path, sizeof path, "%s/%s", folder, name);
     assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
@@ -51,7 +50,7 @@ static void age(const char *name, long seconds) {
 
 static void test_entries_come_back(void **state) {
     (void)state;
-    char deep[300];
+    char deep[PATH_MAX + 20];
     struct folder_store store = fresh(1000);
     snprintf(deep, sizeof deep, "%s/not/there/yet", folder);
     store.path = deep;
@@ -94,7 +93,7 @@ static void test_nothing_is_an_error(void **state) {
     assert_false(holds(&none, "a", "text"));
     folder_store_remove(&none, "a");
     struct folder_store store = fresh(100);
-    char file[300];
+    char file[PATH_MAX + 20];
     snprintf(file, sizeof file, "%s/a", folder);
     assert_true(keep(&store, "a", "text"));
     struct folder_store inside = {file, 100}; // a file, no folder
