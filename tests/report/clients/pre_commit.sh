@@ -1,0 +1,27 @@
+#!/bin/sh
+# pre-commit runs the hook of this repository, from a copy of the working tree.
+. "$(dirname -- "$0")/lib.sh"
+needs pre-commit
+needs git
+
+HOME=$work PRE_COMMIT_HOME=$work/cache GIT_CONFIG_GLOBAL=$work/gitconfig
+PATH=$(dirname -- "$glint"):$PATH
+export HOME PRE_COMMIT_HOME GIT_CONFIG_GLOBAL PATH
+git config --global user.name tester
+git config --global user.email tester@localhost
+git config --global init.defaultBranch main
+mkdir hooks scenes
+cp "$source/.pre-commit-hooks.yaml" hooks
+mv ./*.glint.yaml open.obj scenes
+(cd hooks && git init -q && git add -A && git commit -q -m hooks)
+cd scenes
+git init -q
+git add -A
+if pre-commit try-repo ../hooks glint-check --all-files >../said.txt 2>&1; then
+    fail "a wrong scene passed: $(cat ../said.txt)"
+fi
+grep -q 'wrong.glint.yaml:7:33: error: ' ../said.txt || fail "$(cat ../said.txt)"
+grep -q 'open.obj' ../said.txt || fail "$(cat ../said.txt)"
+git rm -q --cached wrong.glint.yaml
+rm wrong.glint.yaml
+pre-commit try-repo ../hooks glint-check --all-files >../said.txt 2>&1 || fail "$(cat ../said.txt)"
