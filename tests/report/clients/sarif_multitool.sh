@@ -1,5 +1,5 @@
 #!/bin/sh
-# The SARIF Multitool finds no error and no warning in what glint writes, but for what a command line cannot know.
+# The SARIF Multitool, with its rules for SARIF and for GitHub, finds no error and no warning in what glint writes.
 . "$(dirname -- "$0")/lib.sh"
 needs sarif-multitool
 
@@ -7,9 +7,15 @@ cd "$source"
 # shellcheck disable=SC2046 -- our paths hold no blanks
 "$glint" check $(ls -d tests/invalid/*/case.yaml tests/invalid/*/case.xml) --format sarif -o "$work/report.sarif" || true
 cd "$work"
+# The wrapper of npm hands its arguments to a shell once more.
 DOTNET_SYSTEM_GLOBALIZATION_INVARIANT=1 sarif-multitool validate report.sarif -o found.sarif --log ForceOverwrite \
-    --rule-kind "Sarif;Gh" --level "Error;Warning" >multitool.txt 2>&1 || true
-[ -s found.sarif ] || fail "$(tail -20 multitool.txt)"
-grep -oE '"ruleId": *"[A-Za-z0-9]*' found.sarif | sort | uniq -c >rules.txt || true
-cat rules.txt
-[ ! -s rules.txt ] || fail "the Multitool has something to say"
+    --rule-kind '"Sarif;Gh"' --level '"Error;Warning"' >multitool.txt 2>&1 || true
+grep -q 'Analysis completed successfully' multitool.txt || fail "$(tail -20 multitool.txt)"
+# SARIF2005 asks for the tool's page in the web, which a copy of glint cannot know.
+grep -E '(error|warning) [A-Z]+[0-9]+:' multitool.txt | grep -v "SARIF2005.*'informationUri'" >said.txt || true
+[ ! -s said.txt ] || fail "$(head -20 said.txt)"
+# And it can say no.
+sed 's/"startLine": [0-9]*/"startLine": 0/' report.sarif >broken.sarif
+DOTNET_SYSTEM_GLOBALIZATION_INVARIANT=1 sarif-multitool validate broken.sarif -o found.sarif --log ForceOverwrite \
+    --rule-kind '"Sarif;Gh"' --level '"Error;Warning"' >multitool.txt 2>&1 || true
+grep -qE 'error [A-Z]+[0-9]+:' multitool.txt || fail "a broken report was taken"
