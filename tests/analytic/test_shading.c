@@ -204,7 +204,9 @@ int main(int argc, char **argv) {
         return code;
     check_kinds(&a);
     check_exponents(&a);
-    check_order(&a, true, 1);
-    check_order(&a, false, 1 + 0x1p-23f);
+    if (!a.kit.by_reference) { // whose sums are exact here
+        check_order(&a, true, 1);
+        check_order(&a, false, 1 + 0x1p-23f);
+    }
     return analytic_close(&a);
 }

@@ -12,6 +12,9 @@
 // What must hold.
 #define WRONG_HITS_PER_MILLION 20.0
 #define FAR_PIXELS_SHARE       0.001
+// Of small pictures some pixels more: rays that meet the edge of a checker's cell exactly, where rounding
+// decides, lie on lines through the picture.
+#define FAR_PIXELS_MORE 8
 
 struct pair {
     uint32_t width, height;
@@ -93,7 +96,7 @@ static bool judge(const struct pair *p, const char *path, struct image_display d
     compare_hits(p, &v);
     double count = (double)p->width * p->height;
     double per_million = v.outside ? 1e6 * v.wrong_outside / v.outside : 0;
-    bool good = v.not_finite == 0 && v.far_pixels <= FAR_PIXELS_SHARE * count &&
+    bool good = v.not_finite == 0 && v.far_pixels <= FAR_PIXELS_SHARE * count + FAR_PIXELS_MORE &&
                 per_million <= WRONG_HITS_PER_MILLION;
     printf(
         "%s %s %ux%u: other hits %u, outside silhouettes %u of %u (%.1f a million); other lights %u, other "
