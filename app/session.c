@@ -12,7 +12,7 @@ enum {
     SAME_CODE_MAX = 50, // diagnostics of one code in one file that are told one by one
 };
 
-static enum diag_code code_of_status(enum file_status status) {
+enum diag_code session_file_code(enum file_status status) {
     switch (status) {
     case FILE_MISSING:
         return DIAG_FILE_MISSING;
@@ -31,7 +31,7 @@ static enum diag_code code_of_status(enum file_status status) {
 
 static enum session_state unreadable(struct session *session, str path, enum file_status status) {
     uint32_t source = source_add(&session->sources, SOURCE_KIND_FILE, path, STR(""));
-    diag_add(&session->sink, code_of_status(status), (span){source, 0, 0}, "the scene file %s",
+    diag_add(&session->sink, session_file_code(status), (span){source, 0, 0}, "the scene file %s",
              file_status_text(&session->files, status));
     if (status == FILE_TOO_LARGE)
         diag_help(&session->sink, "raise the limit with --limit %s=BYTES",

@@ -65,6 +65,8 @@ struct session {
 enum session_state session_load(struct session *session, const struct session_options *options,
                                 struct asset_store *store);
 void session_finish(struct session *session);
+// What is said of a scene file that cannot be read.
+enum diag_code session_file_code(enum file_status status);
 // What session_load does last, as options.lint says.
 void session_lint(struct session *session);
 // Sorts the diagnostics and groups those of one code and file.

@@ -45,6 +45,7 @@ struct cli_options {
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
     bool as_file, no_cache; // of the reference
+    bool check, diff, upgrade; // of what changes files
     int output_arg;         // where it stands on the command line; 0: not given
 };
 
@@ -120,6 +121,7 @@ int cmd_render(struct cli *cli);
 int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);
 int cmd_convert(struct cli *cli);
+int cmd_format(struct cli *cli);
 int cmd_schema(struct cli *cli);
 int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);

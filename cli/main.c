@@ -59,6 +59,13 @@ const struct cli_command cli_commands[] = {
      "outline;\n"
      "formatting. docs/editors.md shows how editors are told to start it.\n",
      0, 0, cmd_lsp},
+    {"format", "FILE...", "lay scene files out in one way",
+     "Indentation, blanks and line breaks; comments, quoting, numbers, anchors and the order of keys stay. FILE\n"
+     "is a scene, a folder with scenes, or '-': standard input, to standard output. docs/format.md describes the\n"
+     "layout.\n\n"
+     "  glint format scene.glint.yaml\n"
+     "  glint format --check scenes\n",
+     1, -1, cmd_format},
     {"schema", "json|relaxng|markdown", "print the language's schema or reference page",
      "json: JSON Schema (draft-07) for YAML editors. relaxng: RELAX NG for XML editors.\n"
      "markdown: the reference page.\n",

@@ -1,0 +1,93 @@
+#include "app/layout.h"
+
+#include "app/session.h"
+#include "parser/format.h"
+
+struct job {
+    struct layout *layout;
+    str path;
+    const struct limits *limits;
+    bool upgrade;
+    bool from_file;
+};
+
+static enum layout_status unreadable(struct job *job, enum file_status status) {
+    struct layout *layout = job->layout;
+    uint32_t source = source_add(&layout->sources, SOURCE_KIND_FILE, job->path, STR(""));
+    diag_add(&layout->sink, session_file_code(status), (span){source, 0, 0}, "the scene file %s",
+             file_status_text(&layout->files, status));
+    return LAYOUT_UNREADABLE;
+}
+
+static enum layout_status failed(struct layout *layout, uint32_t source) {
+    if (layout->result.failed)
+        diag_add(&layout->sink, DIAG_OUT_OF_MEMORY, (span){source, 0, 0},
+                 "there is no memory for the text in its new layout");
+    else
+        diag_add(&layout->sink, DIAG_FORMAT_UNSAFE, (span){source, 0, 0},
+                 "its canonical layout would be read otherwise than this one");
+    return LAYOUT_FAILED;
+}
+
+static enum layout_status run(struct job *job) {
+    struct layout *layout = job->layout;
+    source_set_init(&layout->sources, &layout->arena);
+    files_init(&layout->files, &layout->arena);
+    if (job->from_file) {
+        enum file_status status = files_read(&layout->files, job->path, job->limits->value[LIMIT_SCENE_BYTES],
+                                             &layout->arena, &layout->text);
+        if (status != FILE_OK)
+            return unreadable(job, status);
+    }
+    uint32_t source = source_add(&layout->sources, SOURCE_KIND_FILE, job->path, layout->text);
+    struct reader_context context = {
+        .sources = &layout->sources, .sink = &layout->sink, .limits = job->limits, .arena = &layout->arena};
+    enum format_status status =
+        format_source(&context, source, job->upgrade ? &UPGRADE_STANDARD : NULL, &layout->result);
+    if (status == FORMAT_REFUSED)
+        return LAYOUT_REFUSED;
+    if (status == FORMAT_UNSAFE || layout->result.failed)
+        return failed(layout, source);
+    return str_equal(layout->text, strbuf_view(&layout->result)) ? LAYOUT_SAME : LAYOUT_CHANGED;
+}
+
+static enum layout_status guarded(struct job *job) {
+    struct layout *layout = job->layout;
+    struct arena_guard guard;
+    diag_sink_init(&layout->sink);
+    strbuf_init(&layout->result);
+    arena_init(&layout->arena, (size_t)job->limits->value[LIMIT_SCENE_MEMORY]);
+    arena_set_guard(&layout->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        layout->status = run(job);
+    } else {
+        diag_add(&layout->sink, guard.fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
+                 "the scene needs more memory than %s",
+                 guard.fault == ARENA_FAULT_CAP ? "the limit" : "there is");
+        diag_help(&layout->sink, "raise the limit with --limit %s=BYTES",
+                  limit_info(LIMIT_SCENE_MEMORY)->name);
+        layout->status = LAYOUT_FAILED;
+    }
+    arena_set_guard(&layout->arena, NULL);
+    diag_sort(&layout->sink);
+    return layout->status;
+}
+
+enum layout_status layout_text(struct layout *layout, str path, str text, const struct limits *limits,
+                               bool upgrade) {
+    struct job job = {layout, path, limits, upgrade, false};
+    *layout = (struct layout){.text = text};
+    return guarded(&job);
+}
+
+enum layout_status layout_file(struct layout *layout, str path, const struct limits *limits, bool upgrade) {
+    struct job job = {layout, path, limits, upgrade, true};
+    *layout = (struct layout){.text = STR("")};
+    return guarded(&job);
+}
+
+void layout_finish(struct layout *layout) {
+    strbuf_finish(&layout->result);
+    diag_sink_finish(&layout->sink);
+    arena_finish(&layout->arena);
+}

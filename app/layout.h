@@ -1,0 +1,37 @@
+// One file in canonical layout: for `glint format`, and for editors, whose text need not be saved.
+//
+// Ownership: layout_finish frees everything; `text` and the result's view are valid until then. Errors: a
+// status, and diagnostics in `sink`, errors only, sorted. Thread safety: one layout belongs to one thread.
+#ifndef GLINT_APP_LAYOUT_H
+#define GLINT_APP_LAYOUT_H
+
+#include "core/diag.h"
+#include "core/files.h"
+#include "core/limits.h"
+#include "core/strbuf.h"
+
+enum layout_status {
+    LAYOUT_SAME,       // the text is in canonical layout
+    LAYOUT_CHANGED,    // `result` holds the text as it should be
+    LAYOUT_REFUSED,    // the text cannot be read to its end
+    LAYOUT_UNREADABLE, // the file cannot be read
+    LAYOUT_FAILED,     // the layout would have changed the meaning, or memory ended
+};
+
+struct layout {
+    struct arena arena;
+    struct source_set sources;
+    struct files files;
+    struct diag_sink sink;
+    str text;             // as it is
+    struct strbuf result; // LAYOUT_CHANGED
+    enum layout_status status;
+};
+
+// `path` tells the spelling by its ending; others are told by the text. `text` must outlive the layout.
+enum layout_status layout_text(struct layout *layout, str path, str text, const struct limits *limits,
+                               bool upgrade);
+enum layout_status layout_file(struct layout *layout, str path, const struct limits *limits, bool upgrade);
+void layout_finish(struct layout *layout);
+
+#endif

@@ -1,0 +1,133 @@
+// glint format FILE...: scene files in canonical layout.
+#include "app/layout.h"
+#include "cli/cli.h"
+#include "core/diag_text.h"
+#include "core/files_walk.h"
+#include "core/text_diff.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const endings[] = {".glint.yaml", ".glint.yml", ".glint.xml", NULL};
+
+struct formatter {
+    struct cli *cli;
+    struct strbuf out; // patches, or names of files
+    int status;
+};
+
+static void worsen(struct formatter *f, int status) {
+    f->status = status > f->status ? status : f->status;
+}
+
+// Errors only: what the file means is no concern of its layout.
+static void tell(struct formatter *f, struct layout *layout) {
+    struct strbuf text;
+    struct diag_text_options options = {.color = f->cli->color,
+                                        .most = (uint32_t)f->cli->options.limits.value[LIMIT_MESSAGES]};
+    strbuf_init(&text);
+    diag_text(&text, &layout->sink, &layout->sources, options);
+    cli_write_error(strbuf_view(&text));
+    strbuf_finish(&text);
+}
+
+static void write_result(struct formatter *f, const char *path, const struct layout *layout) {
+    const struct cli_options *o = &f->cli->options;
+    str text = layout->status == LAYOUT_CHANGED ? strbuf_view(&layout->result) : layout->text;
+    bool is_stream = strcmp(path, "-") == 0;
+    if (o->output || is_stream)
+        worsen(f, cli_write(f->cli, o->output ? o->output : "-", text));
+    else if (layout->status == LAYOUT_CHANGED)
+        worsen(f, cli_write(f->cli, path, text));
+}
+
+static void take(struct formatter *f, const char *path, struct layout *layout) {
+    const struct cli_options *o = &f->cli->options;
+    if (layout->status > LAYOUT_CHANGED) {
+        tell(f, layout);
+        worsen(f, layout->status == LAYOUT_UNREADABLE ? CLI_FILE : CLI_SCENE);
+        return;
+    }
+    if (!o->check && !o->diff) {
+        write_result(f, path, layout);
+        return;
+    }
+    if (layout->status == LAYOUT_SAME)
+        return;
+    if (o->diff)
+        text_diff(str_from(path), layout->text, str_from(path), strbuf_view(&layout->result), &f->out);
+    else
+        strbuf_format(&f->out, "%s\n", path);
+    if (o->check)
+        worsen(f, CLI_SCENE);
+}
+
+static bool read_stream(struct cli *cli, struct strbuf *text) {
+    char block[65536];
+    size_t count;
+    text->cap_bytes = (size_t)cli->options.limits.value[LIMIT_SCENE_BYTES] + 1;
+    while ((count = fread(block, 1, sizeof block, stdin)) > 0)
+        strbuf_add(text, block, count);
+    return !ferror(stdin) && !text->failed;
+}
+
+static void format_stream(struct formatter *f) {
+    struct strbuf text;
+    struct layout layout;
+    strbuf_init(&text);
+    if (read_stream(f->cli, &text)) {
+        layout_text(&layout, STR("standard input"), strbuf_view(&text), &f->cli->options.limits, f->cli->options.upgrade);
+        take(f, "-", &layout);
+        layout_finish(&layout);
+    } else {
+        cli_error(f->cli, text.failed ? DIAG_LIMIT : DIAG_FILE_UNREADABLE, "standard input", NULL,
+                  "standard input %s",
+                  text.failed ? "is larger than the limit scene-bytes" : "cannot be read");
+        worsen(f, CLI_FILE);
+    }
+    strbuf_finish(&text);
+}
+
+static void format_file(struct formatter *f, const char *path) {
+    struct layout layout;
+    layout_file(&layout, str_from(path), &f->cli->options.limits, f->cli->options.upgrade);
+    take(f, path, &layout);
+    layout_finish(&layout);
+}
+
+static void format_folder(struct formatter *f, const char *path) {
+    struct files_found found = {.arena = &f->cli->arena, .endings = endings};
+    if (files_walk(&found, str_from(path)) != FILE_OK) {
+        cli_error(f->cli, DIAG_FILE_UNREADABLE, path, NULL, "the folder cannot be read: %s", strerror(errno));
+        worsen(f, CLI_FILE);
+    }
+    for (uint32_t i = 0; i < found.paths.count; i++)
+        format_file(f, found.paths.items[i].ptr);
+}
+
+int cmd_format(struct cli *cli) {
+    struct formatter f = {.cli = cli, .status = CLI_OK};
+    const struct cli_options *o = &cli->options;
+    bool folder = files_is_folder(str_from(cli->operands[0]));
+    if (o->output && (cli->operand_count > 1 || folder || o->check || o->diff))
+        return cli_usage(cli, o->output_arg, "-o takes what one file becomes, without --check and --diff");
+    strbuf_init(&f.out);
+    for (int i = 0; i < cli->operand_count; i++) {
+        const char *path = cli->operands[i];
+        if (strcmp(path, "-") == 0)
+            format_stream(&f);
+        else if (files_is_folder(str_from(path)))
+            format_folder(&f, path);
+        else
+            format_file(&f, path);
+    }
+    if (f.out.failed) {
+        cli_error(cli, DIAG_OUT_OF_MEMORY, "format", NULL, "there is no memory for the report");
+        worsen(&f, CLI_FILE);
+    } else if (f.out.len) {
+        worsen(&f, cli_print(cli, strbuf_view(&f.out)));
+    }
+    strbuf_finish(&f.out);
+    return f.status;
+}
