@@ -12,7 +12,8 @@ function own(path, target) {
     if (path ~ /^parser\//) return target ~ /^(core|grammar|parser)\//
     if (path ~ /^assets\//)
         return target ~ /^(core|assets)\// || target ~ /^grammar\/(ir|ir_origin|schema)\.h$/
-    if (path ~ /^runtime\/reference\//) return target ~ /^(core|grammar|assets|runtime\/reference)\//
+    if (path ~ /^runtime\/reference\//)
+        return target ~ /^(core|grammar|assets|runtime\/reference)\// || target == "runtime/hits.h"
     if (path ~ /^runtime\//) return target ~ /^(core|grammar|assets|runtime)\// || target ~ /^shaders\/.*\.h$/
     if (path ~ /^shaders\//) return target ~ /^shaders\//
     if (path ~ /^app\//) return target !~ /^(cli|viewer|tests|bench|tools)\//
