@@ -28,6 +28,9 @@ enum option_id {
     OPTION_IR,
     OPTION_AS_FILE,
     OPTION_NO_CACHE,
+    OPTION_CHECK,
+    OPTION_DIFF,
+    OPTION_UPGRADE,
     OPTION_FORMAT,
     OPTION_MAX_MESSAGES,
     OPTION_POLICY = 1500,  // and enum cli_policy_option behind it
@@ -64,7 +67,7 @@ static const struct option_row rows[] = {
     {OPTION_NO_CACHE, "no-cache", 0, NULL, "render", "the reference neither reads nor writes its cache"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR", "render pick check inspect convert deps pack",
      "a folder in which files of the scene are looked for too"},
-    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render pick check inspect convert deps pack compare",
+    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render pick check inspect format convert deps pack compare",
      "change a limit on the size of inputs; NAME 'help' lists them"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and tell the median time of a frame and its spread"},
@@ -117,6 +120,10 @@ static const struct option_row rows[] = {
      "write the error of each pixel as colours to FILE (.png)"},
     {OPTION_MEASURE + CLI_MEASURE_HEATMAP_OF, "heatmap-of", 0, "KIND", "compare",
      "difference (black to 0.001, then three decades) or flip (0 to 1)"},
+    {OPTION_OUTPUT, "output", 'o', "FILE", "format", "write to FILE instead; '-' is standard output"},
+    {OPTION_CHECK, "check", 0, NULL, "format", "write nothing; name the files that would change, and fail where there are any"},
+    {OPTION_DIFF, "diff", 0, NULL, "format", "write nothing; show what would change as a patch"},
+    {OPTION_UPGRADE, "upgrade", 0, NULL, "format", "rewrite what an older version of the format says otherwise"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as it was understood, in canonical form"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
@@ -284,6 +291,15 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
         return true;
     case OPTION_VERBOSE:
         options->verbose = true;
+        return true;
+    case OPTION_CHECK:
+        options->check = true;
+        return true;
+    case OPTION_DIFF:
+        options->diff = true;
+        return true;
+    case OPTION_UPGRADE:
+        options->upgrade = true;
         return true;
     case OPTION_IR:
         options->ir = true;
