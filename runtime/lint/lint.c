@@ -21,7 +21,7 @@ static const struct rule {
     {DIAG_UNUSED_INCLUDE, "includes that add nothing", lint_unused_include, LINT_ALL},
     // A tree for each mesh and a walk for each leaf; then a walk through what pairs of bodies have in common.
     {DIAG_COINCIDENT, "faces in one plane", lint_coincident, LINT_ALL},
-    // One pass over the triangles of each mesh, the second one with chains by corner.
+    // One pass over the triangles of each mesh, the second one with a hash table.
     {DIAG_ZERO_AREA, "triangles without area", lint_zero_area, LINT_ALL},
     {DIAG_DUPLICATE_TRIANGLES, "triangles given twice", lint_duplicates, LINT_ALL},
     // For meshes that refract: a tree and a walk for each leaf; then connected parts.

@@ -1,8 +1,6 @@
 // Bodies, meshes and cameras as the rules need them.
 #include "runtime/lint/lint_parts.h"
 
-#include <string.h>
-
 // ---- materials
 
 const struct ir_material *lint_material(const struct lint *lint, const struct lint_body *body,
@@ -73,7 +71,7 @@ static double determinant(mat3 a) {
 }
 
 // The inverse of T·R·S: columns of R·S are orthogonal, so that each row is a column over its square.
-static affine3 inverse(affine3 a) {
+affine3 lint_inverse(affine3 a) {
     affine3 b;
     for (int i = 0; i < 3; i++) {
         vec3 column = {a.linear.m[0][i], a.linear.m[1][i], a.linear.m[2][i]};
@@ -84,6 +82,10 @@ static affine3 inverse(affine3 a) {
     }
     b.offset = vec3_neg(mat3_apply(b.linear, a.offset));
     return b;
+}
+
+affine3 lint_placing(const struct lint *lint, const struct lint_body *body) {
+    return view_model_transform(&lint->scene->models.items[body->index]);
 }
 
 static void add_sphere(struct lint *lint, uint32_t i) {
@@ -113,17 +115,13 @@ static void add_model(struct lint *lint, uint32_t i) {
     const struct ir_model *model = &lint->scene->models.items[i];
     const struct mesh *mesh = i < lint->assets->model_count ? lint->assets->models[i].mesh : NULL;
     struct lint_body *body = &lint->bodies[lint->body_count++];
-    *body = (struct lint_body){.kind = LINT_MODEL,
-                               .index = i,
-                               .head = &model->head,
-                               .name = model->name,
-                               .box = lint_box_empty(),
-                               .place = view_model_transform(model)};
+    *body = (struct lint_body){
+        .kind = LINT_MODEL, .index = i, .head = &model->head, .name = model->name, .box = lint_box_empty()};
     if (!mesh)
         return;
-    body->back = inverse(body->place);
-    body->is_mirrored = determinant(body->place.linear) < 0;
-    body->box = lint_box_place((struct lint_box){mesh->lower, mesh->upper}, &body->place);
+    affine3 placing = view_model_transform(model);
+    body->is_mirrored = determinant(placing.linear) < 0;
+    body->box = lint_box_place((struct lint_box){mesh->lower, mesh->upper}, &placing);
     body->mesh = mesh_of(lint, mesh, i);
     body->is_solid = mesh->closed;
     weigh(lint, body);
@@ -150,7 +148,8 @@ int lint_winding(struct lint *lint, const struct lint_body *body, vec3 point) {
     }
     if (!body->mesh)
         return 0;
-    return lint_tree_winding(lint_tree_of(lint, body->mesh), affine3_apply(body->back, point));
+    affine3 back = lint_inverse(lint_placing(lint, body));
+    return lint_tree_winding(lint_tree_of(lint, body->mesh), affine3_apply(back, point));
 }
 
 void lint_collect(struct lint *lint) {

@@ -41,19 +41,17 @@ struct lint_mesh {
     struct lint_pairs crossings, overlaps; // lint_find_pairs
 };
 
-// In IR order.
+// In IR order. Scenes may have a million of them: what is rarely needed is computed when it is.
 struct lint_body {
     enum lint_body_kind kind;
     uint32_t index; // in the scene's list of its kind
     const struct ir_head *head;
     str name;
     struct lint_box box;    // around it, in scene units
-    affine3 place;          // models: from mesh space
-    affine3 back;           // models: to mesh space
-    bool is_mirrored;       // models: `place` turns the mesh inside out
     struct lint_mesh *mesh; // models; NULL: a sphere, a rectangle, or not loaded
     // The largest of its materials' weights.
     double reflection, refraction, gain; // gain: reflection and refraction of one material together
+    bool is_mirrored;                    // a model whose scale turns the mesh inside out
     bool is_opaque;                      // no material of it refracts
     bool is_solid;                       // a sphere or a closed mesh: it has an inside
 };
@@ -89,6 +87,9 @@ static inline bool lint_is_inside(struct lint *lint, const struct lint_body *bod
 const struct ir_material *lint_material(const struct lint *lint, const struct lint_body *body,
                                         uint32_t group);
 uint32_t lint_group_count(const struct lint_body *body);
+// Of a model with a mesh: from mesh space to scene units, and back.
+affine3 lint_placing(const struct lint *lint, const struct lint_body *body);
+affine3 lint_inverse(affine3 placing);
 // The two triangles of a rectangle.
 void lint_rectangle(const struct lint_body *body, const struct lint *lint, struct lint_triangle out[2]);
 

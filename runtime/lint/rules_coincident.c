@@ -33,49 +33,56 @@ static void check_mesh(struct lint *lint, struct lint_mesh *mesh) {
 
 // ---- bodies at equal places
 
-struct place_key {
+// What a body's place depends on.
+struct place {
     double numbers[12];
     const struct mesh *mesh;
+};
+
+struct place_key {
+    uint64_t hash;
     uint32_t body;
 };
 
-static struct place_key key_of(const struct lint *lint, uint32_t index) {
+static struct place place_of(const struct lint *lint, uint32_t index) {
     const struct lint_body *body = &lint->bodies[index];
-    struct place_key key;
-    memset(&key, 0, sizeof key);
-    key.body = index;
+    struct place place = {.numbers[11] = body->kind};
     if (body->kind == LINT_SPHERE) {
         const struct ir_sphere *sphere = &lint->scene->spheres.items[body->index];
-        memcpy(key.numbers, &sphere->center, sizeof sphere->center);
-        key.numbers[3] = sphere->radius;
+        memcpy(place.numbers, &sphere->center, sizeof sphere->center);
+        place.numbers[3] = sphere->radius;
     } else if (body->kind == LINT_RECTANGLE) {
         const struct ir_rectangle *r = &lint->scene->rectangles.items[body->index];
-        memcpy(key.numbers, &r->corner, sizeof(vec3));
-        memcpy(key.numbers + 3, &r->edge_u, sizeof(vec3));
-        memcpy(key.numbers + 6, &r->edge_v, sizeof(vec3));
-        key.numbers[11] = 1;
+        memcpy(place.numbers, &r->corner, sizeof(vec3));
+        memcpy(place.numbers + 3, &r->edge_u, sizeof(vec3));
+        memcpy(place.numbers + 6, &r->edge_v, sizeof(vec3));
     } else {
-        memcpy(key.numbers, &body->place.linear, sizeof(mat3));
-        memcpy(key.numbers + 9, &body->place.offset, sizeof(vec3));
-        key.mesh = body->mesh ? body->mesh->mesh : NULL;
+        const struct ir_model *model = &lint->scene->models.items[body->index];
+        memcpy(place.numbers, &model->scale, sizeof(vec3));
+        memcpy(place.numbers + 3, &model->rotation, sizeof(vec3));
+        memcpy(place.numbers + 6, &model->translation, sizeof(vec3));
+        place.mesh = body->mesh->mesh;
     }
-    return key;
+    return place;
 }
 
-static int compare_places(const struct place_key *x, const struct place_key *y) {
-    if (x->mesh != y->mesh)
-        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
-    for (int i = 0; i < 12; i++)
-        if (x->numbers[i] != y->numbers[i])
-            return x->numbers[i] < y->numbers[i] ? -1 : 1;
-    return 0;
+static bool is_same_place(const struct lint *lint, uint32_t a, uint32_t b) {
+    struct place x = place_of(lint, a);
+    struct place y = place_of(lint, b);
+    return x.mesh == y.mesh && memcmp(x.numbers, y.numbers, sizeof x.numbers) == 0;
+}
+
+static struct place_key key_of(const struct lint *lint, uint32_t body) {
+    struct place place = place_of(lint, body);
+    return (struct place_key){str_hash((str){(const char *)place.numbers, sizeof place.numbers}), body};
 }
 
 static int compare_keys(const void *a, const void *b) {
     const struct place_key *x = a;
     const struct place_key *y = b;
-    int order = compare_places(x, y);
-    return order ? order : x->body < y->body ? -1 : x->body > y->body;
+    if (x->hash != y->hash)
+        return x->hash < y->hash ? -1 : 1;
+    return x->body < y->body ? -1 : x->body > y->body;
 }
 
 static bool *find_repeats(struct lint *lint) {
@@ -87,7 +94,7 @@ static bool *find_repeats(struct lint *lint) {
             keys[count++] = key_of(lint, i);
     qsort(keys, count, sizeof *keys, compare_keys);
     for (uint32_t i = 1, first = 0; i < count; i++) {
-        if (compare_places(&keys[first], &keys[i]) != 0) {
+        if (keys[first].hash != keys[i].hash || !is_same_place(lint, keys[first].body, keys[i].body)) {
             first = i;
             continue;
         }
@@ -105,9 +112,10 @@ static bool *find_repeats(struct lint *lint) {
 
 struct search {
     struct lint *lint;
-    const struct lint_body *a, *b; // faces of `a` against those of `b`
-    struct lint_face face;         // of `a`, in scene units
-    uint32_t triangle;             // of `a`
+    const struct lint_body *a, *b;        // faces of `a` against those of `b`
+    affine3 placing_a, placing_b, back_b; // of models
+    struct lint_face face;                // of `a`, in scene units
+    uint32_t triangle;                    // of `a`
     double near;
     uint64_t *work_left;
     uint32_t count;
@@ -151,7 +159,7 @@ static bool visit_other(void *context, uint32_t first, uint32_t count) {
     const struct lint_tree *tree = &s->b->mesh->tree;
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
-        place_triangle(&t, &s->b->place);
+        place_triangle(&t, &s->placing_b);
         compare_faces(s, t, tree->order[i]);
     }
     *s->work_left -= *s->work_left < count ? *s->work_left : count;
@@ -169,7 +177,7 @@ static void search_face(struct search *s, struct lint_triangle triangle, uint32_
         return;
     }
     struct lint_box box = lint_box_grow(lint_box_of(&triangle), s->near);
-    box = lint_box_place(box, &s->b->back);
+    box = lint_box_place(box, &s->back_b);
     lint_tree_in_box(lint_tree_of(s->lint, s->b->mesh), &box, visit_other, s);
 }
 
@@ -178,7 +186,7 @@ static bool visit_own(void *context, uint32_t first, uint32_t count) {
     const struct lint_tree *tree = &s->a->mesh->tree;
     for (uint32_t i = first; i<first + count && * s->work_left> 0; i++) {
         struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
-        place_triangle(&t, &s->a->place);
+        place_triangle(&t, &s->placing_a);
         search_face(s, t, tree->order[i]);
         *s->work_left -= *s->work_left > 0;
     }
@@ -220,6 +228,12 @@ static void check_pair(struct lint *lint, const struct lint_body *a, const struc
         s.a = b;
         s.b = a;
     }
+    if (s.a->mesh)
+        s.placing_a = lint_placing(lint, s.a);
+    if (s.b->mesh) {
+        s.placing_b = lint_placing(lint, s.b);
+        s.back_b = lint_inverse(s.placing_b);
+    }
     struct lint_box common = {vec3_max(a->box.lower, b->box.lower), vec3_min(a->box.upper, b->box.upper)};
     s.near = NEAR * farthest(lint, &common);
     common = lint_box_grow(common, s.near);
@@ -229,7 +243,8 @@ static void check_pair(struct lint *lint, const struct lint_body *a, const struc
         search_face(&s, halves[0], 0);
         search_face(&s, halves[1], 1);
     } else {
-        struct lint_box own = lint_box_place(common, &s.a->back);
+        affine3 back = lint_inverse(s.placing_a);
+        struct lint_box own = lint_box_place(common, &back);
         lint_tree_in_box(lint_tree_of(lint, s.a->mesh), &own, visit_own, &s);
     }
     if (s.count)

@@ -13,7 +13,8 @@
 enum {
     COLUMNS = 96, // of the grid, at most
     HITS_MAX = 256,
-    WORK_MAX = 20000000, // rays times bodies
+    WORK_MAX = 20000000,    // rays times bodies
+    RAY_WORK_MAX = 1 << 14, // triangles that one ray may try: a fan of needles has them all in its way
 };
 
 struct crossing {
@@ -37,6 +38,7 @@ struct ray_hits {
     uint32_t body;
     struct crossing items[HITS_MAX];
     uint32_t count;
+    uint32_t tried;
 };
 
 static void add_hit(struct ray_hits *hits, double t) {
@@ -53,7 +55,8 @@ static bool meet(void *context, uint32_t first, uint32_t count) {
         if (lint_triangle_ray(&t, hits->origin, hits->direction, &at, &side))
             add_hit(hits, at);
     }
-    return true;
+    hits->tried += count;
+    return hits->tried < RAY_WORK_MAX;
 }
 
 static void meet_sphere(struct ray_hits *hits, const struct ir_sphere *sphere, vec3 origin, vec3 direction) {
@@ -84,8 +87,9 @@ static void meet_body(const struct lint *lint, uint32_t index, vec3 origin, vec3
             add_hit(hits, t);
     } else if (body->mesh) {
         hits->tree = &body->mesh->tree;
-        hits->origin = affine3_apply(body->back, origin);
-        hits->direction = mat3_apply(body->back.linear, direction);
+        affine3 back = lint_inverse(lint_placing(lint, body));
+        hits->origin = affine3_apply(back, origin);
+        hits->direction = mat3_apply(back.linear, direction);
         lint_tree_on_ray(hits->tree, hits->origin, hits->direction, meet, hits);
     }
 }
@@ -97,7 +101,7 @@ static int compare_crossings(const void *a, const void *b) {
 }
 
 static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direction) {
-    struct ray_hits hits;
+    struct ray_hits hits = {.count = 0};
     double nearest = INFINITY;
     for (uint32_t k = 0; k < glass->lint->body_count; k++) {
         const struct lint_body *body = &glass->lint->bodies[k];
@@ -137,7 +141,7 @@ static void trace_ray(const struct glass *glass, uint32_t index) {
         if (lint_box_on_ray(&lint->bodies[glass->refracting[i]].box, camera->position, direction))
             meet_body(lint, glass->refracting[i], camera->position, direction, &hits);
     uint32_t most = (uint32_t)lint->scene->trace.max_depth;
-    if (hits.count <= most)
+    if (hits.count <= most || hits.tried >= RAY_WORK_MAX)
         return;
     qsort(hits.items, hits.count, sizeof *hits.items, compare_crossings);
     if (count_layers(lint, &hits, INFINITY) <= most)

@@ -1,6 +1,10 @@
 // Cameras and lights inside bodies, lights on surfaces.
 #include "runtime/lint/lint_parts.h"
 
+enum {
+    WORK_MAX = 50000000, // bodies against cameras, or lights: further ones are not looked at
+};
+
 // ---- cameras
 
 // A room: what stands in an opaque body is lit there, and its camera sees it.
@@ -28,7 +32,8 @@ static void report_camera(struct lint *lint, const struct ir_camera *camera, con
 }
 
 void lint_camera_inside(struct lint *lint) {
-    for (uint32_t i = 0; i < lint->scene->cameras.count; i++) {
+    uint64_t work = 0;
+    for (uint32_t i = 0; i < lint->scene->cameras.count && work < WORK_MAX; i++, work += lint->body_count) {
         vec3 position = lint->views[i].camera.position;
         for (uint32_t k = 0; k < lint->body_count; k++) {
             const struct lint_body *body = &lint->bodies[k];
@@ -44,7 +49,7 @@ void lint_camera_inside(struct lint *lint) {
 
 struct nearest_face {
     const struct lint_tree *tree;
-    const affine3 *place;
+    affine3 placing;
     vec3 point; // in scene units
     double distance;
     uint32_t triangle;
@@ -55,7 +60,7 @@ static bool measure(void *context, uint32_t first, uint32_t count) {
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(nearest->tree->mesh, nearest->tree->order[i]);
         for (int k = 0; k < 3; k++)
-            t.p[k] = affine3_apply(*nearest->place, t.p[k]);
+            t.p[k] = affine3_apply(nearest->placing, t.p[k]);
         double distance = lint_triangle_distance(&t, nearest->point);
         if (distance < nearest->distance) {
             nearest->distance = distance;
@@ -80,9 +85,11 @@ static bool is_on(struct lint *lint, const struct lint_body *body, vec3 point, d
     }
     if (!body->mesh)
         return false;
-    struct nearest_face nearest = {lint_tree_of(lint, body->mesh), &body->place, point, INFINITY, 0};
+    struct nearest_face nearest = {lint_tree_of(lint, body->mesh), lint_placing(lint, body), point, INFINITY,
+                                   0};
+    affine3 back = lint_inverse(nearest.placing);
     struct lint_box around = lint_box_grow((struct lint_box){point, point}, near);
-    around = lint_box_place(around, &body->back);
+    around = lint_box_place(around, &back);
     lint_tree_in_box(nearest.tree, &around, measure, &nearest);
     *triangle = nearest.triangle;
     return nearest.distance <= near;
@@ -129,7 +136,8 @@ static bool check_light(struct lint *lint, const struct ir_light *light, const s
 void lint_light_inside(struct lint *lint) {
     if (!lint->scene->trace.shadows)
         return;
-    for (uint32_t i = 0; i < lint->scene->lights.count; i++) {
+    uint64_t work = 0;
+    for (uint32_t i = 0; i < lint->scene->lights.count && work < WORK_MAX; i++, work += lint->body_count) {
         const struct ir_light *light = &lint->scene->lights.items[i];
         if (light->kind != IR_LIGHT_POSITION)
             continue;

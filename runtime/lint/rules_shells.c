@@ -170,57 +170,90 @@ static void check_shells(struct lint *lint, struct lint_mesh *mesh) {
 // ---- neighbours that disagree
 
 struct half_edge {
-    uint32_t low, high, line;
-    bool leads_down;
+    uint32_t high; // the end of higher index
+    uint32_t triangle;
+    bool leads_down; // to the lower end
 };
+
+struct edges {
+    uint32_t *first; // by lower end: where its edges begin; one more ends the last
+    struct half_edge *items;
+};
+
+static bool edge_of(const struct mesh *mesh, uint32_t triangle, int k, uint32_t *low,
+                    struct half_edge *edge) {
+    uint32_t a = mesh->merged[mesh->triangles[triangle].corners[k]];
+    uint32_t b = mesh->merged[mesh->triangles[triangle].corners[(k + 1) % 3]];
+    *low = a < b ? a : b;
+    *edge = (struct half_edge){a < b ? b : a, triangle, b < a};
+    return a != b;
+}
+
+// By counting: in the order of triangles within each lower end.
+static struct edges list_edges(struct lint *lint, const struct mesh *mesh) {
+    struct edges edges = {ARENA_ARRAY(lint->arena, uint32_t, (size_t)mesh->position_count + 1),
+                          ARENA_ARRAY(lint->arena, struct half_edge, 3 * (size_t)mesh->triangle_count)};
+    struct half_edge edge;
+    uint32_t low;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            edges.first[edge_of(mesh, t, k, &low, &edge) ? low : mesh->position_count]++;
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i <= mesh->position_count; i++) {
+        sum += i < mesh->position_count ? edges.first[i] : 0;
+        edges.first[i] = sum;
+    }
+    for (uint32_t t = mesh->triangle_count; t > 0; t--)
+        for (int k = 2; k >= 0; k--)
+            if (edge_of(mesh, t - 1, k, &low, &edge))
+                edges.items[--edges.first[low]] = edge;
+    return edges;
+}
 
 static int compare_edges(const void *a, const void *b) {
     const struct half_edge *x = a;
     const struct half_edge *y = b;
-    if (x->low != y->low)
-        return x->low < y->low ? -1 : 1;
     if (x->high != y->high)
         return x->high < y->high ? -1 : 1;
-    return x->line < y->line ? -1 : x->line > y->line;
+    return x->triangle < y->triangle ? -1 : x->triangle > y->triangle;
 }
 
-static size_t list_edges(const struct mesh *mesh, struct half_edge *edges) {
-    size_t count = 0;
-    for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        for (int k = 0; k < 3; k++) {
-            uint32_t a = mesh->merged[mesh->triangles[t].corners[k]];
-            uint32_t b = mesh->merged[mesh->triangles[t].corners[(k + 1) % 3]];
-            if (a != b)
-                edges[count++] =
-                    (struct half_edge){a < b ? a : b, a < b ? b : a, mesh->triangles[t].line, b < a};
-        }
-    return count;
+// Whether the edge has two faces that run along it the same way; *next: the first of another edge.
+static bool is_turned(const struct half_edge *edge, const struct half_edge *end,
+                      const struct half_edge **next) {
+    *next = edge + 1;
+    while (*next < end && (*next)->high == edge->high)
+        ++*next;
+    return *next - edge == 2 && edge[0].leads_down == edge[1].leads_down;
 }
 
 // Two faces at an edge that run along it the same way: one of them shows its back where the other its front.
 static void check_turned(struct lint *lint, struct lint_mesh *mesh) {
-    struct half_edge *edges =
-        ARENA_ARRAY(lint->arena, struct half_edge, 3 * (size_t)mesh->mesh->triangle_count);
-    size_t count = list_edges(mesh->mesh, edges);
-    qsort(edges, count, sizeof *edges, compare_edges);
+    struct edges edges = list_edges(lint, mesh->mesh);
     uint32_t turned = 0;
-    const struct half_edge *first = NULL;
-    for (size_t i = 0, end; i < count; i = end) {
-        for (end = i + 1; end < count && edges[end].low == edges[i].low && edges[end].high == edges[i].high;)
-            end++;
-        if (end - i != 2 || edges[i].leads_down != edges[i + 1].leads_down)
-            continue;
-        turned++;
-        if (!first || edges[i].line < first->line)
-            first = &edges[i];
+    uint32_t a = IR_NO_INDEX;
+    uint32_t b = IR_NO_INDEX;
+    for (uint32_t i = 0; i < mesh->mesh->position_count; i++) {
+        struct half_edge *begin = edges.items + edges.first[i];
+        const struct half_edge *end = edges.items + edges.first[i + 1];
+        qsort(begin, (size_t)(end - begin), sizeof *begin, compare_edges);
+        for (const struct half_edge *edge = begin, *next; edge < end; edge = next) {
+            if (!is_turned(edge, end, &next))
+                continue;
+            turned++;
+            if (edge->triangle < a) {
+                a = edge[0].triangle;
+                b = edge[1].triangle;
+            }
+        }
     }
-    if (!first)
+    if (turned == 0)
         return;
     diag_add(lint->sink, DIAG_INSIDE_OUT, lint_place_mesh(lint, mesh->first_refracting),
              "the mesh refracts, and at %u edge%s two faces of it are turned against each other", turned,
              turned == 1 ? "" : "s");
-    lint_note_mesh(lint, mesh, first[0].line, "between this face");
-    lint_note_mesh(lint, mesh, first[1].line, "and this one");
+    lint_note_mesh(lint, mesh, mesh->mesh->triangles[a].line, "between this face");
+    lint_note_mesh(lint, mesh, mesh->mesh->triangles[b].line, "and this one");
     diag_help(lint->sink, "let a modelling program turn all faces outwards: 'recalculate normals'");
 }
 

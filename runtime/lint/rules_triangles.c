@@ -52,31 +52,42 @@ struct twins {
     uint32_t line, of_line; // of the first: the later face, and the one that it repeats
 };
 
-// Triangles chained by their least corner: chains are as long as few triangles meet at a vertex.
+static uint64_t hash_of(struct corners corners) {
+    uint64_t hash = 0;
+    for (int k = 0; k < 3; k++) {
+        // The finalizer of MurmurHash3 over each part.
+        hash = (hash ^ corners.c[k]) * UINT64_C(0xff51afd7ed558ccd);
+        hash = (hash ^ hash >> 33) * UINT64_C(0xc4ceb9fe1a85ec53);
+        hash ^= hash >> 33;
+    }
+    return hash;
+}
+
+static bool is_same(struct corners a, struct corners b) {
+    return a.c[0] == b.c[0] && a.c[1] == b.c[1] && a.c[2] == b.c[2];
+}
+
 static struct twins find_twins(struct lint *lint, const struct mesh *mesh) {
     struct twins twins = {0};
-    uint32_t *last = ARENA_ARRAY(lint->arena, uint32_t, mesh->position_count); // plus 1
-    uint32_t *before = ARENA_ARRAY(lint->arena, uint32_t, mesh->triangle_count);
+    uint64_t slots = 16;
+    while (slots < 2 * (uint64_t)mesh->triangle_count)
+        slots *= 2;
+    uint32_t *table = ARENA_ARRAY(lint->arena, uint32_t, slots); // triangle plus 1
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         struct corners own = corners_of(mesh, i);
         if (own.c[0] == own.c[1] || own.c[1] == own.c[2])
             continue;
-        uint32_t steps = 0;
-        uint32_t k = last[own.c[0]];
-        for (; k && steps < 4096; k = before[k - 1], steps++) {
-            struct corners other = corners_of(mesh, k - 1);
-            if (other.c[1] == own.c[1] && other.c[2] == own.c[2])
-                break;
-        }
-        if (k && steps < 4096) {
-            if (twins.count++ == 0) {
-                twins.line = mesh->triangles[i].line;
-                twins.of_line = mesh->triangles[k - 1].line;
-            }
+        uint64_t at = hash_of(own) & (slots - 1);
+        while (table[at] && !is_same(corners_of(mesh, table[at] - 1), own))
+            at = (at + 1) & (slots - 1);
+        if (!table[at]) {
+            table[at] = i + 1;
             continue;
         }
-        before[i] = last[own.c[0]];
-        last[own.c[0]] = i + 1;
+        if (twins.count++ == 0) {
+            twins.line = mesh->triangles[i].line;
+            twins.of_line = mesh->triangles[table[at] - 1].line;
+        }
     }
     return twins;
 }

@@ -1,34 +1,35 @@
 // Triangles of one mesh against each other: each leaf of the tree asks for those that meet its box.
 //
-// Every triangle looks for all others and marks itself alone, so that the marks do not depend on how the work
-// is cut.
+// Each triangle looks for those behind it on the curve and marks itself alone, so that the work can be cut.
+// Where there are marks, which good meshes have none of, those triangles then mark the others, one by one.
 #include "runtime/lint/lint_parts.h"
 
 #include "core/parallel.h"
 
 enum {
-    PIECE = 1 << 10, // leaves of one piece of parallel work
+    PIECE = 1 << 10,      // leaves of one piece of parallel work
+    WORK_MAX = 1 << 28,   // for the mesh: boxes against boxes
+    LEAF_WORK_MIN = 8192, // for each leaf: some thousand in a good mesh, all of them in a fan of needles
+    MEET_WORK = 32,       // of two triangles, in boxes
 };
 
 struct self {
     const struct lint_tree *tree;
+    struct arena *arena;
     double tolerance;
     bool refracts;
-    vec3 *normals;     // in the order of the tree
-    uint32_t *crossed; // the same order: the first triangle that crosses, plus 1
-    uint32_t *covered; // the first one in its plane that covers a part of it, plus 1
+    bool is_mutual;          // mark the other triangle too
+    struct lint_face *faces; // in the order of the tree
+    uint32_t *crossed;       // the same order: the first triangle that crosses, plus 1
+    uint32_t *covered;       // the first one in its plane that covers a part of it, plus 1
 };
 
 struct leaf {
-    struct self *self;
+    const struct self *self;
     uint32_t first, count;
-    struct lint_face faces[LINT_LEAF];
+    uint32_t work_left;
     struct lint_box boxes[LINT_LEAF]; // grown by the tolerance
 };
-
-static struct lint_face face_at(const struct self *self, uint32_t i) {
-    return (struct lint_face){lint_mesh_triangle(self->tree->mesh, self->tree->order[i]), self->normals[i]};
-}
 
 static bool has_corner(const struct mesh *mesh, uint32_t triangle, uint32_t merged) {
     const uint32_t *c = mesh->triangles[triangle].corners;
@@ -52,50 +53,70 @@ static bool shows(const struct self *self, const struct lint_face *a, const stru
     return self->refracts || vec3_dot(a->normal, b->normal) > 0;
 }
 
-static void meet(struct leaf *leaf, uint32_t k, uint32_t j, const struct lint_face *other) {
-    struct self *self = leaf->self;
-    uint32_t i = leaf->first + k;
-    uint32_t triangle = self->tree->order[j];
-    const struct lint_face *own = &leaf->faces[k];
+static void mark(const struct self *self, uint32_t *marks, uint32_t i, uint32_t j) {
+    keep_first(&marks[i], self->tree->order[j]);
+    if (self->is_mutual)
+        keep_first(&marks[j], self->tree->order[i]);
+}
+
+static void meet(const struct self *self, uint32_t i, uint32_t j) {
+    const struct lint_face *other = &self->faces[j];
+    const struct lint_face *own = &self->faces[i];
     if (self->refracts && lint_faces_cross(own, other, self->tolerance))
-        keep_first(&self->crossed[i], triangle);
+        mark(self, self->crossed, i, j);
     if (shows(self, own, other) && lint_faces_coincide(own, other, self->tolerance, self->tolerance) &&
-        !is_twin(self->tree->mesh, self->tree->order[i], triangle))
-        keep_first(&self->covered[i], triangle);
+        !is_twin(self->tree->mesh, self->tree->order[i], self->tree->order[j]))
+        mark(self, self->covered, i, j);
 }
 
 static bool visit(void *context, uint32_t first, uint32_t count) {
     struct leaf *leaf = context;
+    uint32_t work = leaf->count * count;
     for (uint32_t j = first; j < first + count; j++) {
-        struct lint_face other = face_at(leaf->self, j);
-        struct lint_box box = lint_box_of(&other.t);
-        for (uint32_t k = 0; k < leaf->count; k++)
-            if (leaf->first + k != j && lint_box_meets(&box, &leaf->boxes[k]))
-                meet(leaf, k, j, &other);
+        struct lint_box box = lint_box_of(&leaf->self->faces[j].t);
+        for (uint32_t k = 0; k < leaf->count && leaf->first + k < j; k++)
+            if (lint_box_meets(&box, &leaf->boxes[k])) {
+                meet(leaf->self, leaf->first + k, j);
+                work += MEET_WORK;
+            }
     }
-    return true;
+    leaf->work_left -= work < leaf->work_left ? work : leaf->work_left;
+    return leaf->work_left > 0;
+}
+
+static void search_leaf(const struct self *self, uint32_t at) {
+    struct leaf leaf = {
+        .self = self, .first = at * LINT_LEAF, .work_left = WORK_MAX / self->tree->leaf_count};
+    leaf.work_left = leaf.work_left > LEAF_WORK_MIN ? leaf.work_left : LEAF_WORK_MIN;
+    uint32_t left = self->tree->count - leaf.first;
+    leaf.count = left < LINT_LEAF ? left : LINT_LEAF;
+    struct lint_box all = lint_box_empty();
+    for (uint32_t k = 0; k < leaf.count; k++) {
+        leaf.boxes[k] = lint_box_grow(lint_box_of(&self->faces[leaf.first + k].t), self->tolerance);
+        all = lint_box_join(all, leaf.boxes[k]);
+    }
+    lint_tree_in_box_from(self->tree, &all, at, visit, &leaf);
 }
 
 static void leaf_piece(void *context, size_t begin, size_t end) {
-    struct self *self = context;
-    const struct lint_tree *tree = self->tree;
-    for (size_t at = begin; at < end; at++) {
-        struct leaf leaf = {.self = self, .first = (uint32_t)at * LINT_LEAF};
-        leaf.count = tree->count - leaf.first < LINT_LEAF ? tree->count - leaf.first : LINT_LEAF;
-        struct lint_box all = lint_box_empty();
-        for (uint32_t k = 0; k < leaf.count; k++) {
-            leaf.faces[k] = face_at(self, leaf.first + k);
-            leaf.boxes[k] = lint_box_grow(lint_box_of(&leaf.faces[k].t), self->tolerance);
-            all = lint_box_join(all, leaf.boxes[k]);
-        }
-        lint_tree_in_box(tree, &all, visit, &leaf);
-    }
+    for (size_t at = begin; at < end; at++)
+        search_leaf(context, (uint32_t)at);
 }
 
-static void normal_piece(void *context, size_t begin, size_t end) {
+static void spread_marks(struct self *self) {
+    bool *marked = ARENA_ARRAY(self->arena, bool, self->tree->leaf_count);
+    for (uint32_t i = 0; i < self->tree->count; i++)
+        marked[i / LINT_LEAF] = marked[i / LINT_LEAF] || self->crossed[i] || self->covered[i];
+    self->is_mutual = true;
+    for (uint32_t at = 0; at < self->tree->leaf_count; at++)
+        if (marked[at])
+            search_leaf(self, at);
+}
+
+static void face_piece(void *context, size_t begin, size_t end) {
     struct self *self = context;
     for (size_t i = begin; i < end; i++)
-        self->normals[i] = lint_face_of(lint_mesh_triangle(self->tree->mesh, self->tree->order[i])).normal;
+        self->faces[i] = lint_face_of(lint_mesh_triangle(self->tree->mesh, self->tree->order[i]));
 }
 
 static struct lint_pairs count_pairs(const struct lint_tree *tree, const uint32_t *marks) {
@@ -117,15 +138,17 @@ void lint_find_pairs(struct lint *lint, struct lint_mesh *mesh) {
         return;
     mesh->has_pairs = true;
     struct self self = {.tree = lint_tree_of(lint, mesh),
+                        .arena = lint->arena,
                         .tolerance = mesh->tolerance,
                         .refracts = mesh->first_refracting != IR_NO_INDEX};
     if (self.tree->count == 0)
         return;
-    self.normals = ARENA_ARRAY(lint->arena, vec3, self.tree->count);
+    self.faces = ARENA_ARRAY(lint->arena, struct lint_face, self.tree->count);
     self.crossed = ARENA_ARRAY(lint->arena, uint32_t, self.tree->count);
     self.covered = ARENA_ARRAY(lint->arena, uint32_t, self.tree->count);
-    parallel_for(self.tree->count, PIECE * LINT_LEAF, normal_piece, &self);
+    parallel_for(self.tree->count, PIECE * LINT_LEAF, face_piece, &self);
     parallel_for(self.tree->leaf_count, PIECE, leaf_piece, &self);
+    spread_marks(&self);
     mesh->crossings = count_pairs(self.tree, self.crossed);
     mesh->overlaps = count_pairs(self.tree, self.covered);
 }

@@ -7,34 +7,6 @@ static const double PARALLEL_SINE = 1e-6;
 
 // ---- boxes
 
-struct lint_box lint_box_empty(void) {
-    return (struct lint_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-}
-
-void lint_box_add(struct lint_box *box, vec3 point) {
-    box->lower = vec3_min(box->lower, point);
-    box->upper = vec3_max(box->upper, point);
-}
-
-struct lint_box lint_box_join(struct lint_box a, struct lint_box b) {
-    return (struct lint_box){vec3_min(a.lower, b.lower), vec3_max(a.upper, b.upper)};
-}
-
-struct lint_box lint_box_grow(struct lint_box box, double by) {
-    vec3 margin = {by, by, by};
-    return (struct lint_box){vec3_sub(box.lower, margin), vec3_add(box.upper, margin)};
-}
-
-struct lint_box lint_box_of(const struct lint_triangle *triangle) {
-    const vec3 *p = triangle->p;
-    return (struct lint_box){vec3_min(vec3_min(p[0], p[1]), p[2]), vec3_max(vec3_max(p[0], p[1]), p[2])};
-}
-
-bool lint_box_meets(const struct lint_box *a, const struct lint_box *b) {
-    return a->lower.x <= b->upper.x && b->lower.x <= a->upper.x && a->lower.y <= b->upper.y &&
-           b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
-}
-
 bool lint_box_holds(const struct lint_box *box, vec3 point) {
     return point.x >= box->lower.x && point.x <= box->upper.x && point.y >= box->lower.y &&
            point.y <= box->upper.y && point.z >= box->lower.z && point.z <= box->upper.z;
@@ -45,7 +17,8 @@ struct lint_box lint_box_place(struct lint_box box, const affine3 *place) {
     for (int i = 0; i < 8; i++) {
         vec3 corner = {i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
                        i & 4 ? box.upper.z : box.lower.z};
-        lint_box_add(&placed, affine3_apply(*place, corner));
+        vec3 at = affine3_apply(*place, corner);
+        placed = lint_box_join(placed, (struct lint_box){at, at});
     }
     return placed;
 }
@@ -70,51 +43,65 @@ struct lint_face lint_face_of(struct lint_triangle triangle) {
     return (struct lint_face){triangle, vec3_unit(normal_of(&triangle))};
 }
 
-// What of a triangle lies in the plane of another: a part of the line where the planes meet.
-struct cut {
-    double least, greatest; // along the line
-    double depth;           // of the part of the triangle on the shallower side
-    double size;            // its longest edge
-};
-
-// false: the triangle does not reach through the plane.
-static bool cut_by(const struct lint_triangle *t, const struct lint_face *plane, vec3 along, vec3 origin,
-                   struct cut *out) {
-    double d[3];
+// How far the corners are from the plane, and how far the triangle reaches through it: the lesser of its two
+// sides, not above 0 where it does not.
+static double reach(const struct lint_triangle *t, const struct lint_face *plane, double d[3]) {
     for (int k = 0; k < 3; k++)
         d[k] = vec3_dot(plane->normal, vec3_sub(t->p[k], plane->t.p[0]));
-    *out = (struct cut){INFINITY, -INFINITY, 0, 0};
-    out->depth = fmin(fmax(fmax(d[0], d[1]), d[2]), -fmin(fmin(d[0], d[1]), d[2]));
-    if (!(out->depth > 0))
-        return false;
+    double most = d[0] > d[1] ? d[0] : d[1];
+    double least = d[0] < d[1] ? d[0] : d[1];
+    most = d[2] > most ? d[2] : most;
+    least = d[2] < least ? d[2] : least;
+    return most < -least ? most : -least;
+}
+
+static double longest_edge(const struct lint_triangle *t) {
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        vec3 edge = vec3_sub(t->p[(k + 1) % 3], t->p[k]);
+        square = fmax(square, vec3_dot(edge, edge));
+    }
+    return sqrt(square);
+}
+
+// The part of the line along which the planes meet that lies in the triangle.
+static void cut(const struct lint_triangle *t, const double d[3], vec3 along, vec3 origin, double *least,
+                double *greatest) {
+    *least = INFINITY;
+    *greatest = -INFINITY;
     for (int k = 0; k < 3; k++) {
         double from = d[k];
         double to = d[(k + 1) % 3];
-        vec3 edge = vec3_sub(t->p[(k + 1) % 3], t->p[k]);
-        out->size = fmax(out->size, vec3_dot(edge, edge));
         if ((from > 0 && to > 0) || (from < 0 && to < 0) || from == to)
             continue;
+        vec3 edge = vec3_sub(t->p[(k + 1) % 3], t->p[k]);
         vec3 at = vec3_add(t->p[k], vec3_mul(edge, from / (from - to)));
         double here = vec3_dot(along, vec3_sub(at, origin));
-        out->least = fmin(out->least, here);
-        out->greatest = fmax(out->greatest, here);
+        *least = fmin(*least, here);
+        *greatest = fmax(*greatest, here);
     }
-    out->size = sqrt(out->size);
-    return true;
 }
 
 bool lint_faces_cross(const struct lint_face *a, const struct lint_face *b, double tolerance) {
+    double da[3];
+    double db[3];
+    double reach_a = reach(&a->t, b, da);
+    if (!(reach_a > tolerance))
+        return false;
+    double reach_b = reach(&b->t, a, db);
+    if (!(reach_b > tolerance))
+        return false;
+    double size_a = longest_edge(&a->t);
+    double size_b = longest_edge(&b->t);
     vec3 along = vec3_cross(a->normal, b->normal);
     double sine = sqrt(vec3_dot(along, along));
-    struct cut of_a, of_b;
-    if (!(sine > PARALLEL_SINE) || !cut_by(&a->t, b, along, a->t.p[0], &of_a) || of_a.depth <= tolerance ||
-        !cut_by(&b->t, a, along, a->t.p[0], &of_b))
+    if (reach_a <= SHALLOW * size_a || reach_b <= SHALLOW * size_b || !(sine > PARALLEL_SINE))
         return false;
-    if (of_a.depth <= fmax(tolerance, SHALLOW * of_a.size) ||
-        of_b.depth <= fmax(tolerance, SHALLOW * of_b.size))
-        return false;
-    double common = fmin(of_a.greatest, of_b.greatest) - fmax(of_a.least, of_b.least);
-    return common > sine * fmax(tolerance, SHALLOW * fmin(of_a.size, of_b.size));
+    double least_a, greatest_a, least_b, greatest_b;
+    cut(&a->t, da, along, a->t.p[0], &least_a, &greatest_a);
+    cut(&b->t, db, along, a->t.p[0], &least_b, &greatest_b);
+    double common = fmin(greatest_a, greatest_b) - fmax(least_a, least_b);
+    return common > sine * fmax(tolerance, SHALLOW * fmin(size_a, size_b));
 }
 
 // ---- lying in one plane

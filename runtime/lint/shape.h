@@ -25,13 +25,32 @@ struct lint_box {
     vec3 lower, upper;
 };
 
+// Coordinates are never NaN here, so that plain comparisons do (fmin and fmax are calls).
+static inline vec3 lint_least(vec3 a, vec3 b) {
+    return (vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
+}
+static inline vec3 lint_greatest(vec3 a, vec3 b) {
+    return (vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
+}
 // The empty box, which any point makes its own.
-struct lint_box lint_box_empty(void);
-void lint_box_add(struct lint_box *box, vec3 point);
-struct lint_box lint_box_join(struct lint_box a, struct lint_box b);
-struct lint_box lint_box_grow(struct lint_box box, double by);
-struct lint_box lint_box_of(const struct lint_triangle *triangle);
-bool lint_box_meets(const struct lint_box *a, const struct lint_box *b);
+static inline struct lint_box lint_box_empty(void) {
+    return (struct lint_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+}
+static inline struct lint_box lint_box_join(struct lint_box a, struct lint_box b) {
+    return (struct lint_box){lint_least(a.lower, b.lower), lint_greatest(a.upper, b.upper)};
+}
+static inline struct lint_box lint_box_of(const struct lint_triangle *t) {
+    return (struct lint_box){lint_least(lint_least(t->p[0], t->p[1]), t->p[2]),
+                             lint_greatest(lint_greatest(t->p[0], t->p[1]), t->p[2])};
+}
+static inline struct lint_box lint_box_grow(struct lint_box box, double by) {
+    vec3 margin = {by, by, by};
+    return (struct lint_box){vec3_sub(box.lower, margin), vec3_add(box.upper, margin)};
+}
+static inline bool lint_box_meets(const struct lint_box *a, const struct lint_box *b) {
+    return a->lower.x <= b->upper.x && b->lower.x <= a->upper.x && a->lower.y <= b->upper.y &&
+           b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
+}
 bool lint_box_holds(const struct lint_box *box, vec3 point);
 // The box around the images of all points of `box`.
 struct lint_box lint_box_place(struct lint_box box, const affine3 *place);

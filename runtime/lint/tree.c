@@ -147,8 +147,10 @@ static void cut(double origin, double direction, double lower, double upper, dou
     }
     double a = (lower - origin) / direction;
     double b = (upper - origin) / direction;
-    *enter = fmax(*enter, fmin(a, b) * (1 - 1e-12));
-    *leave = fmin(*leave, fmax(a, b) * (1 + 1e-12));
+    double first = (a < b ? a : b) * (1 - 1e-12);
+    double last = (a < b ? b : a) * (1 + 1e-12);
+    *enter = first > *enter ? first : *enter;
+    *leave = last < *leave ? last : *leave;
 }
 
 bool lint_box_on_ray(const struct lint_box *box, vec3 origin, vec3 direction) {
@@ -161,7 +163,7 @@ bool lint_box_on_ray(const struct lint_box *box, vec3 origin, vec3 direction) {
 }
 
 static void walk(const struct lint_tree *tree, const struct lint_box *box, const struct ray *ray,
-                 lint_tree_visit *visit, void *context) {
+                 uint32_t from, lint_tree_visit *visit, void *context) {
     struct stop stack[DEPTH_MAX];
     uint32_t waiting = 0;
     if (tree->count == 0)
@@ -170,6 +172,8 @@ static void walk(const struct lint_tree *tree, const struct lint_box *box, const
     while (waiting > 0) {
         struct stop at = stack[--waiting];
         const struct lint_box *node = &tree->nodes[at.node];
+        if (at.end <= from)
+            continue;
         if (box ? !lint_box_meets(node, box) : !lint_box_on_ray(node, ray->origin, ray->direction))
             continue;
         if (at.end - at.begin == 1) {
@@ -187,13 +191,18 @@ static void walk(const struct lint_tree *tree, const struct lint_box *box, const
 
 void lint_tree_in_box(const struct lint_tree *tree, const struct lint_box *box, lint_tree_visit *visit,
                       void *context) {
-    walk(tree, box, NULL, visit, context);
+    walk(tree, box, NULL, 0, visit, context);
+}
+
+void lint_tree_in_box_from(const struct lint_tree *tree, const struct lint_box *box, uint32_t from,
+                           lint_tree_visit *visit, void *context) {
+    walk(tree, box, NULL, from, visit, context);
 }
 
 void lint_tree_on_ray(const struct lint_tree *tree, vec3 origin, vec3 direction, lint_tree_visit *visit,
                       void *context) {
     struct ray ray = {origin, direction};
-    walk(tree, NULL, &ray, visit, context);
+    walk(tree, NULL, &ray, 0, visit, context);
 }
 
 // ---- inside
