@@ -9,7 +9,7 @@
 enum {
     PIECE = 1 << 10,      // leaves of one piece of parallel work
     WORK_MAX = 1 << 28,   // for the mesh: boxes against boxes
-    LEAF_WORK_MIN = 8192, // for each leaf: some thousand in a good mesh, all of them in a fan of needles
+    LEAF_WORK_MIN = 4096, // for each leaf: some thousand in a good mesh, all of them in a fan of needles
     MEET_WORK = 32,       // of two triangles, in boxes
 };
 

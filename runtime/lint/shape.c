@@ -114,26 +114,25 @@ static bool lies_near(const struct lint_triangle *t, vec3 at, vec3 unit_normal, 
 }
 
 static void project(const struct lint_triangle *t, vec3 axis, vec3 origin, double *least, double *greatest) {
-    *least = INFINITY;
-    *greatest = -INFINITY;
-    for (int k = 0; k < 3; k++) {
-        double at = vec3_dot(axis, vec3_sub(t->p[k], origin));
-        *least = fmin(*least, at);
-        *greatest = fmax(*greatest, at);
-    }
+    double a = vec3_dot(axis, vec3_sub(t->p[0], origin));
+    double b = vec3_dot(axis, vec3_sub(t->p[1], origin));
+    double c = vec3_dot(axis, vec3_sub(t->p[2], origin));
+    *least = a < b ? a < c ? a : c : b < c ? b : c;
+    *greatest = a > b ? a > c ? a : c : b > c ? b : c;
 }
 
 // Whether an edge of `a` parts them; an axis along which one of them is too narrow to tell parts them too.
 static bool is_parted(const struct lint_triangle *a, const struct lint_triangle *b, vec3 unit_normal,
                       double tolerance) {
     for (int k = 0; k < 3; k++) {
-        vec3 axis = vec3_unit(vec3_cross(unit_normal, vec3_sub(a->p[(k + 1) % 3], a->p[k])));
+        vec3 axis = vec3_cross(unit_normal, vec3_sub(a->p[(k + 1) % 3], a->p[k]));
         double least_a, greatest_a, least_b, greatest_b;
         project(a, axis, a->p[0], &least_a, &greatest_a);
         project(b, axis, a->p[0], &least_b, &greatest_b);
-        double common = fmin(greatest_a, greatest_b) - fmax(least_a, least_b);
+        double end = greatest_a < greatest_b ? greatest_a : greatest_b;
+        double common = end - (least_a > least_b ? least_a : least_b);
         double narrower = fmin(greatest_a - least_a, greatest_b - least_b);
-        if (!(common > fmax(tolerance, 0.01 * narrower)))
+        if (!(common > 0.01 * narrower) || !(common > tolerance * sqrt(vec3_dot(axis, axis))))
             return true;
     }
     return false;
