@@ -49,14 +49,14 @@ static void begin_value(struct json_writer *w, const char *key) {
     }
 }
 
-static void open(struct json_writer *w, const char *key, char bracket) {
+static void begin(struct json_writer *w, const char *key, char bracket) {
     assert(w->depth + 1 < JSON_WRITE_DEPTH_MAX);
     begin_value(w, key);
     strbuf_char(w->out, bracket);
     w->filled[++w->depth] = false;
 }
 
-static void close(struct json_writer *w, char bracket) {
+static void end(struct json_writer *w, char bracket) {
     bool filled = w->filled[w->depth];
     bool flat = w->depth >= w->flat_depth;
     w->depth--;
@@ -68,19 +68,19 @@ static void close(struct json_writer *w, char bracket) {
 }
 
 void json_open_object(struct json_writer *writer, const char *key) {
-    open(writer, key, '{');
+    begin(writer, key, '{');
 }
 
 void json_close_object(struct json_writer *writer) {
-    close(writer, '}');
+    end(writer, '}');
 }
 
 void json_open_list(struct json_writer *writer, const char *key) {
-    open(writer, key, '[');
+    begin(writer, key, '[');
 }
 
 void json_close_list(struct json_writer *writer) {
-    close(writer, ']');
+    end(writer, ']');
 }
 
 void json_write_text(struct json_writer *writer, const char *key, str value) {

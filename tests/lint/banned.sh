@@ -17,6 +17,6 @@ ours '^(core|grammar|parser|assets|runtime|app)/.*\.[ch]$' | grep -vE '(^|[/_])m
         sed 's/$/   <- a library does not end the program/' || true
     grep -E "$call($prints)[ ]*\(|$call(stdout|stderr)([^A-Za-z0-9_]|\$)" "$code" |
         grep -v '^core/output\.[ch]:' | sed 's/$/   <- a library does not print/' || true
-    grep -E "$call($opens)[ ]*\(" "$code" | grep -vE '^core/(files|output|folder_store)\.c:' |
+    grep -E "$call($opens)[ ]*\(" "$code" | grep -vE '^core/(files|files_walk|output|folder_store)\.c:' |
         sed 's/$/   <- core\/files is the one door to the file system/' || true
 } | verdict
