@@ -112,10 +112,18 @@ static struct box no_box(void) {
     return (struct box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 }
 
+// No fmin: it is a call, because of NaN, which boxes do not hold.
+static double smaller(double a, double b) {
+    return a < b ? a : b;
+}
+static double larger(double a, double b) {
+    return a > b ? a : b;
+}
+
 static void join(struct box *box, const struct box *other) {
     for (int a = 0; a < 3; a++) {
-        box->lower[a] = fmin(box->lower[a], other->lower[a]);
-        box->upper[a] = fmax(box->upper[a], other->upper[a]);
+        box->lower[a] = smaller(box->lower[a], other->lower[a]);
+        box->upper[a] = larger(box->upper[a], other->upper[a]);
     }
 }
 
@@ -197,8 +205,9 @@ static size_t split(const struct building *b, struct range range) {
         const struct item *item = &b->items[i];
         join(&box, &item->box);
         for (int a = 0; a < 3; a++) {
-            centres.lower[a] = fmin(centres.lower[a], centre(item, a));
-            centres.upper[a] = fmax(centres.upper[a], centre(item, a));
+            double at = centre(item, a);
+            centres.lower[a] = smaller(centres.lower[a], at);
+            centres.upper[a] = larger(centres.upper[a], at);
         }
     }
     double size = 0;
@@ -208,7 +217,7 @@ static size_t split(const struct building *b, struct range range) {
         size = fmax(size, box.upper[a] - box.lower[a]);
     }
     size_t half = range.begin + (range.end - range.begin) / 2;
-    if (range.depth >= DEPTH_MOST)
+    if (range.depth >= DEPTH_MOST || range.end - range.begin <= LEAF_MOST)
         return half;
     struct cut best = {.axis = -1};
     double least = INFINITY;
