@@ -62,18 +62,49 @@ void precision_words(const struct session *session, const struct precision_repor
         strbuf_cstr(out, "  there are too many bodies close together to look for gaps between all of them\n");
 }
 
-static void warn(struct session *session, const struct precision_report *report) {
-    const struct precision_measure *m = &report->least[report->decides];
-    struct where where;
+// What decides, as a note to the warning before.
+static void note_measure(struct session *session, const struct precision_report *report) {
     struct strbuf words;
     strbuf_init(&words);
-    put_measure(session, report->decides, m, &words);
-    bool found = where_find(session, m->body, m->triangle, &where);
-    diag_add(&session->sink, DIAG_SINGLE_ONLY, found ? where.at : SPAN_NONE,
-             "the device computes in single precision only, and this scene needs double");
+    put_measure(session, report->decides, &report->least[report->decides], &words);
     diag_note(&session->sink, SPAN_NONE, "%s %.*s", feature_words[report->decides],
               STR_ARG(strbuf_view(&words)));
     strbuf_finish(&words);
+}
+
+static void warn(struct session *session, const struct precision_report *report) {
+    const struct precision_measure *m = &report->least[report->decides];
+    struct where where;
+    bool found = where_find(session, m->body, m->triangle, &where);
+    diag_add(&session->sink, DIAG_SINGLE_ONLY, found ? where.at : SPAN_NONE,
+             "the device computes in single precision only, and this scene needs double");
+    note_measure(session, report);
+}
+
+void precision_check(struct session *session) {
+    const struct ir_trace *trace = &session->scene->trace;
+    if (trace->precision != IR_PRECISION_SINGLE)
+        return;
+    struct view view;
+    view_build(session->scene, &session->assets, 0, session->image.width, session->image.height,
+               &session->arena, NULL, &view);
+    struct flat_input input = {.scene = session->scene,
+                               .origin_places = &session->origin,
+                               .assets = &session->assets,
+                               .view = &view,
+                               .origin = session_origin(session, &view),
+                               .limits = &session->options.limits,
+                               .sink = &session->sink};
+    struct precision_report report;
+    if (!precision_measure(&input, &report) || report.suffices)
+        return;
+    diag_add(&session->sink, DIAG_SINGLE_PRECISION,
+             ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
+             "'trace.precision' is 'single', and this scene needs double: something in it has %.2g of the %g "
+             "steps that it takes",
+             report.least[report.decides].steps, PRECISION_STEPS);
+    note_measure(session, &report);
+    diag_help(&session->sink, "leave 'precision' out: 'auto' computes in double where that is needed");
 }
 
 bool precision_choose(struct session *session, struct flat_input *input, bool has_double) {

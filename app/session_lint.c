@@ -1,5 +1,5 @@
 // The rules about light, over a loaded session.
-#include "app/session.h"
+#include "app/precision.h"
 
 #include "core/clock.h"
 
@@ -16,5 +16,7 @@ void session_lint(struct session *session) {
                                  .arena = &session->arena};
     struct lint_input input = {.scene = &scene, .assets = &session->assets, .image = &session->image};
     lint_run(&input, session->options.lint);
+    if (session->options.lint == LINT_ALL)
+        precision_check(session);
     session->lint_seconds = clock_seconds() - start;
 }

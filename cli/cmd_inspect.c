@@ -153,6 +153,7 @@ int cmd_inspect(struct cli *cli) {
     struct asset_store *store = asset_store_create();
     struct session_options options = cli_session_options(cli, cli->operands[0]);
     options.text_only = cli->options.ir;
+    options.lint = LINT_ALL;
     strbuf_init(&text);
     session_load(&session, &options, store);
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
