@@ -210,6 +210,7 @@ static int try_output(struct render_job *job) {
 
 static int run_job(struct render_job *job, struct asset_store *store) {
     struct session_options options = cli_session_options(job->cli, job->cli->operands[0]);
+    options.lint = LINT_CHEAP;
     session_load(&job->session, &options, store);
     if (job->session.state != SESSION_LOADED || job->session.sink.errors)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
