@@ -72,6 +72,8 @@ void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capac
 // As `arena_grow`, for large arrays: the old array is given back, so that pointers into it are void, and the
 // room behind the `count` items is not zeroed.
 void *arena_regrow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size);
+// Whether another item needs arena_regrow first; a test that costs less than the call.
+#define ARENA_IS_FULL(list) ((list)->count >= (list)->capacity)
 // Gives back an array that arena_regrow made; small ones stay with the arena. NULL does nothing.
 void arena_give_back(struct arena *arena, void *items, uint32_t capacity, size_t item_size);
 // Appends a zeroed item to a list {items, count, capacity}; gives its address.

@@ -77,7 +77,6 @@ static enum number_status explain_no_number(str text) {
 
 // A number in the language's grammar: mantissa * 10^exponent, where the digits fit.
 struct decimal {
-    bool zero;         // every digit of the mantissa is 0
     bool whole;        // digits only
     bool exact;        // mantissa and exponent hold all of it
     uint64_t mantissa; // at most 19 digits
@@ -86,16 +85,19 @@ struct decimal {
 
 // Adds a run of digits to the mantissa; gives their number.
 static size_t scan_digits(str s, size_t at, struct decimal *decimal) {
-    size_t n = 0;
-    for (; at + n < s.len && is_digit(s.ptr[at + n]); n++) {
-        uint64_t digit = (uint64_t)(s.ptr[at + n] - '0');
-        decimal->zero = decimal->zero && digit == 0;
-        if (decimal->mantissa < MANTISSA_FULL)
-            decimal->mantissa = decimal->mantissa * 10 + digit;
+    uint64_t mantissa = decimal->mantissa;
+    size_t end = at;
+    for (; end < s.len; end++) {
+        unsigned digit = (unsigned char)s.ptr[end] - (unsigned)'0';
+        if (digit > 9)
+            break;
+        if (mantissa < MANTISSA_FULL)
+            mantissa = mantissa * 10 + digit;
         else
             decimal->exact = false;
     }
-    return n;
+    decimal->mantissa = mantissa;
+    return end - at;
 }
 
 // The exponent behind an 'e' at `at`; *length is 0 where there are no digits.
@@ -113,7 +115,7 @@ static long scan_exponent(str s, size_t at, size_t *length) {
 }
 
 static enum number_status scan(str s, struct decimal *decimal) {
-    *decimal = (struct decimal){.zero = true, .exact = true};
+    *decimal = (struct decimal){.exact = true};
     size_t first = s.len && (s.ptr[0] == '+' || s.ptr[0] == '-') ? 1 : 0;
     size_t whole = scan_digits(s, first, decimal);
     size_t fraction = 0;
@@ -159,7 +161,7 @@ enum number_status number_parse(str text, double *value) {
         return NUMBER_TOO_LONG;
     struct decimal decimal;
     enum number_status status = scan(text, &decimal);
-    if (status != NUMBER_OK || decimal.zero)
+    if (status != NUMBER_OK || decimal.mantissa == 0)
         return status;
     double read;
     if (read_fast(&decimal, &read)) {

@@ -12,14 +12,6 @@ str str_from(const char *cstring) {
     return (str){cstring ? cstring : "", cstring ? strlen(cstring) : 0};
 }
 
-bool str_equal(str a, str b) {
-    return a.len == b.len && (a.len == 0 || memcmp(a.ptr, b.ptr, a.len) == 0);
-}
-
-bool str_equal_cstr(str a, const char *b) {
-    return str_equal(a, str_from(b));
-}
-
 int str_compare(str a, str b) {
     size_t n = a.len < b.len ? a.len : b.len;
     int order = n ? memcmp(a.ptr, b.ptr, n) : 0;
@@ -46,14 +38,6 @@ bool str_ends_with_nocase(str s, const char *suffix) {
     return true;
 }
 
-str str_slice(str s, size_t begin, size_t end) {
-    if (end > s.len)
-        end = s.len;
-    if (begin > end)
-        begin = end;
-    return (str){begin ? s.ptr + begin : s.ptr, end - begin};
-}
-
 static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
@@ -71,6 +55,22 @@ uint64_t str_hash(str s) {
     for (size_t i = 0; i < s.len; i++)
         h = (h ^ (unsigned char)s.ptr[i]) * UINT64_C(1099511628211);
     return h;
+}
+
+// Eight bytes at a time: a byte is below 0x20 where subtracting that borrows into its highest bit, and 0x7F
+// where adding 1 carries into it.
+size_t str_skip_printable(str s, size_t at) {
+    const uint64_t ones = UINT64_C(0x0101010101010101), high = ones * 0x80;
+    uint64_t eight;
+    while (s.len - at >= sizeof eight) {
+        memcpy(&eight, s.ptr + at, sizeof eight);
+        if (((eight - ones * 0x20) | (eight + ones) | eight) & high)
+            break;
+        at += sizeof eight;
+    }
+    while (at < s.len && (unsigned char)s.ptr[at] >= 0x20 && (unsigned char)s.ptr[at] < 0x7F)
+        at++;
+    return at;
 }
 
 size_t utf8_sequence_length(str s, size_t at) {

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 typedef struct {
     const char *ptr;
@@ -20,18 +21,32 @@ typedef struct {
 #define STR_ARG(s) (int)((s).len), (s).ptr
 
 str str_from(const char *cstring); // NULL gives the empty string
-bool str_equal(str a, str b);
-bool str_equal_cstr(str a, const char *b);
+static inline bool str_equal(str a, str b) {
+    return a.len == b.len && (a.len == 0 || memcmp(a.ptr, b.ptr, a.len) == 0);
+}
+static inline bool str_equal_cstr(str a, const char *b) {
+    return str_equal(a, (str){b, strlen(b)});
+}
 int str_compare(str a, str b); // byte order, as memcmp
 bool str_starts_with(str s, str prefix);
 bool str_ends_with_nocase(str s, const char *suffix); // ASCII letters only
 // The part of `s` from `begin` to before `end`; both are clamped to the length.
-str str_slice(str s, size_t begin, size_t end);
+static inline str str_slice(str s, size_t begin, size_t end) {
+    if (end > s.len)
+        end = s.len;
+    if (begin > end)
+        begin = end;
+    return (str){begin ? s.ptr + begin : s.ptr, end - begin};
+}
 // Without the blanks, tabs and line ends at both ends.
 str str_trim(str s);
 
 // FNV-1a, 64 bits (Fowler, Noll, Vo).
 uint64_t str_hash(str s);
+
+// Where the run of printable ASCII that begins at `at` ends: the first byte that is a control character, DEL
+// or above 0x7F; s.len if there is none.
+size_t str_skip_printable(str s, size_t at);
 
 // Length in bytes of the well-formed UTF-8 sequence that begins at `at`, 0 if there is none
 // (Unicode 15, table 3-7: no overlong forms, no surrogates, nothing above U+10FFFF).

@@ -5,8 +5,9 @@
 #include <assert.h>
 
 static uint32_t push_row(struct ir_origin *origin, struct ir_row_origin row) {
-    origin->rows.items = arena_regrow(origin->arena, origin->rows.items, origin->rows.count,
-                                      &origin->rows.capacity, sizeof *origin->rows.items);
+    if (ARENA_IS_FULL(&origin->rows))
+        origin->rows.items = arena_regrow(origin->arena, origin->rows.items, origin->rows.count,
+                                          &origin->rows.capacity, sizeof *origin->rows.items);
     origin->rows.items[origin->rows.count++] = row;
     return origin->rows.count - 1;
 }
@@ -18,8 +19,9 @@ void ir_origin_init(struct ir_origin *origin, struct arena *arena) {
 }
 
 uint32_t ir_origin_add(struct ir_origin *origin, struct ir_element_origin element) {
-    origin->elements.items = arena_regrow(origin->arena, origin->elements.items, origin->elements.count,
-                                          &origin->elements.capacity, sizeof *origin->elements.items);
+    if (ARENA_IS_FULL(&origin->elements))
+        origin->elements.items = arena_regrow(origin->arena, origin->elements.items, origin->elements.count,
+                                              &origin->elements.capacity, sizeof *origin->elements.items);
     origin->elements.items[origin->elements.count++] = element;
     return origin->elements.count - 1;
 }

@@ -2,10 +2,14 @@
 
 #include <string.h>
 
+// Of a few of the letters: the names of one element differ in them, nearly all.
 static uint32_t hash_of(const struct schema_element *element, enum schema_name_kind kind, str name) {
     uint64_t h = (uint64_t)(uintptr_t)element + (uint64_t)kind;
-    for (size_t i = 0; i < name.len; i++)
-        h = (h ^ (unsigned char)name.ptr[i]) * UINT64_C(0x9E3779B97F4A7C15);
+    if (name.len)
+        h += (uint64_t)(unsigned char)name.ptr[0] << 40 |
+             (uint64_t)(unsigned char)name.ptr[name.len / 2] << 48 |
+             (uint64_t)(unsigned char)name.ptr[name.len - 1] << 56;
+    h = (h ^ name.len << 32) * UINT64_C(0x9E3779B97F4A7C15);
     return (uint32_t)(h >> 32);
 }
 
@@ -50,6 +54,30 @@ static uint32_t element_number(const struct schema_element *element) {
     return number;
 }
 
+static bool is_name(const struct schema_row *row) {
+    return row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME;
+}
+
+static struct schema_facts facts_of(const struct schema_element *element, struct arena *arena) {
+    void *defaults = arena_alloc(arena, element->size);
+    schema_init(element, defaults);
+    struct schema_facts facts = {.defaults = defaults,
+                                 .short_row = schema_short_row(element),
+                                 .key_row = schema_key_row(element),
+                                 .name_row = -1};
+    for (uint32_t i = 0; i < element->row_count; i++) {
+        const struct schema_row *row = &element->rows[i];
+        uint64_t bit = (uint64_t)1 << i;
+        if (is_name(row) && facts.name_row < 0)
+            facts.name_row = (int)i;
+        facts.names |= row->key || is_name(row) ? bit : 0;
+        facts.required |= row->required ? bit : 0;
+    }
+    for (uint32_t c = 0; c < sizeof element->choices / sizeof *element->choices; c++)
+        facts.has_choices = facts.has_choices || element->choices[c].rule == SCHEMA_CHOICE_EXACTLY_ONE;
+    return facts;
+}
+
 void schema_index_init(struct schema_index *index, struct arena *arena) {
     uint32_t rows = 0;
     uint32_t elements = 0;
@@ -60,13 +88,11 @@ void schema_index_init(struct schema_index *index, struct arena *arena) {
         capacity *= 2;
     index->slots = ARENA_ARRAY(arena, struct schema_slot, capacity);
     index->mask = capacity - 1;
-    index->defaults = ARENA_ARRAY(arena, const void *, elements);
+    index->facts = ARENA_ARRAY(arena, struct schema_facts, elements);
     for (uint32_t i = 0; i < elements; i++) {
         for (uint32_t row = 0; row < schema_elements[i]->row_count; row++)
             add_row(index, schema_elements[i], row);
-        void *defaults = arena_alloc(arena, schema_elements[i]->size);
-        schema_init(schema_elements[i], defaults);
-        index->defaults[i] = defaults;
+        index->facts[i] = facts_of(schema_elements[i], arena);
     }
 }
 
@@ -77,7 +103,12 @@ int schema_index_find(const struct schema_index *index, const struct schema_elem
     return slot->element ? slot->row : -1;
 }
 
+const struct schema_facts *schema_index_facts(const struct schema_index *index,
+                                              const struct schema_element *element) {
+    return &index->facts[element_number(element)];
+}
+
 void schema_index_defaults(const struct schema_index *index, const struct schema_element *element,
                            void *memory) {
-    memcpy(memory, index->defaults[element_number(element)], element->size);
+    memcpy(memory, schema_index_facts(index, element)->defaults, element->size);
 }

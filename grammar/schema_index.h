@@ -25,16 +25,28 @@ struct schema_slot {
     int row;
 };
 
+// What is asked of each element that is bound. Sets of rows are masks: bit i is row i.
+struct schema_facts {
+    const void *defaults;
+    int short_row, key_row; // as schema_short_row, schema_key_row
+    int name_row;           // the element's own name, or -1
+    uint64_t names;         // key rows and names
+    uint64_t required;
+    bool has_choices; // of which one must be taken
+};
+
 struct schema_index {
     struct schema_slot *slots;
     uint32_t mask;
-    const void **defaults; // in the order of schema_elements
+    struct schema_facts *facts; // in the order of schema_elements
 };
 
 void schema_index_init(struct schema_index *index, struct arena *arena);
 // As schema_find_yaml, schema_find_attribute and schema_find_child.
 int schema_index_find(const struct schema_index *index, const struct schema_element *element,
                       enum schema_name_kind kind, str name, bool *is_single);
+const struct schema_facts *schema_index_facts(const struct schema_index *index,
+                                              const struct schema_element *element);
 // As schema_init; what `memory` holds is overwritten.
 void schema_index_defaults(const struct schema_index *index, const struct schema_element *element,
                            void *memory);

@@ -71,10 +71,14 @@ struct bind_frame bind_aside(struct bind_context *context, const struct bind_fra
 }
 
 str bind_copy_once(struct bind_context *context, str text) {
-    struct reader_name *there = reader_names_at(context->texts, text);
-    if (there->value == 0)
-        *there = (struct reader_name){arena_copy(context->arena, text), 1, there->stamp};
-    return there->name;
+    // Names that belong together differ in their last letters.
+    uint32_t end = (uint32_t)text.len;
+    for (size_t i = text.len > 3 ? text.len - 3 : 0; i < text.len; i++)
+        end = end * 31 + (unsigned char)text.ptr[i];
+    str *known = &context->texts->items[(end ^ end >> 8) % BIND_TEXTS];
+    if (!str_equal(*known, text))
+        *known = arena_copy(context->arena, text);
+    return *known;
 }
 
 // One row.
@@ -120,7 +124,7 @@ static bool bind_one(struct bind_context *context, struct bind_frame *frame, con
 static bool is_excluded(struct bind_context *context, struct bind_frame *frame, uint32_t row,
                         struct bind_given given) {
     const struct schema_row *r = &frame->schema->rows[row];
-    for (uint32_t i = 0; i < frame->schema->row_count; i++) {
+    for (uint32_t i = 0; i < frame->schema->row_count && r->choice; i++) {
         const struct schema_row *other = &frame->schema->rows[i];
         if (i == row || r->choice == 0 || other->choice != r->choice ||
             !(bind_head(frame)->written & bind_bit(i)))
@@ -201,12 +205,38 @@ static void report_named_inline(struct bind_context *context, struct bind_frame 
                   frame->via->name, STR_ARG(name));
 }
 
-static void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_index node, bool first) {
+// The rows of an element's first keys, which are asked for twice.
+struct key_rows {
+    uint32_t count;
+    struct {
+        int row;
+        bool single;
+    } items[16];
+};
+
+static int find_row_once(const struct bind_context *context, const struct bind_frame *frame, tree_index key,
+                         uint32_t number, struct key_rows *known, bool *single) {
+    if (number < known->count) {
+        *single = known->items[number].single;
+        return known->items[number].row;
+    }
+    int row = bind_find_row(context, frame->schema, key, single);
+    if (number == known->count && number < sizeof known->items / sizeof *known->items) {
+        known->items[number].row = row;
+        known->items[number].single = *single;
+        known->count++;
+    }
+    return row;
+}
+
+static void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_index node, bool first,
+                      struct key_rows *known) {
     const struct tree *tree = context->tree;
-    for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key)) {
+    uint32_t number = 0;
+    for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key), number++) {
         bool single = false;
         bool bad = bind_is_bad_pair(context, node, key);
-        int row = bind_find_row(context, frame->schema, key, &single);
+        int row = find_row_once(context, frame, key, number, known, &single);
         if (row >= 0 && !first && !bad)
             bind_loose_columns(context, frame, &frame->schema->rows[row], key);
         if (row >= 0 && comes_first(&frame->schema->rows[row]) != first)
@@ -230,8 +260,10 @@ static void bind_keys(struct bind_context *context, struct bind_frame *frame, tr
 }
 
 void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_index node) {
-    bind_keys(context, frame, node, true);
-    bind_keys(context, frame, node, false);
+    struct key_rows known;
+    known.count = 0;
+    bind_keys(context, frame, node, true, &known);
+    bind_keys(context, frame, node, false, &known);
 }
 
 // Whether a map is the short row's value and not the element: its keys are those of the short row alone.
@@ -261,14 +293,11 @@ static bool is_bare(const struct bind_context *context, const struct bind_frame 
 }
 
 // The name is the best place for what concerns a whole entry.
-static span best_label(const struct bind_context *context, const struct bind_frame *frame) {
-    for (uint32_t i = 0; i < frame->schema->row_count && frame->via->many != SCHEMA_ONE; i++) {
-        const struct schema_row *row = &frame->schema->rows[i];
-        const struct ir_row_origin *name = ir_origin_row(context->origin, bind_head(frame), i);
-        if (name && row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME)
-            return name->value;
-    }
-    return frame->label;
+static span best_label(const struct bind_context *context, const struct bind_frame *frame, int name_row) {
+    if (frame->via->many == SCHEMA_ONE || name_row < 0 || !(frame->seen & bind_bit((uint32_t)name_row)))
+        return frame->label;
+    const struct ir_row_origin *name = ir_origin_row(context->origin, bind_head(frame), (uint32_t)name_row);
+    return name ? name->value : frame->label;
 }
 
 bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node) {
@@ -277,17 +306,21 @@ bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_i
         ir_origin_add(context->origin, (struct ir_element_origin){.at = tree_span(context->tree, node),
                                                                   .label = frame->label,
                                                                   .comments = frame->comments});
-    int bare = schema_short_row(frame->schema);
+    const struct schema_facts *facts = schema_index_facts(context->index, frame->schema);
+    int bare = facts->short_row;
     if (is_bare(context, frame, bare, node)) {
         frame->bare = true;
         struct bind_given given = {.key_span = frame->label, .value = node};
         bind_row(context, frame, (uint32_t)bare, false, given);
     } else if (bind_kind(context, node) == TREE_MAP) {
-        bind_keys(context, frame, node, true);
-        frame->label = best_label(context, frame);
+        struct key_rows known;
+        known.count = 0;
+        if (facts->names)
+            bind_keys(context, frame, node, true, &known);
+        frame->label = best_label(context, frame, facts->name_row);
         context->origin->elements.items[head->origin].label = frame->label;
         bind_default_key(context, frame);
-        bind_keys(context, frame, node, false);
+        bind_keys(context, frame, node, false, &known);
     } else {
         return bind_wrong_shape(context, bind_subject(frame, NULL), node);
     }
@@ -351,10 +384,12 @@ struct ir_scene *bind_file(struct bind_context *context) {
     scene->head.origin =
         ir_origin_add(context->origin, (struct ir_element_origin){.at = tree_span(tree, tree->root),
                                                                   .label = tree->root_name});
-    bind_keys(context, &root, tree->root, true);
+    struct key_rows known;
+    known.count = 0;
+    bind_keys(context, &root, tree->root, true, &known);
     if (context->other_version)
         return NULL;
-    bind_keys(context, &root, tree->root, false);
+    bind_keys(context, &root, tree->root, false, &known);
     bind_missing(context, &root, (tree_node(tree, tree->root)->flags & (TREE_BAD | TREE_CUT)) != 0);
     return scene;
 }

@@ -12,8 +12,15 @@
 #include "grammar/ir.h"
 #include "grammar/ir_origin.h"
 #include "grammar/schema_index.h"
-#include "parser/reader_text.h"
 #include "parser/tree.h"
+
+// Texts that were copied lately: entries that follow each other name the same meshes and materials.
+enum {
+    BIND_TEXTS = 256
+};
+struct bind_texts {
+    str items[BIND_TEXTS];
+};
 
 struct bind_context {
     struct diag_sink *sink;
@@ -24,7 +31,7 @@ struct bind_context {
     struct ir_scene *scene; // takes the anonymous elements of references; NULL before bind_file, or where
                             // entries were taken beforehand
     const struct schema_index *index;
-    struct reader_names *texts; // paths and names of references, each kept once in `arena`
+    struct bind_texts *texts; // in `arena`
     const struct tree *tree;
     bool other_version; // the file says that it is written in a version that this program does not know
 };
@@ -113,7 +120,7 @@ void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint3
                    struct bind_given given);
 void bind_report_twice(struct bind_context *context, struct bind_frame *frame, uint32_t row,
                        struct bind_given given);
-// The text in the scene's arena; equal ones are one.
+// A copy in the scene's arena, the same one for many that are equal.
 str bind_copy_once(struct bind_context *context, str text);
 // A frame for values that cannot be kept, yet may have mistakes of their own.
 struct bind_frame bind_aside(struct bind_context *context, const struct bind_frame *frame);
@@ -153,7 +160,8 @@ bool bind_entry_into(struct bind_context *context, struct bind_frame *child, str
 void bind_default_key(struct bind_context *context, struct bind_frame *child);
 
 // bind_list.c
-// Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; gives its index.
+// Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; gives its
+// index.
 uint32_t bind_list_push(struct arena *arena, void *field, const void *item, uint32_t size);
 void *bind_list_item(void *field, uint32_t index, uint32_t size);
 uint32_t bind_list_count(const void *field);

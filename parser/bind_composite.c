@@ -60,8 +60,8 @@ static bool bind_list(struct bind_context *context, struct bind_subject subject,
 }
 
 static int find_component(const char *const *names, uint32_t count, str key) {
-    for (uint32_t i = 0; i < count; i++)
-        if (str_equal_cstr(key, names[i]))
+    for (uint32_t i = 0; i < count && key.len; i++)
+        if (key.ptr[0] == names[i][0] && str_equal_cstr(key, names[i]))
             return (int)i;
     return -1;
 }

@@ -37,6 +37,10 @@ static bool is_needed(const struct bind_frame *frame, const struct schema_row *r
 }
 
 void bind_missing(struct bind_context *context, struct bind_frame *frame, bool silent) {
+    const struct schema_facts *facts = schema_index_facts(context->index, frame->schema);
+    bool keyed = facts->key_row < 0 || (frame->seen & bind_bit((uint32_t)facts->key_row));
+    if (keyed && !frame->guessed && !facts->has_choices && !(facts->required & ~frame->seen))
+        return;
     bool chosen[1 + sizeof frame->schema->choices / sizeof *frame->schema->choices] = {false};
     uint64_t there = frame->seen | frame->guessed;
     for (uint32_t i = 0; i < frame->schema->row_count; i++) {

@@ -6,7 +6,6 @@
 #include "grammar/schema_index.h"
 #include "parser/bind_stream.h"
 #include "parser/parser.h"
-#include "parser/reader_text.h"
 #include "parser/tree.h"
 
 struct loader_file {
@@ -24,7 +23,7 @@ struct loader {
     struct arena scratch; // emptied between files
     struct arena steady;  // not emptied
     struct schema_index index;
-    struct reader_names texts; // see bind_context
+    struct bind_texts texts; // see bind_context
     struct bind_stream stream;
     struct diag_sink trial; // of the attempt to bind what is read entry by entry
     struct {

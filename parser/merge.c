@@ -152,7 +152,23 @@ static void merge_scene_row(const struct merging *merging, struct ir_scene *from
         ir_origin_add_row(&merging->loader->output->origin, head->origin, *places);
 }
 
+// A single file that nothing overrides shares its lists and places with the scene.
+static struct ir_scene *take_only_file(struct loader *loader, uint32_t include_row) {
+    struct ir_origin *origin = &loader->output->origin;
+    const struct ir_scene *from = loader->files.items[0].scene;
+    struct ir_scene *scene = ARENA_NEW(loader->input->arena, struct ir_scene);
+    *scene = *from;
+    scene->head.written &= ~bind_bit(include_row);
+    scene->head.poisoned &= ~bind_bit(include_row);
+    scene->includes = (struct ir_includes){0};
+    merge_own_places(origin, &scene->head, &from->head);
+    ir_origin_remove_row(origin, scene->head.origin, include_row);
+    return scene;
+}
+
 struct ir_scene *merge_files(struct loader *loader) {
+    if (loader->order.count == 1 && loader->input->set_count == 0)
+        return take_only_file(loader, (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("include")));
     struct ir_origin *origin = &loader->output->origin;
     struct ir_scene *scene = ARENA_NEW(loader->input->arena, struct ir_scene);
     schema_init(&SCHEMA_SCENE, scene);
@@ -195,6 +211,11 @@ static void move_use(void *context, struct visit_place place, struct ir_material
 
 void merge_compact(struct loader *loader, struct ir_scene *scene) {
     uint32_t count = scene->materials.count;
+    bool all_named = true;
+    for (uint32_t i = 0; i < count && all_named; i++)
+        all_named = scene->materials.items[i].name.len > 0;
+    if (all_named)
+        return;
     struct uses uses = {ARENA_ARRAY(&loader->scratch, bool, count),
                         ARENA_ARRAY(&loader->scratch, uint32_t, count)};
     visit_references(&SCHEMA_SCENE, scene, mark_use, &uses);

@@ -2,6 +2,7 @@
 #include "parser/bind.h"
 #include "parser/loader.h"
 #include "parser/mend.h"
+#include "parser/reader_text.h"
 #include "parser/say.h"
 #include "parser/visit.h"
 
@@ -18,6 +19,7 @@ struct named {
 struct named_list {
     struct named *items;
     uint32_t count;
+    struct reader_names by_name; // 1 + the place of the first item of a name
 };
 
 static int compare(const void *left, const void *right) {
@@ -63,6 +65,7 @@ static struct named_list collect(struct loader *loader, struct ir_scene *scene,
         if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST)
             most += bind_list_count(schema_field(&SCHEMA_SCENE.rows[i], scene));
     struct named_list list = {.items = ARENA_ARRAY(&loader->scratch, struct named, most)};
+    reader_names_init(&list.by_name, &loader->scratch);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (only ? row == only : row->kind == SCHEMA_LIST && row->many == SCHEMA_SEQUENCE)
@@ -113,16 +116,14 @@ struct resolving {
 };
 
 static const struct named *find(const struct named_list *list, str name) {
-    uint32_t low = 0;
-    uint32_t high = list->count;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (str_compare(list->items[middle].name, name) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < list->count && str_equal(list->items[low].name, name) ? &list->items[low] : NULL;
+    uint32_t found = reader_names_find(&list->by_name, name);
+    return found ? &list->items[found - 1] : NULL;
+}
+
+static void number_names(struct named_list *list) {
+    for (uint32_t i = 0; i < list->count; i++)
+        if (i == 0 || !str_equal(list->items[i].name, list->items[i - 1].name))
+            reader_names_at(&list->by_name, list->items[i].name)->value = i + 1;
 }
 
 static void list_names(struct loader *loader, const struct named_list *list, const char *what) {
@@ -187,6 +188,7 @@ void names_resolve(struct loader *loader, struct ir_scene *scene) {
             continue;
         resolving.by_row[i] = collect(loader, scene, row);
         report_duplicates(loader, &resolving.by_row[i]);
+        number_names(&resolving.by_row[i]);
     }
     struct named_list things = collect(loader, scene, NULL);
     report_duplicates(loader, &things);

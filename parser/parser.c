@@ -107,7 +107,6 @@ static bool run(struct loader *loader, uint32_t main_source, bool alone) {
     struct parser_output *output = loader->output;
     ir_origin_init(&output->origin, loader->input->arena);
     schema_index_init(&loader->index, &loader->steady);
-    reader_names_init(&loader->texts, &loader->steady);
     loader_add_file(loader, main_source, 0, SPAN_NONE);
     output->scene = loader->files.items[0].scene;
     if (alone || !output->scene)

@@ -2,10 +2,10 @@
 //
 // read_xml_scan.c walks over tags by itself: it knows the place of each attribute, which expat does not
 // tell, and repairs beforehand what would otherwise end the file ('/ >', attributes given twice, unknown
-// entities). read_xml.c runs expat and builds the tree, read_xml_take.c hands children of the root over
-// before the file is read to its end, read_xml_error.c puts expat's errors in words. Ownership: the arena of
-// the reader_context. Nothing ever jumps through expat's frames. Thread safety: one reader belongs to one
-// thread.
+// entities). read_xml.c runs expat, read_xml_plain.c reads what needs no expat, read_xml_build.c builds the
+// tree for both, read_xml_take.c hands children of the root over before the file is read to its end,
+// read_xml_error.c puts expat's errors in words. Ownership: the arena of the reader_context. Nothing ever
+// jumps through expat's frames. Thread safety: one reader belongs to one thread.
 #ifndef GLINT_PARSER_READ_XML_H
 #define GLINT_PARSER_READ_XML_H
 
@@ -85,6 +85,26 @@ enum xml_tag_end xml_next_attribute(str text, uint32_t *at, struct xml_attribute
 bool xml_declared_encoding(str text, struct reader_range *encoding);
 // Reports and repairs, in the whole text.
 void xml_repair(const struct reader_context *context, struct reader_text *text);
+
+// ---- read_xml.c
+// Ends the reading, here and in expat.
+void xml_stop(struct xml_reader *reader);
+
+// ---- read_xml_build.c
+// An opening tag, from '<' to behind '>'; its attributes follow, then xml_opened. false: the reading ended.
+bool xml_open(struct xml_reader *reader, struct reader_range tag, str name);
+void xml_add_attribute(struct xml_reader *reader, str name, str value, struct xml_attribute place);
+void xml_opened(struct xml_reader *reader);
+// A closing tag, or the end of an empty element.
+void xml_close(struct xml_reader *reader, uint32_t end);
+void xml_see_comment(struct xml_reader *reader, uint32_t begin, uint32_t end);
+void xml_see_instruction(struct xml_reader *reader, str target, uint32_t begin, uint32_t end);
+// Reports the text between elements that has come to its end.
+void xml_end_text(struct xml_reader *reader);
+
+// ---- read_xml_plain.c
+// Reads XML that needs neither decoding nor repairs. false: read it with expat.
+bool xml_read_plain(struct xml_reader *reader);
 
 // ---- read_xml_take.c
 // What is read from here on goes when the next child has been taken.

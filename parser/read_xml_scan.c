@@ -2,8 +2,12 @@
 
 #include <string.h>
 
+// A table: each byte of a name is looked at.
 static bool ends_name(char c) {
-    return xml_is_blank(c) || memchr("=/><\"'&", c, 7) != NULL;
+    static const bool ends[256] = {
+        [' '] = true, ['\t'] = true, ['\n'] = true, ['\r'] = true, ['='] = true, ['/'] = true,
+        ['>'] = true, ['<'] = true,  ['"'] = true,  ['\''] = true, ['&'] = true};
+    return ends[(unsigned char)c];
 }
 
 uint32_t xml_name_end(str text, uint32_t at) {

@@ -13,9 +13,9 @@
 #include "core/limits.h"
 #include "parser/tree.h"
 
-// Takes the entries of the root's lists and named maps one by one as they are read, so that a large file needs
-// no large tree. What was taken is not in the tree: of a YAML list its count alone, of XML children the first
-// key of each name, marked TREE_TAKEN.
+// Takes the entries of the root's lists and named maps one by one as they are read, so that a large file
+// needs no large tree. What was taken is not in the tree: of a YAML list its count alone, of XML children the
+// first key of each name, marked TREE_TAKEN.
 struct reader_taker {
     // Whether entries are to be taken: those of the list or map of the root's pair `key`, or, in XML, the
     // children of the root that have this key.

@@ -38,7 +38,7 @@ static size_t control_length(str s, size_t at) {
 }
 
 size_t reader_find_control(str decoded) {
-    for (size_t i = 0; i < decoded.len; i++)
+    for (size_t i = str_skip_printable(decoded, 0); i < decoded.len; i = str_skip_printable(decoded, i + 1))
         if (control_length(decoded, i))
             return i;
     return decoded.len;
@@ -91,12 +91,7 @@ static void overwrite(const struct reader_context *context, struct reader_text *
 static bool clean(const struct reader_context *context, struct reader_text *text, struct bad_bytes *bytes,
                   struct bad_bytes *controls) {
     str all = text->bytes;
-    for (size_t at = text->begin; at < all.len;) {
-        unsigned char c = (unsigned char)all.ptr[at];
-        if (c >= 0x20 && c < 0x7F) {
-            at++;
-            continue;
-        }
+    for (size_t at = str_skip_printable(all, text->begin); at < all.len; at = str_skip_printable(all, at)) {
         size_t n = utf8_sequence_length(all, at);
         size_t control = n ? control_length(all, at) : 0;
         if (n == 0)

@@ -12,31 +12,18 @@ void tree_init(struct tree *tree, struct arena *arena, uint32_t source, bool is_
     (void)ARENA_PUSH(arena, &tree->comments);
 }
 
-tree_index tree_add(struct tree *tree, struct tree_node node) {
-    struct tree_node *added = ARENA_PUSH(tree->arena, &tree->nodes);
-    *added = node;
-    return tree->nodes.count - 1;
-}
-
-uint32_t tree_add_text(struct tree *tree, str text) {
-    uint64_t need = (uint64_t)tree->texts.count + text.len;
-    if (need > tree->texts.capacity) {
-        uint64_t wanted = tree->texts.capacity ? (uint64_t)tree->texts.capacity * 2 : 256;
-        if (wanted < need)
-            wanted = need;
-        if (wanted > UINT32_MAX)
-            wanted = need > UINT32_MAX ? SIZE_MAX : UINT32_MAX; // beyond any arena's cap
-        char *moved = arena_alloc(tree->arena, wanted);
-        if (tree->texts.count)
-            memcpy(moved, tree->texts.items, tree->texts.count);
-        tree->texts.items = moved;
-        tree->texts.capacity = (uint32_t)wanted;
-    }
-    uint32_t offset = tree->texts.count;
-    if (text.len)
-        memcpy(tree->texts.items + offset, text.ptr, text.len);
-    tree->texts.count = (uint32_t)need;
-    return offset;
+void tree_grow_texts(struct tree *tree, size_t bytes) {
+    uint64_t need = (uint64_t)tree->texts.count + bytes;
+    uint64_t wanted = tree->texts.capacity ? (uint64_t)tree->texts.capacity * 2 : 256;
+    if (wanted < need)
+        wanted = need;
+    if (wanted > UINT32_MAX)
+        wanted = need > UINT32_MAX ? SIZE_MAX : UINT32_MAX; // beyond any arena's cap
+    char *moved = arena_alloc(tree->arena, wanted);
+    if (tree->texts.count)
+        memcpy(moved, tree->texts.items, tree->texts.count);
+    tree->texts.items = moved;
+    tree->texts.capacity = (uint32_t)wanted;
 }
 
 uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment) {
@@ -64,20 +51,6 @@ void tree_add_trailing(struct tree *tree, tree_index entry, uint32_t begin, uint
         comment->trailing_begin = begin;
         comment->trailing_end = end;
     }
-}
-
-str tree_text(const struct tree *tree, tree_index scalar) {
-    const struct tree_node *node = tree_node(tree, scalar);
-    bool has_text = node->kind == TREE_SCALAR || node->kind == TREE_NULL;
-    if (!has_text || node->count == 0)
-        return STR("");
-    return (str){tree->texts.items + node->value, node->count};
-}
-
-span tree_span(const struct tree *tree, tree_index node) {
-    if (node == 0)
-        return SPAN_NONE;
-    return (span){tree->source, tree_node(tree, node)->begin, tree_node(tree, node)->end};
 }
 
 span tree_trailing_comment(const struct tree *tree, tree_index node) {

@@ -93,9 +93,25 @@ struct tree {
 };
 
 void tree_init(struct tree *tree, struct arena *arena, uint32_t source, bool is_xml);
-tree_index tree_add(struct tree *tree, struct tree_node node);
+static inline tree_index tree_add(struct tree *tree, struct tree_node node) {
+    if (tree->nodes.count == tree->nodes.capacity)
+        tree->nodes.items =
+            arena_grow(tree->arena, tree->nodes.items, tree->nodes.count, &tree->nodes.capacity, sizeof node);
+    tree->nodes.items[tree->nodes.count] = node;
+    return tree->nodes.count++;
+}
+// Makes room for `bytes` more of decoded text.
+void tree_grow_texts(struct tree *tree, size_t bytes);
 // Copies decoded text; gives its offset.
-uint32_t tree_add_text(struct tree *tree, str text);
+static inline uint32_t tree_add_text(struct tree *tree, str text) {
+    uint32_t offset = tree->texts.count;
+    if (text.len > tree->texts.capacity - offset)
+        tree_grow_texts(tree, text.len);
+    if (text.len)
+        memcpy(tree->texts.items + offset, text.ptr, text.len);
+    tree->texts.count = offset + (uint32_t)text.len;
+    return offset;
+}
 uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment);
 // Keeps a comment where its text, without what makes it a comment, begins with "glint:".
 void tree_add_directive(struct tree *tree, str comment, uint32_t begin, uint32_t end);
@@ -105,8 +121,18 @@ void tree_add_trailing(struct tree *tree, tree_index entry, uint32_t begin, uint
 static inline struct tree_node *tree_node(const struct tree *tree, tree_index i) {
     return &tree->nodes.items[i];
 }
-str tree_text(const struct tree *tree, tree_index scalar);
-span tree_span(const struct tree *tree, tree_index node);
+static inline str tree_text(const struct tree *tree, tree_index scalar) {
+    const struct tree_node *node = tree_node(tree, scalar);
+    bool has_text = node->kind == TREE_SCALAR || node->kind == TREE_NULL;
+    if (!has_text || node->count == 0)
+        return STR("");
+    return (str){tree->texts.items + node->value, node->count};
+}
+static inline span tree_span(const struct tree *tree, tree_index node) {
+    if (node == 0)
+        return SPAN_NONE;
+    return (span){tree->source, tree_node(tree, node)->begin, tree_node(tree, node)->end};
+}
 // The comments that belong to an entry (a key or an item of a list): those before it, or where there are none
 // the one behind it on its line; SPAN_NONE if there are none. The editor's schema line may lie inside the
 // span.
