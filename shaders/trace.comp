@@ -7,11 +7,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_spirv_intrinsics : require
-// SignedZeroInfNanPreserve, or a compiler may take NaN for absent; stripped where a device lacks it.
+// SignedZeroInfNanPreserve, or a compiler may take NaN for absent; stripped where a device lacks it;
+// tools/spirv_exact asks for it of doubles too.
 spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
-#ifdef DOUBLE_PRECISION
-spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 64);
-#endif
 
 #include "scene.glsl"
 #include "records.glsl"

@@ -193,6 +193,16 @@ struct all_records {
     struct gpu_word normal;
 };
 
+struct all_records64 {
+    struct gpu_node triangle_node, sphere_node;
+    struct gpu_triangle64 triangle;
+    struct gpu_sphere64 sphere;
+    struct gpu_normal64 normal;
+    struct gpu_body64 body;
+    struct gpu_material64 material;
+    struct gpu_light64 light;
+};
+
 // The fields of the structs in order, each filled up to four components, as shaders/layout.comp writes them.
 struct listing {
     uint32_t words[512];
@@ -201,7 +211,8 @@ struct listing {
 
 static void list_field(struct listing *listing, const void *field, size_t bytes) {
     assert_true(4 * listing->place + 4 <= sizeof listing->words / sizeof *listing->words);
-    memcpy(listing->words + 4 * listing->place++, field, bytes);
+    memcpy(listing->words + 4 * listing->place, field, bytes);
+    listing->place += (bytes + sizeof(struct gpu_word) - 1) / sizeof(struct gpu_word);
 }
 
 #define LIST(name, ...) list_field(listing, &record->name, sizeof record->name);
@@ -215,6 +226,28 @@ LISTER(list_sphere, gpu_sphere, SPHERE_FIELDS)
 LISTER(list_body, gpu_body, BODY_FIELDS)
 LISTER(list_material, gpu_material, MATERIAL_FIELDS)
 LISTER(list_light, gpu_light, LIGHT_FIELDS)
+
+#define LISTER64(function, type, FIELDS)                                                                     \
+    static void function(struct listing *listing, const struct type *record) {                               \
+        FIELDS(LIST, LIST, LIST, LIST, LIST)                                                                 \
+    }
+LISTER64(list_triangle64, gpu_triangle64, TRIANGLE64_FIELDS)
+LISTER64(list_sphere64, gpu_sphere64, SPHERE64_FIELDS)
+LISTER64(list_normal64, gpu_normal64, NORMAL64_FIELDS)
+LISTER64(list_body64, gpu_body64, BODY64_FIELDS)
+LISTER64(list_material64, gpu_material64, MATERIAL64_FIELDS)
+LISTER64(list_light64, gpu_light64, LIGHT64_FIELDS)
+
+static void list_all64(struct listing *listing, const struct all_records64 *all) {
+    list_node(listing, &all->triangle_node);
+    list_node(listing, &all->sphere_node);
+    list_triangle64(listing, &all->triangle);
+    list_sphere64(listing, &all->sphere);
+    list_normal64(listing, &all->normal);
+    list_body64(listing, &all->body);
+    list_material64(listing, &all->material);
+    list_light64(listing, &all->light);
+}
 
 static void list_all(struct listing *listing, const struct all_records *all) {
     list_node(listing, &all->triangle_node);
@@ -252,28 +285,65 @@ static struct gpu_program_source layout_source(struct gpu *gpu, const struct all
     return source;
 }
 
-static void test_layout(void **state) {
-    struct gpu *gpu = needed(state);
-    struct all_records all;
-    uint32_t numbers[sizeof all / sizeof(uint32_t)];
-    fill(numbers, sizeof all / sizeof(uint32_t), 1000);
-    memcpy(&all, numbers, sizeof all);
-    struct listing listing = {.place = 0}, got;
-    list_all(&listing, &all);
+static struct gpu_program_source layout64_source(struct gpu *gpu, const struct all_records64 *all) {
+    const bool texels = gpu_fetches_texels(gpu);
+    struct gpu_program_source source = {.spirv = texels ? kernel_layout64_texels : kernel_layout64_storage,
+                                        .spirv_words = texels ? kernel_layout64_texels_words
+                                                              : kernel_layout64_storage_words};
+    bind(gpu, &source, BINDING_TRIANGLE_NODES, &all->triangle_node, sizeof all->triangle_node);
+    bind(gpu, &source, BINDING_SPHERE_NODES, &all->sphere_node, sizeof all->sphere_node);
+    bind(gpu, &source, BINDING_TRIANGLES, &all->triangle, sizeof all->triangle);
+    bind(gpu, &source, BINDING_SPHERES, &all->sphere, sizeof all->sphere);
+    bind(gpu, &source, BINDING_NORMALS, &all->normal, sizeof all->normal);
+    bind(gpu, &source, BINDING_BODIES, &all->body, sizeof all->body);
+    bind(gpu, &source, BINDING_MATERIALS, &all->material, sizeof all->material);
+    bind(gpu, &source, BINDING_LIGHTS, &all->light, sizeof all->light);
+    bind(gpu, &source, BINDING_OUTPUT, NULL, sizeof(struct listing));
+    return source;
+}
 
-    struct gpu_program_source source = layout_source(gpu, &all);
-    struct gpu_program *program = gpu_program_create(gpu, &source);
+// Runs the kernel, which writes the records' fields back; takes the buffers away.
+static void expect_listing(struct gpu *gpu, const struct gpu_program_source *source,
+                           const struct listing *listing) {
+    struct listing got;
+    struct gpu_program *program = gpu_program_create(gpu, source);
     assert_non_null(program);
     double seconds = -1;
     assert_true(gpu_dispatch(gpu, program, 1, 1, NULL));
     assert_true(gpu_submit(gpu));
     assert_true(gpu_wait(gpu, &seconds));
     assert_true(seconds >= 0 && seconds < 60);
-    assert_true(gpu_read(gpu, source.buffers[BINDING_OUTPUT], 0, got.words, sizeof got.words));
-    assert_memory_equal(got.words, listing.words, listing.place * sizeof(struct gpu_word));
+    assert_true(gpu_read(gpu, source->buffers[BINDING_OUTPUT], 0, got.words, sizeof got.words));
+    assert_memory_equal(got.words, listing->words, listing->place * sizeof(struct gpu_word));
     gpu_program_destroy(gpu, program);
     for (int i = 0; i < GPU_BINDINGS; i++)
-        gpu_buffer_destroy(gpu, source.buffers[i]);
+        gpu_buffer_destroy(gpu, source->buffers[i]);
+}
+
+static void test_layout(void **state) {
+    struct gpu *gpu = needed(state);
+    struct all_records all;
+    uint32_t numbers[sizeof all / sizeof(uint32_t)];
+    fill(numbers, sizeof all / sizeof(uint32_t), 1000);
+    memcpy(&all, numbers, sizeof all);
+    struct listing listing = {.place = 0};
+    list_all(&listing, &all);
+    struct gpu_program_source source = layout_source(gpu, &all);
+    expect_listing(gpu, &source, &listing);
+}
+
+static void test_layout64(void **state) {
+    struct gpu *gpu = needed(state);
+    if (!gpu_info(gpu)->has_double)
+        skip();
+    struct all_records64 all;
+    uint32_t numbers[sizeof all / sizeof(uint32_t)];
+    fill(numbers, sizeof all / sizeof(uint32_t), 1000);
+    memcpy(&all, numbers, sizeof all);
+    struct listing listing = {.place = 0};
+    list_all64(&listing, &all);
+    struct gpu_program_source source = layout64_source(gpu, &all);
+    expect_listing(gpu, &source, &listing);
 }
 
 // What the silence of the layer in all other tests is worth: more workgroups than allowed, never submitted,
@@ -311,6 +381,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_buffers, setup, teardown),
         cmocka_unit_test_setup_teardown(test_too_large, setup, teardown),
         cmocka_unit_test_setup_teardown(test_layout, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_layout64, setup, teardown),
     };
     return cmocka_run_group_tests_name("gpu", tests, NULL, NULL);
 }

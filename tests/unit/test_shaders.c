@@ -16,6 +16,8 @@ enum {
     HEADER_WORDS = 5,
     OP_EXT_INST = 12,
     OP_EXECUTION_MODE = 16,
+    OP_TYPE_FLOAT = 22,
+    OP_TYPE_VECTOR = 23,
     OP_DECORATE = 71,
     OP_FADD = 129,
     NO_CONTRACTION = 42,
@@ -70,22 +72,49 @@ static int faults_of(const struct module *module, bool tell) {
     return faults;
 }
 
-static bool preserves_nan(const struct module *module) {
+static bool preserves_nan(const struct module *module, uint32_t bits) {
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16)
         if ((module->words[at] & 0xffff) == OP_EXECUTION_MODE &&
-            module->words[at + 2] == SIGNED_ZERO_INF_NAN_PRESERVE)
+            module->words[at + 2] == SIGNED_ZERO_INF_NAN_PRESERVE && module->words[at + 3] == bits)
             return true;
     return false;
 }
 
+// How many values of a type of doubles are computed: that the module traces in double precision at all.
+static int count_doubles(const struct module *module) {
+    bool *is_double = calloc(module->words[3], sizeof *is_double); // types by id
+    int count = 0;
+    for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
+        const uint32_t *word = module->words + at, opcode = word[0] & 0xffff;
+        if (opcode == OP_TYPE_FLOAT)
+            is_double[word[1]] = word[2] == 64;
+        if (opcode == OP_TYPE_VECTOR)
+            is_double[word[1]] = is_double[word[2]];
+        count += must_be_decorated(opcode) && is_double[word[1]];
+    }
+    free(is_double);
+    return count;
+}
+
 static void test_kernels(void **state) {
     (void)state;
-    const struct module modules[] = {{"trace_texels", kernel_trace_texels, kernel_trace_texels_words},
-                                     {"trace_storage", kernel_trace_storage, kernel_trace_storage_words}};
-    for (int i = 0; i < 2; i++) {
+    const struct module modules[] = {
+        {"trace_texels", kernel_trace_texels, kernel_trace_texels_words},
+        {"trace_storage", kernel_trace_storage, kernel_trace_storage_words},
+        {"hits_texels", kernel_hits_texels, kernel_hits_texels_words},
+        {"hits_storage", kernel_hits_storage, kernel_hits_storage_words},
+        {"trace64_texels", kernel_trace64_texels, kernel_trace64_texels_words},
+        {"trace64_storage", kernel_trace64_storage, kernel_trace64_storage_words},
+        {"hits64_texels", kernel_hits64_texels, kernel_hits64_texels_words},
+        {"hits64_storage", kernel_hits64_storage, kernel_hits64_storage_words},
+    };
+    for (size_t i = 0; i < sizeof modules / sizeof *modules; i++) {
+        const bool is_double = strstr(modules[i].name, "64");
         assert_int_equal(modules[i].words[0], 0x07230203);
         assert_int_equal(faults_of(&modules[i], true), 0);
-        assert_true(preserves_nan(&modules[i]));
+        assert_true(preserves_nan(&modules[i], 32));
+        assert_int_equal(preserves_nan(&modules[i], 64), is_double);
+        assert_int_equal(count_doubles(&modules[i]) > 100, is_double);
     }
 }
 

@@ -1,7 +1,8 @@
 // spirv_exact IN.spv OUT.spv OUT.c NAME [plain]: decorates every floating-point arithmetic operation of a
 // module with NoContraction, so that no compiler may fuse a multiplication and an addition, and writes the
 // module as SPIR-V and as a C array `NAME` of `NAME_words` words. With `plain` nothing is decorated: for
-// measuring what that saves and costs.
+// measuring what that saves and costs. A module that computes with doubles and asks for
+// SignedZeroInfNanPreserve of floats asks for it of doubles too: GLSL can say it of one width alone.
 //
 // GLSL's `precise` stops at function calls and does nothing for dot and cross; watertight intersection
 // and conservative boxes need every operation rounded once. Exit codes: 0, or 1 with a line on stderr.
@@ -16,6 +17,10 @@ enum {
     HEADER_WORDS = 5,
     MAGIC = 0x07230203,
     DECORATION_NO_CONTRACTION = 42,
+    MODE_NAN_PRESERVE = 4461,
+    DOUBLE_BITS = 64,
+    OP_EXECUTION_MODE = 16,
+    OP_TYPE_FLOAT = 22,
     OP_DECORATE = 71,
     OP_DECORATION_GROUP = 73,
     OP_TYPE_VOID = 19,
@@ -87,19 +92,43 @@ static size_t annotations_end(const uint32_t *module, size_t words) {
     return words;
 }
 
+static bool has_doubles(const uint32_t *module, size_t words) {
+    for (size_t at = HEADER_WORDS; at < words; at += module[at] >> 16)
+        if ((module[at] & 0xffff) == OP_TYPE_FLOAT && module[at + 2] == DOUBLE_BITS)
+            return true;
+    return false;
+}
+
+// Copies what stands before types and constants; gives the words written.
+static size_t copy_head(const uint32_t *module, size_t words, size_t end, uint32_t *out) {
+    const bool doubles = has_doubles(module, words);
+    size_t count = 0;
+    for (; count < HEADER_WORDS; count++)
+        out[count] = module[count];
+    for (size_t at = HEADER_WORDS; at < end; at += module[at] >> 16) {
+        const uint32_t length = module[at] >> 16, opcode = module[at] & 0xffff;
+        for (uint32_t i = 0; i < length; i++)
+            out[count++] = module[at + i];
+        if (doubles && opcode == OP_EXECUTION_MODE && module[at + 2] == MODE_NAN_PRESERVE) {
+            for (uint32_t i = 0; i + 1 < length; i++)
+                out[count++] = module[at + i];
+            out[count++] = DOUBLE_BITS;
+        }
+    }
+    return count;
+}
+
 // A module of `*words` words, on the heap.
 static uint32_t *decorate(const uint32_t *module, size_t *words, bool plain) {
     const size_t end = annotations_end(module, *words);
     bool *done = calloc(module[3], sizeof *done);           // by result id; module[3] is their bound
-    uint32_t *out = malloc((*words * 2 + 3) * sizeof *out); // an operation has at least 3 words
+    uint32_t *out = malloc((*words * 2 + 7) * sizeof *out); // an operation has at least 3 words, a mode 4
     if (!done || !out) {
         free(done);
         free(out);
         return NULL;
     }
-    size_t count = 0;
-    for (size_t at = 0; at < end; at++)
-        out[count++] = module[at];
+    size_t count = copy_head(module, *words, end, out);
     for (size_t at = HEADER_WORDS; at < end; at += module[at] >> 16)
         if ((module[at] & 0xffff) == OP_DECORATE && module[at + 2] == DECORATION_NO_CONTRACTION)
             done[module[at + 1]] = true;
