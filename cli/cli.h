@@ -46,6 +46,8 @@ struct cli_options {
     bool quiet, verbose, ir, help, limit_help, version;
     bool as_file, no_cache; // of the reference
     bool check, diff, upgrade; // of what changes files
+    int fix;                   // enum fix_level
+    int fix_arg;
     int output_arg;         // where it stands on the command line; 0: not given
 };
 
@@ -60,6 +62,7 @@ struct cli {
     struct cli_options options;
     char **operands; // what is left behind the options
     int operand_count;
+    struct cli_list fixed; // files whose fixes were shown
 };
 
 struct cli_command {

@@ -4,6 +4,7 @@
 // each is kept until all are done, so that the output does not depend on who was first.
 #include "app/check.h"
 #include "cli/cli.h"
+#include "cli/fix.h"
 #include "core/diag_text.h"
 #include "core/files_walk.h"
 #include "core/parallel.h"
@@ -190,10 +191,32 @@ static int write_report(struct check *check) {
     return status;
 }
 
+// Before the check, so that it tells what is left; one file after the other, since several may include one.
+static int fix_files(struct check *check) {
+    struct cli *cli = check->cli;
+    struct strbuf patch;
+    struct asset_store *store = asset_store_create();
+    int worst = store ? CLI_OK : CLI_FILE;
+    strbuf_init(&patch);
+    for (uint32_t i = 0; store && i < check->files.count; i++) {
+        struct session_options options = cli_session_options(cli, check->files.items[i].path);
+        options.policy = &cli->options.policy;
+        int status = cli_fix(cli, &options, store, &patch);
+        worst = status > worst ? status : worst;
+    }
+    if (patch.len && cli_print(cli, strbuf_view(&patch)) != CLI_OK)
+        worst = CLI_FILE;
+    strbuf_finish(&patch);
+    asset_store_destroy(store);
+    return worst;
+}
+
 static int run(struct check *check) {
     int worst = add_operands(check);
     if (worst == CLI_USAGE)
         return worst;
+    int fixed = check->cli->options.fix ? fix_files(check) : CLI_OK;
+    worst = fixed > worst ? fixed : worst;
     bool good = check_all(check);
     for (uint32_t i = 0; i < check->files.count; i++) {
         const struct check_file *file = &check->files.items[i];
@@ -214,6 +237,10 @@ int cmd_check(struct cli *cli) {
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;
     check.format = (enum check_format)format;
+    if (cli->options.diff && !cli->options.fix)
+        return cli_usage(cli, 1, "--diff shows what --fix would write, and --fix is not there");
+    if (cli->options.diff && check.format != CHECK_TEXT && !cli->options.output)
+        return cli_usage(cli, cli->options.fix_arg, "the patch and the report would be mixed: give the report a file with -o");
     if (!getcwd(check.root, sizeof check.root))
         check.root[0] = '\0';
     int status = run(&check);

@@ -1,6 +1,7 @@
 // The one table of options, its parser and its help.
 #include "cli/cli.h"
 
+#include "app/fixes.h"
 #include "core/nearest.h"
 #include "core/number.h"
 
@@ -30,6 +31,7 @@ enum option_id {
     OPTION_NO_CACHE,
     OPTION_CHECK,
     OPTION_DIFF,
+    OPTION_FIX,
     OPTION_UPGRADE,
     OPTION_FORMAT,
     OPTION_MAX_MESSAGES,
@@ -122,7 +124,9 @@ static const struct option_row rows[] = {
      "difference (black to 0.001, then three decades) or flip (0 to 1)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "format", "write to FILE instead; '-' is standard output"},
     {OPTION_CHECK, "check", 0, NULL, "format", "write nothing; name the files that would change, and fail where there are any"},
-    {OPTION_DIFF, "diff", 0, NULL, "format", "write nothing; show what would change as a patch"},
+    {OPTION_FIX, "fix", 0, "[=all]", "check",
+     "write the fixes that can only be meant so into the files; with =all suggestions too"},
+    {OPTION_DIFF, "diff", 0, NULL, "format check", "write nothing; show what would change as a patch"},
     {OPTION_UPGRADE, "upgrade", 0, NULL, "format", "rewrite what an older version of the format says otherwise"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as it was understood, in canonical form"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
@@ -298,6 +302,12 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
     case OPTION_DIFF:
         options->diff = true;
         return true;
+    case OPTION_FIX:
+        options->fix_arg = arg;
+        options->fix = value ? FIX_ALL : FIX_SAFE;
+        if (value && strcmp(value, "all") != 0)
+            cli_usage(cli, arg, "--fix takes 'all' or nothing, not '%s'", value);
+        return !value || strcmp(value, "all") == 0;
     case OPTION_UPGRADE:
         options->upgrade = true;
         return true;

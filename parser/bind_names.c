@@ -80,7 +80,7 @@ static void did_you_mean(struct bind_context *context, struct bind_frame *frame,
                          const struct mend_search *search) {
     const struct schema_row *row = &frame->schema->rows[search->best_id];
     enum tree_key kind = tree_node(context->tree, key)->key;
-    bool singular = str_equal_cstr(search->snake, row->name);
+    bool singular = str_equal_cstr(mend_snake(context->scratch, str_from(search->best)), row->name);
     const char *right = spelling(row, kind, singular);
     frame->guessed |= bind_bit((uint32_t)search->best_id);
     if (!right) {

@@ -63,6 +63,30 @@ static uint32_t replace_tabs(struct yaml_reader *r) {
     return lines;
 }
 
+static bool is_indent(str text, uint32_t at) {
+    return is_blank(text.ptr[at]) || (text.ptr[at] == '-' && at + 1 < text.len && is_blank(text.ptr[at + 1]));
+}
+
+// Two spaces for each tab before the first token of a line, from `begin`, inside such blanks, on; *end is
+// behind the last of these tabs.
+static str with_spaces(struct yaml_reader *r, uint32_t begin, uint32_t *end) {
+    str text = r->text->bytes;
+    char *out = arena_alloc(r->context->arena, 2 * (text.len - begin) + 1);
+    size_t length = 0, whole = 0;
+    bool indent = true;
+    for (uint32_t at = begin; at < text.len; at++) {
+        char c = text.ptr[at];
+        indent = is_break(c) || (indent && is_indent(text, at));
+        out[length++] = indent && c == '\t' ? ' ' : c;
+        if (!indent || c != '\t')
+            continue;
+        out[length++] = ' ';
+        whole = length;
+        *end = at + 1;
+    }
+    return (str){out, whole};
+}
+
 static bool repair_tabs(struct yaml_reader *r, struct diag_sink *sink, uint32_t problem) {
     str text = r->text->bytes;
     uint32_t at = problem;
@@ -75,7 +99,9 @@ static bool repair_tabs(struct yaml_reader *r, struct diag_sink *sink, uint32_t 
         end++;
     diag_add(sink, DIAG_YAML_TAB, yaml_span(r, at, end), "a tab in the indentation");
     diag_help(sink, "indent with spaces");
-    diag_fix(sink, false, yaml_span(r, at, end), STR("  "));
+    uint32_t last = end;
+    str spaces = with_spaces(r, at, &last);
+    diag_fix(sink, true, yaml_span(r, at, last), spaces);
     uint32_t lines = replace_tabs(r);
     if (lines > 1)
         diag_note(sink, SPAN_NONE, "%u lines of the file are indented with tabs", lines);

@@ -1,0 +1,199 @@
+#include "app/fixes.h"
+
+#include "app/check.h"
+#include "app/layout.h"
+#include "core/text_edit.h"
+
+enum {
+    ROUNDS_MAX = 100
+};
+
+struct fixer {
+    struct fixes *fixes;
+    struct session_options options; // its overlays: the files as they are by now
+    enum fix_level level;
+    struct asset_store *store;
+    struct {
+        struct text_edit *items;
+        uint32_t count, capacity;
+    } edits; // of one file
+    struct {
+        struct tried *items;
+        uint32_t count, capacity;
+    } tried; // what the last round changed, in the new texts
+};
+
+struct tried {
+    uint32_t file; // in fixes.files
+    uint32_t begin, end;
+    enum diag_code code;
+};
+
+// ---- which findings, in which files
+
+static bool is_wanted(const struct fixer *f, const struct diag *item) {
+    return item->has_fix && (item->fix_is_safe || f->level == FIX_ALL) &&
+           item->fix_at.source != SOURCE_DEFAULT;
+}
+
+// Only scenes: not the configuration, options or what a mesh stands for.
+static bool is_scene(const struct session *session, uint32_t source) {
+    const struct source *s = &session->sources.items[source];
+    if (s->kind != SOURCE_KIND_FILE)
+        return false;
+    for (uint32_t i = 0; i < session->origin.files.count; i++)
+        if (session->origin.files.items[i].source == source)
+            return true;
+    return str_equal(s->path, session->options.path);
+}
+
+static struct fixed_file *find_file(struct fixer *f, struct session *session, uint32_t source) {
+    struct fixes *fixes = f->fixes;
+    const struct source *s = &session->sources.items[source];
+    str canonical = files_canonical(&session->files, s->path);
+    for (uint32_t i = 0; i < fixes->files.count; i++)
+        if (str_equal(fixes->files.items[i].canonical, canonical))
+            return &fixes->files.items[i];
+    struct fixed_file *file = ARENA_PUSH(&fixes->arena, &fixes->files);
+    *file = (struct fixed_file){.path = arena_copy(&fixes->arena, s->path),
+                                .canonical = arena_copy(&fixes->arena, canonical),
+                                .before = arena_copy(&fixes->arena, s->text)};
+    file->text = file->before;
+    return file;
+}
+
+// ---- one round
+
+// A finding of the same kind where something was changed for it: the change did not help.
+static void refuse_what_failed(struct fixer *f, struct session *session) {
+    for (uint32_t i = 0; i < session->sink.count; i++) {
+        const struct diag *item = &session->sink.items[i];
+        if (!is_wanted(f, item) || !is_scene(session, item->fix_at.source))
+            continue;
+        const struct fixed_file *file = find_file(f, session, item->fix_at.source);
+        for (uint32_t t = 0; t < f->tried.count; t++) {
+            const struct tried *tried = &f->tried.items[t];
+            bool same = file == &f->fixes->files.items[tried->file] && item->code == tried->code &&
+                        item->fix_at.begin <= tried->end && item->fix_at.end >= tried->begin;
+            f->fixes->files.items[tried->file].refused |= same;
+        }
+    }
+    f->tried.count = 0;
+}
+
+static void note_tried(struct fixer *f, const struct session *session, uint32_t file, uint32_t kept) {
+    int64_t moved = 0;
+    for (uint32_t i = 0; i < kept; i++) {
+        const struct text_edit *edit = &f->edits.items[i];
+        uint32_t begin = (uint32_t)(edit->begin + moved);
+        struct tried *tried = ARENA_PUSH(&f->fixes->arena, &f->tried);
+        *tried = (struct tried){file, begin, begin + (uint32_t)edit->text.len,
+                                session->sink.items[edit->order].code};
+        moved += (int64_t)edit->text.len - (int64_t)(edit->end - edit->begin);
+    }
+}
+
+// Makes all changes of this round to the file of one source; gives their number.
+static uint32_t change_file(struct fixer *f, struct session *session, uint32_t source) {
+    f->edits.count = 0;
+    for (uint32_t i = 0; i < session->sink.count; i++) {
+        const struct diag *item = &session->sink.items[i];
+        if (item->fix_at.source != source || !is_wanted(f, item))
+            continue;
+        str text = arena_copy(&f->fixes->arena, item->fix_text);
+        *ARENA_PUSH(&f->fixes->arena, &f->edits) =
+            (struct text_edit){item->fix_at.begin, item->fix_at.end, text, i};
+    }
+    if (f->edits.count == 0)
+        return 0;
+    struct fixed_file *file = find_file(f, session, source);
+    if (file->refused)
+        return 0;
+    struct strbuf out;
+    strbuf_init(&out);
+    uint32_t kept = text_edits_settle(f->edits.items, f->edits.count);
+    text_edits_apply(session->sources.items[source].text, f->edits.items, kept, &out);
+    f->fixes->failed = f->fixes->failed || out.failed;
+    bool changed = !out.failed && !str_equal(strbuf_view(&out), file->text);
+    if (changed) {
+        file->text = arena_copy(&f->fixes->arena, strbuf_view(&out));
+        file->changes += kept;
+        note_tried(f, session, (uint32_t)(file - f->fixes->files.items), kept);
+    }
+    strbuf_finish(&out);
+    return changed ? kept : 0;
+}
+
+static bool round_of(struct fixer *f) {
+    struct session session;
+    uint32_t made = 0;
+    check_scene(&session, &f->options, f->store);
+    struct arena_guard *outer = f->fixes->arena.guard;
+    struct arena_guard guard;
+    arena_set_guard(&f->fixes->arena, &guard);
+    arena_set_guard(&session.arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        refuse_what_failed(f, &session);
+        for (uint32_t source = 1; source < session.sources.count; source++)
+            if (is_scene(&session, source))
+                made += change_file(f, &session, source);
+    } else {
+        f->fixes->failed = true;
+        made = 0;
+    }
+    arena_set_guard(&session.arena, NULL);
+    arena_set_guard(&f->fixes->arena, outer);
+    session_finish(&session);
+    return made > 0;
+}
+
+// ---- all rounds
+
+static void set_overlays(struct fixer *f, const struct session_options *given) {
+    struct fixes *fixes = f->fixes;
+    uint32_t count = given->overlay_count + fixes->files.count;
+    struct file_overlay *overlays = ARENA_ARRAY(&fixes->arena, struct file_overlay, count + 1);
+    for (uint32_t i = 0; i < given->overlay_count; i++)
+        overlays[i] = given->overlays[i];
+    for (uint32_t i = 0; i < fixes->files.count; i++) {
+        const struct fixed_file *file = &fixes->files.items[i];
+        overlays[given->overlay_count + i] =
+            (struct file_overlay){file->canonical, file->refused ? file->before : file->text};
+    }
+    f->options.overlays = overlays;
+    f->options.overlay_count = count;
+}
+
+static void take_back_what_is_broken(struct fixer *f) {
+    struct fixes *fixes = f->fixes;
+    for (uint32_t i = 0; i < fixes->files.count; i++) {
+        struct fixed_file *file = &fixes->files.items[i];
+        struct layout layout;
+        enum layout_status status = layout_text(&layout, file->path, file->text, &f->options.limits, false);
+        layout_finish(&layout);
+        file->refused = file->refused || status == LAYOUT_REFUSED;
+        if (file->refused)
+            file->text = file->before;
+    }
+}
+
+void fixes_make(struct fixes *fixes, const struct session_options *options, enum fix_level level,
+                struct asset_store *store) {
+    struct arena_guard guard;
+    *fixes = (struct fixes){0};
+    arena_init(&fixes->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
+    arena_set_guard(&fixes->arena, &guard);
+    struct fixer f = {.fixes = fixes, .options = *options, .level = level, .store = store};
+    if (setjmp(guard.jump) == 0) {
+        for (unsigned round = 0; round < ROUNDS_MAX && !fixes->failed && round_of(&f); round++)
+            set_overlays(&f, options);
+        take_back_what_is_broken(&f);
+    } else {
+        fixes->failed = true;
+    }
+    arena_set_guard(&fixes->arena, NULL);
+}
+
+void fixes_finish(struct fixes *fixes) {
+    arena_finish(&fixes->arena);
+}

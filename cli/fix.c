@@ -1,0 +1,59 @@
+#include "cli/fix.h"
+
+#include "app/fixes.h"
+#include "core/text_diff.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool is_done(struct cli *cli, str canonical) {
+    for (uint32_t i = 0; i < cli->fixed.count; i++)
+        if (str_equal(cli->fixed.items[i], canonical))
+            return true;
+    *ARENA_PUSH(&cli->arena, &cli->fixed) = arena_copy(&cli->arena, canonical);
+    return false;
+}
+
+static void tell(struct strbuf *text, const struct fixed_file *file) {
+    if (file->refused)
+        strbuf_format(text, "%.*s: left as it is: its fixes do not make a file that can be read\n",
+                      STR_ARG(file->path));
+    else
+        strbuf_format(text, "%.*s: %u %s made\n", STR_ARG(file->path), file->changes,
+                      file->changes == 1 ? "fix" : "fixes");
+}
+
+int cli_fix(struct cli *cli, const struct session_options *options, struct asset_store *store,
+            struct strbuf *patch) {
+    struct fixes fixes;
+    struct strbuf text;
+    int status = CLI_OK;
+    strbuf_init(&text);
+    fixes_make(&fixes, options, cli->options.fix, store);
+    for (uint32_t i = 0; i < fixes.files.count && !fixes.failed; i++) {
+        const struct fixed_file *file = &fixes.files.items[i];
+        const char *path = arena_copy(&cli->arena, file->path).ptr;
+        // A file that several scenes include is shown once; what was written is not found again.
+        bool shown = cli->options.diff && is_done(cli, file->canonical);
+        bool changed = !str_equal(file->before, file->text);
+        int written = CLI_OK;
+        if (changed && cli->options.diff && !shown)
+            text_diff(file->path, file->before, file->path, file->text, patch);
+        else if (changed && !cli->options.diff)
+            written = cli_write(cli, path, file->text);
+        status = written > status ? written : status;
+        if (written == CLI_OK && !shown && (changed || file->refused) &&
+            (!cli->options.diff || file->refused))
+            tell(&text, file);
+    }
+    if (fixes.failed) {
+        cli_error(cli, DIAG_OUT_OF_MEMORY, arena_copy(&cli->arena, options->path).ptr, NULL,
+                  "there is no memory for its fixes");
+        status = CLI_FILE;
+    }
+    if (!cli->options.quiet)
+        cli_write_error(strbuf_view(&text));
+    strbuf_finish(&text);
+    fixes_finish(&fixes);
+    return status;
+}
