@@ -1,0 +1,247 @@
+// What of a scene asks for double precision: the features that are measured, and those that are not.
+#include "flat_kit.h"
+#include "runtime/precision.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static void measure(struct kit *kit, struct precision_report *report) {
+    const struct flat_input input = {.scene = &kit->scene,
+                                     .assets = &kit->assets,
+                                     .view = &kit->view,
+                                     .origin = kit->origin,
+                                     .limits = &kit->limits,
+                                     .sink = &kit->sink};
+    assert_true(precision_measure(&input, report));
+}
+
+static void put_sphere(struct kit *kit, vec3 center, double radius) {
+    struct ir_sphere *sphere = kit_sphere(kit);
+    sphere->center = center;
+    sphere->radius = radius;
+}
+
+static void put_rectangle(struct kit *kit, vec3 corner, vec3 u, vec3 v) {
+    struct ir_rectangle *r = kit_rectangle(kit);
+    r->corner = corner;
+    r->edge_u = u;
+    r->edge_v = v;
+}
+
+static double steps_of(double length, double distance) {
+    return length / (distance * 0x1p-24);
+}
+
+static void expect_near(double got, double wanted) {
+    if (!(fabs(got - wanted) <= 1e-9 * fabs(wanted)))
+        fail_msg("%.17g is not %.17g", got, wanted);
+}
+
+static void test_nothing(void **state) {
+    (void)state;
+    struct kit kit;
+    struct precision_report report;
+    kit_init(&kit);
+    measure(&kit, &report);
+    assert_true(report.suffices && report.all_pairs);
+    for (int i = 0; i < PRECISION_FEATURES; i++)
+        assert_false(report.least[i].any);
+    kit_finish(&kit);
+}
+
+// A sphere is enough where an eighth of its radius has 16 steps: at 65536 radii, not at 10^6.
+static void test_sphere(void **state) {
+    (void)state;
+    for (int far = 0; far < 2; far++) {
+        struct kit kit;
+        struct precision_report report;
+        kit_init(&kit);
+        kit.origin = (vec3){1, 2, 3};
+        const double distance = far ? 2e6 : 0x1p16;
+        put_sphere(&kit, (vec3){1 + distance, 2, 3}, 2);
+        measure(&kit, &report);
+        const struct precision_measure *size = &report.least[PRECISION_SIZE];
+        assert_true(size->any && size->body == 0 && report.decides == PRECISION_SIZE);
+        expect_near(size->distance, distance + 2);
+        expect_near(size->steps, steps_of(2 * PRECISION_SPHERE_PART, distance + 2));
+        assert_int_equal(report.suffices, !far);
+        kit_finish(&kit);
+    }
+}
+
+// The shortest edge of all meshes, named by body and triangle.
+static void test_edge(void **state) {
+    (void)state;
+    static const vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1e-7, 0, 1}};
+    static const uint32_t faces[][3] = {{0, 1, 2}, {0, 0, 1}, {0, 3, 4}};
+    for (int fine = 0; fine < 2; fine++) {
+        struct kit kit;
+        struct precision_report report;
+        kit_init(&kit);
+        put_sphere(&kit, (vec3){0, 5, 0}, 1);
+        kit_model(&kit, kit_mesh(&kit, positions, 5, faces, fine ? 3 : 2, false))->translation =
+            (vec3){0, 0, -4};
+        measure(&kit, &report);
+        const struct precision_measure *edge = &report.least[PRECISION_EDGE];
+        assert_true(edge->any && edge->body == 1);
+        // The triangle without area has an edge of no length, which does not count.
+        assert_int_equal(edge->triangle, fine ? 2 : 0);
+        expect_near(edge->length, fine ? 1e-7 : 1);
+        expect_near(edge->distance, 4);
+        assert_int_equal(report.suffices, !fine);
+        kit_finish(&kit);
+    }
+}
+
+// A model may have gaps of 1e-4 of its size: 16 steps at a hundred sizes.
+static void test_model_size(void **state) {
+    (void)state;
+    for (int far = 0; far < 2; far++) {
+        struct kit kit;
+        struct precision_report report;
+        kit_init(&kit);
+        kit_model(&kit, kit_icosphere(&kit, 1, 0));
+        kit.origin = (vec3){0, 0, 3.4 * (far ? 110 : 100)}; // the box's diagonal is 2 sqrt 3 at most
+        measure(&kit, &report);
+        assert_int_equal(report.suffices, !far);
+        assert_int_equal(report.decides, PRECISION_SIZE);
+        kit_finish(&kit);
+    }
+}
+
+static bool gap_suffices(struct kit *kit, double gap) {
+    struct precision_report report;
+    measure(kit, &report);
+    if (gap > 0) {
+        assert_true(report.least[PRECISION_GAP].any);
+        assert_true(fabs(report.least[PRECISION_GAP].length - gap) < 1e-3 * gap);
+    } else {
+        assert_false(report.least[PRECISION_GAP].any);
+    }
+    kit_finish(kit);
+    return report.suffices;
+}
+
+static bool plates(double gap) {
+    struct kit kit;
+    kit_init(&kit);
+    put_rectangle(&kit, (vec3){-0.5, 0, -2}, (vec3){1, 0.5, 0}, (vec3){0.5, 1, 0.25});
+    const struct ir_rectangle *first = &kit.scene.rectangles.items[0];
+    const vec3 normal = vec3_unit(vec3_cross(first->edge_u, first->edge_v));
+    put_rectangle(&kit, vec3_add(first->corner, vec3_mul(normal, gap)), first->edge_v, first->edge_u);
+    return gap_suffices(&kit, gap);
+}
+
+static bool shells(double gap) {
+    struct kit kit;
+    kit_init(&kit);
+    put_sphere(&kit, (vec3){0, 0, -3}, 1);
+    put_sphere(&kit, (vec3){0, 0, -3}, 1 + gap);
+    return gap_suffices(&kit, gap);
+}
+
+static bool ball_on_floor(double gap) {
+    struct kit kit;
+    kit_init(&kit);
+    put_rectangle(&kit, (vec3){-5, -1, 0}, (vec3){10, 0, 0}, (vec3){0, 0, -10});
+    put_sphere(&kit, (vec3){0, -0.5 + gap, -3}, 0.5);
+    return gap_suffices(&kit, gap);
+}
+
+// A model's box is as low as its lowest vertex.
+static bool box_on_floor(double gap) {
+    static const vec3 positions[] = {{0, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 1, 1}};
+    static const uint32_t faces[][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    struct kit kit;
+    kit_init(&kit);
+    put_rectangle(&kit, (vec3){-5, -1, 0}, (vec3){10, 0, 0}, (vec3){0, 0, -10});
+    kit_model(&kit, kit_mesh(&kit, positions, 4, faces, 4, true))->translation = (vec3){0, -1 + gap, -3};
+    return gap_suffices(&kit, gap);
+}
+
+static void test_gap(void **state) {
+    (void)state;
+    // 16 steps at a distance of about 3 are 2.9e-6.
+    assert_true(plates(1e-4) && shells(1e-4) && ball_on_floor(1e-4) && box_on_floor(1e-4));
+    assert_false(plates(1e-7) || shells(1e-7) || ball_on_floor(1e-7) || box_on_floor(1e-7));
+    // What touches has no gap; nor what the program's own arithmetic tears apart.
+    assert_true(plates(0) && shells(0) && ball_on_floor(0) && box_on_floor(0));
+}
+
+// The camera above a plane: fine at 2^13 times its height, not at 10^6.
+static void test_height(void **state) {
+    (void)state;
+    for (int large = 0; large < 2; large++) {
+        struct kit kit;
+        struct precision_report report;
+        const double half = large ? 5e5 : 0x1p12;
+        kit_init(&kit);
+        put_rectangle(&kit, (vec3){-half, -1, half}, (vec3){2 * half, 0, 0}, (vec3){0, 0, -2 * half});
+        measure(&kit, &report);
+        const struct precision_measure *height = &report.least[PRECISION_HEIGHT];
+        assert_true(height->any && height->body == 0);
+        expect_near(height->length, 1);
+        assert_int_equal(report.suffices, !large);
+        // From beside it is only far away.
+        kit.origin = kit.view.camera.position = (vec3){3 * half, 0, 0};
+        measure(&kit, &report);
+        assert_false(report.least[PRECISION_HEIGHT].any);
+        kit_finish(&kit);
+    }
+}
+
+// The setting is obeyed; auto follows the report.
+static void test_choice(void **state) {
+    (void)state;
+    struct kit kit;
+    struct precision_report report = {.suffices = true};
+    kit_init(&kit);
+    for (int suffices = 0; suffices < 2; suffices++) {
+        report.suffices = suffices;
+        kit.scene.trace.precision = IR_PRECISION_AUTO;
+        assert_int_equal(precision_is_double(&kit.scene, &report), !suffices);
+        kit.scene.trace.precision = IR_PRECISION_SINGLE;
+        assert_false(precision_is_double(&kit.scene, &report));
+        kit.scene.trace.precision = IR_PRECISION_DOUBLE;
+        assert_true(precision_is_double(&kit.scene, &report));
+    }
+    kit_finish(&kit);
+}
+
+// Too many bodies in one place: the search ends, and says so.
+static void test_crowd(void **state) {
+    (void)state;
+    enum {
+        COUNT = 4000
+    };
+    struct kit kit;
+    struct precision_report report;
+    kit_init(&kit);
+    struct ir_sphere *spheres = ARENA_ARRAY(&kit.arena, struct ir_sphere, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        spheres[i].center = (vec3){0.001 * (i % 20), 0.001 * (i / 20 % 20), -3 + 0.001 * (i / 400)};
+        spheres[i].radius = 1;
+    }
+    kit.scene.spheres.items = spheres;
+    kit.scene.spheres.count = COUNT;
+    measure(&kit, &report);
+    assert_false(report.all_pairs);
+    kit.scene.spheres.count = 100;
+    measure(&kit, &report);
+    assert_true(report.all_pairs);
+    kit_finish(&kit);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_nothing),    cmocka_unit_test(test_sphere), cmocka_unit_test(test_edge),
+        cmocka_unit_test(test_model_size), cmocka_unit_test(test_gap),    cmocka_unit_test(test_height),
+        cmocka_unit_test(test_choice),     cmocka_unit_test(test_crowd),
+    };
+    return cmocka_run_group_tests_name("precision", tests, NULL, NULL);
+}
