@@ -91,7 +91,7 @@ struct report_input {
     const struct diag_sink *sink; // sorted
     struct source_set *sources;
     const char *root; // absolute: paths below it become relative to it
-    uint32_t most;    // findings to keep, and 500 bytes of text for each; the first error is always kept
+    uint32_t most;    // findings to keep, in 550 bytes of a report each; the first error is always kept
     report_find_path *find_path; // NULL: none
     void *context;
 };

@@ -118,6 +118,16 @@ sed -i '1a # a line more' bad.glint.yaml
 hash=runs/0/results/1/partialFingerprints/primaryLocationLineHash
 ok "fingerprints are stable" get after.sarif $hash "$("$tool" get before.sarif $hash)"
 
+# A scene of many long mistakes: no report passes 64 KB.
+awk 'BEGIN { x = "x"; for (i = 0; i < 9; i++) x = x x
+  print "glint: 1\nspheres:"
+  for (i = 0; i < 2000; i++) printf "  - {center: [0, %s], radius: -1, materiel%d: %s}\n", x, i, x }' >many.yaml
+for format in text json sarif github gitlab junit; do
+    "$glint" check many.yaml --format $format >many.txt 2>&1
+    ok "no more than 64 KB of $format" test "$(wc -c <many.txt)" -le 65536
+    ok "and no less than 8 KB" test "$(wc -c <many.txt)" -ge 8192
+done
+
 # ---- folders, order, outputs
 mkdir -p tree/b tree/a tree/.hidden
 for name in tree/b/2.glint.yaml tree/a/1.glint.yaml tree/3.glint.xml tree/.hidden/4.glint.yaml tree/5.yaml tree/a/6.glint.yml; do
