@@ -1,5 +1,7 @@
 #include "fuzz_reader.h"
 
+#include "core/strbuf.h"
+
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,8 +74,113 @@ static void check_diagnostics(struct source_set *sources, const struct diag_sink
     }
 }
 
+// ---- entry by entry and whole: two ways to one tree
+
+static void dump(struct strbuf *out, const struct tree *tree, tree_index index) {
+    const struct tree_node *node = tree_node(tree, index);
+    span comments = tree_comments(tree, index);
+    span behind = tree_trailing_comment(tree, index);
+    strbuf_format(out, "%u %u %u %u %u-%u %u-%u %u-%u ", node->kind, node->style, node->key,
+                  node->flags & ~(unsigned)TREE_TAKEN, node->begin, node->end, comments.begin, comments.end,
+                  behind.begin, behind.end);
+    strbuf_str(out, tree_text(tree, index));
+    strbuf_char(out, '(');
+    for (tree_index child = tree_first(tree, index); child; child = tree_next(tree, child))
+        dump(out, tree, child);
+    strbuf_char(out, ')');
+}
+
+// Takes all it can get, and remembers it as text.
+struct taken {
+    struct reader_taker taker;
+    struct strbuf text;
+    uint32_t lists[32]; // where the keys stand whose entries were taken
+    uint32_t list_count;
+};
+
+static bool wants(struct reader_taker *taker, const struct tree *tree, tree_index key, enum tree_kind kind) {
+    struct taken *taken = (struct taken *)taker;
+    if (tree->is_xml)
+        return true;
+    if (kind != TREE_LIST && kind != TREE_MAP)
+        return false;
+    if (taken->list_count == sizeof taken->lists / sizeof *taken->lists)
+        return false;
+    taken->lists[taken->list_count++] = tree_node(tree, key)->begin;
+    return true;
+}
+
+static bool take(struct reader_taker *taker, const struct tree *tree, tree_index list_key, tree_index entry) {
+    struct taken *taken = (struct taken *)taker;
+    (void)list_key;
+    dump(&taken->text, tree, entry);
+    if (tree_node(tree, entry)->key != TREE_KEY_NONE)
+        dump(&taken->text, tree, tree_value(tree, entry));
+    return true;
+}
+
+static bool was_taken(const struct taken *taken, const struct tree *tree, tree_index key) {
+    if (tree->is_xml)
+        return tree_node(tree, key)->key == TREE_KEY_CHILD;
+    for (uint32_t i = 0; i < taken->list_count; i++)
+        if (taken->lists[i] == tree_node(tree, key)->begin)
+            return true;
+    return false;
+}
+
+// What of the whole tree is to be found among the entries, or else in the tree that is left.
+static void dump_root(struct strbuf *out, const struct taken *taken, const struct tree *tree, bool entries) {
+    for (tree_index key = tree_first(tree, tree->root); key; key = tree_next_key(tree, key)) {
+        tree_index value = tree_value(tree, key);
+        bool is_taken = was_taken(taken, tree, key);
+        if (is_taken != entries)
+            continue;
+        if (!is_taken || tree->is_xml) {
+            dump(out, tree, key);
+            dump(out, tree, value);
+        } else {
+            for (tree_index entry = tree_first(tree, value); entry; entry = tree_next(tree, entry))
+                dump(out, tree, entry);
+        }
+    }
+}
+
+static void check_taken(fuzz_reader *read, const struct reader_context *outer, uint32_t source,
+                        const struct tree *whole) {
+    struct taken taken = {.taker = {wants, take}};
+    struct diag_sink sink;
+    struct tree rest;
+    struct reader_context context = *outer;
+    context.sink = &sink;
+    context.taker = &taken.taker;
+    diag_sink_init(&sink);
+    strbuf_init(&taken.text);
+    if (read(&context, source, &rest)) {
+        struct strbuf entries, others, left;
+        strbuf_init(&entries);
+        strbuf_init(&others);
+        strbuf_init(&left);
+        require(outer->sink->count == 0, "what is read entry by entry has no mistakes");
+        dump_root(&entries, &taken, whole, true);
+        dump_root(&others, &taken, whole, false);
+        dump_root(&left, &taken, &rest, false);
+        require(str_equal(strbuf_view(&taken.text), strbuf_view(&entries)), "the same entries either way");
+        require(str_equal(strbuf_view(&left), strbuf_view(&others)), "the same rest either way");
+        require(rest.schema_line.begin == whole->schema_line.begin &&
+                    rest.closing_comments.begin == whole->closing_comments.begin &&
+                    str_equal(rest.xsi_attributes, whole->xsi_attributes),
+                "the same lines around the scene");
+        strbuf_finish(&entries);
+        strbuf_finish(&others);
+        strbuf_finish(&left);
+    }
+    strbuf_finish(&taken.text);
+    diag_sink_finish(&sink);
+}
+
 struct job {
     fuzz_reader *read;
+    bool entries; // the reader can hand over entries
     struct arena arena;
     struct source_set sources;
     struct diag_sink sink;
@@ -94,12 +201,14 @@ static void run(struct job *job, uint32_t size) {
         require(!readable || job->tree.root, "a text that can be read has a root");
         check_tree(&job->tree, size);
         check_diagnostics(&job->sources, &job->sink, size);
+        if (readable && job->entries)
+            check_taken(job->read, &context, job->source, &job->tree);
     }
     arena_set_guard(&job->arena, NULL);
 }
 
-void fuzz_reader_run(fuzz_reader *read, const uint8_t *data, size_t size) {
-    struct job job = {.read = read, .limits = limits_default()};
+void fuzz_reader_run(fuzz_reader *read, bool entries, const uint8_t *data, size_t size) {
+    struct job job = {.read = read, .entries = entries, .limits = limits_default()};
     job.limits.value[LIMIT_ALIAS_NODES] = 2000;
     job.limits.value[LIMIT_SCENE_DEPTH] = 24;
     arena_init(&job.arena, MEMORY_BYTES);

@@ -4,6 +4,6 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    fuzz_reader_run(read_xml, data, size);
+    fuzz_reader_run(read_xml, true, data, size);
     return 0;
 }

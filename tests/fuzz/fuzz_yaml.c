@@ -8,7 +8,7 @@ static bool read_value(const struct reader_context *context, uint32_t source, st
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    fuzz_reader_run(read_yaml, data, size);
-    fuzz_reader_run(read_value, data, size);
+    fuzz_reader_run(read_yaml, true, data, size);
+    fuzz_reader_run(read_value, false, data, size);
     return 0;
 }

@@ -22,8 +22,8 @@ function own(path, target) {
     return 1
 }
 function foreign(path, target) {
-    if (target ~ /^yaml\.h$/) return path ~ /^parser\/read_yaml/
-    if (target ~ /^expat/) return path ~ /^parser\/read_xml/
+    if (target ~ /^yaml\.h$/) return path ~ /^(parser\/read_yaml|bench\/bench_check)/
+    if (target ~ /^expat/) return path ~ /^(parser\/read_xml|bench\/bench_check)/
     if (target ~ /^(volk|vulkan)/) return path ~ /^runtime\/gpu\//
     if (target ~ /^stb/) return path ~ /^(assets|runtime\/image|tools|tests)\//
     if (target ~ /^png\.h/) return path ~ /^(runtime\/image|tests)\//
