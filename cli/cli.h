@@ -37,6 +37,7 @@ struct cli_options {
     str camera;
     const char *device; // NULL: not given
     const char *format; // NULL: not given
+    const char *schema; // NULL: not given
     int format_arg;
     struct cli_list sets, asset_paths;
     struct limits limits;

@@ -60,16 +60,23 @@ const struct cli_command cli_commands[] = {
      "formatting. docs/editors.md shows how editors are told to start it.\n",
      0, 0, cmd_lsp},
     {"format", "FILE...", "lay scene files out in one way",
-     "Indentation, blanks and line breaks; comments, quoting, numbers, anchors and the order of keys stay. FILE\n"
-     "is a scene, a folder with scenes, or '-': standard input, to standard output. docs/format.md describes the\n"
+     "Indentation, blanks and line breaks; comments, quoting, numbers, anchors and the order of keys stay. "
+     "FILE\n"
+     "is a scene, a folder with scenes, or '-': standard input, to standard output. docs/format.md describes "
+     "the\n"
      "layout.\n\n"
      "  glint format scene.glint.yaml\n"
      "  glint format --check scenes\n",
      1, -1, cmd_format},
-    {"schema", "json|relaxng|markdown", "print the language's schema or reference page",
-     "json: JSON Schema (draft-07) for YAML editors. relaxng: RELAX NG for XML editors.\n"
-     "markdown: the reference page.\n",
-     1, 1, cmd_schema},
+    {"schema", "json|relaxng|rnc|xsd|markdown|install FILE...",
+     "print the language's schema or reference page, or tie files to it",
+     "json: JSON Schema (draft-07) for YAML editors. relaxng, rnc: RELAX NG, in XML and compact syntax, for\n"
+     "XML editors. xsd: XML Schema for editors that know no RELAX NG: completion alone. markdown: the\n"
+     "reference page. install: puts the line into scene files that tells editors their schema, and the "
+     "schema\n"
+     "beside them (or names the one at --schema).\n\n"
+     "  glint schema install scene.yaml\n",
+     1, -1, cmd_schema},
     {"explain", "CODE|ELEMENT[.ATTRIBUTE]", "explain a message's code or a part of the language",
      "  glint explain E206\n  glint explain material.albedo\n", 1, 1, cmd_explain},
     {"compare", "PICTURE REFERENCE", "measure how far one picture is from another",
@@ -81,7 +88,8 @@ const struct cli_command cli_commands[] = {
      "  glint compare picture.png reference.png --max-share 0.001 --heatmap errors.png\n",
      2, 2, cmd_compare},
     {"pick", "SCENE X,Y", "tell what is seen at a pixel, and why",
-     "Body, material, the lines of scene and mesh, distance and normal, then the path of the ray: each ray's\n"
+     "Body, material, the lines of scene and mesh, distance and normal, then the path of the ray: each "
+     "ray's\n"
      "weight, what it meets, which lights shine there, what it adds; as the device traces it and as the\n"
      "reference does in double precision, with the differences. Pixels count from 0,0 at the top left.\n"
      "--format takes text and json; --device reference needs no device.\n\n"

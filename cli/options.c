@@ -34,6 +34,7 @@ enum option_id {
     OPTION_FIX,
     OPTION_UPGRADE,
     OPTION_FORMAT,
+    OPTION_SCHEMA,
     OPTION_MAX_MESSAGES,
     OPTION_POLICY = 1500,  // and enum cli_policy_option behind it
     OPTION_MEASURE = 2000, // and enum cli_measure_option behind it
@@ -123,11 +124,15 @@ static const struct option_row rows[] = {
     {OPTION_MEASURE + CLI_MEASURE_HEATMAP_OF, "heatmap-of", 0, "KIND", "compare",
      "difference (black to 0.001, then three decades) or flip (0 to 1)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "format", "write to FILE instead; '-' is standard output"},
-    {OPTION_CHECK, "check", 0, NULL, "format", "write nothing; name the files that would change, and fail where there are any"},
+    {OPTION_CHECK, "check", 0, NULL, "format",
+     "write nothing; name the files that would change, and fail where there are any"},
     {OPTION_FIX, "fix", 0, "[=all]", "check",
      "write the fixes that can only be meant so into the files; with =all suggestions too"},
     {OPTION_DIFF, "diff", 0, NULL, "format check", "write nothing; show what would change as a patch"},
-    {OPTION_UPGRADE, "upgrade", 0, NULL, "format", "rewrite what an older version of the format says otherwise"},
+    {OPTION_UPGRADE, "upgrade", 0, NULL, "format",
+     "rewrite what an older version of the format says otherwise"},
+    {OPTION_SCHEMA, "schema", 0, "ADDRESS", "schema",
+     "where install finds the schema (a path or URL), instead of writing it beside the scene"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as it was understood, in canonical form"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
@@ -319,6 +324,9 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
         return true;
     case OPTION_NO_CACHE:
         options->no_cache = true;
+        return true;
+    case OPTION_SCHEMA:
+        options->schema = value;
         return true;
     case OPTION_FORMAT:
         options->format = value;

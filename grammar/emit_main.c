@@ -1,5 +1,5 @@
 // Writes one of the files that are made from the table to standard output:
-//     glint_emit json|relaxng|markdown|dictionary
+//     glint_emit json|relaxng|rnc|xsd|markdown|dictionary
 // The target `emitted` writes all of them to where they are committed.
 #include "grammar/emit.h"
 
@@ -13,6 +13,8 @@ int main(int count, char **arguments) {
     } kinds[] = {
         {"json", emit_json_schema},
         {"relaxng", emit_relaxng},
+        {"rnc", emit_relaxng_compact},
+        {"xsd", emit_xml_schema},
         {"markdown", emit_markdown},
         {"dictionary", emit_fuzz_dictionary},
     };
@@ -26,6 +28,6 @@ int main(int count, char **arguments) {
         strbuf_finish(&out);
         return fflush(stdout) != 0 || failed ? 3 : 0;
     }
-    fprintf(stderr, "usage: glint_emit json|relaxng|markdown|dictionary\n");
+    fprintf(stderr, "usage: glint_emit json|relaxng|rnc|xsd|markdown|dictionary\n");
     return 2;
 }

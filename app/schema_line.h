@@ -1,0 +1,16 @@
+// The line that tells an editor which schema a scene file follows: `# yaml-language-server: $schema=ADDRESS`
+// in YAML, `<?xml-model href="ADDRESS" ...?>` in XML.
+//
+// Thread safety: the session's thread.
+#ifndef GLINT_APP_SCHEMA_LINE_H
+#define GLINT_APP_SCHEMA_LINE_H
+
+#include "app/session.h"
+#include "core/strbuf.h"
+
+// Puts the line with this address into the text of the session's main file, or changes the one that is there;
+// not a byte else changes, and the line ends as the file's lines do. `session` is of session_load_text.
+// false: the text has that line already, and `out` is as it was.
+bool schema_line_put(struct session *session, str address, struct strbuf *out);
+
+#endif

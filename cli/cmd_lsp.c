@@ -1,0 +1,11 @@
+// glint lsp: the language server, over standard input and output.
+#include "cli/cli.h"
+
+#include "lsp/server.h"
+
+#include <unistd.h>
+
+int cmd_lsp(struct cli *cli) {
+    (void)cli;
+    return lsp_serve(STDIN_FILENO, STDOUT_FILENO, GLINT_VERSION);
+}

@@ -1,0 +1,324 @@
+// Quick fixes, completions and formatting.
+#include "lsp/server_private.h"
+
+#include "core/strbuf.h"
+#include "grammar/ir_walk.h"
+#include "parser/format.h"
+
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum {
+    FILES_MOST = 500, // names offered for a path
+    TITLE_BYTES = 60,
+};
+
+static json_t *edit_of(struct server *server, const struct session *session, const struct diag *diag) {
+    json_t *edit = json_object();
+    json_object_set_new(edit, "range", server_range(server, session, diag->fix_at));
+    json_object_set_new(edit, "newText", json_stringn(diag->fix_text.ptr, diag->fix_text.len));
+    return edit;
+}
+
+static json_t *workspace_edit(const char *uri, json_t *edits) {
+    json_t *edit = json_object();
+    json_t *changes = json_object();
+    json_object_set_new(changes, uri, edits);
+    json_object_set_new(edit, "changes", changes);
+    return edit;
+}
+
+static str title_of(struct arena *arena, const struct session *session, const struct diag *diag) {
+    str old = source_text(&session->sources, diag->fix_at);
+    str text = str_trim(diag->fix_text);
+    if (text.len == 0)
+        return arena_format(arena, "Remove '%.*s'", STR_ARG(str_slice(str_trim(old), 0, TITLE_BYTES)));
+    if (text.len > TITLE_BYTES || memchr(text.ptr, '\n', text.len))
+        return arena_format(arena, "Fix: %s", diag_info(diag->code)->title);
+    if (str_trim(old).len == 0)
+        return arena_format(arena, "Insert '%.*s'", STR_ARG(text));
+    return arena_format(arena, "Replace by '%.*s'", STR_ARG(text));
+}
+
+static bool overlaps(span a, size_t begin, size_t end) {
+    return a.begin <= end && begin <= a.end;
+}
+
+static void add_fix(struct server *server, struct session *session, struct arena *arena,
+                    const struct document *document, const struct diag *diag, json_t *list) {
+    str title = title_of(arena, session, diag);
+    json_t *action = json_object();
+    json_t *edits = json_array();
+    json_t *diagnostics = json_array();
+    json_array_append_new(edits, edit_of(server, session, diag));
+    json_array_append_new(diagnostics, server_diagnostic(server, session, arena, diag));
+    json_object_set_new(action, "title", json_stringn(title.ptr, title.len));
+    json_object_set_new(action, "kind", json_string("quickfix"));
+    json_object_set_new(action, "isPreferred", json_boolean(diag->fix_is_safe));
+    json_object_set_new(action, "diagnostics", diagnostics);
+    json_object_set_new(action, "edit", workspace_edit(document->uri, edits));
+    json_array_append_new(list, action);
+}
+
+// All fixes that leave no doubt, in one.
+static void add_fix_all(struct server *server, struct session *session, const struct document *document,
+                        uint32_t source, json_t *list) {
+    json_t *edits = json_array();
+    uint32_t end = 0;
+    for (uint32_t i = 0; i < session->sink.count; i++) {
+        const struct diag *diag = &session->sink.items[i];
+        if (!diag->has_fix || !diag->fix_is_safe || diag->fix_at.source != source || diag->fix_at.begin < end)
+            continue;
+        json_array_append_new(edits, edit_of(server, session, diag));
+        end = diag->fix_at.end;
+    }
+    if (json_array_size(edits) == 0) {
+        json_decref(edits);
+        return;
+    }
+    json_t *action = json_object();
+    json_object_set_new(action, "title", json_string("Fix all that has one right spelling"));
+    json_object_set_new(action, "kind", json_string("source.fixAll.glint"));
+    json_object_set_new(action, "edit", workspace_edit(document->uri, edits));
+    json_array_append_new(list, action);
+}
+
+// Whether the client wants actions of this kind; `source` wants `source.fixAll.glint` too.
+static bool wants(const json_t *context, const char *kind) {
+    const json_t *only = json_object_get(context, "only");
+    size_t index;
+    json_t *item;
+    if (!json_is_array(only))
+        return true;
+    json_array_foreach(only, index, item) {
+        const char *wanted = json_string_value(item);
+        size_t length = wanted ? strlen(wanted) : 0;
+        if (wanted && strncmp(kind, wanted, length) == 0 && (kind[length] == '\0' || kind[length] == '.'))
+            return true;
+    }
+    return false;
+}
+
+json_t *server_code_actions(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    json_t *list = json_array();
+    const json_t *context = json_object_get(params, "context");
+    const json_t *range = json_object_get(params, "range");
+    if (!server_place(server, params, &place) || !place.scene)
+        return list;
+    struct session *session = &place.scene->session;
+    uint32_t source = locate_source(session, place.document->path);
+    str text = document_text(place.document);
+    size_t begin = position_read(text, server->encoding, json_object_get(range, "start"));
+    size_t end = position_read(text, server->encoding, json_object_get(range, "end"));
+    for (uint32_t i = 0; wants(context, "quickfix") && i < session->sink.count; i++) {
+        const struct diag *diag = &session->sink.items[i];
+        if (diag->has_fix && diag->fix_at.source == source && diag->at.source == source &&
+            (overlaps(diag->at, begin, end) || overlaps(diag->fix_at, begin, end)))
+            add_fix(server, session, arena, place.document, diag, list);
+    }
+    if (wants(context, "source.fixAll.glint"))
+        add_fix_all(server, session, place.document, source, list);
+    return list;
+}
+
+// ---- completion
+
+// The word before the place and the key before that: `material: gl|`, `material="gl|`.
+struct typed {
+    str key, word;
+    size_t begin; // of the word, in the text
+};
+
+static bool is_word(char c) {
+    return c != ' ' && c != '\t' && c != '\n' && c != '\r' && !strchr("\"'[]{},=:<>", c);
+}
+
+static struct typed typed_at(str text, size_t offset) {
+    struct typed typed = {0};
+    size_t at = offset;
+    while (at > 0 && is_word(text.ptr[at - 1]))
+        at--;
+    typed.begin = at;
+    typed.word = str_slice(text, at, offset);
+    while (at > 0 && text.ptr[at - 1] != '\n' && strchr(" \t\"'[", text.ptr[at - 1]))
+        at--;
+    if (at == 0 || (text.ptr[at - 1] != ':' && text.ptr[at - 1] != '='))
+        return typed;
+    size_t end = at - 1;
+    while (end > 0 && (text.ptr[end - 1] == ' ' || text.ptr[end - 1] == '"'))
+        end--;
+    at = end;
+    while (at > 0 && is_word(text.ptr[at - 1]))
+        at--;
+    typed.key = str_slice(text, at, end);
+    return typed;
+}
+
+struct completing {
+    struct server *server;
+    struct session *session;
+    struct arena *arena;
+    const struct document *document;
+    struct typed typed;
+    json_t *items;
+};
+
+enum completion_kind { // LSP 3.17, "Completion Request"
+    COMPLETION_FILE = 17,
+    COMPLETION_REFERENCE = 18,
+    COMPLETION_FOLDER = 19,
+    COMPLETION_ENUM_MEMBER = 20,
+};
+
+static void offer(struct completing *c, str label, enum completion_kind kind, const char *doc) {
+    size_t index;
+    json_t *known;
+    json_array_foreach(c->items, index, known) {
+        const char *text = json_string_value(json_object_get(known, "label"));
+        if (text && str_equal(str_from(text), label))
+            return;
+    }
+    json_t *item = json_object();
+    json_t *edit = json_object();
+    json_object_set_new(item, "label", json_stringn(label.ptr, label.len));
+    json_object_set_new(item, "kind", json_integer(kind));
+    if (doc)
+        json_object_set_new(item, "documentation", json_string(doc));
+    json_object_set_new(edit, "range",
+                        position_range(document_text(c->document), c->server->encoding, c->typed.begin,
+                                       c->typed.begin + c->typed.word.len));
+    json_object_set_new(edit, "newText", json_stringn(label.ptr, label.len));
+    json_object_set_new(item, "textEdit", edit);
+    json_array_append_new(c->items, item);
+}
+
+static void offer_names(struct completing *c, const struct schema_element *target) {
+    const struct schema_row *pool = ir_walk_pool(target);
+    if (!pool || !c->session->scene)
+        return;
+    struct ir_any_list list = ir_walk_list(pool, c->session->scene);
+    for (uint32_t i = 0; i < list.count; i++) {
+        str name = ir_walk_key(target, ir_walk_item(pool, list, i));
+        if (name.len)
+            offer(c, name, COMPLETION_REFERENCE, target->doc);
+    }
+}
+
+static bool fits_kind(str name, enum schema_file kind) {
+    static const char *const scenes[] = {".yaml", ".yml", ".xml", ".json", NULL};
+    static const char *const images[] = {".png", ".jpg", ".jpeg", ".hdr", NULL};
+    static const char *const meshes[] = {".obj", NULL};
+    const char *const *endings = kind == SCHEMA_FILE_SCENE   ? scenes
+                                 : kind == SCHEMA_FILE_IMAGE ? images
+                                                             : meshes;
+    for (; *endings; endings++)
+        if (str_ends_with_nocase(name, *endings))
+            return true;
+    return false;
+}
+
+// Files and folders that lie where the path typed so far leads, beside the document.
+static void offer_files(struct completing *c, enum schema_file kind) {
+    str typed = c->typed.word;
+    str base = path_base(typed);
+    str stem = str_slice(typed, 0, typed.len - base.len);
+    str folder = arena_format(c->arena, "%.*s/%.*s", STR_ARG(path_folder(c->document->path)), STR_ARG(stem));
+    DIR *open = opendir(folder.ptr);
+    struct dirent *entry;
+    for (int count = 0; open && count < FILES_MOST && (entry = readdir(open));) {
+        struct stat info;
+        str name = str_from(entry->d_name);
+        str path = arena_format(c->arena, "%.*s%.*s", STR_ARG(folder), STR_ARG(name));
+        if (name.ptr[0] == '.' || stat(path.ptr, &info) != 0)
+            continue;
+        count++;
+        str label = arena_format(c->arena, "%.*s%.*s", STR_ARG(stem), STR_ARG(name));
+        if (S_ISDIR(info.st_mode))
+            offer(c, arena_format(c->arena, "%.*s/", STR_ARG(label)), COMPLETION_FOLDER, NULL);
+        else if (fits_kind(name, kind))
+            offer(c, label, COMPLETION_FILE, NULL);
+    }
+    if (open)
+        closedir(open);
+}
+
+// The text is seldom whole while one types: every attribute of the key's name counts.
+static void offer_for(struct completing *c, const struct schema_row *row) {
+    if (!str_equal_cstr(c->typed.key, row->name) &&
+        !(row->plural && str_equal_cstr(c->typed.key, row->plural)))
+        return;
+    if (row->kind == SCHEMA_REFERENCE)
+        offer_names(c, row->child);
+    if (row->kind == SCHEMA_WORD)
+        for (uint32_t i = 0; row->words[i]; i++)
+            offer(c, str_from(row->words[i]), COMPLETION_ENUM_MEMBER,
+                  row->word_docs ? row->word_docs[i] : NULL);
+    if (row->kind == SCHEMA_BOOLEAN) {
+        offer(c, STR("true"), COMPLETION_ENUM_MEMBER, row->doc);
+        offer(c, STR("false"), COMPLETION_ENUM_MEMBER, row->doc);
+    }
+    if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH)
+        offer_files(c, row->file);
+    if (row->kind == SCHEMA_LIST && schema_short_row(row->child) >= 0) {
+        const struct schema_row *inner = &row->child->rows[schema_short_row(row->child)];
+        if (inner->kind == SCHEMA_TEXT && inner->text == SCHEMA_TEXT_PATH)
+            offer_files(c, inner->file);
+    }
+}
+
+json_t *server_completion(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    json_t *list = json_object();
+    json_t *items = json_array();
+    json_object_set_new(list, "isIncomplete", json_false());
+    json_object_set_new(list, "items", items);
+    if (!server_place(server, params, &place) || !place.scene)
+        return list;
+    struct completing completing = {.server = server,
+                                    .session = &place.scene->session,
+                                    .arena = arena,
+                                    .document = place.document,
+                                    .typed = typed_at(document_text(place.document), place.offset),
+                                    .items = items};
+    for (uint32_t e = 0; completing.typed.key.len && schema_elements[e]; e++)
+        for (uint32_t i = 0; i < schema_elements[e]->row_count; i++)
+            offer_for(&completing, &schema_elements[e]->rows[i]);
+    return list;
+}
+
+// ---- formatting
+
+// The text as a whole: what the layout leaves alone stays, so that the editor's own diff is small.
+json_t *server_formatting(struct server *server, const json_t *params, struct arena *arena) {
+    const char *uri = json_string_value(json_object_get(json_object_get(params, "textDocument"), "uri"));
+    struct document *document = documents_find(&server->documents, uri ? uri : "");
+    if (!document)
+        return NULL;
+    struct source_set sources;
+    struct diag_sink sink;
+    struct strbuf text;
+    source_set_init(&sources, arena);
+    diag_sink_init(&sink);
+    strbuf_init(&text);
+    str old = arena_copy(arena, document_text(document));
+    struct reader_context context = {
+        .sources = &sources, .sink = &sink, .limits = &server->scenes.limits, .arena = arena};
+    uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, document->path, old);
+    enum format_status status = format_source(&context, source, NULL, &text);
+    json_t *edits = NULL;
+    if (status == FORMAT_DONE && !text.failed) {
+        edits = json_array();
+        if (!str_equal(strbuf_view(&text), old)) {
+            json_t *edit = json_object();
+            json_object_set_new(edit, "range", position_range(old, server->encoding, 0, old.len));
+            json_object_set_new(edit, "newText", json_stringn(text.data, text.len));
+            json_array_append_new(edits, edit);
+        }
+    }
+    strbuf_finish(&text);
+    diag_sink_finish(&sink);
+    return edits;
+}

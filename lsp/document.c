@@ -1,0 +1,136 @@
+#define _XOPEN_SOURCE 700 // realpath
+#include "lsp/document.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void documents_init(struct documents *documents) {
+    *documents = (struct documents){0};
+    arena_init(&documents->arena, SIZE_MAX / 2);
+}
+
+void documents_finish(struct documents *documents) {
+    for (uint32_t i = 0; i < documents->count; i++) {
+        free(documents->items[i].uri);
+        free(documents->items[i].text);
+    }
+    free(documents->items);
+    arena_finish(&documents->arena);
+}
+
+struct document *documents_find(struct documents *documents, const char *uri) {
+    for (uint32_t i = 0; i < documents->count; i++)
+        if (strcmp(documents->items[i].uri, uri) == 0)
+            return &documents->items[i];
+    return NULL;
+}
+
+struct document *documents_find_path(struct documents *documents, str path) {
+    for (uint32_t i = 0; i < documents->count; i++)
+        if (str_equal(documents->items[i].path, path))
+            return &documents->items[i];
+    return NULL;
+}
+
+static bool set_text(struct document *document, const char *text, size_t length) {
+    char *copy = malloc(length + 1);
+    if (!copy)
+        return false;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    free(document->text);
+    document->text = copy;
+    document->length = length;
+    return true;
+}
+
+static struct document *add(struct documents *documents, const char *uri) {
+    struct arena_guard guard;
+    if (documents->count == documents->capacity) {
+        uint32_t capacity = documents->capacity ? 2 * documents->capacity : 8;
+        struct document *items = realloc(documents->items, capacity * sizeof *items);
+        if (!items)
+            return NULL;
+        documents->items = items;
+        documents->capacity = capacity;
+    }
+    arena_set_guard(&documents->arena, &guard);
+    if (setjmp(guard.jump) != 0)
+        return NULL;
+    str path = position_path(&documents->arena, uri);
+    char *real = path.len ? realpath(path.ptr, NULL) : NULL; // as the sessions know it
+    if (real)
+        path = arena_copy(&documents->arena, str_from(real));
+    free(real);
+    struct document document = {.uri = strdup(uri), .path = path};
+    if (!document.uri || path.len == 0) {
+        free(document.uri);
+        return NULL;
+    }
+    documents->items[documents->count] = document;
+    return &documents->items[documents->count++];
+}
+
+struct document *documents_open(struct documents *documents, const char *uri, const char *text, size_t length,
+                                json_int_t version) {
+    struct document *document = documents_find(documents, uri);
+    if (!document)
+        document = add(documents, uri);
+    if (!document)
+        return NULL;
+    document->version = version;
+    if (set_text(document, text, length))
+        return document;
+    documents_close(documents, uri);
+    return NULL;
+}
+
+void documents_close(struct documents *documents, const char *uri) {
+    struct document *document = documents_find(documents, uri);
+    if (!document)
+        return;
+    free(document->uri);
+    free(document->text);
+    *document = documents->items[--documents->count];
+}
+
+static bool splice(struct document *document, size_t begin, size_t end, const char *text, size_t length) {
+    size_t tail = document->length - end;
+    char *joined = malloc(begin + length + tail + 1);
+    if (!joined)
+        return false;
+    memcpy(joined, document->text, begin);
+    memcpy(joined + begin, text, length);
+    memcpy(joined + begin + length, document->text + end, tail);
+    joined[begin + length + tail] = '\0';
+    free(document->text);
+    document->text = joined;
+    document->length = begin + length + tail;
+    return true;
+}
+
+bool document_change(struct document *document, enum position_encoding encoding, const json_t *changes) {
+    size_t index;
+    json_t *change;
+    if (!json_is_array(changes))
+        return false;
+    json_array_foreach(changes, index, change) {
+        const json_t *text = json_object_get(change, "text");
+        const json_t *range = json_object_get(change, "range");
+        if (!json_is_string(text))
+            return false;
+        size_t begin = 0;
+        size_t end = document->length;
+        if (range) {
+            begin = position_read(document_text(document), encoding, json_object_get(range, "start"));
+            end = position_read(document_text(document), encoding, json_object_get(range, "end"));
+        }
+        if (end < begin || !splice(document, begin, end, json_string_value(text), json_string_length(text)))
+            return false;
+    }
+    return true;
+}
+
+str document_text(const struct document *document) {
+    return (str){document->text, document->length};
+}

@@ -1,0 +1,145 @@
+#include "lsp/locate.h"
+
+#include "grammar/ir_walk.h"
+
+void locate_walk(const struct schema_element *schema, const void *element, locate_visit *visit,
+                 void *context) {
+    visit(context, schema, element);
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        if (row->kind == SCHEMA_ELEMENT)
+            locate_walk(row->child, schema_field_const(row, element), visit, context);
+        struct ir_any_list list = ir_walk_list(row, element);
+        for (uint32_t k = 0; k < list.count; k++)
+            locate_walk(row->child, ir_walk_item(row, list, k), visit, context);
+    }
+}
+
+uint32_t locate_source(struct session *session, str path) {
+    for (uint32_t i = 0; i < session->origin.files.count; i++) {
+        uint32_t source = session->origin.files.items[i].source;
+        if (str_equal(files_canonical(&session->files, session->sources.items[source].path), path))
+            return source;
+    }
+    return SOURCE_DEFAULT;
+}
+
+// ---- what stands at a place
+
+struct search {
+    const struct session *session;
+    uint32_t source;
+    size_t offset;
+    struct located found;
+    size_t size; // of what was found, in bytes
+};
+
+static bool covers(const struct search *search, span at) {
+    return at.source == search->source && at.begin <= search->offset && search->offset <= at.end;
+}
+
+static void offer(struct search *search, struct located located) {
+    size_t size = located.at.end - located.at.begin;
+    if (!covers(search, located.at) || (search->found.schema && size > search->size))
+        return;
+    search->found = located;
+    search->size = size;
+}
+
+static void search_element(void *context, const struct schema_element *schema, const void *element) {
+    struct search *search = context;
+    const struct ir_head *head = ir_walk_head(element);
+    if (head->origin == 0 || head->origin >= search->session->origin.elements.count)
+        return;
+    const struct ir_element_origin *origin = &search->session->origin.elements.items[head->origin];
+    offer(search, (struct located){schema, element, NULL, false, origin->label});
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct ir_row_origin *row = ir_origin_row(&search->session->origin, head, i);
+        if (!row)
+            continue;
+        offer(search, (struct located){schema, element, &schema->rows[i], false, row->key});
+        offer(search, (struct located){schema, element, &schema->rows[i], true, row->value});
+    }
+}
+
+struct located locate(struct session *session, str path, size_t offset) {
+    struct search search = {.session = session, .source = locate_source(session, path), .offset = offset};
+    if (!session->scene || search.source == SOURCE_DEFAULT)
+        return search.found;
+    locate_walk(&SCHEMA_SCENE, session->scene, search_element, &search);
+    // The merged scene has no includes any more.
+    for (uint32_t i = 0; i < session->origin.files.count; i++) {
+        const struct ir_file_origin *file = &session->origin.files.items[i];
+        if (file->source == search.source && file->scene)
+            search_element(&search, &SCHEMA_SCENE, file->scene);
+        for (uint32_t k = 0; file->source == search.source && file->scene && k < file->scene->includes.count;
+             k++)
+            search_element(&search, &SCHEMA_INCLUDE, &file->scene->includes.items[k]);
+    }
+    return search.found;
+}
+
+// ---- names
+
+struct users {
+    struct session *session;
+    struct arena *arena;
+    const void *referent;
+    struct located_name *out;
+};
+
+static void note_users(void *context, const struct schema_element *schema, const void *element) {
+    struct users *users = context;
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        if (row->kind != SCHEMA_REFERENCE)
+            continue;
+        const struct ir_material_ref *reference = schema_field_const(row, element);
+        if (reference->name.len == 0 ||
+            ir_walk_referent(users->session->scene, row, reference) != users->referent)
+            continue;
+        const struct ir_row_origin *place = ir_origin_row(&users->session->origin, ir_walk_head(element), i);
+        bool known = !place;
+        for (uint32_t k = 0; !known && k < users->out->uses.count; k++)
+            known = users->out->uses.items[k].source == place->value.source &&
+                    users->out->uses.items[k].begin == place->value.begin;
+        if (!known)
+            *ARENA_PUSH(users->arena, &users->out->uses) = place->value;
+    }
+}
+
+// Where the name of an element stands: in a map of YAML it is the key, elsewhere the key row's value.
+static span name_place(const struct session *session, const struct schema_element *schema,
+                       const void *element) {
+    int key = schema_key_row(schema);
+    const struct ir_row_origin *row =
+        key < 0 ? NULL : ir_origin_row(&session->origin, ir_walk_head(element), (uint32_t)key);
+    return row ? row->value : ir_place_label(&session->origin, ir_walk_head(element));
+}
+
+static bool same_place(span a, span b) {
+    return a.source == b.source && a.begin == b.begin && a.end == b.end;
+}
+
+bool locate_name(struct session *session, const struct located *at, struct arena *arena,
+                 struct located_name *out) {
+    *out = (struct located_name){0};
+    if (!at->schema || !session->scene)
+        return false;
+    const struct schema_element *schema = at->schema;
+    const void *named = at->element;
+    if (at->row && at->row->kind == SCHEMA_REFERENCE && at->in_value) {
+        schema = at->row->child;
+        named = ir_walk_referent(session->scene, at->row, schema_field_const(at->row, at->element));
+    } else if (!same_place(at->at, name_place(session, schema, named))) {
+        return false;
+    }
+    if (!named || ir_walk_key(schema, named).len == 0)
+        return false;
+    out->name = ir_walk_key(schema, named);
+    out->schema = schema;
+    out->definition = name_place(session, schema, named);
+    struct users users = {session, arena, named, out};
+    locate_walk(&SCHEMA_SCENE, session->scene, note_users, &users);
+    return true;
+}

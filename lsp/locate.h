@@ -1,0 +1,43 @@
+// What stands at a place of a text: element, attribute, name or reference; and where a name is defined and
+// used. Walks the table and the places beside the IR; knows no element's name.
+// Thread safety: pure but for the sessions' line maps.
+#ifndef GLINT_LSP_LOCATE_H
+#define GLINT_LSP_LOCATE_H
+
+#include "app/session.h"
+#include "grammar/schema.h"
+
+struct located {
+    const struct schema_element *schema; // NULL: nothing
+    const void *element;
+    const struct schema_row *row; // NULL: only the element
+    bool in_value;                // else in the key
+    span at;                      // of that key or value, or the element's label
+};
+
+// The innermost thing that stands at byte `offset` of the file `path` (canonical).
+struct located locate(struct session *session, str path, size_t offset);
+// The source of a file that the session read (canonical path), or SOURCE_DEFAULT.
+uint32_t locate_source(struct session *session, str path);
+
+// Something with a name that others refer to, and its places.
+struct located_name {
+    str name;
+    const struct schema_element *schema; // of what has it
+    span definition;
+    struct {
+        span *items;
+        uint32_t count, capacity;
+    } uses;
+};
+// The name at a located place: the definition's own, or the one a reference has. Uses lie in `arena`, which
+// needs a guard. false: no name stands there, or nothing has it.
+bool locate_name(struct session *session, const struct located *at, struct arena *arena,
+                 struct located_name *out);
+
+// Calls `visit` for every element of the scene: included ones and materials written in place too.
+typedef void locate_visit(void *context, const struct schema_element *schema, const void *element);
+void locate_walk(const struct schema_element *schema, const void *element, locate_visit *visit,
+                 void *context);
+
+#endif

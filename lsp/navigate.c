@@ -1,0 +1,341 @@
+// Names and files: definitions, uses, renaming, links, the outline, and what an attribute means.
+#include "lsp/server_private.h"
+
+#include "core/strbuf.h"
+#include "grammar/explain.h"
+#include "grammar/ir_walk.h"
+
+#include <string.h>
+
+enum {
+    SNIPPET_BYTES = 1000, // of a definition that is shown
+};
+
+static json_t *file_location(struct arena *arena, str path) {
+    json_t *location = json_object();
+    json_object_set_new(location, "uri", json_string(position_uri(arena, path).ptr));
+    json_object_set_new(location, "range", position_range(STR(""), POSITION_UTF16, 0, 0));
+    return location;
+}
+
+static bool is_path(const struct located *at) {
+    return at->row && at->row->kind == SCHEMA_TEXT && at->row->text == SCHEMA_TEXT_PATH && at->in_value;
+}
+
+// The file that a path in the document names; the empty string where it is not found.
+static str resolve(struct session *session, const struct document *document, const struct located *at) {
+    const str *path = schema_field_const(at->row, at->element);
+    str found;
+    if (path->len == 0 || files_resolve(&session->files, document->path, *path, &found) != FILE_OK)
+        return STR("");
+    return files_canonical(&session->files, found);
+}
+
+// The line of a mesh in which its first face of a material stands.
+static json_t *mesh_group_location(struct session *session, struct arena *arena, const struct located *at) {
+    const str *name = schema_field_const(at->row, at->element);
+    for (uint32_t i = 0; i < session->assets.model_count; i++) {
+        const struct ir_model *model = &session->scene->models.items[i];
+        const struct mesh *mesh = session->assets.models[i].mesh;
+        const struct ir_map_entry *first = model->material_map.items;
+        const struct ir_map_entry *entry = at->element;
+        bool is_mine = false;
+        for (uint32_t k = 0; k < model->material_map.count; k++)
+            is_mine |= first + k == entry;
+        for (uint32_t g = 0; is_mine && mesh && g < mesh->group_count; g++) {
+            if (!str_equal(mesh->groups[g].name, *name) || mesh->groups[g].line == 0)
+                continue;
+            json_t *location = file_location(arena, files_canonical(&session->files, mesh->path));
+            json_t *start = json_object_get(json_object_get(location, "range"), "start");
+            json_t *end = json_object_get(json_object_get(location, "range"), "end");
+            json_object_set_new(start, "line", json_integer(mesh->groups[g].line - 1));
+            json_object_set_new(end, "line", json_integer(mesh->groups[g].line - 1));
+            return location;
+        }
+    }
+    return NULL;
+}
+
+json_t *server_definition(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    struct located_name name;
+    if (!server_place(server, params, &place) || !place.scene)
+        return NULL;
+    struct session *session = &place.scene->session;
+    struct located at = locate(session, place.document->path, place.offset);
+    if (is_path(&at)) {
+        str path = resolve(session, place.document, &at);
+        return path.len ? file_location(arena, path) : NULL;
+    }
+    if (at.row && at.row->kind == SCHEMA_TEXT && at.row->text == SCHEMA_TEXT_FOREIGN_NAME && at.in_value)
+        return mesh_group_location(session, arena, &at);
+    if (!locate_name(session, &at, arena, &name))
+        return NULL;
+    return server_location(server, session, arena, name.definition);
+}
+
+json_t *server_references(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    struct located_name name;
+    json_t *list = json_array();
+    if (!server_place(server, params, &place) || !place.scene)
+        return list;
+    struct session *session = &place.scene->session;
+    struct located at = locate(session, place.document->path, place.offset);
+    if (!locate_name(session, &at, arena, &name))
+        return list;
+    if (json_is_true(json_object_get(json_object_get(params, "context"), "includeDeclaration"))) {
+        json_t *location = server_location(server, session, arena, name.definition);
+        if (location)
+            json_array_append_new(list, location);
+    }
+    for (uint32_t i = 0; i < name.uses.count; i++) {
+        json_t *location = server_location(server, session, arena, name.uses.items[i]);
+        if (location)
+            json_array_append_new(list, location);
+    }
+    return list;
+}
+
+// ---- renaming
+
+// The name inside a place, without the quotes that may stand around it.
+static span bare(const struct session *session, span at) {
+    str text = source_text(&session->sources, at);
+    if (text.len >= 2 && (text.ptr[0] == '"' || text.ptr[0] == '\'') && text.ptr[text.len - 1] == text.ptr[0])
+        return (span){at.source, at.begin + 1, at.end - 1};
+    return at;
+}
+
+static void add_edit(struct server *server, struct session *session, struct arena *arena, json_t *changes,
+                     span at, str name, const char *text) {
+    span inner = bare(session, at);
+    // A value that comes through an anchor or an escape is not spelled there.
+    if (!str_equal(source_text(&session->sources, inner), name))
+        return;
+    json_t *location = server_location(server, session, arena, inner);
+    if (!location)
+        return;
+    const char *uri = json_string_value(json_object_get(location, "uri"));
+    json_t *edits = json_object_get(changes, uri);
+    json_t *edit = json_object();
+    if (!edits) {
+        edits = json_array();
+        json_object_set_new(changes, uri, edits);
+    }
+    json_object_set(edit, "range", json_object_get(location, "range"));
+    json_object_set_new(edit, "newText", json_string(text));
+    json_array_append_new(edits, edit);
+    json_decref(location);
+}
+
+json_t *server_prepare_rename(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    struct located_name name;
+    if (!server_place(server, params, &place) || !place.scene)
+        return NULL;
+    struct session *session = &place.scene->session;
+    struct located at = locate(session, place.document->path, place.offset);
+    if (!locate_name(session, &at, arena, &name))
+        return NULL;
+    return server_range(server, session, bare(session, at.at));
+}
+
+json_t *server_rename(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    struct located_name name;
+    const char *text = json_string_value(json_object_get(params, "newName"));
+    if (!text || !str_is_name(str_from(text)) || !server_place(server, params, &place) || !place.scene)
+        return NULL;
+    struct session *session = &place.scene->session;
+    struct located at = locate(session, place.document->path, place.offset);
+    if (!locate_name(session, &at, arena, &name))
+        return NULL;
+    json_t *edit = json_object();
+    json_t *changes = json_object();
+    add_edit(server, session, arena, changes, name.definition, name.name, text);
+    for (uint32_t i = 0; i < name.uses.count; i++)
+        add_edit(server, session, arena, changes, name.uses.items[i], name.name, text);
+    json_object_set_new(edit, "changes", changes);
+    return edit;
+}
+
+// ---- hover
+
+static void add_definition(struct session *session, struct arena *arena, const struct located *at,
+                           struct strbuf *out) {
+    struct located_name name;
+    if (!at->in_value || !locate_name(session, at, arena, &name))
+        return;
+    str text = source_text(&session->sources, name.definition);
+    // The whole element, from where its name stands.
+    const void *named = ir_walk_referent(session->scene, at->row, schema_field_const(at->row, at->element));
+    const struct ir_head *head = named ? ir_walk_head(named) : NULL;
+    if (head && head->origin < session->origin.elements.count)
+        text = source_text(&session->sources, span_join(session->origin.elements.items[head->origin].label,
+                                                        session->origin.elements.items[head->origin].at));
+    text = str_slice(text, 0, text.len < SNIPPET_BYTES ? text.len : SNIPPET_BYTES);
+    struct source_place where = source_locate(&session->sources, name.definition);
+    strbuf_format(out, "%.*s '%.*s' of %.*s:%u\n\n%.*s\n\n", STR_ARG(str_from(name.schema->name)),
+                  STR_ARG(name.name), STR_ARG(path_base(where.path)), where.line, STR_ARG(text));
+}
+
+json_t *server_hover(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    if (!server_place(server, params, &place) || !place.scene)
+        return NULL;
+    struct session *session = &place.scene->session;
+    struct located at = locate(session, place.document->path, place.offset);
+    if (!at.schema)
+        return NULL;
+    struct strbuf text;
+    strbuf_init(&text);
+    if (at.row && at.row->kind == SCHEMA_REFERENCE)
+        add_definition(session, arena, &at, &text);
+    str what =
+        at.row ? arena_format(arena, "%s.%s", at.schema->name, at.row->name) : str_from(at.schema->name);
+    explain(what, false, &text);
+    json_t *hover = json_object();
+    json_t *contents = json_object();
+    json_object_set_new(contents, "kind", json_string("plaintext"));
+    json_object_set_new(contents, "value", json_stringn(text.data ? text.data : "", text.len));
+    json_object_set_new(hover, "contents", contents);
+    json_object_set_new(hover, "range", server_range(server, session, at.at));
+    strbuf_finish(&text);
+    return hover;
+}
+
+// ---- the outline
+
+enum symbol_kind { // LSP 3.17, "Document Symbols"
+    SYMBOL_FIELD = 8,
+    SYMBOL_OBJECT = 19,
+};
+
+static bool stands_in(const struct session *session, const void *element, uint32_t source, span *at,
+                      span *label) {
+    const struct ir_head *head = ir_walk_head(element);
+    if (head->origin == 0 || head->origin >= session->origin.elements.count)
+        return false;
+    const struct ir_element_origin *origin = &session->origin.elements.items[head->origin];
+    *at = span_is_none(origin->at) ? origin->label : origin->at;
+    *label = span_is_none(origin->label) ? *at : origin->label;
+    if (label->source == at->source)
+        *at = span_join(label->begin < at->begin ? *label : *at, label->end > at->end ? *label : *at);
+    return at->source == source && label->source == source;
+}
+
+static str symbol_name(struct arena *arena, const struct schema_element *schema, const void *element,
+                       int index) {
+    str key = ir_walk_key(schema, element);
+    if (key.len)
+        return key;
+    // What tells entries of a list apart: the file they name, else their place in the list.
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        const str *text = schema_field_const(row, element);
+        if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH && text->len)
+            return arena_format(arena, "%s %.*s", schema->name, STR_ARG(path_base(*text)));
+    }
+    return index < 0 ? str_from(schema->name) : arena_format(arena, "%s %d", schema->name, index + 1);
+}
+
+struct outline {
+    struct server *server;
+    struct session *session;
+    struct arena *arena;
+    uint32_t source;
+    const struct ir_scene *scene;
+};
+
+static void add_symbol(struct outline *outline, json_t *list, const struct schema_element *schema,
+                       const void *element, int index);
+
+static void add_symbols(struct outline *outline, json_t *list, const struct schema_element *schema,
+                        const void *element) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        struct ir_any_list items = ir_walk_list(row, element);
+        if (row->kind == SCHEMA_ELEMENT && ir_walk_written(schema, i, element))
+            add_symbol(outline, list, row->child, schema_field_const(row, element), -1);
+        for (uint32_t k = 0; k < items.count; k++) {
+            const void *item = ir_walk_item(row, items, k);
+            if (!ir_walk_is_anonymous(row->child, item))
+                add_symbol(outline, list, row->child, item, (int)k);
+        }
+    }
+}
+
+static void add_symbol(struct outline *outline, json_t *list, const struct schema_element *schema,
+                       const void *element, int index) {
+    span at;
+    span label;
+    if (!stands_in(outline->session, element, outline->source, &at, &label))
+        return;
+    str name = symbol_name(outline->arena, schema, element, index);
+    json_t *symbol = json_object();
+    json_t *children = json_array();
+    json_object_set_new(symbol, "name", json_stringn(name.ptr, name.len));
+    json_object_set_new(symbol, "detail", json_string(schema->element));
+    json_object_set_new(symbol, "kind", json_integer(index < 0 ? SYMBOL_FIELD : SYMBOL_OBJECT));
+    json_object_set_new(symbol, "range", server_range(outline->server, outline->session, at));
+    json_object_set_new(symbol, "selectionRange", server_range(outline->server, outline->session, label));
+    add_symbols(outline, children, schema, element);
+    json_object_set_new(symbol, "children", children);
+    json_array_append_new(list, symbol);
+}
+
+json_t *server_symbols(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    json_t *list = json_array();
+    if (!server_place(server, params, &place) || !place.scene)
+        return list;
+    struct session *session = &place.scene->session;
+    uint32_t source = locate_source(session, place.document->path);
+    struct outline outline = {server, session, arena, source, session->scene};
+    add_symbols(&outline, list, &SCHEMA_SCENE, session->scene);
+    return list;
+}
+
+// ---- links
+
+struct linking {
+    struct server *server;
+    struct session *session;
+    struct arena *arena;
+    const struct document *document;
+    uint32_t source;
+    json_t *list;
+};
+
+static void add_link(void *context, const struct schema_element *schema, void *element,
+                     const struct schema_row *row, str *path) {
+    struct linking *linking = context;
+    (void)path;
+    span at = ir_place_value(&linking->session->origin, ir_walk_head(element), schema, row->name);
+    if (at.source != linking->source)
+        return;
+    struct located located = {schema, element, row, true, at};
+    str target = resolve(linking->session, linking->document, &located);
+    if (target.len == 0)
+        return;
+    json_t *link = json_object();
+    json_object_set_new(link, "range",
+                        server_range(linking->server, linking->session, bare(linking->session, at)));
+    json_object_set_new(link, "target", json_string(position_uri(linking->arena, target).ptr));
+    json_array_append_new(linking->list, link);
+}
+
+json_t *server_links(struct server *server, const json_t *params, struct arena *arena) {
+    struct place place;
+    json_t *list = json_array();
+    if (!server_place(server, params, &place) || !place.scene)
+        return list;
+    struct session *session = &place.scene->session;
+    uint32_t source = locate_source(session, place.document->path);
+    struct linking linking = {server, session, arena, place.document, source, list};
+    for (uint32_t i = 0; i < session->origin.files.count; i++)
+        if (session->origin.files.items[i].source == source && session->origin.files.items[i].scene)
+            ir_walk_paths(session->origin.files.items[i].scene, add_link, &linking);
+    return list;
+}

@@ -1,0 +1,46 @@
+// JSON-RPC 2.0 in the frames of the Language Server Protocol 3.17 ("Base Protocol"): Content-Length headers
+// and a JSON body, over two file descriptors.
+//
+// Ownership: rpc_read gives a new reference; functions that take a json_t take over its reference, but for
+// ids. Errors: a peer that hangs up or sends no frames ends the connection (RPC_END); a body that is no JSON
+// is answered here with ParseError, and reading goes on.
+// Thread safety: one thread.
+#ifndef GLINT_LSP_RPC_H
+#define GLINT_LSP_RPC_H
+
+#include "core/strbuf.h"
+
+#include <jansson.h>
+
+enum rpc_error_code {
+    RPC_PARSE_ERROR = -32700,
+    RPC_INVALID_REQUEST = -32600,
+    RPC_METHOD_NOT_FOUND = -32601,
+    RPC_INVALID_PARAMS = -32602,
+    RPC_NOT_INITIALIZED = -32002,
+    RPC_REQUEST_FAILED = -32803,
+};
+
+enum rpc_state {
+    RPC_MESSAGE,
+    RPC_END,
+};
+
+struct rpc {
+    int in, out;
+    struct strbuf received; // bytes not yet taken apart
+    size_t taken;           // of them
+    bool broken;            // writing failed: the client is gone
+};
+
+void rpc_init(struct rpc *rpc, int in, int out);
+void rpc_finish(struct rpc *rpc);
+// Waits for a message.
+enum rpc_state rpc_read(struct rpc *rpc, json_t **message);
+// Whether rpc_read would not have to wait for bytes.
+bool rpc_pending(const struct rpc *rpc);
+void rpc_reply(struct rpc *rpc, json_t *id, json_t *result);
+void rpc_refuse(struct rpc *rpc, json_t *id, enum rpc_error_code code, const char *message);
+void rpc_notify(struct rpc *rpc, const char *method, json_t *params);
+
+#endif

@@ -1,0 +1,227 @@
+#include "lsp/server.h"
+
+#include "lsp/server_private.h"
+
+#include <string.h>
+
+// ---- capabilities
+
+// Of the client's encodings the first that we know; UTF-16 where it says nothing.
+static enum position_encoding choose_encoding(const json_t *params) {
+    const json_t *general = json_object_get(json_object_get(params, "capabilities"), "general");
+    const json_t *offered = json_object_get(general, "positionEncodings");
+    size_t index;
+    json_t *item;
+    json_array_foreach(offered, index, item) {
+        const char *name = json_string_value(item);
+        if (name && strcmp(name, "utf-8") == 0)
+            return POSITION_UTF8;
+        if (name && strcmp(name, "utf-32") == 0)
+            return POSITION_UTF32;
+        if (name && strcmp(name, "utf-16") == 0)
+            return POSITION_UTF16;
+    }
+    return POSITION_UTF16;
+}
+
+static json_t *capabilities(const struct server *server) {
+    static const char *const encodings[] = {"utf-16", "utf-8", "utf-32"};
+    return json_pack("{s:s, s:{s:b, s:i, s:{s:b}}, s:{s:[s,s]}, s:b, s:b, s:{s:b}, s:b, s:b, s:{}, "
+                     "s:{s:[s,s,s,s]}, s:b}",
+                     "positionEncoding", encodings[server->encoding], //
+                     "textDocumentSync", "openClose", 1, "change", 2, // incremental
+                     "save", "includeText", 0,                        //
+                     "codeActionProvider", "codeActionKinds", "quickfix", "source.fixAll.glint",
+                     "definitionProvider", 1,                //
+                     "referencesProvider", 1,                //
+                     "renameProvider", "prepareProvider", 1, //
+                     "hoverProvider", 1,                     //
+                     "documentSymbolProvider", 1,            //
+                     "documentLinkProvider",                 //
+                     "completionProvider", "triggerCharacters", ":", "\"", "/", " ",
+                     "documentFormattingProvider", 1);
+}
+
+static json_t *initialize(struct server *server, const json_t *params) {
+    server->encoding = choose_encoding(params);
+    server->initialized = true;
+    return json_pack("{s:o, s:{s:s, s:s}}", "capabilities", capabilities(server), "serverInfo", "name",
+                     "glint", "version", server->version);
+}
+
+// ---- documents
+
+static const json_t *text_document(const json_t *params) {
+    return json_object_get(params, "textDocument");
+}
+
+static const char *uri_of(const json_t *params) {
+    const char *uri = json_string_value(json_object_get(text_document(params), "uri"));
+    return uri ? uri : "";
+}
+
+static void did_open(struct server *server, const json_t *params) {
+    const json_t *text = json_object_get(text_document(params), "text");
+    json_int_t version = json_integer_value(json_object_get(text_document(params), "version"));
+    if (json_is_string(text) && documents_open(&server->documents, uri_of(params), json_string_value(text),
+                                               json_string_length(text), version))
+        scenes_touch(&server->scenes);
+}
+
+static void did_change(struct server *server, const json_t *params) {
+    struct document *document = documents_find(&server->documents, uri_of(params));
+    if (!document)
+        return;
+    document->version = json_integer_value(json_object_get(text_document(params), "version"));
+    document_change(document, server->encoding, json_object_get(params, "contentChanges"));
+    scenes_touch(&server->scenes);
+}
+
+static void did_close(struct server *server, const json_t *params) {
+    documents_close(&server->documents, uri_of(params));
+    scenes_touch(&server->scenes);
+}
+
+static void did_save(struct server *server, const json_t *params) {
+    (void)params;
+    scenes_touch(&server->scenes);
+}
+
+bool server_place(struct server *server, const json_t *params, struct place *out) {
+    *out = (struct place){.document = documents_find(&server->documents, uri_of(params))};
+    if (!out->document)
+        return false;
+    out->scene = scenes_of(&server->scenes, out->document->path);
+    const json_t *position = json_object_get(params, "position");
+    if (position)
+        out->offset = position_read(document_text(out->document), server->encoding, position);
+    return true;
+}
+
+// ---- dispatch
+
+static const struct {
+    const char *method;
+    server_request *answer;
+} requests[] = {
+    {"textDocument/codeAction", server_code_actions}, {"textDocument/definition", server_definition},
+    {"textDocument/references", server_references},   {"textDocument/prepareRename", server_prepare_rename},
+    {"textDocument/rename", server_rename},           {"textDocument/hover", server_hover},
+    {"textDocument/documentSymbol", server_symbols},  {"textDocument/documentLink", server_links},
+    {"textDocument/completion", server_completion},   {"textDocument/formatting", server_formatting},
+};
+
+static const struct {
+    const char *method;
+    void (*take)(struct server *server, const json_t *params);
+} notifications[] = {
+    {"textDocument/didOpen", did_open},
+    {"textDocument/didChange", did_change},
+    {"textDocument/didClose", did_close},
+    {"textDocument/didSave", did_save},
+    {"workspace/didChangeWatchedFiles", did_save},
+};
+
+static void refresh(struct server *server) {
+    if (scenes_refresh(&server->scenes))
+        server_publish(server);
+}
+
+// What a request allocates in a session's arena, and in its own, ends the request alone where memory does.
+static json_t *answer(struct server *server, server_request *request, const json_t *params, bool *good) {
+    struct arena arena;
+    struct arena_guard guard;
+    struct place place;
+    json_t *volatile result = NULL;
+    arena_init(&arena, SIZE_MAX / 2);
+    arena_set_guard(&arena, &guard);
+    struct arena *session =
+        server_place(server, params, &place) && place.scene ? &place.scene->session.arena : NULL;
+    if (session)
+        arena_set_guard(session, &guard);
+    *good = setjmp(guard.jump) == 0;
+    if (*good)
+        result = request(server, params, &arena);
+    if (session)
+        arena_set_guard(session, NULL);
+    arena_finish(&arena);
+    return result;
+}
+
+static void take_request(struct server *server, const char *method, json_t *id, const json_t *params) {
+    if (strcmp(method, "initialize") == 0) {
+        rpc_reply(&server->rpc, id, initialize(server, params));
+        return;
+    }
+    if (!server->initialized || server->shut_down) {
+        rpc_refuse(&server->rpc, id, server->shut_down ? RPC_INVALID_REQUEST : RPC_NOT_INITIALIZED,
+                   server->shut_down ? "the server was shut down" : "the server is not initialized");
+        return;
+    }
+    if (strcmp(method, "shutdown") == 0) {
+        server->shut_down = true;
+        rpc_reply(&server->rpc, id, NULL);
+        return;
+    }
+    for (size_t i = 0; i < sizeof requests / sizeof *requests; i++) {
+        if (strcmp(method, requests[i].method) != 0)
+            continue;
+        bool good;
+        refresh(server);
+        json_t *result = answer(server, requests[i].answer, params, &good);
+        if (good)
+            rpc_reply(&server->rpc, id, result);
+        else
+            rpc_refuse(&server->rpc, id, RPC_REQUEST_FAILED, "there is not enough memory");
+        return;
+    }
+    rpc_refuse(&server->rpc, id, RPC_METHOD_NOT_FOUND, "this method is not supported");
+}
+
+// false: the client said `exit`.
+static bool take(struct server *server, json_t *message) {
+    const char *method = json_string_value(json_object_get(message, "method"));
+    json_t *id = json_object_get(message, "id");
+    const json_t *params = json_object_get(message, "params");
+    if (!method && id && (json_object_get(message, "result") || json_object_get(message, "error")))
+        return true; // an answer: nothing was asked
+    if (!method) {
+        rpc_refuse(&server->rpc, id, RPC_INVALID_REQUEST, "the message has no method");
+        return true;
+    }
+    if (id) {
+        take_request(server, method, id, params);
+        return true;
+    }
+    if (strcmp(method, "exit") == 0)
+        return false;
+    for (size_t i = 0;
+         server->initialized && !server->shut_down && i < sizeof notifications / sizeof *notifications; i++)
+        if (strcmp(method, notifications[i].method) == 0)
+            notifications[i].take(server, params);
+    return true;
+}
+
+int lsp_serve(int in, int out, const char *version) {
+    struct server server = {.version = version, .published = json_object()};
+    rpc_init(&server.rpc, in, out);
+    documents_init(&server.documents);
+    scenes_init(&server.scenes, &server.documents);
+    bool goes_on = server.scenes.store != NULL;
+    while (goes_on && !server.rpc.broken) {
+        // Many keys may have been pressed since the last check: only the newest text counts.
+        if (!rpc_pending(&server.rpc))
+            refresh(&server);
+        json_t *message;
+        goes_on = rpc_read(&server.rpc, &message) == RPC_MESSAGE;
+        if (!goes_on)
+            break;
+        goes_on = take(&server, message);
+        json_decref(message);
+    }
+    scenes_finish(&server.scenes);
+    documents_finish(&server.documents);
+    json_decref(server.published);
+    rpc_finish(&server.rpc);
+    return server.shut_down ? 0 : 1;
+}

@@ -1,0 +1,43 @@
+// What the parts of the language server share.
+#ifndef GLINT_LSP_SERVER_PRIVATE_H
+#define GLINT_LSP_SERVER_PRIVATE_H
+
+#include "lsp/document.h"
+#include "lsp/locate.h"
+#include "lsp/rpc.h"
+#include "lsp/scene.h"
+
+struct server {
+    struct rpc rpc;
+    struct documents documents;
+    struct scenes scenes;
+    const char *version;
+    enum position_encoding encoding;
+    bool initialized, shut_down;
+    json_t *published; // URI: its diagnostics, as the client knows them
+};
+
+// A request about a place in a document: the scene it belongs to, up to date.
+struct place {
+    struct document *document;
+    struct lsp_scene *scene; // NULL: none that could be loaded
+    size_t offset;
+};
+bool server_place(struct server *server, const json_t *params, struct place *out);
+// The Location of a span; NULL where it has no file.
+json_t *server_location(struct server *server, struct session *session, struct arena *arena, span at);
+// The text that positions in a source refer to.
+str server_text(const struct session *session, uint32_t source);
+json_t *server_range(const struct server *server, const struct session *session, span at);
+
+// Diagnostics of all scenes, to the client where they have changed (lsp/publish.c).
+void server_publish(struct server *server);
+json_t *server_diagnostic(struct server *server, struct session *session, struct arena *arena,
+                          const struct diag *diag);
+
+// Each answers one request; the result is a new reference, NULL for null.
+typedef json_t *server_request(struct server *server, const json_t *params, struct arena *arena);
+server_request server_code_actions, server_definition, server_references, server_prepare_rename,
+    server_rename, server_hover, server_symbols, server_links, server_completion, server_formatting;
+
+#endif
