@@ -130,21 +130,58 @@ static bool meet_sphere(const struct ray *ray, const struct primitive *p, struct
 
 // ---- the tree
 
+enum {
+    TIES_MOST = 8
+};
+
 struct search {
     const struct reference *r;
     const struct ray *ray;
     struct sheared sheared;
     double inverse[3];
     bool any;
-    struct meeting best;
+    struct meeting nearest;
+    double end; // nothing behind this matters any more
+    // Meetings that rounding cannot tell from the nearest: faces in one plane, edges that meet.
+    struct meeting ties[TIES_MOST];
+    int tie_count;
 };
 
-static bool is_before(const struct search *s, const struct meeting *met, uint32_t primitive) {
-    if (met->t != s->best.t || s->best.primitive == NO_PRIMITIVE)
-        return met->t < s->best.t;
-    const struct primitive *a = &s->r->primitives[primitive];
-    const struct primitive *b = &s->r->primitives[s->best.primitive];
+static bool is_lower(const struct search *s, uint32_t x, uint32_t y) {
+    const struct primitive *a = &s->r->primitives[x];
+    const struct primitive *b = &s->r->primitives[y];
     return a->body != b->body ? a->body < b->body : a->triangle < b->triangle;
+}
+
+static bool is_tie(const struct search *s, const struct meeting *met) {
+    return met->t - met->t_error <= s->nearest.t + s->nearest.t_error;
+}
+
+// Takes a meeting into the ties, in order of (body, triangle); those that are none any more go.
+static void take(struct search *s, const struct meeting *met) {
+    if (s->nearest.primitive == NO_PRIMITIVE || met->t < s->nearest.t) {
+        s->nearest = *met;
+        s->end = met->t + met->t_error;
+    } else if (!is_tie(s, met)) {
+        return;
+    }
+    struct meeting kept[TIES_MOST + 1];
+    int count = 0;
+    bool placed = false;
+    for (int i = 0; i < s->tie_count; i++) {
+        if (!is_tie(s, &s->ties[i]))
+            continue;
+        if (!placed && is_lower(s, met->primitive, s->ties[i].primitive)) {
+            kept[count++] = *met;
+            placed = true;
+        }
+        kept[count++] = s->ties[i];
+    }
+    if (!placed)
+        kept[count++] = *met;
+    s->tie_count = count < TIES_MOST ? count : TIES_MOST;
+    for (int i = 0; i < s->tie_count; i++)
+        s->ties[i] = kept[i];
 }
 
 static void test_primitive(struct search *s, uint32_t index) {
@@ -154,17 +191,17 @@ static void test_primitive(struct search *s, uint32_t index) {
                   : s->r->input.test == REFERENCE_MOELLER_TRUMBORE ? meet_moeller_trumbore(s->ray, p, &met)
                                                                    : meet_watertight(&s->sheared, p, &met);
     // What could be at t_max itself is not strictly before it.
-    if (!is_met || (s->any && met.t + met.t_error >= s->ray->t_max) || !is_before(s, &met, index))
+    if (!is_met || met.t + met.t_error >= s->ray->t_max)
         return;
-    s->best = met;
-    s->best.primitive = index;
+    met.primitive = index;
+    take(s, &met);
 }
 
 // Comparisons let NaN pass: 0 times infinity, where the ray lies in a face of the box.
 static bool enters(const struct search *s, const struct tree_node *node, double *near) {
     const double *o = s->sheared.origin;
     double first = 0;
-    double last = s->best.t;
+    double last = s->end;
     for (int a = 0; a < 3; a++) {
         bool backwards = s->inverse[a] < 0;
         double in = ((backwards ? node->upper[a] : node->lower[a]) - o[a]) * s->inverse[a];
@@ -194,7 +231,7 @@ static void search_tree(struct search *s) {
         if (node->count) {
             for (uint32_t i = 0; i < node->count; i++)
                 test_primitive(s, node->second + i);
-            if (s->any && s->best.primitive != NO_PRIMITIVE)
+            if (s->any && s->tie_count)
                 return;
         } else {
             uint32_t children[2] = {at + 1, node->second};
@@ -215,22 +252,23 @@ static void search_tree(struct search *s) {
             if (count == 0)
                 return;
             at = stack[--count].node;
-            goes_on = stack[count].near <= s->best.t + fabs(s->best.t) * BOX_SLACK;
+            goes_on = stack[count].near <= s->end + s->end * BOX_SLACK;
         }
     }
 }
 
+// At equal distance the lower (body, triangle): the first of the ties.
 static void search(const struct reference *r, const struct ray *ray, bool any, struct meeting *out) {
-    struct search s = {.r = r, .ray = ray, .sheared = shear(ray), .any = any};
-    s.best = (struct meeting){.t = ray->t_max, .primitive = NO_PRIMITIVE};
+    struct search s = {.r = r, .ray = ray, .sheared = shear(ray), .any = any, .end = ray->t_max};
+    s.nearest.primitive = NO_PRIMITIVE;
     for (int a = 0; a < 3; a++)
         s.inverse[a] = 1 / s.sheared.direction[a];
     if (r->input.no_tree)
-        for (uint32_t i = 0; i < r->primitive_count && !(any && s.best.primitive != NO_PRIMITIVE); i++)
+        for (uint32_t i = 0; i < r->primitive_count && !(any && s.tie_count); i++)
             test_primitive(&s, i);
     else if (r->primitive_count)
         search_tree(&s);
-    *out = s.best;
+    *out = s.tie_count ? s.ties[0] : (struct meeting){.t = ray->t_max, .primitive = NO_PRIMITIVE};
 }
 
 void reference_meet(const struct reference *r, const struct ray *ray, struct meeting *out) {

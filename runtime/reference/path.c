@@ -202,6 +202,6 @@ void reference_follow(const struct reference *r, const struct reference_settings
         out->cut_by_segments++;
         out->left_weight += next.weight;
     }
-    out->over_segments = settings->as_file && out->cut_by_segments > 0;
+    out->over_segments = settings->as_file && (out->cut_by_segments > 0 || rays_of(out) > settings->segments);
     see(&f, out->radiance);
 }
