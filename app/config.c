@@ -325,20 +325,24 @@ static str path_shown(const struct config_input *input, str scene_path, str conf
     }
 }
 
-void config_load(const struct config_input *input, str scene_path, struct config *config) {
+void config_read(const struct config_input *input, uint32_t source, str path, struct config *config) {
     struct limits limits = limits_default();
+    *config = (struct config){.path = path, .limits = limits};
+    struct binder binder = {.input = input, .config = config, .folder = path_folder(path)};
+    read_and_bind(&binder, source, &limits);
+}
+
+void config_load(const struct config_input *input, str scene_path, struct config *config) {
     str text;
-    *config = (struct config){.path = files_find_config(input->files, scene_path), .limits = limits};
+    *config = (struct config){.path = files_find_config(input->files, scene_path)};
     if (config->path.len == 0)
         return;
     enum file_status status = files_read(input->files, config->path, CONFIG_BYTES_MAX, input->arena, &text);
     uint32_t source =
         source_add(input->sources, SOURCE_KIND_FILE, path_shown(input, scene_path, config->path), text);
-    if (status != FILE_OK) {
+    if (status == FILE_OK)
+        config_read(input, source, config->path, config);
+    else
         diag_add(input->sink, status == FILE_TOO_LARGE ? DIAG_LIMIT : DIAG_FILE_UNREADABLE,
                  (span){source, 0, 0}, "the configuration %s", file_status_text(input->files, status));
-        return;
-    }
-    struct binder binder = {.input = input, .config = config, .folder = path_folder(config->path)};
-    read_and_bind(&binder, source, &limits);
 }

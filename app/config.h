@@ -36,6 +36,8 @@ struct config_input {
     struct arena *arena;
 };
 
+// Takes the settings from a source that is in the set; `path` is absolute, for the folders in it.
+void config_read(const struct config_input *input, uint32_t source, str path, struct config *config);
 // Finds and reads it; a zeroed config where there is none.
 void config_load(const struct config_input *input, str scene_path, struct config *config);
 

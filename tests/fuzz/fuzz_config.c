@@ -1,0 +1,75 @@
+// libFuzzer entry: any bytes as a .glintrc.yaml. Whatever they are, each diagnostic stands in them, and the
+// policy that comes out judges without a crash.
+#include "app/config.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MEMORY_BYTES = 16 * 1024 * 1024
+};
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void require(bool holds, const char *what) {
+    if (holds)
+        return;
+    fprintf(stderr, "the configuration broke its promise: %s\n", what);
+    abort();
+}
+
+static void judge(const struct config *config) {
+    static const char *const paths[] = {"/", "/none/a.glint.yaml", "/none/x/y/z/a.obj", "relative"};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
+        diag_policy_ignores(&config->policy, str_from(paths[i]));
+    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
+        struct diag item = {.code = (enum diag_code)i, .severity = diag_info((enum diag_code)i)->severity};
+        bool was_error = item.severity == DIAG_ERROR;
+        bool kept = diag_policy_keeps(&config->policy, &item, true);
+        require(!was_error || (kept && item.severity == DIAG_ERROR), "errors stay errors");
+    }
+}
+
+static void check_places(const struct diag_sink *sink, uint32_t source, size_t size) {
+    for (uint32_t i = 0; i < sink->count; i++) {
+        span at = sink->items[i].at;
+        require(at.source == source && at.begin <= at.end && at.end <= size, "a diagnostic has its place");
+    }
+}
+
+static void read_all(struct arena *arena, struct diag_sink *sink, const char *text, size_t size) {
+    struct source_set sources;
+    struct files files;
+    struct config config;
+    source_set_init(&sources, arena);
+    files_init(&files, arena);
+    uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, STR(".glintrc.yaml"), (str){text, size});
+    struct config_input input = {.files = &files, .sources = &sources, .sink = sink, .arena = arena};
+    config_read(&input, source, STR("/none/.glintrc.yaml"), &config);
+    check_places(sink, source, size);
+    judge(&config);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    struct arena arena;
+    struct arena_guard guard;
+    struct diag_sink sink;
+    char *text = malloc(size + 1);
+    if (!text || size > UINT32_MAX / 2) {
+        free(text);
+        return 0;
+    }
+    memcpy(text, data, size);
+    text[size] = '\0';
+    arena_init(&arena, MEMORY_BYTES);
+    diag_sink_init(&sink);
+    arena_set_guard(&arena, &guard);
+    if (setjmp(guard.jump) == 0)
+        read_all(&arena, &sink, text, size);
+    diag_sink_finish(&sink);
+    arena_finish(&arena);
+    free(text);
+    return 0;
+}
