@@ -126,6 +126,7 @@ int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);
 int cmd_convert(struct cli *cli);
 int cmd_format(struct cli *cli);
+int cmd_diff(struct cli *cli);
 int cmd_schema(struct cli *cli);
 int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);

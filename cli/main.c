@@ -68,6 +68,12 @@ const struct cli_command cli_commands[] = {
      "  glint format scene.glint.yaml\n"
      "  glint format --check scenes\n",
      1, -1, cmd_format},
+    {"diff", "A B", "tell what differs in meaning between two scenes",
+     "Values, entries that came or went, moved or were renamed, each with its place in both files; the spelling,\n"
+     "comments and the order of keys are no difference. --format takes text and json. The exit status is 1\n"
+     "where anything differs.\n\n"
+     "  glint diff old.glint.yaml new.glint.xml\n",
+     2, 2, cmd_diff},
     {"schema", "json|relaxng|rnc|xsd|markdown|install FILE...",
      "print the language's schema or reference page, or tie files to it",
      "json: JSON Schema (draft-07) for YAML editors. relaxng, rnc: RELAX NG, in XML and compact syntax, for\n"

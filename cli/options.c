@@ -70,7 +70,7 @@ static const struct option_row rows[] = {
     {OPTION_NO_CACHE, "no-cache", 0, NULL, "render", "the reference neither reads nor writes its cache"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR", "render pick check inspect convert deps pack",
      "a folder in which files of the scene are looked for too"},
-    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render pick check inspect format convert deps pack compare",
+    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render pick check inspect format diff convert deps pack compare",
      "change a limit on the size of inputs; NAME 'help' lists them"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and tell the median time of a frame and its spread"},

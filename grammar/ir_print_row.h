@@ -15,5 +15,8 @@ void print_xml_row(const struct ir_scene *scene, const struct schema_row *row, c
                    struct strbuf *out);
 // The value alone as YAML: `45`, `[0, 1, 0]`.
 void print_yaml_value(const struct schema_row *row, const void *element, struct strbuf *out);
+// A whole entry of a list on one line: `{radius: 1, center: [0, 1, 0]}`.
+void print_yaml_item(const struct ir_scene *scene, const struct schema_element *schema, const void *item,
+                     struct strbuf *out);
 
 #endif

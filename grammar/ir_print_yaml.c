@@ -368,6 +368,12 @@ void print_yaml_value(const struct schema_row *row, const void *element, struct 
     flow_row(&w, row, element, out);
 }
 
+void print_yaml_item(const struct ir_scene *scene, const struct schema_element *schema, const void *item,
+                     struct strbuf *out) {
+    struct yaml_writer w = {.scene = scene, .out = out};
+    flow_item(&w, schema, item, out);
+}
+
 void print_yaml_row(const struct ir_scene *scene, const struct schema_row *row, const void *element,
                     struct strbuf *out) {
     struct yaml_writer w = {.scene = scene, .out = out};

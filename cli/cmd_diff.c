@@ -1,0 +1,177 @@
+// glint diff A B: what differs in meaning between two scenes, with both places.
+#include "cli/cli.h"
+#include "grammar/ir_diff.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+
+static const char *const formats[] = {"text", "json", NULL};
+static const char *const kinds[] = {
+    [IR_CHANGED] = "changed", [IR_ADDED] = "added",     [IR_REMOVED] = "removed",
+    [IR_MOVED] = "moved",     [IR_RENAMED] = "renamed",
+};
+
+struct comparison {
+    struct cli *cli;
+    struct session sessions[2];
+    struct arena arena;
+    struct ir_changes changes;
+};
+
+// The file that a path names, links followed.
+static str file_of(void *context, struct arena *arena, span at, str path) {
+    struct session *session = context;
+    str found;
+    if (at.source == SOURCE_DEFAULT ||
+        files_resolve(&session->files, session->sources.items[at.source].path, path, &found) != FILE_OK)
+        return path;
+    return arena_copy(arena, files_canonical(&session->files, found));
+}
+
+static struct ir_diff_side side(struct session *session) {
+    return (struct ir_diff_side){session->scene, &session->origin, file_of, session};
+}
+
+static bool compare(struct comparison *c) {
+    struct arena_guard guard;
+    struct ir_diff_side before = side(&c->sessions[0]), after = side(&c->sessions[1]);
+    arena_set_guard(&c->arena, &guard);
+    arena_set_guard(&c->sessions[0].arena, &guard);
+    arena_set_guard(&c->sessions[1].arena, &guard);
+    bool whole = setjmp(guard.jump) == 0;
+    if (whole)
+        ir_diff(&before, &after, &c->arena, &c->changes);
+    for (int i = 0; i < 2; i++)
+        arena_set_guard(&c->sessions[i].arena, NULL);
+    arena_set_guard(&c->arena, NULL);
+    return whole;
+}
+
+// ---- text
+
+static void put_place(struct strbuf *out, struct session *session, span at) {
+    if (span_is_none(at))
+        return;
+    struct source_place place = source_locate(&session->sources, at);
+    strbuf_format(out, "    %.*s:%u:%u\n", STR_ARG(place.path), place.line, place.column);
+}
+
+static void put_value(struct strbuf *out, str value, bool is_default) {
+    strbuf_str(out, value);
+    if (is_default)
+        strbuf_cstr(out, " (default)");
+}
+
+static void put_change(struct comparison *c, const struct ir_change *change, struct strbuf *out) {
+    bool both = change->path_before.len && change->path_after.len;
+    bool renumbered = both && !str_equal(change->path_before, change->path_after);
+    strbuf_format(out, "%s %.*s", kinds[change->kind],
+                  STR_ARG(change->path_before.len ? change->path_before : change->path_after));
+    if (renumbered)
+        strbuf_format(out, " -> %.*s", STR_ARG(change->path_after));
+    if (change->value_before.len || change->value_after.len)
+        strbuf_cstr(out, ": ");
+    put_value(out, change->value_before, change->default_before);
+    if (change->value_before.len && change->value_after.len)
+        strbuf_cstr(out, " -> ");
+    put_value(out, change->value_after, change->default_after);
+    strbuf_char(out, '\n');
+    put_place(out, &c->sessions[0], change->before);
+    put_place(out, &c->sessions[1], change->after);
+}
+
+static void make_text(struct comparison *c, struct strbuf *out) {
+    for (uint32_t i = 0; i < c->changes.count; i++)
+        put_change(c, &c->changes.items[i], out);
+    if (c->changes.count)
+        strbuf_format(out, "%u %s\n", c->changes.count, c->changes.count == 1 ? "difference" : "differences");
+}
+
+// ---- JSON
+
+static json_t *half(struct session *session, str path, str value, bool is_default, span at) {
+    json_t *object = json_object();
+    if (path.len == 0)
+        return json_decref(object), json_null();
+    json_object_set_new(object, "path", json_stringn(path.ptr, path.len));
+    if (value.len)
+        json_object_set_new(object, "value", json_stringn(value.ptr, value.len));
+    if (is_default)
+        json_object_set_new(object, "default", json_true());
+    if (!span_is_none(at)) {
+        struct source_place place = source_locate(&session->sources, at);
+        json_object_set_new(object, "file", json_stringn(place.path.ptr, place.path.len));
+        json_object_set_new(object, "line", json_integer(place.line));
+        json_object_set_new(object, "column", json_integer(place.column));
+    }
+    return object;
+}
+
+static void make_json(struct comparison *c, struct strbuf *out) {
+    json_t *root = json_object(), *list = json_array();
+    for (uint32_t i = 0; i < c->changes.count; i++) {
+        const struct ir_change *change = &c->changes.items[i];
+        json_t *item = json_object();
+        json_object_set_new(item, "kind", json_string(kinds[change->kind]));
+        json_object_set_new(item, "before",
+                            half(&c->sessions[0], change->path_before, change->value_before,
+                                 change->default_before, change->before));
+        json_object_set_new(item, "after",
+                            half(&c->sessions[1], change->path_after, change->value_after,
+                                 change->default_after, change->after));
+        json_array_append_new(list, item);
+    }
+    json_object_set_new(root, "version", json_integer(1));
+    json_object_set_new(root, "differences", list);
+    char *text = json_dumps(root, JSON_INDENT(2));
+    out->failed = out->failed || !text;
+    strbuf_cstr(out, text ? text : "");
+    strbuf_char(out, '\n');
+    free(text);
+    json_decref(root);
+}
+
+// ---- the command
+
+static int load(struct comparison *c, int i) {
+    struct session_options options = cli_session_options(c->cli, c->cli->operands[i]);
+    options.text_only = true;
+    session_load(&c->sessions[i], &options, NULL);
+    return cli_report(c->cli, &c->sessions[i], false);
+}
+
+static int report(struct comparison *c, bool json) {
+    struct strbuf out;
+    strbuf_init(&out);
+    (json ? make_json : make_text)(c, &out);
+    int status = c->changes.count ? CLI_SCENE : CLI_OK;
+    if (out.failed) {
+        cli_error(c->cli, DIAG_OUT_OF_MEMORY, c->cli->operands[0], NULL, "there is no memory for the report");
+        status = CLI_FILE;
+    } else if (out.len && cli_print(c->cli, strbuf_view(&out)) != CLI_OK) {
+        status = CLI_FILE;
+    }
+    strbuf_finish(&out);
+    return status;
+}
+
+int cmd_diff(struct cli *cli) {
+    struct comparison c = {.cli = cli};
+    int format = 0;
+    if (!cli_format(cli, formats, &format))
+        return CLI_USAGE;
+    arena_init(&c.arena, (size_t)cli->options.limits.value[LIMIT_SCENE_MEMORY]);
+    int first = load(&c, 0), second = load(&c, 1);
+    int status = first > second ? first : second;
+    if (status == CLI_OK && compare(&c)) {
+        status = report(&c, format == 1);
+    } else if (status == CLI_OK) {
+        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL,
+                  "there is no memory to compare the scenes");
+        status = CLI_FILE;
+    }
+    session_finish(&c.sessions[0]);
+    session_finish(&c.sessions[1]);
+    arena_finish(&c.arena);
+    return status;
+}
