@@ -118,7 +118,7 @@ static bool number_fix(struct bind_context *context, bool integer, enum number_s
     enum number_status good = integer ? number_parse_integer(mended, &whole) : number_parse(mended, &ignored);
     if (good != NUMBER_OK)
         return false;
-    bool safe = status == NUMBER_UNDERSCORE || status == NUMBER_HEX;
+    bool safe = status == NUMBER_UNDERSCORE || status == NUMBER_HEX || status == NUMBER_LEADING_ZERO;
     diag_help(context->sink, "write %.*s", STR_ARG(mended));
     diag_fix(context->sink, safe, at, mend_like(context->scratch, source_text(context->sources, at), mended));
     return true;
