@@ -14,10 +14,8 @@ span yaml_span(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
     return (span){r->text->source, begin < size ? begin : size, end < size ? end : size};
 }
 
-uint32_t yaml_byte(struct yaml_reader *r, yaml_mark_t mark) {
+uint32_t yaml_find_byte(struct yaml_reader *r, yaml_mark_t mark) {
     str text = r->text->bytes;
-    if (r->ascii)
-        return r->text->begin + (mark.index < text.len ? (uint32_t)mark.index : (uint32_t)text.len);
     uint32_t at = r->place_bytes;
     while (r->place_characters < mark.index && at < text.len) {
         at += (uint32_t)utf8_sequence_length(text, at);
@@ -58,11 +56,11 @@ static uint32_t skip_anchor(str text, uint32_t at, uint32_t end) {
 }
 
 // libyaml's marks of a node include its properties, of which it has at most one of each kind.
-static struct properties find_properties(struct yaml_reader *r, uint32_t begin, uint32_t end, bool any) {
+static struct properties find_properties(struct yaml_reader *r, uint32_t begin, uint32_t end) {
     str text = r->text->bytes;
     struct properties p = {.end = begin};
     uint32_t at = begin;
-    while (any && at < end) {
+    while (at < end) {
         char c = text.ptr[at];
         if (c == '&' && span_is_none(p.anchor)) {
             uint32_t stop = skip_anchor(text, at, end);
@@ -176,7 +174,9 @@ static void on_scalar(struct yaml_reader *r) {
     yaml_gap(r, begin);
     yaml_take_ready(r);
     bool any = r->event.data.scalar.anchor || r->event.data.scalar.tag;
-    struct properties p = find_properties(r, begin, end, any);
+    struct properties p = {.end = begin};
+    if (any)
+        p = find_properties(r, begin, end);
     uint32_t stop = scalar_end(r, p.end, end);
     struct tree_node node = {.kind = plain && is_null_text(value) ? TREE_NULL : TREE_SCALAR,
                              .style = plain ? TREE_PLAIN : TREE_QUOTED,
@@ -185,7 +185,8 @@ static void on_scalar(struct yaml_reader *r) {
     span at = yaml_span(r, p.end, stop);
     if (is_too_long(r, value, at))
         return;
-    node.flags = report_tag(r, p.tag);
+    if (any)
+        node.flags = report_tag(r, p.tag);
     struct reader_range color;
     bool absent = plain && value.len == 0 && !yaml_at_key(r);
     if (absent && find_swallowed(r, p.end, token, &color)) {
@@ -231,7 +232,9 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
         yaml_gap(r, begin);
         yaml_take_ready(r);
     }
-    struct properties p = find_properties(r, begin, (uint32_t)r->text->bytes.len, anchor || tag);
+    struct properties p = {.end = begin};
+    if (anchor || tag)
+        p = find_properties(r, begin, (uint32_t)r->text->bytes.len);
     if (r->is_option && !flow) {
         diag_add(&r->sink, DIAG_SET_SYNTAX, yaml_span(r, p.end, p.end + 1),
                  "a value of several lines or keys needs brackets");
@@ -239,7 +242,7 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
         r->stopped = true;
         return;
     }
-    uint8_t flags = report_tag(r, p.tag);
+    uint8_t flags = tag ? report_tag(r, p.tag) : 0;
     if (r->depth == 0)
         flags = 0; // what the root holds is checked all the same
     tree_index added = yaml_add(r, (struct tree_node){.kind = (uint8_t)kind,
@@ -443,17 +446,11 @@ static void run_guarded(struct yaml_reader *r) {
         arena_raise(arena, guard.fault);
 }
 
-static bool is_ascii(str text) {
-    for (size_t i = 0; i < text.len; i++)
-        if ((unsigned char)text.ptr[i] >= 0x80)
-            return false;
-    return true;
-}
-
 static void read_text(const struct reader_context *context, struct reader_text *text, bool is_option,
                       struct tree *tree) {
     struct yaml_reader reader = {.context = context, .text = text, .tree = tree, .is_option = is_option};
-    reader.ascii = is_ascii(str_slice(text->bytes, text->begin, text->bytes.len));
+    str content = str_slice(text->bytes, text->begin, text->bytes.len);
+    reader.ascii = utf8_count(content) == content.len;
     run_guarded(&reader);
     if (reader.taken.failed)
         tree->root = 0;

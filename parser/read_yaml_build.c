@@ -35,11 +35,11 @@ static void link_child(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
 
 // "camera {position": the colon is missing, and libyaml will stumble over what follows on the line.
 static bool lacks_colon(struct yaml_reader *r, const struct tree_node *node, str text) {
-    size_t end = 0;
-    while (end < text.len && !strchr(" :{[", text.ptr[end]))
-        end++;
-    bool bracket = end > 0 && end + 1 < text.len && text.ptr[end] == ' ' &&
-                   (text.ptr[end + 1] == '{' || text.ptr[end + 1] == '[');
+    const char *blank = text.len ? memchr(text.ptr, ' ', text.len) : NULL;
+    size_t end = blank ? (size_t)(blank - text.ptr) : text.len;
+    bool bracket = end > 0 && end + 1 < text.len && (text.ptr[end + 1] == '{' || text.ptr[end + 1] == '[');
+    for (size_t i = 0; i < end && bracket; i++)
+        bracket = !strchr(":{[", text.ptr[i]);
     if (node->style != TREE_PLAIN || !bracket)
         return false;
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, node->begin, node->begin + (uint32_t)end),

@@ -144,8 +144,28 @@ static void unique(struct yaml_reader *r, struct yaml_frame *frame, bool merged)
     frame->last = before;
 }
 
+// Most maps are small, and have no key twice.
+enum {
+    SMALL_MAP = 8
+};
+
+static bool is_plainly_unique(const struct tree *tree, const struct yaml_frame *frame) {
+    str names[SMALL_MAP];
+    uint32_t count = 0;
+    for (tree_index key = tree_first(tree, frame->node); key; key = tree_next_key(tree, key)) {
+        if (count == SMALL_MAP)
+            return false;
+        names[count] = tree_text(tree, key);
+        for (uint32_t i = 0; i < count; i++)
+            if (str_equal(names[i], names[count]))
+                return false;
+        count++;
+    }
+    return true;
+}
+
 void yaml_unique_keys(struct yaml_reader *r, struct yaml_frame *frame) {
-    if (tree_node(r->tree, frame->node)->count < 2)
+    if (tree_node(r->tree, frame->node)->count < 2 || is_plainly_unique(r->tree, frame))
         return;
     reader_names_clear(&r->keys);
     unique(r, frame, false);
