@@ -172,7 +172,7 @@ static void report(const struct glass *glass, uint32_t at, uint32_t rays) {
              "has passed them",
              lint->scene->trace.max_depth, x, y, needed);
     diag_note(lint->sink, lint_place(lint, body),
-              "the first is that of %.*s; in %.2g %% of the picture rays end in glass",
+              "the first is that of %.*s; in %.3g %% of the picture rays end in glass",
               STR_ARG(lint_words_other(lint, body)), 100.0 * rays / (glass->columns * glass->rows));
     if (needed <= 64)
         diag_help(lint->sink, "write max_depth: %u", needed);
