@@ -3,12 +3,12 @@
 
 #include "app/pack.h"
 
+#include "core/files_walk.h"
 #include "core/output.h"
 #include "core/strbuf.h"
 #include "grammar/ir_print.h"
 #include "grammar/ir_walk.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <ftw.h>
 #include <stdarg.h>
@@ -180,16 +180,18 @@ static bool verify(struct session *session, const struct pack_plan *plan, const 
 // A folder that exists and holds nothing may be taken.
 static bool is_taken(const char *path) {
     struct stat info;
+    struct arena arena;
+    struct arena_guard guard;
+    struct files_names names = {0};
+    volatile bool taken = true;
     if (lstat(path, &info) != 0)
         return false;
-    DIR *folder = S_ISDIR(info.st_mode) ? opendir(path) : NULL;
-    if (!folder)
-        return true;
-    int entries = 0;
-    while (readdir(folder))
-        entries++;
-    closedir(folder);
-    return entries > 2;
+    arena_init(&arena, SIZE_MAX / 2);
+    arena_set_guard(&arena, &guard);
+    if (setjmp(guard.jump) == 0)
+        taken = !files_list_folder(&arena, str_from(path), &names) || names.count > 0;
+    arena_finish(&arena);
+    return taken;
 }
 
 enum pack_status pack_write(struct session *session, const struct pack_plan *plan, const char *out,

@@ -2,6 +2,7 @@
 #include "app/pack.h"
 
 #include "core/arena.h"
+#include "core/files.h"
 #include "core/output.h"
 
 #include <errno.h>
@@ -36,51 +37,48 @@ static int keep_open(voidpf opaque, voidpf stream) {
     return fflush(stream);
 }
 
-static bool copy_bytes(zipFile zip, FILE *in, char *buffer) {
-    for (;;) {
-        size_t count = fread(buffer, 1, CHUNK_BYTES, in);
-        if (count && zipWriteInFileInZip(zip, buffer, (unsigned)count) != ZIP_OK)
-            return false;
-        if (count < CHUNK_BYTES)
-            return !ferror(in);
-    }
-}
-
-static bool add_file(zipFile zip, const char *folder, str target, char *buffer, struct pack_error *error) {
-    char path[4096];
-    char name[4096];
-    snprintf(path, sizeof path, "%s/%.*s", folder, STR_ARG(target));
-    snprintf(name, sizeof name, "%.*s", STR_ARG(target));
-    errno = 0;
-    FILE *in = fopen(path, "rb");
-    if (!in || fseeko(in, 0, SEEK_END) != 0) {
-        fail(error, "cannot read", path);
-        if (in)
-            fclose(in);
-        return false;
-    }
-    bool large = ftello(in) >= LARGE_BYTES;
-    rewind(in);
+static bool put(zipFile zip, const char *name, str bytes) {
     zip_fileinfo info = {.tmz_date = {.tm_mday = 1, .tm_mon = 0, .tm_year = 1980},
                          .external_fa = (uLong)FILE_MODE << 16};
+    bool large = bytes.len >= LARGE_BYTES;
     bool good = zipOpenNewFileInZip4_64(zip, name, &info, NULL, 0, NULL, 0, NULL, Z_DEFLATED,
                                         COMPRESSION_LEVEL, 0, -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
-                                        NULL, 0, MADE_BY_UNIX, NAMES_ARE_UTF8, large) == ZIP_OK &&
-                copy_bytes(zip, in, buffer) && zipCloseFileInZip(zip) == ZIP_OK;
+                                        NULL, 0, MADE_BY_UNIX, NAMES_ARE_UTF8, large) == ZIP_OK;
+    for (size_t at = 0; good && at < bytes.len; at += CHUNK_BYTES) {
+        str chunk = str_slice(bytes, at, bytes.len - at < CHUNK_BYTES ? bytes.len : at + CHUNK_BYTES);
+        good = zipWriteInFileInZip(zip, chunk.ptr, (unsigned)chunk.len) == ZIP_OK;
+    }
+    return good && zipCloseFileInZip(zip) == ZIP_OK;
+}
+
+static bool add_file(zipFile zip, const char *folder, str target, struct pack_error *error) {
+    struct arena arena;
+    struct arena_guard guard;
+    struct files files;
+    volatile bool good = false;
+    arena_init(&arena, SIZE_MAX / 2);
+    arena_set_guard(&arena, &guard);
+    errno = ENOMEM;
+    if (setjmp(guard.jump) == 0) {
+        str bytes;
+        str path = arena_format(&arena, "%s/%.*s", folder, STR_ARG(target));
+        files_init(&files, &arena);
+        errno = 0;
+        good = files_read(&files, path, UINT64_MAX / 4, &arena, &bytes) == FILE_OK &&
+               put(zip, arena_copy(&arena, target).ptr, bytes);
+    }
     if (!good)
-        fail(error, "cannot pack", name);
-    fclose(in);
+        fail(error, "cannot pack", folder);
+    arena_finish(&arena);
     return good;
 }
 
 bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, struct pack_error *error) {
     struct output output;
     zlib_filefunc64_def functions;
-    char *buffer = malloc(CHUNK_BYTES);
-    if (!buffer || !output_open(&output, out)) {
-        errno = buffer ? output.error : ENOMEM;
+    if (!output_open(&output, out)) {
+        errno = output.error;
         fail(error, "cannot write", out);
-        free(buffer);
         return false;
     }
     fill_fopen64_filefunc(&functions);
@@ -91,7 +89,7 @@ bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out,
     zipFile zip = zipOpen2_64(out, APPEND_STATUS_CREATE, NULL, &functions);
     bool good = zip != NULL;
     for (uint32_t i = 0; good && i < plan->count; i++)
-        good = add_file(zip, folder, plan->items[i].target, buffer, error);
+        good = add_file(zip, folder, plan->items[i].target, error);
     if (!zip || (zipClose(zip, NULL) != ZIP_OK && good)) {
         fail(error, "cannot write", out);
         good = false;
@@ -103,6 +101,5 @@ bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out,
         fail(error, "cannot write", out);
         good = false;
     }
-    free(buffer);
     return good;
 }

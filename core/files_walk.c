@@ -35,13 +35,8 @@ static int compare(const void *a, const void *b) {
     return str_compare(*(const str *)a, *(const str *)b);
 }
 
-struct names {
-    str *items;
-    uint32_t count, capacity;
-};
-
 // The names in a folder are taken before anything is done with them: an arena that ends jumps past closedir.
-static bool list(struct arena *arena, str folder, struct names *names) {
+bool files_list_folder(struct arena *arena, str folder, struct files_names *names) {
     DIR *directory = opendir(folder.ptr);
     struct arena_guard *before = arena->guard;
     struct arena_guard guard = {.fault = ARENA_FAULT_NONE};
@@ -63,8 +58,8 @@ static bool list(struct arena *arena, str folder, struct names *names) {
 }
 
 enum file_status files_walk(struct files_found *found, str folder) {
-    struct names names = {0};
-    if (!list(found->arena, folder, &names))
+    struct files_names names = {0};
+    if (!files_list_folder(found->arena, folder, &names))
         return FILE_UNREADABLE;
     found->depth++;
     for (uint32_t i = 0; i < names.count; i++) {

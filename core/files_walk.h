@@ -18,6 +18,13 @@ struct files_found {
 };
 
 bool files_is_folder(str path);
+struct files_names {
+    str *items;
+    uint32_t count, capacity;
+};
+// The names in a folder, sorted by their bytes, but for those that begin with a dot. false: errno says why it
+// cannot be opened.
+bool files_list_folder(struct arena *arena, str folder, struct files_names *names);
 // Adds the regular files below `folder` whose names have one of the endings. Names that begin with a dot are
 // left out, and so are links to folders. FILE_UNREADABLE: errno says why `folder` could not be opened;
 // folders below it that cannot be opened are left out.

@@ -1,14 +1,13 @@
 // Quick fixes, completions and formatting.
 #include "lsp/server_private.h"
 
+#include "core/files_walk.h"
 #include "core/strbuf.h"
 #include "grammar/ir_walk.h"
 #include "parser/format.h"
 
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum {
     FILES_MOST = 500, // names offered for a path
@@ -226,23 +225,17 @@ static void offer_files(struct completing *c, enum schema_file kind) {
     str base = path_base(typed);
     str stem = str_slice(typed, 0, typed.len - base.len);
     str folder = arena_format(c->arena, "%.*s/%.*s", STR_ARG(path_folder(c->document->path)), STR_ARG(stem));
-    DIR *open = opendir(folder.ptr);
-    struct dirent *entry;
-    for (int count = 0; open && count < FILES_MOST && (entry = readdir(open));) {
-        struct stat info;
-        str name = str_from(entry->d_name);
+    struct files_names names = {0};
+    files_list_folder(c->arena, folder, &names);
+    for (uint32_t i = 0; i < names.count && i < FILES_MOST; i++) {
+        str name = names.items[i];
         str path = arena_format(c->arena, "%.*s%.*s", STR_ARG(folder), STR_ARG(name));
-        if (name.ptr[0] == '.' || stat(path.ptr, &info) != 0)
-            continue;
-        count++;
         str label = arena_format(c->arena, "%.*s%.*s", STR_ARG(stem), STR_ARG(name));
-        if (S_ISDIR(info.st_mode))
+        if (files_is_folder(path))
             offer(c, arena_format(c->arena, "%.*s/", STR_ARG(label)), COMPLETION_FOLDER, NULL);
         else if (fits_kind(name, kind))
             offer(c, label, COMPLETION_FILE, NULL);
     }
-    if (open)
-        closedir(open);
 }
 
 // The text is seldom whole while one types: every attribute of the key's name counts.

@@ -1,4 +1,3 @@
-#define _XOPEN_SOURCE 700 // realpath
 #include "lsp/document.h"
 
 #include <stdlib.h>
@@ -58,10 +57,9 @@ static struct document *add(struct documents *documents, const char *uri) {
     if (setjmp(guard.jump) != 0)
         return NULL;
     str path = position_path(&documents->arena, uri);
-    char *real = path.len ? realpath(path.ptr, NULL) : NULL; // as the sessions know it
-    if (real)
-        path = arena_copy(&documents->arena, str_from(real));
-    free(real);
+    struct files files;
+    files_init(&files, &documents->arena);
+    path = path.len ? files_canonical(&files, path) : path; // as the sessions know it
     struct document document = {.uri = strdup(uri), .path = path};
     if (!document.uri || path.len == 0) {
         free(document.uri);

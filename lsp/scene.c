@@ -1,8 +1,8 @@
 #include "lsp/scene.h"
 
 #include "app/check.h"
+#include "core/files_walk.h"
 
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -176,10 +176,10 @@ static bool may_include(struct files *files, struct arena *arena, str candidate,
 // Loads the scenes in one folder that may include the document.
 static void try_folder(struct scenes *scenes, struct files *files, struct arena *arena, str folder,
                        str document) {
-    DIR *open = opendir(arena_copy(arena, folder).ptr);
-    struct dirent *entry;
-    for (int count = 0; open && count < CANDIDATES_MOST && (entry = readdir(open));) {
-        str path = arena_format(arena, "%.*s/%s", STR_ARG(folder), entry->d_name);
+    struct files_names names = {0};
+    files_list_folder(arena, arena_copy(arena, folder), &names);
+    for (uint32_t i = 0, count = 0; i < names.count && count < CANDIDATES_MOST; i++) {
+        str path = arena_format(arena, "%.*s/%.*s", STR_ARG(folder), STR_ARG(names.items[i]));
         if (!is_scene_path(path) || str_equal(path, document) || find(scenes, path))
             continue;
         count++;
@@ -192,8 +192,6 @@ static void try_folder(struct scenes *scenes, struct files *files, struct arena 
         if (!has_file(scene, document))
             forget(scenes, scene);
     }
-    if (open)
-        closedir(open);
 }
 
 static void place(struct scenes *scenes, struct document *document, str path) {

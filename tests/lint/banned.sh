@@ -10,7 +10,7 @@ opens='fopen|freopen|open|openat|creat|opendir|mmap|realpath'
 code=$(mktemp)
 trap 'rm -f "$code"' EXIT
 # A program that a library's folder holds may do as a program does.
-ours '^(core|grammar|parser|assets|runtime|app)/.*\.[ch]$' | grep -vE '(^|[/_])main\.c$' | code >"$code"
+ours '^(core|grammar|parser|assets|runtime|app|lsp)/.*\.[ch]$' | grep -vE '(^|[/_])main\.c$' | code >"$code"
 {
     ours '\.[ch]$' | code | grep -E "$call($anywhere)[ ]*\(" | sed 's/$/   <- a banned call/' || true
     grep -E "$call($ends)[ ]*\(" "$code" | grep -v '^core/arena\.c:[0-9]*:.*abort' |

@@ -16,7 +16,8 @@ function own(path, target) {
         return target ~ /^(core|grammar|assets|runtime\/reference)\// || target == "runtime/hits.h"
     if (path ~ /^runtime\//) return target ~ /^(core|grammar|assets|runtime)\// || target ~ /^shaders\/.*\.h$/
     if (path ~ /^shaders\//) return target ~ /^shaders\//
-    if (path ~ /^app\//) return target !~ /^(cli|viewer|tests|bench|tools)\//
+    if (path ~ /^app\//) return target !~ /^(lsp|cli|viewer|tests|bench|tools)\//
+    if (path ~ /^lsp\//) return target !~ /^(cli|viewer|tests|bench|tools)\//
     if (path ~ /^cli\//) return target !~ /^(viewer|tests|bench|tools)\//
     if (path ~ /^viewer\//) return target !~ /^(cli|tests|bench|tools)\//
     return 1
@@ -27,11 +28,12 @@ function foreign(path, target) {
     if (target ~ /^(volk|vulkan)/) return path ~ /^runtime\/gpu\//
     if (target ~ /^stb/) return path ~ /^(assets|runtime\/image|tools|tests)\//
     if (target ~ /^png\.h/) return path ~ /^(runtime\/image|tests)\//
-    if (target ~ /^jansson/) return path ~ /^(grammar|app|cli|tests|bench)\//
+    if (target ~ /^jansson/) return path ~ /^(grammar|app|lsp|cli|tests|bench)\//
+    if (target ~ /^minizip/) return path ~ /^app\/pack_zip/
     if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//
     if (target ~ /^cmocka/) return path ~ /^tests\//
     if (target ~ /^pthread/) return path ~ /^(core|tests)\//
-    return target !~ /^(core|grammar|parser|assets|runtime|shaders|app|cli|viewer)\//
+    return target !~ /^(core|grammar|parser|assets|runtime|shaders|app|lsp|cli|viewer)\//
 }
 /^[ \t]*#[ \t]*include[ \t]*["<]/ {
     target = $0

@@ -20,8 +20,10 @@ void client_start(struct lsp_client *client, const char *program) {
     int to[2];
     int from[2];
     *client = (struct lsp_client){.diagnostics = json_object(), .versions = json_object()};
-    snprintf(client->folder, sizeof client->folder, "%s/glint-lsp-XXXXXX",
-             getenv("TMPDIR") ? getenv("TMPDIR") : "/tmp");
+    char here[200];
+    if (!getcwd(here, sizeof here))
+        give_up("no folder");
+    snprintf(client->folder, sizeof client->folder, "%s/glint-lsp-XXXXXX", here);
     if (!mkdtemp(client->folder) || pipe(to) != 0 || pipe(from) != 0)
         give_up("no folder or pipe");
     client->pid = fork();

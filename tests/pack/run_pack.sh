@@ -78,6 +78,7 @@ printf 'glint: 1\r\nmodels:\r\n- {mesh: tri.obj, translation: [1, 1, 0]}\r\n' >i
 # ---- deps
 "$glint" deps in/sub/scene.yaml | sed "s|^$work/||" | sort >deps.txt || fail "deps"
 cat >wanted.txt <<'S'
+.glintrc.yaml
 in/one/tri.mtl
 in/one/tri.obj
 in/sub/deep/parts.xml
@@ -92,7 +93,7 @@ S
 "$glint" deps in/sub/scene.yaml | while read -r file; do realpath --relative-to=. "$file"; done | sort >deps.txt
 same "deps lists every file once" deps.txt wanted.txt
 "$glint" deps in/sub/scene.yaml in/two/more.yaml | wc -l >count.txt
-[ "$(cat count.txt)" -eq 10 ] && ok "deps of two scenes tells a file once" || fail "deps of two scenes"
+[ "$(cat count.txt)" -eq 11 ] && ok "deps of two scenes tells a file once" || fail "deps of two scenes"
 quits "deps tells roles" 0 '"role": "materials"' "$glint" deps --format json in/sub/scene.yaml
 quits "deps tells places" 0 '"line": 11' "$glint" deps --format json in/sub/scene.yaml
 "$glint" deps --format make in/sub/scene.yaml >scene.d
