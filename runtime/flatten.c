@@ -51,10 +51,11 @@ static void gather_items(void *context, size_t begin, size_t end) {
 }
 
 // Builds a tree over `items` and takes the `records` that they name into the order of its leaves.
-static bool make_tree(struct bvh_item *items, uint32_t count, const struct gpu_word *records, uint32_t words,
-                      struct flat_array *nodes, struct flat_array *leaves, uint32_t *depth) {
+static bool make_tree(enum bvh_method method, struct bvh_item *items, uint32_t count,
+                      const struct gpu_word *records, uint32_t words, struct flat_array *nodes,
+                      struct flat_array *leaves, uint32_t *depth) {
     struct bvh bvh;
-    if (!bvh_build(items, count, BVH_SAH, &bvh))
+    if (!bvh_build(items, count, method, &bvh))
         return false;
     *nodes = (struct flat_array){bvh.nodes, (uint64_t)bvh.node_count * NODE_WORDS};
     *depth = bvh.depth;
@@ -81,8 +82,8 @@ static enum flatten_fault make_triangles(struct flattening *f) {
     out->triangle_count = f->item_count;
     out->dropped_triangles = f->triangle_total - f->item_count;
     double start = clock_seconds();
-    bool done = make_tree(f->items, f->item_count, f->records, out->strides.triangle, &out->triangle_nodes,
-                          &out->triangles, &out->triangle_depth);
+    bool done = make_tree(f->input->method, f->items, f->item_count, f->records, out->strides.triangle,
+                          &out->triangle_nodes, &out->triangles, &out->triangle_depth);
     out->build_seconds += clock_seconds() - start;
     return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
 }
@@ -96,8 +97,8 @@ static enum flatten_fault make_spheres(struct flattening *f) {
     if (done) {
         flatten_spheres(f, words, items);
         double start = clock_seconds();
-        done = make_tree(items, count, words, out->strides.sphere, &out->sphere_nodes, &out->spheres,
-                         &out->sphere_depth);
+        done = make_tree(f->input->method, items, count, words, out->strides.sphere, &out->sphere_nodes,
+                         &out->spheres, &out->sphere_depth);
         out->build_seconds += clock_seconds() - start;
         out->sphere_count = count;
     }

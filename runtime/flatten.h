@@ -11,6 +11,7 @@
 
 #include "assets/assets.h"
 #include "assets/view.h"
+#include "runtime/bvh/bvh.h"
 #include "runtime/gpu_word.h"
 
 struct flat_array {
@@ -50,6 +51,7 @@ struct flat_input {
     const struct view *view;
     vec3 origin; // scene units
     bool is_double;
+    enum bvh_method method; // of the trees; none shows in a picture
     const struct limits *limits;
     struct diag_sink *sink;
 };

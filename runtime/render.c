@@ -69,6 +69,8 @@ static void plan(struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint32_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
     renderer->features = settings->features;
+    if (renderer->settings.workgroup == 0)
+        renderer->settings.workgroup = TILE_PIXELS;
     // Without shadow rays the lights are scanned in one go, however many there are.
     if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
         renderer->features |= FEATURE_SLICES;

@@ -42,6 +42,7 @@ struct render_settings {
     uint64_t path_segments;    // LIMIT_PATH_SEGMENTS
     uint32_t slice_iterations; // SLICE_ITERATIONS of shaders/frame.h; 0 gives slices of one ray
     enum render_study study;   // in single precision only
+    uint32_t workgroup;        // invocations of a workgroup, at most 128; 0: a tile's
 };
 
 // What scene, flat scene and limits ask for.

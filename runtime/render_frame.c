@@ -122,7 +122,8 @@ static bool is_wanted(const struct frame_run *run, double part) {
 static enum render_result draw_sample(struct frame_run *run, struct dispatch_block block) {
     struct renderer *renderer = run->renderer;
     const bool slices = renderer->features & FEATURE_SLICES;
-    uint32_t groups = block.tile_count;
+    const uint32_t workgroup = renderer->settings.workgroup;
+    uint32_t groups = (block.tile_count * TILE_PIXELS + workgroup - 1) / workgroup;
     for (;;) {
         block.grid_width = renderer_grid_width(groups);
         block.pending_base = renderer->pending;
@@ -137,7 +138,7 @@ static enum render_result draw_sample(struct frame_run *run, struct dispatch_blo
         if (block.resume == 0)
             break;
         block.read_list = 1 - block.read_list;
-        groups = (block.resume + TILE_PIXELS - 1) / TILE_PIXELS;
+        groups = (block.resume + workgroup - 1) / workgroup;
         run->statistics->slices++;
         if (!is_wanted(run, 1 - (double)block.resume / ((double)block.tile_count * TILE_PIXELS)))
             return RENDER_CANCELLED;

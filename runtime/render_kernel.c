@@ -93,6 +93,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
         [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
+        [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_STUDY_OFFSET] = bits_of(ldexp(study->offset, flat->scale_exponent)),
         [CONSTANT_STUDY_DISTANCE] = bits_of(study->distance),
         [CONSTANT_STUDY_CUT] = bits_of(ldexp(study->cut, 2 * flat->scale_exponent)),

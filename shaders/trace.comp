@@ -25,7 +25,7 @@ spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [44
 #include "path.glsl"
 #include "path_words.glsl"
 
-layout(local_size_x = TILE_PIXELS) in;
+layout(local_size_x = TILE_PIXELS, local_size_x_id = CONSTANT_WORKGROUP) in;
 
 // What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
 const uint SEGMENT_ITERATIONS = 9u;
@@ -223,7 +223,8 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 }
 
 void main() {
-    uint index = (gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x) * TILE_PIXELS + gl_LocalInvocationID.x;
+    uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
+    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     uint slots = dispatch.tile_count * TILE_PIXELS;
     bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
     if (index >= (resumes ? dispatch.resume : slots))

@@ -31,6 +31,7 @@ struct top_node {
 struct build {
     struct binary_tree *tree;
     enum bvh_method method;
+    uint32_t leaf_items; // at most
     struct top_node *top;
     uint32_t top_count, top_capacity;
     uint32_t *small; // indices of top_node
@@ -46,8 +47,8 @@ static struct subtree subtree_of_item(const struct bvh_item *item) {
 }
 
 // Ylitie et al. 2017, eq. 2 to 5: the costs of a subtree from those of its children.
-static struct subtree subtree_join(struct binary_node *node, uint32_t count, const struct subtree *left,
-                                   const struct subtree *right) {
+static struct subtree subtree_join(struct binary_node *node, uint32_t count, uint32_t leaf_items,
+                                   const struct subtree *left, const struct subtree *right) {
     struct subtree result = {.box = left->box};
     box_grow(&result.box, right->box.lower, right->box.upper);
     node->box = result.box;
@@ -68,7 +69,7 @@ static struct subtree subtree_join(struct binary_node *node, uint32_t count, con
     double area = box_area(&result.box);
     double as_leaf = area * count * BVH_COST_ITEM;
     double as_node = distributed[BVH_WIDTH - 1] + area * BVH_COST_NODE;
-    node->decision[0] = count <= BVH_LEAF_ITEMS && as_leaf <= as_node;
+    node->decision[0] = count <= leaf_items && as_leaf <= as_node;
     result.cost[0] = node->decision[0] ? as_leaf : as_node;
     for (int i = 1; i < BVH_WIDTH - 1; i++) {
         if (result.cost[i - 1] <= distributed[i])
@@ -93,7 +94,7 @@ static struct subtree build_range(const struct build *build, struct binary_range
     node->left_count = cut(build, range, level);
     struct subtree left = build_range(build, binary_left(tree, range), level + 1);
     struct subtree right = build_range(build, binary_right(tree, range), level + 1);
-    return subtree_join(node, range.count, &left, &right);
+    return subtree_join(node, range.count, build->leaf_items, &left, &right);
 }
 
 // ---- ranges so large that threads share one
@@ -191,8 +192,9 @@ static bool build_top(struct build *build, struct wide_cut *cut_memory) {
             struct wide_cut *wide = cut_memory;
             wide->items = build->tree->items + node.range.begin;
             build->tree->nodes[node.range.node].left_count =
-                build->method == BVH_SAH && node.level < LEVELS_BY_COST ? cut_wide(wide, node.range.count)
-                                                                        : cut(build, node.range, node.level);
+                build->method != BVH_MEDIAN && node.level < LEVELS_BY_COST
+                    ? cut_wide(wide, node.range.count)
+                    : cut(build, node.range, node.level);
             if (!push_top(build, binary_left(build->tree, node.range), node.level + 1, &node.left) ||
                 !push_top(build, binary_right(build->tree, node.range), node.level + 1, &node.right))
                 return false;
@@ -219,7 +221,8 @@ static void build_small(void *context, size_t begin, size_t end) {
 bool binary_build(struct binary_tree *tree, enum bvh_method method) {
     size_t count = tree->count;
     size_t pieces = (count + PIECE_ITEMS - 1) / PIECE_ITEMS;
-    struct build build = {.tree = tree, .method = method};
+    const uint32_t leaf_items = method == BVH_SAH_SINGLES ? 1 : method == BVH_SAH_PAIRS ? 2 : BVH_LEAF_ITEMS;
+    struct build build = {.tree = tree, .method = method, .leaf_items = leaf_items};
     struct wide_cut wide = {0};
     bool done = false;
     tree->nodes = malloc(count * sizeof *tree->nodes);
@@ -235,7 +238,7 @@ bool binary_build(struct binary_tree *tree, enum bvh_method method) {
     for (uint32_t i = build.top_count; i-- > 0;) {
         struct top_node *node = &build.top[i];
         if (!node->is_small)
-            node->result = subtree_join(&tree->nodes[node->range.node], node->range.count,
+            node->result = subtree_join(&tree->nodes[node->range.node], node->range.count, leaf_items,
                                         &build.top[node->left].result, &build.top[node->right].result);
     }
     done = true;

@@ -35,6 +35,10 @@ struct bvh_item {
 enum bvh_method {
     BVH_SAH,
     BVH_MEDIAN, // halves along the longest axis: the baseline of bench/
+    // As BVH_SAH with leaves of at most two items, and of one: no tree shows in a picture, and tests prove
+    // it.
+    BVH_SAH_PAIRS,
+    BVH_SAH_SINGLES,
 };
 
 struct bvh {
