@@ -1,0 +1,64 @@
+#!/bin/sh
+# glint extremes as a user sees it.
+# Usage: run_extremes.sh GLINT SOURCE_FOLDER WORK_FOLDER [SCENE]...
+# With scenes: each at the default bounds, small, all axes; nothing else.
+set -u
+glint=$1
+source=$2
+work=$3
+shift 3
+failed=0
+cd "$work" || exit 2
+rm -rf -- ./*
+. "$source/tests/cli/expect.sh"
+
+"$glint" devices | grep -q . || {
+    echo "skip: no Vulkan device"
+    exit 77
+}
+
+if [ $# -gt 0 ]; then
+    for scene; do
+        expect "$scene keeps the default bounds" 0 ' 0 broken, ' '' "$glint" extremes "$source/$scene" --size 96x72 -q
+    done
+    exit $failed
+fi
+
+cat >scene.yaml <<'END'
+glint: 1
+image: {width: 64, height: 48}
+camera: {position: [0.3, 1.1, 5.2], look_at: [0.1, 0.2, 0]}
+background: {color: [0.2, 0.3, 0.4]}
+trace: {max_depth: 4}
+lights: [{position: [3.1, 5.3, 2.7]}]
+materials:
+  floor: {diffuse_color: [0.5, 0.6, 0.7]}
+spheres:
+  - {center: [0.11, 0.83, 0.07], radius: 0.8}
+rectangles:
+  - {corner: [-4, 0, 4], edge_u: [8, 0, 0], edge_v: [0, 0, -8], material: floor}
+END
+
+expect "an unknown axis" 2 - "did you mean 'scale'" "$glint" extremes scene.yaml --axis scal
+expect "an unknown kind" 2 - 'csv' "$glint" extremes scene.yaml --format csv
+expect "a missing file of bounds" 3 - 'none.yaml:1:1: error: the file of bounds' "$glint" extremes scene.yaml --thresholds none.yaml
+printf 'move:\n  - {of: 0.1}\n  - {off: -1}\nscal:\n  - {off: 0}\nlight: 3\n' >bad.yaml
+expect "an unknown metric" 1 - "^bad.yaml:2:6: error: there is no metric 'of'" "$glint" extremes scene.yaml --thresholds bad.yaml
+expect "a bad bound" 1 - '^bad.yaml:3:11: error: a bound is a number from 0' "$glint" extremes scene.yaml --thresholds bad.yaml
+expect "an unknown axis of bounds" 1 - "^bad.yaml:4:1: error: there is no axis 'scal'" "$glint" extremes scene.yaml --thresholds bad.yaml
+expect "no list of bounds" 1 - '^bad.yaml:6:8: error: an axis has a list of bounds' "$glint" extremes scene.yaml --thresholds bad.yaml
+expect "a missing scene" 3 - 'error' "$glint" extremes missing.yaml
+
+expect "gaps" 0 '^5 cells, 0 left out, 0 broken' - "$glint" extremes scene.yaml --axis gap --size 24x16 -q
+expect "an axis that the scene lacks" 0 'left out: no material refracts' - "$glint" extremes scene.yaml --axis index --size 24x16 -q
+printf 'all:\n  - {error: 100}\nscale:\n  - {to: 1.0e-6, error: 0}\n' >strict.yaml
+expect "a broken bound" 1 '^  scaled by 1e-06: mean absolute difference .*, at most 0' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --thresholds strict.yaml
+expect "only where it holds" 1 '^13 cells, 0 left out, 1 broken' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --thresholds strict.yaml
+expect "JSON" 0 '"axis": "camera", "value": 0.001, "precision": "single"' - "$glint" extremes scene.yaml --axis camera --size 24x16 -q --format json
+expect "a report" 0 'cells' - "$glint" extremes scene.yaml --axis light,gap --size 24x16 -q -o report.html
+expect "its matrix" 0 '<svg ' '' cat report.html
+[ "$(grep -c '<title>' report.html)" -eq 12 ] || {
+    echo "FAIL a title for each cell"
+    failed=1
+}
+exit $failed
