@@ -148,6 +148,18 @@ expect "a failed run keeps the old file" 1 - 'E206' "$glint" render bad.yaml -o 
 expect "it is the old file" 0 '^precious$' - cat kept.png
 expect "an output of no kind" 2 - '\.png, \.pfm' "$glint" render good.yaml -o out.gif
 
+# The reference needs no device; its cache lies where it is told.
+exact() { env XDG_CACHE_HOME="$PWD/cache" "$glint" render good.yaml --device reference --size 16x8 -o exact.png "$@"; }
+expect "the reference" 0 - 'reference left weight' exact
+expect "the reference, kept" 0 - 'from its cache' exact
+expect "the reference as the file" 0 - 'wrote exact\.png' exact --as-file
+expect "what is kept" 0 '^2$' - sh -c 'ls cache/glint/reference | wc -l'
+expect "the reference, not kept" 0 - 'worth [0-9.e-]+$' exact --no-cache
+expect "the reference in numbers" 0 '"device": "reference"' '' exact --stats=json
+expect "the reference in words" 0 - 'could add at most' exact --stats
+expect "--as-file without the reference" 2 - 'goes with .--device reference' "$glint" render good.yaml --as-file
+expect "a limit of the reference" 0 - 'reference left weight' exact --limit reference-segments=3 --no-cache
+
 if "$glint" devices >devices.txt 2>/dev/null; then
     expect "render" 0 - 'out\.png' "$glint" render good.yaml -o out.png
     expect "a quiet render" 0 - - "$glint" render good.yaml -o out2.png -q
