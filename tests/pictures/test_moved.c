@@ -1,5 +1,6 @@
 // A scene whose coordinates are multiples of 2^-16, moved by 2^10 and 2^20 units, or scaled by 2^20 and
-// 2^-20, with its camera and lights: the same picture, byte for byte.
+// 2^-20, with its camera and lights: the same picture, byte for byte, in
+// both precisions.
 //
 // Usage: test_moved SCENE...
 #include "picture_kit.h"
@@ -11,6 +12,7 @@ struct change {
     const char *name;
     vec3 move;
     int scale_exponent;
+    unsigned precision;
 };
 
 static void change_point(vec3 *p, const struct change *c) {
@@ -45,6 +47,7 @@ static void change_checker(struct ir_scene *scene, uint32_t material, const stru
 
 static void change_scene(struct ir_scene *scene, void *context) {
     const struct change *c = context;
+    scene->trace.precision = c->precision;
     for (uint32_t i = 0; i < scene->cameras.count; i++) {
         change_point(&scene->cameras.items[i].position, c);
         change_point(&scene->cameras.items[i].look_at, c);
@@ -68,28 +71,33 @@ static void change_scene(struct ir_scene *scene, void *context) {
 }
 
 static const struct change changes[] = {
-    {"moved by 2^10", {0x1p10, 0, 0}, 0},
-    {"moved by 2^20", {0x1p20, -0x1p20, 0x1p20}, 0},
-    {"scaled by 2^20", {0, 0, 0}, 20},
-    {"scaled by 2^-20", {0, 0, 0}, -20},
-    {"scaled by 2^-10 and moved", {0x1p10, 0x1p10, -0x1p10}, -10},
+    {"as it is", {0, 0, 0}, 0, 0},
+    {"moved by 2^10", {0x1p10, 0, 0}, 0, 0},
+    {"moved by 2^20", {0x1p20, -0x1p20, 0x1p20}, 0, 0},
+    {"scaled by 2^20", {0, 0, 0}, 20, 0},
+    {"scaled by 2^-20", {0, 0, 0}, -20, 0},
+    {"scaled by 2^-10 and moved", {0x1p10, 0x1p10, -0x1p10}, -10, 0},
 };
 
-static bool check_scene(struct picture_kit *kit, const char *path) {
-    struct image first;
-    struct picture_options options = {0};
-    if (!picture_take(kit, path, &options, &first))
-        return false;
-    bool good = picture_variety(&first) > 100;
+static bool check_scene(struct picture_kit *kit, const char *path, unsigned precision) {
+    struct image first = {0};
+    struct picture_options options = {.edit = change_scene};
+    bool good = true;
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
-        struct image second;
+        struct image image;
         struct change change = changes[i];
-        options.edit = change_scene;
+        change.precision = precision;
         options.context = &change;
-        bool same = picture_take(kit, path, &options, &second) &&
-                    picture_differences(&first, &second, change.name) == 0;
-        printf("%s %s %s\n", same ? "ok  " : "FAIL", path, change.name);
-        image_finish(&second);
+        bool same = picture_take(kit, path, &options, &image);
+        if (i == 0) {
+            first = image;
+            same = same && picture_variety(&first) > 100;
+        } else {
+            same = same && picture_differences(&first, &image, change.name) == 0;
+            image_finish(&image);
+        }
+        printf("%s %s %s, %s precision\n", same ? "ok  " : "FAIL", path, change.name,
+               precision == IR_PRECISION_DOUBLE ? "double" : "single");
         good = good && same;
     }
     image_finish(&first);
@@ -101,8 +109,12 @@ int main(int argc, char **argv) {
     if (!picture_kit_open(&kit))
         return 77;
     int failed = 0;
-    for (int i = 1; i < argc; i++)
-        failed += !check_scene(&kit, argv[i]);
+    const bool has_double = !kit.by_reference && gpu_info(kit.gpu)->has_double;
+    for (int i = 1; i < argc; i++) {
+        failed += !check_scene(&kit, argv[i], IR_PRECISION_SINGLE);
+        if (has_double)
+            failed += !check_scene(&kit, argv[i], IR_PRECISION_DOUBLE);
+    }
     uint32_t messages = picture_kit_close(&kit);
     return failed || messages || argc < 2;
 }

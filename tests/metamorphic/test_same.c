@@ -1,0 +1,114 @@
+// What makes no difference: frames repeated, trees of other shapes, workgroups of other sizes, runs of tiles.
+// The picture has the same bytes, in single and in double precision.
+//
+// Usage: test_same REPEATS SCENE...
+#include "tests/pictures/picture_kit.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    WIDTH = 96,
+    HEIGHT = 72,
+};
+
+struct bench {
+    struct picture_kit kit;
+    struct session session;
+    struct view view;
+    int failed;
+};
+
+struct variant {
+    const char *name;
+    enum bvh_method method;
+    uint32_t workgroup;
+};
+
+static const struct variant variants[] = {
+    {"once more", BVH_SAH, 0},
+    {"leaves of two", BVH_SAH_PAIRS, 0},
+    {"leaves of one", BVH_SAH_SINGLES, 0},
+    {"a tree of halves", BVH_MEDIAN, 0},
+    {"workgroups of 8", BVH_SAH, 8},
+    {"workgroups of 32", BVH_SAH, 32},
+    {"workgroups of 128", BVH_SAH, 128},
+};
+
+static void expect(struct bench *b, bool good, const char *path, bool is_double, const char *what) {
+    printf("%s %s %s %s\n", good ? "ok  " : "FAIL", path, is_double ? "double" : "single", what);
+    b->failed += !good;
+}
+
+// Renders `count` times, and compares with `first`, which a count of 1 may fill.
+static bool render(struct bench *b, const struct variant *variant, bool is_double, int count,
+                   struct image *first) {
+    struct flat_scene flat;
+    struct render_statistics statistics;
+    struct image image;
+    const struct flat_input input = {.scene = b->session.scene,
+                                     .origin_places = &b->session.origin,
+                                     .assets = &b->session.assets,
+                                     .view = &b->view,
+                                     .origin = session_origin(&b->session, &b->view),
+                                     .is_double = is_double,
+                                     .method = variant->method,
+                                     .limits = &b->session.options.limits,
+                                     .sink = &b->session.sink};
+    if (!flatten(&input, &flat))
+        return false;
+    struct render_settings settings = render_settings_of(b->session.scene, &flat, input.limits);
+    settings.width = WIDTH;
+    settings.height = HEIGHT;
+    settings.samples = 1;
+    settings.workgroup = variant->workgroup;
+    struct renderer *renderer = renderer_create(b->kit.gpu, &flat, &settings);
+    bool good = renderer && image_init(&image, WIDTH, HEIGHT);
+    for (int i = 0; good && i < count; i++) {
+        good = renderer_render(renderer, &b->view.camera, image.rgb, NULL, &statistics) == RENDER_DONE;
+        if (good && first->rgb)
+            good = picture_differences(first, &image, variant->name) == 0;
+    }
+    if (good && !first->rgb)
+        *first = image;
+    else if (renderer)
+        image_finish(&image);
+    renderer_destroy(renderer);
+    flat_finish(&flat);
+    return good;
+}
+
+static void check_scene(struct bench *b, const char *path, int repeats) {
+    const struct session_options options = {
+        .path = str_from(path), .limits = limits_default(), .width = WIDTH, .height = HEIGHT};
+    session_load(&b->session, &options, b->kit.store);
+    bool loaded = b->session.state == SESSION_LOADED && b->session.sink.errors == 0 &&
+                  session_view(&b->session, 0, &b->view);
+    if (!loaded)
+        expect(b, false, path, false, "is loaded");
+    const bool has_double = gpu_info(b->kit.gpu)->has_double;
+    for (int is_double = 0; loaded && is_double <= (int)has_double; is_double++) {
+        struct image first = {0};
+        bool good = render(b, &variants[0], is_double, 1, &first);
+        expect(b, good && picture_variety(&first) > 100, path, is_double, "shows something");
+        for (size_t i = 0; good && i < sizeof variants / sizeof *variants; i++) {
+            bool same = render(b, &variants[i], is_double, i == 0 ? repeats : 1, &first);
+            expect(b, same, path, is_double, variants[i].name);
+        }
+        image_finish(&first);
+    }
+    session_finish(&b->session);
+}
+
+int main(int argc, char **argv) {
+    struct bench b = {0};
+    if (argc < 3)
+        return 2;
+    if (!picture_kit_open(&b.kit) || b.kit.by_reference)
+        return 77;
+    for (int i = 2; i < argc; i++)
+        check_scene(&b, argv[i], (int)strtol(argv[1], NULL, 10));
+    uint32_t messages = picture_kit_close(&b.kit);
+    return b.failed || messages;
+}
