@@ -14,7 +14,12 @@ enum {
     THREADS_MAX = 64
 };
 
+// How many threads a call may use: 0 is all processors. Within a piece that runs beside others it is the
+// share of its thread, so that calls inside calls do not multiply their threads.
+static _Thread_local unsigned share;
+
 struct job {
+    unsigned share; // of each thread
     parallel_body *body;
     void *context;
     size_t count;
@@ -31,6 +36,7 @@ unsigned parallel_processors(void) {
 
 static void *work(void *argument) {
     struct job *job = argument;
+    share = job->share;
     for (;;) {
         size_t begin = atomic_fetch_add(&job->next, job->piece);
         if (begin >= job->count)
@@ -45,12 +51,16 @@ void parallel_for(size_t count, size_t piece, parallel_body *body, void *context
     struct job job = {.body = body, .context = context, .count = count, .piece = piece};
     pthread_t threads[THREADS_MAX];
     size_t pieces = count / piece + (count % piece != 0);
-    unsigned wanted = parallel_processors();
+    unsigned before = share;
+    unsigned wanted = before ? before : parallel_processors();
+    unsigned most = pieces < wanted ? (unsigned)pieces : wanted;
+    job.share = most > 1 ? (wanted + most - 1) / most : before;
     unsigned started = 0;
     while (started + 1 < wanted && started + 1 < pieces &&
            pthread_create(&threads[started], NULL, work, &job) == 0)
         started++;
     work(&job);
+    share = before;
     for (unsigned i = 0; i < started; i++)
         pthread_join(threads[i], NULL);
 }

@@ -47,6 +47,34 @@ static void covers_each_index_once(void **state) {
         }
 }
 
+struct nest {
+    atomic_uint running, most;
+    atomic_uint visits;
+};
+
+static void inner(void *context, size_t begin, size_t end) {
+    struct nest *nest = context;
+    unsigned now = atomic_fetch_add(&nest->running, 1) + 1;
+    unsigned most = atomic_load(&nest->most);
+    while (now > most && !atomic_compare_exchange_weak(&nest->most, &most, now))
+        ;
+    atomic_fetch_add(&nest->visits, (unsigned)(end - begin));
+    atomic_fetch_sub(&nest->running, 1);
+}
+
+static void outer(void *context, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; i++)
+        parallel_for(1000, 1, inner, context);
+}
+
+static void threads_do_not_multiply(void **state) {
+    (void)state;
+    struct nest nest = {0};
+    parallel_for(200, 1, outer, &nest);
+    assert_int_equal(atomic_load(&nest.visits), 200000);
+    assert_in_range(atomic_load(&nest.most), 1, 2 * parallel_processors());
+}
+
 static void a_huge_piece_does_not_overflow(void **state) {
     (void)state;
     struct cover cover = {.count = 5, .piece = SIZE_MAX / 2};
@@ -88,9 +116,8 @@ static void there_is_a_processor(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(covers_each_index_once),
-        cmocka_unit_test(a_huge_piece_does_not_overflow),
-        cmocka_unit_test(loops_may_nest),
+        cmocka_unit_test(covers_each_index_once),  cmocka_unit_test(a_huge_piece_does_not_overflow),
+        cmocka_unit_test(threads_do_not_multiply), cmocka_unit_test(loops_may_nest),
         cmocka_unit_test(there_is_a_processor),
     };
     return cmocka_run_group_tests_name("parallel", tests, NULL, NULL);
