@@ -11,8 +11,6 @@ enum {
     PIECE = 8192,
 };
 
-#define CONTACT 0x1p-40 // of a distance: a height or gap below it is none
-
 void precision_keep(struct precision_measure *least, const struct precision_measure *found) {
     if (!found->any)
         return;
@@ -45,9 +43,10 @@ static bool is_above(vec3 camera, const vec3 corners[3], double margin) {
            camera.y <= upper.y + margin && camera.z >= lower.z - margin && camera.z <= upper.z + margin;
 }
 
-// `corners` and `camera` relative to the origin.
-static void measure_triangle(const vec3 corners[3], vec3 camera, uint32_t body, uint32_t triangle,
-                             struct triangle_least *least) {
+// `corners` relative to the origin.
+static void measure_triangle(const struct flat_input *input, const vec3 corners[3], uint32_t body,
+                             uint32_t triangle, struct triangle_least *least) {
+    const vec3 camera = vec3_sub(input->view->camera.position, input->origin);
     double shortest = DBL_MAX;
     double longest = 0;
     double reach = 0;
@@ -64,7 +63,7 @@ static void measure_triangle(const vec3 corners[3], vec3 camera, uint32_t body, 
                    (struct precision_measure){
                        .length = shortest, .part = 1, .distance = reach, .body = body, .triangle = triangle});
     double height = fabs(vec3_dot(vec3_unit(normal), vec3_sub(camera, corners[0])));
-    if (height > CONTACT * reach && is_above(camera, corners, height))
+    if (height > precision_contact(input, reach) && is_above(camera, corners, height))
         precision_note(&least->height, (struct precision_measure){.length = height,
                                                                   .part = PRECISION_HEIGHT_PART,
                                                                   .distance = longest,
@@ -75,7 +74,7 @@ static void measure_triangle(const vec3 corners[3], vec3 camera, uint32_t body, 
 struct measuring {
     const struct mesh *mesh;
     affine3 map; // relative to the origin
-    vec3 camera;
+    const struct flat_input *input;
     uint32_t body;
     struct triangle_least *pieces;
 };
@@ -87,7 +86,7 @@ static void measure_piece(void *context, size_t begin, size_t end) {
         vec3 corners[3];
         for (int k = 0; k < 3; k++)
             corners[k] = affine3_apply(m->map, m->mesh->positions[m->mesh->triangles[i].corners[k]]);
-        measure_triangle(corners, m->camera, m->body, (uint32_t)i, least);
+        measure_triangle(m->input, corners, m->body, (uint32_t)i, least);
     }
 }
 
@@ -127,14 +126,13 @@ static struct precision_body measure_rectangle(const struct flat_input *input, u
                                                struct precision_report *out) {
     const struct ir_rectangle *r = &input->scene->rectangles.items[i];
     struct precision_body body = empty_body(input->scene->spheres.count + i);
-    vec3 camera = vec3_sub(input->view->camera.position, input->origin);
     vec3 corner = vec3_sub(r->corner, input->origin);
     vec3 along_u = vec3_add(corner, r->edge_u);
     const vec3 halves[2][3] = {{corner, along_u, vec3_add(along_u, r->edge_v)},
                                {corner, vec3_add(along_u, r->edge_v), vec3_add(corner, r->edge_v)}};
     for (uint32_t half = 0; half < 2; half++) {
         struct triangle_least least = {0};
-        measure_triangle(halves[half], camera, body.body, half, &least);
+        measure_triangle(input, halves[half], body.body, half, &least);
         keep_triangles(out, &least);
         for (int k = 0; k < 3; k++)
             grow(&body, halves[half][k]);
@@ -152,7 +150,7 @@ static bool measure_model(const struct flat_input *input, uint32_t i, struct pre
     size_t pieces = ((size_t)mesh->triangle_count + PIECE - 1) / PIECE;
     struct measuring m = {.mesh = mesh,
                           .map = view_model_transform(&input->scene->models.items[i]),
-                          .camera = vec3_sub(input->view->camera.position, input->origin),
+                          .input = input,
                           .body = body->body,
                           .pieces = calloc(pieces, sizeof *m.pieces)};
     if (!m.pieces)

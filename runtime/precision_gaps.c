@@ -5,8 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define CONTACT 0x1p-40 // of a distance: what is closer touches
-#define CLOSE   0x1p-12 // of a distance: larger gaps decide nothing
+#define CLOSE 0x1p-12 // of a distance: larger gaps decide nothing
 
 enum {
     MOST_PAIRS = 1 << 22,
@@ -107,11 +106,12 @@ static double longest_edge(const struct ir_scene *scene, uint32_t body) {
     return fmax(vec3_length(vec3_add(r->edge_u, r->edge_v)), vec3_length(vec3_sub(r->edge_u, r->edge_v)));
 }
 
-static void measure_pair(const struct ir_scene *scene, const struct precision_body *a,
+static void measure_pair(const struct flat_input *input, const struct precision_body *a,
                          const struct precision_body *b, struct precision_report *out) {
+    const struct ir_scene *scene = input->scene;
     double gap = gap_of(scene, a, b);
     double distance = fmin(a->reach, b->reach);
-    if (!(gap > CONTACT * distance))
+    if (!(gap > precision_contact(input, distance)))
         return;
     struct precision_measure found = {.length = gap,
                                       .part = 1,
@@ -176,7 +176,7 @@ bool precision_gaps(const struct flat_input *input, const struct precision_body 
                 out->all_pairs = false;
                 break;
             }
-            measure_pair(input->scene, &bodies[order[i].index], &bodies[order[k].index], out);
+            measure_pair(input, &bodies[order[i].index], &bodies[order[k].index], out);
         }
     free(order);
     return true;

@@ -4,11 +4,19 @@
 
 #include "runtime/precision.h"
 
+#include <math.h>
+
 struct precision_body {
     vec3 lower, upper; // box, scene units minus the origin
     double reach;      // largest |coordinate| of it
     uint32_t body;     // in IR order
 };
+
+// Below this a gap or height is none: what touches in the file is torn apart by the rounding of numbers, of
+// those of the scene's coordinates and of `distance`, which is relative to the origin.
+static inline double precision_contact(const struct flat_input *input, double distance) {
+    return fmax(0x1p-40 * distance, 0x1p-50 * (vec3_max_abs(input->origin) + distance));
+}
 
 // Keeps the lesser; equal ones by body and triangle, so that the result knows nothing of threads.
 void precision_keep(struct precision_measure *least, const struct precision_measure *found);

@@ -164,6 +164,16 @@ static bool box_on_floor(double gap) {
     return gap_suffices(&kit, gap);
 }
 
+// A million units away a floor at 0.1 and a ball of radius 0.3 at 0.4 are 10^-10 apart, or not.
+static bool far_ball_on_floor(void) {
+    struct kit kit;
+    kit_init(&kit);
+    kit.origin = kit.view.camera.position = (vec3){1e6, 1e6 + 2.3, 1e6};
+    put_rectangle(&kit, (vec3){1e6 - 5, 1e6 + 0.1, 1e6}, (vec3){10, 0, 0}, (vec3){0, 0, -10});
+    put_sphere(&kit, (vec3){1e6, 1e6 + 0.4, 1e6 - 3}, 0.3);
+    return gap_suffices(&kit, 0);
+}
+
 static void test_gap(void **state) {
     (void)state;
     // 16 steps at a distance of about 3 are 2.9e-6.
@@ -171,6 +181,7 @@ static void test_gap(void **state) {
     assert_false(plates(1e-7) || shells(1e-7) || ball_on_floor(1e-7) || box_on_floor(1e-7));
     // What touches has no gap; nor what the program's own arithmetic tears apart.
     assert_true(plates(0) && shells(0) && ball_on_floor(0) && box_on_floor(0));
+    assert_true(far_ball_on_floor());
 }
 
 // The camera above a plane: fine at 2^13 times its height, not at 10^6.
