@@ -42,12 +42,28 @@ int bind_find_style(struct bind_context *context, const struct bind_frame *frame
     return found && spelling(&frame->schema->rows[search.best_id], kind, false) ? search.best_id : -1;
 }
 
-// Whether a fix of the key alone makes the file right: an XML element's end tag must not be left behind.
-static bool key_stands_alone(struct bind_context *context, tree_index key) {
-    if (tree_node(context->tree, key)->key != TREE_KEY_CHILD)
-        return true;
-    str element = source_text(context->sources, tree_span(context->tree, tree_value(context->tree, key)));
-    return element.len >= 2 && element.ptr[element.len - 2] == '/' && element.ptr[element.len - 1] == '>';
+// Proposes another name for a key; for an XML element with an end tag in both tags.
+static void fix_key(struct bind_context *context, tree_index key, bool safe, str right) {
+    span at = tree_span(context->tree, key);
+    str name = source_text(context->sources, at);
+    const struct tree_node *value = tree_node(context->tree, tree_value(context->tree, key));
+    str rest = source_text(context->sources, (span){at.source, at.end, value->end});
+    size_t end = rest.len;
+    while (end > 0 && rest.ptr[end - 1] != '<')
+        end--;
+    bool is_child = tree_node(context->tree, key)->key == TREE_KEY_CHILD;
+    bool alone = !is_child || (rest.len >= 2 && rest.ptr[rest.len - 2] == '/');
+    bool closed = end + 1 < rest.len && rest.ptr[end] == '/' &&
+                  str_starts_with(str_slice(rest, end + 1, rest.len), name);
+    if (alone) {
+        diag_fix(context->sink, safe, at, right);
+    } else if (closed) {
+        str between = str_slice(rest, 0, end + 1);
+        at.end += (uint32_t)(between.len + name.len);
+        diag_fix(
+            context->sink, safe, at,
+            arena_format(context->scratch, "%.*s%.*s%.*s", STR_ARG(right), STR_ARG(between), STR_ARG(right)));
+    }
 }
 
 static void add_unknown(struct bind_context *context, const struct bind_frame *frame, tree_index key) {
@@ -100,9 +116,7 @@ static void did_you_mean(struct bind_context *context, struct bind_frame *frame,
                   STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
     else
         diag_help(context->sink, "did you mean '%s'?", right);
-    if (key_stands_alone(context, key))
-        diag_fix(context->sink, style_only || (search->distance > 0 && mend_is_safe(search)),
-                 tree_span(context->tree, key), str_from(right));
+    fix_key(context, key, style_only || (search->distance > 0 && mend_is_safe(search)), str_from(right));
 }
 
 // The row of another element that has this name, or one a letter off where `near`.

@@ -295,8 +295,10 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     bool apart = marked || p->last == YAML_TOKEN_ALIAS || p->last == YAML_TOKEN_COMMA;
     put(p, apart ? JOIN_SPACE : JOIN_NONE, indent);
     enum yaml_token_kind next = peek(p)->kind;
-    if (next != YAML_TOKEN_COMMA && next != YAML_TOKEN_FLOW_CLOSE)
-        put_node(p, flow_join(p, JOIN_SPACE), indent + FORMAT_INDENT);
+    if (next == YAML_TOKEN_COMMA || next == YAML_TOKEN_FLOW_CLOSE)
+        return;
+    enum join value = flow_join(p, JOIN_SPACE);
+    put_node(p, value, value == JOIN_LINE ? indent + FORMAT_INDENT : indent);
 }
 
 // A comma that begins a line stays there only where a comment follows: behind the entry before it, that would

@@ -1,0 +1,148 @@
+#!/bin/sh
+# What changes files, and what tells changes: format, check --fix, diff.
+# Usage: run_edit.sh GLINT SOURCE_FOLDER WORK_FOLDER
+set -u
+glint=$1
+source=$2
+work=$3
+failed=0
+cd "$work" || exit 2
+rm -rf -- ./*
+
+. "$source/tests/cli/expect.sh"
+
+same() {
+    if cmp -s "$2" "$3"; then
+        echo "ok   $1"
+    else
+        echo "FAIL $1"
+        diff "$2" "$3" | head -20
+        failed=1
+    fi
+}
+
+# ---- format
+printf 'glint:  1\n# a comment\nimage: { width: 3 }\n' >loose.glint.yaml
+printf 'glint: 1\n# a comment\nimage: {width: 3}\n' >tight.yaml
+cp loose.glint.yaml kept.yaml
+expect "format --check names a file" 1 '^loose.glint.yaml$' - "$glint" format --check loose.glint.yaml tight.yaml
+expect "format --check of a folder" 1 '^./loose.glint.yaml$|^loose.glint.yaml$' - "$glint" format --check .
+expect "format --check of good files" 0 - - "$glint" format --check tight.yaml
+expect "format --diff" 0 '^-glint:  1$' - "$glint" format --diff loose.glint.yaml
+expect "format --check --diff" 1 '^[+]image: .width: 3.$' - "$glint" format --check --diff loose.glint.yaml
+same "--check and --diff write nothing" loose.glint.yaml kept.yaml
+expect "format to standard output" 0 '^image: .width: 3.$' - "$glint" format loose.glint.yaml -o -
+expect "format to a file" 0 - - "$glint" format loose.glint.yaml -o out.yaml
+same "format to a file writes it" out.yaml tight.yaml
+"$glint" format - <loose.glint.yaml >piped.yaml 2>err.txt || failed=1
+same "format from standard input" piped.yaml tight.yaml
+printf '<Scene   glint="1"/>' | "$glint" format - >piped.xml
+printf '<Scene glint="1"/>' >want.xml
+same "XML from standard input" piped.xml want.xml
+expect "format in place" 0 - - "$glint" format loose.glint.yaml
+same "format in place writes it" loose.glint.yaml tight.yaml
+expect "format --upgrade of today's version" 0 - - "$glint" format --upgrade --check loose.glint.yaml
+printf 'glint: [1\n' >broken.yaml
+expect "format of what cannot be read" 1 - 'broken.yaml:1:8: error: .*E101' "$glint" format broken.yaml
+expect "format of a missing file" 3 - 'missing.yaml:1:1: error' "$glint" format missing.yaml
+expect "-o with two files" 2 - 'one file' "$glint" format tight.yaml kept.yaml -o x
+printf 'glint: 1\ncamera: {fvo: 1}\nimage:   {}\n' >wrong.yaml
+expect "mistakes of meaning do not matter" 1 '^wrong.yaml$' - "$glint" format --check wrong.yaml
+expect "the scenes that ship are formatted" 0 - - "$glint" format --check "$source/scenes"
+
+# ---- check --fix
+cat >fix.yaml <<'S'
+glint: 1
+image: {width: 0100, height: 20}
+camrea: {position: [0, 0, 1], fvo: 50}
+background: {color: #ff0000}
+trace: {shadows: yes, max_depth: 8}
+spheres:
+	- {center: [0, 0, 0], radius: 1, material: 'rde'}
+	- {center: [3, 0, 0], radius: 1, material: red}
+materials:
+  red: {diffuse_color: 0.5}
+S
+cat >fixed.yaml <<'S'
+glint: 1
+image: {width: 100, height: 20}
+camera: {position: [0, 0, 1], fov: 50}
+background: {color: "#ff0000"}
+trace: {shadows: true, max_depth: 8}
+spheres:
+  - {center: [0, 0, 0], radius: 1, material: 'red'}
+  - {center: [3, 0, 0], radius: 1, material: red}
+materials:
+  red: {diffuse_color: 0.5}
+S
+cp fix.yaml kept.yaml
+expect "--diff needs --fix" 2 - '--fix' "$glint" check --diff fix.yaml
+expect "--fix takes 'all'" 2 - "takes 'all'" "$glint" check --fix=most fix.yaml
+expect "check --fix --diff" 1 '^[+]camera: .position: .0, 0, 1., fov: 50.$' 'error' "$glint" check --fix --diff fix.yaml
+same "check --fix --diff writes nothing" fix.yaml kept.yaml
+"$glint" check --fix --diff fix.yaml 2>err.txt >fix.patch
+cp fix.yaml patched.yaml
+if command -v patch >command.txt 2>&1; then
+    patch -s patched.yaml fix.patch || failed=1
+    same "the patch does the same" patched.yaml fixed.yaml
+fi
+expect "check --fix" 0 - 'fix.yaml: 7 fixes made' "$glint" check --fix fix.yaml
+same "check --fix writes the file" fix.yaml fixed.yaml
+expect "nothing is left to fix" 0 - - "$glint" check --fix fix.yaml
+
+printf 'glint: 1\nspheres: [{center: 0, radius: 1}, {radius: 1, centre: [0, 0, 0], material: "a&b"}]\n' >more.yaml
+cp more.yaml kept.yaml
+"$glint" check --fix=all more.yaml >out.txt 2>err.txt
+printf '<Scene glint="1"><Image width="3" / ><Light intensity="2"><position x="0" y="1" z="2"/></Light><Modle mesh="a.obj"><Scale x="1" y="2" z="1"/></Modle></Scene>' >fix.xml
+sed 's, / >, />,;s,<position,<Position,;s,Modle,Model,g' fix.xml >want.xml
+"$glint" check --fix fix.xml >out.txt 2>err.txt
+same "check --fix of XML" fix.xml want.xml
+
+# All or nothing, and only where the file can be read afterwards.
+printf 'glint: 1\ncamrea: {fov: 3}\nimage: {width: 3\n' >half.yaml
+cp half.yaml kept.yaml
+expect "a file that stays broken" 1 - 'left as it is' "$glint" check --fix half.yaml
+same "is not written" half.yaml kept.yaml
+
+# A mistake in an included file is mended there.
+printf 'glint: 1\ninclude: [part.yaml]\nspheres: [{center: [0, 0, 0], radius: 1, material: rde}]\n' >main.yaml
+printf 'glint: 1\nmaterials: {red: {albdo: [1, 0, 0, 0]}}\n' >part.yaml
+expect "check --fix over an include" 0 - 'part.yaml: 1 fix made' "$glint" check --fix main.yaml
+expect "both are mended" 0 'albedo' - cat part.yaml
+
+# ---- diff
+cat >a.yaml <<'S'
+glint: 1
+camera: {position: [0, 0, 5]}
+materials:
+  glass: {refractive_index: 1.5}
+  red: {diffuse_color: [1, 0, 0]}
+spheres:
+  - {center: [0, 0, 0], radius: 1, material: glass}
+  - {center: [2, 0, 0], radius: 1, material: red}
+S
+"$glint" convert a.yaml a.xml || failed=1
+expect "twins do not differ" 0 - - "$glint" diff a.yaml a.xml
+expect "a default that is written is no difference" 0 - - sh -c "sed 's/5\]}/5], fov: 60}/' a.yaml >b.yaml; '$glint' diff a.yaml b.yaml"
+sed 's/index: 1.5/index: 1.33/' a.yaml >b.yaml
+expect "a value that changed" 1 '^changed materials.glass.refractive_index: 1.5 -> 1.33$' - "$glint" diff a.yaml b.yaml
+expect "its places" 1 '^    b.yaml:4:29$' - "$glint" diff a.xml b.yaml
+expect "its place in XML" 1 '^    a.xml:[0-9]+:[0-9]+$' - "$glint" diff a.xml b.yaml
+sed 's/glass/crystal/' a.yaml >b.yaml
+expect "a material that was renamed" 1 '^renamed materials.glass -> materials.crystal$' - "$glint" diff a.yaml b.yaml
+expect "and nothing else" 1 '^1 difference$' - "$glint" diff a.yaml b.yaml
+sed '$d' a.yaml >b.yaml
+expect "a body that went" 1 '^removed spheres.1.: .center: .2, 0, 0., radius: 1, material: red.$' - "$glint" diff a.yaml b.yaml
+expect "a body that came" 1 '^added spheres.1.' - "$glint" diff b.yaml a.yaml
+sed -n '1,6p' a.yaml >b.yaml
+sed -n 8p a.yaml >>b.yaml
+sed -n 7p a.yaml >>b.yaml
+expect "a body that moved" 1 '^moved spheres' - "$glint" diff a.yaml b.yaml
+expect "diff as JSON" 1 '"kind": "moved"' - "$glint" diff --format json a.yaml b.yaml
+expect "diff of a broken scene" 1 - 'E101' "$glint" diff a.yaml broken.yaml
+expect "diff of a missing scene" 3 - 'missing.yaml:1:1: error' "$glint" diff a.yaml missing.yaml
+for scene in "$source"/scenes/*.yaml "$source"/scenes/elements/*.yaml; do
+    expect "twins: $(basename "$scene")" 0 - - "$glint" diff "$scene" "${scene%.yaml}.xml"
+done
+
+exit $failed
