@@ -233,6 +233,58 @@ static void test_all_distances(void **state) {
     }
 }
 
+// ---- from inside
+
+// A closed mesh of 20 * 4^levels triangles with hills and valleys, seen from inside: every ray meets it.
+static void check_inside(void **state, bool is_double, int levels, unsigned batches) {
+    struct fixture *f = needed(state, is_double);
+    struct kit kit;
+    struct flat_scene flat;
+    struct probe probe;
+    kit_init(&kit);
+    kit.is_double = is_double;
+    kit.origin = (vec3){0.31, -0.17, 0.23};
+    struct mesh *mesh = kit_icosphere(&kit, levels, 0);
+    for (uint32_t i = 0; i < mesh->position_count; i++) {
+        const vec3 p = mesh->positions[i];
+        const double height = 1 + 0.04 * sin(37 * p.x + 5 * p.y) * cos(41 * p.y - 7 * p.z);
+        mesh->positions[i] = vec3_mul(p, height);
+    }
+    kit_model(&kit, mesh);
+    assert_true(kit_flatten(&kit, &flat));
+    assert_true(probe_init(&probe, f->gpu, &flat, false));
+    unsigned lost = 0;
+    for (uint64_t batch = 0; batch < batches; batch++) {
+        for (uint64_t i = 0; i < PROBE_RAYS; i++) {
+            uint64_t seed = batch * PROBE_RAYS + i;
+            const vec3 direction = probe_direction(&seed);
+            f->rays[i] = (struct probe_ray){{0, 0, 0}, direction, 3e38, vec3_neg(direction)};
+        }
+        assert_true(probe_trace(&probe, f->rays, PROBE_RAYS, f->hits));
+        // The second ray goes back inside from where the first one met the mesh.
+        for (size_t i = 0; i < PROBE_RAYS; i++)
+            lost += !f->hits[i].first.found || !f->hits[i].any || !f->hits[i].second.found;
+        f->sent += PROBE_RAYS;
+    }
+    printf("%u triangles, %s: %u of %u rays saw the background\n", flat.triangle_count,
+           is_double ? "double" : "single", lost, batches * PROBE_RAYS);
+    assert_true(flat.triangle_count >= 20u << (2 * levels));
+    assert_int_equal(lost, 0);
+    probe_finish(&probe);
+    flat_finish(&flat);
+    kit_finish(&kit);
+}
+
+static void test_inside(void **state) {
+    check_inside(state, false, 5, 1);
+    check_inside(state, true, 5, 1);
+}
+
+static void test_inside_a_million(void **state) {
+    check_inside(state, false, 8, 8);
+    check_inside(state, true, 8, 8);
+}
+
 // ---- gaps
 
 // Two plates, and how they are looked at.
@@ -325,11 +377,13 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_mesh),
         cmocka_unit_test(test_sphere),
+        cmocka_unit_test(test_inside),
         cmocka_unit_test(test_gap),
     };
     const struct CMUnitTest all[] = {
         cmocka_unit_test(test_all_meshes),
         cmocka_unit_test(test_all_distances),
+        cmocka_unit_test(test_inside_a_million),
         cmocka_unit_test(test_all_gaps),
     };
     if (argc > 1 && strcmp(argv[1], "full") == 0)
