@@ -131,6 +131,7 @@ int cmd_schema(struct cli *cli);
 int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);
 int cmd_compare(struct cli *cli);
+int cmd_tradeoff(struct cli *cli);
 int cmd_pick(struct cli *cli);
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);

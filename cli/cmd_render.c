@@ -1,6 +1,7 @@
 // glint render SCENE: load, flatten, trace, write.
 #include "cli/device.h"
 #include "cli/render_job.h"
+#include "cli/study.h"
 #include "core/clock.h"
 #include "core/output.h"
 
@@ -234,7 +235,9 @@ int cmd_render(struct cli *cli) {
     }
     interrupt_catch();
     struct asset_store *store = asset_store_create();
-    int status = run_job(&job, store);
+    int status = cli_has_study(cli) ? cli_choose_settings(cli, store) : CLI_OK;
+    if (status == CLI_OK)
+        status = run_job(&job, store);
     shot_close(&job.shot);
     image_finish(&job.image);
     gpu_destroy(job.gpu);

@@ -101,6 +101,15 @@ const struct cli_command cli_commands[] = {
      "--format takes text and json; --device reference needs no device.\n\n"
      "  glint pick scenes/showcase.glint.yaml 320,200\n",
      2, 2, cmd_pick},
+    {"tradeoff", "SCENE", "measure what each setting costs and what error it brings",
+     "Renders the scene with one setting changed at a time (max_depth, min_weight, precision, samples,\n"
+     "shadows, resolution), then with pairs of those that mattered, and compares time and error with the\n"
+     "double-precision reference. Marks the front of what is worth choosing, and its knee; with --max-error\n"
+     "and --max-time names the settings to choose, as text to paste. --format takes text, json and csv; -o\n"
+     "writes a report with a plot and pictures. The exit status is 1 where nothing fits.\n\n"
+     "  glint tradeoff scene.yaml -o report.html\n"
+     "  glint tradeoff scene.yaml --max-error flip=0.02 --max-time 40\n",
+     1, 1, cmd_tradeoff},
     {"devices", "", "list the devices that can render", "", 0, 0, cmd_devices},
     {0},
 };

@@ -163,9 +163,18 @@ static void drop_frame(struct renderer *renderer) {
 
 bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
                      const struct render_settings *settings) {
-    drop_frame(renderer);
+    const struct render_settings now = renderer->settings;
+    const bool same_frame = now.width == settings->width && now.height == settings->height &&
+                            now.max_depth == settings->max_depth && now.features == settings->features &&
+                            now.study == settings->study &&
+                            (settings->workgroup == 0 || now.workgroup == settings->workgroup);
     renderer->flat = flat;
     renderer->settings = *settings;
+    if (same_frame) {
+        renderer->settings.workgroup = now.workgroup;
+        return true;
+    }
+    drop_frame(renderer);
     renderer->path_stack = 0;
     return make_frame(renderer);
 }

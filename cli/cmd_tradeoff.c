@@ -1,0 +1,85 @@
+// glint tradeoff SCENE: what each setting costs, and what error it brings.
+#include "cli/device.h"
+#include "cli/progress.h"
+#include "cli/study.h"
+
+#include <string.h>
+
+static int write_html(struct cli *cli, const struct tradeoff *study) {
+    struct strbuf page;
+    strbuf_init(&page);
+    tradeoff_html(study, cli->operands[0], &page);
+    int status = CLI_SCENE;
+    if (page.failed)
+        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->options.output, NULL, "not enough memory for the report");
+    else
+        status = cli_write(cli, cli->options.output, strbuf_view(&page));
+    strbuf_finish(&page);
+    return status;
+}
+
+static int print_report(struct cli *cli, const struct tradeoff *study, int kind) {
+    struct strbuf text;
+    strbuf_init(&text);
+    if (kind == 0)
+        tradeoff_text(study, cli->operands[0], &text);
+    else if (kind == 1)
+        tradeoff_json(study, cli->operands[0], &text);
+    else
+        tradeoff_csv(study, &text);
+    const int status = cli_print(cli, strbuf_view(&text));
+    strbuf_finish(&text);
+    return status;
+}
+
+static bool nothing_fits(const struct tradeoff *study) {
+    return study->cheapest.nearest != CHOICE_NONE || study->best_within.nearest != CHOICE_NONE;
+}
+
+static int study_and_report(struct cli *cli, struct session *session, const struct tradeoff_options *options,
+                            int kind) {
+    struct gpu *gpu = NULL;
+    struct tradeoff study = {0};
+    const uint32_t camera = session_camera(session, cli->options.camera);
+    if (camera == IR_NO_INDEX)
+        return cli_report(cli, session, !cli->options.quiet);
+    int status = cli_open_device(cli, &gpu);
+    if (status == CLI_OK)
+        status = cli_study(cli, session, gpu, camera, options, &study);
+    if (status == CLI_OK)
+        status = cli_report(cli, session, !cli->options.quiet);
+    if (status == CLI_OK && cli->options.output)
+        status = write_html(cli, &study);
+    if (status == CLI_OK)
+        status = print_report(cli, &study, kind);
+    if (status == CLI_OK && nothing_fits(&study))
+        status = CLI_SCENE;
+    tradeoff_finish(&study);
+    gpu_destroy(gpu);
+    return status;
+}
+
+int cmd_tradeoff(struct cli *cli) {
+    static const char *const kinds[] = {"text", "json", "csv", NULL};
+    struct tradeoff_options options;
+    struct session session;
+    int kind;
+    if (!cli_format(cli, kinds, &kind) || !cli_study_options(cli, &options))
+        return CLI_USAGE;
+    if (cli_device_is_reference(cli))
+        return cli_usage(cli, 1, "the reference is what settings are measured by: choose a device");
+    if (cli->options.output && !str_ends_with_nocase(str_from(cli->options.output), ".html"))
+        return cli_usage(cli, cli->options.output_arg, "the report '%s' must end in .html",
+                         cli->options.output);
+    options.thumbnails = cli->options.output != NULL;
+    interrupt_catch();
+    struct asset_store *store = asset_store_create();
+    const struct session_options load = cli_session_options(cli, cli->operands[0]);
+    session_load(&session, &load, store);
+    const bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
+    const int status = good ? study_and_report(cli, &session, &options, kind)
+                            : cli_report(cli, &session, !cli->options.quiet);
+    session_finish(&session);
+    asset_store_destroy(store);
+    return status;
+}

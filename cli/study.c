@@ -1,0 +1,189 @@
+#include "cli/study.h"
+
+#include "app/precision.h"
+#include "cli/device.h"
+#include "cli/progress.h"
+#include "core/nearest.h"
+#include "core/number.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool cli_has_study(const struct cli *cli) {
+    return cli->options.measure.max_error || cli->options.measure.max_time_ms > 0;
+}
+
+static bool read_max_error(struct cli *cli, struct tradeoff_options *options) {
+    const struct cli_measure *m = &cli->options.measure;
+    const char *text = m->max_error, *equals = strchr(text, '=');
+    const str name = {text, equals ? (size_t)(equals - text) : strlen(text)};
+    options->metric = metric_find(name);
+    if (options->metric == METRIC_COUNT) {
+        struct nearest search = nearest_begin(name);
+        for (int i = 0; i < METRIC_COUNT; i++)
+            nearest_offer(&search, str_from(metric_infos[i].name));
+        const str best = nearest_best(&search);
+        cli_usage(cli, m->max_error_arg, "--max-error does not know the metric '%.*s'", STR_ARG(name));
+        if (best.len)
+            diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
+        else
+            diag_help(&cli->sink,
+                      "write METRIC=X, METRIC one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
+        return false;
+    }
+    if (equals && number_parse(str_from(equals + 1), &options->max_error) == NUMBER_OK)
+        return true;
+    cli_usage(cli, m->max_error_arg, "--max-error takes METRIC=X, such as %s=%s, not '%s'",
+              metric_infos[options->metric].name,
+              metric_infos[options->metric].higher_is_better ? "0.95" : "0.01", text);
+    return false;
+}
+
+bool cli_study_options(struct cli *cli, struct tradeoff_options *options) {
+    const struct cli_measure *m = &cli->options.measure;
+    const struct measure_options standard = measure_options_default();
+    *options = (struct tradeoff_options){.metric = METRIC_FLIP,
+                                         .max_error = (double)NAN,
+                                         .max_time_ms = m->max_time_ms > 0 ? m->max_time_ms : (double)NAN,
+                                         .budget_s = m->budget_s,
+                                         .threshold = m->has_threshold ? m->threshold : standard.threshold,
+                                         .ppd = m->pixels_per_degree > 0 ? m->pixels_per_degree
+                                                                         : standard.pixels_per_degree};
+    return !m->max_error || read_max_error(cli, options);
+}
+
+static bool report_progress(void *context, double fraction, const char *what) {
+    const struct render_progress *progress = context;
+    (void)what;
+    return progress->report(progress->context, fraction);
+}
+
+static int failed(struct cli *cli, struct session *session, struct gpu *gpu, enum tradeoff_status status) {
+    const int signal_number = interrupt_signal();
+    switch (status) {
+    case TRADEOFF_DONE:
+        return CLI_OK;
+    case TRADEOFF_CANCELLED:
+        cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
+        return signal_number == 15 ? CLI_TERMINATED : CLI_INTERRUPTED;
+    case TRADEOFF_SCENE:
+        return cli_report(cli, session, !cli->options.quiet);
+    case TRADEOFF_DEVICE:
+        return cli_device_failed(cli, gpu);
+    case TRADEOFF_MEMORY:
+        break;
+    }
+    cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the study");
+    return CLI_SCENE;
+}
+
+int cli_study(struct cli *cli, struct session *session, struct gpu *gpu, uint32_t camera,
+              const struct tradeoff_options *options, struct tradeoff *study) {
+    struct view view;
+    *study = (struct tradeoff){0};
+    if (!session_view(session, camera, &view))
+        return failed(cli, session, gpu, TRADEOFF_MEMORY);
+    struct flat_input flat = {.scene = session->scene,
+                              .origin_places = &session->origin,
+                              .assets = &session->assets,
+                              .view = &view,
+                              .origin = session_origin(session, &view),
+                              .limits = &session->options.limits,
+                              .sink = &session->sink};
+    if (!precision_choose(session, &flat, gpu_info(gpu)->has_double))
+        return failed(cli, session, gpu, TRADEOFF_SCENE);
+    char *store = cli->options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);
+    const struct tradeoff_input input = {.scene = session->scene,
+                                         .origin_places = &session->origin,
+                                         .assets = &session->assets,
+                                         .view = &view,
+                                         .image = &session->image,
+                                         .origin = flat.origin,
+                                         .limits = &session->options.limits,
+                                         .sink = &session->sink,
+                                         .gpu = gpu,
+                                         .store = {store, REFERENCE_CACHE_BYTES},
+                                         .is_double = flat.is_double};
+    struct progress bar;
+    progress_begin(&bar, cli->options.quiet);
+    struct render_progress callback = progress_callback(&bar);
+    const struct tradeoff_progress progress = {report_progress, &callback};
+    const enum tradeoff_status status = tradeoff_run(study, &input, options, &progress);
+    progress_end(&bar);
+    free(store);
+    return failed(cli, session, gpu, status);
+}
+
+// ---- for render
+
+static int take_choice(struct cli *cli, const struct tradeoff *study) {
+    const bool by_error = !isnan(study->options.max_error);
+    const struct choice *choice = by_error ? &study->cheapest : &study->best_within;
+    struct strbuf text;
+    // Both bounds together: the cheapest for the error must keep the time too.
+    uint32_t row = choice->row;
+    if (by_error && row != CHOICE_NONE && study->rows[row].time_ms > study->options.max_time_ms)
+        row = CHOICE_NONE;
+    strbuf_init(&text);
+    tradeoff_answers(study, &text);
+    if (!cli->options.quiet)
+        fwrite(text.data ? text.data : "", 1, text.len, stderr);
+    strbuf_finish(&text);
+    if (row == CHOICE_NONE) {
+        cli_error(cli, DIAG_NOTHING_FITS, cli->operands[0], "'glint tradeoff' shows all that was tried",
+                  "no setting keeps the bounds of --max-error and --max-time");
+        return CLI_SCENE;
+    }
+    char assignment[80];
+    for (uint32_t i = 0; setting_assignment(&study->rows[row].setting, &study->rows[0].setting, i, assignment,
+                                            sizeof assignment);
+         i++) {
+        str *set = ARENA_PUSH(&cli->arena, &cli->options.sets);
+        *set = arena_copy(&cli->arena, str_from(assignment));
+    }
+    // The choice has them: what the command line said would win over it.
+    const struct setting *s = &study->rows[row].setting;
+    if (cli->options.width) {
+        cli->options.width = (int32_t)s->width;
+        cli->options.height = (int32_t)s->height;
+    }
+    if (cli->options.samples)
+        cli->options.samples = (int32_t)s->samples;
+    return CLI_OK;
+}
+
+static int study_session(struct cli *cli, struct session *session, const struct tradeoff_options *options) {
+    struct gpu *gpu = NULL;
+    struct tradeoff study = {0};
+    const uint32_t camera = session_camera(session, cli->options.camera);
+    if (camera == IR_NO_INDEX)
+        return cli_report(cli, session, !cli->options.quiet);
+    int status = cli_open_device(cli, &gpu);
+    if (status == CLI_OK)
+        status = cli_study(cli, session, gpu, camera, options, &study);
+    if (status == CLI_OK)
+        status = take_choice(cli, &study);
+    tradeoff_finish(&study);
+    gpu_destroy(gpu);
+    return status;
+}
+
+int cli_choose_settings(struct cli *cli, struct asset_store *store) {
+    struct tradeoff_options options;
+    struct session session;
+    if (!cli_study_options(cli, &options))
+        return CLI_USAGE;
+    if (cli_device_is_reference(cli) || str_equal(cli->options.camera, STR("all")))
+        return cli_usage(cli, cli->options.measure.max_error_arg,
+                         "--max-error and --max-time choose for one camera on a device");
+    options.quick = true;
+    const struct session_options load = cli_session_options(cli, cli->operands[0]);
+    session_load(&session, &load, store);
+    const bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
+    // Where the scene has errors, the rendering itself tells them.
+    const int status = good ? study_session(cli, &session, &options) : CLI_OK;
+    session_finish(&session);
+    return status;
+}

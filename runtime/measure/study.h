@@ -1,0 +1,87 @@
+// The inside of a study: device, reference, pictures. Private to runtime/measure.
+//
+// Thread safety: as tradeoff.h.
+#ifndef GLINT_RUNTIME_MEASURE_STUDY_H
+#define GLINT_RUNTIME_MEASURE_STUDY_H
+
+#include "runtime/measure/tradeoff.h"
+
+enum {
+    PROBE_PIXELS = 2048, // at which the parts of the errors are measured
+    PROBE_SETS_MAX = 256,
+    THUMBNAIL_WIDTH = 160,
+};
+
+// What the reference says at the probes, displayed.
+struct probe_set {
+    uint32_t width, height, samples, max_depth;
+    double min_weight;
+    bool shadows, full; // full: paths to their ends, whatever depth and weight
+    float *values;      // three a probe
+};
+
+struct study {
+    const struct tradeoff_input *input;
+    const struct tradeoff_progress *progress;
+    struct tradeoff *out;
+    double begun; // clock
+    uint32_t steps_done, steps;
+    const char *step; // what is under way
+    // On the device: single and double precision.
+    struct flat_scene flat[2], shadowless[2]; // the latter share the former's memory
+    struct renderer *renderer[2];
+    struct setting current[2]; // what the renderer is set to
+    // The reference, and the same without shadows.
+    struct ir_scene scene_shadowless;
+    struct reference_source source[2];
+    struct reference_settings full; // of the file's size, truth's samples
+    // Displayed values of the truth, three a pixel of the file's size.
+    float *truth, *shown, *picture; // the two others are a row's, shown at the file's size
+    struct image_display display;
+    struct setting base;
+    struct hit_pixel *hits[2]; // device's, reference's
+    float *as_file;            // the reference at the file's own settings, displayed; NULL until asked
+    struct probe_set sets[PROBE_SETS_MAX];
+    uint32_t set_count;
+};
+
+// Tells of a further step; false: cancelled.
+bool study_step(struct study *s, const char *what);
+// Passes the reference's progress on.
+struct reference_progress study_reference_progress(struct study *s);
+double study_seconds(const struct study *s);
+
+// ---- study_device.c: all give TRADEOFF_DONE or what went wrong
+
+enum tradeoff_status device_picture(struct study *s, struct row *row, float *rgb);
+enum tradeoff_status device_count(struct study *s, struct row *row, uint64_t most_cost, bool *too_much);
+// Median of some frames, in milliseconds of the device's clock.
+enum tradeoff_status device_time(struct study *s, const struct setting *setting, double *ms);
+enum tradeoff_status device_hits(struct study *s, const struct setting *setting, struct hit_pixel *hits);
+void device_close(struct study *s);
+
+// ---- study_errors.c
+
+enum tradeoff_status errors_make_truth(struct study *s);
+// Fills value, not_finite and the thumbnails from the row's picture.
+enum tradeoff_status errors_measure(struct study *s, struct row *row);
+// Displayed values at the file's size, bilinear.
+void errors_scale_up(const float *in, uint32_t width, uint32_t height, float *out, uint32_t to_width,
+                     uint32_t to_height);
+
+// ---- study_parts.c
+
+// Fills parts. For s->shown as errors_measure leaves it.
+enum tradeoff_status parts_measure(struct study *s, struct row *row);
+void parts_close(struct study *s);
+
+// ---- study_hits.c
+
+// Fills hits.
+enum tradeoff_status hits_measure(struct study *s, struct row *row);
+// The comparison itself: pure. `closed` tells of each body whether nothing can be seen through it.
+void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *device,
+                  const struct hit_pixel *reference, const bool *closed, uint32_t bodies,
+                  struct hit_errors *out);
+
+#endif

@@ -1,0 +1,372 @@
+#include "runtime/measure/tradeoff.h"
+
+#include "core/clock.h"
+#include "core/parallel.h"
+#include "runtime/measure/plan.h"
+#include "runtime/measure/study.h"
+#include "shaders/features.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    ROUNDS_LEAST = 2,
+    ROUNDS_QUICK = 3,
+    ROUNDS_MOST = 9,
+    PAIRS_MOST = 24,
+    PAIRS_MOST_QUICK = 12,
+    TRUTH_SAMPLES = 16, // at least; four times the file's where that is more
+    TRUTH_SAMPLES_MOST = 64,
+};
+// Rays a second and processor that the reference is taken to trace when samples are planned; fixed, so that
+// the plan does not depend on the load of the machine.
+static const double REFERENCE_RAYS = 4e5;
+// Share of the budget for the truth; shares after which no further rows, and no pairs, are begun.
+static const double TRUTH_SHARE = 0.3, ROWS_SHARE = 0.7, PAIRS_SHARE = 0.6;
+// Settings that cost more than this many times the file's own are not tried further.
+static const double COST_MOST = 64;
+
+double tradeoff_error(enum metric metric, double value) {
+    return metric_infos[metric].higher_is_better ? -value : value;
+}
+
+double study_seconds(const struct study *s) {
+    return clock_seconds() - s->begun;
+}
+
+bool study_step(struct study *s, const char *what) {
+    s->step = what;
+    if (s->steps_done < s->steps)
+        s->steps_done++;
+    return !s->progress || s->progress->report(s->progress->context, (double)s->steps_done / s->steps, what);
+}
+
+static bool report_reference(void *context, double fraction) {
+    const struct study *s = context;
+    return !s->progress || s->progress->report(s->progress->context,
+                                               ((double)s->steps_done + fraction) / (s->steps + 1), s->step);
+}
+
+struct reference_progress study_reference_progress(struct study *s) {
+    return (struct reference_progress){report_reference, s};
+}
+
+static bool is_over(const struct study *s, double share) {
+    const double budget = s->out->options.budget_s;
+    return budget > 0 && study_seconds(s) > share * budget;
+}
+
+// ---- rows
+
+static struct row *add_row(struct tradeoff *t, const struct row *row) {
+    if (t->count == t->capacity) {
+        const uint32_t capacity = t->capacity ? 2 * t->capacity : 32;
+        struct row *rows = realloc(t->rows, capacity * sizeof *rows);
+        if (!rows)
+            return NULL;
+        t->rows = rows;
+        t->capacity = capacity;
+    }
+    struct row *added = &t->rows[t->count++];
+    *added = *row;
+    strbuf_init(&added->thumbnail);
+    strbuf_init(&added->difference);
+    for (int i = 0; i < METRIC_COUNT; i++)
+        added->value[i] = (double)NAN;
+    return added;
+}
+
+static void drop_row(struct tradeoff *t) {
+    struct row *row = &t->rows[--t->count];
+    strbuf_finish(&row->thumbnail);
+    strbuf_finish(&row->difference);
+}
+
+// Work, picture and errors of a new row. A row that costs far too much is taken out again.
+static enum tradeoff_status try_row(struct study *s, const struct row *planned) {
+    struct row *row = add_row(s->out, planned);
+    const double most = s->out->count > 1 ? COST_MOST * s->out->rows[0].work.cost : 0;
+    bool too_much = false;
+    if (!row)
+        return TRADEOFF_MEMORY;
+    if (!study_step(s, row->name))
+        return TRADEOFF_CANCELLED;
+    enum tradeoff_status status = device_count(s, row, (uint64_t)most, &too_much);
+    if (status == TRADEOFF_DONE && too_much) {
+        drop_row(s->out);
+        s->out->too_costly++;
+        return status;
+    }
+    if (status == TRADEOFF_DONE)
+        status = errors_measure(s, row);
+    if (status != TRADEOFF_DONE || s->out->options.quick)
+        return status;
+    status = parts_measure(s, row);
+    const uint32_t how = 1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY;
+    if (status == TRADEOFF_DONE && !(row->knobs & ~how))
+        status = hits_measure(s, row);
+    return status;
+}
+
+// ---- before the rows
+
+static struct setting file_setting(const struct tradeoff_input *in) {
+    const struct ir_trace *trace = &in->scene->trace;
+    return (struct setting){.width = (uint32_t)in->image->width,
+                            .height = (uint32_t)in->image->height,
+                            .samples = (uint32_t)in->image->samples,
+                            .max_depth = (uint32_t)trace->max_depth,
+                            .min_weight = trace->min_weight,
+                            .is_double = in->is_double,
+                            .shadows = trace->shadows};
+}
+
+// Samples of the truth: as many as the budget allows, at least twice the file's.
+static uint32_t truth_samples(const struct study *s, uint64_t rays) {
+    const uint32_t file = s->base.samples, least = 2 * file;
+    uint32_t samples = 4 * file > TRUTH_SAMPLES ? 4 * file : TRUTH_SAMPLES;
+    samples = samples < TRUTH_SAMPLES_MOST ? samples : TRUTH_SAMPLES_MOST;
+    const double budget = s->out->options.budget_s, rate = REFERENCE_RAYS * parallel_processors();
+    while (budget > 0 && samples / 2 >= least && (double)rays / file * samples > TRUTH_SHARE * budget * rate)
+        samples /= 2;
+    return samples > least ? samples : least;
+}
+
+static void open_reference(struct study *s) {
+    const struct tradeoff_input *in = s->input;
+    const struct folder_store none = {0};
+    struct reference_input input = {.scene = in->scene, .assets = in->assets, .view = in->view};
+    reference_source_init(&s->source[0], &input, in->store);
+    s->scene_shadowless = *in->scene;
+    s->scene_shadowless.trace.shadows = false;
+    input.scene = &s->scene_shadowless;
+    reference_source_init(&s->source[1], &input, none);
+}
+
+static enum tradeoff_status make_truth(struct study *s, uint64_t rays) {
+    struct ir_image image = *s->input->image;
+    s->out->truth_samples = truth_samples(s, rays);
+    image.samples = (int32_t)s->out->truth_samples;
+    s->full = reference_settings_of(s->input->scene, &image, s->input->limits, false);
+    if (!study_step(s, "the reference"))
+        return TRADEOFF_CANCELLED;
+    const double start = clock_seconds();
+    const enum tradeoff_status status = errors_make_truth(s);
+    s->out->reference_seconds = clock_seconds() - start;
+    return status;
+}
+
+static bool bounces(const struct study *s) {
+    return s->flat[s->base.is_double].features & (FEATURE_REFLECTION | FEATURE_REFRACTION);
+}
+
+// ---- the rows
+
+static enum tradeoff_status run_pairs(struct study *s) {
+    const bool quick = s->out->options.quick;
+    struct row *pairs = calloc(PLAN_ROWS_MAX, sizeof *pairs);
+    if (!pairs)
+        return TRADEOFF_MEMORY;
+    const uint32_t count = plan_pairs(s->out->rows, s->out->count, s->out->options.metric,
+                                      quick ? PAIRS_MOST_QUICK : PAIRS_MOST, pairs, &s->out->pairs_left_out);
+    enum tradeoff_status status = TRADEOFF_DONE;
+    for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
+        if (is_over(s, PAIRS_SHARE)) {
+            s->out->pairs_left_out += count - i;
+            s->out->cut_short = true;
+            break;
+        }
+        status = try_row(s, &pairs[i]);
+    }
+    free(pairs);
+    return status;
+}
+
+static enum tradeoff_status run_rows(struct study *s) {
+    struct row *planned = calloc(PLAN_ROWS_MAX, sizeof *planned);
+    if (!planned)
+        return TRADEOFF_MEMORY;
+    // The file's own settings are counted first: how deep paths go decides the ladders.
+    struct row own = {.setting = s->base};
+    bool too_much;
+    enum tradeoff_status status = device_count(s, &own, 0, &too_much);
+    if (status == TRADEOFF_DONE)
+        status = make_truth(s, own.work.rays);
+    const struct plan_input input = {.base = s->base,
+                                     .bounces = bounces(s),
+                                     .deepest = own.work.deepest,
+                                     .knows_double = s->out->knows_double,
+                                     .has_triangles = s->flat[s->base.is_double].triangle_count > 0,
+                                     .quick = s->out->options.quick,
+                                     .most_samples = s->out->truth_samples / 2};
+    const uint32_t count = status == TRADEOFF_DONE ? plan_single(&input, planned) : 0;
+    s->steps = count + PAIRS_MOST + ROUNDS_MOST;
+    for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
+        if (i > 0 && is_over(s, ROWS_SHARE)) {
+            s->out->rows_left_out = count - i;
+            s->out->cut_short = true;
+            break;
+        }
+        status = try_row(s, &planned[i]);
+    }
+    free(planned);
+    return status == TRADEOFF_DONE ? run_pairs(s) : status;
+}
+
+// ---- times
+
+static int compare_doubles(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+// Of a sorted list, linear between its places.
+static double quantile(const double *sorted, uint32_t count, double share) {
+    const double at = share * (count - 1);
+    const uint32_t low = (uint32_t)at, high = low + 1 < count ? low + 1 : low;
+    return sorted[low] + (at - low) * (sorted[high] - sorted[low]);
+}
+
+// What a whole round was slower or faster than the others is the machine's, not the rows'.
+static void remove_drift(double *times, uint32_t rows, uint32_t rounds) {
+    double mean = 0;
+    for (uint32_t r = 0; r < rounds; r++)
+        for (uint32_t i = 0; i < rows; i++)
+            mean += log(fmax(times[r * rows + i], 1e-9)) / ((double)rows * rounds);
+    for (uint32_t r = 0; r < rounds; r++) {
+        double own = 0;
+        for (uint32_t i = 0; i < rows; i++)
+            own += log(fmax(times[r * rows + i], 1e-9)) / rows;
+        for (uint32_t i = 0; i < rows; i++)
+            times[r * rows + i] *= exp(mean - own);
+    }
+}
+
+static void fill_times(struct tradeoff *t, double *times) {
+    double own[ROUNDS_MOST];
+    remove_drift(times, t->count, t->rounds);
+    for (uint32_t i = 0; i < t->count; i++) {
+        struct row *row = &t->rows[i];
+        for (uint32_t r = 0; r < t->rounds; r++)
+            own[r] = times[r * t->count + i];
+        qsort(own, t->rounds, sizeof *own, compare_doubles);
+        row->time_ms = quantile(own, t->rounds, 0.5);
+        row->time_low_ms = quantile(own, t->rounds, 0.25);
+        row->time_high_ms = quantile(own, t->rounds, 0.75);
+        // 1.4826 MAD is the deviation of a normal distribution, 1.2533 / sqrt(n) its median's share of it.
+        for (uint32_t r = 0; r < t->rounds; r++)
+            own[r] = fabs(own[r] - row->time_ms);
+        qsort(own, t->rounds, sizeof *own, compare_doubles);
+        row->noise_ms = 1.2533 * 1.4826 * quantile(own, t->rounds, 0.5) / sqrt(t->rounds);
+        row->rounds = t->rounds;
+    }
+}
+
+// Every round times every row once, each time from another row on.
+static enum tradeoff_status run_times(struct study *s) {
+    struct tradeoff *t = s->out;
+    double *times = malloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
+    enum tradeoff_status status = times ? TRADEOFF_DONE : TRADEOFF_MEMORY;
+    const uint32_t rounds = t->options.quick ? ROUNDS_QUICK : ROUNDS_MOST;
+    const double begun = study_seconds(s), budget = t->options.budget_s;
+    while (status == TRADEOFF_DONE && t->rounds < rounds) {
+        const double now = study_seconds(s);
+        if (budget > 0 && t->rounds >= ROUNDS_LEAST && now + (now - begun) / t->rounds > budget) {
+            t->cut_short |= t->rounds < ROUNDS_QUICK;
+            break;
+        }
+        if (!study_step(s, "times"))
+            status = TRADEOFF_CANCELLED;
+        for (uint32_t i = 0; i < t->count && status == TRADEOFF_DONE; i++) {
+            const uint32_t row = (i + t->rounds * 7) % t->count;
+            status = device_time(s, &t->rows[row].setting, &times[t->rounds * t->count + row]);
+        }
+        t->rounds += status == TRADEOFF_DONE;
+    }
+    if (status == TRADEOFF_DONE)
+        fill_times(t, times);
+    free(times);
+    return status;
+}
+
+// ---- the choice
+
+static enum tradeoff_status choose(struct tradeoff *t) {
+    const enum metric metric = t->options.metric;
+    t->choices = malloc(t->count * sizeof *t->choices);
+    if (!t->choices)
+        return TRADEOFF_MEMORY;
+    for (uint32_t i = 0; i < t->count; i++) {
+        const struct row *row = &t->rows[i];
+        // A picture with pixels that are no number is never chosen.
+        t->choices[i] = (struct choice_row){.time_ms = row->time_ms,
+                                            .noise_ms = row->noise_ms,
+                                            .work = row->work.cost,
+                                            .error = tradeoff_error(metric, row->value[metric]),
+                                            .choosable = row->choosable && !row->not_finite};
+    }
+    t->noise = choice_classify(t->choices, t->count);
+    for (uint32_t i = 0; i < t->count; i++) {
+        t->rows[i].time_class = t->choices[i].time_class;
+        t->rows[i].rank = t->choices[i].rank;
+        t->rows[i].on_front = t->choices[i].on_front;
+    }
+    t->knee = choice_knee(t->choices, t->count);
+    t->cheapest = t->best_within = (struct choice){CHOICE_NONE, CHOICE_NONE, false, CHOICE_NONE, 0};
+    if (!isnan(t->options.max_error))
+        t->cheapest =
+            choice_cheapest(t->choices, t->count, t->noise, tradeoff_error(metric, t->options.max_error));
+    if (!isnan(t->options.max_time_ms))
+        t->best_within = choice_best_within(t->choices, t->count, t->noise, t->options.max_time_ms);
+    return TRADEOFF_DONE;
+}
+
+enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_input *input,
+                                  const struct tradeoff_options *options,
+                                  const struct tradeoff_progress *progress) {
+    *study = (struct tradeoff){.options = *options, .knee = CHOICE_NONE};
+    struct study *s = calloc(1, sizeof *s);
+    if (!s)
+        return TRADEOFF_MEMORY;
+    s->input = input;
+    s->progress = progress;
+    s->out = study;
+    s->begun = clock_seconds();
+    s->steps = 1 + ROUNDS_MOST;
+    s->step = "the scene";
+    s->display = (struct image_display){input->image->tone, input->image->transfer};
+    s->base = file_setting(input);
+    const struct gpu_device_info *info = gpu_info(input->gpu);
+    study->knows_double = info->has_double;
+    snprintf(study->device, sizeof study->device, "%s", info->name);
+    open_reference(s);
+    enum tradeoff_status status = run_rows(s);
+    if (status == TRADEOFF_DONE)
+        status = run_times(s);
+    if (status == TRADEOFF_DONE)
+        status = choose(study);
+    study->seconds = study_seconds(s);
+    device_close(s);
+    parts_close(s);
+    for (int i = 0; i < 2; i++) {
+        reference_source_finish(&s->source[i]);
+        free(s->hits[i]);
+    }
+    free(s->truth);
+    free(s->shown);
+    free(s->picture);
+    free(s);
+    return status;
+}
+
+void tradeoff_finish(struct tradeoff *study) {
+    if (!study)
+        return;
+    while (study->count)
+        drop_row(study);
+    free(study->rows);
+    free(study->choices);
+    *study = (struct tradeoff){0};
+}
