@@ -124,5 +124,5 @@ enum format_status format_source(const struct reader_context *context, uint32_t 
     if (is_safe(context, &tree, text, str_slice(strbuf_view(out), before, out->len)))
         return FORMAT_DONE;
     out->len = before;
-    return FORMAT_UNSAFE;
+    return errors ? FORMAT_REFUSED : FORMAT_UNSAFE; // what the reader has mended cannot always be laid out
 }

@@ -1,0 +1,77 @@
+// libFuzzer entry: any bytes as a scene file, put into its canonical layout. The layout never changes what is
+// meant (parser/format.h proves that itself, or says FORMAT_UNSAFE), and a second time it changes nothing.
+#include "parser/format.h"
+
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MEMORY_BYTES = 64 * 1024 * 1024
+};
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+struct job {
+    struct arena arena;
+    struct source_set sources;
+    struct diag_sink sink;
+    struct limits limits;
+    struct strbuf once, twice;
+};
+
+static void require(bool holds, const char *what) {
+    if (holds)
+        return;
+    fprintf(stderr, "the formatter broke its promise: %s\n", what);
+    abort();
+}
+
+static enum format_status format(struct job *job, str path, str text, struct strbuf *out) {
+    struct reader_context context = {
+        .sources = &job->sources, .sink = &job->sink, .limits = &job->limits, .arena = &job->arena};
+    uint32_t source = source_add(&job->sources, SOURCE_KIND_OVERLAY, path, text);
+    return format_source(&context, source, NULL, out);
+}
+
+// The job lies outside, so that it is whole after a jump.
+static void run(struct job *job, str text) {
+    struct arena_guard guard;
+    str path = reader_is_xml(STR("fuzz"), text) ? STR("fuzz.xml") : STR("fuzz.yaml");
+    source_set_init(&job->sources, &job->arena);
+    arena_set_guard(&job->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        enum format_status status = format(job, path, text, &job->once);
+        require(status != FORMAT_UNSAFE, "the meaning stays");
+        require(status == FORMAT_DONE || job->sink.errors > 0, "what is refused has a diagnostic");
+        if (status == FORMAT_DONE) {
+            status = format(job, path, strbuf_view(&job->once), &job->twice);
+            require(status == FORMAT_DONE, "what was laid out can be laid out");
+            require(str_equal(strbuf_view(&job->once), strbuf_view(&job->twice)), "once is enough");
+        }
+    }
+    arena_set_guard(&job->arena, NULL);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    struct job job = {.limits = limits_default()};
+    job.limits.value[LIMIT_ALIAS_NODES] = 2000;
+    job.limits.value[LIMIT_SCENE_DEPTH] = 24;
+    char *copy = malloc(size ? size : 1);
+    if (!copy)
+        abort();
+    if (size)
+        memcpy(copy, data, size);
+    arena_init(&job.arena, MEMORY_BYTES);
+    diag_sink_init(&job.sink);
+    strbuf_init(&job.once);
+    strbuf_init(&job.twice);
+    run(&job, (str){copy, size});
+    strbuf_finish(&job.once);
+    strbuf_finish(&job.twice);
+    diag_sink_finish(&job.sink);
+    arena_finish(&job.arena);
+    free(copy);
+    return 0;
+}
