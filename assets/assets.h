@@ -56,8 +56,8 @@ struct assets {
     const struct picture *background; // NULL: none, or not loaded
     // Of the background, also where only its header was read; 0: none.
     uint32_t background_width, background_height;
-    uint64_t triangle_count;          // of all models
-    struct asset_uses uses;           // in the order of loading; texts in the arena of the scene
+    uint64_t triangle_count; // of all models
+    struct asset_uses uses;  // in the order of loading; texts in the arena of the scene
 };
 
 struct assets_input {
@@ -67,7 +67,7 @@ struct assets_input {
     struct files *files;
     const struct limits *limits;
     struct diag_sink *sink;
-    struct arena *arena; // for what belongs to this scene; its guard is set by the caller
+    struct arena *arena;     // for what belongs to this scene; its guard is set by the caller
     struct asset_uses *uses; // of the assets being loaded: set by assets_load
 };
 
