@@ -35,8 +35,11 @@ struct cli_options {
     const char *output;                     // NULL: not given
     int32_t width, height, samples, repeat; // 0: not given
     str camera;
-    const char *device; // NULL: not given
-    const char *format; // NULL: not given
+    const char *device;     // NULL: not given
+    const char *format;     // NULL: not given
+    const char *thresholds; // NULL: not given
+    const char *axes;       // NULL: not given
+    int axes_arg;
     const char *schema; // NULL: not given
     int format_arg;
     struct cli_list sets, asset_paths;
@@ -45,11 +48,12 @@ struct cli_options {
     struct cli_measure measure;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
-    bool as_file, no_cache; // of the reference
+    bool as_file, no_cache;    // of the reference
     bool check, diff, upgrade; // of what changes files
     int fix;                   // enum fix_level
     int fix_arg;
-    int output_arg;         // where it stands on the command line; 0: not given
+    int output_arg;  // where it stands on the command line; 0: not given
+    int as_file_arg; // as output_arg
 };
 
 struct cli {
@@ -103,6 +107,8 @@ int cli_operand_place(const struct cli *cli, int index);
 int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((format(printf, 3, 4)));
 // Prints the command line's own diagnostics.
 void cli_print_usage(struct cli *cli);
+// Prints diagnostics of files in cli->sources.
+void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
 // Prints a session's diagnostics, notes too unless `quiet`; gives the exit code that they ask for.
 int cli_report(struct cli *cli, struct session *session, bool notes);
 // The exit code alone.
@@ -133,6 +139,7 @@ int cmd_devices(struct cli *cli);
 int cmd_compare(struct cli *cli);
 int cmd_tradeoff(struct cli *cli);
 int cmd_pick(struct cli *cli);
+int cmd_extremes(struct cli *cli);
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);
 int cmd_lsp(struct cli *cli);

@@ -34,6 +34,8 @@ enum option_id {
     OPTION_FIX,
     OPTION_UPGRADE,
     OPTION_FORMAT,
+    OPTION_THRESHOLDS,
+    OPTION_AXIS,
     OPTION_SCHEMA,
     OPTION_MAX_MESSAGES,
     OPTION_POLICY = 1500,  // and enum cli_policy_option behind it
@@ -54,29 +56,37 @@ static const struct option_row rows[] = {
      "write to FILE (.png .pfm .hdr; a report: .html); '-' writes PNG to standard output"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "check",
      "write the report to FILE instead of standard error (text) or output (others)"},
-    {OPTION_SIZE, "size", 0, "WxH", "render inspect pick tradeoff",
+    {OPTION_OUTPUT, "output", 'o', "FILE", "extremes", "write the report with its matrix to FILE (.html)"},
+    {OPTION_AXIS, "axis", 0, "NAME,...", "extremes", "these axes alone: move, scale, distance ..."},
+    {OPTION_THRESHOLDS, "thresholds", 0, "FILE", "extremes",
+     "bounds from FILE (YAML) instead of glint's own"},
+    {OPTION_SIZE, "size", 0, "WxH", "render inspect pick tradeoff extremes",
      "size of the picture in pixels, instead of the scene's"},
-    {OPTION_SAMPLES, "samples", 0, "N", "render inspect tradeoff", "rays through each pixel, instead of the scene's"},
-    {OPTION_CAMERA, "camera", 0, "NAME", "pick tradeoff", "the camera to look through"},
+    {OPTION_SAMPLES, "samples", 0, "N", "render inspect tradeoff",
+     "rays through each pixel, instead of the scene's"},
+    {OPTION_CAMERA, "camera", 0, "NAME", "pick tradeoff extremes", "the camera to look through"},
     {OPTION_CAMERA, "camera", 0, "NAME", "render",
      "the camera to look through; 'all' makes OUT.NAME.png for each"},
-    {OPTION_SET, "set", 0, "PATH=VALUE", "render pick check inspect deps tradeoff",
+    {OPTION_SET, "set", 0, "PATH=VALUE", "render pick check inspect deps tradeoff extremes",
      "change one value of the scene: materials.glass.refractive_index=1.6"},
-    {OPTION_DEVICE, "device", 0, "NAME|N", "render pick tradeoff",
+    {OPTION_DEVICE, "device", 0, "NAME|N", "render pick tradeoff extremes",
      "the device to render on, see 'glint devices'; 'reference' is the tracer in double precision; also "
      "GLINT_DEVICE"},
     {OPTION_AS_FILE, "as-file", 0, NULL, "render",
      "the reference obeys max_depth, min_weight and depth_limit of the scene"},
-    {OPTION_NO_CACHE, "no-cache", 0, NULL, "render tradeoff", "the reference neither reads nor writes its cache"},
-    {OPTION_ASSET_PATH, "asset-path", 0, "DIR", "render pick check inspect convert deps pack tradeoff",
+    {OPTION_NO_CACHE, "no-cache", 0, NULL, "render tradeoff",
+     "the reference neither reads nor writes its cache"},
+    {OPTION_ASSET_PATH, "asset-path", 0, "DIR",
+     "render pick check inspect convert deps pack tradeoff extremes",
      "a folder in which files of the scene are looked for too"},
-    {OPTION_LIMIT, "limit", 0, "NAME=VALUE", "render pick check inspect format diff convert deps pack compare tradeoff",
+    {OPTION_LIMIT, "limit", 0, "NAME=VALUE",
+     "render pick check inspect format diff convert deps pack compare tradeoff extremes",
      "change a limit on the size of inputs; NAME 'help' lists them"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and tell the median time of a frame and its spread"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
      "tell times, rays, memory and the device: text on standard error, JSON on standard output"},
-    {OPTION_QUIET, "quiet", 'q', NULL, "render check tradeoff",
+    {OPTION_QUIET, "quiet", 'q', NULL, "render extremes check tradeoff",
      "show errors and warnings only: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_FORMAT, "format", 0, "KIND", "check compare tradeoff extremes pick diff deps",
@@ -129,6 +139,8 @@ static const struct option_row rows[] = {
      "choose the best settings whose frame takes no longer, in milliseconds"},
     {OPTION_MEASURE + CLI_MEASURE_BUDGET, "budget", 0, "S", "tradeoff render",
      "seconds that finding out may take; fewer pairs and rounds are tried"},
+    {OPTION_SCHEMA, "schema", 0, "ADDRESS", "schema",
+     "where install finds the schema (a path or URL), instead of writing it beside the scene"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "format", "write to FILE instead; '-' is standard output"},
     {OPTION_CHECK, "check", 0, NULL, "format",
      "write nothing; name the files that would change, and fail where there are any"},
@@ -137,8 +149,6 @@ static const struct option_row rows[] = {
     {OPTION_DIFF, "diff", 0, NULL, "format check", "write nothing; show what would change as a patch"},
     {OPTION_UPGRADE, "upgrade", 0, NULL, "format",
      "rewrite what an older version of the format says otherwise"},
-    {OPTION_SCHEMA, "schema", 0, "ADDRESS", "schema",
-     "where install finds the schema (a path or URL), instead of writing it beside the scene"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as it was understood, in canonical form"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
@@ -327,12 +337,20 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
         return true;
     case OPTION_AS_FILE:
         options->as_file = true;
+        options->as_file_arg = arg;
         return true;
     case OPTION_NO_CACHE:
         options->no_cache = true;
         return true;
     case OPTION_SCHEMA:
         options->schema = value;
+        return true;
+    case OPTION_AXIS:
+        options->axes = value;
+        options->axes_arg = arg;
+        return true;
+    case OPTION_THRESHOLDS:
+        options->thresholds = value;
         return true;
     case OPTION_FORMAT:
         options->format = value;

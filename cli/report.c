@@ -42,6 +42,10 @@ static void print(struct cli *cli, const struct diag_sink *sink, struct source_s
     strbuf_finish(&text);
 }
 
+void cli_print_sink(struct cli *cli, const struct diag_sink *sink) {
+    print(cli, sink, &cli->sources, true);
+}
+
 void cli_print_usage(struct cli *cli) {
     print(cli, &cli->sink, &cli->sources, true);
 }
