@@ -42,6 +42,17 @@ static uint64_t order_of(const struct loader *loader, const struct named *named)
     return rank << 32 | at.begin;
 }
 
+static uint32_t count_names(const struct schema_row *row, void *scene) {
+    void *field = schema_field(row, scene);
+    int name_row = visit_name_row(row->child);
+    uint32_t count = 0;
+    for (uint32_t i = 0; name_row >= 0 && i < bind_list_count(field); i++) {
+        const void *item = bind_list_item(field, i, row->child->size);
+        count += ((const str *)schema_field_const(&row->child->rows[name_row], item))->len > 0;
+    }
+    return count;
+}
+
 static void add_names(const struct loader *loader, struct named_list *list, const struct schema_row *row,
                       void *scene) {
     void *field = schema_field(row, scene);
@@ -63,7 +74,7 @@ static struct named_list collect(struct loader *loader, struct ir_scene *scene,
     uint32_t most = 0;
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST)
-            most += bind_list_count(schema_field(&SCHEMA_SCENE.rows[i], scene));
+            most += count_names(&SCHEMA_SCENE.rows[i], scene);
     struct named_list list = {.items = ARENA_ARRAY(&loader->scratch, struct named, most)};
     reader_names_init(&list.by_name, &loader->scratch);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {

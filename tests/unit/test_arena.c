@@ -217,6 +217,76 @@ static void finish_takes_null_and_twice(void **state) {
     assert_int_equal(arena.cap_bytes, 100);
 }
 
+// Larger than a shared block by far: the array moves by itself, others stay.
+static void arrays_regrow_and_are_given_back(void **state) {
+    (void)state;
+    struct arena arena;
+    arena_init(&arena, (size_t)1 << 30);
+    uint64_t *items = NULL;
+    uint32_t capacity = 0;
+    char *before = arena_alloc(&arena, 100), *between = NULL;
+    memset(before, 'b', 100);
+    for (uint32_t i = 0; i < 200000; i++) {
+        items = arena_regrow(&arena, items, i, &capacity, sizeof *items);
+        items[i] = i;
+        if (i == 100000)
+            between = arena_alloc(&arena, 100000);
+    }
+    for (uint32_t i = 0; i < 200000; i++)
+        assert_int_equal(items[i], i);
+    assert_int_equal(before[99], 'b');
+    for (uint32_t i = 0; i < 100000; i++)
+        assert_int_equal(between[i], 0);
+    size_t used = arena.used_bytes;
+    assert_true(used >= 200000 * sizeof *items && used < 4 * 200000 * sizeof *items);
+    arena_give_back(&arena, items, capacity, sizeof *items);
+    assert_true(arena.used_bytes <= used - capacity * sizeof *items);
+    arena_give_back(&arena, NULL, 0, 8);
+    assert_int_equal(*(char *)arena_alloc(&arena, 1000), 0);
+    arena_finish(&arena);
+}
+
+static void regrowing_keeps_to_the_cap(void **state) {
+    (void)state;
+    struct arena arena;
+    struct arena_guard guard;
+    arena_init(&arena, 1 << 20);
+    arena_set_guard(&arena, &guard);
+    struct {
+        uint64_t *items;
+        uint32_t count, capacity;
+    } volatile list = {0};
+    if (setjmp(guard.jump) == 0)
+        for (;;) {
+            uint32_t capacity = list.capacity;
+            list.items = arena_regrow(&arena, list.items, list.count, &capacity, sizeof *list.items);
+            list.capacity = capacity;
+            list.items[list.count++] = 1;
+        }
+    assert_int_equal(guard.fault, ARENA_FAULT_CAP);
+    assert_true(arena.used_bytes <= arena.cap_bytes);
+    assert_int_equal(list.items[list.count - 1], 1);
+    arena_finish(&arena);
+}
+
+static void reset_gives_zeroed_memory_again(void **state) {
+    (void)state;
+    struct arena arena;
+    arena_init(&arena, 1 << 20);
+    arena_reset(&arena);
+    for (int round = 0; round < 3; round++) {
+        for (int i = 0; i < 20; i++) {
+            char *memory = arena_alloc(&arena, 5000);
+            for (int k = 0; k < 5000; k++)
+                assert_int_equal(memory[k], 0);
+            memset(memory, 'x', 5000);
+        }
+        arena_reset(&arena);
+        assert_int_equal(arena.used_bytes, 0);
+    }
+    arena_finish(&arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_is_zeroed_aligned_and_apart),
@@ -231,6 +301,9 @@ int main(void) {
         cmocka_unit_test(a_full_list_faults_instead_of_wrapping),
         cmocka_unit_test(a_fault_is_passed_on),
         cmocka_unit_test(finish_takes_null_and_twice),
+        cmocka_unit_test(arrays_regrow_and_are_given_back),
+        cmocka_unit_test(regrowing_keeps_to_the_cap),
+        cmocka_unit_test(reset_gives_zeroed_memory_again),
     };
     return cmocka_run_group_tests_name("arena", tests, NULL, NULL);
 }
