@@ -1,4 +1,5 @@
 // Names that an element does not have: what may have been meant, and where the name does exist.
+#include "core/nearest.h"
 #include "parser/bind.h"
 #include "parser/mend.h"
 #include "parser/say.h"
@@ -92,11 +93,22 @@ static void wrong_form(struct bind_context *context, struct bind_frame *frame, t
     bind_help_shape(context, subject, value);
 }
 
+// Of 'camera' and 'cameras' the nearer one was meant; of equally near ones the one whose value looks like it.
+static bool is_singular(struct bind_context *context, const struct schema_row *row,
+                        const struct mend_search *search, tree_index value) {
+    unsigned one = nearest_distance(search->snake, str_from(row->name));
+    unsigned many = nearest_distance(search->snake, str_from(schema_yaml_key(row)));
+    if (one != many || tree_node(context->tree, value)->kind != TREE_MAP)
+        return one <= many;
+    tree_index first = tree_first(context->tree, value);
+    return !first || bind_kind(context, tree_value(context->tree, first)) != TREE_MAP;
+}
+
 static void did_you_mean(struct bind_context *context, struct bind_frame *frame, tree_index key,
                          const struct mend_search *search) {
     const struct schema_row *row = &frame->schema->rows[search->best_id];
     enum tree_key kind = tree_node(context->tree, key)->key;
-    bool singular = str_equal_cstr(mend_snake(context->scratch, str_from(search->best)), row->name);
+    bool singular = is_singular(context, row, search, tree_value(context->tree, key));
     const char *right = spelling(row, kind, singular);
     frame->guessed |= bind_bit((uint32_t)search->best_id);
     if (!right) {
