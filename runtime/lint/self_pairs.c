@@ -7,10 +7,11 @@
 #include "core/parallel.h"
 
 enum {
-    PIECE = 1 << 10,      // leaves of one piece of parallel work
-    WORK_MAX = 1 << 28,   // for the mesh: boxes against boxes
-    LEAF_WORK_MIN = 4096, // for each leaf: some thousand in a good mesh, all of them in a fan of needles
-    MEET_WORK = 32,       // of two triangles, in boxes
+    PIECE = 1 << 10,         // leaves of one piece of parallel work
+    WORK_MAX = 1 << 28,      // for the mesh: boxes against boxes
+    LEAF_WORK_MIN = 4096,    // for each leaf: some thousand in a good mesh, all of them in a fan of needles
+    TRIANGLES_MAX = 1 << 23, // larger meshes are not searched: it would take gigabytes
+    MEET_WORK = 32,          // of two triangles, in boxes
 };
 
 struct self {
@@ -134,7 +135,7 @@ static struct lint_pairs count_pairs(const struct lint_tree *tree, const uint32_
 }
 
 void lint_find_pairs(struct lint *lint, struct lint_mesh *mesh) {
-    if (mesh->has_pairs)
+    if (mesh->has_pairs || mesh->mesh->triangle_count > TRIANGLES_MAX)
         return;
     mesh->has_pairs = true;
     struct self self = {.tree = lint_tree_of(lint, mesh),
