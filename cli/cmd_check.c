@@ -241,7 +241,8 @@ int cmd_check(struct cli *cli) {
     if (cli->options.diff && !cli->options.fix)
         return cli_usage(cli, 1, "--diff shows what --fix would write, and --fix is not there");
     if (cli->options.diff && check.format != CHECK_TEXT && !cli->options.output)
-        return cli_usage(cli, cli->options.fix_arg, "the patch and the report would be mixed: give the report a file with -o");
+        return cli_usage(cli, cli->options.fix_arg,
+                         "the patch and the report would be mixed: give the report a file with -o");
     if (!getcwd(check.root, sizeof check.root))
         check.root[0] = '\0';
     int status = run(&check);

@@ -77,7 +77,8 @@ static void format_stream(struct formatter *f) {
     struct layout layout;
     strbuf_init(&text);
     if (read_stream(f->cli, &text)) {
-        layout_text(&layout, STR("standard input"), strbuf_view(&text), &f->cli->options.limits, f->cli->options.upgrade);
+        layout_text(&layout, STR("standard input"), strbuf_view(&text), &f->cli->options.limits,
+                    f->cli->options.upgrade);
         take(f, "-", &layout);
         layout_finish(&layout);
     } else {
