@@ -1,6 +1,7 @@
 // What the tests of reports ask of JSON files:
 //
 //     report_tool validate SCHEMA FILE...   each file is valid by the schema, whose keywords are all known
+//     report_tool validate-yaml SCHEMA FILE the same for one file of YAML
 //     report_tool get FILE PATH             the value at PATH: keys and indices, separated by '/'
 //     report_tool unique FILE PATH          the values at PATH, where '*' is every item of a list, all differ
 #include "tests/equal/json_schema.h"
@@ -30,6 +31,20 @@ static int validate(const char *schema_path, int count, char **paths) {
     }
     json_decref(schema);
     return bad;
+}
+
+static int validate_yaml(const char *schema_path, const char *path) {
+    char text[65536];
+    FILE *file = fopen(path, "rb");
+    json_t *schema = load(schema_path);
+    size_t size = file ? fread(text, 1, sizeof text, file) : 0;
+    json_t *value = file ? json_from_yaml((str){text, size}) : NULL;
+    bool good = schema && value && json_schema_accepts(schema, schema, value);
+    if (file)
+        fclose(file);
+    json_decref(value);
+    json_decref(schema);
+    return good ? 0 : 1;
 }
 
 // The next part of a path, at most `size` - 1 bytes; gives what follows it.
@@ -93,8 +108,11 @@ static int unique(const json_t *found) {
 int main(int argc, char **argv) {
     if (argc > 3 && strcmp(argv[1], "validate") == 0)
         return validate(argv[2], argc - 3, argv + 3);
+    if (argc == 4 && strcmp(argv[1], "validate-yaml") == 0)
+        return validate_yaml(argv[2], argv[3]);
     if (argc != 4) {
-        fprintf(stderr, "usage: report_tool validate SCHEMA FILE..., get FILE PATH, unique FILE PATH\n");
+        fprintf(stderr, "usage: report_tool validate SCHEMA FILE..., validate-yaml SCHEMA FILE, get FILE "
+                        "PATH, unique FILE PATH\n");
         return 2;
     }
     json_t *json = load(argv[2]);

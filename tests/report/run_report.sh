@@ -218,6 +218,41 @@ printf '# nothing\n' >.glintrc.yaml
 expect "an empty one marks a folder" 0 - "$glint" check minimal.yaml
 rm .glintrc.yaml
 mv meshes/open.obj .
+# The schema for editors and glint agree.
+schema=$source/docs/schema/glintrc.schema.json
+mkdir -p agree
+printf 'glint: 1\n' >agree/a.glint.yaml
+agree() { # VERDICT SETTINGS
+    printf '%s\n' "$2" >agree/.glintrc.yaml
+    "$tool" validate-yaml "$schema" agree/.glintrc.yaml 2>said.txt && by_schema=good || by_schema=bad
+    "$glint" check agree >said.txt 2>&1 && by_glint=good || by_glint=bad
+    ok "settings, $1: $2" test "$by_schema $by_glint" = "$1 $1"
+}
+agree good 'severity: {W401: error, n6xx: off}'
+agree good 'ignore: [W408, "drafts/**"]'
+agree good 'only: [W4xx, E301]'
+agree good 'fail_on: warning'
+agree good 'max_messages: 20'
+agree good 'limits: {mesh-bytes: 1000000}'
+agree good 'asset_paths: []'
+agree good 'severity:'
+agree bad 'severity: {E301: off}'
+agree bad 'severity: {W401: loud}'
+agree bad 'severity: [W401]'
+agree bad 'ignore: [E301]'
+agree bad 'ignore: W401'
+agree bad 'ignore: [""]'
+agree bad 'only: [W4]'
+agree bad 'fail_on: note'
+agree bad 'fail_on:'
+agree bad 'max_messages: 0'
+agree bad 'max_messages: [1]'
+agree bad 'limits: {mesh-byte: 1}'
+agree bad 'limits: {mesh-bytes: 0}'
+agree bad 'asset_path: [x]'
+for limit in $("$glint" check --limit help | sed 's/ .*//'); do
+    ok "the schema knows the limit $limit" grep -q "\"$limit\"" "$schema"
+done
 
 # ---- comments
 line='  - {mesh: open.obj, material: {albedo: [0.1, 0, 0, 0.9], refractive_index: 1.5}}'
