@@ -233,6 +233,8 @@ int cmd_render(struct cli *cli) {
         diag_help(&cli->sink, "name a file; '-' takes one picture");
         return status;
     }
+    if (cli->options.as_file && !cli_device_is_reference(cli))
+        return cli_usage(cli, cli->options.as_file_arg, "'--as-file' goes with '--device reference' alone");
     interrupt_catch();
     struct asset_store *store = asset_store_create();
     int status = cli_has_study(cli) ? cli_choose_settings(cli, store) : CLI_OK;
