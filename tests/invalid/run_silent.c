@@ -4,9 +4,20 @@
 #include "core/diag_text.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
-static int check_silent(struct asset_store *store, const char *path) {
-    struct session_options options = {.path = str_from(path), .limits = limits_default()};
+enum {
+    SKIPPED = 77
+};
+
+static int check_silent(struct asset_store *store, const char *path, const char *folder) {
+    str asset_path = str_from(folder);
+    struct session_options options = {.path = str_from(path),
+                                      .limits = limits_default(),
+                                      .asset_paths = &asset_path,
+                                      .asset_path_count = asset_path.len ? 1 : 0};
     struct session session;
     check_scene(&session, &options, store);
     bool silent = session.sink.errors + session.sink.warnings == 0 && session.state == SESSION_LOADED;
@@ -22,11 +33,27 @@ static int check_silent(struct asset_store *store, const char *path) {
 }
 
 int main(int argc, char **argv) {
-    int failures = argc < 2;
+    char seed[4096];
+    const char *assets = getenv("GLINT_ASSETS");
+    const char *folder = NULL;
+    int first = 1;
+    snprintf(seed, sizeof seed, "%s/seed", assets && *assets ? assets : "../shared/assets");
+    if (argc > 1 && strcmp(argv[1], "--seed") == 0) {
+        folder = seed;
+        first = 2;
+    } else if (argc > 2 && strcmp(argv[1], "--asset-path") == 0) {
+        folder = argv[2];
+        first = 3;
+    }
+    if (folder == seed && access(seed, R_OK) != 0) {
+        printf("skipped: %s is not here\n", seed);
+        return SKIPPED;
+    }
+    int failures = argc <= first;
     struct asset_store *store = asset_store_create();
-    for (int i = 1; i < argc; i++)
-        failures += check_silent(store, argv[i]);
+    for (int i = first; i < argc; i++)
+        failures += check_silent(store, argv[i], folder);
     asset_store_destroy(store);
-    printf("%d scenes, %d of them not silent\n", argc - 1, failures);
+    printf("%d scenes, %d of them not silent\n", argc - first, failures);
     return failures ? 1 : 0;
 }
