@@ -42,12 +42,12 @@ static uint32_t add_source(const char *path, const char *text) {
 }
 
 static void fill(uint32_t most) {
-    struct report_input input = {.sink = &f.sink, .sources = &f.sources, .root = "/root/of", .most = most};
+    struct report_input input = {.sink = &f.sink, .sources = &f.sources, .root = "/base/of", .most = most};
     assert_true(report_scene_add(&f.scene, &input));
 }
 
 static void check_path(const char *path, const char *wanted) {
-    str got = report_path(&f.arena, "/root/of", str_from(path));
+    str got = report_path(&f.arena, "/base/of", str_from(path));
     assert_int_equal(got.len, strlen(wanted));
     assert_memory_equal(got.ptr, wanted, got.len);
 }
@@ -62,10 +62,10 @@ static void paths(void **state) {
     check_path("../a", "../a");
     check_path("../../a/../b", "../../b");
     check_path("a/../../b", "../b");
-    check_path("/root/of/a", "a");
-    check_path("/root/of/x/../a", "a");
-    check_path("/root/off/a", "/root/off/a");
-    check_path("/root/of", "/root/of");
+    check_path("/base/of/a", "a");
+    check_path("/base/of/x/../a", "a");
+    check_path("/base/off/a", "/base/off/a");
+    check_path("/base/of", "/base/of");
     check_path("/../a", "/a");
     check_path("", ".");
 }
@@ -175,7 +175,7 @@ static void hostile_texts(void **state) {
                  "%u ##[add-mask]x\n::set-env name=a::b \x1b[1m \xEF\xBF\xBE ]]> & <", i);
     fill(20);
     struct report report = {
-        .program_version = "1.2.3", .root = "/root/of", .scenes = &f.scene, .scene_count = 1};
+        .program_version = "1.2.3", .root = "/base/of", .scenes = &f.scene, .scene_count = 1};
     strbuf_init(&out);
     report_github(&out, &report);
     assert_non_null(strstr(out.data, "::error file=%3A%3Aerror%3A%3Ax,line=1"));
