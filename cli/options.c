@@ -254,27 +254,79 @@ static void append(struct cli *cli, struct cli_list *list, const char *text) {
     *item = str_from(text);
 }
 
-static bool apply(struct cli *cli, int arg, const struct option_row *row, const char *value) {
-    struct cli_options *options = &cli->options;
-    if (row->id >= OPTION_POLICY && row->id < OPTION_MEASURE)
-        return cli_policy_apply(cli, arg, (enum cli_policy_option)(row->id - OPTION_POLICY), value);
-    if (row->id >= OPTION_MEASURE)
-        return cli_measure_apply(cli, arg, (enum cli_measure_option)(row->id - OPTION_MEASURE), row->name,
-                                 value);
-    switch ((enum option_id)row->id) {
-    case OPTION_POLICY:
-    case OPTION_MEASURE:
-        break;
+// The field of an option that is given or not; NULL: it is another kind.
+static bool *flag_of(struct cli_options *options, int id) {
+    switch (id) {
     case OPTION_HELP:
-        options->help = true;
-        return true;
+        return &options->help;
     case OPTION_VERSION:
-        options->version = true;
-        return true;
+        return &options->version;
+    case OPTION_QUIET:
+        return &options->quiet;
+    case OPTION_VERBOSE:
+        return &options->verbose;
+    case OPTION_CHECK:
+        return &options->check;
+    case OPTION_DIFF:
+        return &options->diff;
+    case OPTION_UPGRADE:
+        return &options->upgrade;
+    case OPTION_IR:
+        return &options->ir;
+    case OPTION_AS_FILE:
+        return &options->as_file;
+    case OPTION_NO_CACHE:
+        return &options->no_cache;
+    default:
+        return NULL;
+    }
+}
+
+// The field of an option whose text is kept as it is; NULL: it is another kind.
+static const char **text_of(struct cli_options *options, int id) {
+    switch (id) {
     case OPTION_OUTPUT:
-        options->output = value;
-        options->output_arg = arg;
-        return true;
+        return &options->output;
+    case OPTION_DEVICE:
+        return &options->device;
+    case OPTION_SCHEMA:
+        return &options->schema;
+    case OPTION_AXIS:
+        return &options->axes;
+    case OPTION_THRESHOLDS:
+        return &options->thresholds;
+    case OPTION_FORMAT:
+        return &options->format;
+    default:
+        return NULL;
+    }
+}
+
+// Where the option stands, for those whose mistakes are found later.
+static void keep_place(struct cli_options *options, int id, int arg) {
+    int *place = id == OPTION_OUTPUT    ? &options->output_arg
+                 : id == OPTION_AS_FILE ? &options->as_file_arg
+                 : id == OPTION_AXIS    ? &options->axes_arg
+                 : id == OPTION_FORMAT  ? &options->format_arg
+                                        : NULL;
+    if (place)
+        *place = arg;
+}
+
+static bool read_max_messages(struct cli *cli, int arg, const char *value) {
+    struct limits *limits = &cli->options.limits;
+    int32_t most = 0;
+    if (!read_count(cli, arg, "max-messages", value, 1000000, &most))
+        return false;
+    limits->value[LIMIT_MESSAGES] = (uint64_t)most;
+    limits->given |= (uint64_t)1 << LIMIT_MESSAGES;
+    return true;
+}
+
+// The rest: options whose text means something.
+static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
+    struct cli_options *options = &cli->options;
+    switch (id) {
     case OPTION_SIZE:
         return read_size(cli, arg, value);
     case OPTION_SAMPLES:
@@ -285,9 +337,6 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
     case OPTION_SET:
         append(cli, &options->sets, value);
         return true;
-    case OPTION_DEVICE:
-        options->device = value;
-        return true;
     case OPTION_ASSET_PATH:
         if (!read_folder(cli, arg, value))
             return false;
@@ -295,69 +344,40 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
         return true;
     case OPTION_LIMIT:
         return read_limit(cli, arg, value);
-    case OPTION_MAX_MESSAGES: {
-        int32_t most = 0;
-        bool good = read_count(cli, arg, "max-messages", value, 1000000, &most);
-        options->limits.value[LIMIT_MESSAGES] = good ? (uint64_t)most : options->limits.value[LIMIT_MESSAGES];
-        options->limits.given |= (uint64_t)1 << LIMIT_MESSAGES;
-        return good;
-    }
+    case OPTION_MAX_MESSAGES:
+        return read_max_messages(cli, arg, value);
     case OPTION_REPEAT:
         return read_count(cli, arg, "repeat", value, 100000, &options->repeat);
     case OPTION_STATS:
-        if (value && strcmp(value, "json") != 0) {
-            cli_usage(cli, arg, "--stats takes 'json' or nothing, not '%s'", value);
-            return false;
-        }
         options->stats = value ? CLI_STATS_JSON : CLI_STATS_TEXT;
-        return true;
-    case OPTION_QUIET:
-        options->quiet = true;
-        return true;
-    case OPTION_VERBOSE:
-        options->verbose = true;
-        return true;
-    case OPTION_CHECK:
-        options->check = true;
-        return true;
-    case OPTION_DIFF:
-        options->diff = true;
-        return true;
+        if (value && strcmp(value, "json") != 0)
+            cli_usage(cli, arg, "--stats takes 'json' or nothing, not '%s'", value);
+        return !value || strcmp(value, "json") == 0;
     case OPTION_FIX:
         options->fix_arg = arg;
         options->fix = value ? FIX_ALL : FIX_SAFE;
         if (value && strcmp(value, "all") != 0)
             cli_usage(cli, arg, "--fix takes 'all' or nothing, not '%s'", value);
         return !value || strcmp(value, "all") == 0;
-    case OPTION_UPGRADE:
-        options->upgrade = true;
-        return true;
-    case OPTION_IR:
-        options->ir = true;
-        return true;
-    case OPTION_AS_FILE:
-        options->as_file = true;
-        options->as_file_arg = arg;
-        return true;
-    case OPTION_NO_CACHE:
-        options->no_cache = true;
-        return true;
-    case OPTION_SCHEMA:
-        options->schema = value;
-        return true;
-    case OPTION_AXIS:
-        options->axes = value;
-        options->axes_arg = arg;
-        return true;
-    case OPTION_THRESHOLDS:
-        options->thresholds = value;
-        return true;
-    case OPTION_FORMAT:
-        options->format = value;
-        options->format_arg = arg;
-        return true;
+    default:
+        return false;
     }
-    return false;
+}
+
+static bool apply(struct cli *cli, int arg, const struct option_row *row, const char *value) {
+    if (row->id >= OPTION_POLICY && row->id < OPTION_MEASURE)
+        return cli_policy_apply(cli, arg, (enum cli_policy_option)(row->id - OPTION_POLICY), value);
+    if (row->id >= OPTION_MEASURE)
+        return cli_measure_apply(cli, arg, (enum cli_measure_option)(row->id - OPTION_MEASURE), row->name,
+                                 value);
+    bool *flag = flag_of(&cli->options, row->id);
+    const char **text = text_of(&cli->options, row->id);
+    keep_place(&cli->options, row->id, arg);
+    if (flag)
+        *flag = true;
+    if (text)
+        *text = value;
+    return flag || text || apply_value(cli, arg, row->id, value);
 }
 
 static void suggest(struct cli *cli, const struct cli_command *command, const char *word) {

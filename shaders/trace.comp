@@ -159,6 +159,13 @@ void take_light(inout path_state p, hit_record hit, light_ray shadow) {
     p.light++;
 }
 
+// All lights of a surface are in: on with the rays that it sends.
+uint leave_surface(uint slot, inout path_state p, surface s, REAL3 start) {
+    p.radiance += p.light_sum * p.weight;
+    p.hit.item = NO_ITEM;
+    return send_rays(slot, p, s, start) ? GOES_ON : ENDED;
+}
+
 // Follows a path until it ends, or until its slice does.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON;
@@ -166,7 +173,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     bool fresh = true; // no ray was finished in this slice
     surface s;
     REAL3 start = REAL3(0.0);
-    light_ray shadow = light_ray(vec3(0.0), REAL3(0.0), 0.0);
+    light_ray shadow = light_ray(vec3(0.0), start, 0.0);
     while (state == GOES_ON) {
         while (state == GOES_ON) {
             iterations += SEGMENT_ITERATIONS;
@@ -194,8 +201,8 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                 take_light(p, hit, shadow);
             if (state == GOES_ON && phase != PHASE_SHADOW) {
                 make_surface(p.hit, p.origin, p.direction, s);
-                start = ray_start(s.point, s.error, s.geometric);
                 taint(p, true, s.point + s.shading, 0.0);
+                start = ray_start(s.point, s.error, s.geometric);
             }
             if (state == GOES_ON) {
                 phase = PHASE_SHADOW;
@@ -204,10 +211,8 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
                     state = HAS_SLICES ? SUSPENDED : STOPPED;
                 } else if (!found) {
-                    p.radiance += p.light_sum * p.weight;
-                    p.hit.item = NO_ITEM;
                     phase = PHASE_RAY;
-                    state = send_rays(slot, p, s, start) ? GOES_ON : ENDED;
+                    state = leave_surface(slot, p, s, start);
                 }
             }
         }
