@@ -1,6 +1,5 @@
 /* What log.comp reads and writes for each ray that it is given; compiled by C and by GLSL. Numbers of the
-   kernel's precision take two components (bits.glsl), three of them two words with two components to spare.
- */
+   kernel's precision take two components (bits.glsl); three of them take two words, with two to spare. */
 #ifndef GLINT_SHADERS_LOG_H
 #define GLINT_SHADERS_LOG_H
 
@@ -20,8 +19,7 @@
 #define LOG_WORDS   18
 #define LOG_NOTHING 0xffffffffu
 #define LOG_ENTERS  1u
-#define LOG_TOTAL   2u /* the material refracts, and the ray is turned back: its weight is the mirrored one's \
-                        */
+#define LOG_TOTAL   2u /* the ray would be refracted, and is turned back */
 
 /* dispatch.resume: make the camera's ray of pixel (read_list, pending_base) the first ray; follow the rays
    and make their surfaces; send the shadow ray to light i. tile_count is the number of rays. */
