@@ -141,13 +141,23 @@ static enum flatten_fault run(struct flattening *f) {
     return FLATTEN_DONE;
 }
 
+// In double precision the camera may stand so far from all bodies that the float boxes of the trees, as
+// coarse as a float at their distance, would hold many triangles at once: then the place of the bodies' box
+// that is nearest to it. All numbers move with the scene.
+static vec3 origin_of(const struct flat_input *input) {
+    vec3 lower, upper;
+    if (!input->is_double || !view_bounds(input->scene, input->assets, &lower, &upper))
+        return input->origin;
+    return vec3_max(lower, vec3_min(upper, input->origin));
+}
+
 bool flatten(const struct flat_input *input, struct flat_scene *out) {
     static const struct flat_strides strides[2] = {
         {TRIANGLE_WORDS, SPHERE_WORDS, 1, BODY_WORDS, MATERIAL_WORDS, LIGHT_WORDS},
         {TRIANGLE64_WORDS, SPHERE64_WORDS, NORMAL64_WORDS, BODY64_WORDS, MATERIAL64_WORDS, LIGHT64_WORDS}};
     *out = (struct flat_scene){.is_double = input->is_double,
                                .strides = strides[input->is_double],
-                               .origin = input->origin,
+                               .origin = origin_of(input),
                                .background = input->assets->background};
     struct flattening f = {.input = input, .out = out};
     enum flatten_fault fault = run(&f);

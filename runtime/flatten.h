@@ -1,11 +1,11 @@
 // From IR and assets to the buffers of shaders/gpu_scene.h: origin, scale, float rounding, trees.
 //
-// The origin (the camera's position, or the first of several) is subtracted from the transforms in double
-// before any vertex is touched; the scale is 2^-ilogb(largest |coordinate - origin| of bodies), lights
-// excluded; then values are rounded to float, or stay
-// double for the kernels in double precision, whose boxes alone are float. A point light further than 2^40
-// after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double. Ownership: flat_finish frees
-// everything. Thread safety: immutable once made.
+// The origin (the camera's position, or the first of several; in double precision the place of the bodies'
+// box that is nearest to it) is subtracted from the transforms in double before any vertex is touched; the
+// scale is 2^-ilogb(largest |coordinate - origin| of bodies), lights excluded; then values are rounded to
+// float, or stay double for the kernels in double precision, whose boxes alone are float. A point light
+// further than 2^40 after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double. Ownership:
+// flat_finish frees everything. Thread safety: immutable once made.
 #ifndef GLINT_RUNTIME_FLATTEN_H
 #define GLINT_RUNTIME_FLATTEN_H
 
@@ -49,7 +49,7 @@ struct flat_input {
     const struct ir_origin *origin_places;
     const struct assets *assets;
     const struct view *view;
-    vec3 origin; // scene units
+    vec3 origin; // of single precision; scene units
     bool is_double;
     enum bvh_method method; // of the trees; none shows in a picture
     const struct limits *limits;

@@ -27,7 +27,7 @@ static double determinant(const mat3 *a) {
 
 struct placing flatten_placing(const struct flattening *f, uint32_t model) {
     affine3 map = view_model_transform(&f->input->scene->models.items[model]);
-    return (struct placing){map.linear, vec3_sub(map.offset, f->input->origin), determinant(&map.linear) < 0};
+    return (struct placing){map.linear, vec3_sub(map.offset, f->out->origin), determinant(&map.linear) < 0};
 }
 
 static vec3 place(const struct placing *placing, vec3 point) {
@@ -123,7 +123,7 @@ static enum flatten_fault measure_model(const struct flattening *f, uint32_t mod
 
 // Shared corners are computed once, so that both halves hold the same bits.
 static void rectangle_corners(const struct flattening *f, const struct ir_rectangle *r, vec3 corners[4]) {
-    corners[0] = vec3_sub(r->corner, f->input->origin);
+    corners[0] = vec3_sub(r->corner, f->out->origin);
     corners[1] = vec3_add(corners[0], r->edge_u);
     corners[3] = vec3_add(corners[0], r->edge_v);
     corners[2] = vec3_add(corners[1], r->edge_v);
@@ -134,7 +134,7 @@ enum flatten_fault flatten_extent(const struct flattening *f, double *extent) {
     *extent = 0;
     for (uint32_t i = 0; i < scene->spheres.count; i++) {
         const struct ir_sphere *sphere = &scene->spheres.items[i];
-        vec3 center = vec3_sub(sphere->center, f->input->origin);
+        vec3 center = vec3_sub(sphere->center, f->out->origin);
         *extent = fmax(*extent, vec3_max_abs(center) + sphere->radius);
     }
     for (uint32_t i = 0; i < scene->rectangles.count; i++) {
@@ -166,7 +166,7 @@ void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_it
     const struct ir_scene *scene = f->input->scene;
     for (uint32_t i = 0; i < scene->spheres.count; i++) {
         const struct ir_sphere *sphere = &scene->spheres.items[i];
-        vec3 center = vec3_mul(vec3_sub(sphere->center, f->input->origin), f->factor);
+        vec3 center = vec3_mul(vec3_sub(sphere->center, f->out->origin), f->factor);
         uint32_t material = assets_material(scene, &sphere->material);
         struct gpu_word *record = words + f->out->strides.sphere * (size_t)i;
         struct gpu_word *last = record + f->out->strides.sphere - 1;

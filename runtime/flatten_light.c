@@ -56,7 +56,7 @@ static double emission_bound(double value) {
 }
 
 static void put_light(const struct flattening *f, const struct view_light *light, struct gpu_word *words) {
-    vec3 from_origin = vec3_sub(light->position, f->input->origin);
+    vec3 from_origin = vec3_sub(light->position, f->out->origin);
     vec3 position = vec3_mul(from_origin, f->factor);
     vec3 emission = light->emission;
     vec3 place = position;

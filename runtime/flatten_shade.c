@@ -71,7 +71,7 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
     for (uint32_t i = 0; i < scene->spheres.count; i++, words += stride)
         if (is_checker(f, assets_material(scene, &scene->spheres.items[i].material)))
             put_map(f, words,
-                    own_of_flat(f, &identity, vec3_sub(scene->spheres.items[i].center, f->input->origin)));
+                    own_of_flat(f, &identity, vec3_sub(scene->spheres.items[i].center, f->out->origin)));
     for (uint32_t i = 0; i < scene->rectangles.count; i++, words += stride) {
         const struct ir_rectangle *r = &scene->rectangles.items[i];
         if (is_checker(f, assets_material(scene, &r->material)))

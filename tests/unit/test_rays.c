@@ -71,6 +71,7 @@ struct aim {
     const struct flat_scene *flat;
     vec3 center; // flat
     double radius;
+    vec3 camera; // flat
 };
 
 static vec3 choose_target(const struct aim *aim, uint64_t *state) {
@@ -86,7 +87,7 @@ static vec3 choose_target(const struct aim *aim, uint64_t *state) {
 // from there is rounded by more than the body's triangles where it is far away.
 static vec3 choose_start(const struct aim *aim, bool inside, uint64_t *state) {
     if (!inside && aim->probe->is_double && probe_mix(state) % 4 == 0)
-        return (vec3){0, 0, 0};
+        return aim->camera;
     const double away = aim->radius * (inside ? 0.9 * probe_unit(state) : 1.2 + 8 * probe_unit(state));
     return vec3_add(aim->center, vec3_mul(probe_direction(state), away));
 }
@@ -133,8 +134,8 @@ static void check(struct fixture *f, const struct flat_scene *flat, const struct
                   unsigned batches) {
     struct probe probe;
     const double factor = ldexp(1, flat->scale_exponent);
-    const struct aim aim = {&probe, flat, vec3_mul(vec3_sub(place->center, place->origin), factor),
-                            place->radius * factor};
+    const struct aim aim = {&probe, flat, vec3_mul(vec3_sub(place->center, flat->origin), factor),
+                            place->radius * factor, vec3_mul(vec3_sub(place->origin, flat->origin), factor)};
     struct misses misses = {0, 0, 0, 0};
     for (uint64_t batch = 0; batch < batches; batch++) {
         // Both ways to keep groups of nodes; this tree is small enough for the short one.
@@ -253,12 +254,13 @@ static void check_inside(void **state, bool is_double, int levels, unsigned batc
     kit_model(&kit, mesh);
     assert_true(kit_flatten(&kit, &flat));
     assert_true(probe_init(&probe, f->gpu, &flat, false));
+    const vec3 camera = vec3_mul(vec3_sub(kit.origin, flat.origin), ldexp(1, flat.scale_exponent));
     unsigned lost = 0;
     for (uint64_t batch = 0; batch < batches; batch++) {
         for (uint64_t i = 0; i < PROBE_RAYS; i++) {
             uint64_t seed = batch * PROBE_RAYS + i;
             const vec3 direction = probe_direction(&seed);
-            f->rays[i] = (struct probe_ray){{0, 0, 0}, direction, 3e38, vec3_neg(direction)};
+            f->rays[i] = (struct probe_ray){camera, direction, 3e38, vec3_neg(direction)};
         }
         assert_true(probe_trace(&probe, f->rays, PROBE_RAYS, f->hits));
         // The second ray goes back inside from where the first one met the mesh.
@@ -308,7 +310,8 @@ static struct plates plates_of(const struct gap *gap) {
 
 // A ray at the first plate, and on from there towards the second.
 static struct probe_ray choose_gap_ray(const struct probe *probe, const struct plates *p,
-                                       const struct gap *gap, double factor, uint64_t seed) {
+                                       const struct gap *gap, const struct flat_scene *flat, uint64_t seed) {
+    const double factor = ldexp(1, flat->scale_exponent);
     vec3 from, next;
     do
         from = probe_direction(&seed);
@@ -318,7 +321,7 @@ static struct probe_ray choose_gap_ray(const struct probe *probe, const struct p
     while (vec3_dot(next, p->normal) > -0.1);
     const vec3 place = vec3_add(vec3_mul(p->u, 0.1 + 0.8 * probe_unit(&seed)),
                                 vec3_mul(p->v, 0.1 + 0.8 * probe_unit(&seed)));
-    const vec3 target = vec3_mul(vec3_add(p->corner, place), factor);
+    const vec3 target = vec3_mul(vec3_sub(vec3_add(p->corner, place), flat->origin), factor);
     const vec3 start = probe_round(probe, vec3_add(target, vec3_mul(from, gap->size * factor * 2)));
     return (struct probe_ray){start, vec3_neg(from), 3e38, next};
 }
@@ -340,7 +343,7 @@ static void check_gap(void **state, struct gap gap) {
     assert_true(kit_flatten(&kit, &flat));
     assert_true(probe_init(&probe, f->gpu, &flat, true));
     for (uint64_t i = 0; i < PROBE_RAYS; i++)
-        f->rays[i] = choose_gap_ray(&probe, &plates, &gap, ldexp(1, flat.scale_exponent), i);
+        f->rays[i] = choose_gap_ray(&probe, &plates, &gap, &flat, i);
     assert_true(probe_trace(&probe, f->rays, PROBE_RAYS, f->hits));
     unsigned lost = 0;
     for (size_t i = 0; i < PROBE_RAYS; i++) {
