@@ -201,13 +201,15 @@ static void report_missing(struct asset_file *file, str path) {
     str near = files_suggest(file->input->files, file->path, is_image ? images : meshes);
     str folder = str_slice(path, 0, path.len - path_base(path).len);
     str advice = files_advice(file->input->files->arena, path);
-    if (advice.len)
+    if (advice.len) {
         diag_help(file->input->sink, "%.*s", STR_ARG(advice));
-    else if (near.len)
+    } else if (near.len) {
         diag_help(file->input->sink, "did you mean '%.*s%.*s'?", STR_ARG(folder), STR_ARG(near));
-    else
+        diag_fix_part(file->input->sink, file->input->sources, false, path_base(path), near);
+    } else {
         diag_help(file->input->sink, "it was looked for as '%.*s'; --asset-path DIR adds a folder to look in",
                   STR_ARG(file->path));
+    }
 }
 
 // Says why a file that is named as `path` is not read.

@@ -169,13 +169,15 @@ static void report_unknown(struct loader *loader, const struct ir_map_entry *ent
     }
     if (named > NAMES_SHOWN)
         strbuf_format(&names, " and %u more", named - NAMES_SHOWN);
-    if (named == 0)
+    if (named == 0) {
         diag_help(input->sink, "the mesh names no materials at all; use 'material'");
-    else if (nearest_best(&search).len)
+    } else if (nearest_best(&search).len) {
         diag_help(input->sink, "did you mean '%.*s'? The mesh uses %.*s", STR_ARG(nearest_best(&search)),
                   STR_ARG(strbuf_view(&names)));
-    else
+        diag_fix_part(input->sink, input->sources, false, search.word, nearest_best(&search));
+    } else {
         diag_help(input->sink, "the mesh uses %.*s", STR_ARG(strbuf_view(&names)));
+    }
     strbuf_finish(&names);
 }
 

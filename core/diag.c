@@ -151,6 +151,19 @@ void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement) {
     item->fix_text = (str){text, replacement.len};
 }
 
+void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, bool safe, str old,
+                   str replacement) {
+    struct diag *item = last(sink);
+    str text = item ? source_text(sources, item->at) : STR("");
+    for (size_t i = 0; old.len && i + old.len <= text.len; i++) {
+        if (!str_equal(str_slice(text, i, i + old.len), old))
+            continue;
+        uint32_t begin = item->at.begin + (uint32_t)i;
+        diag_fix(sink, safe, (span){item->at.source, begin, begin + (uint32_t)old.len}, replacement);
+        return;
+    }
+}
+
 static int compare_place(const struct diag *a, const struct diag *b) {
     if (a->at.source != b->at.source)
         return a->at.source < b->at.source ? -1 : 1;

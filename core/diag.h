@@ -97,6 +97,10 @@ void diag_note(struct diag_sink *sink, span at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void diag_help(struct diag_sink *sink, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement);
+// As diag_fix, for the first place where `old` stands in the text that the diagnostic is about; nothing where
+// it does not stand there as it is.
+void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, bool safe, str old,
+                   str replacement);
 
 const struct diag_info *diag_info(enum diag_code code);
 // The code whose text is `code` ("E203"), case ignored; DIAG_CODE_COUNT if there is none.

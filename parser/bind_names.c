@@ -198,11 +198,13 @@ static void other_word(struct bind_context *context, struct bind_frame *frame, t
     const struct schema_row *row = &frame->schema->rows[id];
     const char *right = spelling(row, tree_node(context->tree, key)->key, false);
     frame->guessed |= bind_bit((uint32_t)id);
-    if (right)
+    if (right) {
         diag_help(context->sink, "did you mean '%s'?", right);
-    else
+        fix_key(context, key, false, str_from(right));
+    } else {
         diag_help(context->sink, "did you mean %.*s?",
                   STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+    }
 }
 
 // "radius:1", which YAML takes for one word.

@@ -31,6 +31,18 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
     return false;
 }
 
+// One number where three belong: perhaps the same for each.
+static void fix_scalar(struct bind_context *context, const struct schema_row *row, tree_index node,
+                       str text) {
+    double ignored;
+    if (row->kind != SCHEMA_VECTOR || context->tree->is_xml || number_parse(text, &ignored) != NUMBER_OK ||
+        tree_node(context->tree, node)->style != TREE_PLAIN)
+        return;
+    diag_fix(
+        context->sink, false, tree_span(context->tree, node),
+        arena_format(context->scratch, "[%.*s, %.*s, %.*s]", STR_ARG(text), STR_ARG(text), STR_ARG(text)));
+}
+
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node) {
     const struct schema_row *row = subject.row;
     enum tree_kind kind = bind_kind(context, node);
@@ -40,8 +52,10 @@ bool bind_help_numbers(struct bind_context *context, struct bind_subject subject
                                    : source_text(context->sources, tree_span(context->tree, node));
     str list = mend_numbers(context->scratch, text, row->kind == SCHEMA_WEIGHTS ? 4 : 3);
     bool composite = row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
-    if (list.len == 0 || !composite)
+    if (list.len == 0 || !composite) {
+        fix_scalar(context, row, node, text);
         return false;
+    }
     if (context->tree->is_xml) {
         diag_help(context->sink, "write %.*s", STR_ARG(say_components(context->scratch, subject, list)));
         return true;

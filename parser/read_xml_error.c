@@ -1,5 +1,6 @@
 #include "parser/read_xml.h"
 
+#include "core/nearest.h"
 #include "parser/mend.h"
 
 #include <string.h>
@@ -61,7 +62,11 @@ static void report_mismatch(struct xml_reader *r, uint32_t at) {
     diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> stands where </%.*s> is expected",
              STR_ARG(reader_clip(name)), STR_ARG(reader_clip(expected)));
     diag_note(sink, open->name, "<%.*s> was opened here", STR_ARG(reader_clip(expected)));
-    if (name.len == expected.len && str_ends_with_nocase(name, arena_copy(r->context->arena, expected).ptr))
+    bool by_case =
+        name.len == expected.len && str_ends_with_nocase(name, arena_copy(r->context->arena, expected).ptr);
+    if (by_case || (expected.len > 3 && nearest_distance(name, expected) == 1))
+        diag_fix(sink, true, closing, expected);
+    if (by_case)
         diag_help(sink, "write </%.*s>: case matters", STR_ARG(reader_clip(expected)));
     else
         diag_help(sink, "write </%.*s> behind what it holds, or '/>' at the end of its tag",
@@ -106,6 +111,7 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
     while (xml_next_attribute(text, &pos, &attribute) == XML_TAG_MORE) {
         if (attribute.value_end + 1 == at && at < text.len && !memchr(" \t\r\n/>?", text.ptr[at], 7)) {
             diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "a blank is missing before this attribute");
+            diag_fix(sink, true, xml_span(r, at, at), STR(" "));
             return true;
         }
         if (attribute.value_end > at)
@@ -134,6 +140,7 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
         diag_add(sink, DIAG_XML_SYNTAX, value, "the value of '%.*s' needs quotes",
                  STR_ARG(reader_clip(written)));
         diag_help(sink, "write %.*s=\"%.*s\"", STR_ARG(reader_clip(written)), STR_ARG(reader_clip(bare)));
+        diag_fix(sink, true, value, arena_format(r->context->arena, "\"%.*s\"", STR_ARG(bare)));
         return true;
     }
     diag_add(sink, DIAG_XML_SYNTAX, name, "the value of '%.*s' has no closing quote",

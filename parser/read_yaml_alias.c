@@ -32,11 +32,13 @@ static tree_index undefined(struct yaml_reader *r, str name, span at) {
         nearest_offer(&nearest, r->anchors.items[i].name);
     str best = nearest_best(&nearest);
     str written = source_text(r->context->sources, at);
-    if (best.len)
+    if (best.len) {
         diag_help(&r->sink, "did you mean '*%.*s'?", STR_ARG(reader_clip(best)));
-    else if (r->anchors.count <= 1)
+        diag_fix_part(&r->sink, r->context->sources, false, name, best);
+    } else if (r->anchors.count <= 1) {
         diag_help(&r->sink, "'*' begins an alias; a text that begins with it needs quotes: \"%.*s\"",
                   STR_ARG(reader_clip(written)));
+    }
     return add_bad(r, at);
 }
 

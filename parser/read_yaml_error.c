@@ -226,6 +226,7 @@ static bool report_line_above(struct yaml_reader *r, uint32_t at) {
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, colon ? end : stop),
              colon ? "a blank is missing behind the ':'" : "a ':' is missing behind this key");
     help_pair(r, word, str_slice(r->text->bytes, colon ? stop + 1 : stop, end));
+    diag_fix(&r->sink, colon, yaml_span(r, stop + colon, stop + colon), colon ? STR(" ") : STR(":"));
     return true;
 }
 
@@ -260,6 +261,8 @@ static bool report_dash(struct yaml_reader *r, uint32_t begin) {
     diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, begin), "a blank is missing behind the '-'");
     diag_help(&r->sink, "write '- %.*s'",
               STR_ARG(reader_clip(str_slice(r->text->bytes, begin + 1, word_at(r, begin).end))));
+    bool number = byte_at(r, begin + 1) >= '0' && byte_at(r, begin + 1) <= '9';
+    diag_fix(&r->sink, !number, yaml_span(r, begin + 1, begin + 1), STR(" "));
     return true;
 }
 
@@ -277,6 +280,7 @@ static void report_behind(struct yaml_reader *r, uint32_t at) {
     if (byte_at(r, at) == '}' || byte_at(r, at) == ']') {
         diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "this '%c' closes nothing", byte_at(r, at));
         diag_help(&r->sink, "remove it, or write the '%c' that it closes", byte_at(r, at) == '}' ? '{' : '[');
+        diag_fix(&r->sink, false, character_at(r, at), STR(""));
         return;
     }
     diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, at), "this stands behind a value that has ended");

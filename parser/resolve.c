@@ -15,13 +15,15 @@ static void report_missing(struct loader *loader, span at, str path, str tried) 
     str near = files_suggest(loader->input->files, tried, endings);
     str folder = str_slice(path, 0, path.len - path_base(path).len);
     str advice = files_advice(loader->input->arena, path);
-    if (advice.len)
+    if (advice.len) {
         diag_help(sink, "%.*s", STR_ARG(advice));
-    else if (near.len)
+    } else if (near.len) {
         diag_help(sink, "did you mean '%.*s%.*s'?", STR_ARG(folder), STR_ARG(near));
-    else
+        diag_fix_part(sink, loader->input->sources, false, path_base(path), near);
+    } else {
         diag_help(sink, "it was looked for as '%.*s'; --asset-path DIR adds a folder to look in",
                   STR_ARG(tried));
+    }
 }
 
 static void refuse(struct loader *loader, span at, str path, str tried, enum file_status status) {

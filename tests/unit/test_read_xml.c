@@ -192,8 +192,8 @@ static void checks_encodings(void **state) {
 static void explains_what_expat_refuses(void **state) {
     (void)state;
     static const struct reading readings[] = {
-        {"<S>\n  <A x=\"1\"y=\"2\"/>\n</S>", "{}?", "E102 2:11-2:12"},
-        {"<S>\n  <A x=1/>\n</S>", "{}?", "E102 2:8-2:9"},
+        {"<S>\n  <A x=\"1\"y=\"2\"/>\n</S>", "{}?", "E102 2:11-2:12 =safe> <"},
+        {"<S>\n  <A x=1/>\n</S>", "{}?", "E102 2:8-2:9 =safe>\"1\"<"},
         {"<S>\n  <A smooth/>\n</S>", "{}?", "E102 2:6-2:12"},
         {"<S>\n  <A x=\"1/>\n  <B y=\"2\"/>\n</S>", "{}?", "E102 2:6-2:7"},
         {"<S>\n  <A x=\"1\"\n  <B y=\"2\"/>\n</S>", "{}?", "E102 2:4-2:5 (3:3-3:4)"},

@@ -119,7 +119,7 @@ static void expands_aliases(void **state) {
         {"a: &x\nb: *x\n", "{a: ~, b: ~}", ""},
         {"&k a: 1\nb: *k\n", "{a: 1, b: a}", ""},
         {"m: &m\n  &k a: 1\nb: *k\nc: *m\n", "{m: {a: 1}, b: a, c: {a: 1}}", ""},
-        {"a: &glass 1\nb: *glas\n", "{a: 1, b: ~!}", "E108 2:4-2:9"},
+        {"a: &glass 1\nb: *glas\n", "{a: 1, b: ~!}", "E108 2:4-2:9 =maybe>glass<"},
         {"b: *later\na: &later 1\n", "{b: ~!, a: 1}", "E108 1:4-1:10"},
         {"a: &x [1, *x]\n", "{a: [1, ~!]}", "E124 1:11-1:13 (1:4-1:6)"},
         {"a: &x {b: {c: *x}}\n", "{a: {b: {c: ~!}}}", "E124 1:15-1:17 (1:4-1:6)"},
@@ -213,9 +213,9 @@ static void finds_lost_colors(void **state) {
 static void finds_tabs(void **state) {
     (void)state;
     static const struct reading readings[] = {
-        {"a:\n\tb: 1\n\tc: 2\nd: 3\n", "{a: {b: 1, c: 2}, d: 3}", "E123 2:1-2:2 (-) =maybe>  <"},
-        {"a:\n  b: 1\n\tc: 2\n", "{a: {b: 1}?}?", "E123 3:1-3:2 =maybe>  <"},
-        {"a:\n  -\tb: 1\n", "{a: [{b: 1}]}", "E123 2:4-2:5 =maybe>  <"},
+        {"a:\n\tb: 1\n\tc: 2\nd: 3\n", "{a: {b: 1, c: 2}, d: 3}", "E123 2:1-2:2 (-) =safe>  b: 1\n  <"},
+        {"a:\n  b: 1\n\tc: 2\n", "{a: {b: 1}?}?", "E123 3:1-3:2 =safe>  <"},
+        {"a:\n  -\tb: 1\n", "{a: [{b: 1}]}", "E123 2:4-2:5 =safe>  <"},
         {"a: {\n\tb: 1\n}\n", "{a: {b: 1}}", ""},
         {"a:\t1\nb: 2\t# c\n", "{a: 1, b: 2}", ""},
     };
