@@ -68,6 +68,14 @@ static size_t tag_end(str text, size_t at) {
     return at;
 }
 
+// Whether more than the dash of a list's item stands on the line before `end`.
+static bool has_content(str text, size_t end) {
+    for (; end > 0 && !is_break(text.ptr[end - 1]); end--)
+        if (!is_blank(text.ptr[end - 1]) && text.ptr[end - 1] != '-')
+            return true;
+    return false;
+}
+
 // The lines that a comment speaks for: its own where something stands before it, else the next one with
 // content.
 static void find_lines(struct session *session, span comment, struct allow *allow) {
@@ -78,6 +86,8 @@ static void find_lines(struct session *session, span comment, struct allow *allo
     while (before > 0 && !is_break(text.ptr[before - 1]) && is_blank(text.ptr[before - 1]))
         before--;
     bool trailing = before > 0 && !is_break(text.ptr[before - 1]);
+    if (trailing && !is_xml)
+        trailing = has_content(text, before);
     size_t first = trailing ? before - 1 : skip_to_content(text, comment.end, is_xml);
     size_t last = first;
     if (is_xml && trailing)

@@ -121,6 +121,24 @@ static str scene_path_of(struct adder *adder, const struct diag *d) {
     return path;
 }
 
+// Whether a place is in a file: options have no line that a reader of reports could open.
+static bool is_in_file(const struct adder *adder, span at) {
+    const struct source_set *sources = adder->input->sources;
+    enum source_kind kind = at.source < sources->count ? sources->items[at.source].kind : SOURCE_KIND_DEFAULT;
+    return kind != SOURCE_KIND_DEFAULT && kind != SOURCE_KIND_OPTION;
+}
+
+// Puts a finding that stands in no file at the beginning of the scene, and says where it does stand.
+static void place_in_scene(struct adder *adder, struct report_finding *finding, struct source_place place) {
+    struct arena *arena = &adder->scene->arena;
+    if (place.line_text.len)
+        finding->message = arena_format(arena, "%.*s (in %.*s %.*s)", STR_ARG(finding->message),
+                                        STR_ARG(place.path), STR_ARG(finding->line_text));
+    str path = report_path(arena, adder->input->root, adder->scene->path);
+    finding->at = (struct report_place){path, 1, 1, 1, 1};
+    finding->has_fix = false;
+}
+
 static void add_finding(struct adder *adder, const struct diag *d) {
     struct report_scene *scene = adder->scene;
     struct arena *arena = &scene->arena;
@@ -135,9 +153,11 @@ static void add_finding(struct adder *adder, const struct diag *d) {
                                      .repeats = d->repeats,
                                      .has_fix = d->has_fix,
                                      .fix_is_safe = d->fix_is_safe};
+    if (!is_in_file(adder, d->at))
+        place_in_scene(adder, &finding, place);
     finding.scene_path = scene_path_of(adder, d);
     add_notes(adder, &finding, d);
-    if (d->has_fix) {
+    if (finding.has_fix) {
         finding.fix_at = place_of(adder, source_locate(adder->input->sources, d->fix_at));
         finding.fix_text = arena_copy(arena, d->fix_text);
     }

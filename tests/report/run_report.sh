@@ -111,6 +111,14 @@ ok "a URI is escaped" get odd-name.sarif runs/0/results/0/locations/0/physicalLo
 ok "properties are escaped" grep -q '^::error file=odd folder/50%25%2Ca%3Ab.glint.yaml,line=5,' odd-name.github
 "$glint" check "$PWD/bad.glint.yaml" --format gitlab >absolute.gitlab
 ok "paths below the folder become relative" get absolute.gitlab 0/location/path bad.glint.yaml
+# A finding in an option has a place as well.
+for format in json sarif gitlab junit; do
+    "$glint" check minimal.yaml --set image.width=0 --format $format >option.$format && failed=1
+done
+ok "options in JSON" "$tool" validate "$source/docs/schema/check-report.schema.json" option.json
+ok "options in SARIF" "$tool" validate "$source/tests/report/sarif.schema.json" option.sarif
+ok "options for GitLab" "$tool" validate "$source/tests/report/gitlab.schema.json" option.gitlab
+ok "they stand in the scene" get option.gitlab 0/location/path minimal.yaml
 # Fingerprints hold while lines before them come.
 "$glint" check bad.glint.yaml --format sarif >before.sarif
 sed -i '1a # a line more' bad.glint.yaml
@@ -265,6 +273,10 @@ expect "a comment behind" 0 - "$glint" check --only W401 --only W8xx c.glint.yam
 head -4 w.glint.yaml >c.glint.yaml
 printf '  # glint: allow W401\n\n  # the pane\n%s\n' "$line" >>c.glint.yaml
 expect "blank lines and comments between" 0 - "$glint" check --only W401 --only W8xx c.glint.yaml
+cp c.glint.yaml behind.glint.yaml
+sed -i '5,$d' behind.glint.yaml
+printf '  - # glint: allow W401\n    {mesh: open.obj, material: {albedo: [0.1, 0, 0, 0.9], refractive_index: 1.5}}\n' >>behind.glint.yaml
+expect "a comment behind the dash of an item" 0 - "$glint" check --only W401 --only W8xx behind.glint.yaml
 sed -i 's/allow W401/allow W401, W601/' c.glint.yaml
 expect "an unused code" 0 'c.glint.yaml:5:24: warning: W601 does not occur .*\[W801\]' "$glint" check --only W401 --only W8xx c.glint.yaml
 expect "it fails where warnings do" 1 'W801' "$glint" check --only W401 --only W8xx c.glint.yaml --fail-on warning
