@@ -64,7 +64,7 @@ static void load(struct scene *s, struct asset_store *store, str mesh, str mater
     model->mesh = STR("mesh.obj");
     model->material.index = IR_NO_INDEX;
     struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
-                                 &s->limits, &s->sink,   &s->arena};
+                                 &s->limits, &s->sink,   &s->arena,   NULL};
     assets_load(store, &input, false, &s->assets);
     const struct mesh *loaded = s->assets.models[0].mesh;
     require(loaded || s->sink.errors > 0, "a mesh, or an error");

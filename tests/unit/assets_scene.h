@@ -109,7 +109,7 @@ static inline void assets_scene_background(struct assets_scene *s, const char *i
 
 static inline void assets_scene_load(struct assets_scene *s) {
     struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
-                                 &s->limits, &s->sink,   &s->arena};
+                                 &s->limits, &s->sink,   &s->arena,   NULL};
     assets_load(s->store, &input, false, &s->assets);
     diag_sort(&s->sink);
 }

@@ -1,0 +1,34 @@
+#!/bin/sh
+# Both syntaxes of RELAX NG say the same to jing: on scenes, on generated ones, on the invalid corpus.
+. "$(dirname -- "$0")/lib.sh"
+needs jing
+"$glint" schema rnc >glint.rnc
+"$glint" schema relaxng >glint.rng
+seed=0
+while [ $seed -lt 20 ]; do
+    "$generate" $seed xml >generated$seed.xml
+    seed=$((seed + 1))
+done
+# shellcheck disable=SC2046
+jing -c glint.rnc $(xml_scenes) generated*.xml || fail "the compact syntax refuses a scene"
+# shellcheck disable=SC2046
+jing glint.rng $(xml_scenes) generated*.xml || fail "the XML syntax refuses a scene"
+# jing names each file that it refuses, and stops at one that is no XML: that one is put away.
+xml_cases >verdicts
+for syntax in "-c glint.rnc" "glint.rng"; do
+    rm -rf cases && mkdir cases && : >refused
+    while read -r name verdict; do cp "$source/tests/invalid/$name/case.xml" "cases/$name.xml"; done <verdicts
+    # shellcheck disable=SC2086
+    while jing $syntax cases/*.xml >report 2>&1 || true && grep ': fatal: ' report >fatal; do
+        name=$(sed 's|.*/\([^/]*\)\.xml:.*: fatal: .*|\1|' fatal)
+        echo "/$name.xml:" >>refused
+        rm "cases/$name.xml"
+    done
+    cat report >>refused
+    while read -r name verdict; do
+        got=good
+        grep -q "/$name.xml:" refused && got=bad
+        [ $got = "$verdict" ] || fail "$name is $verdict, and jing $syntax takes it for $got"
+    done <verdicts
+done
+wc -l <verdicts

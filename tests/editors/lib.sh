@@ -1,0 +1,46 @@
+# What the editor tests share. Usage of each: NAME.sh GLINT SOURCE_FOLDER WORK_FOLDER GENERATE_SCENE
+set -eu
+glint=$1
+source=$2
+work=$3
+generate=$4
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+
+skip() {
+    echo "skipped: $1"
+    exit 77
+}
+fail() {
+    echo "FAIL $1"
+    exit 1
+}
+needs() {
+    command -v "$1" >/dev/null 2>&1 || skip "$1 is not installed"
+}
+# The folder of a node module: GLINT_NODE_MODULES, or what npm has installed for all.
+node_module() {
+    needs node
+    for folder in "${GLINT_NODE_MODULES:-}" "$(npm root -g 2>/dev/null || true)"; do
+        if [ -n "$folder" ] && [ -d "$folder/$1" ]; then
+            modules=$folder
+            return
+        fi
+    done
+    skip "the node module $1 is not installed"
+}
+# XML cases of the invalid corpus: "NAME good" or "NAME bad", by what a schema can see.
+xml_cases() {
+    for folder in "$source"/tests/invalid/*/; do
+        name=$(basename "$folder")
+        [ -f "$folder/case.xml" ] || continue
+        case $name in *_command) continue ;; esac
+        if grep -q ': error: ' "$folder/expected.txt" && ! grep -qx "$name" "$source/tests/invalid/checker_only.txt"; then
+            echo "$name bad"
+        else
+            echo "$name good"
+        fi
+    done
+}
+xml_scenes() { find "$source/scenes" "$source/tests/scenes" -name '*.xml' | sort; }

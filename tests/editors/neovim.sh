@@ -1,0 +1,51 @@
+#!/bin/sh
+# Neovim without a screen, with glint lsp as its language server: diagnostics, definition, fix, formatting.
+. "$(dirname -- "$0")/lib.sh"
+needs nvim
+nvim --headless -u NONE -c 'lua if not vim.lsp then vim.cmd("cquit") end' -c 'quit' 2>/dev/null ||
+    skip "this nvim has no language client"
+printf 'glint: 1\nmaterials:\n  glass: {refractive_index: 1.5}\n' >materials.yaml
+cat >scene.yaml <<'S'
+glint: 1
+include: [materials.yaml]
+spheres:
+  - {centre: [0, 0, 0], radius: 1, material: glass}
+S
+cat >drive.lua <<'L'
+local glint = vim.env.GLINT
+local function fail(text) io.stderr:write(text .. "\n"); vim.cmd("cquit 1") end
+local function wait(what, test) if not vim.wait(20000, test, 20) then fail("no " .. what) end end
+vim.cmd("edit scene.yaml")
+local id = vim.lsp.start_client({ name = "glint", cmd = { glint, "lsp" }, root_dir = vim.fn.getcwd() })
+vim.lsp.buf_attach_client(0, id)
+wait("diagnostics", function() return #vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR }) > 0 end)
+local function errors() return vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR }) end
+local found = errors()[1]
+if found.code ~= "E202" or found.lnum ~= 3 or found.col ~= 5 then fail("diagnostic: " .. vim.inspect(found)) end
+local client = vim.lsp.get_client_by_id(id)
+-- The fix.
+local params = { textDocument = { uri = vim.uri_from_bufnr(0) }, context = { diagnostics = {} },
+  range = { start = { line = 3, character = 6 }, ["end"] = { line = 3, character = 6 } } }
+local answer = client.request_sync("textDocument/codeAction", params, 20000, vim.api.nvim_get_current_buf())
+vim.lsp.util.apply_workspace_edit(answer.result[1].edit, client.offset_encoding)
+wait("fixed text", function() return vim.fn.getline(4):find("center") ~= nil end)
+wait("silence", function() return #errors() == 0 end)
+-- The definition, in another file.
+answer = client.request_sync("textDocument/definition", { textDocument = { uri = vim.uri_from_bufnr(0) },
+  position = { line = 3, character = 46 } }, 20000, vim.api.nvim_get_current_buf())
+if not answer.result or not answer.result.uri:find("materials.yaml") then fail("definition: " .. vim.inspect(answer)) end
+-- Formatting.
+vim.fn.setline(4, "  -    {center: [0,0,0],   radius: 1, material: glass}")
+vim.wait(500)
+answer = client.request_sync("textDocument/formatting", { textDocument = { uri = vim.uri_from_bufnr(0) },
+  options = { tabSize = 2, insertSpaces = true } }, 20000, vim.api.nvim_get_current_buf())
+if not answer.result or #answer.result == 0 then fail("format: " .. vim.inspect(answer)) end
+vim.lsp.util.apply_text_edits(answer.result, vim.api.nvim_get_current_buf(), client.offset_encoding)
+if vim.fn.getline(4) ~= "  - {center: [0, 0, 0], radius: 1, material: glass}" then fail("formatted: " .. vim.fn.getline(4)) end
+vim.cmd("qall!")
+L
+GLINT=$glint nvim --headless -u NONE -i NONE -n -c 'luafile drive.lua' 2>log || {
+    cat log
+    fail "neovim"
+}
+echo ok
