@@ -7,6 +7,7 @@
 #include "core/nearest.h"
 #include "core/number.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -202,6 +203,42 @@ static bool is_scalar(struct bind_context *context, struct bind_subject subject,
     return true;
 }
 
+#define PI 3.14159265358979323846
+
+// How many multiples of pi/12, which are 15 degrees, the text writes to all of its decimals; 0: it is none.
+// With fewer than three decimals only the best known count.
+static int written_radians(str text, double value) {
+    double size = fabs(value), parts = nearbyint(size * 12 / PI);
+    double error = fabs(size - parts * PI / 12);
+    if (!(parts >= 1 && parts <= 24 && error <= 0.005))
+        return 0;
+    size_t point = 0;
+    while (point < text.len && text.ptr[point] != '.')
+        point++;
+    size_t decimals = text.len > point ? text.len - point - 1 : 0;
+    for (size_t i = 0; i < text.len; i++)
+        if (text.ptr[i] == 'e' || text.ptr[i] == 'E')
+            return 0;
+    bool known = decimals == 2 && (parts == 6 || parts == 12 || parts == 24);
+    bool exact = error <= 0.5 * pow(10, -(double)(decimals < 12 ? decimals : 12));
+    return exact && (known || decimals >= 3) ? (int)parts : 0;
+}
+
+static void check_angle(struct bind_context *context, struct bind_subject subject, tree_index node,
+                        double value) {
+    int parts =
+        subject.row->unit == SCHEMA_UNIT_DEGREES ? written_radians(tree_text(context->tree, node), value) : 0;
+    if (parts == 0)
+        return;
+    str degrees = arena_format(context->scratch, "%s%d", value < 0 ? "-" : "", parts * 15);
+    diag_add(context->sink, DIAG_RADIANS, tree_span(context->tree, node),
+             "%.*s is %.*s degrees, which looks like %.*s degrees in radians",
+             STR_ARG(say_subject(context->scratch, subject)), STR_ARG(tree_text(context->tree, node)),
+             STR_ARG(degrees));
+    diag_help(context->sink, "angles are in degrees: write %.*s", STR_ARG(degrees));
+    diag_fix(context->sink, false, tree_span(context->tree, node), degrees);
+}
+
 bool bind_number(struct bind_context *context, struct bind_subject subject, tree_index node, double *out) {
     if (!is_scalar(context, subject, node))
         return false;
@@ -219,6 +256,7 @@ bool bind_number(struct bind_context *context, struct bind_subject subject, tree
         return bad_number(context, subject, node, status);
     if (!schema_in_range(subject.row->range, value))
         return out_of_range(context, subject, node);
+    check_angle(context, subject, node, value);
     *out = value;
     return true;
 }
