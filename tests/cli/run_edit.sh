@@ -131,6 +131,8 @@ expect "its place in XML" 1 '^    a.xml:[0-9]+:[0-9]+$' - "$glint" diff a.xml b.
 sed 's/glass/crystal/' a.yaml >b.yaml
 expect "a material that was renamed" 1 '^renamed materials.glass -> materials.crystal$' - "$glint" diff a.yaml b.yaml
 expect "and nothing else" 1 '^1 difference$' - "$glint" diff a.yaml b.yaml
+sed 's/material: red/material: {diffuse_color: [1, 0, 0]}/' a.yaml >b.yaml
+expect "a material in place of its name is no difference" 0 - - "$glint" diff a.yaml b.yaml
 sed '$d' a.yaml >b.yaml
 expect "a body that went" 1 '^removed spheres.1.: .center: .2, 0, 0., radius: 1, material: red.$' - "$glint" diff a.yaml b.yaml
 expect "a body that came" 1 '^added spheres.1.' - "$glint" diff b.yaml a.yaml
