@@ -2,6 +2,8 @@
 
 #include "app/where.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 
 static enum shot_status no_memory(struct session *session) {
@@ -45,6 +47,27 @@ static void report_fault(struct session *session, enum diag_code code, const str
                                                           .triangle = fault->triangle});
 }
 
+// Floats for the image; a pixel with a value that none holds is marked as one that is no number.
+static struct reference_fault round_picture(const struct exact *exact, const double *values,
+                                            struct image *image) {
+    struct reference_fault fault = {.body = HIT_NONE};
+    const uint32_t width = exact->settings.width;
+    const size_t count = (size_t)width * exact->settings.height;
+    for (size_t i = 0; i < count; i++) {
+        const double *from = values + 3 * i;
+        float *to = image->rgb + 3 * i;
+        const double largest = fmax(fabs(from[0]), fmax(fabs(from[1]), fabs(from[2])));
+        const bool holds = !isfinite(largest) || largest <= (double)FLT_MAX;
+        for (int k = 0; k < 3; k++)
+            to[k] = holds ? (float)from[k] : NAN;
+        if (!holds && fault.pixels++ == 0) {
+            fault.x = (uint32_t)(i % width);
+            fault.y = (uint32_t)(i / width);
+        }
+    }
+    return fault;
+}
+
 enum shot_status exact_take(struct exact *exact, struct image *image, double *rgb,
                             const struct reference_progress *progress,
                             struct reference_statistics *statistics) {
@@ -54,14 +77,16 @@ enum shot_status exact_take(struct exact *exact, struct image *image, double *rg
         return no_memory(exact->session);
     enum reference_result result =
         reference_source_render(&exact->source, &exact->settings, values, progress, statistics);
-    for (size_t i = 0; result == REFERENCE_DONE && i < count; i++)
-        image->rgb[i] = (float)values[i];
+    struct reference_fault too_large = {0};
+    if (result == REFERENCE_DONE)
+        too_large = round_picture(exact, values, image);
     if (!rgb)
         free(values);
     if (result != REFERENCE_DONE)
         return result == REFERENCE_CANCELLED ? SHOT_CANCELLED : no_memory(exact->session);
     report_fault(exact->session, DIAG_NOT_FINITE, &statistics->not_finite,
                  "got a value that is infinite or not a number");
+    report_fault(exact->session, DIAG_NOT_FINITE, &too_large, "got a value that no float holds");
     report_fault(exact->session, DIAG_PATH_SEGMENTS, &statistics->over_segments,
                  "needed more rays than the limit path-segments");
     return SHOT_OK;

@@ -47,9 +47,15 @@ static enum shot_status log_device(struct pick *pick, struct gpu *gpu, uint32_t 
     if (status == SHOT_OK && (!segments || !out->segments))
         status = no_memory(pick->session);
     struct render_log log = {.segments = segments, .capacity = PICK_SEGMENTS_MAX};
-    if (status == SHOT_OK &&
-        renderer_log(shot.renderer, &shot.view.camera, pick->x, pick->y, 0, &log) != RENDER_DONE)
-        status = SHOT_DEVICE;
+    for (uint32_t i = 0; status == SHOT_OK && i <= pick->sample_count; i++) {
+        // The one that is told comes last.
+        const uint32_t sample = i < pick->sample_count ? i : pick->sample;
+        if (renderer_log(shot.renderer, &shot.view.camera, pick->x, pick->y, sample, &log) != RENDER_DONE)
+            status = SHOT_DEVICE;
+        else if (i < pick->sample_count)
+            pick->samples[PICK_DEVICE][i] =
+                (vec3){(double)log.rgb[0], (double)log.rgb[1], (double)log.rgb[2]};
+    }
     if (status == SHOT_OK) {
         out->count = log.count;
         out->whole = log.whole;
@@ -73,8 +79,11 @@ static enum shot_status log_reference(struct pick *pick, uint32_t camera) {
         const struct reference *reference = reference_source_get(&exact.source);
         out->segments = malloc(PICK_SEGMENTS_MAX * sizeof *out->segments);
         if (reference && out->segments)
-            out->count = reference_log(reference, &exact.settings, pick->x, pick->y, 0, out->segments,
-                                       PICK_SEGMENTS_MAX, &out->color);
+            out->count = reference_log(reference, &exact.settings, pick->x, pick->y, pick->sample,
+                                       out->segments, PICK_SEGMENTS_MAX, &out->color);
+        for (uint32_t i = 0; reference && i < pick->sample_count; i++)
+            reference_log(reference, &exact.settings, pick->x, pick->y, i, NULL, 0,
+                          &pick->samples[PICK_REFERENCE][i]);
         out->whole = out->count <= PICK_SEGMENTS_MAX;
         if (out->count == 0)
             status = no_memory(pick->session);
@@ -153,8 +162,10 @@ static enum shot_status compare_paths(struct pick *pick) {
 // ---- the whole
 
 enum shot_status pick_take(struct pick *pick, struct session *session, struct gpu *gpu, uint32_t camera,
-                           uint32_t x, uint32_t y) {
-    *pick = (struct pick){.session = session, .x = x, .y = y};
+                           uint32_t x, uint32_t y, uint32_t sample) {
+    const uint32_t samples = (uint32_t)session->image.samples;
+    *pick = (struct pick){.session = session, .x = x, .y = y, .sample = sample};
+    pick->sample_count = samples < PICK_SAMPLES_MAX ? samples : PICK_SAMPLES_MAX;
     enum shot_status status = log_reference(pick, camera);
     if (status == SHOT_OK && gpu)
         status = log_device(pick, gpu, camera);

@@ -13,6 +13,7 @@
 enum {
     PICK_SEGMENTS_MAX = 4096,  // rays of a path that are told
     PICK_DIFFERENCES_MAX = 16, // that are told
+    PICK_SAMPLES_MAX = 16,     // whose colours are told
 };
 
 // One tracer's path, in the reference's words. Rays deeper than max_depth are not traced: they see the
@@ -39,12 +40,14 @@ struct pick_difference {
 
 struct pick {
     struct session *session;
-    uint32_t x, y;
+    uint32_t x, y, sample;
     str camera;
     str device;     // its name; empty: the reference alone
     bool is_double; // the device's precision
     uint32_t max_depth;
-    struct pick_log logs[2]; // device, reference
+    struct pick_log logs[2];           // device, reference
+    vec3 samples[2][PICK_SAMPLES_MAX]; // the colours of the first samples
+    uint32_t sample_count;
     struct pick_difference differences[PICK_DIFFERENCES_MAX];
     uint32_t difference_count; // told or not
 };
@@ -54,9 +57,9 @@ enum {
     PICK_REFERENCE
 };
 
-// Sample 0 of pixel x, y of the session's picture. `gpu` NULL: the reference alone.
+// The path of a sample of pixel x, y of the session's picture. `gpu` NULL: the reference alone.
 enum shot_status pick_take(struct pick *pick, struct session *session, struct gpu *gpu, uint32_t camera,
-                           uint32_t x, uint32_t y);
+                           uint32_t x, uint32_t y, uint32_t sample);
 void pick_finish(struct pick *pick); // NULL and zeroed ones are fine
 
 void pick_text(const struct pick *pick, struct strbuf *out);

@@ -145,15 +145,28 @@ static void put_color(const struct pick_log *log, const char *words, struct strb
     strbuf_format(out, " (%s)\n", words);
 }
 
+// Which sample a mean owes its colour to.
+static void put_samples(const struct pick *pick, struct strbuf *out) {
+    for (uint32_t i = 0; pick->sample_count > 1 && i < pick->sample_count; i++) {
+        strbuf_format(out, "sample %-4u", i);
+        for (int side = pick->device.len ? PICK_DEVICE : PICK_REFERENCE; side <= PICK_REFERENCE; side++) {
+            put_vector(out, pick->samples[side][i]);
+            strbuf_cstr(out, side == PICK_DEVICE ? " (device), " : " (reference)\n");
+        }
+    }
+}
+
 void pick_text(const struct pick *pick, struct strbuf *out) {
     const struct session *session = pick->session;
     const char *precision = pick->is_double ? "double precision" : "single precision";
-    strbuf_format(out, "pixel      %u,%u of %d x %d, camera '%.*s', sample 0 of %d\n", pick->x, pick->y,
-                  session->image.width, session->image.height, STR_ARG(pick->camera), session->image.samples);
+    strbuf_format(out, "pixel      %u,%u of %d x %d, camera '%.*s', sample %u of %d\n", pick->x, pick->y,
+                  session->image.width, session->image.height, STR_ARG(pick->camera), pick->sample,
+                  session->image.samples);
     put_seen(pick, out);
     if (pick->device.len)
         put_color(&pick->logs[PICK_DEVICE], precision, out);
     put_color(&pick->logs[PICK_REFERENCE], "reference", out);
+    put_samples(pick, out);
     if (pick->device.len) {
         strbuf_format(out, "\npath as %.*s sees it, %s\n", STR_ARG(pick->device), precision);
         put_path(pick, &pick->logs[PICK_DEVICE], out);
@@ -288,7 +301,7 @@ void pick_json(const struct pick *pick, struct strbuf *out) {
     json_write_integer(&w, "width", (uint64_t)pick->session->image.width);
     json_write_integer(&w, "height", (uint64_t)pick->session->image.height);
     json_write_text(&w, "camera", pick->camera);
-    json_write_integer(&w, "sample", 0);
+    json_write_integer(&w, "sample", pick->sample);
     if (pick->device.len) {
         json_path(&w, "device", pick, PICK_DEVICE);
         json_differences(&w, pick);

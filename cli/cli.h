@@ -34,6 +34,8 @@ struct cli_list {
 struct cli_options {
     const char *output;                     // NULL: not given
     int32_t width, height, samples, repeat; // 0: not given
+    int32_t sample;                         // of a pixel, from 0
+    int sample_arg;
     str camera;
     const char *device;     // NULL: not given
     const char *format;     // NULL: not given

@@ -17,6 +17,7 @@ enum option_id {
     OPTION_OUTPUT,
     OPTION_SIZE,
     OPTION_SAMPLES,
+    OPTION_SAMPLE,
     OPTION_CAMERA,
     OPTION_SET,
     OPTION_DEVICE,
@@ -64,6 +65,7 @@ static const struct option_row rows[] = {
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render inspect tradeoff",
      "rays through each pixel, instead of the scene's"},
+    {OPTION_SAMPLE, "sample", 0, "N", "pick", "the sample whose path is told, from 0"},
     {OPTION_CAMERA, "camera", 0, "NAME", "pick tradeoff extremes", "the camera to look through"},
     {OPTION_CAMERA, "camera", 0, "NAME", "render",
      "the camera to look through; 'all' makes OUT.NAME.png for each"},
@@ -193,6 +195,17 @@ static bool read_count(struct cli *cli, int arg, const char *name, const char *t
         return false;
     }
     *out = (int32_t)value;
+    return true;
+}
+
+static bool read_sample(struct cli *cli, int arg, const char *text) {
+    int64_t value = 0;
+    if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < 0 || value > 4095) {
+        cli_usage(cli, arg, "--sample takes a whole number from 0 to 4095, not '%s'", text);
+        return false;
+    }
+    cli->options.sample = (int32_t)value;
+    cli->options.sample_arg = arg;
     return true;
 }
 
@@ -331,6 +344,8 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         return read_size(cli, arg, value);
     case OPTION_SAMPLES:
         return read_count(cli, arg, "samples", value, 4096, &options->samples);
+    case OPTION_SAMPLE:
+        return read_sample(cli, arg, value);
     case OPTION_CAMERA:
         options->camera = str_from(value);
         return true;

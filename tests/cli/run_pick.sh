@@ -47,6 +47,9 @@ if "$glint" devices | grep -q .; then
     expect "two paths" 0 '^differences: 0$' - "$glint" pick scene.yaml 32,32
     expect "a refracted ray" 0 '^ +[0-9]+  refracted from 0, weight 0.8: sphere .ball., at 1.9' - "$glint" pick scene.yaml 32,32
     expect "a cut ray" 0 'the background, cut by max_depth' - "$glint" pick scene.yaml 32,32
+    expect "another sample" 0 'sample 2 of 4$' - "$glint" pick scene.yaml 32,32 --sample 2 --set image.samples=4
+    expect "the colours of all" 0 '^sample 3   .* \(device\), .* \(reference\)$' - "$glint" pick scene.yaml 32,32 --sample 2 --set image.samples=4
+    expect "no such sample" 2 - 'the picture has 1 sample a pixel, counted from 0' "$glint" pick scene.yaml 32,32 --sample 1
     expect "a shadow" 0 "rectangles\[0\], at [0-9.]+; 'sun' in shadow; adds 0 0 0" - "$glint" pick scene.yaml 32,63
     expect "a light below" 0 "rectangles\[0\], at [0-9.]+; 'sun' lit; adds 0\.[0-9]" - "$glint" pick scene.yaml 4,62
     expect "JSON" 0 '"difference_count": 0' - "$glint" pick scene.yaml 32,32 --format json
@@ -66,6 +69,7 @@ if "$glint" devices | grep -q .; then
     expect "a background" 1 - 'pixels got a value that is infinite.*E706' "$glint" render sky.yaml -o sky.pfm
     expect "seen at once" 1 - 'E706' "$glint" render sky.yaml -o sky.pfm --set 'models=' --set 'spheres=' --set 'rectangles='
     expect "a sum of samples" 1 - 'E706' "$glint" render sky.yaml -o sky.pfm --samples 4 --set 'background.intensity=1.5' --set 'models=' --set 'spheres=' --set 'rectangles='
+    expect "by the reference" 1 - '256 pixels got a value that no float holds, the first at 0,0 \[E706\]' "$glint" render sky.yaml -o sky.pfm --device reference --no-cache --size 16x16 --set 'models=' --set 'spheres=' --set 'rectangles='
     expect "each of them is finite" 0 - 'wrote sky.pfm' "$glint" render sky.yaml -o sky.pfm --set 'background.intensity=1.5' --set 'models=' --set 'spheres=' --set 'rectangles='
     cat >near.yaml <<'END'
 glint: 1
