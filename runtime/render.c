@@ -141,7 +141,7 @@ static bool make_band(struct renderer *renderer) {
 static bool make_frame(struct renderer *renderer) {
     plan(renderer);
     if (make_band(renderer))
-        renderer->program = renderer_compile_kernel(renderer, RENDERER_TRACE, renderer->features, NULL, NULL);
+        renderer->program = renderer_keep_program(renderer, renderer->features);
     return renderer->program != NULL;
 }
 
@@ -149,8 +149,6 @@ static void drop_frame(struct renderer *renderer) {
     static const int bindings[] = {BINDING_OUTPUT, BINDING_STATE, BINDING_COUNTERS, BINDING_FRAME};
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
-    gpu_program_destroy(renderer->gpu, renderer->counting);
-    gpu_program_destroy(renderer->gpu, renderer->program);
     renderer->counting = renderer->program = NULL;
     for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++) {
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[bindings[i]]);
@@ -197,6 +195,8 @@ void renderer_destroy(struct renderer *renderer) {
     if (!renderer)
         return;
     drop_frame(renderer);
+    for (int i = 0; i < RENDERER_KEPT; i++)
+        gpu_program_destroy(renderer->gpu, renderer->kept[i].program);
     for (int i = 0; i < GPU_BINDINGS; i++)
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[i]);
     free(renderer);

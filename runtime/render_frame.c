@@ -282,8 +282,7 @@ enum render_result renderer_count(struct renderer *renderer, const struct view_c
     struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
     uint32_t values[COUNTER_COUNT] = {0};
     if (!renderer->counting)
-        renderer->counting = renderer_compile_kernel(renderer, RENDERER_TRACE,
-                                                     renderer->features | FEATURE_COUNTERS, NULL, NULL);
+        renderer->counting = renderer_keep_program(renderer, renderer->features | FEATURE_COUNTERS);
     if (!renderer->counting || !gpu_write(renderer->gpu, counters, 0, values, sizeof values))
         return RENDER_FAILED;
     renderer->pending = 0;

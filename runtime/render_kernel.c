@@ -80,6 +80,31 @@ double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t hig
     return renderer->flat->is_double ? value : (double)single;
 }
 
+static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {
+    return kept->program && kept->features == features && kept->study == renderer->settings.study &&
+           kept->workgroup == renderer->settings.workgroup;
+}
+
+struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t features) {
+    for (uint32_t i = 0; i < RENDERER_KEPT; i++)
+        if (is_for(&renderer->kept[i], renderer, features)) {
+            gpu_program_bind(renderer->gpu, renderer->kept[i].program, renderer->buffers);
+            return renderer->kept[i].program;
+        }
+    struct gpu_program *program = renderer_compile_kernel(renderer, RENDERER_TRACE, features, NULL, NULL);
+    if (!program)
+        return NULL;
+    // The one in use stays.
+    while (renderer->kept[renderer->kept_next].program &&
+           renderer->kept[renderer->kept_next].program == renderer->program)
+        renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
+    struct renderer_kept *kept = &renderer->kept[renderer->kept_next];
+    gpu_program_destroy(renderer->gpu, kept->program);
+    *kept = (struct renderer_kept){features, renderer->settings.workgroup, renderer->settings.study, program};
+    renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
+    return program;
+}
+
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
                                             uint32_t features, struct gpu_buffer *output,
                                             struct gpu_buffer *state) {

@@ -26,6 +26,16 @@ struct dispatch_block {
 struct renderer_hits;
 struct renderer_log;
 
+// A kernel that was compiled, for the settings that it depends on.
+struct renderer_kept {
+    uint32_t features, workgroup;
+    enum render_study study;
+    struct gpu_program *program; // NULL: none
+};
+enum {
+    RENDERER_KEPT = 16
+};
+
 struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
@@ -36,12 +46,14 @@ struct renderer {
     uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
-    struct gpu_program *program;
-    struct gpu_program *counting; // made by the first renderer_count
-    uint32_t *band;               // the band's output, read back: 4 words a slot
-    struct renderer_hits *hits;   // made by the first renderer_hits
-    struct renderer_log *log;     // made by the first renderer_log
-    uint32_t pending;             // value of COUNTER_PENDING after the last dispatch
+    struct gpu_program *program;  // of those kept
+    struct gpu_program *counting; // the same; made by the first renderer_count
+    struct renderer_kept kept[RENDERER_KEPT];
+    uint32_t kept_next;         // which one gives way
+    uint32_t *band;             // the band's output, read back: 4 words a slot
+    struct renderer_hits *hits; // made by the first renderer_hits
+    struct renderer_log *log;   // made by the first renderer_log
+    uint32_t pending;           // value of COUNTER_PENDING after the last dispatch
 };
 
 // A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` take the place
@@ -55,6 +67,8 @@ enum renderer_kernel {
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
                                             uint32_t features, struct gpu_buffer *output,
                                             struct gpu_buffer *state);
+// The tracing kernel with these features, compiled now or before, over the band's buffers.
+struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t features);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
 // The frame's uniforms for a camera.

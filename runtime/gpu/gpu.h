@@ -102,6 +102,9 @@ struct gpu_program_source {
 // Compiles a kernel and ties it to its buffers, which must outlive it. NULL on failure.
 struct gpu_program *gpu_program_create(struct gpu *gpu, const struct gpu_program_source *source);
 void gpu_program_destroy(struct gpu *gpu, struct gpu_program *program);
+// Ties a kernel to other buffers, of the same uses and at the same bindings. Nothing may be under way.
+void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
+                      struct gpu_buffer *const buffers[GPU_BINDINGS]);
 
 // Records a dispatch of groups_x times groups_y workgroups behind those recorded before; each sees what
 // the ones before it wrote. `push` holds the program's push constants.

@@ -113,11 +113,17 @@ static bool create_set(struct gpu *gpu, struct gpu_program *program,
     if (!gpu_check(gpu, gpu->vk.vkAllocateDescriptorSets(gpu->device, &allocate, &program->set),
                    "vkAllocateDescriptorSets"))
         return false;
+    gpu_program_bind(gpu, program, source->buffers);
+    return true;
+}
+
+void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
+                      struct gpu_buffer *const buffers[GPU_BINDINGS]) {
     VkWriteDescriptorSet writes[GPU_BINDINGS];
     VkDescriptorBufferInfo infos[GPU_BINDINGS];
     uint32_t count = 0;
     for (uint32_t i = 0; i < GPU_BINDINGS; i++) {
-        const struct gpu_buffer *buffer = source->buffers[i];
+        const struct gpu_buffer *buffer = buffers[i];
         if (!buffer)
             continue;
         infos[count] = (VkDescriptorBufferInfo){.buffer = buffer->buffer, .range = VK_WHOLE_SIZE};
@@ -131,7 +137,6 @@ static bool create_set(struct gpu *gpu, struct gpu_program *program,
         count++;
     }
     gpu->vk.vkUpdateDescriptorSets(gpu->device, count, writes, 0, NULL);
-    return true;
 }
 
 static bool create_pipeline(struct gpu *gpu, struct gpu_program *program,
