@@ -115,14 +115,12 @@ static void add_depths(struct planning *p) {
 }
 
 static void add_weights(struct planning *p) {
-    static const int ladder[] = {-2, -4, -6, -8, -10, -14};
+    static const double ladder[] = {0.25, 0.1, 0.03, 0.01, 0.003, 0.0001, 0};
     struct setting s = p->input->base;
     for (size_t i = 0; i < sizeof ladder / sizeof *ladder; i++) {
-        s.min_weight = ldexp(1, ladder[i]);
+        s.min_weight = ladder[i];
         add(p, s);
     }
-    s.min_weight = 0;
-    add(p, s);
 }
 
 static void add_sizes(struct planning *p) {

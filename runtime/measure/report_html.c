@@ -26,7 +26,8 @@ static const char STYLE[] =
     "}"
     ".samples{color:var(--k3)}.shadows{color:var(--k4)}.resolution{color:var(--k5)}.pair{color:var(--pair)}"
     ".features,.study{color:var(--study)}"
-    ".legend span{margin-right:16px;white-space:nowrap}.legend b{font-size:18px;line-height:1}"
+    ".lines{white-space:pre-line}.legend span{margin-right:16px;white-space:nowrap}.legend "
+    "b{font-size:18px;line-height:1}"
     ".scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:13px}"
     "th,td{padding:4px 9px;text-align:right;border-bottom:1px solid var(--line);white-space:nowrap}"
     "th{position:sticky;top:0;background:var(--paper);cursor:pointer;color:var(--soft);font-weight:600}"
@@ -226,7 +227,7 @@ static void head(const struct tradeoff *t, const char *scene, struct strbuf *out
     html_text(out, scene);
     strbuf_format(out, "</h1>\n<p class=\"soft\">%u &times; %u pixels on ", base->width, base->height);
     html_text(out, t->device);
-    strbuf_cstr(out, ".<br>");
+    strbuf_cstr(out, ".</p>\n<p class=\"soft lines\">");
     escaped(out, tradeoff_notes, t);
     strbuf_cstr(out, "</p>\n");
 }

@@ -1,0 +1,120 @@
+#!/bin/sh
+# glint tradeoff, and the settings that it chooses, as a user sees them.
+# Usage: run_tradeoff.sh GLINT SOURCE_FOLDER WORK_FOLDER [whole|same]
+#   else: studies that a small budget cuts short. whole: whole ones, and what they promise. same: the showcase's
+#   choice in 10 of 10 runs.
+set -u
+glint=$1
+source=$2
+work=$3
+mode=${4:-}
+failed=0
+cd "$work" || exit 2
+rm -rf -- ./*
+export XDG_CACHE_HOME="$work/cache"
+. "$source/tests/cli/expect.sh"
+
+cat >small.yaml <<'S'
+glint: 1
+image: {width: 24, height: 16}
+trace: {max_depth: 6}
+camera: {position: [0, 1, 6], look_at: [0, 0.6, 0], fov: 40}
+background: {color: [0.3, 0.5, 0.8]}
+lights:
+  - {position: [-5, 8, 5]}
+materials:
+  glass: {albedo: [0, 0.5, 0.2, 0.7], refractive_index: 1.5}
+spheres:
+  - {center: [-0.7, 0.7, 0], radius: 0.7, material: glass}
+  - {center: [0.9, 0.6, -0.5], radius: 0.6, material: {albedo: [0.4, 0.4, 0.6, 0]}}
+rectangles:
+  - {corner: [-4, 0, -4], edge_u: [8, 0, 0], edge_v: [0, 0, 7], material: {diffuse_color: {checker: {colors: [0.8, 0.2]}}}}
+S
+expect "no such metric" 2 - "did you mean 'flip'" "$glint" tradeoff small.yaml --max-error flp=1
+expect "a metric without a value" 2 - 'such as mae=0\.01' "$glint" tradeoff small.yaml --max-error mae
+expect "a report of another kind" 2 - 'must end in \.html' "$glint" tradeoff small.yaml -o report.pdf
+expect "a bad budget" 2 - 'budget takes a number' "$glint" tradeoff small.yaml --budget 0
+expect "the reference is no device to study" 2 - 'choose a device' "$glint" tradeoff small.yaml --device reference
+expect "a scene with errors" 1 - 'E206' "$glint" tradeoff small.yaml --set spheres[0].radius=-1
+if ! "$glint" render small.yaml -o probe.png -q 2>/dev/null; then
+    echo "skip: no Vulkan device"
+    exit $failed
+fi
+
+if [ -z "$mode" ]; then
+    expect "a study cut short" 0 'the budget cut the study short' - "$glint" tradeoff small.yaml -q --budget 1 -o report.html
+    cp out.txt study.txt
+    expect "its file's own row" 0 '^  0 .*as the file says' - cat study.txt
+    expect "the report is one file" 0 '<svg.*time against error' - cat report.html
+    expect "nothing fits" 1 '"misses_by"' - "$glint" tradeoff small.yaml -q --max-error mae=0 --budget 1 --format json
+    expect "render says so too" 1 - 'E807' "$glint" render small.yaml -q --max-time 0.000001 --budget 1 -o none.png
+    expect "and writes nothing" 1 - - test -e none.png
+    expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.5 --budget 1 -o chosen.png
+    expect "its picture" 0 PNG '' head -c 4 chosen.png
+    exit $failed
+fi
+
+if [ "$mode" = same ]; then
+    scene="$source/scenes/showcase.glint.yaml"
+    for run in 1 2 3 4 5 6 7 8 9 10; do
+        "$glint" tradeoff "$scene" -q --size 64x48 --max-error flip=0.08 --format json | tr -d '\n' |
+            sed 's/.*"cheapest": {[^}]*"options": "\([^"]*\)".*/\1/'
+        echo
+    done | sed '/^$/d' | sort | uniq -c | tee choices.txt
+    expect "the same choice in 10 of 10 runs" 0 '^ *10 --set ' - cat choices.txt
+    exit $failed
+fi
+
+# column NAME FILE: the number of a column of the CSV.
+column() {
+    head -n 1 "$2" | tr ',' '\n' | grep -nx -- "$1" | cut -d: -f1
+}
+
+# falls PREFIX COLUMN FILE: along the rows whose setting is PREFIX and a number, and the file's own behind them.
+falls() {
+    awk -F, -v prefix="\"$1 [0-9.e-]*\"$" -v column="$(column "$2" "$3")" '
+        NR > 1 && $2 ~ "^" prefix {
+            if (count++ && $column > last * 1.0000001) { print $2, "rises from", last, "to", $column; bad = 1 }
+            last = $column
+        }
+        END { exit bad || count < 3 }' "$3"
+}
+
+expect "a study as CSV, and its report" 0 '^0,"as the file says",1' - \
+    "$glint" tradeoff small.yaml -q --format csv -o report.html
+cp out.txt study.csv
+expect "the report is one file" 0 '<svg.*time against error' - cat report.html
+expect "with pictures inside" 0 'src="data:image/png;base64,iVBOR' - cat report.html
+expect "that names nothing outside itself" 1 - - grep -qE '(src|href)="?http' report.html
+for row in 'max_depth 0' 'min_weight 0\.1' 'samples 4' 'shadows off' '12 x 8' 'general shader' \
+    'study: offset 1e-3' 'study: offset by distance' 'study: moeller-trumbore'; do
+    expect "a row of $row" 0 "^[0-9]+,\"$row\"" - cat study.csv
+done
+expect "pairs" 0 '^[0-9]+,"[a-z_]+ [0-9.]+, ' - cat study.csv
+expect "what is truncated falls along max_depth" 0 - - falls max_depth truncation study.csv
+expect "and along min_weight" 0 - - falls min_weight truncation study.csv
+expect "numeric errors fall along precision" 0 - - awk -F, -v n="$(column numeric study.csv)" '
+    $2 == "\"as the file says\"" { single = $n }
+    $2 == "\"precision double\"" && $n > single { exit 1 }' study.csv
+expect "studies are never chosen" 1 - - grep -qE '"study[^"]*",1' study.csv
+
+expect "nothing fits" 1 'it misses by .* flip' - "$glint" tradeoff small.yaml -q --max-error flip=1e-9 --budget 20
+expect "render says so too" 1 - 'E807' "$glint" render small.yaml --max-time 0.000001 --budget 20 -o none.png
+expect "and writes nothing" 1 - - test -e none.png
+
+# The chosen settings, rendered again from the file, keep the bound.
+expect "the cheapest that errs by 0.1" 0 '"runner_up": [0-9]+' - \
+    "$glint" tradeoff small.yaml -q --max-error flip=0.1 --set image.samples=2 --format json
+options=$(sed -n 's/.*"options": "\([^"]*\)".*/\1/p' out.txt)
+samples=$(sed -n 's/.*"truth_samples": \([0-9]*\).*/\1/p' out.txt)
+if ! echo "$options" | grep -q width; then
+    "$glint" render small.yaml -q --device reference --samples "$samples" -o truth.pfm
+    # shellcheck disable=SC2086
+    "$glint" render small.yaml -q --set image.samples=2 $options -o again.pfm
+    expect "the choice keeps the bound: $options" 0 'at most 0\.1: kept' - \
+        "$glint" compare again.pfm truth.pfm --space displayed --max-flip 0.1
+fi
+expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.2 --budget 30 -o chosen.png
+expect "its picture" 0 PNG '' head -c 4 chosen.png
+
+exit $failed
