@@ -31,15 +31,21 @@ static void bind_taken(struct bind_stream *stream, tree_index list_key, tree_ind
 }
 
 static bool take(struct reader_taker *taker, const struct tree *tree, tree_index list_key, tree_index entry) {
+    // What a name without a value lacks may stand behind it, in the wrong column.
+    if (tree_node(tree, entry)->key == TREE_KEY_PLAIN &&
+        tree_node(tree, tree_value(tree, entry))->kind == TREE_NULL)
+        return false;
     struct bind_stream *stream = stream_of(taker);
     struct bind_context *context = stream->context;
     struct arena *scratch = context->scratch;
+    struct diag_sink *sink = context->sink;
     struct arena_guard *outer = context->arena->guard;
     struct arena_guard guard;
     arena_set_guard(context->arena, &guard);
     arena_set_guard(&stream->entry, &guard);
     context->tree = tree;
     context->scratch = &stream->entry;
+    context->sink = &stream->sink;
     bool bound = setjmp(guard.jump) == 0;
     if (bound) {
         bind_taken(stream, list_key, entry);
@@ -47,7 +53,8 @@ static bool take(struct reader_taker *taker, const struct tree *tree, tree_index
     }
     context->arena->guard = outer;
     context->scratch = scratch;
-    return bound && context->sink->count == 0;
+    context->sink = sink;
+    return bound;
 }
 
 void bind_stream_begin(struct bind_stream *stream, struct bind_context *context, size_t memory_bytes) {
@@ -56,6 +63,7 @@ void bind_stream_begin(struct bind_stream *stream, struct bind_context *context,
                                    .elements_mark = context->origin->elements.count,
                                    .rows_mark = context->origin->rows.count};
     arena_init(&stream->entry, memory_bytes);
+    diag_sink_init(&stream->sink);
     context->scene = bind_new_scene(context);
     stream->root = (struct bind_frame){.schema = &SCHEMA_SCENE, .memory = context->scene};
 }
@@ -66,6 +74,7 @@ void bind_stream_forget(struct bind_stream *stream) {
         if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST)
             bind_list_give_back(context->arena, schema_field(&SCHEMA_SCENE.rows[i], context->scene),
                                 SCHEMA_SCENE.rows[i].child->size);
+    diag_sink_finish(&stream->sink);
     context->origin->elements.count = stream->elements_mark;
     context->origin->rows.count = stream->rows_mark;
     context->scene = NULL;
@@ -73,5 +82,6 @@ void bind_stream_forget(struct bind_stream *stream) {
 }
 
 void bind_stream_finish(struct bind_stream *stream) {
+    diag_sink_finish(&stream->sink);
     arena_finish(&stream->entry);
 }
