@@ -106,7 +106,7 @@ static bool measure_duel(const struct bench *bench, const struct bench_scene *sc
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.samples = 1;
-    bool done = bench_glint_open(&duel.glint, bench->gpu, scene, &settings) &&
+    bool done = bench_glint_open(&duel.glint, bench->gpu, scene, &settings, false) &&
                 bench_glint_warm(&duel.glint, bench->gpu);
     if (done) {
         duel.original = original_create(duel.glint.renderer, ORIGINAL_STORAGE, error);
@@ -127,7 +127,8 @@ static bool measure_duel(const struct bench *bench, const struct bench_scene *sc
 struct contestant {
     const char *name;
     uint32_t width, height, samples;
-    bool general; // everything compiled in
+    bool general;   // everything compiled in
+    bool is_double; // in double precision
 };
 
 // In turn, a frame each; rows of the table with the first contestant as the measure.
@@ -144,7 +145,7 @@ static bool measure_group(const struct bench *bench, const struct bench_scene *s
         settings[i].height = contestants[i].height;
         settings[i].samples = contestants[i].samples;
         settings[i].features = contestants[i].general ? FEATURE_SCENE_MASK : scene->settings.features;
-        done = bench_glint_open(&glints[i], bench->gpu, scene, &settings[i]) &&
+        done = bench_glint_open(&glints[i], bench->gpu, scene, &settings[i], contestants[i].is_double) &&
                bench_glint_warm(&glints[i], bench->gpu);
     }
     for (uint32_t turn = 0; turn < bench->rounds * TURNS && done; turn++)
@@ -160,20 +161,22 @@ static bool measure_group(const struct bench *bench, const struct bench_scene *s
 
 static bool measure_alone(const struct bench *bench, const struct bench_scene *scene) {
     static const struct contestant small[] = {
-        {"glint, kernel made for the scene", WIDTH, HEIGHT, 1, false},
-        {"glint, kernel for everything", WIDTH, HEIGHT, 1, true},
+        {"glint, kernel made for the scene", WIDTH, HEIGHT, 1, false, false},
+        {"glint, kernel for everything", WIDTH, HEIGHT, 1, true, false},
     };
     static const struct contestant large[] = {
-        {"glint, kernel made for the scene", 2 * WIDTH, 2 * HEIGHT, 1, false},
-        {"glint, kernel for everything", 2 * WIDTH, 2 * HEIGHT, 1, true},
+        {"glint, kernel made for the scene", 2 * WIDTH, 2 * HEIGHT, 1, false, false},
+        {"glint, kernel for everything", 2 * WIDTH, 2 * HEIGHT, 1, true, false},
+        {"glint, double precision", 2 * WIDTH, 2 * HEIGHT, 1, false, true},
     };
     static const struct contestant samples[] = {
-        {"glint, 1 sample", WIDTH, HEIGHT, 1, false},
-        {"glint, 4 samples", WIDTH, HEIGHT, 4, false},
-        {"glint, 16 samples", WIDTH, HEIGHT, 16, false},
+        {"glint, 1 sample", WIDTH, HEIGHT, 1, false, false},
+        {"glint, 4 samples", WIDTH, HEIGHT, 4, false, false},
+        {"glint, 16 samples", WIDTH, HEIGHT, 16, false, false},
     };
+    const int has_double = gpu_info(bench->gpu)->has_double;
     print_head(scene->path);
-    return measure_group(bench, scene, small, 2) && measure_group(bench, scene, large, 2) &&
+    return measure_group(bench, scene, small, 2) && measure_group(bench, scene, large, 2 + has_double) &&
            measure_group(bench, scene, samples, 3);
 }
 

@@ -150,7 +150,7 @@ int main(int argc, char **argv) {
         settings.width = o.width ? o.width : settings.width;
         settings.height = o.height ? o.height : settings.height;
         settings.samples = 1;
-        done = bench_glint_open(&glint, gpu, &scene, &settings) &&
+        done = bench_glint_open(&glint, gpu, &scene, &settings, false) &&
                image_init(&image, settings.width, settings.height) && show(&o, gpu, &scene, &glint, &image);
     }
     bench_glint_close(&glint);

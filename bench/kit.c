@@ -55,6 +55,9 @@ bool bench_scene_open(struct bench_scene *scene, const char *path, const char *a
                                .sink = &session->sink};
     if (!flatten(&input, &scene->flat))
         return report(session);
+    input.is_double = true;
+    if (!flatten(&input, &scene->flat_double))
+        return report(session);
     scene->settings = render_settings_of(session->scene, &scene->flat, &session->options.limits);
     return true;
 }
@@ -63,6 +66,7 @@ void bench_scene_close(struct bench_scene *scene) {
     if (!scene->store)
         return;
     flat_finish(&scene->flat);
+    flat_finish(&scene->flat_double);
     session_finish(&scene->session);
     asset_store_destroy(scene->store);
     *scene = (struct bench_scene){0};
@@ -131,9 +135,9 @@ double bench_most(const double *seconds, uint32_t count) {
 }
 
 bool bench_glint_open(struct bench_glint *glint, struct gpu *gpu, const struct bench_scene *scene,
-                      const struct render_settings *settings) {
+                      const struct render_settings *settings, bool is_double) {
     *glint = (struct bench_glint){.scene = scene};
-    glint->renderer = renderer_create(gpu, &scene->flat, settings);
+    glint->renderer = renderer_create(gpu, is_double ? &scene->flat_double : &scene->flat, settings);
     if (!glint->renderer || !image_init(&glint->image, settings->width, settings->height))
         return bench_device_failed(gpu);
     return true;

@@ -14,9 +14,9 @@ struct bench_scene {
     const char *path;
     struct asset_store *store;
     struct session session;
-    struct view view; // through the first camera
-    struct flat_scene flat;
-    struct render_settings settings; // as the scene says
+    struct view view;                    // through the first camera
+    struct flat_scene flat, flat_double; // single and double precision
+    struct render_settings settings;     // as the scene says
 };
 
 // `assets`: a further folder for the scene's files; may be NULL.
@@ -62,7 +62,7 @@ struct bench_glint {
 };
 
 bool bench_glint_open(struct bench_glint *glint, struct gpu *gpu, const struct bench_scene *scene,
-                      const struct render_settings *settings);
+                      const struct render_settings *settings, bool is_double);
 void bench_glint_close(struct bench_glint *glint);
 // One frame; `series` may be NULL.
 bool bench_glint_frame(struct bench_glint *glint, struct gpu *gpu, struct bench_series *series);
