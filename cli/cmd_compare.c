@@ -17,7 +17,8 @@ struct comparison {
     struct picture_file pictures[2];
     struct measure_options options;
     struct measure_result result;
-    float *map; // a value a pixel, for the heat map; NULL where there is none
+    float *map;    // a value a pixel, for the heat map; NULL where there is none
+    float *linear; // the float picture as its file has it, where the other holds bytes; else NULL
 };
 
 static int cannot_read(struct comparison *c, const char *path, enum diag_code code, const char *why) {
@@ -45,6 +46,56 @@ static int read_picture(struct comparison *c, int which) {
     return fault ? cannot_read(c, path, unknown ? DIAG_IMAGE_KIND : DIAG_IMAGE_BROKEN, fault) : CLI_OK;
 }
 
+static int no_memory(struct comparison *c) {
+    cli_error(c->cli, DIAG_OUT_OF_MEMORY, c->cli->operands[0], NULL,
+              "not enough memory to compare the pictures");
+    return CLI_SCENE;
+}
+
+static bool keep_linear(struct comparison *c, int which) {
+    const struct picture_file *p = &c->pictures[which];
+    const size_t size = (size_t)p->width * p->height * 3 * sizeof *c->linear;
+    c->linear = malloc(size);
+    if (c->linear)
+        memcpy(c->linear, p->rgb, size);
+    return c->linear;
+}
+
+// A float picture does not say how the picture of bytes beside it was toned: where another way than the
+// one assumed brings them much nearer, it is named.
+static bool offer_display(struct comparison *c) {
+    static const char *const tones[] = {[IR_TONE_CLIP] = "clip", [IR_TONE_NORMALIZE] = "normalize"};
+    static const char *const transfers[] = {[IR_TRANSFER_NONE] = "none", [IR_TRANSFER_SRGB] = "srgb"};
+    struct picture_file *p = c->pictures;
+    float *shown = p[p[0].space == MEASURE_LINEAR ? 0 : 1].rgb; // no longer needed
+    struct measure_options options = c->options;
+    struct measure_result result;
+    double best = c->result.value[METRIC_MAE] / 2;
+    options.metrics = 1 << METRIC_MAE;
+    for (int i = 0; i < 4; i++) {
+        const struct image_display display = {.tone = i & 1 ? IR_TONE_NORMALIZE : IR_TONE_CLIP,
+                                              .transfer = i & 2 ? IR_TRANSFER_SRGB : IR_TRANSFER_NONE};
+        measure_display(c->linear, (size_t)p[0].width * p[0].height, display, shown);
+        if (!measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &options, &result, NULL, NULL))
+            return false;
+        if (result.value[METRIC_MAE] < best) {
+            best = result.value[METRIC_MAE];
+            options.display = display;
+        }
+    }
+    if (best < c->result.value[METRIC_MAE] / 2) {
+        struct strbuf text;
+        strbuf_init(&text);
+        strbuf_format(
+            &text, "glint: the pictures are nearer by '--tone %s --transfer %s': mae %.3g instead of %.3g\n",
+            tones[options.display.tone], transfers[options.display.transfer], best,
+            c->result.value[METRIC_MAE]);
+        cli_write_error(strbuf_view(&text));
+        strbuf_finish(&text);
+    }
+    return true;
+}
+
 // Linear floats in place of displayed values cannot be had, the other way round is exact: pictures of two
 // kinds are compared as displayed.
 static int choose_space(struct comparison *c) {
@@ -61,6 +112,10 @@ static int choose_space(struct comparison *c) {
     c->options.pixels_per_degree =
         m->pixels_per_degree > 0 ? m->pixels_per_degree : c->options.pixels_per_degree;
     c->options.display = m->display;
+    for (int i = 0; i < 2; i++)
+        if (c->pictures[i].space == MEASURE_LINEAR && c->pictures[1 - i].space != MEASURE_LINEAR &&
+            !m->has_display && !keep_linear(c, i))
+            return no_memory(c);
     for (int i = 0; i < 2; i++)
         if (c->options.space == MEASURE_DISPLAYED && c->pictures[i].space == MEASURE_LINEAR)
             measure_display(c->pictures[i].rgb, (size_t)c->pictures[i].width * c->pictures[i].height,
@@ -128,14 +183,12 @@ static int compare(struct comparison *c, int format) {
         c->map = malloc((size_t)p[0].width * p[0].height * sizeof *c->map);
     if ((m->heatmap && !c->map) ||
         !measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &c->options, &c->result,
-                          m->heatmap_flip ? NULL : c->map, m->heatmap_flip ? c->map : NULL)) {
-        cli_error(c->cli, DIAG_OUT_OF_MEMORY, c->cli->operands[0], NULL,
-                  "not enough memory to compare the pictures");
-        return CLI_SCENE;
-    }
+                          m->heatmap_flip ? NULL : c->map, m->heatmap_flip ? c->map : NULL))
+        return no_memory(c);
     if (m->heatmap && (status = write_heatmap(c)) != CLI_OK)
         return status;
-    return report(c, format);
+    status = report(c, format);
+    return c->linear && !offer_display(c) ? no_memory(c) : status;
 }
 
 int cmd_compare(struct cli *cli) {
@@ -160,6 +213,7 @@ int cmd_compare(struct cli *cli) {
     for (int i = 0; i < 2; i++)
         picture_file_finish(&c->pictures[i]);
     free(c->map);
+    free(c->linear);
     arena_finish(&c->arena);
     free(c);
     return status;

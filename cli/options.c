@@ -411,6 +411,13 @@ static void suggest(struct cli *cli, const struct cli_command *command, const ch
                   command ? " " : "");
 }
 
+// The word that getopt read last.
+static const char *word_of_option(int argc, char **argv, bool unknown) {
+    const char *word = argv[optind - 1] == optarg && optind >= 2 ? argv[optind - 2] : argv[optind - 1];
+    // inside a word of several letters, optind stays on it
+    return unknown && word[0] != '-' && optind < argc ? argv[optind] : word;
+}
+
 bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first) {
     struct option longs[ROW_COUNT + 1] = {0};
     char letters[3 * ROW_COUNT + 3] = ":";
@@ -438,17 +445,21 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
     opterr = 0;
     optind = 0;
     bool good = true;
+    const char *faulty = NULL;
     for (;;) {
         int at = optind ? optind : 1;
         int id = getopt_long(argc, argv, letters, longs, NULL);
         if (id == -1)
             break;
-        const char *word = argv[optind - 1] == optarg && optind >= 2 ? argv[optind - 2] : argv[optind - 1];
+        const char *word = word_of_option(argc, argv, id == '?');
         int arg = at;
         for (int i = first; i < cli->argc; i++)
             if (cli->argv[i] == word)
                 arg = i;
         if (id == '?' || id == ':') {
+            if (word == faulty)
+                continue; // another of its letters
+            faulty = word;
             cli_usage(cli, arg, id == ':' ? "option '%s' needs a value" : "unknown or ambiguous option '%s'",
                       word);
             if (id == '?')

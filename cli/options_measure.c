@@ -62,8 +62,10 @@ static bool read_choice(struct cli *cli, int arg, enum cli_measure_option option
         m->space_arg = arg;
     } else if (option == CLI_MEASURE_TONE) {
         m->display.tone = word == 0 ? IR_TONE_CLIP : IR_TONE_NORMALIZE;
+        m->has_display = true;
     } else if (option == CLI_MEASURE_TRANSFER) {
         m->display.transfer = word == 0 ? IR_TRANSFER_NONE : IR_TRANSFER_SRGB;
+        m->has_display = true;
     } else {
         m->heatmap_flip = word == 1;
     }

@@ -35,6 +35,7 @@ struct cli_measure {
     enum cli_space space;
     int space_arg;
     struct image_display display; // how linear values are shown
+    bool has_display;             // it was said
     const char *heatmap;          // NULL: none
     bool heatmap_flip;
     const char *max_error; // METRIC=X as written; NULL: not given

@@ -42,6 +42,13 @@ expect "heat map is a PNG" 0 PNG '' head -c 4 map.png
 expect "heat map of FLIP" 0 'mae' - "$glint" compare half.pfm quarter.pfm --heatmap flip.png --heatmap-of flip
 expect "8-bit pictures" 0 'compared as displayed values' - "$glint" compare map.png flip.png
 expect "mixed kinds" 0 'compared as displayed values' - "$glint" compare map.png half.pfm
+printf '%s\n' 'glint: 1' 'image: {width: 8, height: 8, transfer: srgb}' 'camera: {position: [0, 0, 0]}' \
+    'background: {color: [0.2, 0.4, 0.8]}' >sky.yaml
+for kind in png pfm; do
+    "$glint" render sky.yaml -o sky.$kind --device reference --no-cache -q || failed=1
+done
+expect "another display is named" 0 'mae' "nearer by '--tone clip --transfer srgb': mae 0\.00" "$glint" compare sky.png sky.pfm
+expect "but not where it was said" 0 'mae +0\.00' - "$glint" compare sky.png sky.pfm --transfer srgb
 expect "no linear values in 8 bits" 2 - 'command-line:.*displayed values only' "$glint" compare map.png half.pfm --space linear
 expect "sizes" 2 - 'command-line:1:24: error: the pictures differ in size: 2 x 1 and 1 x 3 pixels' "$glint" compare half.pfm tall.pfm
 expect "a missing picture" 3 - '^none\.png:1:1: error: .*E601' "$glint" compare half.pfm none.png

@@ -33,6 +33,8 @@ models:
 END
 
 expect "a place outside" 2 - 'from 0,0 to 63,63' "$glint" pick scene.yaml 64,0 --device reference
+expect "a place below 0" 2 - '^command-line:1:23: .*option .-1,600' "$glint" pick scene.yaml -1,600 --device reference
+expect "told once" 0 '^1$' - sh -c '"$0" pick scene.yaml -1,600 2>&1 | grep -c error:' "$glint"
 expect "no place" 2 - "such as 320,200, not '1;2'" "$glint" pick scene.yaml '1;2' --device reference
 expect "an unknown kind" 2 - 'xml' "$glint" pick scene.yaml 1,2 --device reference --format xml
 printf 'glint: 9\n' >bad.yaml
