@@ -64,7 +64,7 @@ static struct ir_scene *load_source(struct loader *loader, uint32_t source, stru
     bool is_xml = reader_is_xml(text->path, text->text);
     read_file *read = is_xml ? read_xml : read_yaml;
     *file = (struct ir_file_origin){.source = source, .is_xml = is_xml};
-    struct ir_scene *scene = stream_file(loader, read, source, &tree);
+    struct ir_scene *scene = input->whole ? NULL : stream_file(loader, read, source, &tree);
     bool readable = scene != NULL;
     if (!scene) {
         struct reader_context reader = reading(loader, input->sink);

@@ -20,6 +20,7 @@ struct parser_input {
     struct arena *arena; // its guard is set and reset inside parser_load
     const str *sets;     // --set options, "PATH=VALUE", in order
     uint32_t set_count;
+    bool whole; // nothing is bound before its file is read: slower, and the same result
 };
 
 struct parser_output {

@@ -1,5 +1,6 @@
 // libFuzzer entry: any bytes as a scene, through all stages behind the readers. A form feed ends the scene;
-// what follows is a --set option. A scene without errors must come back the same from both writers.
+// what follows is a --set option. A scene without errors must come back the same from both writers; and
+// whether its entries are bound while it is read must not show.
 #include "core/strbuf.h"
 #include "grammar/ir_print.h"
 #include "parser/parser.h"
@@ -30,7 +31,7 @@ static void require(bool holds, const char *what) {
     abort();
 }
 
-static void load(struct loaded *l, const char *name, str text, const str *set) {
+static void load(struct loaded *l, const char *name, str text, const str *set, bool whole) {
     memset(l, 0, sizeof *l);
     l->limits = limits_default();
     l->limits.value[LIMIT_ALIAS_NODES] = 2000;
@@ -46,7 +47,8 @@ static void load(struct loaded *l, const char *name, str text, const str *set) {
                                  .limits = &l->limits,
                                  .arena = &l->arena,
                                  .sets = set,
-                                 .set_count = set ? 1 : 0};
+                                 .set_count = set ? 1 : 0,
+                                 .whole = whole};
     l->found = parser_load(&input, source, &l->output);
     require(l->found || l->sink.errors > 0, "what is no scene has a diagnostic");
 }
@@ -72,7 +74,7 @@ static void check_same(const char *name, struct strbuf *written, const struct st
     struct loaded again;
     struct strbuf dump;
     strbuf_init(&dump);
-    load(&again, name, strbuf_view(written), NULL);
+    load(&again, name, strbuf_view(written), NULL, false);
     require(again.found && again.sink.errors == 0, "what is written can be read");
     ir_dump(again.output.scene, &dump);
     require(str_equal(strbuf_view(&dump), strbuf_view(wanted)), "what is written means the same");
@@ -100,6 +102,36 @@ static void check_writers(struct loaded *l) {
     strbuf_finish(&dump);
 }
 
+static void add_diagnostics(struct strbuf *out, struct diag_sink *sink) {
+    diag_sort(sink);
+    for (uint32_t i = 0; i < sink->count; i++) {
+        const struct diag *d = &sink->items[i];
+        strbuf_format(out, "%s %u:%u-%u %.*s\n%.*s\n", diag_info(d->code)->code, d->at.source, d->at.begin,
+                      d->at.end, STR_ARG(d->message), STR_ARG(d->help));
+        for (const struct diag_related *note = d->notes; note; note = note->next)
+            strbuf_format(out, "  %u-%u %.*s\n", note->at.begin, note->at.end, STR_ARG(note->message));
+    }
+}
+
+static void check_whole(struct loaded *l, str text, const str *set) {
+    struct loaded whole;
+    struct strbuf there, here;
+    strbuf_init(&there);
+    strbuf_init(&here);
+    load(&whole, "fuzz", text, set, true);
+    add_diagnostics(&there, &whole.sink);
+    add_diagnostics(&here, &l->sink);
+    require(whole.found == l->found, "a scene either way, or none");
+    if (l->found) {
+        ir_dump(l->output.scene, &here);
+        ir_dump(whole.output.scene, &there);
+    }
+    require(str_equal(strbuf_view(&here), strbuf_view(&there)), "the same said and meant either way");
+    finish(&whole);
+    strbuf_finish(&there);
+    strbuf_finish(&here);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -113,8 +145,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     str scene = {copy, feed ? (size_t)(feed - copy) : size};
     str option = feed ? (str){feed + 1, size - scene.len - 1} : STR("");
     struct loaded loaded;
-    load(&loaded, "fuzz", scene, feed ? &option : NULL);
+    load(&loaded, "fuzz", scene, feed ? &option : NULL, false);
     check_diagnostics(&loaded);
+    check_whole(&loaded, scene, feed ? &option : NULL);
     if (loaded.found && loaded.sink.errors == 0)
         check_writers(&loaded);
     finish(&loaded);
