@@ -72,8 +72,8 @@
 
 /* State of a path, word k of slot s at k * slots + s: ray origin, weight; direction, depth; radiance,
    segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare: kept
-   between dispatches; then two words for each refracted ray that waits. In double precision places, directions,
-   t, b1 and b2 take two numbers each: path_words.glsl has the order. */
+   between dispatches; then two words for each refracted ray that waits. In double precision places,
+   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. */
 #define STATE_WORDS         6
 #define STACK_ENTRY_WORDS   2
 #define STATE64_WORDS       8

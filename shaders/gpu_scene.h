@@ -77,10 +77,10 @@
 #define LIGHT_DIRECTIONAL    1u
 #define LIGHT_INVERSE_SQUARE 2u
 
-/* A scene in double precision: nodes as above; the records of triangles, spheres, normals, bodies, materials and
-   lights are those of records.h with 64 in their names, of so many words. Boxes hold the doubles, rounded
-   outward. A kernel subtracts in double precision the t at which a ray enters a node from all t of it; what is
-   left is rounded to single precision, with errors below 2^-13 of a cell of the node, and child boxes are
+/* A scene in double precision: nodes as above; the records of triangles, spheres, normals, bodies, materials
+   and lights are those of records.h with 64 in their names, of so many words. Boxes hold the doubles, rounded
+   outward. A kernel subtracts in double precision the t at which a ray enters a node from all t of it; what
+   is left is rounded to single precision, with errors below 2^-13 of a cell of the node, and child boxes are
    widened by 2^-12 (bvh/encode.c). BOX_SLACK times the subtracted t covers the rounding of t itself and of a
    watertight hit, 64 units of 2^-53. */
 #define TRIANGLE64_WORDS 6

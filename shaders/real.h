@@ -1,5 +1,6 @@
 /* The number type of places, directions and distances: kernels compiled with DOUBLE_PRECISION trace in double
-   precision, over trees of conservative single-precision boxes; colours stay single. Compiled by GLSL alone. */
+   precision, over trees of conservative single-precision boxes; colours stay single. Compiled by GLSL alone.
+ */
 #ifndef GLINT_SHADERS_REAL_H
 #define GLINT_SHADERS_REAL_H
 
