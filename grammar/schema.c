@@ -108,7 +108,7 @@ static const struct schema_row trace_rows[] = {
      .word_docs = depth_docs, .standard = "background", .feature = FEATURE_DEPTH_BLACK,
      .doc = "What a ray beyond 'max_depth' sees."},
     {.name = "precision", FIELD(ir_trace, precision), .example = "double", .words = precision_words,
-     .word_docs = precision_docs, .standard = "auto", .also = "float fp64",
+     .word_docs = precision_docs, .standard = "auto", .also = "float real accuracy",
      .doc = "How exactly places and distances are computed."},
     {.name = "shadows", FIELD(ir_trace, shadows), .standard = "true", .feature = FEATURE_SHADOWS,
      .doc = "Whether bodies keep light from other bodies."},
