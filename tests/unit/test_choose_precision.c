@@ -102,7 +102,7 @@ static void expect_words(const char *path, const char *set, const char *const *p
 static void test_words(void **state) {
     (void)state;
     static const char *const far_parts[] = {"precision   double, the setting is auto",
-                                            "single precision does not suffice: the smallest gap decides",
+                                            "single precision does not suffice: the smallest body decides",
                                             "scenes/elements/precision.glint.yaml:20:5", "16 steps", NULL};
     static const char *const single_parts[] = {"precision   single, the setting is single",
                                                "does not suffice", NULL};
