@@ -60,11 +60,13 @@ str format_take_line(str text, size_t *at, bool *last) {
     return str_slice(text, begin, end);
 }
 
-uint32_t format_column(str text, uint32_t begin, uint32_t at) {
+uint32_t format_column(str text, struct format_place *last, uint32_t at) {
     uint32_t start = at;
-    while (start > begin && !is_break(text.ptr[start - 1]))
+    while (start > last->at && !is_break(text.ptr[start - 1]))
         start--;
-    return (uint32_t)utf8_count(str_slice(text, start, at));
+    uint32_t before = start == last->at ? last->column : 0;
+    *last = (struct format_place){at, before + (uint32_t)utf8_count(str_slice(text, start, at))};
+    return last->column;
 }
 
 // Where a further line of a comment stands that began at `from` and now begins at `to`: as far right or left

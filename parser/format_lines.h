@@ -43,7 +43,11 @@ void format_lines_write(const struct format_lines *lines, str line_end, bool las
 // The part of `text` from *at to its line's end, without trailing blanks; *at moves behind the line end (LF,
 // CRLF or CR). `last`: the text ends here.
 str format_take_line(str text, size_t *at, bool *last);
-// Characters between the line's beginning and `at`.
-uint32_t format_column(str text, uint32_t begin, uint32_t at);
+// A place in a text and its column, from which the next one is counted.
+struct format_place {
+    uint32_t at, column;
+};
+// Characters between the line's beginning and `at`, which is not before *last; that moves to it.
+uint32_t format_column(str text, struct format_place *last, uint32_t at);
 
 #endif

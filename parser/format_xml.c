@@ -30,7 +30,8 @@ struct printer {
         uint32_t count, capacity;
     } open; // while pieces are found: indices of the tags that are open
     struct format_lines *lines;
-    uint32_t gap; // where the last piece ended
+    struct format_place place; // of the last comment
+    uint32_t gap;              // where the last piece ended
 };
 
 static bool is_break(char c) {
@@ -248,7 +249,7 @@ static bool is_flat(const struct printer *p, uint32_t first, uint32_t last, uint
 
 static void put_plain(struct printer *p, const struct piece *piece) {
     if (piece->kind == PIECE_OTHER)
-        format_lines_moved(p->lines, piece_text(p, piece), format_column(p->text, p->begin, piece->begin));
+        format_lines_moved(p->lines, piece_text(p, piece), format_column(p->text, &p->place, piece->begin));
     else
         put_tag(p, piece);
 }
@@ -265,7 +266,7 @@ static void begin_line(struct printer *p, const struct piece *piece, uint32_t in
 
 static void put_comment(struct printer *p, const struct piece *piece, uint32_t indent) {
     str comment = piece_text(p, piece);
-    uint32_t column = format_column(p->text, p->begin, piece->begin);
+    uint32_t column = format_column(p->text, &p->place, piece->begin);
     if (p->lines->begun && on_one_line(p, p->gap, piece->begin)) {
         format_lines_comment(p->lines, comment, column);
         return;
@@ -300,7 +301,8 @@ static void put_pieces(struct printer *p) {
 }
 
 bool format_xml(struct arena *arena, str text, uint32_t begin, struct format_lines *lines) {
-    struct printer p = {.arena = arena, .text = text, .begin = begin, .gap = begin, .lines = lines};
+    struct printer p = {
+        .arena = arena, .text = text, .begin = begin, .gap = begin, .lines = lines, .place = {begin, 0}};
     if (!find_pieces(&p) || p.pieces.count == 0)
         return false;
     put_pieces(&p);

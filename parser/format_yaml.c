@@ -15,13 +15,13 @@ struct level {
 struct printer {
     struct arena *arena;
     str text;
-    uint32_t begin;
     struct yaml_tokens tokens;
     uint32_t at;  // the next token
     uint32_t gap; // where the last one ended
     enum yaml_token_kind last;
     bool keeps_breaks; // the last token is block text whose empty lines at the end count
     struct format_lines *lines;
+    struct format_place place; // of the last comment
     struct {
         struct level *items;
         uint32_t count, capacity;
@@ -74,7 +74,7 @@ static void put_comment(struct printer *p, struct gap *gap, uint32_t indent) {
     while (gap->at < gap->end && !is_break(p->text.ptr[gap->at]))
         gap->at++;
     str comment = str_trim(str_slice(p->text, begin, gap->at));
-    uint32_t column = format_column(p->text, p->begin, begin);
+    uint32_t column = format_column(p->text, &p->place, begin);
     bool own_line = gap->breaks > 0 || p->last == YAML_TOKEN_END;
     if (own_line) {
         uint32_t blank = gap->breaks > 1 ? gap->breaks - 1 : 0;
@@ -200,7 +200,7 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     if (hash < whole.len) {
         uint32_t place = token.begin + (uint32_t)hash;
         format_lines_comment(p->lines, str_trim(str_slice(whole, hash, whole.len)),
-                             format_column(p->text, p->begin, place));
+                             format_column(p->text, &p->place, place));
     }
     uint32_t from = block_text_indent(p, text, digit);
     uint32_t to = digit ? p->level.written + digit : indent;
@@ -387,7 +387,7 @@ static void put_document(struct printer *p) {
 }
 
 bool format_yaml(struct arena *arena, str text, uint32_t begin, struct format_lines *lines) {
-    struct printer p = {.arena = arena, .text = text, .begin = begin, .gap = begin, .lines = lines};
+    struct printer p = {.arena = arena, .text = text, .gap = begin, .lines = lines, .place = {begin, 0}};
     if (!yaml_tokens_read(arena, text, begin, &p.tokens) || p.tokens.documents > 1)
         return false;
     p.last = YAML_TOKEN_END;
