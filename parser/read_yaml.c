@@ -479,7 +479,8 @@ static void report_root(const struct reader_context *context, struct tree *tree,
     span first = {tree->source, root->begin, root->kind == TREE_LIST ? root->begin + 1 : root->end};
     diag_add(context->sink, DIAG_NOT_A_SCENE, first, "a scene is a map of keys and values, and this is a %s",
              root->kind == TREE_LIST ? "list" : "single text");
-    bool xml = context->sources->items[tree->source].text.ptr[root->begin] == '<';
+    str text = context->sources->items[tree->source].text;
+    bool xml = str_starts_with(str_slice(text, root->begin, text.len), STR("<"));
     diag_help(context->sink,
               xml ? "the file looks like XML: name it .xml" : "begin the file with 'glint: 1'");
 }
