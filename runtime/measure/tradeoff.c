@@ -14,6 +14,7 @@
 enum {
     ROUNDS_LEAST = 2,
     ROUNDS_QUICK = 3,
+    ROUNDS_QUIET = 4, // at least, where there is no noise
     ROUNDS_MOST = 9,
     PAIRS_MOST = 24,
     PAIRS_MOST_QUICK = 12,
@@ -264,6 +265,24 @@ static void fill_times(struct tradeoff *t, double *times) {
     }
 }
 
+// Whether the noise has come down to the floor of the choice: further rounds would change nothing.
+static bool is_quiet(struct tradeoff *t, const double *times) {
+    const size_t count = (size_t)t->rounds * t->count;
+    double *copy = malloc(count * sizeof *copy), *shares = malloc(t->count * sizeof *shares);
+    bool quiet = false;
+    if (copy && shares) {
+        memcpy(copy, times, count * sizeof *copy);
+        fill_times(t, copy);
+        for (uint32_t i = 0; i < t->count; i++)
+            shares[i] = t->rows[i].noise_ms / fmax(t->rows[i].time_ms, 1e-9);
+        qsort(shares, t->count, sizeof *shares, compare_doubles);
+        quiet = 3 * sqrt(2) * quantile(shares, t->count, 0.5) <= CHOICE_NOISE_FLOOR;
+    }
+    free(copy);
+    free(shares);
+    return quiet;
+}
+
 // Every round times every row once, each time from another row on.
 static enum tradeoff_status run_times(struct study *s) {
     struct tradeoff *t = s->out;
@@ -273,6 +292,8 @@ static enum tradeoff_status run_times(struct study *s) {
     const double begun = study_seconds(s), budget = t->options.budget_s;
     while (status == TRADEOFF_DONE && t->rounds < rounds) {
         const double now = study_seconds(s);
+        if (t->rounds >= ROUNDS_QUIET && is_quiet(t, times))
+            break;
         if (budget > 0 && t->rounds >= ROUNDS_LEAST && now + (now - begun) / t->rounds > budget) {
             t->cut_short |= t->rounds < ROUNDS_QUICK;
             break;

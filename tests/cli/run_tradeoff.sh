@@ -57,11 +57,13 @@ fi
 if [ "$mode" = same ]; then
     scene="$source/scenes/showcase.glint.yaml"
     for run in 1 2 3 4 5 6 7 8 9 10; do
-        "$glint" tradeoff "$scene" -q --size 64x48 --max-error flip=0.08 --format json | tr -d '\n' |
-            sed 's/.*"cheapest": {[^}]*"options": "\([^"]*\)".*/\1/'
-        echo
-    done | sed '/^$/d' | sort | uniq -c | tee choices.txt
-    expect "the same choice in 10 of 10 runs" 0 '^ *10 --set ' - cat choices.txt
+        choice=$("$glint" tradeoff "$scene" -q --size 64x48 --max-error flip=0.08 --format json | tr -d '\n' |
+            sed 's/.*"cheapest": {[^}]*"options": "\([^"]*\)".*/\1/')
+        echo "run $run: $choice"
+        echo "$choice" >>choices.txt
+    done
+    sort choices.txt | uniq -c >counted.txt
+    expect "the same choice in 10 of 10 runs" 0 '^ *10 --set ' - cat counted.txt
     exit $failed
 fi
 
