@@ -60,14 +60,17 @@ const struct cli_command cli_commands[] = {
      "formatting. docs/editors.md shows how editors are told to start it.\n",
      0, 0, cmd_lsp},
     {"format", "FILE...", "lay scene files out in one way",
-     "Indentation, blanks and line breaks; comments, quoting, numbers, anchors and the order of keys stay. FILE\n"
-     "is a scene, a folder with scenes, or '-': standard input, to standard output. docs/format.md describes the\n"
+     "Indentation, blanks and line breaks; comments, quoting, numbers, anchors and the order of keys stay. "
+     "FILE\n"
+     "is a scene, a folder with scenes, or '-': standard input, to standard output. docs/format.md describes "
+     "the\n"
      "layout.\n\n"
      "  glint format scene.glint.yaml\n"
      "  glint format --check scenes\n",
      1, -1, cmd_format},
     {"diff", "A B", "tell what differs in meaning between two scenes",
-     "Values, entries that came or went, moved or were renamed, each with its place in both files; the spelling,\n"
+     "Values, entries that came or went, moved or were renamed, each with its place in both files; the "
+     "spelling,\n"
      "comments and the order of keys are no difference. --format takes text and json. The exit status is 1\n"
      "where anything differs.\n\n"
      "  glint diff old.glint.yaml new.glint.xml\n",
@@ -92,10 +95,13 @@ const struct cli_command cli_commands[] = {
      "  glint compare picture.png reference.png --max-share 0.001 --heatmap errors.png\n",
      2, 2, cmd_compare},
     {"extremes", "SCENE", "take a scene to its extremes, and tell what breaks",
-     "Moves, scales and backs away from the scene, changes its indices and exponents, puts slivers, coplanar\n"
+     "Moves, scales and backs away from the scene, changes its indices and exponents, puts slivers, "
+     "coplanar\n"
      "rectangles and narrow gaps into it, and light and camera onto its surfaces. Each variant is traced by\n"
-     "the device and by the double-precision reference: wrong hits, self-hits, leaks, holes, values that are no\n"
-     "number, image error. --format takes text and json; -o writes a report with the matrix. The exit status\n"
+     "the device and by the double-precision reference: wrong hits, self-hits, leaks, holes, values that are "
+     "no\n"
+     "number, image error. --format takes text and json; -o writes a report with the matrix. The exit "
+     "status\n"
      "is 1 where a bound is broken (docs/accuracy.md; --thresholds brings others).\n\n"
      "  glint extremes scenes/showcase.glint.yaml -o report.html\n",
      1, 1, cmd_extremes},
