@@ -2,9 +2,10 @@
 //
 // The scene file lies on top under its own name, what it includes in includes/, meshes with their material
 // files in meshes/, the background in images/; of two files of one name the second goes to meshes-2/ and so
-// on. Paths in scene files are rewritten where they stand: not a byte else of any file is changed. Before
-// it is given its name the packed scene is loaded and compared: same meaning, same files.
-// Thread safety: the session's thread.
+// on. Paths in scene files are rewritten where they stand: not a byte else of any file is changed. Limits
+// that were raised go into a `.glintrc.yaml`, so that the package loads without options. Before it is given
+// its name the packed scene is loaded and compared: same meaning, same files. Thread safety: the session's
+// thread.
 #ifndef GLINT_APP_PACK_H
 #define GLINT_APP_PACK_H
 
@@ -29,6 +30,7 @@ enum pack_status {
     PACK_OK,
     PACK_SCENE,  // the session's sink says why it cannot be packed
     PACK_OUTPUT, // pack_error.text says what could not be written
+    PACK_STOPPED,
 };
 
 struct pack_error {
@@ -39,12 +41,15 @@ struct pack_error {
 // lies in the session's arena. PACK_OK or PACK_SCENE.
 enum pack_status pack_make_plan(struct session *session, const struct inventory *inventory,
                                 struct pack_plan *plan);
-// Writes the plan to `out`: a ZIP archive where it ends in .zip, else a new or empty folder. All or nothing.
+// Writes the plan to `out`: a ZIP archive where it ends in .zip, else a new or empty folder. All or nothing;
+// nothing, too, once `is_stopped` says so. NULL: it never does.
+typedef bool pack_is_stopped(void);
 enum pack_status pack_write(struct session *session, const struct pack_plan *plan, const char *out,
-                            struct pack_error *error);
+                            pack_is_stopped *is_stopped, struct pack_error *error);
 
 // Writes the files of `folder` that the plan names to a ZIP archive: stored in the plan's order, with one
 // fixed time, so that equal scenes give equal archives. false: *error has the text.
-bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, struct pack_error *error);
+bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, pack_is_stopped *is_stopped,
+              struct pack_error *error);
 
 #endif

@@ -144,14 +144,31 @@ static void place(struct planner *p, const struct inventory_use *use, const char
             return;
     for (int number = 1; number <= TRIES; number++) {
         str in = folder_name(p, folder, number);
-        str target =
-            arena_format(&p->session->arena, "%.*s%.*s", STR_ARG(in), STR_ARG(path_base(use->canonical)));
-        if (!fits(p, in, use, target))
+        str target = arena_format(&p->session->arena, "%.*s%.*s", STR_ARG(in), STR_ARG(path_base(use->path)));
+        // A scene may be called as the folder is.
+        if (find_target(p->plan, str_slice(in, 0, in.len - 1)) || !fits(p, in, use, target))
             continue;
         add_file(p, target, use);
         add_libraries(p, in, use);
         return;
     }
+}
+
+// Limits that were raised, by options or settings: without them the package might be refused elsewhere.
+static void add_limits(struct planner *p) {
+    const struct limits *limits = &p->session->options.limits;
+    struct strbuf text;
+    strbuf_init(&text);
+    for (int i = 0; i < LIMIT_COUNT; i++) {
+        const struct limit_info *info = limit_info((enum limit)i);
+        if (i != LIMIT_MESSAGES && limits->value[i] > info->standard)
+            strbuf_format(&text, "%s  %s: %llu\n", text.len ? "" : "limits:\n", info->name,
+                          (unsigned long long)limits->value[i]);
+    }
+    if (text.len)
+        *ARENA_PUSH(&p->session->arena, p->plan) = (struct pack_file){
+            .target = STR(".glintrc.yaml"), .text = arena_copy(&p->session->arena, strbuf_view(&text))};
+    strbuf_finish(&text);
 }
 
 static void place_all(struct planner *p) {
@@ -270,6 +287,7 @@ enum pack_status pack_make_plan(struct session *session, const struct inventory 
     if (setjmp(guard.jump) == 0) {
         place_all(&planner);
         rewrite_all(&planner);
+        add_limits(&planner);
     } else {
         diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to pack this scene");
     }

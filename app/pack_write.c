@@ -165,7 +165,7 @@ static bool verify(struct session *session, const struct pack_plan *plan, const 
     if (!store)
         return fail(error, "there is not enough memory to load the package");
     struct session_options options = {
-        .path = str_from(path), .limits = session->options.limits, .skip_pixels = true};
+        .path = str_from(path), .limits = limits_default(), .skip_pixels = true};
     session_load(&packed, &options, store);
     bool same = compare(session, &packed, plan, folder);
     session_finish(&packed);
@@ -194,39 +194,49 @@ static bool is_taken(const char *path) {
     return taken;
 }
 
+// A new folder beside `out`, so that it can be renamed. Its name does not grow with that of `out`.
+static bool make_folder_beside(const char *out, size_t length, char *folder, struct pack_error *error) {
+    while (length > 0 && out[length - 1] != '/')
+        length--;
+    if (snprintf(folder, PATH_BYTES, "%.*s.glint-XXXXXX", (int)length, out) >= PATH_BYTES)
+        return fail(error, "the path is too long");
+    return mkdtemp(folder) || fail(error, "cannot make a folder beside it: %s", strerror(errno));
+}
+
+static bool name_folder(const char *folder, const char *out, struct pack_error *error) {
+    const mode_t mask = umask(0);
+    umask(mask);
+    return (chmod(folder, 0777 & ~mask) == 0 && rename(folder, out) == 0) ||
+           fail(error, "%s", strerror(errno));
+}
+
 enum pack_status pack_write(struct session *session, const struct pack_plan *plan, const char *out,
-                            struct pack_error *error) {
+                            pack_is_stopped *is_stopped, struct pack_error *error) {
     char folder[PATH_BYTES];
     size_t length = strlen(out);
     while (length > 1 && out[length - 1] == '/')
         length--;
     bool zips = str_ends_with_nocase((str){out, length}, ".zip");
-    if (snprintf(folder, sizeof folder, "%.*s.XXXXXX", (int)length, out) >= (int)sizeof folder) {
-        fail(error, "the path is too long");
-        return PACK_OUTPUT;
-    }
     if (!zips && is_taken(out)) {
         fail(error, "it exists, and is not an empty folder");
         return PACK_OUTPUT;
     }
-    if (!mkdtemp(folder)) {
-        fail(error, "cannot make a folder beside it: %s", strerror(errno));
+    if (!make_folder_beside(out, length, folder, error))
         return PACK_OUTPUT;
-    }
+    bool stopped = false;
     bool good = true;
-    for (uint32_t i = 0; good && i < plan->count; i++)
-        good = write_file(session, &plan->items[i], folder, error);
-    good = good && verify(session, plan, folder, error);
-    if (good && zips) {
-        good = pack_zip(plan, folder, out, error);
-    } else if (good) {
-        const mode_t mask = umask(0);
-        umask(mask);
-        good = chmod(folder, 0777 & ~mask) == 0 && rename(folder, out) == 0;
-        if (!good)
-            fail(error, "%s", strerror(errno));
+    for (uint32_t i = 0; good && i < plan->count; i++) {
+        stopped = is_stopped && is_stopped();
+        good = !stopped && write_file(session, &plan->items[i], folder, error);
     }
-    if (!good || zips)
+    good = good && verify(session, plan, folder, error);
+    stopped = is_stopped && is_stopped();
+    if (good && !stopped)
+        good = zips ? pack_zip(plan, folder, out, is_stopped, error) : name_folder(folder, out, error);
+    stopped = stopped || (!good && is_stopped && is_stopped());
+    if (!good || stopped || zips)
         remove_folder(folder);
+    if (stopped)
+        return PACK_STOPPED;
     return good ? PACK_OK : PACK_OUTPUT;
 }

@@ -73,7 +73,8 @@ static bool add_file(zipFile zip, const char *folder, str target, struct pack_er
     return good;
 }
 
-bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, struct pack_error *error) {
+bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, pack_is_stopped *is_stopped,
+              struct pack_error *error) {
     struct output output;
     zlib_filefunc64_def functions;
     if (!output_open(&output, out)) {
@@ -89,7 +90,7 @@ bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out,
     zipFile zip = zipOpen2_64(out, APPEND_STATUS_CREATE, NULL, &functions);
     bool good = zip != NULL;
     for (uint32_t i = 0; good && i < plan->count; i++)
-        good = add_file(zip, folder, plan->items[i].target, error);
+        good = !(is_stopped && is_stopped()) && add_file(zip, folder, plan->items[i].target, error);
     if (!zip || (zipClose(zip, NULL) != ZIP_OK && good)) {
         fail(error, "cannot write", out);
         good = false;

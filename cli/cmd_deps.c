@@ -26,15 +26,25 @@ struct listing {
     } told;
 };
 
-// What make takes apart in a list of files is escaped: blanks, '#', '$'.
-static void make_name(struct strbuf *out, str path) {
+// What make takes apart in a list of files is escaped, with the backslashes before it (GNU make 4.3, "Rule
+// Syntax", "Pattern Intro", "Wildcards"). Nothing can be written for ';', a pair of parentheses and a
+// backslash at the end.
+static void make_name(struct strbuf *out, str path, bool is_target) {
+    size_t backslashes = 0;
+    if (path.len && path.ptr[0] == '~')
+        strbuf_cstr(out, "./");
     for (size_t i = 0; i < path.len; i++) {
         char c = path.ptr[i];
-        if (c == ' ' || c == '#' || c == '\\')
-            strbuf_char(out, '\\');
-        if (c == '$')
-            strbuf_char(out, '$');
-        strbuf_char(out, c);
+        if (c == '=') {
+            strbuf_cstr(out, "$(subst x,=,x)"); // or it would be an assignment
+        } else if (c == '$') {
+            strbuf_cstr(out, "$$");
+        } else {
+            if (strchr(" \t#:*?[]", c) || c == (is_target ? '%' : '|'))
+                strbuf_repeat(out, '\\', backslashes + 1);
+            strbuf_char(out, c);
+        }
+        backslashes = c == '\\' ? backslashes + 1 : 0;
     }
 }
 
@@ -56,13 +66,13 @@ static void add_text(struct listing *listing, const struct inventory *inventory)
 }
 
 static void add_make(struct listing *listing, const struct inventory *inventory, const char *scene) {
-    make_name(&listing->out, str_from(cli_default_picture(listing->cli, scene)));
+    make_name(&listing->out, str_from(cli_default_picture(listing->cli, scene)), true);
     strbuf_char(&listing->out, ':');
     for (uint32_t i = 0; i < inventory->count; i++) {
         if (inventory_is_repeat(inventory, i))
             continue;
         strbuf_cstr(&listing->out, " \\\n  ");
-        make_name(&listing->out, inventory->items[i].path);
+        make_name(&listing->out, inventory->items[i].path, false);
     }
     strbuf_char(&listing->out, '\n');
 }

@@ -2,8 +2,14 @@
 #include "cli/cli.h"
 
 #include "app/pack.h"
+#include "cli/progress.h"
 
+#include <signal.h>
 #include <string.h>
+
+static bool is_stopped(void) {
+    return interrupt_signal() != 0;
+}
 
 static int pack(struct cli *cli, struct session *session) {
     struct inventory inventory;
@@ -15,8 +21,14 @@ static int pack(struct cli *cli, struct session *session) {
         diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to pack this scene");
     if (!listed || pack_make_plan(session, &inventory, &plan) != PACK_OK)
         return cli_report(cli, session, false);
-    if (pack_write(session, &plan, out, &error) == PACK_OK)
+    interrupt_catch();
+    enum pack_status status = pack_write(session, &plan, out, is_stopped, &error);
+    if (status == PACK_OK)
         return CLI_OK;
+    if (status == PACK_STOPPED) {
+        cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
+        return interrupt_signal() == SIGTERM ? CLI_TERMINATED : CLI_INTERRUPTED;
+    }
     cli_error(cli, DIAG_OUTPUT, out, NULL, "%s", error.text);
     return CLI_FILE;
 }

@@ -156,6 +156,47 @@ for scene in "$source"/scenes/*.yaml "$source"/scenes/*.xml "$source"/scenes/ele
 done
 [ $failed -eq 0 ] && ok "every scene that ships can be packed"
 
+# ---- names that others stumble over
+mkdir -p odd/A odd/a odd/blobs
+long=$(printf 'n%.0s' $(seq 1 250)).obj
+for name in '50% a b.obj' '-dash.obj' 'a=b.obj' 'a$b.obj' 'a: b #c.obj' 'x[1]*?.obj' '~home.obj' 'a|b.obj' "$long" A/Tri.obj; do
+    cp in/two/tri.obj "odd/$name"
+done
+cp in/one/tri.obj odd/a/tri.obj
+cp in/one/tri.obj odd/blobs/0123 && ln -s blobs/0123 odd/link.obj
+{
+    printf 'glint: 1\nmodels:\n'
+    for name in '50% a b.obj' '-dash.obj' 'a=b.obj' 'a$b.obj' 'a: b #c.obj' 'x[1]*?.obj' '~home.obj' 'a|b.obj' "$long" \
+        A/Tri.obj a/tri.obj link.obj; do
+        printf '  - {mesh: "%s"}\n' "$name"
+    done
+} >odd/-s.yaml
+quits "pack of odd names" 0 '' "$glint" pack -- odd/-s.yaml odd-packed
+find odd-packed -name '*.obj' | wc -l >count.txt
+[ "$(cat count.txt)" -eq 12 ] && ok "every odd name is packed" || fail "every odd name is packed"
+[ -f odd-packed/meshes/link.obj ] && ok "a link's file is packed under the link's name" || fail "links"
+[ -f odd-packed/meshes/Tri.obj ] && [ -f odd-packed/meshes-2/tri.obj ] && ok "names differ without regard to case" || fail "case"
+quits "pack into an archive with a long name" 0 '' "$glint" pack odd/-s.yaml "${long%obj}zip"
+if command -v python3 >/dev/null 2>&1; then
+    quits "python reads the archive" 0 '^None 13$' python3 -c \
+        'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); print(z.testzip(), len(z.namelist()))' "${long%obj}zip"
+else
+    echo "skip python reads the archive: python3 is not installed"
+fi
+cp in/two/more.yaml in/two/meshes
+quits "a scene that is called as a folder of the package" 0 '' "$glint" pack in/two/meshes called
+"$glint" deps --format make odd/-s.yaml 2>err.txt | sed 's/^[^ ]*:/odd:/' >odd.d
+printf '\t@echo %s files\n' '$(words $^)' >>odd.d
+if command -v make >/dev/null 2>&1; then quits "make finds every odd name" 0 files make -s -f odd.d odd; else
+    echo "skip make finds every odd name: make is not installed"
+fi
+mkdir limited
+printf 'limits: {mesh-corners: 70000}\n' >limited/.glintrc.yaml
+cp in/two/more.yaml in/two/tri.obj in/two/tri.mtl limited/
+quits "pack with a limit that was raised" 0 '' "$glint" pack limited/more.yaml limited.d --limit include-files=300
+printf 'limits:\n  include-files: 300\n  mesh-corners: 70000\n' >wanted.txt
+same "raised limits go along" limited.d/.glintrc.yaml wanted.txt
+
 # ---- what must not happen
 mkdir full && : >full/mine
 quits "pack into a folder with files" 3 'is not an empty folder' "$glint" pack in/sub/scene.yaml full
@@ -172,5 +213,22 @@ printf 'mtllib %s/mats/deep.mtl\n' "$(pwd -P)" >abs.obj
 sed 1d in/one/tri.obj >>abs.obj
 printf 'glint: 1\nmodels: [{mesh: abs.obj}]\n' >abs.yaml
 quits "pack of a mesh with an absolute path" 1 'E804' "$glint" pack abs.yaml x
-find . -maxdepth 1 -name '*.??????' -type d | grep . && fail "nothing is left behind" || ok "nothing is left behind"
+# A signal while it works: the folder may be there in whole or not at all.
+mkdir large
+awk 'BEGIN { for (i = 0; i < 100000; i++) printf "v %d 0 0\nv %d 1 0\nv %d 0 1\nf -1 -2 -3\n", i, i, i }' >large/large.obj
+printf 'glint: 1\nmodels: [{mesh: large.obj}]\n' >large/scene.yaml
+"$glint" pack large/scene.yaml large.d 2>err.txt &
+pid=$!
+tries=0
+while [ $tries -lt 100 ] && [ ! -e large.d ] && ! ls -d .glint-* >/dev/null 2>&1; do
+    tries=$((tries + 1))
+    sleep 0.05
+done
+kill -TERM $pid 2>/dev/null
+wait $pid
+status=$?
+if [ $status -eq 143 ] && [ ! -e large.d ] && grep -q interrupted err.txt; then ok "a signal leaves nothing"; elif
+    [ $status -eq 0 ] && [ -f large.d/scene.yaml ]
+then echo "skip a signal leaves nothing: it came too late"; else fail "a signal leaves nothing: exit $status"; fi
+find . -maxdepth 1 -name '.glint-*' | grep . && fail "nothing is left behind" || ok "nothing is left behind"
 exit $failed
