@@ -192,6 +192,16 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
 // bind_composite.c: vectors, colours, weights.
 bool bind_composite(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
 
+// bind_color.c
+// A colour from a text: #rrggbb, or one number.
+bool bind_color_text(struct bind_context *context, struct bind_subject subject, tree_index node,
+                     struct ir_color *out);
+// Reports a text that is no colour, with the colour that other programs would take it for. Always false.
+bool bind_bad_color(struct bind_context *context, struct bind_subject subject, tree_index node);
+// Asks whether three numbers are bytes.
+void bind_check_bytes(struct bind_context *context, struct bind_subject subject, tree_index node,
+                      const double rgb[3]);
+
 // bind_names.c
 // The row that a key names in another style ('LookAt', 'lookAt', 'look-at'), or in the plural where one is
 // meant; -1: none.

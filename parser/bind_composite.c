@@ -27,6 +27,16 @@ static bool is_several(const struct bind_context *context, tree_index item) {
            (kind == TREE_SCALAR && mend_is_numbers(tree_text(context->tree, item)));
 }
 
+// Red, green, blue and what other programs have behind them.
+static void help_without_alpha(struct bind_context *context, tree_index node) {
+    tree_index r = tree_first(context->tree, node);
+    tree_index g = tree_next(context->tree, r), b = tree_next(context->tree, g);
+    str list = arena_format(context->scratch, "[%.*s, %.*s, %.*s]", STR_ARG(tree_text(context->tree, r)),
+                            STR_ARG(tree_text(context->tree, g)), STR_ARG(tree_text(context->tree, b)));
+    diag_help(context->sink, "colours have no alpha: write %.*s", STR_ARG(list));
+    diag_fix(context->sink, false, tree_span(context->tree, node), list);
+}
+
 static bool bind_list(struct bind_context *context, struct bind_subject subject, tree_index node,
                       double out[COMPONENTS_MAX]) {
     uint32_t wanted = component_count(subject.row->kind);
@@ -55,7 +65,10 @@ static bool bind_list(struct bind_context *context, struct bind_subject subject,
              "%.*s has %u number%s; it needs %u: %s, %s, %s%s%s",
              STR_ARG(say_subject(context->scratch, subject)), count, count == 1 ? "" : "s", wanted, names[0],
              names[1], names[2], wanted == 4 ? ", " : "", wanted == 4 ? names[3] : "");
-    bind_help_example(context, subject);
+    if (subject.row->kind != SCHEMA_COLOR || count != 4 || !good)
+        bind_help_example(context, subject);
+    else
+        help_without_alpha(context, node);
     return false;
 }
 
@@ -163,73 +176,6 @@ static bool bind_named(struct bind_context *context, struct bind_subject subject
     return good && all_known;
 }
 
-// Hexadecimal digits.
-
-static bool hex_digits(str digits, uint32_t *value) {
-    *value = 0;
-    for (size_t i = 0; i < digits.len; i++) {
-        char c = digits.ptr[i];
-        uint32_t digit = c >= '0' && c <= '9'   ? (uint32_t)(c - '0')
-                         : c >= 'a' && c <= 'f' ? (uint32_t)(c - 'a') + 10
-                         : c >= 'A' && c <= 'F' ? (uint32_t)(c - 'A') + 10
-                                                : 16;
-        if (digit == 16)
-            return false;
-        *value = *value << 4 | digit;
-    }
-    return true;
-}
-
-static bool bad_color(struct bind_context *context, struct bind_subject subject, tree_index node) {
-    str text = tree_text(context->tree, node);
-    span at = tree_span(context->tree, node);
-    diag_add(context->sink, DIAG_BAD_COLOR, at, "%.*s: '%.*s' is not a colour",
-             STR_ARG(say_subject(context->scratch, subject)), STR_ARG(say_text(context->scratch, text)));
-    uint32_t ignored;
-    bool is_short = text.len == 4 && text.ptr[0] == '#' && hex_digits(str_slice(text, 1, 4), &ignored);
-    bool lacks_hash = text.len == 6 && hex_digits(text, &ignored);
-    if (!is_short && !lacks_hash) {
-        str example = say_subject_example(context->scratch, subject, context->tree->is_xml);
-        diag_help(context->sink, "for example %.*s, or six hexadecimal digits as in \"#ff8800\"",
-                  STR_ARG(example));
-        return false;
-    }
-    const char *c = text.ptr;
-    str mended = is_short
-                     ? arena_format(context->scratch, "#%c%c%c%c%c%c", c[1], c[1], c[2], c[2], c[3], c[3])
-                     : arena_format(context->scratch, "#%.*s", STR_ARG(text));
-    diag_help(context->sink, "write \"%.*s\"", STR_ARG(mended));
-    char first = source_text(context->sources, at).len ? source_text(context->sources, at).ptr[0] : '"';
-    bool bare = !context->tree->is_xml && first != '"' && first != '\'';
-    diag_fix(context->sink, is_short, at,
-             bare ? arena_format(context->scratch, "\"%.*s\"", STR_ARG(mended))
-                  : mend_like(context->scratch, source_text(context->sources, at), mended));
-    return false;
-}
-
-static bool bind_color_text(struct bind_context *context, struct bind_subject subject, tree_index node,
-                            struct ir_color *out) {
-    str text = tree_text(context->tree, node);
-    uint32_t hex;
-    if (text.len == 7 && text.ptr[0] == '#' && hex_digits(str_slice(text, 1, 7), &hex)) {
-        *out = (struct ir_color){.is_hex = true, .hex = hex};
-        return true;
-    }
-    double value = 0;
-    enum number_status status = number_parse(text, &value);
-    bool letter = text.len &&
-                  ((text.ptr[0] >= 'a' && text.ptr[0] <= 'z') || (text.ptr[0] >= 'A' && text.ptr[0] <= 'Z'));
-    bool looks_like_color = text.len && (text.ptr[0] == '#' || (letter && status == NUMBER_NOT_A_NUMBER));
-    bool is_quoted = tree_node(context->tree, node)->style == TREE_QUOTED;
-    bool six_digits = text.len == 6 && (status == NUMBER_UNIT || is_quoted) && hex_digits(text, &hex);
-    if (looks_like_color || six_digits)
-        return bad_color(context, subject, node);
-    if (!bind_number(context, subject, node, &value))
-        return false;
-    *out = (struct ir_color){.r = value, .g = value, .b = value};
-    return true;
-}
-
 static void store(enum schema_kind kind, const double n[COMPONENTS_MAX], void *out) {
     if (kind == SCHEMA_VECTOR)
         *(vec3 *)out = (vec3){n[0], n[1], n[2]};
@@ -258,7 +204,7 @@ bool bind_composite(struct bind_context *context, struct bind_subject subject, t
     tree_index hex = hex_attribute(context, row, node);
     if (hex) {
         bool good = str_starts_with(tree_text(context->tree, hex), STR("#"));
-        return good ? bind_color_text(context, subject, hex, out) : bad_color(context, subject, hex);
+        return good ? bind_color_text(context, subject, hex, out) : bind_bad_color(context, subject, hex);
     }
     if (n->kind == TREE_LIST) {
         if (!bind_list(context, subject, node, numbers))
@@ -280,6 +226,8 @@ bool bind_composite(struct bind_context *context, struct bind_subject subject, t
     // A list or map that the reader has reported is looked into, and not believed.
     if (n->flags & TREE_BAD)
         return false;
+    if (row->kind == SCHEMA_COLOR)
+        bind_check_bytes(context, subject, node, numbers);
     store(row->kind, numbers, out);
     return true;
 }

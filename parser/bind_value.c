@@ -148,7 +148,8 @@ static bool bad_number(struct bind_context *context, struct bind_subject subject
         diag_add(context->sink, DIAG_BAD_NUMBER, at, "%.*s is empty; it must be a number", STR_ARG(s));
         return false;
     }
-    if (status == NUMBER_UNIT && mend_is_numbers(text))
+    bool three = status == NUMBER_COMMA && !subject.component && mend_numbers(context->scratch, text, 3).len;
+    if ((status == NUMBER_UNIT && mend_is_numbers(text)) || three)
         return bind_wrong_shape(context, subject, node);
     diag_add(context->sink, DIAG_BAD_NUMBER, at, "%.*s: '%.*s' %s", STR_ARG(s),
              STR_ARG(say_text(context->scratch, text)), number_problem(status));

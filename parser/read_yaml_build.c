@@ -56,6 +56,7 @@ static bool is_remark(struct yaml_reader *r, const struct tree_node *node, str t
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, node->begin, node->begin + 2),
              "'//' begins no remark in YAML");
     diag_help(&r->sink, "a remark begins with '#' and ends with its line");
+    r->blamed = node->end; // of the last line that was taken for a part of it
     return true;
 }
 

@@ -309,11 +309,28 @@ static bool report_unclosed(struct yaml_reader *r) {
     return true;
 }
 
+// "position:[0, 0, 8]" in brackets, where YAML takes "position:[" for a broken word.
+static bool report_glued(struct yaml_reader *r, uint32_t at) {
+    uint32_t begin = at;
+    while (begin > r->text->begin && !strchr(" \t\r\n,{[", byte_at(r, begin - 1)))
+        begin--;
+    str key = str_slice(r->text->bytes, begin, at);
+    char next = byte_at(r, at + 1);
+    if (!str_is_name(key) || (next != '[' && next != '{'))
+        return false;
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, at + 1), "a blank is missing behind the ':'");
+    diag_help(&r->sink, "write '%.*s: %c'", STR_ARG(reader_clip(key)), next);
+    diag_fix(&r->sink, true, yaml_span(r, at + 1, at + 1), STR(" "));
+    return true;
+}
+
 static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint32_t problem,
                        uint32_t context) {
     uint32_t at = row->at_context ? context : problem;
-    bool word = row->code == DIAG_YAML_TAG || strstr(row->problem, "expected ':'");
+    bool word = row->code == DIAG_YAML_TAG || strstr(row->problem, "find expected ':'");
     if (!row->at_context && at_end(r, problem) && report_unclosed(r))
+        return;
+    if (strstr(row->problem, "unexpected ':'") && report_glued(r, at))
         return;
     if (strstr(row->problem, "mapping values")) {
         report_colon(r, at);
@@ -330,7 +347,7 @@ static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint
     diag_add(&r->sink, row->code, word ? word_at(r, at) : character_at(r, at), "%s", row->message);
     if (row->note && context != problem)
         diag_note(&r->sink, character_at(r, context), "%s", row->note);
-    if (strstr(row->problem, "expected ':'"))
+    if (strstr(row->problem, "find expected ':'"))
         help_pair(r, source_text(r->context->sources, word_at(r, at)), rest_of_line(r, word_at(r, at).end));
     else if (strstr(row->problem, "expected ','") && precedes(r, at, '='))
         diag_help(&r->sink, "a key and its value are joined by ':', not by '='");

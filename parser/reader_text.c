@@ -131,6 +131,8 @@ bool reader_text_open(const struct reader_context *context, uint32_t source, uin
     if (controls.count)
         name_control(context, text, controls.first, controls.length, is_text ? controls.count : 0);
     text->bytes = read;
+    if (is_text && context->sources->items[source].kind != SOURCE_KIND_OPTION)
+        reader_conflicts(context, text);
     return is_text;
 }
 
