@@ -16,6 +16,11 @@ str mend_numbers(struct arena *arena, str text, uint32_t count);
 str mend_quotes(str text);
 // "true" or "false" for yes, On, TRUE, 1 ...; the empty string where it is neither.
 str mend_boolean(str text);
+// The colour as "#rrggbb" that a text means elsewhere: #rgb, 0xrrggbb, rgb(...), "red"; the empty string
+// where it is none. *safe: nothing else can be meant.
+str mend_color(struct arena *arena, str text, bool *safe);
+// false: not hexadecimal digits alone.
+bool mend_hex_digits(str digits, uint32_t *value);
 // Letters that a name must not have become '_'; a digit in front gets one before it.
 str mend_name(struct arena *arena, str text);
 // `replacement` in the quotes that `written`, the text of the file, has.
