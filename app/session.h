@@ -33,8 +33,9 @@ struct session_options {
     int32_t samples;                  // 0: as the scene says
     enum lint_level lint;             // rules about light that run where the scene has no error
     const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
-    bool judged; // the caller judges the findings by policy and comments (app/check.h): they are not yet
-                 // grouped
+    bool skip_lint; // for check_scene: leaves the rules about light out, and the use of comments unjudged
+    bool judged;    // the caller judges the findings by policy and comments (app/check.h): they are not yet
+                    // grouped
 };
 
 enum session_state {

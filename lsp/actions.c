@@ -17,7 +17,7 @@ enum {
 static json_t *edit_of(struct server *server, const struct session *session, const struct diag *diag) {
     json_t *edit = json_object();
     json_object_set_new(edit, "range", server_range(server, session, diag->fix_at));
-    json_object_set_new(edit, "newText", json_stringn(diag->fix_text.ptr, diag->fix_text.len));
+    json_object_set_new(edit, "newText", position_string(diag->fix_text));
     return edit;
 }
 
@@ -33,7 +33,7 @@ static str title_of(struct arena *arena, const struct session *session, const st
     str old = source_text(&session->sources, diag->fix_at);
     str text = str_trim(diag->fix_text);
     if (text.len == 0)
-        return arena_format(arena, "Remove '%.*s'", STR_ARG(str_slice(str_trim(old), 0, TITLE_BYTES)));
+        return arena_format(arena, "Remove '%.*s'", STR_ARG(position_clip(str_trim(old), TITLE_BYTES)));
     if (text.len > TITLE_BYTES || memchr(text.ptr, '\n', text.len))
         return arena_format(arena, "Fix: %s", diag_info(diag->code)->title);
     if (str_trim(old).len == 0)
@@ -53,7 +53,7 @@ static void add_fix(struct server *server, struct session *session, struct arena
     json_t *diagnostics = json_array();
     json_array_append_new(edits, edit_of(server, session, diag));
     json_array_append_new(diagnostics, server_diagnostic(server, session, arena, diag));
-    json_object_set_new(action, "title", json_stringn(title.ptr, title.len));
+    json_object_set_new(action, "title", position_string(title));
     json_object_set_new(action, "kind", json_string("quickfix"));
     json_object_set_new(action, "isPreferred", json_boolean(diag->fix_is_safe));
     json_object_set_new(action, "diagnostics", diagnostics);
@@ -157,11 +157,13 @@ static struct typed typed_at(str text, size_t offset) {
 }
 
 struct completing {
-    struct server *server;
     struct session *session;
     struct arena *arena;
     const struct document *document;
     struct typed typed;
+    const json_t *remembered; // names by element, from before the text was broken
+    json_t *range;            // of the word
+    json_t *known;            // labels that were offered
     json_t *items;
 };
 
@@ -173,29 +175,30 @@ enum completion_kind { // LSP 3.17, "Completion Request"
 };
 
 static void offer(struct completing *c, str label, enum completion_kind kind, const char *doc) {
-    size_t index;
-    json_t *known;
-    json_array_foreach(c->items, index, known) {
-        const char *text = json_string_value(json_object_get(known, "label"));
-        if (text && str_equal(str_from(text), label))
-            return;
+    json_t *text = position_string(label);
+    if (json_object_get(c->known, json_string_value(text))) {
+        json_decref(text);
+        return;
     }
+    json_object_set_new(c->known, json_string_value(text), json_true());
     json_t *item = json_object();
     json_t *edit = json_object();
-    json_object_set_new(item, "label", json_stringn(label.ptr, label.len));
+    json_object_set(item, "label", text);
     json_object_set_new(item, "kind", json_integer(kind));
     if (doc)
         json_object_set_new(item, "documentation", json_string(doc));
-    json_object_set_new(edit, "range",
-                        position_range(document_text(c->document), c->server->encoding, c->typed.begin,
-                                       c->typed.begin + c->typed.word.len));
-    json_object_set_new(edit, "newText", json_stringn(label.ptr, label.len));
+    json_object_set(edit, "range", c->range);
+    json_object_set_new(edit, "newText", text);
     json_object_set_new(item, "textEdit", edit);
     json_array_append_new(c->items, item);
 }
 
 static void offer_names(struct completing *c, const struct schema_element *target) {
     const struct schema_row *pool = ir_walk_pool(target);
+    size_t index;
+    const json_t *name_before;
+    json_array_foreach(json_object_get(c->remembered, target->name), index, name_before)
+        offer(c, str_from(json_string_value(name_before)), COMPLETION_REFERENCE, target->doc);
     if (!pool || !c->session->scene)
         return;
     struct ir_any_list list = ir_walk_list(pool, c->session->scene);
@@ -270,15 +273,22 @@ json_t *server_completion(struct server *server, const json_t *params, struct ar
     json_object_set_new(list, "items", items);
     if (!server_place(server, params, &place) || !place.scene)
         return list;
-    struct completing completing = {.server = server,
-                                    .session = &place.scene->session,
-                                    .arena = arena,
-                                    .document = place.document,
-                                    .typed = typed_at(document_text(place.document), place.offset),
-                                    .items = items};
+    str text = document_text(place.document);
+    struct typed typed = typed_at(text, place.offset);
+    struct completing completing = {
+        .session = &place.scene->session,
+        .arena = arena,
+        .document = place.document,
+        .typed = typed,
+        .remembered = place.scene->names,
+        .range = position_range_once(text, server->encoding, typed.begin, typed.begin + typed.word.len),
+        .known = json_object(),
+        .items = items};
     for (uint32_t e = 0; completing.typed.key.len && schema_elements[e]; e++)
         for (uint32_t i = 0; i < schema_elements[e]->row_count; i++)
             offer_for(&completing, &schema_elements[e]->rows[i]);
+    json_decref(completing.range);
+    json_decref(completing.known);
     return list;
 }
 
@@ -306,8 +316,8 @@ json_t *server_formatting(struct server *server, const json_t *params, struct ar
         edits = json_array();
         if (!str_equal(strbuf_view(&text), old)) {
             json_t *edit = json_object();
-            json_object_set_new(edit, "range", position_range(old, server->encoding, 0, old.len));
-            json_object_set_new(edit, "newText", json_stringn(text.data, text.len));
+            json_object_set_new(edit, "range", position_range_once(old, server->encoding, 0, old.len));
+            json_object_set_new(edit, "newText", position_string(strbuf_view(&text)));
             json_array_append_new(edits, edit);
         }
     }

@@ -40,7 +40,16 @@ static bool set_text(struct document *document, const char *text, size_t length)
     free(document->text);
     document->text = copy;
     document->length = length;
+    document->capacity = length + 1;
     return true;
+}
+
+// As the sessions know it.
+static str path_of(struct arena *arena, const char *uri) {
+    struct files files;
+    str path = position_path(arena, uri);
+    files_init(&files, arena);
+    return path.len ? files_canonical(&files, path) : path;
 }
 
 static struct document *add(struct documents *documents, const char *uri) {
@@ -54,12 +63,10 @@ static struct document *add(struct documents *documents, const char *uri) {
         documents->capacity = capacity;
     }
     arena_set_guard(&documents->arena, &guard);
-    if (setjmp(guard.jump) != 0)
-        return NULL;
-    str path = position_path(&documents->arena, uri);
-    struct files files;
-    files_init(&files, &documents->arena);
-    path = path.len ? files_canonical(&files, path) : path; // as the sessions know it
+    str path = STR("");
+    if (setjmp(guard.jump) == 0)
+        path = path_of(&documents->arena, uri);
+    arena_set_guard(&documents->arena, NULL);
     struct document document = {.uri = strdup(uri), .path = path};
     if (!document.uri || path.len == 0) {
         free(document.uri);
@@ -92,18 +99,22 @@ void documents_close(struct documents *documents, const char *uri) {
     *document = documents->items[--documents->count];
 }
 
+// In place: to replace a word everywhere, editors send thousands of changes at once.
 static bool splice(struct document *document, size_t begin, size_t end, const char *text, size_t length) {
     size_t tail = document->length - end;
-    char *joined = malloc(begin + length + tail + 1);
-    if (!joined)
-        return false;
-    memcpy(joined, document->text, begin);
-    memcpy(joined + begin, text, length);
-    memcpy(joined + begin + length, document->text + end, tail);
-    joined[begin + length + tail] = '\0';
-    free(document->text);
-    document->text = joined;
-    document->length = begin + length + tail;
+    size_t whole = begin + length + tail;
+    if (whole + 1 > document->capacity) {
+        size_t capacity = whole + whole / 2 + 1;
+        char *larger = realloc(document->text, capacity);
+        if (!larger)
+            return false;
+        document->text = larger;
+        document->capacity = capacity;
+    }
+    memmove(document->text + begin + length, document->text + end, tail);
+    memcpy(document->text + begin, text, length);
+    document->text[whole] = '\0';
+    document->length = whole;
     return true;
 }
 

@@ -13,9 +13,10 @@ struct document {
     char *uri;
     str path; // as the URI says
     char *text;
-    size_t length;
+    size_t length, capacity;
     json_int_t version;
     bool is_placed; // scenes that might include it were looked for
+    bool is_scene;  // its name or its text was found to be a scene's
 };
 
 struct documents {

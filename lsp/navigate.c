@@ -14,7 +14,7 @@ enum {
 static json_t *file_location(struct arena *arena, str path) {
     json_t *location = json_object();
     json_object_set_new(location, "uri", json_string(position_uri(arena, path).ptr));
-    json_object_set_new(location, "range", position_range(STR(""), POSITION_UTF16, 0, 0));
+    json_object_set_new(location, "range", position_range_once(STR(""), POSITION_UTF16, 0, 0));
     return location;
 }
 
@@ -110,8 +110,9 @@ static span bare(const struct session *session, span at) {
 static void add_edit(struct server *server, struct session *session, struct arena *arena, json_t *changes,
                      span at, str name, const char *text) {
     span inner = bare(session, at);
-    // A value that comes through an anchor or an escape is not spelled there.
-    if (!str_equal(source_text(&session->sources, inner), name))
+    // In quotes a name may be spelled with escapes, and a name never needs any. What else is not spelled
+    // there comes through an anchor.
+    if (inner.begin == at.begin && !str_equal(source_text(&session->sources, inner), name))
         return;
     json_t *location = server_location(server, session, arena, inner);
     if (!location)
@@ -141,16 +142,36 @@ json_t *server_prepare_rename(struct server *server, const json_t *params, struc
     return server_range(server, session, bare(session, at.at));
 }
 
+// Whether something else of the kind has the name.
+static bool is_taken(const struct session *session, const struct schema_element *schema, str name) {
+    const struct schema_row *pool = ir_walk_pool(schema);
+    if (!pool)
+        return false;
+    struct ir_any_list list = ir_walk_list(pool, session->scene);
+    for (uint32_t i = 0; i < list.count; i++)
+        if (str_equal(ir_walk_key(schema, ir_walk_item(pool, list, i)), name))
+            return true;
+    return false;
+}
+
 json_t *server_rename(struct server *server, const json_t *params, struct arena *arena) {
     struct place place;
     struct located_name name;
     const char *text = json_string_value(json_object_get(params, "newName"));
-    if (!text || !str_is_name(str_from(text)) || !server_place(server, params, &place) || !place.scene)
+    if (!text || !str_is_name(str_from(text))) {
+        server->refusal = "a name has letters, digits, '_' and '-', and does not begin with a digit";
+        return NULL;
+    }
+    if (!server_place(server, params, &place) || !place.scene)
         return NULL;
     struct session *session = &place.scene->session;
     struct located at = locate(session, place.document->path, place.offset);
     if (!locate_name(session, &at, arena, &name))
         return NULL;
+    if (!str_equal(str_from(text), name.name) && is_taken(session, name.schema, str_from(text))) {
+        server->refusal = "another one has this name";
+        return NULL;
+    }
     json_t *edit = json_object();
     json_t *changes = json_object();
     add_edit(server, session, arena, changes, name.definition, name.name, text);
@@ -174,7 +195,7 @@ static void add_definition(struct session *session, struct arena *arena, const s
     if (head && head->origin < session->origin.elements.count)
         text = source_text(&session->sources, span_join(session->origin.elements.items[head->origin].label,
                                                         session->origin.elements.items[head->origin].at));
-    text = str_slice(text, 0, text.len < SNIPPET_BYTES ? text.len : SNIPPET_BYTES);
+    text = position_clip(text, SNIPPET_BYTES);
     struct source_place where = source_locate(&session->sources, name.definition);
     strbuf_format(out, "%.*s '%.*s' of %.*s:%u\n\n%.*s\n\n", STR_ARG(str_from(name.schema->name)),
                   STR_ARG(name.name), STR_ARG(path_base(where.path)), where.line, STR_ARG(text));
@@ -198,7 +219,7 @@ json_t *server_hover(struct server *server, const json_t *params, struct arena *
     json_t *hover = json_object();
     json_t *contents = json_object();
     json_object_set_new(contents, "kind", json_string("plaintext"));
-    json_object_set_new(contents, "value", json_stringn(text.data ? text.data : "", text.len));
+    json_object_set_new(contents, "value", position_string(strbuf_view(&text)));
     json_object_set_new(hover, "contents", contents);
     json_object_set_new(hover, "range", server_range(server, session, at.at));
     strbuf_finish(&text);
@@ -275,7 +296,7 @@ static void add_symbol(struct outline *outline, json_t *list, const struct schem
     str name = symbol_name(outline->arena, schema, element, index);
     json_t *symbol = json_object();
     json_t *children = json_array();
-    json_object_set_new(symbol, "name", json_stringn(name.ptr, name.len));
+    json_object_set_new(symbol, "name", position_string(name));
     json_object_set_new(symbol, "detail", json_string(schema->element));
     json_object_set_new(symbol, "kind", json_integer(index < 0 ? SYMBOL_FIELD : SYMBOL_OBJECT));
     json_object_set_new(symbol, "range", server_range(outline->server, outline->session, at));

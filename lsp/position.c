@@ -2,7 +2,12 @@
 
 #include "core/strbuf.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+enum {
+    MARK_BYTES = 512, // from one mark to the next, at least
+};
 
 // Units that the character at `at` takes in a line.
 static uint32_t units(str text, size_t at, enum position_encoding encoding, size_t *length) {
@@ -14,11 +19,28 @@ static uint32_t units(str text, size_t at, enum position_encoding encoding, size
     return encoding == POSITION_UTF16 && *length == 4 ? 2 : 1;
 }
 
+static size_t find(str text, size_t from, char c) {
+    const char *at = from < text.len ? memchr(text.ptr + from, c, text.len - from) : NULL;
+    return at ? (size_t)(at - text.ptr) : text.len;
+}
+
+// Behind the line end at `at`.
+static size_t skip_line_end(str text, size_t at) {
+    bool two = text.ptr[at] == '\r' && at + 1 < text.len && text.ptr[at + 1] == '\n';
+    return at + (two ? 2 : 1);
+}
+
 static size_t line_begin(str text, uint32_t line) {
     size_t at = 0;
-    for (; line > 0 && at < text.len; line--) {
-        const char *end = memchr(text.ptr + at, '\n', text.len - at);
-        at = end ? (size_t)(end - text.ptr) + 1 : text.len;
+    size_t feed = find(text, 0, '\n');
+    size_t carriage = find(text, 0, '\r');
+    for (; line > 0; line--) {
+        size_t end = feed < carriage ? feed : carriage;
+        if (end == text.len)
+            return text.len;
+        at = skip_line_end(text, end);
+        feed = feed < at ? find(text, at, '\n') : feed;
+        carriage = carriage < at ? find(text, at, '\r') : carriage;
     }
     return at;
 }
@@ -29,7 +51,7 @@ size_t position_offset(str text, enum position_encoding encoding, uint32_t line,
     while (at < text.len && text.ptr[at] != '\n' && text.ptr[at] != '\r') {
         size_t length;
         uint32_t more = units(text, at, encoding, &length);
-        if (count + more > character)
+        if (character - count < more)
             break;
         count += more;
         at += length;
@@ -37,23 +59,78 @@ size_t position_offset(str text, enum position_encoding encoding, uint32_t line,
     return at;
 }
 
-void position_of(str text, enum position_encoding encoding, size_t offset, uint32_t *line,
-                 uint32_t *character) {
-    size_t begin = 0;
-    offset = offset < text.len ? offset : text.len;
-    *line = 0;
-    *character = 0;
-    for (size_t i = 0; i < offset; i++) {
-        if (text.ptr[i] != '\n')
+// ---- from bytes to positions
+
+static void step(str text, enum position_encoding encoding, struct position_mark *at) {
+    unsigned char c = (unsigned char)text.ptr[at->offset];
+    if (c == '\n' || c == '\r') {
+        *at = (struct position_mark){skip_line_end(text, at->offset), at->line + 1, 0};
+        return;
+    }
+    size_t length = 1;
+    at->character += c < 0x80 ? 1 : units(text, at->offset, encoding, &length);
+    at->offset += length;
+}
+
+static bool add_mark(struct position_index *index, struct position_mark mark) {
+    if (index->count == index->capacity) {
+        size_t capacity = index->capacity ? 2 * index->capacity : 64;
+        struct position_mark *marks = realloc(index->marks, capacity * sizeof *marks);
+        if (!marks)
+            return false;
+        index->marks = marks;
+        index->capacity = capacity;
+    }
+    index->marks[index->count++] = mark;
+    return true;
+}
+
+void position_index_use(struct position_index *index, str text, enum position_encoding encoding) {
+    if (index->text.ptr == text.ptr && index->text.len == text.len && index->encoding == encoding)
+        return;
+    struct position_mark at = {0};
+    index->text = text;
+    index->encoding = encoding;
+    index->count = 0;
+    for (size_t next = MARK_BYTES; at.offset < text.len; step(text, encoding, &at)) {
+        if (at.offset < next)
             continue;
-        ++*line;
-        begin = i + 1;
+        if (!add_mark(index, at))
+            return;
+        next = at.offset + MARK_BYTES;
     }
-    while (begin < offset) {
-        size_t length;
-        *character += units(text, begin, encoding, &length);
-        begin += length;
+}
+
+void position_index_forget(struct position_index *index) {
+    index->text = STR("");
+    index->count = 0;
+}
+
+void position_index_finish(struct position_index *index) {
+    free(index->marks);
+    *index = (struct position_index){0};
+}
+
+void position_of(const struct position_index *index, size_t offset, uint32_t *line, uint32_t *character) {
+    size_t low = 0;
+    size_t high = index->count; // marks before `low` are not behind the offset, those from `high` on are
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (index->marks[middle].offset <= offset)
+            low = middle + 1;
+        else
+            high = middle;
     }
+    struct position_mark at = {0};
+    struct position_mark next = low ? index->marks[low - 1] : at;
+    while (next.offset <= offset) {
+        at = next;
+        if (at.offset >= index->text.len)
+            break;
+        step(index->text, index->encoding, &next);
+    }
+    *line = at.line;
+    *character = at.character;
 }
 
 static bool read_unsigned(const json_t *object, const char *key, uint32_t *out) {
@@ -71,21 +148,52 @@ size_t position_read(str text, enum position_encoding encoding, const json_t *po
     return position_offset(text, encoding, line, character);
 }
 
-static json_t *position_object(str text, enum position_encoding encoding, size_t offset) {
+static json_t *position_object(const struct position_index *index, size_t offset) {
     uint32_t line;
     uint32_t character;
     json_t *position = json_object();
-    position_of(text, encoding, offset, &line, &character);
+    position_of(index, offset, &line, &character);
     json_object_set_new(position, "line", json_integer(line));
     json_object_set_new(position, "character", json_integer(character));
     return position;
 }
 
-json_t *position_range(str text, enum position_encoding encoding, size_t begin, size_t end) {
+json_t *position_range(const struct position_index *index, size_t begin, size_t end) {
     json_t *range = json_object();
-    json_object_set_new(range, "start", position_object(text, encoding, begin));
-    json_object_set_new(range, "end", position_object(text, encoding, end));
+    json_object_set_new(range, "start", position_object(index, begin));
+    json_object_set_new(range, "end", position_object(index, end));
     return range;
+}
+
+json_t *position_range_once(str text, enum position_encoding encoding, size_t begin, size_t end) {
+    const struct position_index index = {.text = text, .encoding = encoding};
+    return position_range(&index, begin, end);
+}
+
+str position_clip(str text, size_t most) {
+    size_t length = text.len < most ? text.len : most;
+    while (length > 0 && length < text.len && ((unsigned char)text.ptr[length] & 0xC0) == 0x80)
+        length--;
+    return str_slice(text, 0, length);
+}
+
+json_t *position_string(str text) {
+    json_t *string = json_stringn(text.len ? text.ptr : "", text.len);
+    if (string)
+        return string;
+    struct strbuf whole;
+    strbuf_init(&whole);
+    for (size_t at = 0; at < text.len;) {
+        size_t length = utf8_sequence_length(text, at);
+        if (length)
+            strbuf_str(&whole, str_slice(text, at, at + length));
+        else
+            strbuf_cstr(&whole, "\xEF\xBF\xBD");
+        at += length ? length : 1;
+    }
+    string = json_stringn(whole.data ? whole.data : "", whole.len);
+    strbuf_finish(&whole);
+    return string ? string : json_string("");
 }
 
 static int hex_digit(char c) {

@@ -1,8 +1,9 @@
 // Between byte offsets and the protocol's positions (line and character from 0), in the encoding that client
 // and server agreed on; and between paths and file: URIs.
 //
-// A position behind the end of its line means the line's end (LSP 3.17, "Position"); one inside a character
-// means its beginning. Thread safety: pure.
+// Lines end as the protocol says: "\n", "\r\n" or "\r". A position behind the end of its line means the
+// line's end (LSP 3.17, "Position"); one inside a character means its beginning. Thread safety: pure, but for
+// the index, which belongs to one thread.
 #ifndef GLINT_LSP_POSITION_H
 #define GLINT_LSP_POSITION_H
 
@@ -17,13 +18,39 @@ enum position_encoding {
     POSITION_UTF32,
 };
 
+// Marks in a text from which positions are counted: without them every position costs a walk from the
+// beginning.
+struct position_mark {
+    size_t offset;
+    uint32_t line, character;
+};
+struct position_index {
+    str text; // not owned
+    enum position_encoding encoding;
+    struct position_mark *marks;
+    size_t count, capacity;
+};
+
+// Zeroed memory is an index of no text. Makes it one of `text`; does nothing where it is that already. Where
+// memory ends, positions are right and slow.
+void position_index_use(struct position_index *index, str text, enum position_encoding encoding);
+// To be called before the text is freed.
+void position_index_forget(struct position_index *index);
+void position_index_finish(struct position_index *index);
+
 size_t position_offset(str text, enum position_encoding encoding, uint32_t line, uint32_t character);
-void position_of(str text, enum position_encoding encoding, size_t offset, uint32_t *line,
-                 uint32_t *character);
+void position_of(const struct position_index *index, size_t offset, uint32_t *line, uint32_t *character);
 // The byte offset of a protocol's position object; the text's length where it is malformed.
 size_t position_read(str text, enum position_encoding encoding, const json_t *position);
 // A protocol's range object for bytes [begin, end).
-json_t *position_range(str text, enum position_encoding encoding, size_t begin, size_t end);
+json_t *position_range(const struct position_index *index, size_t begin, size_t end);
+// The range of a whole text's bytes [begin, end), where one range is all that is needed of it.
+json_t *position_range_once(str text, enum position_encoding encoding, size_t begin, size_t end);
+
+// At most so many bytes from the beginning of the text, in whole characters.
+str position_clip(str text, size_t most);
+// A JSON string; what is not UTF-8 becomes U+FFFD.
+json_t *position_string(str text);
 
 // The path of a file: URI, in the arena; the empty string for URIs of other schemes.
 str position_path(struct arena *arena, const char *uri);

@@ -3,6 +3,7 @@
 
 #include "core/strbuf.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -24,20 +25,37 @@ str server_text(const struct session *session, uint32_t source) {
     return session->sources.items[source].text;
 }
 
-json_t *server_range(const struct server *server, const struct session *session, span at) {
-    return position_range(server_text(session, at.source), server->encoding, at.begin, at.end);
+json_t *server_range(struct server *server, const struct session *session, span at) {
+    position_index_use(&server->index, server_text(session, at.source), server->encoding);
+    return position_range(&server->index, at.begin, at.end);
+}
+
+void server_forget(struct server *server) {
+    position_index_forget(&server->index);
+    free(server->uri.text);
+    server->uri.text = NULL;
 }
 
 static str uri_of(struct session *session, struct arena *arena, uint32_t source) {
     return position_uri(arena, files_canonical(&session->files, session->sources.items[source].path));
 }
 
-// The URI under which the client has opened the file, where it has.
+// The URI under which the client has opened the file, where it has; valid until the next call. Findings come
+// file by file: the last one is kept, since asking the system for a path costs more than all else here.
 static const char *client_uri(struct server *server, struct session *session, struct arena *arena,
                               uint32_t source) {
+    if (server->uri.text && server->uri.session == session && server->uri.source == source)
+        return server->uri.text;
     str path = files_canonical(&session->files, session->sources.items[source].path);
     const struct document *document = documents_find_path(&server->documents, path);
-    return document ? document->uri : uri_of(session, arena, source).ptr;
+    char *text = strdup(document ? document->uri : uri_of(session, arena, source).ptr);
+    if (!text)
+        return "";
+    free(server->uri.text);
+    server->uri.text = text;
+    server->uri.session = session;
+    server->uri.source = source;
+    return text;
 }
 
 json_t *server_location(struct server *server, struct session *session, struct arena *arena, span at) {
@@ -58,7 +76,7 @@ static json_t *related(struct server *server, struct session *session, struct ar
             continue;
         json_t *item = json_object();
         json_object_set_new(item, "location", location);
-        json_object_set_new(item, "message", json_stringn(note->message.ptr, note->message.len));
+        json_object_set_new(item, "message", position_string(note->message));
         json_array_append_new(list, item);
     }
     return list;
@@ -75,9 +93,9 @@ static json_t *message_text(const struct diag *diag) {
         strbuf_format(&text, "\n%.*s", STR_ARG(diag->help));
     if (diag->repeats)
         strbuf_format(&text, "\nand %u more like this", diag->repeats);
-    json_t *json = json_stringn(text.data ? text.data : "", text.len);
+    json_t *json = position_string(strbuf_view(&text));
     strbuf_finish(&text);
-    return json ? json : json_string("");
+    return json;
 }
 
 json_t *server_diagnostic(struct server *server, struct session *session, struct arena *arena,
@@ -103,20 +121,23 @@ static json_t *list_of(json_t *all, const char *uri) {
     return list;
 }
 
-// A file of two scenes has the findings of both, each once.
-static void append_once(json_t *list, json_t *diagnostic) {
-    size_t index;
-    json_t *known;
-    json_array_foreach(list, index, known) {
-        if (!json_equal(known, diagnostic))
-            continue;
-        json_decref(diagnostic);
-        return;
+// A file of two scenes has the findings of both, each once. `seen`: those that were added.
+static void append_once(json_t *list, const char *uri, json_t *diagnostic, json_t *seen) {
+    struct strbuf key;
+    char *text = json_dumps(diagnostic, JSON_COMPACT);
+    strbuf_init(&key);
+    strbuf_format(&key, "%s\n%s", uri, text ? text : "");
+    if (key.failed || !json_object_get(seen, key.data)) {
+        json_object_set_new(seen, key.failed ? "" : key.data, json_true());
+        json_array_append(list, diagnostic);
     }
-    json_array_append_new(list, diagnostic);
+    json_decref(diagnostic);
+    strbuf_finish(&key);
+    free(text);
 }
 
-static void collect(struct server *server, struct lsp_scene *scene, struct arena *arena, json_t *all) {
+static void collect(struct server *server, struct lsp_scene *scene, struct arena *arena, json_t *all,
+                    json_t *seen) {
     struct session *session = &scene->session;
     str main_uri = position_uri(arena, scene->path);
     const struct document *main_document = documents_find_path(&server->documents, scene->path);
@@ -133,8 +154,11 @@ static void collect(struct server *server, struct lsp_scene *scene, struct arena
         const char *uri =
             has_file(session, diag->at) ? client_uri(server, session, arena, diag->at.source) : main;
         json_t *list = list_of(all, uri);
-        if (json_array_size(list) < DIAGNOSTICS_MOST)
-            append_once(list, server_diagnostic(server, session, arena, diag));
+        if (json_array_size(list) >= DIAGNOSTICS_MOST)
+            continue;
+        json_t *diagnostic = server_diagnostic(server, session, arena, diag);
+        uri = has_file(session, diag->at) ? client_uri(server, session, arena, diag->at.source) : main;
+        append_once(list, uri, diagnostic, seen);
     }
 }
 
@@ -148,22 +172,27 @@ static void tell(struct server *server, const char *uri, json_t *list) {
     rpc_notify(&server->rpc, "textDocument/publishDiagnostics", params);
 }
 
-static void collect_guarded(struct server *server, struct lsp_scene *scene, json_t *all) {
+static void collect_guarded(struct server *server, struct lsp_scene *scene, json_t *all, json_t *seen) {
     struct arena arena;
     struct arena_guard guard;
+    struct arena *paths = scene->session.files.arena;
     arena_init(&arena, SIZE_MAX / 2);
     arena_set_guard(&arena, &guard);
     arena_set_guard(&scene->session.arena, &guard);
+    scene->session.files.arena = &arena;
     if (setjmp(guard.jump) == 0)
-        collect(server, scene, &arena, all);
+        collect(server, scene, &arena, all, seen);
+    scene->session.files.arena = paths;
     arena_set_guard(&scene->session.arena, NULL);
     arena_finish(&arena);
 }
 
 void server_publish(struct server *server) {
     json_t *all = json_object();
+    json_t *seen = json_object();
     for (uint32_t i = 0; i < server->scenes.count; i++)
-        collect_guarded(server, server->scenes.items[i], all);
+        collect_guarded(server, server->scenes.items[i], all, seen);
+    json_decref(seen);
     const char *uri;
     json_t *list;
     json_object_foreach(all, uri, list) {

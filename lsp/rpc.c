@@ -99,9 +99,9 @@ enum rpc_state rpc_read(struct rpc *rpc, json_t **message) {
     }
 }
 
-bool rpc_pending(const struct rpc *rpc) {
+bool rpc_pending(const struct rpc *rpc, int wait_ms) {
     struct pollfd in = {.fd = rpc->in, .events = POLLIN};
-    return unread(rpc).len > 0 || (poll(&in, 1, 0) > 0 && in.revents != 0);
+    return unread(rpc).len > 0 || (poll(&in, 1, wait_ms) > 0 && in.revents != 0);
 }
 
 static void write_all(struct rpc *rpc, const char *bytes, size_t count) {
@@ -150,6 +150,14 @@ void rpc_refuse(struct rpc *rpc, json_t *id, enum rpc_error_code code, const cha
 
 void rpc_notify(struct rpc *rpc, const char *method, json_t *params) {
     json_t *message = json_object();
+    json_object_set_new(message, "method", json_string(method));
+    json_object_set_new(message, "params", params);
+    send(rpc, message);
+}
+
+void rpc_ask(struct rpc *rpc, const char *id, const char *method, json_t *params) {
+    json_t *message = json_object();
+    json_object_set_new(message, "id", json_string(id));
     json_object_set_new(message, "method", json_string(method));
     json_object_set_new(message, "params", params);
     send(rpc, message);

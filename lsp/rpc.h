@@ -37,10 +37,12 @@ void rpc_init(struct rpc *rpc, int in, int out);
 void rpc_finish(struct rpc *rpc);
 // Waits for a message.
 enum rpc_state rpc_read(struct rpc *rpc, json_t **message);
-// Whether rpc_read would not have to wait for bytes.
-bool rpc_pending(const struct rpc *rpc);
+// Whether, within so many milliseconds, rpc_read does not have to wait for bytes.
+bool rpc_pending(const struct rpc *rpc, int wait_ms);
 void rpc_reply(struct rpc *rpc, json_t *id, json_t *result);
 void rpc_refuse(struct rpc *rpc, json_t *id, enum rpc_error_code code, const char *message);
 void rpc_notify(struct rpc *rpc, const char *method, json_t *params);
+// A request; what the client answers to it is read as any message.
+void rpc_ask(struct rpc *rpc, const char *id, const char *method, json_t *params);
 
 #endif

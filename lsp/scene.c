@@ -1,16 +1,17 @@
 #include "lsp/scene.h"
 
 #include "app/check.h"
-#include "core/files_walk.h"
+#include "grammar/ir_walk.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    FOLDERS_MOST = 8,      // above a document, in which scenes that include it are looked for
-    CANDIDATES_MOST = 200, // files in each
+    ROUNDS_MOST = 4, // until every document has its scene: what one load finds may need another
+    SETTINGS_BYTES_MOST = 1 << 20,
 };
-#define CANDIDATE_BYTES ((uint64_t)1 << 20)
+// Rules about light that take longer wait until no one types.
+#define LINT_SECONDS_QUICK 0.1
 
 void scenes_init(struct scenes *scenes, struct documents *documents) {
     *scenes =
@@ -23,11 +24,18 @@ static void unload(struct lsp_scene *scene) {
     scene->loaded = false;
 }
 
-static void destroy(struct lsp_scene *scene) {
-    unload(scene);
+void lsp_scene_forget_files(struct lsp_scene *scene) {
     for (uint32_t i = 0; i < scene->file_count; i++)
         free((char *)scene->files[i].ptr);
     free(scene->files);
+    scene->files = NULL;
+    scene->file_count = 0;
+}
+
+static void destroy(struct lsp_scene *scene) {
+    unload(scene);
+    lsp_scene_forget_files(scene);
+    json_decref(scene->names);
     arena_finish(&scene->arena);
     free(scene);
 }
@@ -39,14 +47,19 @@ void scenes_finish(struct scenes *scenes) {
     asset_store_destroy(scenes->store);
 }
 
-void scenes_touch(struct scenes *scenes) {
-    for (uint32_t i = 0; i < scenes->count; i++)
-        scenes->items[i]->is_stale = true;
+// Of a text that is no scene's, such as a mesh's or the settings', nothing is known.
+void scenes_touch(struct scenes *scenes, str path) {
+    const struct document *document = path.len ? documents_find_path(scenes->documents, path) : NULL;
+    for (uint32_t i = 0; i < scenes->count; i++) {
+        struct lsp_scene *scene = scenes->items[i];
+        scene->is_stale |= !document || !document->is_scene || scene->session.state != SESSION_LOADED ||
+                           str_equal(scene->path, path) || lsp_scene_has_file(scene, path);
+    }
 }
 
 // ---- loading
 
-static bool has_file(const struct lsp_scene *scene, str path) {
+bool lsp_scene_has_file(const struct lsp_scene *scene, str path) {
     for (uint32_t i = 0; i < scene->file_count; i++)
         if (str_equal(scene->files[i], path))
             return true;
@@ -54,8 +67,7 @@ static bool has_file(const struct lsp_scene *scene, str path) {
 }
 
 // What the scene consists of; kept where the new text could not be read that far.
-static void note_files(struct lsp_scene *scene) {
-    struct session *session = &scene->session;
+void lsp_scene_note_files(struct lsp_scene *scene, struct session *session) {
     uint32_t count = session->origin.files.count;
     str *files = count ? calloc(count, sizeof *files) : NULL;
     struct arena_guard guard;
@@ -72,23 +84,96 @@ static void note_files(struct lsp_scene *scene) {
         }
     }
     arena_set_guard(&session->arena, NULL);
-    for (uint32_t i = 0; i < scene->file_count; i++)
-        free((char *)scene->files[i].ptr);
-    free(scene->files);
+    lsp_scene_forget_files(scene);
     scene->files = files;
     scene->file_count = done;
 }
 
-static void load(struct scenes *scenes, struct lsp_scene *scene) {
+struct file_overlay *scenes_overlays(const struct scenes *scenes) {
     struct documents *documents = scenes->documents;
     struct file_overlay *overlays = calloc(documents->count + 1, sizeof *overlays);
-    struct session_options options = {.path = scene->path, .limits = scenes->limits, .skip_pixels = true};
     for (uint32_t i = 0; overlays && i < documents->count; i++)
         overlays[i] = (struct file_overlay){documents->items[i].path, document_text(&documents->items[i])};
-    options.overlays = overlays;
-    options.overlay_count = overlays ? documents->count : 0;
+    return overlays;
+}
+
+static bool has_syntax_error(const struct session *session) {
+    for (uint32_t i = 0; i < session->sink.count; i++)
+        if (strncmp(diag_info(session->sink.items[i].code)->code, "E1", 2) == 0)
+            return true;
+    return false;
+}
+
+// A text is seldom whole while one types; names that it had a moment ago are still the likely ones.
+static void note_names(struct lsp_scene *scene) {
+    if (!scene->session.scene || has_syntax_error(&scene->session))
+        return;
+    json_decref(scene->names);
+    scene->names = json_object();
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        struct ir_any_list list = ir_walk_list(row, scene->session.scene);
+        json_t *names = list.count ? json_array() : NULL;
+        for (uint32_t k = 0; k < list.count; k++) {
+            str name = ir_walk_key(row->child, ir_walk_item(row, list, k));
+            if (name.len)
+                json_array_append_new(names, json_stringn(name.ptr, name.len));
+        }
+        if (names)
+            json_object_set_new(scene->names, row->child->name, names);
+    }
+}
+
+static void load_scene(struct lsp_scene *scene, const struct session_options *options,
+                       struct asset_store *store) {
+    check_scene(&scene->session, options, store);
+    if (scene->session.state == SESSION_LOADED)
+        lsp_scene_note_files(scene, &scene->session);
+    else if (scene->session.state != SESSION_NO_SCENE)
+        lsp_scene_forget_files(scene);
+    note_names(scene);
+    scene->lacks_lint = options->skip_lint;
+    if (!options->skip_lint)
+        scene->lint_seconds = scene->session.lint_seconds;
+}
+
+// `.glintrc.yaml` by itself: a session without a scene.
+static void load_settings(struct lsp_scene *scene, const struct session_options *options) {
+    struct session *session = &scene->session;
+    struct arena_guard guard;
+    *session = (struct session){.options = *options, .state = SESSION_NO_SCENE};
+    diag_sink_init(&session->sink);
+    arena_init(&session->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
+    arena_set_guard(&session->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        struct config_input input = {&session->files, &session->sources, &session->sink, &session->arena};
+        str text;
+        source_set_init(&session->sources, &session->arena);
+        files_init(&session->files, &session->arena);
+        for (uint32_t i = 0; i < options->overlay_count; i++)
+            files_add_overlay(&session->files, options->overlays[i].path, options->overlays[i].text);
+        if (files_read(&session->files, scene->path, SETTINGS_BYTES_MOST, &session->arena, &text) == FILE_OK)
+            config_read(&input, source_add(&session->sources, SOURCE_KIND_FILE, scene->path, text),
+                        scene->path, &session->config);
+    }
+    arena_set_guard(&session->arena, NULL);
+    session_group(session);
+}
+
+static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_effort effort) {
+    struct file_overlay *overlays = scenes_overlays(scenes);
+    struct session_options options = {.path = scene->path,
+                                      .limits = scenes->limits,
+                                      .skip_pixels = true,
+                                      .skip_lint =
+                                          effort == SCENES_QUICK && scene->lint_seconds > LINT_SECONDS_QUICK,
+                                      .overlays = overlays,
+                                      .overlay_count = overlays ? scenes->documents->count : 0};
     unload(scene);
-    check_scene(&scene->session, &options, scenes->store);
+    if (scenes_is_settings(scene->path))
+        load_settings(scene, &options);
+    else
+        load_scene(scene, &options, scenes->store);
     // The texts are the session's by now.
     scene->session.options.overlays = NULL;
     scene->session.options.overlay_count = 0;
@@ -96,19 +181,17 @@ static void load(struct scenes *scenes, struct lsp_scene *scene) {
     scene->loaded = true;
     scene->is_stale = false;
     scene->is_fresh = true;
-    if (scene->session.state == SESSION_LOADED)
-        note_files(scene);
 }
 
-static struct lsp_scene *find(struct scenes *scenes, str path) {
+struct lsp_scene *scenes_find(struct scenes *scenes, str path) {
     for (uint32_t i = 0; i < scenes->count; i++)
         if (str_equal(scenes->items[i]->path, path))
             return scenes->items[i];
     return NULL;
 }
 
-static struct lsp_scene *add(struct scenes *scenes, str path) {
-    struct lsp_scene *known = find(scenes, path);
+struct lsp_scene *scenes_add(struct scenes *scenes, str path) {
+    struct lsp_scene *known = scenes_find(scenes, path);
     if (known)
         return known;
     if (scenes->count == scenes->capacity) {
@@ -143,84 +226,12 @@ static void forget(struct scenes *scenes, struct lsp_scene *scene) {
     destroy(scene);
 }
 
-// ---- which scene a document belongs to
-
-static bool is_scene_path(str path) {
-    static const char *const endings[] = {".yaml", ".yml", ".xml", ".json"};
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
-        if (str_ends_with_nocase(path, endings[i]))
-            return true;
-    return false;
-}
-
-static bool holds(str text, str what) {
-    for (size_t i = 0; what.len && i + what.len <= text.len; i++) {
-        const char *at = memchr(text.ptr + i, what.ptr[0], text.len - what.len - i + 1);
-        if (!at)
-            return false;
-        i = (size_t)(at - text.ptr);
-        if (memcmp(at, what.ptr, what.len) == 0)
-            return true;
-    }
-    return false;
-}
-
-// Whether the file's text names an include and the document: only then is it worth loading.
-static bool may_include(struct files *files, struct arena *arena, str candidate, str name) {
-    str text;
-    if (files_read(files, candidate, CANDIDATE_BYTES, arena, &text) != FILE_OK)
-        return false;
-    return holds(text, name) && (holds(text, STR("include")) || holds(text, STR("Include")));
-}
-
-// Loads the scenes in one folder that may include the document.
-static void try_folder(struct scenes *scenes, struct files *files, struct arena *arena, str folder,
-                       str document) {
-    struct files_names names = {0};
-    files_list_folder(arena, arena_copy(arena, folder), &names);
-    for (uint32_t i = 0, count = 0; i < names.count && count < CANDIDATES_MOST; i++) {
-        str path = arena_format(arena, "%.*s/%.*s", STR_ARG(folder), STR_ARG(names.items[i]));
-        if (!is_scene_path(path) || str_equal(path, document) || find(scenes, path))
-            continue;
-        count++;
-        if (!may_include(files, arena, path, path_base(document)))
-            continue;
-        struct lsp_scene *scene = add(scenes, path);
-        if (!scene)
-            continue;
-        load(scenes, scene);
-        if (!has_file(scene, document))
-            forget(scenes, scene);
-    }
-}
-
-static void place(struct scenes *scenes, struct document *document, str path) {
-    struct arena arena;
-    struct arena_guard guard;
-    struct files files;
-    if (document->is_placed)
-        return;
-    document->is_placed = true;
-    arena_init(&arena, (size_t)1 << 28);
-    arena_set_guard(&arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        files_init(&files, &arena);
-        if (files_add_scene_root(&files, path) == FILE_OK) {
-            str root = files.roots.items[0];
-            str folder = path_folder(path);
-            for (int i = 0; i < FOLDERS_MOST && str_starts_with(folder, root); i++) {
-                try_folder(scenes, &files, &arena, folder, path);
-                folder = path_folder(folder);
-            }
-        }
-    }
-    arena_finish(&arena);
-}
+// ---- keeping up
 
 static bool is_part_of_another(const struct scenes *scenes, str path) {
     for (uint32_t i = 0; i < scenes->count; i++) {
         const struct lsp_scene *scene = scenes->items[i];
-        if (!str_equal(scene->path, path) && has_file(scene, path))
+        if (!str_equal(scene->path, path) && lsp_scene_has_file(scene, path))
             return true;
     }
     return false;
@@ -231,31 +242,32 @@ static void want_owners(struct scenes *scenes, str path) {
     for (uint32_t i = 0; i < scenes->count; i++) {
         struct lsp_scene *scene = scenes->items[i];
         bool is_main = str_equal(scene->path, path);
-        scene->is_wanted |= owned ? !is_main && has_file(scene, path) : is_main;
+        scene->is_wanted |= owned ? !is_main && lsp_scene_has_file(scene, path) : is_main;
     }
 }
 
-bool scenes_refresh(struct scenes *scenes) {
-    struct documents *documents = scenes->documents;
-    bool changed = false;
-    for (uint32_t i = 0; i < documents->count; i++) {
-        str path = documents->items[i].path;
-        if (!is_scene_path(path))
+// Every document that is a scene gets one; whether there were some without.
+static bool add_missing(struct scenes *scenes) {
+    bool added = false;
+    for (uint32_t i = 0; i < scenes->documents->count; i++) {
+        struct document *document = &scenes->documents->items[i];
+        bool settings = scenes_is_settings(document->path);
+        if (!settings && !scenes_is_scene(document))
             continue;
-        place(scenes, &documents->items[i], path);
-        if (!is_part_of_another(scenes, path))
-            add(scenes, path);
+        if (!settings)
+            scenes_place(scenes, document);
+        if (!is_part_of_another(scenes, document->path) && !scenes_find(scenes, document->path))
+            added |= scenes_add(scenes, document->path) != NULL;
     }
-    for (uint32_t i = 0; i < scenes->count; i++) {
-        if (scenes->items[i]->is_stale)
-            load(scenes, scenes->items[i]);
-        changed |= scenes->items[i]->is_fresh;
-        scenes->items[i]->is_fresh = false;
+    return added;
+}
+
+static bool forget_unwanted(struct scenes *scenes) {
+    bool changed = false;
+    for (uint32_t i = 0; i < scenes->count; i++)
         scenes->items[i]->is_wanted = false;
-    }
-    for (uint32_t i = 0; i < documents->count; i++)
-        if (is_scene_path(documents->items[i].path))
-            want_owners(scenes, documents->items[i].path);
+    for (uint32_t i = 0; i < scenes->documents->count; i++)
+        want_owners(scenes, scenes->documents->items[i].path);
     for (uint32_t i = scenes->count; i > 0; i--) {
         if (scenes->items[i - 1]->is_wanted)
             continue;
@@ -265,10 +277,34 @@ bool scenes_refresh(struct scenes *scenes) {
     return changed;
 }
 
+bool scenes_refresh(struct scenes *scenes, enum scenes_effort effort) {
+    bool changed = false;
+    bool added = add_missing(scenes);
+    for (int round = 0; round == 0 || (added && round < ROUNDS_MOST); round++) {
+        for (uint32_t i = 0; i < scenes->count; i++) {
+            struct lsp_scene *scene = scenes->items[i];
+            if (scene->is_stale || (effort == SCENES_WHOLE && scene->lacks_lint))
+                load(scenes, scene, effort);
+            changed |= scene->is_fresh;
+            scene->is_fresh = false;
+        }
+        changed |= forget_unwanted(scenes);
+        added = add_missing(scenes);
+    }
+    return changed;
+}
+
+bool scenes_lack_lint(const struct scenes *scenes) {
+    for (uint32_t i = 0; i < scenes->count; i++)
+        if (scenes->items[i]->lacks_lint)
+            return true;
+    return false;
+}
+
 struct lsp_scene *scenes_of(struct scenes *scenes, str path) {
     for (uint32_t i = 0; i < scenes->count; i++)
         if (scenes->items[i]->loaded && scenes->items[i]->session.state == SESSION_LOADED &&
-            has_file(scenes->items[i], path))
+            lsp_scene_has_file(scenes->items[i], path))
             return scenes->items[i];
     return NULL;
 }

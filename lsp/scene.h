@@ -4,6 +4,8 @@
 // A document that another scene includes is checked as a part of that scene, and not by itself: alone it
 // would lack what the others define. Among scenes count open documents, and scene files beside the document
 // or in the folders above it, up to the scene's root.
+// A document counts as a scene by its name (`*.glint.*`) or by its text, so that other YAML and XML files are
+// left alone; `.glintrc.yaml` is checked as the settings that it is.
 // Ownership: scenes_finish frees all. Thread safety: one thread.
 #ifndef GLINT_LSP_SCENE_H
 #define GLINT_LSP_SCENE_H
@@ -15,12 +17,15 @@ struct lsp_scene {
     struct arena arena; // for what belongs to the scene but to no load of it
     str path;           // of the main file, canonical
     struct session session;
-    bool loaded;    // the session is to be finished
-    bool is_fresh;  // it was loaded since scenes_refresh last said so
-    bool is_stale;  // a text has changed since it was loaded
-    bool is_wanted; // an open document is its main file, or belongs to it
-    str *files;     // canonical, of the main file and its includes as of the last load that got so far
+    bool loaded;         // the session is to be finished
+    bool is_fresh;       // it was loaded since scenes_refresh last said so
+    bool is_stale;       // a text has changed since it was loaded
+    bool is_wanted;      // an open document is its main file, or belongs to it
+    bool lacks_lint;     // the rules about light did not run at the last load
+    double lint_seconds; // that they took when they last ran
+    str *files;          // canonical, of the main file and its includes as of the last load that got so far
     uint32_t file_count;
+    json_t *names; // element: the names that it had when the text was last without errors of syntax
 };
 
 struct scenes {
@@ -33,12 +38,35 @@ struct scenes {
 
 void scenes_init(struct scenes *scenes, struct documents *documents);
 void scenes_finish(struct scenes *scenes);
-// Marks all scenes: some text has changed.
-void scenes_touch(struct scenes *scenes);
-// Decides which scenes the open documents belong to, and loads those that are stale. Scenes that no open
-// document needs any more are forgotten. Whether anything has changed.
-bool scenes_refresh(struct scenes *scenes);
+// Marks the scenes that a changed text may matter to; all of them where `path` is empty.
+void scenes_touch(struct scenes *scenes, str path);
+
+enum scenes_effort {
+    SCENES_QUICK, // without the rules about light, where they took long the last time
+    SCENES_WHOLE,
+};
+// Decides which scenes the open documents belong to, and loads those that are stale, or lack what the effort
+// asks for. Scenes that no open document needs any more are forgotten. Whether anything has changed.
+bool scenes_refresh(struct scenes *scenes, enum scenes_effort effort);
+// Whether SCENES_WHOLE would have something to add.
+bool scenes_lack_lint(const struct scenes *scenes);
 // The scene that the document at `path` belongs to, up to date, or NULL.
 struct lsp_scene *scenes_of(struct scenes *scenes, str path);
+
+// Which scene a document belongs to (lsp/scene_find.c).
+// The scene with this main file; added where it is new. NULL: no memory.
+struct lsp_scene *scenes_add(struct scenes *scenes, str path);
+struct lsp_scene *scenes_find(struct scenes *scenes, str path);
+// Looks, once for each time that it is opened, for scenes around the document that include it, and adds them.
+void scenes_place(struct scenes *scenes, struct document *document);
+bool lsp_scene_has_file(const struct lsp_scene *scene, str path);
+// Takes the list of files from a loaded session.
+void lsp_scene_note_files(struct lsp_scene *scene, struct session *session);
+void lsp_scene_forget_files(struct lsp_scene *scene);
+// The texts of the open documents, for session_options; to be freed. NULL: no memory.
+struct file_overlay *scenes_overlays(const struct scenes *scenes);
+bool scenes_is_settings(str path);
+// Whether the document is to be checked as a scene.
+bool scenes_is_scene(struct document *document);
 
 #endif

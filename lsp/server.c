@@ -4,6 +4,10 @@
 
 #include <string.h>
 
+enum {
+    IDLE_MS = 400, // without a message: no one types
+};
+
 // ---- capabilities
 
 // Of the client's encodings the first that we know; UTF-16 where it says nothing.
@@ -43,6 +47,9 @@ static json_t *capabilities(const struct server *server) {
 }
 
 static json_t *initialize(struct server *server, const json_t *params) {
+    const json_t *workspace = json_object_get(json_object_get(params, "capabilities"), "workspace");
+    const json_t *watching = json_object_get(workspace, "didChangeWatchedFiles");
+    server->may_watch = json_is_true(json_object_get(watching, "dynamicRegistration"));
     server->encoding = choose_encoding(params);
     server->initialized = true;
     return json_pack("{s:o, s:{s:s, s:s}}", "capabilities", capabilities(server), "serverInfo", "name",
@@ -65,7 +72,7 @@ static void did_open(struct server *server, const json_t *params) {
     json_int_t version = json_integer_value(json_object_get(text_document(params), "version"));
     if (json_is_string(text) && documents_open(&server->documents, uri_of(params), json_string_value(text),
                                                json_string_length(text), version))
-        scenes_touch(&server->scenes);
+        scenes_touch(&server->scenes, STR(""));
 }
 
 static void did_change(struct server *server, const json_t *params) {
@@ -74,17 +81,18 @@ static void did_change(struct server *server, const json_t *params) {
         return;
     document->version = json_integer_value(json_object_get(text_document(params), "version"));
     document_change(document, server->encoding, json_object_get(params, "contentChanges"));
-    scenes_touch(&server->scenes);
+    scenes_touch(&server->scenes, document->path);
 }
 
 static void did_close(struct server *server, const json_t *params) {
     documents_close(&server->documents, uri_of(params));
-    scenes_touch(&server->scenes);
+    scenes_touch(&server->scenes, STR(""));
 }
 
 static void did_save(struct server *server, const json_t *params) {
     (void)params;
-    scenes_touch(&server->scenes);
+    scenes_touch(&server->scenes, STR(""));
+    server->was_saved = true;
 }
 
 bool server_place(struct server *server, const json_t *params, struct place *out) {
@@ -96,6 +104,20 @@ bool server_place(struct server *server, const json_t *params, struct place *out
     if (position)
         out->offset = position_read(document_text(out->document), server->encoding, position);
     return true;
+}
+
+// A mesh that another program writes is as much a part of the scene as its text.
+static void initialized(struct server *server, const json_t *params) {
+    (void)params;
+    if (!server->may_watch)
+        return;
+    json_t *watchers = json_array();
+    json_array_append_new(
+        watchers, json_pack("{s:s}", "globPattern", "**/*.{yaml,yml,json,xml,obj,mtl,png,jpg,jpeg,hdr}"));
+    json_array_append_new(watchers, json_pack("{s:s}", "globPattern", "**/.glintrc.yaml"));
+    rpc_ask(&server->rpc, "watch", "client/registerCapability",
+            json_pack("{s:[{s:s, s:s, s:{s:o}}]}", "registrations", "id", "watch", "method",
+                      "workspace/didChangeWatchedFiles", "registerOptions", "watchers", watchers));
 }
 
 // ---- dispatch
@@ -115,15 +137,16 @@ static const struct {
     const char *method;
     void (*take)(struct server *server, const json_t *params);
 } notifications[] = {
-    {"textDocument/didOpen", did_open},
-    {"textDocument/didChange", did_change},
-    {"textDocument/didClose", did_close},
-    {"textDocument/didSave", did_save},
-    {"workspace/didChangeWatchedFiles", did_save},
+    {"initialized", initialized},           {"textDocument/didOpen", did_open},
+    {"textDocument/didChange", did_change}, {"textDocument/didClose", did_close},
+    {"textDocument/didSave", did_save},     {"workspace/didChangeWatchedFiles", did_save},
 };
 
-static void refresh(struct server *server) {
-    if (scenes_refresh(&server->scenes))
+static void refresh(struct server *server, enum scenes_effort effort) {
+    bool changed = scenes_refresh(&server->scenes, effort);
+    server->was_saved = false;
+    server_forget(server);
+    if (changed)
         server_publish(server);
 }
 
@@ -135,21 +158,26 @@ static json_t *answer(struct server *server, server_request *request, const json
     json_t *volatile result = NULL;
     arena_init(&arena, SIZE_MAX / 2);
     arena_set_guard(&arena, &guard);
-    struct arena *session =
-        server_place(server, params, &place) && place.scene ? &place.scene->session.arena : NULL;
-    if (session)
-        arena_set_guard(session, &guard);
+    struct session *session =
+        server_place(server, params, &place) && place.scene ? &place.scene->session : NULL;
+    server->refusal = NULL;
+    if (session) {
+        arena_set_guard(&session->arena, &guard);
+        session->files.arena = &arena; // or the session would grow with every request
+    }
     *good = setjmp(guard.jump) == 0;
     if (*good)
         result = request(server, params, &arena);
-    if (session)
-        arena_set_guard(session, NULL);
+    if (session) {
+        arena_set_guard(&session->arena, NULL);
+        session->files.arena = &session->arena;
+    }
     arena_finish(&arena);
     return result;
 }
 
 static void take_request(struct server *server, const char *method, json_t *id, const json_t *params) {
-    if (strcmp(method, "initialize") == 0) {
+    if (strcmp(method, "initialize") == 0 && !server->initialized) {
         rpc_reply(&server->rpc, id, initialize(server, params));
         return;
     }
@@ -167,9 +195,11 @@ static void take_request(struct server *server, const char *method, json_t *id, 
         if (strcmp(method, requests[i].method) != 0)
             continue;
         bool good;
-        refresh(server);
+        refresh(server, SCENES_QUICK);
         json_t *result = answer(server, requests[i].answer, params, &good);
-        if (good)
+        if (good && server->refusal)
+            rpc_refuse(&server->rpc, id, RPC_REQUEST_FAILED, server->refusal);
+        else if (good)
             rpc_reply(&server->rpc, id, result);
         else
             rpc_refuse(&server->rpc, id, RPC_REQUEST_FAILED, "there is not enough memory");
@@ -210,8 +240,10 @@ int lsp_serve(int in, int out, const char *version) {
     bool goes_on = server.scenes.store != NULL;
     while (goes_on && !server.rpc.broken) {
         // Many keys may have been pressed since the last check: only the newest text counts.
-        if (!rpc_pending(&server.rpc))
-            refresh(&server);
+        if (!rpc_pending(&server.rpc, 0))
+            refresh(&server, server.was_saved ? SCENES_WHOLE : SCENES_QUICK);
+        if (scenes_lack_lint(&server.scenes) && !rpc_pending(&server.rpc, IDLE_MS))
+            refresh(&server, SCENES_WHOLE);
         json_t *message;
         goes_on = rpc_read(&server.rpc, &message) == RPC_MESSAGE;
         if (!goes_on)
@@ -222,6 +254,8 @@ int lsp_serve(int in, int out, const char *version) {
     scenes_finish(&server.scenes);
     documents_finish(&server.documents);
     json_decref(server.published);
+    server_forget(&server);
+    position_index_finish(&server.index);
     rpc_finish(&server.rpc);
     return server.shut_down ? 0 : 1;
 }

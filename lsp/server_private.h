@@ -14,7 +14,17 @@ struct server {
     const char *version;
     enum position_encoding encoding;
     bool initialized, shut_down;
+    bool may_watch;    // the client tells of files that change on the disk where it is asked to
+    bool was_saved;    // since the last check
     json_t *published; // URI: its diagnostics, as the client knows them
+    // What was asked for last, of the texts and files of loaded scenes.
+    struct position_index index;
+    struct {
+        const struct session *session;
+        uint32_t source;
+        char *text;
+    } uri;
+    const char *refusal; // why a request is refused; NULL: it is not
 };
 
 // A request about a place in a document: the scene it belongs to, up to date.
@@ -28,14 +38,17 @@ bool server_place(struct server *server, const json_t *params, struct place *out
 json_t *server_location(struct server *server, struct session *session, struct arena *arena, span at);
 // The text that positions in a source refer to.
 str server_text(const struct session *session, uint32_t source);
-json_t *server_range(const struct server *server, const struct session *session, span at);
+json_t *server_range(struct server *server, const struct session *session, span at);
+// To be called whenever scenes may have been loaded again.
+void server_forget(struct server *server);
 
 // Diagnostics of all scenes, to the client where they have changed (lsp/publish.c).
 void server_publish(struct server *server);
 json_t *server_diagnostic(struct server *server, struct session *session, struct arena *arena,
                           const struct diag *diag);
 
-// Each answers one request; the result is a new reference, NULL for null.
+// Each answers one request; the result is a new reference, NULL for null. Paths that the scene's `files`
+// makes then lie in the arena.
 typedef json_t *server_request(struct server *server, const json_t *params, struct arena *arena);
 server_request server_code_actions, server_definition, server_references, server_prepare_rename,
     server_rename, server_hover, server_symbols, server_links, server_completion, server_formatting;

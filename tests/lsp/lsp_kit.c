@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <ftw.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,12 +56,16 @@ int client_stop(struct lsp_client *client) {
     client_notify(client, "exit", NULL);
     close(client->to);
     waitpid(client->pid, &status, 0);
+    client_free(client);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void client_free(struct lsp_client *client) {
     close(client->from);
     free(client->bytes);
     json_decref(client->diagnostics);
     json_decref(client->versions);
     nftw(client->folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 void client_send_bytes(struct lsp_client *client, const char *bytes, size_t length) {
@@ -168,7 +173,7 @@ void client_initialize(struct lsp_client *client, json_t *capabilities) {
 }
 
 json_t *client_diagnostics(struct lsp_client *client, const char *name, int version) {
-    char uri[600];
+    char uri[900];
     snprintf(uri, sizeof uri, "%s", client_uri(client, name));
     while (json_integer_value(json_object_get(client->versions, uri)) != version) {
         json_t *message = client_receive(client);
@@ -180,10 +185,12 @@ json_t *client_diagnostics(struct lsp_client *client, const char *name, int vers
 }
 
 const char *client_uri(struct lsp_client *client, const char *name) {
-    static char uri[600];
-    char real[512];
-    snprintf(real, sizeof real, "%s", client->folder);
-    snprintf(uri, sizeof uri, "file://%s/%s", real, name);
+    static char uri[900];
+    int length = snprintf(uri, sizeof uri, "file://%s/", client->folder);
+    for (; *name && length < (int)sizeof uri - 4; name++) {
+        bool plain = (*name & 0x80) == 0 && !strchr(" %#?", *name);
+        length += snprintf(uri + length, 4, plain ? "%c" : "%%%02X", (unsigned char)*name);
+    }
     return uri;
 }
 

@@ -20,6 +20,8 @@ struct lsp_client {
 void client_start(struct lsp_client *client, const char *program);
 // shutdown and exit; the process' exit status. Removes the folder.
 int client_stop(struct lsp_client *client);
+// For a server that has ended: what client_stop does behind that.
+void client_free(struct lsp_client *client);
 void client_initialize(struct lsp_client *client, json_t *capabilities);
 // Sends a request and waits for its answer; gives `result` (new reference), or the error object where
 // `error` is not NULL and the server refused.

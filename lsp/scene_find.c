@@ -1,0 +1,118 @@
+// Which scene a document belongs to.
+#include "lsp/scene.h"
+
+#include "core/files_walk.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    FOLDERS_MOST = 8,      // above a document, in which scenes that include it are looked for
+    CANDIDATES_MOST = 200, // files in each
+};
+#define CANDIDATE_BYTES ((uint64_t)1 << 20)
+
+bool scenes_is_settings(str path) {
+    return str_equal(path_base(path), STR(".glintrc.yaml"));
+}
+
+static bool is_scene_path(str path) {
+    static const char *const endings[] = {".yaml", ".yml", ".xml", ".json"};
+    for (size_t i = 0; i < sizeof endings / sizeof *endings && !scenes_is_settings(path); i++)
+        if (str_ends_with_nocase(path, endings[i]))
+            return true;
+    return false;
+}
+
+static bool holds(str text, str what) {
+    for (size_t i = 0; what.len && i + what.len <= text.len; i++) {
+        const char *at = memchr(text.ptr + i, what.ptr[0], text.len - what.len - i + 1);
+        if (!at)
+            return false;
+        i = (size_t)(at - text.ptr);
+        if (memcmp(at, what.ptr, what.len) == 0)
+            return true;
+    }
+    return false;
+}
+
+// Once it was one it stays one, whatever is typed.
+bool scenes_is_scene(struct document *document) {
+    str text = document_text(document);
+    if (!document->is_scene && is_scene_path(document->path))
+        document->is_scene = holds(path_base(document->path), STR(".glint.")) || holds(text, STR("glint"));
+    return document->is_scene;
+}
+
+// Whether the file's text names an include and the document: only then is it worth loading.
+static bool may_include(struct files *files, struct arena *arena, str candidate, str name) {
+    str text;
+    if (files_read(files, candidate, CANDIDATE_BYTES, arena, &text) != FILE_OK)
+        return false;
+    return holds(text, name) && (holds(text, STR("include")) || holds(text, STR("Include")));
+}
+
+// Whether the scene at `path` includes the document; it is then added.
+static void try_scene(struct scenes *scenes, str path, str document) {
+    struct session session;
+    struct file_overlay *overlays = scenes_overlays(scenes);
+    struct session_options options = {.path = path,
+                                      .limits = scenes->limits,
+                                      .overlays = overlays,
+                                      .overlay_count = overlays ? scenes->documents->count : 0,
+                                      .text_only = true};
+    struct lsp_scene probe = {0};
+    session_load(&session, &options, scenes->store);
+    lsp_scene_note_files(&probe, &session);
+    if (lsp_scene_has_file(&probe, document)) {
+        struct lsp_scene *scene = scenes_add(scenes, path);
+        if (scene)
+            lsp_scene_note_files(scene, &session);
+    }
+    lsp_scene_forget_files(&probe);
+    session_finish(&session);
+    free(overlays);
+}
+
+static void try_folder(struct scenes *scenes, struct files *files, struct arena *arena, str folder,
+                       str document) {
+    struct files_names names = {0};
+    files_list_folder(arena, arena_copy(arena, folder), &names);
+    for (uint32_t i = 0, count = 0; i < names.count && count < CANDIDATES_MOST; i++) {
+        str path = arena_format(arena, "%.*s/%.*s", STR_ARG(folder), STR_ARG(names.items[i]));
+        if (!is_scene_path(path))
+            continue;
+        path = files_canonical(files, path);
+        if (str_equal(path, document) || scenes_find(scenes, path))
+            continue;
+        count++;
+        if (may_include(files, arena, path, path_base(document)))
+            try_scene(scenes, path, document);
+    }
+}
+
+void scenes_place(struct scenes *scenes, struct document *document) {
+    struct arena arena;
+    struct arena_guard guard;
+    struct files files;
+    str path = document->path;
+    if (document->is_placed)
+        return;
+    document->is_placed = true;
+    arena_init(&arena, (size_t)1 << 28);
+    arena_set_guard(&arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        files_init(&files, &arena);
+        if (files_add_scene_root(&files, path) == FILE_OK) {
+            str root = files.roots.items[0];
+            str folder = path_folder(path);
+            for (int i = 0; i < FOLDERS_MOST && str_starts_with(folder, root); i++) {
+                try_folder(scenes, &files, &arena, folder, path);
+                if (str_equal(folder, root))
+                    break;
+                folder = path_folder(folder);
+            }
+        }
+    }
+    arena_finish(&arena);
+}
