@@ -47,6 +47,14 @@ static double *place_of(struct extreme_bound *bound, str key, struct nearest *se
     return NULL;
 }
 
+static bool has_metric(const struct binder *b, tree_index node) {
+    for (tree_index key = tree_first(b->tree, node); key; key = tree_next_key(b->tree, key))
+        if (!str_equal_cstr(tree_text(b->tree, key), "from") &&
+            !str_equal_cstr(tree_text(b->tree, key), "to"))
+            return true;
+    return false;
+}
+
 static void take_bound(struct binder *b, uint32_t axes, tree_index node) {
     struct extreme_bound bound = {.axes = axes, .from = -HUGE_VAL, .to = HUGE_VAL};
     for (int m = 0; m < EXTREME_METRICS; m++)
@@ -68,6 +76,10 @@ static void take_bound(struct binder *b, uint32_t axes, tree_index node) {
         else
             *place = number;
     }
+    if (bound.from > bound.to)
+        bad_value(b, node, "'from' is above 'to': the bound holds nowhere");
+    else if (!has_metric(b, node))
+        bad_value(b, node, "it bounds nothing: name a metric, such as off: 0.0005");
     *ARENA_PUSH(b->input->arena, b->out) = bound;
 }
 

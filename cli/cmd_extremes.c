@@ -96,7 +96,9 @@ static bool read_axes(struct cli *cli, uint32_t *axes) {
         *axes |= 1u << axis;
         text += length + (text[length] == ',');
     }
-    return true;
+    if (!*axes)
+        cli_usage(cli, cli->options.axes_arg, "--axis names no axis");
+    return *axes;
 }
 
 // ---- the run
@@ -150,7 +152,9 @@ static int run_scene(struct job *job, enum kind kind) {
     const uint32_t camera = session_camera(&job->session, cli->options.camera);
     if (camera == IR_NO_INDEX)
         return cli_report(cli, &job->session, true);
-    int status = cli_open_device(cli, &job->gpu);
+    int status = cli_try_output(cli, cli->options.output);
+    if (status == CLI_OK)
+        status = cli_open_device(cli, &job->gpu);
     if (status != CLI_OK)
         return status;
     job->input =
@@ -177,6 +181,11 @@ int cmd_extremes(struct cli *cli) {
     int kind;
     if (!cli_format(cli, kinds, &kind) || !read_axes(cli, &job.axes))
         return CLI_USAGE;
+    const char *report = cli->options.output;
+    if (cli_device_is_reference(cli))
+        return cli_usage(cli, 1, "the reference is what extremes are measured by: choose a device");
+    if (report && strcmp(report, "-") != 0 && !str_ends_with_nocase(str_from(report), ".html"))
+        return cli_usage(cli, cli->options.output_arg, "the report '%s' must end in .html", report);
     int status = read_bounds(&job);
     if (status != CLI_OK)
         return status;

@@ -195,20 +195,6 @@ static int render_cameras(struct render_job *job) {
                                              : render_by_device(job, first, end);
 }
 
-// Whether the output can be made at all is better known before the work than behind it.
-static int try_output(struct render_job *job) {
-    struct output probe;
-    if (strcmp(job->output, "-") == 0)
-        return CLI_OK;
-    bool opened = output_open(&probe, job->output);
-    if (opened) {
-        output_abandon(&probe);
-        return CLI_OK;
-    }
-    cli_error(job->cli, DIAG_OUTPUT, job->output, NULL, "cannot be written: %s", strerror(probe.error));
-    return CLI_FILE;
-}
-
 static int run_job(struct render_job *job, struct asset_store *store) {
     struct session_options options = cli_session_options(job->cli, job->cli->operands[0]);
     options.lint = LINT_CHEAP;
@@ -217,7 +203,7 @@ static int run_job(struct render_job *job, struct asset_store *store) {
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
     if (interrupt_signal())
         return render_interrupted(job);
-    int status = try_output(job);
+    int status = cli_try_output(job->cli, job->output);
     return status == CLI_OK ? render_cameras(job) : status;
 }
 

@@ -43,7 +43,9 @@ static int study_and_report(struct cli *cli, struct session *session, const stru
     const uint32_t camera = session_camera(session, cli->options.camera);
     if (camera == IR_NO_INDEX)
         return cli_report(cli, session, !cli->options.quiet);
-    int status = cli_open_device(cli, &gpu);
+    int status = cli_try_output(cli, cli->options.output);
+    if (status == CLI_OK)
+        status = cli_open_device(cli, &gpu);
     if (status == CLI_OK)
         status = cli_study(cli, session, gpu, camera, options, &study);
     if (status == CLI_OK)

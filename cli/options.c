@@ -53,8 +53,10 @@ struct option_row {
 };
 
 static const struct option_row rows[] = {
-    {OPTION_OUTPUT, "output", 'o', "FILE", "render tradeoff",
-     "write to FILE (.png .pfm .hdr; a report: .html); '-' writes PNG to standard output"},
+    {OPTION_OUTPUT, "output", 'o', "FILE", "render",
+     "write to FILE (.png .pfm .hdr); '-' writes PNG to standard output"},
+    {OPTION_OUTPUT, "output", 'o', "FILE", "tradeoff",
+     "write the report with its plot and pictures to FILE (.html)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "check",
      "write the report to FILE instead of standard error (text) or output (others)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "extremes", "write the report with its matrix to FILE (.html)"},

@@ -118,6 +118,18 @@ int cli_write(struct cli *cli, const char *path, str bytes) {
     return CLI_FILE;
 }
 
+int cli_try_output(struct cli *cli, const char *path) {
+    struct output probe;
+    if (!path || strcmp(path, "-") == 0)
+        return CLI_OK;
+    if (output_open(&probe, path)) {
+        output_abandon(&probe);
+        return CLI_OK;
+    }
+    cli_error(cli, DIAG_OUTPUT, path, NULL, "cannot be written: %s", strerror(probe.error));
+    return CLI_FILE;
+}
+
 int cli_print(struct cli *cli, str text) {
     return cli_write(cli, "-", text);
 }

@@ -33,7 +33,9 @@ static bool read_max_error(struct cli *cli, struct tradeoff_options *options) {
                       "write METRIC=X, METRIC one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
         return false;
     }
-    if (equals && number_parse(str_from(equals + 1), &options->max_error) == NUMBER_OK)
+    const bool may_be_negative = options->metric == METRIC_PSNR || options->metric == METRIC_SSIM;
+    if (equals && number_parse(str_from(equals + 1), &options->max_error) == NUMBER_OK &&
+        (options->max_error >= 0 || may_be_negative))
         return true;
     cli_usage(cli, m->max_error_arg, "--max-error takes METRIC=X, such as %s=%s, not '%s'",
               metric_infos[options->metric].name,
@@ -160,7 +162,9 @@ static int study_session(struct cli *cli, struct session *session, const struct 
     const uint32_t camera = session_camera(session, cli->options.camera);
     if (camera == IR_NO_INDEX)
         return cli_report(cli, session, !cli->options.quiet);
-    int status = cli_open_device(cli, &gpu);
+    int status = cli_try_output(cli, cli->options.output);
+    if (status == CLI_OK)
+        status = cli_open_device(cli, &gpu);
     if (status == CLI_OK)
         status = cli_study(cli, session, gpu, camera, options, &study);
     if (status == CLI_OK)

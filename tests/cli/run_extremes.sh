@@ -41,14 +41,22 @@ END
 
 expect "an unknown axis" 2 - "did you mean 'scale'" "$glint" extremes scene.yaml --axis scal
 expect "an unknown kind" 2 - 'csv' "$glint" extremes scene.yaml --format csv
+expect "no axis" 2 - 'names no axis' "$glint" extremes scene.yaml --axis ''
+expect "the reference is no device to measure" 2 - 'choose a device' "$glint" extremes scene.yaml --device reference
+expect "a report of another kind" 2 - 'must end in \.html' "$glint" extremes scene.yaml -o report.txt
 expect "a missing file of bounds" 3 - 'none.yaml:1:1: error: the file of bounds' "$glint" extremes scene.yaml --thresholds none.yaml
 printf 'move:\n  - {of: 0.1}\n  - {off: -1}\nscal:\n  - {off: 0}\nlight: 3\n' >bad.yaml
 expect "an unknown metric" 1 - "^bad.yaml:2:6: error: there is no metric 'of'" "$glint" extremes scene.yaml --thresholds bad.yaml
 expect "a bad bound" 1 - '^bad.yaml:3:11: error: a bound is a number from 0' "$glint" extremes scene.yaml --thresholds bad.yaml
 expect "an unknown axis of bounds" 1 - "^bad.yaml:4:1: error: there is no axis 'scal'" "$glint" extremes scene.yaml --thresholds bad.yaml
 expect "no list of bounds" 1 - '^bad.yaml:6:8: error: an axis has a list of bounds' "$glint" extremes scene.yaml --thresholds bad.yaml
+printf 'move:\n  - {from: 10, to: 1, off: 0}\n  - {to: 1}\n' >empty.yaml
+expect "a bound that holds nowhere" 1 - "^empty.yaml:2:5: error: 'from' is above 'to'" "$glint" extremes scene.yaml --thresholds empty.yaml
+expect "a bound of nothing" 1 - '^empty.yaml:3:5: error: it bounds nothing' "$glint" extremes scene.yaml --thresholds empty.yaml
 expect "a missing scene" 3 - 'error' "$glint" extremes missing.yaml
 
+# Told before the work, which would take longer than this.
+expect "a report that cannot be written" 3 - 'E802' timeout 20 "$glint" extremes "$source/scenes/showcase.glint.yaml" -o nowhere/r.html
 expect "gaps" 0 '^5 cells, 0 left out, 0 broken' - "$glint" extremes scene.yaml --axis gap --size 24x16 -q
 expect "an axis that the scene lacks" 0 'left out: no material refracts' - "$glint" extremes scene.yaml --axis index --size 24x16 -q
 printf 'all:\n  - {error: 100}\nscale:\n  - {to: 1.0e-6, error: 0}\n' >strict.yaml

@@ -32,6 +32,7 @@ rectangles:
 S
 expect "no such metric" 2 - "did you mean 'flip'" "$glint" tradeoff small.yaml --max-error flp=1
 expect "a metric without a value" 2 - 'such as mae=0\.01' "$glint" tradeoff small.yaml --max-error mae
+expect "a negative error" 2 - 'such as mae=0\.01, not .mae=-1' "$glint" tradeoff small.yaml --max-error mae=-1
 expect "a report of another kind" 2 - 'must end in \.html' "$glint" tradeoff small.yaml -o report.pdf
 expect "a bad budget" 2 - 'budget takes a number' "$glint" tradeoff small.yaml --budget 0
 expect "the reference is no device to study" 2 - 'choose a device' "$glint" tradeoff small.yaml --device reference
@@ -40,6 +41,10 @@ if ! "$glint" render small.yaml -o probe.png -q 2>/dev/null; then
     echo "skip: no Vulkan device"
     exit $failed
 fi
+
+# Told before the study, which would take longer than this.
+expect "a report that cannot be written" 3 - 'E802' timeout 20 "$glint" tradeoff "$source/scenes/showcase.glint.yaml" -o nowhere/r.html
+expect "a picture that cannot be written" 3 - 'E802' timeout 20 "$glint" render "$source/scenes/showcase.glint.yaml" --max-error flip=0.1 -o nowhere/r.png
 
 if [ -z "$mode" ]; then
     expect "a study cut short" 0 'the budget cut the study short' - "$glint" tradeoff small.yaml -q --budget 1 -o report.html
