@@ -239,23 +239,38 @@ static struct setting join(const struct setting *a, uint32_t knob_a, const struc
 // A pair's cost and error as its parts foretell them.
 struct pair {
     uint32_t a, b;
-    double promise; // lower is better
+    double cost, error;
+    uint32_t better; // rows and pairs that are foretold to cost no more and err no more
 };
 
 static int by_promise(const void *a, const void *b) {
     const struct pair *p = a, *q = b;
-    if (p->promise < q->promise || p->promise > q->promise)
-        return p->promise < q->promise ? -1 : 1;
+    if (p->better != q->better)
+        return p->better < q->better ? -1 : 1;
+    if (p->cost < q->cost || p->cost > q->cost)
+        return p->cost < q->cost ? -1 : 1;
     return p->a != q->a ? (p->a < q->a ? -1 : 1) : p->b < q->b ? -1 : p->b > q->b;
 }
 
-static double promise(const struct row *a, const struct row *b, const struct row *base, enum metric metric) {
-    const double cost = a->work.cost * b->work.cost / fmax(base->work.cost, 1);
-    // Errors of two knobs hide each other as often as they add: the larger one stands for both. A metric
-    // whose best is a large negative number is taken relative to the file's own.
-    const double error = fmax(error_of(a, metric), error_of(b, metric)), own = error_of(base, metric);
-    return log(fmax(cost, 1)) +
-           (own > 0 ? log(fmax(error / own, 1e-6)) : (error - own) / fmax(fabs(own), 1e-9));
+static struct pair foretell(const struct row *rows, uint32_t a, uint32_t b, enum metric metric) {
+    // Works multiply. Errors of two knobs hide each other as often as they add: the larger one stands for
+    // both.
+    return (struct pair){.a = a,
+                         .b = b,
+                         .cost = rows[a].work.cost * rows[b].work.cost / fmax(rows[0].work.cost, 1),
+                         .error = fmax(error_of(&rows[a], metric), error_of(&rows[b], metric))};
+}
+
+static void count_better(const struct row *rows, uint32_t count, enum metric metric, struct pair *pairs,
+                         uint32_t pair_count) {
+    for (uint32_t i = 0; i < pair_count; i++) {
+        struct pair *p = &pairs[i];
+        for (uint32_t k = 0; k < count; k++)
+            p->better +=
+                rows[k].choosable && rows[k].work.cost <= p->cost && error_of(&rows[k], metric) <= p->error;
+        for (uint32_t k = 0; k < pair_count; k++)
+            p->better += k != i && pairs[k].cost <= p->cost && pairs[k].error <= p->error;
+    }
 }
 
 uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, uint32_t most,
@@ -269,7 +284,9 @@ uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, 
             if (is_single(&rows[a], &knob_a) && is_single(&rows[b], &knob_b) && knob_a != knob_b &&
                 matters(&rows[a], &rows[0], metric) && matters(&rows[b], &rows[0], metric) &&
                 is_worth_it(rows, count, a, metric) && is_worth_it(rows, count, b, metric))
-                found[found_count++] = (struct pair){a, b, promise(&rows[a], &rows[b], &rows[0], metric)};
+                found[found_count++] = foretell(rows, a, b, metric);
+    if (found)
+        count_better(rows, count, metric, found, found_count);
     if (found)
         qsort(found, found_count, sizeof *found, by_promise);
     for (uint32_t i = 0; i < found_count; i++) {

@@ -27,8 +27,8 @@ struct plan_input {
 uint32_t plan_single(const struct plan_input *input, struct row *rows);
 
 // Pairs of settings, one from each of two knobs that mattered: by at least 2 % of the work or 5 % of the
-// error. Those are taken that no row of their own knob betters in both. Most promising first; `most` at most.
-// Gives the number of rows.
+// error. Those are taken that no row of their own knob betters in both. First those that the fewest others
+// are foretold to better; `most` at most. Gives the number of rows.
 uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, uint32_t most,
                     struct row *pairs, uint32_t *left_out);
 

@@ -55,6 +55,8 @@ double study_seconds(const struct study *s);
 
 enum tradeoff_status device_picture(struct study *s, struct row *row, float *rgb);
 enum tradeoff_status device_count(struct study *s, struct row *row, uint64_t most_cost, bool *too_much);
+// Brings an idle GPU to its clock, before the first device_time.
+enum tradeoff_status device_wake(struct study *s);
 // Median of some frames, in milliseconds of the device's clock.
 enum tradeoff_status device_time(struct study *s, const struct setting *setting, double *ms);
 enum tradeoff_status device_hits(struct study *s, const struct setting *setting, struct hit_pixel *hits);

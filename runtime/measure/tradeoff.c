@@ -287,7 +287,7 @@ static bool is_quiet(struct tradeoff *t, const double *times) {
 static enum tradeoff_status run_times(struct study *s) {
     struct tradeoff *t = s->out;
     double *times = malloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
-    enum tradeoff_status status = times ? TRADEOFF_DONE : TRADEOFF_MEMORY;
+    enum tradeoff_status status = times ? device_wake(s) : TRADEOFF_MEMORY;
     const uint32_t rounds = t->options.quick ? ROUNDS_QUICK : ROUNDS_MOST;
     const double begun = study_seconds(s), budget = t->options.budget_s;
     while (status == TRADEOFF_DONE && t->rounds < rounds) {
