@@ -27,6 +27,7 @@ struct job {
     struct extreme_bounds bounds;
     str bounds_path;
     uint32_t axes;
+    enum render_study study;
     struct extremes_input input;
     struct extremes extremes;
     struct progress progress;
@@ -101,6 +102,28 @@ static bool read_axes(struct cli *cli, uint32_t *axes) {
     return *axes;
 }
 
+static bool read_study(struct cli *cli, enum render_study *study) {
+    const char *text = cli->options.study;
+    *study = RENDER_STUDY_NONE;
+    if (!text)
+        return true;
+    struct nearest search = nearest_begin(str_from(text));
+    for (int i = 0; i < RENDER_STUDIES; i++) {
+        const char *name = render_study_name((enum render_study)i);
+        nearest_offer(&search, str_from(name));
+        if (strcmp(text, name) == 0) {
+            *study = (enum render_study)i;
+            return true;
+        }
+    }
+    cli_usage(cli, cli->options.study_arg, "there is no study '%s'", text);
+    if (nearest_best(&search).len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    else
+        diag_help(&cli->sink, "docs/accuracy.md lists them, under 'Study variants'");
+    return false;
+}
+
 // ---- the run
 
 static bool tell_progress(void *context, double fraction, const struct extreme_cell *cell) {
@@ -167,7 +190,8 @@ static int run_scene(struct job *job, enum kind kind) {
                                 .gpu = job->gpu,
                                 .bounds = job->bounds.items,
                                 .bound_count = job->bounds.count,
-                                .axes = job->axes};
+                                .axes = job->axes,
+                                .study = job->study};
     const struct extremes_progress progress = {tell_progress, job};
     progress_begin(&job->progress, cli->options.quiet);
     const enum extremes_status result = extremes_run(&job->extremes, &job->input, &progress);
@@ -179,7 +203,7 @@ int cmd_extremes(struct cli *cli) {
     static const char *const kinds[] = {[KIND_TEXT] = "text", [KIND_JSON] = "json", NULL};
     struct job job = {.cli = cli};
     int kind;
-    if (!cli_format(cli, kinds, &kind) || !read_axes(cli, &job.axes))
+    if (!cli_format(cli, kinds, &kind) || !read_axes(cli, &job.axes) || !read_study(cli, &job.study))
         return CLI_USAGE;
     const char *report = cli->options.output;
     if (cli_device_is_reference(cli))

@@ -13,7 +13,7 @@
 #include "assets/view.h"
 #include "core/limits.h"
 #include "core/strbuf.h"
-#include "runtime/gpu/gpu.h"
+#include "runtime/render.h"
 
 enum extreme_axis {
     EXTREME_MOVE,     // by so many units
@@ -85,7 +85,8 @@ struct extremes_input {
     struct gpu *gpu;
     const struct extreme_bound *bounds;
     uint32_t bound_count;
-    uint32_t axes; // bit 1 << axis: those wanted
+    uint32_t axes;           // bit 1 << axis: those wanted
+    enum render_study study; // another tracer's ways in place of glint's own, in single precision
 };
 
 // Called before each cell with what is done, 0..1, and the cell; false ends the run.

@@ -164,6 +164,8 @@ void extremes_html(const struct extremes_report *report, struct strbuf *out) {
                   " at its extremes</h1>\n<p>%u cells, %u left out, <b>%u broken</b>. %u x %u pixels on ",
                   e->count, e->left_out, e->broken, report->input->width, report->input->height);
     put_escaped(out, str_from(e->device));
+    if (report->input->study != RENDER_STUDY_NONE)
+        strbuf_format(out, ", traced by another way (%s)", render_study_name(report->input->study));
     strbuf_cstr(out, ", against the double-precision reference; bounds of ");
     put_escaped(out, report->thresholds);
     strbuf_cstr(out, ".</p>\n");

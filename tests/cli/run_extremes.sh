@@ -62,6 +62,11 @@ expect "an axis that the scene lacks" 0 'left out: no material refracts' - "$gli
 printf 'all:\n  - {error: 100}\nscale:\n  - {to: 1.0e-6, error: 0}\n' >strict.yaml
 expect "a broken bound" 1 '^  scaled by 1e-06: mean absolute difference .*, at most 0' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --thresholds strict.yaml
 expect "only where it holds" 1 '^13 cells, 0 left out, 1 broken' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --thresholds strict.yaml
+# What is measured can be wrong: other tracers' ways are.
+expect "an unknown study" 2 - "did you mean 'offset 1e-3'" "$glint" extremes scene.yaml --study 'offset 1e-2'
+expect "leaks" 1 '^  gap between plates 1e-05: leaks per million [1-9]' - "$glint" extremes scene.yaml --axis gap --size 24x16 -q --study 'offset 1e-3'
+expect "self-hits" 1 '^  scaled by 1000000: self-hits per million [1-9]' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --study 'offset 1e-7'
+expect "missing triangles" 1 '^  scaled by 1e-06: wrong hits per million, at silhouettes [1-9]' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --study moeller-trumbore
 expect "JSON" 0 '"axis": "camera", "value": 0.001, "precision": "single"' - "$glint" extremes scene.yaml --axis camera --size 24x16 -q --format json
 expect "a report" 0 'cells' - "$glint" extremes scene.yaml --axis light,gap --size 24x16 -q -o report.html
 expect "its matrix" 0 '<svg ' '' cat report.html
