@@ -3,6 +3,7 @@
 // Files are checked at the same time, each with a session, a sink and a record of its own; what was said of
 // each is kept until all are done, so that the output does not depend on who was first.
 #include "app/check.h"
+#include "app/fixes.h"
 #include "cli/cli.h"
 #include "cli/fix.h"
 #include "core/diag_text.h"
@@ -239,7 +240,7 @@ int cmd_check(struct cli *cli) {
         return CLI_USAGE;
     check.format = (enum check_format)format;
     if (cli->options.diff && !cli->options.fix)
-        return cli_usage(cli, 1, "--diff shows what --fix would write, and --fix is not there");
+        cli->options.fix = FIX_SAFE;
     if (cli->options.diff && check.format != CHECK_TEXT && !cli->options.output)
         return cli_usage(cli, cli->options.fix_arg,
                          "the patch and the report would be mixed: give the report a file with -o");

@@ -155,6 +155,7 @@ static bool bind_named(struct bind_context *context, struct bind_subject subject
     uint32_t wanted = component_count(subject.row->kind);
     bool given[COMPONENTS_MAX] = {false};
     bool all_known = true;
+    bool as_element = false; // <x>1</x> for x="1"
     bool good = true;
     for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key)) {
         bool bad = bind_is_bad_pair(context, node, key);
@@ -167,7 +168,11 @@ static bool bind_named(struct bind_context *context, struct bind_subject subject
             continue;
         }
         all_known = false;
-        if (!bad)
+        bool reported = bad || (i >= 0 && (bind_is_bad(context, tree_value(tree, key)) || as_element));
+        as_element = as_element || i >= 0;
+        if (!reported && i >= 0)
+            bind_wrong_shape(context, subject, node);
+        else if (!reported)
             unknown_component(context, subject, key);
     }
     // A component that is missing was probably meant by a name that does not exist.

@@ -310,6 +310,78 @@ static bool is_mixed(struct bind_context *context, struct bind_frame *frame, tre
     return true;
 }
 
+// "x" beside what has components of its own: <Light x="1" y="2" z="3"/>. Told once.
+static bool is_component(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    str text = tree_text(context->tree, key);
+    for (uint32_t i = 0; i < frame->schema->row_count; i++) {
+        const struct schema_row *row = &frame->schema->rows[i];
+        const char *const *names =
+            row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR ? schema_components(row->kind) : NULL;
+        while (names && *names && !str_equal_cstr(text, *names))
+            names++;
+        if (!names || !*names || (frame->seen & bind_bit(i)))
+            continue;
+        if (frame->guessed & bind_bit(i))
+            return true;
+        frame->guessed |= bind_bit(i);
+        add_unknown(context, frame, key);
+        diag_help(context->sink, "components stand together: %.*s",
+                  STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+        return true;
+    }
+    return false;
+}
+
+// <Material ref="red"/> where the name of a material belongs.
+static bool is_reference(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    static const char *const words[] = {"ref", "id", "idref", "href", "use", "link"};
+    tree_index value = tree_value(context->tree, key);
+    if (tree_node(context->tree, key)->key != TREE_KEY_ATTRIBUTE || !frame->via ||
+        frame->via->kind != SCHEMA_REFERENCE || !str_is_name(tree_text(context->tree, value)))
+        return false;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (!str_equal_cstr(tree_text(context->tree, key), words[i]))
+            continue;
+        add_unknown(context, frame, key);
+        diag_help(context->sink, "to use a %s of the scene write %s=\"%.*s\"", frame->schema->name,
+                  frame->via->name, STR_ARG(tree_text(context->tree, value)));
+        return true;
+    }
+    return false;
+}
+
+// A number that YAML takes for a key without a value: what follows a decimal comma ("radius: 1,5"), or a
+// comma in parentheses.
+static bool is_rest(struct bind_context *context, tree_index key) {
+    const struct tree *tree = context->tree;
+    const struct tree_node *n = tree_node(tree, key);
+    span at = tree_span(tree, key);
+    str all = context->sources->items[at.source].text;
+    if (tree->is_xml || n->style != TREE_PLAIN || bind_kind(context, tree_value(tree, key)) != TREE_NULL)
+        return false;
+    uint32_t begin = at.begin;
+    while (begin > 0 && memchr("0123456789.,+- (", all.ptr[begin - 1], 16))
+        begin--;
+    while (begin < at.begin && all.ptr[begin] == ' ')
+        begin++;
+    str before = str_slice(all, begin, at.begin);
+    if (before.len && before.ptr[0] == '(')
+        return true; // told with the first
+    int64_t whole;
+    bool digits = number_parse_integer(tree_text(tree, key), &whole) == NUMBER_OK;
+    bool comma = before.len > 1 && before.ptr[before.len - 1] == ',';
+    if (!digits || !comma || number_parse_integer(str_slice(before, 0, before.len - 1), &whole) != NUMBER_OK)
+        return false;
+    span both = {at.source, begin, at.end};
+    str written = source_text(context->sources, both);
+    diag_add(context->sink, DIAG_BAD_NUMBER, both, "'%.*s' has a decimal comma; write a point",
+             STR_ARG(written));
+    str mended = mend_number(context->scratch, NUMBER_COMMA, written);
+    diag_help(context->sink, "write %.*s", STR_ARG(mended));
+    diag_fix(context->sink, false, both, mended);
+    return true;
+}
+
 void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     enum tree_key kind = tree_node(context->tree, key)->key;
     str text = tree_text(context->tree, key);
@@ -319,7 +391,8 @@ void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, t
     }
     struct mend_search search = search_rows(context, frame, text);
     if (is_mixed(context, frame, key) || is_glued(context, frame, key) ||
-        is_wrapper(context, frame, key, search.snake))
+        is_wrapper(context, frame, key, search.snake) || is_reference(context, frame, key) ||
+        is_rest(context, key))
         return;
     const struct schema_row *near = search.best ? &frame->schema->rows[search.best_id] : NULL;
     bool exact = near && search.distance == 0;
@@ -329,6 +402,8 @@ void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, t
         return;
     }
     int also = exact ? -1 : schema_find_also(frame->schema, search.snake);
+    if (!exact && also < 0 && is_component(context, frame, key))
+        return;
     str other = exact || also >= 0 ? STR("") : elsewhere(context, frame, search.snake, false);
     if (!near && also < 0 && other.len == 0 && search.snake.len > 3)
         other = elsewhere(context, frame, search.snake, true);

@@ -39,9 +39,21 @@ static void fix_scalar(struct bind_context *context, const struct schema_row *ro
     if (row->kind != SCHEMA_VECTOR || context->tree->is_xml || number_parse(text, &ignored) != NUMBER_OK ||
         tree_node(context->tree, node)->style != TREE_PLAIN)
         return;
-    diag_fix(
-        context->sink, false, tree_span(context->tree, node),
-        arena_format(context->scratch, "[%.*s, %.*s, %.*s]", STR_ARG(text), STR_ARG(text), STR_ARG(text)));
+    // What is turned by one angle is turned about the axis that stands upright.
+    str all = row->unit == SCHEMA_UNIT_DEGREES ? arena_format(context->scratch, "[0, %.*s, 0]", STR_ARG(text))
+                                               : arena_format(context->scratch, "[%.*s, %.*s, %.*s]",
+                                                              STR_ARG(text), STR_ARG(text), STR_ARG(text));
+    diag_fix(context->sink, false, tree_span(context->tree, node), all);
+}
+
+// "(0, 0, 2)": YAML parts it at its commas. The span of all of it, where it ends on its line.
+static span with_parenthesis(const struct bind_context *context, tree_index node) {
+    span at = tree_span(context->tree, node);
+    str rest = context->sources->items[at.source].text;
+    for (uint32_t i = at.begin; i < rest.len && rest.ptr[at.begin] == '(' && rest.ptr[i] != '\n'; i++)
+        if (rest.ptr[i] == ')')
+            return (span){at.source, at.begin, i + 1};
+    return at;
 }
 
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node) {
@@ -49,8 +61,10 @@ bool bind_help_numbers(struct bind_context *context, struct bind_subject subject
     enum tree_kind kind = bind_kind(context, node);
     if (!row || subject.component || kind == TREE_NULL)
         return false;
-    str text = kind == TREE_SCALAR ? tree_text(context->tree, node)
-                                   : source_text(context->sources, tree_span(context->tree, node));
+    span at = context->tree->is_xml ? tree_span(context->tree, node) : with_parenthesis(context, node);
+    bool parted = at.end != tree_span(context->tree, node).end;
+    str text =
+        kind == TREE_SCALAR && !parted ? tree_text(context->tree, node) : source_text(context->sources, at);
     str list = mend_numbers(context->scratch, text, row->kind == SCHEMA_WEIGHTS ? 4 : 3);
     bool composite = row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
     if (list.len == 0 || !composite) {
@@ -63,7 +77,7 @@ bool bind_help_numbers(struct bind_context *context, struct bind_subject subject
     }
     str value = arena_format(context->scratch, "[%.*s]", STR_ARG(list));
     diag_help(context->sink, "write %.*s", STR_ARG(value));
-    diag_fix(context->sink, true, tree_span(context->tree, node), value);
+    diag_fix(context->sink, true, at, value);
     return true;
 }
 
@@ -88,6 +102,25 @@ static str found(struct bind_context *context, tree_index node) {
     return n->count ? STR("a group of attributes") : STR("an empty group");
 }
 
+// Lines of "radius:1" with a blank behind each ':'; empty where one of them is not of that kind.
+static str with_blanks(struct arena *arena, const struct schema_element *schema, str lines) {
+    str all = STR("");
+    while (lines.len) {
+        const char *line_end = memchr(lines.ptr, '\n', lines.len);
+        str line = str_slice(lines, 0, line_end ? (size_t)(line_end - lines.ptr) + 1 : lines.len);
+        const char *colon = memchr(line.ptr, ':', line.len);
+        bool single;
+        if (!colon ||
+            schema_find_yaml(schema, str_trim(str_slice(line, 0, (size_t)(colon - line.ptr))), &single) < 0)
+            return STR("");
+        size_t end = (size_t)(colon - line.ptr) + 1;
+        all = arena_format(arena, "%.*s%.*s %.*s", STR_ARG(all), STR_ARG(str_slice(line, 0, end)),
+                           STR_ARG(str_slice(line, end, line.len)));
+        lines = str_slice(lines, line.len, lines.len);
+    }
+    return all;
+}
+
 // "position [0, 5, 5]" or "radius:1" where a map belongs: a key without its ':', or without the blank behind
 // it.
 static bool help_pair(struct bind_context *context, struct bind_subject subject, tree_index node) {
@@ -102,8 +135,14 @@ static bool help_pair(struct bind_context *context, struct bind_subject subject,
     bool single;
     if (end == text.len || schema_find_yaml(schema, name, &single) < 0)
         return false;
-    str value = str_trim(str_slice(text, end + 1, text.len));
+    str written = source_text(context->sources, tree_span(context->tree, node));
+    const char *line_end = memchr(written.ptr, '\n', written.len);
+    str line = str_trim(str_slice(written, 0, line_end ? (size_t)(line_end - written.ptr) : written.len));
+    str value = str_trim(str_slice(line, end + 1 < line.len ? end + 1 : line.len, line.len));
     diag_help(context->sink, "write '%.*s: %.*s'", STR_ARG(name), STR_ARG(say_text(context->scratch, value)));
+    str mended = with_blanks(context->scratch, schema, written);
+    if (mended.len)
+        diag_fix(context->sink, true, tree_span(context->tree, node), mended);
     return true;
 }
 
@@ -133,7 +172,8 @@ static bool number_fix(struct bind_context *context, bool integer, enum number_s
     enum number_status good = integer ? number_parse_integer(mended, &whole) : number_parse(mended, &ignored);
     if (good != NUMBER_OK)
         return false;
-    bool safe = status == NUMBER_UNDERSCORE || status == NUMBER_HEX || status == NUMBER_LEADING_ZERO;
+    bool safe = status == NUMBER_UNDERSCORE || status == NUMBER_HEX || status == NUMBER_LEADING_ZERO ||
+                status == NUMBER_DASH;
     diag_help(context->sink, "write %.*s", STR_ARG(mended));
     diag_fix(context->sink, safe, at, mend_like(context->scratch, source_text(context->sources, at), mended));
     return true;
@@ -329,14 +369,15 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
         return true;
     diag_add(context->sink, DIAG_BAD_NAME, at, "'%.*s' is not a name",
              STR_ARG(say_text(context->scratch, text)));
-    str mended = mend_name(context->scratch, text);
+    bool quotes = mend_quotes(text).len < text.len;
+    str mended = mend_name(context->scratch, mend_quotes(text));
     bool has_fix = str_is_name(mended);
     diag_help(context->sink,
               "a name has 1 to 128 letters, digits, '_' or '-', and does not begin with a digit%s%.*s%s",
               has_fix ? "; for example '" : "",
               STR_ARG(has_fix ? say_text(context->scratch, mended) : STR("")), has_fix ? "'" : "");
     if (has_fix)
-        diag_fix(context->sink, false, at,
+        diag_fix(context->sink, quotes && str_equal(mended, mend_quotes(text)), at,
                  mend_like(context->scratch, source_text(context->sources, at), mended));
     return false;
 }

@@ -76,7 +76,8 @@ materials:
   red: {diffuse_color: 0.5}
 S
 cp fix.yaml kept.yaml
-expect "--diff needs --fix" 2 - '--fix' "$glint" check --diff fix.yaml
+expect "--diff alone shows what --fix would write" 1 '^[+]camera: .position: .0, 0, 1., fov: 50.$' 'error' "$glint" check --diff fix.yaml
+same "--diff alone writes nothing" fix.yaml kept.yaml
 expect "--fix takes 'all'" 2 - "takes 'all'" "$glint" check --fix=most fix.yaml
 expect "check --fix --diff" 1 '^[+]camera: .position: .0, 0, 1., fov: 50.$' 'error' "$glint" check --fix --diff fix.yaml
 same "check --fix --diff writes nothing" fix.yaml kept.yaml
@@ -97,6 +98,36 @@ printf '<Scene glint="1"><Image width="3" / ><Light intensity="2"><position x="0
 sed 's, / >, />,;s,<position,<Position,;s,Modle,Model,g' fix.xml >want.xml
 "$glint" check --fix fix.xml >out.txt 2>err.txt
 same "check --fix of XML" fix.xml want.xml
+
+# What people write who come from elsewhere.
+cat >habits.yaml <<'S'
+glint: 1
+camera:
+  position:[0, 0, 8]
+  fov:45
+background: {color: [255, 128, 0]}
+materials:
+  “glass”: {diffuse_color: “#f80”, specular_color: red}
+spheres:
+  - {center: (0, -1.5, -2), radius: 1,5, material: glass}
+  - {center: [3, 0, −2], radius: 1, material: glass}
+models: []
+S
+cat >mended.yaml <<'S'
+glint: 1
+camera:
+  position: [0, 0, 8]
+  fov: 45
+background: {color: "#ff8000"}
+materials:
+  glass: {diffuse_color: "#ff8800", specular_color: "#ff0000"}
+spheres:
+  - {center: [0, -1.5, -2], radius: 1.5, material: glass}
+  - {center: [3, 0, -2], radius: 1, material: glass}
+models: []
+S
+expect "check --fix=all of habits" 0 - 'fixes made' "$glint" check --fix=all habits.yaml
+same "habits are mended" habits.yaml mended.yaml
 
 # All or nothing, and only where the file can be read afterwards.
 printf 'glint: 1\ncamrea: {fov: 3}\nimage: {width: 3\n' >half.yaml
