@@ -175,6 +175,36 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows) {
     return p.count;
 }
 
+// ---- times
+
+// Whether all rays of `a` are rays of `b` too.
+static bool is_part(const struct setting *a, const struct setting *b) {
+    return a->max_depth <= b->max_depth && a->min_weight >= b->min_weight && a->samples <= b->samples &&
+           a->width <= b->width && a->height <= b->height && a->shadows <= b->shadows &&
+           a->is_double == b->is_double && a->general == b->general && a->study == b->study;
+}
+
+bool plan_order_times(struct row *rows, uint32_t count) {
+    double *ordered = malloc((count ? count : 1) * sizeof *ordered);
+    if (!ordered)
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        // The fastest of those above and the slowest of those below both rise where they ought to.
+        double above = rows[i].time_ms, below = rows[i].time_ms;
+        for (uint32_t k = 0; k < count; k++) {
+            if (is_part(&rows[i].setting, &rows[k].setting))
+                above = fmin(above, rows[k].time_ms);
+            if (is_part(&rows[k].setting, &rows[i].setting))
+                below = fmax(below, rows[k].time_ms);
+        }
+        ordered[i] = 0.5 * (above + below);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        rows[i].time_ms = ordered[i];
+    free(ordered);
+    return true;
+}
+
 // ---- pairs
 
 static bool is_single(const struct row *row, uint32_t *knob) {

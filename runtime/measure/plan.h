@@ -32,6 +32,11 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows);
 uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, uint32_t most,
                     struct row *pairs, uint32_t *left_out);
 
+// Makes times rise where rays are only added: a row that sends a part of another's rays, by the same kernel
+// or one with fewer features, is never the slower one, whatever was measured. What contradicts that is noise,
+// and is set to the middle of it; all else stays. false: no memory.
+bool plan_order_times(struct row *rows, uint32_t count);
+
 // Fills knobs, choosable and name from the setting.
 void plan_describe(struct row *row, const struct setting *base);
 

@@ -306,8 +306,10 @@ static enum tradeoff_status run_times(struct study *s) {
         }
         t->rounds += status == TRADEOFF_DONE;
     }
-    if (status == TRADEOFF_DONE)
+    if (status == TRADEOFF_DONE) {
         fill_times(t, times);
+        status = plan_order_times(t->rows, t->count) ? status : TRADEOFF_MEMORY;
+    }
     free(times);
     return status;
 }

@@ -68,7 +68,8 @@ struct row {
     bool choosable;
     char name[96]; // "max_depth 4, samples 2"
     struct work work;
-    double time_ms, time_low_ms, time_high_ms, noise_ms; // median, quartiles, standard error of the median
+    double time_ms;                             // median, ordered by plan_order_times
+    double time_low_ms, time_high_ms, noise_ms; // quartiles, standard error of the median
     uint32_t rounds;
     double value[METRIC_COUNT]; // as measure_result
     uint64_t not_finite;        // pixels the device reported

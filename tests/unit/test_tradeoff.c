@@ -275,6 +275,28 @@ static void test_plan_pairs(void **state) {
     free(pairs);
 }
 
+static void test_ordered_times(void **state) {
+    (void)state;
+    struct row *rows = calloc(4, sizeof *rows);
+    for (int i = 0; i < 4; i++)
+        rows[i].setting = input_of().base;
+    const double times[] = {10, 8, 9, 5};
+    rows[1].setting.max_depth = 20; // more rays than row 0, and measured faster
+    rows[2].setting.samples = 2;    // more than row 0, neither more nor fewer than row 1
+    rows[3].setting.is_double = true;
+    for (int i = 0; i < 4; i++)
+        rows[i].time_ms = times[i];
+    assert_true(plan_order_times(rows, 4));
+    assert_true(rows[0].time_ms <= rows[1].time_ms && rows[0].time_ms <= rows[2].time_ms);
+    assert_true(fabs(rows[1].time_ms - 9) < 1e-12);
+    assert_true(fabs(rows[2].time_ms - 9.5) < 1e-12);
+    assert_true(fabs(rows[3].time_ms - 5) < 1e-12); // another kernel: not to be compared
+    rows[0].time_ms = 1;
+    assert_true(plan_order_times(rows, 4)); // in order: nothing moves
+    assert_true(fabs(rows[0].time_ms - 1) < 1e-12 && fabs(rows[1].time_ms - 9) < 1e-12);
+    free(rows);
+}
+
 static void test_words(void **state) {
     (void)state;
     const struct setting base = input_of().base;
@@ -390,6 +412,7 @@ int main(void) {
         cmocka_unit_test(test_knee),
         cmocka_unit_test(test_plan_single),
         cmocka_unit_test(test_plan_pairs),
+        cmocka_unit_test(test_ordered_times),
         cmocka_unit_test(test_words),
         cmocka_unit_test(test_hits),
         cmocka_unit_test(test_scale_up),
