@@ -110,8 +110,8 @@ json_t *server_code_actions(struct server *server, const json_t *params, struct 
     struct session *session = &place.scene->session;
     uint32_t source = locate_source(session, place.document->path);
     str text = document_text(place.document);
-    size_t begin = position_read(text, server->encoding, json_object_get(range, "start"));
-    size_t end = position_read(text, server->encoding, json_object_get(range, "end"));
+    size_t begin = position_read(text, server->encoding, json_object_get(range, "start"), NULL);
+    size_t end = position_read(text, server->encoding, json_object_get(range, "end"), NULL);
     for (uint32_t i = 0; wants(context, "quickfix") && i < session->sink.count; i++) {
         const struct diag *diag = &session->sink.items[i];
         if (diag->has_fix && diag->fix_at.source == source && diag->at.source == source &&

@@ -121,6 +121,7 @@ static bool splice(struct document *document, size_t begin, size_t end, const ch
 bool document_change(struct document *document, enum position_encoding encoding, const json_t *changes) {
     size_t index;
     json_t *change;
+    struct position_hint hint = {0};
     if (!json_is_array(changes))
         return false;
     json_array_foreach(changes, index, change) {
@@ -131,9 +132,14 @@ bool document_change(struct document *document, enum position_encoding encoding,
         size_t begin = 0;
         size_t end = document->length;
         if (range) {
-            begin = position_read(document_text(document), encoding, json_object_get(range, "start"));
-            end = position_read(document_text(document), encoding, json_object_get(range, "end"));
+            str now = document_text(document);
+            end = position_read(now, encoding, json_object_get(range, "end"), &hint);
+            begin = position_read(now, encoding, json_object_get(range, "start"), &hint);
         }
+        // What is put behind a lone "\r" may be the other half of its line end.
+        bool joins = begin == hint.begin && begin > 0 && document->text[begin - 1] == '\r';
+        if (begin < hint.begin || joins)
+            hint = (struct position_hint){0};
         if (end < begin || !splice(document, begin, end, json_string_value(text), json_string_length(text)))
             return false;
     }

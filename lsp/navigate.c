@@ -107,12 +107,20 @@ static span bare(const struct session *session, span at) {
     return at;
 }
 
+static bool is_of_xml(const struct session *session, uint32_t source) {
+    for (uint32_t i = 0; i < session->origin.files.count; i++)
+        if (session->origin.files.items[i].source == source)
+            return session->origin.files.items[i].is_xml;
+    return false;
+}
+
 static void add_edit(struct server *server, struct session *session, struct arena *arena, json_t *changes,
                      span at, str name, const char *text) {
     span inner = bare(session, at);
-    // In quotes a name may be spelled with escapes, and a name never needs any. What else is not spelled
-    // there comes through an anchor.
-    if (inner.begin == at.begin && !str_equal(source_text(&session->sources, inner), name))
+    // In quotes a name may be spelled with escapes, and in an attribute with entities; a name never needs
+    // any. What else is not spelled there comes through an anchor.
+    bool whole = inner.begin != at.begin || is_of_xml(session, at.source);
+    if (!whole && !str_equal(source_text(&session->sources, inner), name))
         return;
     json_t *location = server_location(server, session, arena, inner);
     if (!location)

@@ -19,36 +19,47 @@ static uint32_t units(str text, size_t at, enum position_encoding encoding, size
     return encoding == POSITION_UTF16 && *length == 4 ? 2 : 1;
 }
 
-static size_t find(str text, size_t from, char c) {
-    const char *at = from < text.len ? memchr(text.ptr + from, c, text.len - from) : NULL;
-    return at ? (size_t)(at - text.ptr) : text.len;
-}
-
 // Behind the line end at `at`.
 static size_t skip_line_end(str text, size_t at) {
     bool two = text.ptr[at] == '\r' && at + 1 < text.len && text.ptr[at + 1] == '\n';
     return at + (two ? 2 : 1);
 }
 
-static size_t line_begin(str text, uint32_t line) {
-    size_t at = 0;
-    size_t feed = find(text, 0, '\n');
-    size_t carriage = find(text, 0, '\r');
-    for (; line > 0; line--) {
-        size_t end = feed < carriage ? feed : carriage;
-        if (end == text.len)
-            return text.len;
-        at = skip_line_end(text, end);
-        feed = feed < at ? find(text, at, '\n') : feed;
-        carriage = carriage < at ? find(text, at, '\r') : carriage;
-    }
+static bool is_line_end(char c) {
+    return c == '\n' || c == '\r';
+}
+
+// The beginning of the line before the one that begins at `at`, which is not the first.
+static size_t line_before(str text, size_t at) {
+    at -= at >= 2 && text.ptr[at - 1] == '\n' && text.ptr[at - 2] == '\r' ? 2 : 1;
+    while (at > 0 && !is_line_end(text.ptr[at - 1]))
+        at--;
     return at;
 }
 
-size_t position_offset(str text, enum position_encoding encoding, uint32_t line, uint32_t character) {
-    size_t at = line_begin(text, line);
+// Walks from the place where the last search ended, or from the beginning where that is nearer.
+static size_t line_begin(str text, uint32_t line, struct position_hint *hint) {
+    if (line < hint->line / 2)
+        *hint = (struct position_hint){0};
+    for (; hint->line > line; hint->line--)
+        hint->begin = line_before(text, hint->begin);
+    while (hint->line < line) {
+        size_t at = hint->begin;
+        while (at < text.len && !is_line_end(text.ptr[at]))
+            at++;
+        if (at == text.len)
+            return text.len;
+        hint->begin = skip_line_end(text, at);
+        hint->line++;
+    }
+    return hint->begin;
+}
+
+static size_t find_offset(str text, enum position_encoding encoding, uint32_t line, uint32_t character,
+                          struct position_hint *hint) {
+    size_t at = line_begin(text, line, hint);
     uint32_t count = 0;
-    while (at < text.len && text.ptr[at] != '\n' && text.ptr[at] != '\r') {
+    while (at < text.len && !is_line_end(text.ptr[at])) {
         size_t length;
         uint32_t more = units(text, at, encoding, &length);
         if (character - count < more)
@@ -63,7 +74,7 @@ size_t position_offset(str text, enum position_encoding encoding, uint32_t line,
 
 static void step(str text, enum position_encoding encoding, struct position_mark *at) {
     unsigned char c = (unsigned char)text.ptr[at->offset];
-    if (c == '\n' || c == '\r') {
+    if (is_line_end((char)c)) {
         *at = (struct position_mark){skip_line_end(text, at->offset), at->line + 1, 0};
         return;
     }
@@ -140,12 +151,14 @@ static bool read_unsigned(const json_t *object, const char *key, uint32_t *out) 
     return json_is_integer(value);
 }
 
-size_t position_read(str text, enum position_encoding encoding, const json_t *position) {
+size_t position_read(str text, enum position_encoding encoding, const json_t *position,
+                     struct position_hint *hint) {
+    struct position_hint none = {0};
     uint32_t line;
     uint32_t character;
     if (!read_unsigned(position, "line", &line) || !read_unsigned(position, "character", &character))
         return text.len;
-    return position_offset(text, encoding, line, character);
+    return find_offset(text, encoding, line, character, hint ? hint : &none);
 }
 
 static json_t *position_object(const struct position_index *index, size_t offset) {

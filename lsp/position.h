@@ -38,10 +38,17 @@ void position_index_use(struct position_index *index, str text, enum position_en
 void position_index_forget(struct position_index *index);
 void position_index_finish(struct position_index *index);
 
-size_t position_offset(str text, enum position_encoding encoding, uint32_t line, uint32_t character);
 void position_of(const struct position_index *index, size_t offset, uint32_t *line, uint32_t *character);
-// The byte offset of a protocol's position object; the text's length where it is malformed.
-size_t position_read(str text, enum position_encoding encoding, const json_t *position);
+// The beginning of a line that was found in a text; holds as long as no byte before it changes. Zeroed: of
+// the first line.
+struct position_hint {
+    size_t begin;
+    uint32_t line;
+};
+// The byte offset of a protocol's position object; the text's length where it is malformed. With a hint
+// (NULL: none), which it moves, a place near the last one is found at once.
+size_t position_read(str text, enum position_encoding encoding, const json_t *position,
+                     struct position_hint *hint);
 // A protocol's range object for bytes [begin, end).
 json_t *position_range(const struct position_index *index, size_t begin, size_t end);
 // The range of a whole text's bytes [begin, end), where one range is all that is needed of it.

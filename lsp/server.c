@@ -102,7 +102,7 @@ bool server_place(struct server *server, const json_t *params, struct place *out
     out->scene = scenes_of(&server->scenes, out->document->path);
     const json_t *position = json_object_get(params, "position");
     if (position)
-        out->offset = position_read(document_text(out->document), server->encoding, position);
+        out->offset = position_read(document_text(out->document), server->encoding, position, NULL);
     return true;
 }
 

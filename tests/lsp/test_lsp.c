@@ -54,6 +54,16 @@ static void expect_range(const json_t *range, int line, int begin, int end) {
     assert_int_equal(json_integer_value(json_object_get(to, "character")), end);
 }
 
+static bool has_code(const json_t *list, const char *code) {
+    size_t index;
+    json_t *item;
+    json_array_foreach(list, index, item) {
+        if (strcmp(text_of(item, "code"), code) == 0)
+            return true;
+    }
+    return false;
+}
+
 // The diagnostic of a code in a list; fails where it is not there.
 static json_t *with_code(json_t *list, const char *code) {
     size_t index;
@@ -287,6 +297,139 @@ static void formats(void **state) {
     json_decref(edits);
 }
 
+static void renames_what_is_spelled_with_entities(void **state) {
+    struct lsp_client *client = *state;
+    client_initialize(client, NULL);
+    client_open(
+        client, "x.xml",
+        "<Scene glint=\"1\">\n<Material name=\"gl&#97;ss\"/>\n"
+        "<Sphere radius=\"1\" material='g&#108;ass'><Center x=\"0\" y=\"0\" z=\"0\"/></Sphere>\n</Scene>\n");
+    json_t *params = client_at(client, "x.xml", 2, 33);
+    json_object_set_new(params, "newName", json_string("window"));
+    json_t *edit = client_request(client, "textDocument/rename", params, NULL);
+    const json_t *edits = json_object_get(json_object_get(edit, "changes"), client_uri(client, "x.xml"));
+    assert_int_equal(json_array_size(edits), 2);
+    expect_range(json_object_get(json_array_get(edits, 0), "range"), 1, 16, 25);
+    expect_range(json_object_get(json_array_get(edits, 1), "range"), 2, 29, 39);
+    json_decref(edit);
+}
+
+// An answer to any request says that everything before it was worked through.
+static void settle(struct lsp_client *client) {
+    json_decref(client_request(client, "textDocument/hover", client_at(client, "main.yaml", 0, 0), NULL));
+}
+
+static void follows_includes_that_come_and_go(void **state) {
+    static const char WITH[] = "glint: 1\ninclude: [materials.xml, part.yaml]\n";
+    struct lsp_client *client = *state;
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml", WITH);
+    client_open(client, "part.yaml",
+                "glint: 1\nspheres: [{center: [0, 0, 0], radius: 1, material: glass}]\n");
+    assert_int_equal(errors(client_diagnostics(client, "part.yaml", 1)), 0);
+    change(client, "main.yaml", 2, "glint: 1\n");
+    client_diagnostics(client, "main.yaml", 2);
+    settle(client);
+    with_code(json_object_get(client->diagnostics, client_uri(client, "part.yaml")), "E301");
+    change(client, "main.yaml", 3, WITH);
+    client_diagnostics(client, "main.yaml", 3);
+    settle(client);
+    assert_int_equal(errors(json_object_get(client->diagnostics, client_uri(client, "part.yaml"))), 0);
+}
+
+static void leaves_other_files_alone(void **state) {
+    struct lsp_client *client = *state;
+    client_initialize(client, NULL);
+    client_open(client, "compose.yaml", "services:\n  a: [}\n");
+    settle(client);
+    assert_null(json_object_get(client->diagnostics, client_uri(client, "compose.yaml")));
+    client_open(client, "new.glint.yaml", "services: 1\n");
+    assert_true(errors(client_diagnostics(client, "new.glint.yaml", 1)) > 0);
+    change(client, "compose.yaml", 2, "glint: 1\nservices: 1\n");
+    with_code(client_diagnostics(client, "compose.yaml", 2), "E202");
+    change(client, "compose.yaml", 3, "services: 1\n"); // it was a scene a moment ago
+    assert_true(errors(client_diagnostics(client, "compose.yaml", 3)) > 0);
+}
+
+static void honours_settings_and_checks_them(void **state) {
+    static const char SCENE[] =
+        "glint: 1\nmaterials: {stone: {}}\nspheres: [{center: [0, 0, -4], radius: 1}]\n";
+    struct lsp_client *client = *state;
+    client_file(client, ".glintrc.yaml", "severity: {W408: error}\n");
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml", SCENE);
+    json_t *unused = with_code(client_diagnostics(client, "main.yaml", 1), "W408");
+    assert_int_equal(json_integer_value(json_object_get(unused, "severity")), 1);
+    // The text in the editor counts, and what is wrong in it is told there.
+    client_open(client, ".glintrc.yaml", "severity: {W408: off}\nlimitss: {}\n");
+    with_code(client_diagnostics(client, ".glintrc.yaml", 1), "E805");
+    change(client, ".glintrc.yaml", 2, "ignore: [W408, N401, N402]\n");
+    assert_int_equal(json_array_size(client_diagnostics(client, ".glintrc.yaml", 2)), 0);
+    settle(client);
+    assert_int_equal(json_array_size(json_object_get(client->diagnostics, client_uri(client, "main.yaml"))),
+                     0);
+}
+
+static void remembers_names_while_the_text_is_broken(void **state) {
+    struct lsp_client *client = *state;
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml", "glint: 1\nspheres: []\nmaterials:\n  stone: {}\n");
+    client_diagnostics(client, "main.yaml", 1);
+    change(client, "main.yaml", 2, "glint: 1\nspheres:\n  - {material: s\n  - [\nmaterials:\n  stone: {}\n");
+    json_t *list =
+        client_request(client, "textDocument/completion", client_at(client, "main.yaml", 2, 16), NULL);
+    assert_true(offers(list, "stone"));
+    json_decref(list);
+}
+
+enum {
+    MANY = 4000,
+};
+
+// A strip of triangles whose check takes a while, and a material that nothing uses.
+static void tells_costly_findings_when_no_one_types(void **state) {
+    struct lsp_client *client = *state;
+    char *text = calloc(MANY, 64);
+    size_t length = 0;
+    assert_non_null(text);
+    for (int i = 0; i < MANY; i++)
+        length += (size_t)snprintf(text + length, 64, "v %d 0 0\nv %d 1 0\nv %d 0 1\nf -1 -2 -3\n", i, i, i);
+    client_file(client, "strip.obj", text);
+    free(text);
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml", "glint: 1\nmaterials: {a: {}}\nmodels: [{mesh: strip.obj}]\n");
+    with_code(client_diagnostics(client, "main.yaml", 1), "W408");
+    for (int version = 2; version < 6; version++)
+        change(client, "main.yaml", version, "glint: 1\nmaterials: {b: {}}\nmodels: [{mesh: strip.obj}]\n");
+    json_t *list = client_diagnostics(client, "main.yaml", 5);
+    // The list may come without them first.
+    while (!has_code(list, "W408")) {
+        json_t *message = client_receive(client);
+        assert_non_null(message);
+        json_decref(message);
+        list = json_object_get(client->diagnostics, client_uri(client, "main.yaml"));
+    }
+}
+
+// What is quadratic takes minutes here.
+static void answers_large_documents(void **state) {
+    struct lsp_client *client = *state;
+    size_t size = (size_t)MANY * 64 + 64;
+    char *text = malloc(size);
+    assert_non_null(text);
+    size_t length = (size_t)snprintf(text, size, "glint: 1\nspheres: [");
+    for (int i = 0; i < MANY; i++)
+        length += (size_t)snprintf(text + length, size - length, "{center: [%d, 0, 0], radius: 1}, ", 3 * i);
+    snprintf(text + length, size - length, "]\n");
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml", text);
+    free(text);
+    json_t *params = json_pack("{s:{s:s}}", "textDocument", "uri", client_uri(client, "main.yaml"));
+    json_t *symbols = client_request(client, "textDocument/documentSymbol", params, NULL);
+    assert_int_equal(json_array_size(symbols), MANY);
+    json_decref(symbols);
+}
+
 static void refuses_what_it_does_not_know(void **state) {
     struct lsp_client *client = *state;
     json_t *error = NULL;
@@ -335,6 +478,13 @@ int main(int argc, char **argv) {
         TEST(explains_outlines_and_links),
         TEST(checks_a_part_as_part_of_its_scene),
         TEST(formats),
+        TEST(renames_what_is_spelled_with_entities),
+        TEST(follows_includes_that_come_and_go),
+        TEST(leaves_other_files_alone),
+        TEST(honours_settings_and_checks_them),
+        TEST(remembers_names_while_the_text_is_broken),
+        TEST(tells_costly_findings_when_no_one_types),
+        TEST(answers_large_documents),
         TEST(refuses_what_it_does_not_know),
     };
 #undef TEST
