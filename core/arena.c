@@ -5,9 +5,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+// A fuzz build has blocks, which are quick, with poisoned bytes behind each allocation, which shows overruns.
+#ifdef GLINT_ARENA_REDZONES
+#include <sanitizer/asan_interface.h>
+#define POISON(memory, size)   ASAN_POISON_MEMORY_REGION((memory), (size))
+#define UNPOISON(memory, size) ASAN_UNPOISON_MEMORY_REGION((memory), (size))
+#define REDZONE_BYTES          16
+#define BLOCK_BYTES            (8 * 1024)
+#else
+#define POISON(memory, size)   ((void)(memory), (void)(size))
+#define UNPOISON(memory, size) ((void)(memory), (void)(size))
+#define REDZONE_BYTES          0
+#define BLOCK_BYTES            (64 * 1024)
+#endif
+
 enum {
     ARENA_ALIGN = 16,
-    ARENA_BLOCK_BYTES = 64 * 1024,
+    ARENA_BLOCK_BYTES = BLOCK_BYTES,
     ARENA_SHARED_BYTES = ARENA_BLOCK_BYTES / 4, // a larger allocation gets a block of its own
 };
 
@@ -43,7 +57,9 @@ void arena_reset(struct arena *arena) {
     }
     arena->last = kept->previous;
     arena_finish(arena);
+    UNPOISON(kept + 1, kept->used);
     memset(kept + 1, 0, kept->used);
+    POISON(kept + 1, kept->used);
     kept->previous = NULL;
     kept->used = 0;
     arena->last = kept;
@@ -80,14 +96,16 @@ static size_t rounded(size_t size) {
 #ifdef GLINT_ARENA_EXACT
     return size ? size : 1;
 #else
-    return size ? (size + ARENA_ALIGN - 1) & ~(size_t)(ARENA_ALIGN - 1) : ARENA_ALIGN;
+    return (size ? (size + ARENA_ALIGN - 1) & ~(size_t)(ARENA_ALIGN - 1) : ARENA_ALIGN) + REDZONE_BYTES;
 #endif
 }
 
 static struct arena_block *new_block(size_t size) {
     struct arena_block *block = calloc(1, sizeof(struct arena_block) + size);
-    if (block)
+    if (block) {
         block->size = size;
+        POISON(block + 1, size);
+    }
     return block;
 }
 
@@ -140,6 +158,7 @@ static void *alloc_or_fault(struct arena *arena, size_t size, enum arena_fault *
     void *memory = (char *)(block + 1) + block->used;
     block->used += need;
     arena->used_bytes += need;
+    UNPOISON(memory, size);
     return memory;
 }
 
@@ -216,6 +235,7 @@ static void *move_block(struct arena *arena, void *items, size_t need) {
     if (!moved)
         arena_raise(arena, ARENA_FAULT_SYSTEM);
     moved->size = moved->used = need;
+    POISON((char *)(moved + 1) + need - REDZONE_BYTES, REDZONE_BYTES);
     arena->used_bytes = arena->used_bytes - had + need;
     return moved + 1;
 }
