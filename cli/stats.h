@@ -15,7 +15,7 @@ struct stats {
     struct render_rays rays;
     uint64_t scene_bytes, band_bytes, triangles, dropped, spheres;
     uint32_t triangle_depth, features;
-    bool is_double; // the precision that was traced in
+    bool is_double;         // the precision that was traced in
     long peak_memory_bytes; // of the process
     char device[256];
     uint32_t width, height, samples;

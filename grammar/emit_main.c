@@ -11,12 +11,8 @@ int main(int count, char **arguments) {
         const char *name;
         void (*emit)(struct strbuf *out);
     } kinds[] = {
-        {"json", emit_json_schema},
-        {"relaxng", emit_relaxng},
-        {"rnc", emit_relaxng_compact},
-        {"xsd", emit_xml_schema},
-        {"markdown", emit_markdown},
-        {"dictionary", emit_fuzz_dictionary},
+        {"json", emit_json_schema}, {"relaxng", emit_relaxng},   {"rnc", emit_relaxng_compact},
+        {"xsd", emit_xml_schema},   {"markdown", emit_markdown}, {"dictionary", emit_fuzz_dictionary},
     };
     for (size_t i = 0; count == 2 && i < sizeof kinds / sizeof kinds[0]; i++) {
         if (strcmp(arguments[1], kinds[i].name) != 0)

@@ -25,3 +25,11 @@ grep -q 'open.obj' ../said.txt || fail "$(cat ../said.txt)"
 git rm -q --cached wrong.glint.yaml
 rm wrong.glint.yaml
 pre-commit try-repo ../hooks glint-check --all-files >../said.txt 2>&1 || fail "$(cat ../said.txt)"
+
+# A hook that changes a file fails once, and is content with what it wrote.
+printf 'glint:   1\n' >loose.glint.yaml
+git add loose.glint.yaml
+pre-commit try-repo ../hooks glint-format --files loose.glint.yaml >../said.txt 2>&1 && fail "nothing was laid out"
+[ "$(cat loose.glint.yaml)" = "glint: 1" ] || fail "$(cat ../said.txt loose.glint.yaml)"
+git add loose.glint.yaml
+pre-commit try-repo ../hooks glint-format --files loose.glint.yaml >../said.txt 2>&1 || fail "$(cat ../said.txt)"
