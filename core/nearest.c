@@ -45,9 +45,14 @@ struct nearest nearest_begin(str word) {
 }
 
 void nearest_offer(struct nearest *search, str candidate) {
-    unsigned distance = nearest_distance(search->word, candidate);
-    size_t longer = search->word.len > candidate.len ? search->word.len : candidate.len;
+    bool is_longer = search->word.len > candidate.len;
+    size_t longer = is_longer ? search->word.len : candidate.len;
     unsigned allowed = longer < 3 ? 0 : (unsigned)((longer + 2) / 3);
+    // The distance is at least the difference of the lengths, which costs nothing.
+    size_t difference = longer - (is_longer ? candidate.len : search->word.len);
+    if (difference > allowed || difference >= search->best_distance)
+        return;
+    unsigned distance = nearest_distance(search->word, candidate);
     if (distance <= allowed && distance < search->best_distance) {
         search->best = candidate;
         search->best_distance = distance;

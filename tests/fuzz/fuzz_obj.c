@@ -1,6 +1,7 @@
 // libFuzzer entry: any bytes as an OBJ mesh and, behind the first NUL byte, its material file own.mtl.
 #include "assets/view.h"
 #include "core/diag_text.h"
+#include "fuzz_sample.h"
 #include "grammar/schema.h"
 
 #include <setjmp.h>
@@ -70,6 +71,8 @@ static void load(struct scene *s, struct asset_store *store, str mesh, str mater
     require(loaded || s->sink.errors > 0, "a mesh, or an error");
     if (loaded)
         check_mesh(loaded, &s->arena);
+    if (!fuzz_is_chosen(mesh, 0, 4))
+        return;
     struct strbuf text;
     strbuf_init(&text);
     diag_text(&text, &s->sink, &s->sources, (struct diag_text_options){.notes = true});

@@ -1,6 +1,7 @@
 #include "fuzz_reader.h"
 
 #include "core/strbuf.h"
+#include "fuzz_sample.h"
 
 #include <setjmp.h>
 #include <stdio.h>
@@ -201,7 +202,7 @@ static void run(struct job *job, uint32_t size) {
         require(!readable || job->tree.root, "a text that can be read has a root");
         check_tree(&job->tree, size);
         check_diagnostics(&job->sources, &job->sink, size);
-        if (readable && job->entries)
+        if (readable && job->entries && fuzz_is_chosen(job->sources.items[job->source].text, 0, 4))
             check_taken(job->read, &context, job->source, &job->tree);
     }
     arena_set_guard(&job->arena, NULL);
