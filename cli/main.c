@@ -3,6 +3,7 @@
 
 #include "core/nearest.h"
 
+#include <ctype.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
@@ -170,8 +171,9 @@ static void program_help(struct strbuf *out) {
 }
 
 static void command_help(struct strbuf *out, const struct cli_command *command) {
-    strbuf_format(out, "Usage: glint %s [OPTION]...%s%s\n\nTo %s.\n\n", command->name,
-                  command->operands[0] ? " " : "", command->operands, command->summary);
+    strbuf_format(out, "Usage: glint %s [OPTION]...%s%s\n\n%c%s.\n\n", command->name,
+                  command->operands[0] ? " " : "", command->operands,
+                  (char)toupper((unsigned char)command->summary[0]), command->summary + 1);
     if (command->details[0])
         strbuf_format(out, "%s\n", command->details);
     strbuf_cstr(out, "Options:\n");

@@ -288,8 +288,10 @@ str files_suggest(struct files *files, str path, const char *const *endings) {
         if (!has_ending(candidate, endings))
             continue;
         str stem = str_slice(candidate, 0, ending_of(candidate));
-        bool same_ending = nearest_distance(str_slice(name, dot, name.len),
-                                            str_slice(candidate, stem.len, candidate.len)) == 0;
+        // A name without an ending has lost it.
+        bool same_ending =
+            dot == name.len || nearest_distance(str_slice(name, dot, name.len),
+                                                str_slice(candidate, stem.len, candidate.len)) == 0;
         struct nearest *search = same_ending ? &stems : &names;
         str offered = same_ending ? stem : candidate;
         unsigned before = search->best_distance;

@@ -347,6 +347,8 @@ static void report_no_scene(struct bind_context *context, const struct bind_fram
         diag_add(context->sink, DIAG_NOT_A_SCENE, at, "this is not a glint scene: its root is '%.*s'",
                  STR_ARG(tag));
         diag_help(context->sink, "a scene begins with <%s glint=\"1\">", frame->schema->element);
+        if (str_equal_cstr(mend_snake(context->scratch, tree->root_tag), frame->schema->name))
+            bind_fix_tag(context, at, tree->root, true, str_from(frame->schema->element));
     } else {
         diag_add(context->sink, DIAG_NOT_A_SCENE, at,
                  "this is not a glint scene: none of its keys belongs to one");

@@ -206,6 +206,8 @@ void bind_check_bytes(struct bind_context *context, struct bind_subject subject,
 // The row that a key names in another style ('LookAt', 'lookAt', 'look-at'), or in the plural where one is
 // meant; -1: none.
 int bind_find_style(struct bind_context *context, const struct bind_frame *frame, tree_index key);
+// Proposes another name for an element of XML, in its end tag too.
+void bind_fix_tag(struct bind_context *context, span at, tree_index element, bool safe, str right);
 // Reports a name that the element does not have, with what may have been meant, and reads what it holds where
 // that is clear.
 void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key);

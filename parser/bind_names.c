@@ -43,17 +43,14 @@ int bind_find_style(struct bind_context *context, const struct bind_frame *frame
     return found && spelling(&frame->schema->rows[search.best_id], kind, false) ? search.best_id : -1;
 }
 
-// Proposes another name for a key; for an XML element with an end tag in both tags.
-static void fix_key(struct bind_context *context, tree_index key, bool safe, str right) {
-    span at = tree_span(context->tree, key);
+void bind_fix_tag(struct bind_context *context, span at, tree_index element, bool safe, str right) {
     str name = source_text(context->sources, at);
-    const struct tree_node *value = tree_node(context->tree, tree_value(context->tree, key));
-    str rest = source_text(context->sources, (span){at.source, at.end, value->end});
+    str rest =
+        source_text(context->sources, (span){at.source, at.end, tree_node(context->tree, element)->end});
     size_t end = rest.len;
     while (end > 0 && rest.ptr[end - 1] != '<')
         end--;
-    bool is_child = tree_node(context->tree, key)->key == TREE_KEY_CHILD;
-    bool alone = !is_child || (rest.len >= 2 && rest.ptr[rest.len - 2] == '/');
+    bool alone = rest.len >= 2 && rest.ptr[rest.len - 2] == '/';
     bool closed = end + 1 < rest.len && rest.ptr[end] == '/' &&
                   str_starts_with(str_slice(rest, end + 1, rest.len), name);
     if (alone) {
@@ -65,6 +62,14 @@ static void fix_key(struct bind_context *context, tree_index key, bool safe, str
             context->sink, safe, at,
             arena_format(context->scratch, "%.*s%.*s%.*s", STR_ARG(right), STR_ARG(between), STR_ARG(right)));
     }
+}
+
+// Proposes another name for a key; for an XML element with an end tag in both tags.
+static void fix_key(struct bind_context *context, tree_index key, bool safe, str right) {
+    if (tree_node(context->tree, key)->key == TREE_KEY_CHILD)
+        bind_fix_tag(context, tree_span(context->tree, key), tree_value(context->tree, key), safe, right);
+    else
+        diag_fix(context->sink, safe, tree_span(context->tree, key), right);
 }
 
 static void add_unknown(struct bind_context *context, const struct bind_frame *frame, tree_index key) {

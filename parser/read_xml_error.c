@@ -97,6 +97,24 @@ static bool report_tag_end(struct xml_reader *r, uint32_t tag, uint32_t at) {
     return false;
 }
 
+// '<' between the quotes of a value, `quote` being the first of them.
+static bool report_less_than(struct xml_reader *r, uint32_t quote, uint32_t at, str name) {
+    struct diag_sink *sink = r->context->sink;
+    str text = r->text->bytes;
+    uint32_t end = at;
+    while (end < text.len && text.ptr[end] != text.ptr[quote] && text.ptr[end] != '\n')
+        end++;
+    bool closed = end + 1 < text.len && text.ptr[end] == text.ptr[quote] && text.ptr[end - 1] != '=' &&
+                  memchr(" \t\r\n/>", text.ptr[end + 1], 6);
+    if (!begins_with(r, at, "<") || at < quote || !closed)
+        return false;
+    diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "a '<' inside the value of '%.*s'",
+             STR_ARG(reader_clip(name)));
+    diag_help(sink, "write '&lt;' for the character '<'");
+    diag_fix(sink, true, character_at(r, at), STR("&lt;"));
+    return true;
+}
+
 // What is wrong inside a tag, from its beginning on; false: not known.
 static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
     struct diag_sink *sink = r->context->sink;
@@ -143,6 +161,8 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
         diag_fix(sink, true, value, arena_format(r->context->arena, "\"%.*s\"", STR_ARG(bare)));
         return true;
     }
+    if (report_less_than(r, sign, at, written))
+        return true;
     diag_add(sink, DIAG_XML_SYNTAX, name, "the value of '%.*s' has no closing quote",
              STR_ARG(reader_clip(written)));
     diag_help(sink, "close the quotes; write '&lt;' for the character '<'");

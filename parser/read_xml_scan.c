@@ -153,7 +153,7 @@ static uint32_t check_entity(struct repairer *r, uint32_t at) {
     if (!closed) {
         diag_add(sink, DIAG_XML_ENTITY, place(r, at, at + 1), "'&' begins an entity, and none follows");
         diag_help(sink, "write '&amp;' for the character '&'");
-        diag_fix(sink, false, place(r, at, at + 1), STR("&amp;"));
+        diag_fix(sink, end == at + 1, place(r, at, at + 1), STR("&amp;"));
         end = at + 1;
     } else {
         end++;

@@ -283,6 +283,12 @@ static void report_behind(struct yaml_reader *r, uint32_t at) {
         diag_fix(&r->sink, false, character_at(r, at), STR(""));
         return;
     }
+    if (byte_at(r, at) == ',') {
+        diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "this ',' parts nothing");
+        diag_help(&r->sink, "remove it: outside brackets entries stand on lines of their own");
+        diag_fix(&r->sink, true, character_at(r, at), STR(""));
+        return;
+    }
     diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, at), "this stands behind a value that has ended");
     diag_help(&r->sink, "put the whole text in quotes; inside single quotes a quote is written ''");
 }

@@ -43,6 +43,7 @@ static void refuse(struct loader *loader, span at, str path, str tried, enum fil
     case FILE_NOT_REGULAR:
         diag_add(sink, DIAG_FILE_NOT_REGULAR, at, "the included file '%.*s' is not a regular file",
                  STR_ARG(path));
+        diag_help(sink, "name a scene file; folders are not read");
         return;
     case FILE_TOO_LARGE:
         reader_limit(sink, loader->input->limits, LIMIT_SCENE_BYTES, at, "the included file is too large");
