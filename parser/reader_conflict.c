@@ -45,15 +45,18 @@ static span marker_at(const struct reader_text *text, uint32_t at) {
 void reader_conflicts(const struct reader_context *context, struct reader_text *text) {
     str all = text->bytes;
     struct diag_sink *sink = context->sink;
+    bool has_end = true;
     for (uint32_t at = find_marker(all, text->begin, '<'); at < all.len; at = find_marker(all, at, '<')) {
-        uint32_t middle = find_marker(all, at, '=');
+        uint32_t middle = has_end ? find_marker(all, at, '=') : (uint32_t)all.len;
         uint32_t end = find_marker(all, middle, '>');
+        has_end = end < all.len; // where there is none, there is none behind it either
         diag_add(sink, DIAG_MERGE_CONFLICT, marker_at(text, at),
                  "two versions of these lines were not merged");
         blank_out(context, text, at, line_end(all, at));
         at = line_end(all, at);
         if (end < all.len) {
-            uint32_t base = find_marker(all, at, '|'); // what both versions were made of
+            // What both versions were made of.
+            uint32_t base = find_marker(str_slice(all, 0, middle), at, '|');
             diag_note(sink, marker_at(text, middle), "the second version begins here");
             diag_note(sink, marker_at(text, end), "it ends here");
             diag_help(sink, "keep one of the two, or something of both, and remove the lines with the marks");

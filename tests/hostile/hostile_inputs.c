@@ -142,6 +142,7 @@ bool hostile_make_inputs(void) {
     return alias_bomb() && mistakes() && pngs() && special_files() &&
            put_repeated("brackets.yaml", "glint: 1\nx-deep: ", "[", 200000, "\n") &&
            put_repeated("levels.xml", "<Scene glint=\"1\">", "<Model>", 100000, "\n") &&
+           put_repeated("conflicts.yaml", "glint: 1\n", "<<<<<<< ours\n", 100000, "=======\n") &&
            put_repeated("scalar.yaml", "glint: 1\ndescription: ", "abcdefghij", 1 << 20, "\n") &&
            put_repeated("scalar.xml", "<Scene glint=\"1\" description=\"", "abcdefghij", 1 << 20, "\"/>\n") &&
            put_text("entities.xml",

@@ -45,6 +45,7 @@ static const struct hostile_case cases[] = {
      "mistakes.yaml:2:1: error",
      "more messages not shown",
      {"check", "mistakes.yaml"}},
+    {"100 000 merge conflicts", 1, "conflicts.yaml:2:1: error", "[E125]", {"check", "conflicts.yaml"}},
     {"PNG of 65535x65535", 1, "huge-png.yaml:2:", "[E501]", {"check", "huge-png.yaml"}},
     {"PNG that decodes to 2 GB",
      1,
