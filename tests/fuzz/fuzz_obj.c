@@ -53,8 +53,8 @@ struct scene {
 static void load(struct scene *s, struct asset_store *store, str mesh, str materials) {
     source_set_init(&s->sources, &s->arena);
     files_init(&s->files, &s->arena);
-    files_add_overlay(&s->files, STR("mesh.obj"), mesh);
-    files_add_overlay(&s->files, STR("own.mtl"), materials);
+    files_add_overlay(&s->files, STR("/mesh.obj"), mesh);
+    files_add_overlay(&s->files, STR("/own.mtl"), materials);
     ir_origin_init(&s->origin, &s->arena);
     schema_init(&SCHEMA_SCENE, &s->scene);
     s->limits = limits_default();
@@ -62,7 +62,7 @@ static void load(struct scene *s, struct asset_store *store, str mesh, str mater
     s->limits.value[LIMIT_MESH_TRIANGLES] = TRIANGLES_MAX;
     struct ir_model *model = ARENA_PUSH(&s->arena, &s->scene.models);
     schema_init(&SCHEMA_MODEL, model);
-    model->mesh = STR("mesh.obj");
+    model->mesh = STR("/mesh.obj"); // each folder of a path is asked for its links
     model->material.index = IR_NO_INDEX;
     struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
                                  &s->limits, &s->sink,   &s->arena,   NULL};
