@@ -16,28 +16,43 @@ static unsigned least(unsigned a, unsigned b) {
     return a < b ? a : b;
 }
 
-unsigned nearest_distance(str a, str b) {
+// The distance, or UINT_MAX where it is larger than `most`.
+static unsigned distance_up_to(str a, str b, unsigned most) {
     if (a.len > WORD_MAX || b.len > WORD_MAX)
         return UINT_MAX;
+    char folded[WORD_MAX]; // b
     unsigned rows[3][WORD_MAX + 1];
     unsigned *before = rows[0], *above = rows[1], *row = rows[2];
-    for (unsigned j = 0; j <= b.len; j++)
+    unsigned nearest_above = 0; // the least of the row above
+    above[0] = 0;
+    for (unsigned j = 1; j <= b.len; j++) {
         above[j] = j;
+        folded[j - 1] = fold(b.ptr[j - 1]);
+    }
     for (unsigned i = 1; i <= a.len; i++) {
-        row[0] = i;
+        char now = fold(a.ptr[i - 1]), last = i > 1 ? fold(a.ptr[i - 2]) : '\0';
+        unsigned nearest = row[0] = i;
         for (unsigned j = 1; j <= b.len; j++) {
-            unsigned same = fold(a.ptr[i - 1]) == fold(b.ptr[j - 1]) ? 0 : 1;
+            unsigned same = now == folded[j - 1] ? 0 : 1;
             row[j] = least(least(above[j] + 1, row[j - 1] + 1), above[j - 1] + same);
-            if (i > 1 && j > 1 && fold(a.ptr[i - 1]) == fold(b.ptr[j - 2]) &&
-                fold(a.ptr[i - 2]) == fold(b.ptr[j - 1]))
+            if (i > 1 && j > 1 && now == folded[j - 2] && last == folded[j - 1])
                 row[j] = least(row[j], before[j - 2] + 1);
+            nearest = least(nearest, row[j]);
         }
+        // What follows comes from this row, or by a transposition from the one above it.
+        if (nearest > most && nearest_above >= most)
+            return UINT_MAX;
+        nearest_above = nearest;
         unsigned *free_row = before;
         before = above;
         above = row;
         row = free_row;
     }
-    return above[b.len];
+    return above[b.len] <= most ? above[b.len] : UINT_MAX;
+}
+
+unsigned nearest_distance(str a, str b) {
+    return distance_up_to(a, b, UINT_MAX - 1);
 }
 
 struct nearest nearest_begin(str word) {
@@ -52,8 +67,8 @@ void nearest_offer(struct nearest *search, str candidate) {
     size_t difference = longer - (is_longer ? candidate.len : search->word.len);
     if (difference > allowed || difference >= search->best_distance)
         return;
-    unsigned distance = nearest_distance(search->word, candidate);
-    if (distance <= allowed && distance < search->best_distance) {
+    unsigned distance = distance_up_to(search->word, candidate, allowed);
+    if (distance < search->best_distance) {
         search->best = candidate;
         search->best_distance = distance;
     }

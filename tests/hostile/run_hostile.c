@@ -61,7 +61,7 @@ static const struct hostile_case cases[] = {
     {"mesh is a link to /dev/zero", 1, "link.yaml:2:", "[E60", {"check", "link.yaml"}},
     {"mesh is a folder", 1, "folder.yaml:2:", "[E603]", {"check", "folder.yaml"}},
     {"mesh is a pipe", 1, "pipe.yaml:2:", "[E603]", {"check", "pipe.yaml"}},
-    {"scene is a folder", 3, "folder.obj:1:1: error", "[E603]", {"check", "folder.obj"}},
+    {"scene is a folder", 3, "folder.obj:1:1: error", "[E603]", {"inspect", "folder.obj"}},
     {"scene is a pipe", 3, "pipe.obj:1:1: error", "[E603]", {"check", "pipe.obj"}},
     {"scene is /dev/zero", 3, "/dev/zero:1:1: error", "[E603]", {"check", "/dev/zero"}},
     {"output on a full disk",
