@@ -64,25 +64,55 @@ static bool anything_mirrors(const struct lint *lint) {
     return false;
 }
 
+// Cameras that see nothing at all are what is wrong, not the bodies.
+static void report_cameras(struct lint *lint) {
+    const struct ir_camera *camera = &lint->scene->cameras.items[0];
+    span at = ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position");
+    if (lint->view_count == 1)
+        diag_add(lint->sink, DIAG_UNSEEN, at,
+                 "camera '%.*s' sees none of the %u bodies, and no shadow of them falls into view",
+                 STR_ARG(camera->name), lint->body_count);
+    else
+        diag_add(lint->sink, DIAG_UNSEEN, at,
+                 "the cameras see none of the %u bodies, and no shadow of them falls into view",
+                 lint->body_count);
+    struct lint_box all = lint->bodies[0].box;
+    for (uint32_t k = 1; k < lint->body_count; k++) {
+        all.lower = vec3_min(all.lower, lint->bodies[k].box.lower);
+        all.upper = vec3_max(all.upper, lint->bodies[k].box.upper);
+    }
+    vec3 middle = vec3_mul(vec3_add(all.lower, all.upper), 0.5);
+    diag_help(lint->sink, "turn it to them: their middle is at %.3g %.3g %.3g", middle.x, middle.y, middle.z);
+}
+
+static void report_body(struct lint *lint, const struct lint_body *body) {
+    diag_add(lint->sink, DIAG_UNSEEN, lint_place(lint, body),
+             "%.*s lies outside the view of %s, nothing mirrors it, and no shadow of it falls into view",
+             STR_ARG(lint_words(lint, body)), lint->view_count == 1 ? "the camera" : "all cameras");
+    diag_help(lint->sink, "turn a camera to it, or remove it");
+}
+
 void lint_unseen(struct lint *lint) {
     if (lint->scene->cameras.count == 0 || anything_mirrors(lint))
         return;
     if ((uint64_t)lint->body_count * lint->view_count * (lint->scene->lights.count + 1) > WORK_MAX)
         return;
     struct field *fields = ARENA_ARRAY(lint->arena, struct field, lint->view_count);
+    uint32_t *unseen = ARENA_ARRAY(lint->arena, uint32_t, lint->body_count);
+    uint32_t count = 0;
     for (uint32_t i = 0; i < lint->view_count; i++)
         fields[i] = field_of(lint, &lint->views[i].camera);
-    const char *of = lint->view_count == 1 ? "the camera" : "all cameras";
     for (uint32_t k = 0; k < lint->body_count; k++) {
-        struct lint_body *body = &lint->bodies[k];
+        const struct lint_body *body = &lint->bodies[k];
         bool outside = body->kind != LINT_MODEL || body->mesh;
         for (uint32_t i = 0; outside && i < lint->view_count; i++)
             outside = is_outside(lint, &body->box, &fields[i], &lint->views[i]);
-        if (!outside)
-            continue;
-        diag_add(lint->sink, DIAG_UNSEEN, lint_place(lint, body),
-                 "%.*s lies outside the view of %s, nothing mirrors it, and no shadow of it falls into view",
-                 STR_ARG(lint_words(lint, body)), of);
-        diag_help(lint->sink, "turn a camera to it, or remove it");
+        if (outside)
+            unseen[count++] = k;
     }
+    if (count > 1 && count == lint->body_count)
+        report_cameras(lint);
+    else
+        for (uint32_t k = 0; k < count; k++)
+            report_body(lint, &lint->bodies[unseen[k]]);
 }
