@@ -9,6 +9,7 @@
 #include "core/diag_text.h"
 #include "core/files_walk.h"
 #include "core/parallel.h"
+#include "parser/reader_text.h"
 
 #include <errno.h>
 #include <stdatomic.h>
@@ -49,6 +50,7 @@ struct check {
         struct check_file *items;
         uint32_t count, capacity;
     } files;
+    struct reader_names paths; // of files
     struct check_store *stores;
     unsigned store_count;
 };
@@ -110,7 +112,10 @@ static bool check_all(struct check *check) {
 
 // ---- the files
 
+// A file that is named twice, or stands in a folder that is named too, is checked once.
 static void add_file(struct check *check, const char *path) {
+    if (reader_names_at(&check->paths, str_from(path))->value++)
+        return;
     struct check_file *file = ARENA_PUSH(&check->cli->arena, &check->files);
     file->path = path;
     strbuf_init(&file->text);
@@ -235,6 +240,7 @@ static int run(struct check *check) {
 
 int cmd_check(struct cli *cli) {
     struct check check = {.cli = cli};
+    reader_names_init(&check.paths, &cli->arena);
     int format = 0;
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;

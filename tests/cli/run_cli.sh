@@ -65,8 +65,9 @@ expect "all cameras into one stream" 2 - "'--camera all' makes a file for each c
 expect "check is silent" 0 - - "$glint" check good.yaml
 expect "check finds the mistake" 1 - 'bad.yaml:2:39: error: .*\[E206\]' "$glint" check bad.yaml
 expect "the highest code of several" 3 - 'none.yaml:1:1: error: .*\[E601\]' "$glint" check bad.yaml none.yaml good.yaml
-"$glint" check bad.yaml two.yaml none.yaml bad.yaml >all.txt 2>&1
-printf 'bad.yaml:2:39\nnone.yaml:1:1\nbad.yaml:2:39\n' >wanted.txt
+cp bad.yaml also.yaml
+"$glint" check bad.yaml two.yaml none.yaml also.yaml bad.yaml >all.txt 2>&1
+printf 'bad.yaml:2:39\nnone.yaml:1:1\nalso.yaml:2:39\n' >wanted.txt
 grep -oE '^[a-z]+\.yaml:[0-9]+:[0-9]+' all.txt >places.txt
 expect "files are reported in the order of the command line" 0 - - cmp places.txt wanted.txt
 expect "no colours where no terminal is" 1 - - grep -q "$(printf '\033')" all.txt

@@ -150,6 +150,8 @@ ok "a folder's scenes, in order" cmp places.txt wanted.txt
 ok "the order is stable" cmp order.txt again.txt
 command -v taskset >/dev/null && taskset -c 0 "$glint" check tree 2>alone.txt
 [ ! -e alone.txt ] || ok "one processor says the same" cmp order.txt alone.txt
+"$glint" check tree $(cut -d: -f1 places.txt) >/dev/null 2>again.txt
+ok "a scene that is named twice is checked once" cmp order.txt again.txt
 mkdir -p empty
 expect "a folder without scenes" 2 'command-line:1:13: error: there is no scene in the folder' "$glint" check empty
 expect "text into a file" 1 - "$glint" check tree -o text.txt
