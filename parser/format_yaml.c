@@ -343,6 +343,7 @@ static void put_flow(struct printer *p, enum join join, uint32_t indent) {
 // the first of their tokens cannot follow what stands before.
 static void put_node(struct printer *p, enum join join, uint32_t indent) {
     bool after_colon = p->last == YAML_TOKEN_COLON;
+    bool after_item = p->last == YAML_TOKEN_ITEM;
     bool properties = false;
     while (peek(p)->kind == YAML_TOKEN_PROPERTY) {
         put(p, join, indent);
@@ -351,8 +352,11 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
     }
     enum join block = after_colon || properties || p->last == YAML_TOKEN_DOCUMENT ? JOIN_LINE : join;
     switch ((enum yaml_token_kind)peek(p)->kind) {
-    case YAML_TOKEN_LIST:
     case YAML_TOKEN_ITEM:
+        if (after_item)
+            break; // the next item: this one is empty
+        // fall through
+    case YAML_TOKEN_LIST:
         put_list(p, block, indent);
         break;
     case YAML_TOKEN_MAP:

@@ -63,7 +63,8 @@ static str percent(struct arena *arena, str text) {
 static str mend_integer(struct arena *arena, str text) {
     double value;
     char digits[NUMBER_FORMAT_MAX];
-    if (number_parse(text, &value) != NUMBER_OK || value != (double)(int32_t)value)
+    if (number_parse(text, &value) != NUMBER_OK || !(value >= INT32_MIN && value <= INT32_MAX) ||
+        value != (double)(int32_t)value)
         return STR("");
     size_t length = number_format(value, digits);
     return arena_copy(arena, (str){digits, length});

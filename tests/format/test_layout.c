@@ -38,6 +38,7 @@ static void test_yaml_blanks(void **state) {
          "glint: 1\nlights:\n  - position: [1, 2, 3]\n");
     yaml("{\"glint\":1,\"image\":{\"width\":3}}", "{\"glint\": 1, \"image\": {\"width\": 3}}");
     yaml("glint: 1\nx-a: {b: , c: }\n", "glint: 1\nx-a: {b: , c: }\n");
+    yaml("glint: 1\nx-a:\n-\n- &x\n- b\n", "glint: 1\nx-a:\n  -\n  - &x\n  - b\n");
 }
 
 static void test_yaml_lines_in_brackets(void **state) {
