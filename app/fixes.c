@@ -74,7 +74,7 @@ static void refuse_what_failed(struct fixer *f, struct session *session) {
         for (uint32_t t = 0; t < f->tried.count; t++) {
             const struct tried *tried = &f->tried.items[t];
             bool same = file == &f->fixes->files.items[tried->file] && item->code == tried->code &&
-                        item->fix_at.begin <= tried->end && item->fix_at.end >= tried->begin;
+                        item->at.begin <= tried->end && item->at.end >= tried->begin;
             f->fixes->files.items[tried->file].refused |= same;
         }
     }

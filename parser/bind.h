@@ -202,6 +202,10 @@ bool bind_bad_color(struct bind_context *context, struct bind_subject subject, t
 void bind_check_bytes(struct bind_context *context, struct bind_subject subject, tree_index node,
                       const double rgb[3]);
 
+// bind_child.c
+// Proposes `child`, an element, in the place of the attribute with this value.
+void bind_fix_as_child(struct bind_context *context, tree_index value, str child);
+
 // bind_names.c
 // The row that a key names in another style ('LookAt', 'lookAt', 'look-at'), or in the plural where one is
 // meant; -1: none.

@@ -116,6 +116,11 @@ static void did_you_mean(struct bind_context *context, struct bind_frame *frame,
     bool singular = is_singular(context, row, search, tree_value(context->tree, key));
     const char *right = spelling(row, kind, singular);
     frame->guessed |= bind_bit((uint32_t)search->best_id);
+    tree_index value = tree_value(context->tree, key);
+    bool near = search->distance == 0 || mend_is_safe(search);
+    if (!right && near && kind == TREE_KEY_ATTRIBUTE &&
+        bind_help_numbers(context, bind_subject(frame, row), value))
+        return;
     if (!right) {
         diag_help(context->sink, "did you mean %.*s?",
                   STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));

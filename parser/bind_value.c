@@ -72,7 +72,10 @@ bool bind_help_numbers(struct bind_context *context, struct bind_subject subject
         return false;
     }
     if (context->tree->is_xml) {
-        diag_help(context->sink, "write %.*s", STR_ARG(say_components(context->scratch, subject, list)));
+        str child = say_components(context->scratch, subject, list);
+        diag_help(context->sink, "write %.*s", STR_ARG(child));
+        if (kind == TREE_SCALAR && !subject.component)
+            bind_fix_as_child(context, node, child);
         return true;
     }
     str value = arena_format(context->scratch, "[%.*s]", STR_ARG(list));

@@ -129,6 +129,27 @@ S
 expect "check --fix=all of habits" 0 - 'fixes made' "$glint" check --fix=all habits.yaml
 same "habits are mended" habits.yaml mended.yaml
 
+cat >habits.xml <<'S'
+<scene glint="1" description="a & b">
+  <Camera position="0 0 8" fov="40" lookat='0,0,0'/>
+  <Light position="(0, 10, 5)" intensity="2" name="a_b">
+  </Light>
+  <Material name="red" albedo="1,0,0,0" diffuse_color="1 0 0" specular_exponent="8"/>
+  <Sphere radius="1" material="red" center="0 0 0" />
+</scene>
+S
+cat >mended.xml <<'S'
+<Scene glint="1" description="a &amp; b">
+  <Camera fov="40"><Position x="0" y="0" z="8"/><LookAt x="0" y="0" z="0"/></Camera>
+  <Light intensity="2" name="a_b"><Position x="0" y="10" z="5"/>
+  </Light>
+  <Material name="red" specular_exponent="8"><Albedo diffuse="1"/><DiffuseColor r="1" g="0" b="0"/></Material>
+  <Sphere radius="1" material="red"><Center x="0" y="0" z="0"/></Sphere>
+</Scene>
+S
+expect "check --fix of habits in XML" 0 - 'fixes made' "$glint" check --fix habits.xml
+same "habits in XML are mended" habits.xml mended.xml
+
 # All or nothing, and only where the file can be read afterwards.
 printf 'glint: 1\ncamrea: {fov: 3}\nimage: {width: 3\n' >half.yaml
 cp half.yaml kept.yaml
