@@ -90,9 +90,10 @@ static void put_square(struct strbuf *out, const struct extreme_cell *cell, int 
                       x + m * STRIP_WIDTH, y, STRIP_WIDTH, CELL_HEIGHT, strip_color(cell, m));
     strbuf_format(out,
                   "<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" fill=\"none\" stroke=\"%s\" "
-                  "stroke-width=\"%d\"/><text x=\"%d\" y=\"%d\" text-anchor=\"middle\">%.9g%s</text></g>\n",
+                  "stroke-width=\"%d\"/><text x=\"%d\" y=\"%d\" text-anchor=\"middle\">%.*g%s</text></g>\n",
                   x, y, CELL_WIDTH, CELL_HEIGHT, cell->broken ? "#d0342c" : "#555", cell->broken ? 3 : 1,
-                  x + CELL_WIDTH / 2, y + CELL_HEIGHT + 14, cell->value, cell->is_double ? " d" : "");
+                  x + CELL_WIDTH / 2, y + CELL_HEIGHT + 14, cell->value < 1e5 ? 9 : 3, cell->value,
+                  cell->is_double ? " d" : "");
 }
 
 static void put_matrix(struct strbuf *out, const struct extremes *e) {

@@ -36,7 +36,7 @@ static struct axis axis_over(double low, double high, double from, double to) {
 }
 
 static void label(struct strbuf *out, double value) {
-    if (value >= 0.01 && value < 100000)
+    if (value >= 0.001 && value < 100000)
         strbuf_format(out, "%.5g", value);
     else
         strbuf_format(out, "%.0e", value);
