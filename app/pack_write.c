@@ -74,7 +74,7 @@ static bool write_file(struct session *session, const struct pack_file *file, co
         enum file_status status = FILE_OK;
         if (file->path.len)
             status = files_read(&session->files, file->path, UINT64_MAX / 4, &arena, &bytes);
-        int wrong = status == FILE_OK ? output_whole(path, bytes.ptr, bytes.len) : 0;
+        int wrong = status == FILE_OK ? output_part(path, bytes.ptr, bytes.len) : 0;
         good = status == FILE_OK && wrong == 0;
         if (status != FILE_OK)
             fail(error, "'%.*s' %s", STR_ARG(file->path), file_status_text(&session->files, status));
@@ -120,9 +120,10 @@ static bool same_files(struct session *session, const struct inventory *before, 
             return a == before->count && b == after->count;
         bool same = false;
         for (uint32_t i = 0; i < plan->count && !same; i++) {
+            if (!str_equal(plan->items[i].canonical, before->items[a].canonical))
+                continue;
             snprintf(path, sizeof path, "%s/%.*s", folder, STR_ARG(plan->items[i].target));
-            same = str_equal(plan->items[i].canonical, before->items[a].canonical) &&
-                   str_equal(files_canonical(&session->files, str_from(path)), after->items[b].canonical);
+            same = str_equal(files_canonical(&session->files, str_from(path)), after->items[b].canonical);
         }
         if (!same)
             return false;

@@ -48,6 +48,14 @@ static int write_schema(struct cli *cli, const char *path, bool is_xml) {
     return result;
 }
 
+static int refuse_json(struct cli *cli, int operand) {
+    int status =
+        cli_usage(cli, cli_operand_place(cli, operand),
+                  "'%s' is JSON, which has no comment to hold a schema's address", cli->operands[operand]);
+    diag_help(&cli->sink, "name the schema in the editor's settings; 'glint schema json' prints it");
+    return status;
+}
+
 static int install(struct cli *cli, const char *path) {
     struct session session;
     struct session_options options = cli_session_options(cli, path);
@@ -81,7 +89,8 @@ static int install_all(struct cli *cli) {
     if (cli->operand_count < 2)
         return cli_usage(cli, cli_operand_place(cli, 0), "'glint schema install' needs scene files");
     for (int i = 1; i < cli->operand_count; i++) {
-        int status = install(cli, cli->operands[i]);
+        bool json = str_ends_with_nocase(str_from(cli->operands[i]), ".json");
+        int status = json ? refuse_json(cli, i) : install(cli, cli->operands[i]);
         worst = status > worst ? status : worst;
     }
     return worst;

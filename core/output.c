@@ -189,3 +189,13 @@ int output_whole(const char *path, const void *bytes, size_t count) {
     output_commit(&output);
     return output.error;
 }
+
+int output_part(const char *path, const void *bytes, size_t count) {
+    errno = 0;
+    FILE *stream = fopen(path, "wbx");
+    bool good = stream && (count == 0 || fwrite(bytes, 1, count, stream) == count);
+    int error = good ? 0 : errno ? errno : EIO;
+    if (stream && fclose(stream) != 0 && good)
+        error = errno ? errno : EIO;
+    return error;
+}

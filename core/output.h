@@ -27,5 +27,8 @@ bool output_commit(struct output *output);
 void output_abandon(struct output *output);
 // All of the above for bytes that are there already; 0 or an errno.
 int output_whole(const char *path, const void *bytes, size_t count);
+// A new file in a folder that is temporary itself: written in place, and not waited for until it is on the
+// disk, which takes milliseconds each. 0 or an errno.
+int output_part(const char *path, const void *bytes, size_t count);
 
 #endif

@@ -42,6 +42,10 @@ status=0 && "$glint" schema install 2>err || status=$?
 [ $status -eq 2 ] || fail "no file named"
 status=0 && "$glint" schema install gone.yaml 2>err || status=$?
 [ $status -eq 3 ] || fail "a file that is not there"
+printf '{"glint": 1}\n' >e.json
+cp e.json wanted
+status=0 && "$glint" schema install e.json 2>err || status=$?
+[ $status -eq 2 ] && cmp e.json wanted || fail "JSON has no comments"
 status=0 && "$glint" schema jso 2>err || status=$?
 [ $status -eq 2 ] && grep -q "did you mean 'json'" err || fail "a kind that is none"
 echo ok

@@ -185,9 +185,9 @@ else
 fi
 cp in/two/more.yaml in/two/meshes
 quits "a scene that is called as a folder of the package" 0 '' "$glint" pack in/two/meshes called
-"$glint" deps --format make odd/-s.yaml 2>err.txt | sed 's/^[^ ]*:/odd:/' >odd.d
+"$glint" deps --format make odd/-s.yaml 2>err.txt | sed 's/^[^ ]*:/every:/' >odd.d
 printf '\t@echo %s files\n' '$(words $^)' >>odd.d
-if command -v make >/dev/null 2>&1; then quits "make finds every odd name" 0 files make -s -f odd.d odd; else
+if command -v make >/dev/null 2>&1; then quits "make finds every odd name" 0 files make -s -f odd.d every; else
     echo "skip make finds every odd name: make is not installed"
 fi
 mkdir limited
