@@ -2,6 +2,8 @@
 #include "parser/bind.h"
 #include "parser/say.h"
 
+#include <string.h>
+
 static void report_choice(struct bind_context *context, struct bind_frame *frame, uint32_t choice) {
     str names = STR("");
     str example = STR("");
@@ -20,6 +22,22 @@ static void report_choice(struct bind_context *context, struct bind_frame *frame
     diag_help(context->sink, "for example %.*s", STR_ARG(example));
 }
 
+// There is one version, so that it can be written in front of the rest.
+static void fix_version(struct bind_context *context, const struct schema_row *row) {
+    const struct tree *tree = context->tree;
+    str written = say_example(context->scratch, row, tree->is_xml);
+    str all = context->sources->items[tree->source].text;
+    const char *end = memchr(all.ptr, '\n', all.len);
+    const char *line_end = end && end > all.ptr && end[-1] == '\r' ? "\r\n" : "\n";
+    bool flow = tree_node(tree, tree->root)->style == TREE_FLOW;
+    uint32_t begin = tree->is_xml ? tree->root_name.end : tree_node(tree, tree->root)->begin + flow;
+    str text = arena_format(context->scratch, "%s%.*s%s", tree->is_xml ? " " : "", STR_ARG(written),
+                            tree->is_xml ? ""
+                            : flow       ? ", "
+                                         : line_end);
+    diag_fix(context->sink, true, (span){tree->source, begin, begin}, text);
+}
+
 void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
                          const struct schema_row *row) {
     str owner = say_subject(context->scratch, bind_subject(frame, NULL));
@@ -28,6 +46,8 @@ void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
     diag_help(context->sink, "add %.*s (%.*s)",
               STR_ARG(say_example(context->scratch, row, context->tree->is_xml)),
               STR_ARG(say_doc(context->scratch, row->doc)));
+    if (row->range == SCHEMA_RANGE_VERSION)
+        fix_version(context, row);
 }
 
 // An entry of a named map needs its name, unless the map has a standard one.

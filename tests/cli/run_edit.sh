@@ -101,7 +101,6 @@ same "check --fix of XML" fix.xml want.xml
 
 # What people write who come from elsewhere.
 cat >habits.yaml <<'S'
-glint: 1
 camera:
   position:[0, 0, 8]
   fov:45
@@ -130,7 +129,7 @@ expect "check --fix=all of habits" 0 - 'fixes made' "$glint" check --fix=all hab
 same "habits are mended" habits.yaml mended.yaml
 
 cat >habits.xml <<'S'
-<scene glint="1" description="a & b">
+<scene description="a & b">
   <Camera position="0 0 8" fov="40" lookat='0,0,0'/>
   <Light position="(0, 10, 5)" intensity="2" name="a_b">
   </Light>
