@@ -126,7 +126,7 @@ static uint32_t change_file(struct fixer *f, struct session *session, uint32_t s
 
 static bool round_of(struct fixer *f) {
     struct session session;
-    uint32_t made = 0;
+    volatile uint32_t made = 0;
     check_scene(&session, &f->options, f->store);
     struct arena_guard *outer = f->fixes->arena.guard;
     struct arena_guard guard;

@@ -88,13 +88,7 @@ void precision_check(struct session *session) {
     struct view view;
     view_build(session->scene, &session->assets, 0, session->image.width, session->image.height,
                &session->arena, NULL, &view);
-    struct flat_input input = {.scene = session->scene,
-                               .origin_places = &session->origin,
-                               .assets = &session->assets,
-                               .view = &view,
-                               .origin = session_origin(session, &view),
-                               .limits = &session->options.limits,
-                               .sink = &session->sink};
+    struct flat_input input = precision_input(session, &view);
     struct precision_report report;
     if (!precision_measure(&input, &report) || report.suffices)
         return;
@@ -105,6 +99,16 @@ void precision_check(struct session *session) {
              report.least[report.decides].steps, PRECISION_STEPS);
     note_measure(session, &report);
     diag_help(&session->sink, "leave 'precision' out: 'auto' computes in double where that is needed");
+}
+
+struct flat_input precision_input(struct session *session, const struct view *view) {
+    return (struct flat_input){.scene = session->scene,
+                               .origin_places = &session->origin,
+                               .assets = &session->assets,
+                               .view = view,
+                               .origin = session_origin(session, view),
+                               .limits = &session->options.limits,
+                               .sink = &session->sink};
 }
 
 bool precision_choose(struct session *session, struct flat_input *input, bool has_double) {

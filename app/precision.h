@@ -8,6 +8,9 @@
 #include "core/strbuf.h"
 #include "runtime/precision.h"
 
+// What flattening takes for a session seen in this view; `view` must outlive it.
+struct flat_input precision_input(struct session *session, const struct view *view);
+
 // Sets input->is_double. The scene is measured where its setting is auto. `has_double`: the device can. Its
 // sink gets the error E707, or the warning W701. false: an error, or no memory.
 bool precision_choose(struct session *session, struct flat_input *input, bool has_double);

@@ -7,13 +7,7 @@
 static bool flatten_shot(struct shot *shot) {
     struct session *s = shot->session;
     double start = clock_seconds();
-    struct flat_input input = {.scene = s->scene,
-                               .origin_places = &s->origin,
-                               .assets = &s->assets,
-                               .view = &shot->view,
-                               .origin = session_origin(s, &shot->view),
-                               .limits = &s->options.limits,
-                               .sink = &s->sink};
+    struct flat_input input = precision_input(s, &shot->view);
     bool good = precision_choose(s, &input, gpu_info(shot->gpu)->has_double) && flatten(&input, &shot->flat);
     shot->flatten_seconds += clock_seconds() - start;
     return good;

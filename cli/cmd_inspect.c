@@ -127,13 +127,7 @@ static bool describe(struct session *session, struct strbuf *out) {
     struct flat_scene flat;
     if (!session_view(session, 0, &view))
         return false;
-    struct flat_input input = {.scene = session->scene,
-                               .origin_places = &session->origin,
-                               .assets = &session->assets,
-                               .view = &view,
-                               .origin = session_origin(session, &view),
-                               .limits = &session->options.limits,
-                               .sink = &session->sink};
+    struct flat_input input = precision_input(session, &view);
     struct precision_report precision;
     if (!precision_measure(&input, &precision) || !flatten(&input, &flat))
         return false;

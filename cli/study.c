@@ -87,13 +87,7 @@ int cli_study(struct cli *cli, struct session *session, struct gpu *gpu, uint32_
     *study = (struct tradeoff){0};
     if (!session_view(session, camera, &view))
         return failed(cli, session, gpu, TRADEOFF_MEMORY);
-    struct flat_input flat = {.scene = session->scene,
-                              .origin_places = &session->origin,
-                              .assets = &session->assets,
-                              .view = &view,
-                              .origin = session_origin(session, &view),
-                              .limits = &session->options.limits,
-                              .sink = &session->sink};
+    struct flat_input flat = precision_input(session, &view);
     if (!precision_choose(session, &flat, gpu_info(gpu)->has_double))
         return failed(cli, session, gpu, TRADEOFF_SCENE);
     char *store = cli->options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);

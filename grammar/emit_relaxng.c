@@ -46,9 +46,8 @@ static void documentation(struct rng_writer *w, const char *doc) {
 // The name under which a range of numbers is defined: "field_of_view", "integer_extent".
 static void number_reference(struct rng_writer *w, const struct schema_row *row) {
     strbuf_repeat(w->out, ' ', (size_t)w->depth * RNG_STEP);
-    strbuf_cstr(w->out, "<ref name=\"number_");
-    for (const char *c = schema_range_info(row->range)->name; *c; c++)
-        strbuf_char(w->out, *c == ' ' ? '_' : *c);
+    strbuf_cstr(w->out, "<ref name=\"");
+    emit_range_name(row->range, w->out);
     strbuf_cstr(w->out, "\"/>\n");
 }
 
@@ -69,24 +68,15 @@ static void number_data(struct rng_writer *w, bool integer, double least, double
     close_tag(w, "data");
 }
 
-static bool is_integer_range(enum schema_range range) {
-    for (const struct schema_element *const *e = schema_elements; *e; e++)
-        for (uint32_t i = 0; i < (*e)->row_count; i++)
-            if ((*e)->rows[i].range == range)
-                return (*e)->rows[i].kind == SCHEMA_INTEGER;
-    return false;
-}
-
 static void number_definitions(struct rng_writer *w) {
     for (enum schema_range range = SCHEMA_RANGE_NONE + 1; range < SCHEMA_RANGE_COUNT; range++) {
         const struct schema_range_info *info = schema_range_info(range);
-        bool integer = is_integer_range(range);
-        char name[64] = "number_";
-        size_t length = strlen(name);
-        for (const char *c = info->name; *c && length + 1 < sizeof name; c++)
-            name[length++] = *c == ' ' ? '_' : *c;
-        name[length] = '\0';
-        open_tag(w, "define", "name", name);
+        bool integer = emit_is_integer(range);
+        struct strbuf name;
+        strbuf_init(&name);
+        emit_range_name(range, &name);
+        open_tag(w, "define", "name", name.data ? name.data : "");
+        strbuf_finish(&name);
         if (info->magnitude) {
             open_tag(w, "choice", NULL, NULL);
             number_data(w, integer, info->least, info->greatest, info->open);
@@ -258,13 +248,6 @@ static void choice_pattern(struct rng_writer *w, const struct schema_element *sc
         close_tag(w, "optional");
 }
 
-static bool is_first_of_choice(const struct schema_element *schema, uint32_t i) {
-    for (uint32_t k = 0; k < i; k++)
-        if (schema->rows[k].choice == schema->rows[i].choice)
-            return false;
-    return true;
-}
-
 static void element_definition(struct rng_writer *w, const struct schema_element *schema) {
     open_tag(w, "define", "name", schema->name);
     open_tag(w, "interleave", NULL, NULL);
@@ -274,7 +257,7 @@ static void element_definition(struct rng_writer *w, const struct schema_element
         if (row->key)
             continue;
         if (row->choice) {
-            if (is_first_of_choice(schema, i))
+            if (emit_is_first_of_choice(schema, i))
                 choice_pattern(w, schema, row->choice);
             continue;
         }

@@ -1,6 +1,7 @@
 // RELAX NG in its compact syntax: the same language as emit_relaxng.c, for Emacs and for people.
 #include "grammar/emit.h"
 
+#include "grammar/emit_words.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/schema.h"
 
@@ -41,22 +42,7 @@ static void definition_name(struct rnc_writer *w, const char *name) {
     strbuf_cstr(w->out, name);
 }
 
-// The name under which a range of numbers is defined: "number_field_of_view".
-static void number_name(struct rnc_writer *w, enum schema_range range) {
-    strbuf_cstr(w->out, "number_");
-    for (const char *c = schema_range_info(range)->name; *c; c++)
-        strbuf_char(w->out, *c == ' ' ? '_' : *c);
-}
-
 // ---- data
-
-static bool is_integer_range(enum schema_range range) {
-    for (const struct schema_element *const *e = schema_elements; *e; e++)
-        for (uint32_t i = 0; i < (*e)->row_count; i++)
-            if ((*e)->rows[i].range == range)
-                return (*e)->rows[i].kind == SCHEMA_INTEGER;
-    return false;
-}
 
 static void number_data(struct rnc_writer *w, bool integer, double least, double greatest, bool open) {
     strbuf_format(w->out, "xsd:%s {", integer ? "integer" : "double");
@@ -72,8 +58,8 @@ static void number_data(struct rnc_writer *w, bool integer, double least, double
 static void number_definitions(struct rnc_writer *w) {
     for (enum schema_range range = SCHEMA_RANGE_NONE + 1; range < SCHEMA_RANGE_COUNT; range++) {
         const struct schema_range_info *info = schema_range_info(range);
-        bool integer = is_integer_range(range);
-        number_name(w, range);
+        bool integer = emit_is_integer(range);
+        emit_range_name(range, w->out);
         strbuf_cstr(w->out, " = ");
         number_data(w, integer, info->least, info->greatest, info->open);
         if (info->magnitude) {
@@ -109,7 +95,7 @@ static void attribute_data(struct rnc_writer *w, const struct schema_row *row) {
                                                             : "some_text");
         break;
     case SCHEMA_COLOR:
-        number_name(w, row->range);
+        emit_range_name(row->range, w->out);
         strbuf_cstr(w->out, " | hex_color");
         break;
     case SCHEMA_ELEMENT:
@@ -119,7 +105,7 @@ static void attribute_data(struct rnc_writer *w, const struct schema_row *row) {
         strbuf_cstr(w->out, "some_text");
         break;
     default:
-        number_name(w, row->range);
+        emit_range_name(row->range, w->out);
         break;
     }
 }
@@ -141,7 +127,7 @@ static void component_attributes(struct rnc_writer *w, const struct schema_row *
     strbuf_cstr(w->out, "(");
     for (uint32_t i = 0; names[i]; i++) {
         strbuf_format(w->out, "%sattribute %s { ", i ? ", " : "", names[i]);
-        number_name(w, row->range);
+        emit_range_name(row->range, w->out);
         strbuf_format(w->out, " }%s", mark);
     }
     strbuf_cstr(w->out, ")");
@@ -229,13 +215,6 @@ static void grouped(struct rnc_writer *w, const struct schema_element *schema, u
     strbuf_format(w->out, ")%s", mark);
 }
 
-static bool is_first_of_choice(const struct schema_element *schema, uint32_t i) {
-    for (uint32_t k = 0; k < i; k++)
-        if (schema->rows[k].choice == schema->rows[i].choice)
-            return false;
-    return true;
-}
-
 static void element_definition(struct rnc_writer *w, const struct schema_element *schema) {
     strbuf_char(w->out, '\n');
     definition_name(w, schema->name);
@@ -245,7 +224,7 @@ static void element_definition(struct rnc_writer *w, const struct schema_element
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         // A key stands where the element is one of a list; an element in place has none.
-        if (row->key || (row->choice && !is_first_of_choice(schema, i)))
+        if (row->key || (row->choice && !emit_is_first_of_choice(schema, i)))
             continue;
         strbuf_cstr(w->out, any ? " &\n" : "");
         grouped(w, schema, i);

@@ -4,6 +4,7 @@
 // accepts every scene, and some files that are none. RELAX NG and `glint check` tell those.
 #include "grammar/emit.h"
 
+#include "grammar/emit_words.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/schema.h"
 
@@ -40,21 +41,7 @@ static void documentation(struct xsd_writer *w, const char *doc) {
     strbuf_cstr(w->out, "</xs:documentation></xs:annotation>\n");
 }
 
-static void range_name(struct strbuf *out, enum schema_range range) {
-    strbuf_cstr(out, "number_");
-    for (const char *c = schema_range_info(range)->name; *c; c++)
-        strbuf_char(out, *c == ' ' ? '_' : *c);
-}
-
 // ---- simple types
-
-static bool is_integer_range(enum schema_range range) {
-    for (const struct schema_element *const *e = schema_elements; *e; e++)
-        for (uint32_t i = 0; i < (*e)->row_count; i++)
-            if ((*e)->rows[i].range == range)
-                return (*e)->rows[i].kind == SCHEMA_INTEGER;
-    return false;
-}
 
 static void facet(struct xsd_writer *w, const char *name, double value) {
     strbuf_repeat(w->out, ' ', (size_t)w->depth * XSD_STEP);
@@ -69,11 +56,11 @@ static void number_types(struct xsd_writer *w) {
         double least = info->magnitude ? -info->greatest : info->least;
         strbuf_repeat(w->out, ' ', (size_t)w->depth * XSD_STEP);
         strbuf_cstr(w->out, "<xs:simpleType name=\"");
-        range_name(w->out, range);
+        emit_range_name(range, w->out);
         strbuf_cstr(w->out, "\">\n");
         w->depth++;
-        open_tag(w, is_integer_range(range) ? "<xs:restriction base=\"xs:integer\">"
-                                            : "<xs:restriction base=\"xs:double\">");
+        open_tag(w, emit_is_integer(range) ? "<xs:restriction base=\"xs:integer\">"
+                                           : "<xs:restriction base=\"xs:double\">");
         facet(w, info->open ? "minExclusive" : "minInclusive", least);
         facet(w, info->open ? "maxExclusive" : "maxInclusive", info->greatest);
         close_tag(w, "</xs:restriction>");
@@ -81,9 +68,9 @@ static void number_types(struct xsd_writer *w) {
         // A colour in one attribute: one number for all three, or #rrggbb.
         strbuf_repeat(w->out, ' ', (size_t)w->depth * XSD_STEP);
         strbuf_cstr(w->out, "<xs:simpleType name=\"color_");
-        range_name(w->out, range);
+        emit_range_name(range, w->out);
         strbuf_cstr(w->out, "\"><xs:union memberTypes=\"");
-        range_name(w->out, range);
+        emit_range_name(range, w->out);
         strbuf_cstr(w->out, " hex_color\"/></xs:simpleType>\n");
     }
 }
@@ -111,7 +98,7 @@ static void type_name(struct strbuf *out, const struct schema_row *row) {
         strbuf_cstr(out, is_free ? "xs:string" : "some_text");
     } else if (row->kind != SCHEMA_WORD) {
         strbuf_cstr(out, row->kind == SCHEMA_COLOR ? "color_" : "");
-        range_name(out, row->range);
+        emit_range_name(row->range, out);
     }
 }
 
@@ -148,7 +135,7 @@ static void component_attributes(struct xsd_writer *w, const struct schema_row *
     for (uint32_t i = 0; names[i]; i++) {
         strbuf_repeat(w->out, ' ', (size_t)w->depth * XSD_STEP);
         strbuf_format(w->out, "<xs:attribute name=\"%s\" type=\"", names[i]);
-        range_name(w->out, row->range);
+        emit_range_name(row->range, w->out);
         strbuf_format(w->out, "\"%s/>\n", required && row->kind == SCHEMA_VECTOR ? " use=\"required\"" : "");
     }
     if (row->kind == SCHEMA_COLOR)
