@@ -102,11 +102,13 @@ static bool report_less_than(struct xml_reader *r, uint32_t quote, uint32_t at, 
     struct diag_sink *sink = r->context->sink;
     str text = r->text->bytes;
     uint32_t end = at;
+    if (at < quote || quote >= text.len)
+        return false; // the file ends before the value
     while (end < text.len && text.ptr[end] != text.ptr[quote] && text.ptr[end] != '\n')
         end++;
     bool closed = end + 1 < text.len && text.ptr[end] == text.ptr[quote] && text.ptr[end - 1] != '=' &&
                   memchr(" \t\r\n/>", text.ptr[end + 1], 6);
-    if (!begins_with(r, at, "<") || at < quote || !closed)
+    if (!begins_with(r, at, "<") || !closed)
         return false;
     diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "a '<' inside the value of '%.*s'",
              STR_ARG(reader_clip(name)));
