@@ -310,6 +310,7 @@ static void read_and_bind(struct binder *b, uint32_t source, const struct limits
     b->tree = &tree;
     if (readable)
         bind(b);
+    b->tree = NULL;
 }
 
 // How a user who names the scene so would name the configuration.

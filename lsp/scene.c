@@ -202,7 +202,7 @@ struct lsp_scene *scenes_add(struct scenes *scenes, str path) {
         scenes->items = items;
         scenes->capacity = capacity;
     }
-    struct lsp_scene *scene = calloc(1, sizeof *scene);
+    struct lsp_scene *volatile scene = calloc(1, sizeof *scene);
     struct arena_guard guard;
     if (!scene)
         return NULL;
