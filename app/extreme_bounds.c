@@ -132,6 +132,11 @@ bool extreme_bounds_read(const struct extreme_bounds_input *input, uint32_t sour
             take_axis(&binder, key);
     arena_set_guard(input->arena, outer);
     diag_filter(input->sink, keep_for_bounds, NULL);
+    // A run without bounds would pass whatever it measured.
+    if (out->count == 0 && input->sink->errors == 0) {
+        diag_add(input->sink, DIAG_CONFIG_VALUE, (span){source, 0, 0}, "the file holds no bounds");
+        diag_help(input->sink, "write an axis, such as move: [{off: 0.0005}]");
+    }
     diag_sort(input->sink);
     return true;
 }

@@ -109,9 +109,9 @@ int cmd_schema(struct cli *cli) {
         if (strcmp(wanted, kinds[i].name) == 0)
             return print_kind(cli, &kinds[i]);
     }
-    int status =
-        cli_usage(cli, cli_operand_place(cli, 0),
-                  "'%s' is no kind of schema; they are json, relaxng, rnc, xsd and markdown", wanted);
+    int status = cli_usage(
+        cli, cli_operand_place(cli, 0),
+        "'%s' is no kind of schema; they are json, relaxng, rnc, xsd and markdown, beside 'install'", wanted);
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     return status;

@@ -2,6 +2,7 @@
 
 #include "core/clock.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -47,7 +48,7 @@ static bool report(void *context, double fraction) {
     };
     struct progress *p = context;
     double now = clock_seconds();
-    double done = p->base + p->share * fraction;
+    double done = fmin(p->base + p->share * fraction, 0.99); // nothing is done before its end
     // The first half second shows nothing: most pictures are done by then.
     if (!p->quiet && now - p->start > 0.5 && now - p->last > (p->terminal ? 0.1 : LINE_SECONDS) && done > 0) {
         double left = (now - p->start) * (1 - done) / done;
