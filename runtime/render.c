@@ -88,6 +88,8 @@ static void plan(struct renderer *renderer) {
     const struct gpu_device_info *device = gpu_info(renderer->gpu);
     uint64_t tiles = band_bytes(device) / (slot_bytes * TILE_PIXELS);
     tiles = device->kind != GPU_CPU || tiles < BAND_TILES_MAX ? tiles : BAND_TILES_MAX;
+    if (settings->band_tiles && settings->band_tiles < tiles)
+        tiles = settings->band_tiles;
     // Bands of equal size: a small last one would keep few threads busy.
     const uint64_t bands = (renderer->tiles + tiles - 1) / tiles;
     renderer->band_tiles = (uint32_t)((renderer->tiles + bands - 1) / bands);

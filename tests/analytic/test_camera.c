@@ -28,7 +28,7 @@ static void check_camera(struct analytic *a, const char *name, const char *text,
                                        .height = samples == 1 ? 30 : 35,
                                        .samples = samples,
                                        .color = sphere_color,
-                                       .tolerance = 2e-6}; // devices differ by an ulp in a square root
+                                       .tolerance = 1e-6};
     analytic_check(a, &picture);
 }
 
