@@ -27,19 +27,13 @@ static int cannot_read(struct comparison *c, const char *path, enum diag_code co
 }
 
 static int read_picture(struct comparison *c, int which) {
-    static const enum diag_code codes[] = {[FILE_MISSING] = DIAG_FILE_MISSING,
-                                           [FILE_OUTSIDE] = DIAG_FILE_OUTSIDE,
-                                           [FILE_NOT_REGULAR] = DIAG_FILE_NOT_REGULAR,
-                                           [FILE_UNREADABLE] = DIAG_FILE_UNREADABLE,
-                                           [FILE_TOO_LARGE] = DIAG_LIMIT,
-                                           [FILE_NO_MEMORY] = DIAG_OUT_OF_MEMORY};
     const char *path = c->cli->operands[which];
     const struct limits *limits = &c->cli->options.limits;
     str bytes;
     enum file_status status =
         files_read(&c->files, str_from(path), limits->value[LIMIT_IMAGE_BYTES], &c->arena, &bytes);
     if (status != FILE_OK)
-        return cannot_read(c, path, codes[status], file_status_text(&c->files, status));
+        return cannot_read(c, path, session_file_code(status), file_status_text(&c->files, status));
     bool unknown;
     const char *fault =
         picture_file_decode(bytes, limits->value[LIMIT_IMAGE_PIXELS], &c->pictures[which], &unknown);

@@ -35,13 +35,6 @@ struct job {
 
 // ---- bounds
 
-static enum diag_code code_of(enum file_status status) {
-    return status == FILE_MISSING       ? DIAG_FILE_MISSING
-           : status == FILE_NOT_REGULAR ? DIAG_FILE_NOT_REGULAR
-           : status == FILE_TOO_LARGE   ? DIAG_LIMIT
-                                        : DIAG_FILE_UNREADABLE;
-}
-
 static int read_bounds(struct job *job) {
     struct cli *cli = job->cli;
     const char *path = cli->options.thresholds;
@@ -52,7 +45,7 @@ static int read_bounds(struct job *job) {
     enum file_status status =
         path ? files_read(&files, job->bounds_path, BOUNDS_BYTES_MAX, &cli->arena, &text) : FILE_OK;
     if (status != FILE_OK) {
-        cli_error(cli, code_of(status), path, NULL, "the file of bounds %s",
+        cli_error(cli, session_file_code(status), path, NULL, "the file of bounds %s",
                   file_status_text(&files, status));
         return CLI_FILE;
     }
