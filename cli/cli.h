@@ -122,6 +122,8 @@ void cli_write_error(str text);
 // One error with the place 1:1 of `path`, printed at once.
 void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
                ...) __attribute__((format(printf, 5, 6)));
+// Says that a signal ended the work (progress.h); gives its exit code.
+int cli_interrupted(struct cli *cli);
 struct session_options cli_session_options(const struct cli *cli, const char *path);
 // Where render writes without -o: the scene's name without its endings, in the current folder:
 // showcase.glint.yaml becomes showcase.png. In cli->arena.

@@ -128,11 +128,8 @@ static bool tell_progress(void *context, double fraction, const struct extreme_c
 
 static int failed(struct job *job, enum extremes_status status) {
     struct cli *cli = job->cli;
-    if (status == EXTREMES_CANCELLED) {
-        const int signal_number = interrupt_signal();
-        cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
-        return signal_number == 15 ? CLI_TERMINATED : CLI_INTERRUPTED;
-    }
+    if (status == EXTREMES_CANCELLED)
+        return cli_interrupted(cli);
     if (status == EXTREMES_DEVICE)
         return cli_device_failed(cli, job->gpu);
     cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the extremes");

@@ -4,7 +4,6 @@
 #include "app/pack.h"
 #include "cli/progress.h"
 
-#include <signal.h>
 #include <string.h>
 
 static bool is_stopped(void) {
@@ -25,10 +24,8 @@ static int pack(struct cli *cli, struct session *session) {
     enum pack_status status = pack_write(session, &plan, out, is_stopped, &error);
     if (status == PACK_OK)
         return CLI_OK;
-    if (status == PACK_STOPPED) {
-        cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
-        return interrupt_signal() == SIGTERM ? CLI_TERMINATED : CLI_INTERRUPTED;
-    }
+    if (status == PACK_STOPPED)
+        return cli_interrupted(cli);
     cli_error(cli, DIAG_OUTPUT, out, NULL, "%s", error.text);
     return CLI_FILE;
 }

@@ -29,10 +29,8 @@ static int open_device(struct render_job *job) {
 }
 
 int render_interrupted(struct render_job *job) {
-    int signal_number = interrupt_signal();
     progress_end(&job->progress);
-    cli_error(job->cli, DIAG_INTERRUPTED, job->cli->operands[0], NULL, "interrupted; nothing was written");
-    return signal_number == 15 ? CLI_TERMINATED : CLI_INTERRUPTED;
+    return cli_interrupted(job->cli);
 }
 
 static int shot_failed(struct render_job *job, enum shot_status status) {

@@ -1,9 +1,11 @@
 // Diagnostics on standard error, data on standard output, and the exit codes that follow.
 #include "cli/cli.h"
 
+#include "cli/progress.h"
 #include "core/diag_text.h"
 #include "core/output.h"
 
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -94,6 +96,12 @@ void cli_error(struct cli *cli, enum diag_code code, const char *path, const cha
         diag_help(&sink, "%s", help);
     print(cli, &sink, &cli->sources, true);
     diag_sink_finish(&sink);
+}
+
+int cli_interrupted(struct cli *cli) {
+    const int signal_number = interrupt_signal();
+    cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
+    return signal_number == SIGTERM ? CLI_TERMINATED : CLI_INTERRUPTED;
 }
 
 struct session_options cli_session_options(const struct cli *cli, const char *path) {

@@ -63,13 +63,11 @@ static bool report_progress(void *context, double fraction, const char *what) {
 }
 
 static int failed(struct cli *cli, struct session *session, struct gpu *gpu, enum tradeoff_status status) {
-    const int signal_number = interrupt_signal();
     switch (status) {
     case TRADEOFF_DONE:
         return CLI_OK;
     case TRADEOFF_CANCELLED:
-        cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
-        return signal_number == 15 ? CLI_TERMINATED : CLI_INTERRUPTED;
+        return cli_interrupted(cli);
     case TRADEOFF_SCENE:
         return cli_report(cli, session, !cli->options.quiet);
     case TRADEOFF_DEVICE:
