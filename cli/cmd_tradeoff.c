@@ -38,16 +38,8 @@ static bool nothing_fits(const struct tradeoff *study) {
 
 static int study_and_report(struct cli *cli, struct session *session, const struct tradeoff_options *options,
                             int kind) {
-    struct gpu *gpu = NULL;
-    struct tradeoff study = {0};
-    const uint32_t camera = session_camera(session, cli->options.camera);
-    if (camera == IR_NO_INDEX)
-        return cli_report(cli, session, !cli->options.quiet);
-    int status = cli_try_output(cli, cli->options.output);
-    if (status == CLI_OK)
-        status = cli_open_device(cli, &gpu);
-    if (status == CLI_OK)
-        status = cli_study(cli, session, gpu, camera, options, &study);
+    struct tradeoff study;
+    int status = cli_study(cli, session, options, &study);
     if (status == CLI_OK)
         status = cli_report(cli, session, !cli->options.quiet);
     if (status == CLI_OK && cli->options.output)
@@ -57,7 +49,6 @@ static int study_and_report(struct cli *cli, struct session *session, const stru
     if (status == CLI_OK && nothing_fits(&study))
         status = CLI_SCENE;
     tradeoff_finish(&study);
-    gpu_destroy(gpu);
     return status;
 }
 

@@ -79,10 +79,9 @@ static int failed(struct cli *cli, struct session *session, struct gpu *gpu, enu
     return CLI_SCENE;
 }
 
-int cli_study(struct cli *cli, struct session *session, struct gpu *gpu, uint32_t camera,
-              const struct tradeoff_options *options, struct tradeoff *study) {
+static int run(struct cli *cli, struct session *session, struct gpu *gpu, uint32_t camera,
+               const struct tradeoff_options *options, struct tradeoff *study) {
     struct view view;
-    *study = (struct tradeoff){0};
     if (!session_view(session, camera, &view))
         return failed(cli, session, gpu, TRADEOFF_MEMORY);
     struct flat_input flat = precision_input(session, &view);
@@ -108,6 +107,22 @@ int cli_study(struct cli *cli, struct session *session, struct gpu *gpu, uint32_
     progress_end(&bar);
     free(store);
     return failed(cli, session, gpu, status);
+}
+
+int cli_study(struct cli *cli, struct session *session, const struct tradeoff_options *options,
+              struct tradeoff *study) {
+    struct gpu *gpu = NULL;
+    const uint32_t camera = session_camera(session, cli->options.camera);
+    *study = (struct tradeoff){0};
+    if (camera == IR_NO_INDEX)
+        return cli_report(cli, session, !cli->options.quiet);
+    int status = cli_try_output(cli, cli->options.output);
+    if (status == CLI_OK)
+        status = cli_open_device(cli, &gpu);
+    if (status == CLI_OK)
+        status = run(cli, session, gpu, camera, options, study);
+    gpu_destroy(gpu);
+    return status;
 }
 
 // ---- for render
@@ -149,20 +164,11 @@ static int take_choice(struct cli *cli, const struct tradeoff *study) {
 }
 
 static int study_session(struct cli *cli, struct session *session, const struct tradeoff_options *options) {
-    struct gpu *gpu = NULL;
-    struct tradeoff study = {0};
-    const uint32_t camera = session_camera(session, cli->options.camera);
-    if (camera == IR_NO_INDEX)
-        return cli_report(cli, session, !cli->options.quiet);
-    int status = cli_try_output(cli, cli->options.output);
-    if (status == CLI_OK)
-        status = cli_open_device(cli, &gpu);
-    if (status == CLI_OK)
-        status = cli_study(cli, session, gpu, camera, options, &study);
+    struct tradeoff study;
+    int status = cli_study(cli, session, options, &study);
     if (status == CLI_OK)
         status = take_choice(cli, &study);
     tradeoff_finish(&study);
-    gpu_destroy(gpu);
     return status;
 }
 

@@ -5,7 +5,6 @@
 #define GLINT_CLI_STUDY_H
 
 #include "cli/cli.h"
-#include "runtime/gpu/gpu.h"
 #include "runtime/measure/tradeoff.h"
 
 // Whether --max-error or --max-time was given.
@@ -13,9 +12,10 @@ bool cli_has_study(const struct cli *cli);
 // Reads --max-error METRIC=X into `options`, and the rest of what the command line says about studies. false:
 // a mistake is in cli->sink.
 bool cli_study_options(struct cli *cli, struct tradeoff_options *options);
-// Runs the study; `study` is the caller's to finish whatever comes. Gives an exit code, errors printed.
-int cli_study(struct cli *cli, struct session *session, struct gpu *gpu, uint32_t camera,
-              const struct tradeoff_options *options, struct tradeoff *study);
+// Studies the camera that the command line names, on its device; `study` is the caller's to finish whatever
+// comes. Gives an exit code, errors printed.
+int cli_study(struct cli *cli, struct session *session, const struct tradeoff_options *options,
+              struct tradeoff *study);
 // render: studies the scene, and adds the chosen settings to the command line's --set options. CLI_SCENE with
 // an error printed where nothing fits.
 int cli_choose_settings(struct cli *cli, struct asset_store *store);
