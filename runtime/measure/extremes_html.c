@@ -1,6 +1,7 @@
 // Extremes as one HTML file: the matrix as SVG, an axis a row, a value a cell, a strip of it a metric; then
 // all numbers. No scripts, nothing from outside.
 #include "runtime/measure/extremes.h"
+#include "runtime/measure/report_html.h"
 
 #include <math.h>
 
@@ -25,26 +26,6 @@ static const char style[] =
     ".key span{display:inline-block;width:1em;height:1em;vertical-align:-.15em;margin:0 .3em 0 1em}"
     "@media(prefers-color-scheme:dark){body{color:#e6e6e6;background:#181818}svg text{fill:#e6e6e6}"
     "th,td{border-color:#444}.b{background:#7a2b22}}";
-
-static void put_escaped(struct strbuf *out, str text) {
-    for (size_t i = 0; i < text.len; i++)
-        switch (text.ptr[i]) {
-        case '&':
-            strbuf_cstr(out, "&amp;");
-            break;
-        case '<':
-            strbuf_cstr(out, "&lt;");
-            break;
-        case '>':
-            strbuf_cstr(out, "&gt;");
-            break;
-        case '"':
-            strbuf_cstr(out, "&quot;");
-            break;
-        default:
-            strbuf_char(out, text.ptr[i]);
-        }
-}
 
 // Green where nothing is wrong, yellow to orange the nearer to the bound, red beyond; blue to violet where
 // there is no bound; grey where nothing was measured.
@@ -158,17 +139,17 @@ static void put_tables(struct strbuf *out, const struct extremes *e) {
 void extremes_html(const struct extremes_report *report, struct strbuf *out) {
     const struct extremes *e = report->extremes;
     strbuf_cstr(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>");
-    put_escaped(out, report->scene);
+    html_text(out, report->scene);
     strbuf_format(out, " at its extremes</title><style>%s</style></head><body>\n<h1>", style);
-    put_escaped(out, report->scene);
+    html_text(out, report->scene);
     strbuf_format(out,
                   " at its extremes</h1>\n<p>%u cells, %u left out, <b>%u broken</b>. %u x %u pixels on ",
                   e->count, e->left_out, e->broken, report->input->width, report->input->height);
-    put_escaped(out, str_from(e->device));
+    html_text(out, str_from(e->device));
     if (report->input->study != RENDER_STUDY_NONE)
         strbuf_format(out, ", traced by another way (%s)", render_study_name(report->input->study));
     strbuf_cstr(out, ", against the double-precision reference; bounds of ");
-    put_escaped(out, report->thresholds);
+    html_text(out, report->thresholds);
     strbuf_cstr(out, ".</p>\n");
     put_matrix(out, e);
     strbuf_cstr(out, "<p>A strip of a cell is a metric, from the left: ");

@@ -1,11 +1,11 @@
-// Pieces of the HTML report. Private to runtime/measure. Thread safety: pure.
+// Pieces of the HTML reports. Private to runtime/measure. Thread safety: pure.
 #ifndef GLINT_RUNTIME_MEASURE_REPORT_HTML_H
 #define GLINT_RUNTIME_MEASURE_REPORT_HTML_H
 
 #include "runtime/measure/tradeoff.h"
 
 // Text with what HTML would take for markup replaced.
-void html_text(struct strbuf *out, const char *text);
+void html_text(struct strbuf *out, str text);
 // The colour class of a row by its knobs: the knob's name, "pair", "file" or "study".
 const char *html_kind(const struct row *row);
 // Time against error of all rows, the front joined, as an SVG; both axes logarithmic.

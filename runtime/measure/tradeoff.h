@@ -146,7 +146,7 @@ void tradeoff_finish(struct tradeoff *study);
 // The metric's value as an error: lower is better.
 double tradeoff_error(enum metric metric, double value);
 
-// ---- what to paste (tradeoff_words.c); only what differs from `base` is written.
+// ---- what to paste (words.c); only what differs from `base` is written.
 
 void setting_yaml(const struct setting *setting, const struct setting *base, struct strbuf *out);
 void setting_xml(const struct setting *setting, const struct setting *base, struct strbuf *out);
