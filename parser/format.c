@@ -24,18 +24,6 @@ static bool ends_line(str text) {
     return end > 0 && (text.ptr[end - 1] == '\n' || text.ptr[end - 1] == '\r');
 }
 
-static bool ends_blank(str text) {
-    return text.len && (text.ptr[text.len - 1] == ' ' || text.ptr[text.len - 1] == '\t');
-}
-
-// Whether the last line that was laid out ends in blanks: those of a block text, which are part of it.
-static bool keeps_blanks(const struct format_lines *lines) {
-    if (lines->lines.count == 0)
-        return false;
-    const struct format_line *last = &lines->lines.items[lines->lines.count - 1];
-    return ends_blank(str_slice(strbuf_view(&lines->body), last->begin, last->end));
-}
-
 // Calls `work`, and whatever the arena does, comes back; then the jump goes to the guard of before.
 static bool guarded(struct arena *arena, bool (*work)(void *), void *context, enum arena_fault *fault) {
     struct arena_guard *outer = arena->guard;
@@ -71,8 +59,7 @@ static bool lay_out(struct arena *arena, str text, bool is_xml, struct strbuf *o
     bool done = guarded(arena, find_lines, &layout, &fault);
     if (done) {
         strbuf_str(out, str_slice(text, 0, layout.begin));
-        bool last_end = ends_line(text) && !(ends_blank(text) && keeps_blanks(&layout.lines));
-        format_lines_write(&layout.lines, line_end_of(text), last_end, out);
+        format_lines_write(&layout.lines, line_end_of(text), ends_line(text) && !layout.lines.is_open, out);
     }
     format_lines_finish(&layout.lines);
     if (fault)

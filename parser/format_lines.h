@@ -25,6 +25,7 @@ struct format_lines {
     uint32_t comment_gap; // spaces before a comment behind a line
     uint32_t column;      // of what comes next, in characters
     bool begun;           // something was written
+    bool is_open;         // the source ends within the last line, which a line end would change
 };
 
 void format_lines_init(struct format_lines *lines, struct arena *arena, uint32_t comment_gap);

@@ -218,6 +218,7 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     }
     end_token(p, &token);
     p->gap = end;
+    p->lines->is_open = end == p->text.len;
 }
 
 // ---- nodes

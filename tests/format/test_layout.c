@@ -41,6 +41,8 @@ static void test_yaml_blanks(void **state) {
     yaml("glint: 1\nx-a:\n-\n- &x\n- b\n", "glint: 1\nx-a:\n  -\n  - &x\n  - b\n");
     // Blanks behind the last line end may be the last line of a block text.
     yaml("glint: 1\ndescription: |\n  x\n  \t", "glint: 1\ndescription: |\n  x\n  \t");
+    yaml("glint: 1\ndescription: |\n  x \n  ", "glint: 1\ndescription: |\n  x \n");
+    yaml("glint: 1\ndescription: |\n x\n  \n ", "glint: 1\ndescription: |\n  x\n   \n");
     yaml("glint: 1\nx-a: 1\n  ", "glint: 1\nx-a: 1\n");
 }
 
