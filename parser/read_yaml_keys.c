@@ -17,12 +17,16 @@ static void move_pairs(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
     frame->has_merged = true;
 }
 
+// What a node holds, to be moved from there: of an anchored one, a copy.
+static tree_index own(struct yaml_reader *r, tree_index node) {
+    return tree_node(r->tree, node)->flags & TREE_SHARED ? yaml_copy(r, node) : node;
+}
+
 // Merges a map; false: it is none (reported, unless the reader has).
 static bool merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_index key, tree_index value) {
     const struct tree_node *node = tree_node(r->tree, value);
     if (node->kind == TREE_MAP) {
-        bool shared = (node->flags & TREE_SHARED) != 0;
-        tree_index pairs = shared ? yaml_copy(r, value) : value;
+        tree_index pairs = own(r, value);
         if (!r->stopped)
             move_pairs(r, frame, pairs);
         return true;
@@ -44,7 +48,10 @@ void yaml_merge(struct yaml_reader *r, struct yaml_frame *frame, tree_index key,
         return;
     }
     bool good = true;
-    for (tree_index item = tree_first(r->tree, value); item && good;) {
+    tree_index list = own(r, value);
+    if (r->stopped)
+        return;
+    for (tree_index item = tree_first(r->tree, list); item && good;) {
         tree_index next = tree_next(r->tree, item);
         good = merge_one(r, frame, key, item) || (tree_node(r->tree, item)->flags & TREE_BAD);
         item = next;

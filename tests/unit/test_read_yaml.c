@@ -142,6 +142,8 @@ static void merges_maps(void **state) {
         // What is merged where it is anchored stays what the anchor names.
         {"a: {<<: &x {p: 1}, q: 2}\nb: *x\n", "{a: {p+: 1, q: 2}, b: {p: 1}}", ""},
         {"a: {<<: [&x {p: 1}, {r: 3}], q: 2}\nb: *x\n", "{a: {p+: 1, r+: 3, q: 2}, b: {p: 1}}", ""},
+        {"a: {<<: &x [{p: 1}, {p: 2, r: 3}], q: 2}\nb: *x\n",
+         "{a: {p+: 1, r+: 3, q: 2}, b: [{p: 1}, {p: 2, r: 3}]}", ""},
         {"b: {<<: 5}\n", "{b: {}?}", "E118 1:9-1:10"},
         {"a: &x [1]\nb: {<<: *x, c: 1}\n", "{a: [1], b: {c: 1}?}", "E118 2:5-2:7"},
         {"b: {<<: *x}\n", "{b: {}?}", "E108 1:9-1:11"},
