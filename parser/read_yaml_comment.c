@@ -51,8 +51,11 @@ static void add_comment(struct yaml_reader *r, uint32_t begin, uint32_t end, boo
 void yaml_gap(struct yaml_reader *r, uint32_t end) {
     str text = r->text->bytes;
     uint32_t at = r->gap;
-    // A block scalar ends on the line behind it.
-    bool same_line = r->seen_token && at > r->text->begin && !is_break(text.ptr[at - 1]);
+    // A block scalar ends on the line behind it, and a value that is left out where the next token begins.
+    uint32_t last = at;
+    while (last > r->text->begin && is_blank(text.ptr[last - 1]))
+        last--;
+    bool same_line = r->seen_token && last > r->text->begin && !is_break(text.ptr[last - 1]);
     while (at < end) {
         char c = text.ptr[at];
         uint32_t stop = at + 1;
