@@ -8,8 +8,10 @@ enum {
 };
 
 static uint32_t line_end(str text, uint32_t at) {
-    const char *end = memchr(text.ptr + at, '\n', text.len - at);
-    return end ? (uint32_t)(end - text.ptr) : (uint32_t)text.len;
+    const char *feed = memchr(text.ptr + at, '\n', text.len - at);
+    uint32_t end = feed ? (uint32_t)(feed - text.ptr) : (uint32_t)text.len;
+    const char *carriage = memchr(text.ptr + at, '\r', end - at);
+    return carriage ? (uint32_t)(carriage - text.ptr) : end;
 }
 
 static bool is_marker(str text, uint32_t at, char c) {

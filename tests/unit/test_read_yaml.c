@@ -151,6 +151,18 @@ static void merges_maps(void **state) {
     CHECK_ALL(readings, yaml);
 }
 
+static void reads_the_first_of_two_versions(void **state) {
+    (void)state;
+    static const struct reading readings[] = {
+        {"a: 1\n<<<<<<< x\nb: 2\n=======\nb: 3\n>>>>>>> y\nc: 4\n", "{a: 1, b: 2, c: 4}",
+         "E125 2:1-2:8 (4:1-4:8) (6:1-6:8)"},
+        {"a: 1\r<<<<<<< x\rb: 2\r=======\rb: 3\r>>>>>>> y\rc: 4\r", "{a: 1, b: 2, c: 4}",
+         "E125 2:1-2:8 (4:1-4:8) (6:1-6:8)"},
+        {"a: 1\r\n<<<<<<< x\r\nb: 2\r\n", "{a: 1, b: 2}", "E125 2:1-2:8"},
+    };
+    CHECK_ALL(readings, yaml);
+}
+
 static void finds_keys_given_twice(void **state) {
     (void)state;
     static const struct reading readings[] = {
@@ -514,6 +526,7 @@ int main(void) {
         cmocka_unit_test(spans_are_exact),
         cmocka_unit_test(expands_aliases),
         cmocka_unit_test(merges_maps),
+        cmocka_unit_test(reads_the_first_of_two_versions),
         cmocka_unit_test(finds_keys_given_twice),
         cmocka_unit_test(refuses_strange_keys),
         cmocka_unit_test(refuses_tags),
