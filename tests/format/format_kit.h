@@ -12,9 +12,6 @@ enum format_status format_text(const char *path, str text, const struct upgrade_
 // comment at its entry, and is left as it is by formatting it again. `out`: the formatted text.
 void assert_formats(const char *path, str text, struct strbuf *out);
 
-// Everything of `out` that is not white space equals that of `text`.
-bool same_without_blanks(str a, str b);
-
 // The text of a valid scene, laid out at random, with comments at random places.
 void add_noise(uint64_t seed, bool xml, str text, struct strbuf *out);
 
