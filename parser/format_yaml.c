@@ -69,6 +69,12 @@ struct gap {
     bool comment;    // one was found
 };
 
+// How many empty lines stay in front of what comes next.
+static uint32_t blank_lines(const struct printer *p, const struct gap *gap) {
+    uint32_t blank = gap->breaks > 1 ? gap->breaks - 1 : 0;
+    return blank > FORMAT_BLANK_MOST && !p->keeps_breaks ? FORMAT_BLANK_MOST : blank;
+}
+
 static void put_comment(struct printer *p, struct gap *gap, uint32_t indent) {
     uint32_t begin = gap->at;
     while (gap->at < gap->end && !is_break(p->text.ptr[gap->at]))
@@ -77,10 +83,7 @@ static void put_comment(struct printer *p, struct gap *gap, uint32_t indent) {
     uint32_t column = format_column(p->text, &p->place, begin);
     bool own_line = gap->breaks > 0 || p->last == YAML_TOKEN_END;
     if (own_line) {
-        uint32_t blank = gap->breaks > 1 ? gap->breaks - 1 : 0;
-        if (blank > FORMAT_BLANK_MOST && !p->keeps_breaks)
-            blank = FORMAT_BLANK_MOST;
-        format_lines_next(p->lines, blank, comment_indent(p, column, indent));
+        format_lines_next(p->lines, blank_lines(p, gap), comment_indent(p, column, indent));
         format_lines_text(p->lines, comment);
     } else {
         format_lines_comment(p->lines, comment, column);
@@ -108,10 +111,7 @@ static struct gap put_gap(struct printer *p, uint32_t end, uint32_t indent) {
 static void begin_token(struct printer *p, const struct yaml_token *token, enum join join, uint32_t indent) {
     struct gap gap = put_gap(p, token->begin, indent);
     if (gap.comment || join == JOIN_LINE || p->last == YAML_TOKEN_END) {
-        uint32_t blank = gap.breaks > 1 ? gap.breaks - 1 : 0;
-        if (blank > FORMAT_BLANK_MOST && !p->keeps_breaks)
-            blank = FORMAT_BLANK_MOST;
-        format_lines_next(p->lines, blank, indent);
+        format_lines_next(p->lines, blank_lines(p, &gap), indent);
     } else if (join == JOIN_SPACE) {
         format_lines_text(p->lines, STR(" "));
     }
