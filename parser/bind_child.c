@@ -2,84 +2,56 @@
 // it.
 #include "parser/bind.h"
 #include "parser/mend.h"
+#include "parser/xml_scan.h"
 
-#include <string.h>
+// The tag around an attribute.
+struct tag {
+    uint32_t name_begin, name_end;
+    uint32_t begin;    // of the attribute, blanks before it included
+    uint32_t rest_end; // behind the last attribute
+    bool others;       // one behind it is several numbers, too
+    enum xml_tag_end end;
+    uint32_t behind; // the '>'
+};
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
-// Where an attribute begins, blanks before it included, whose value begins at `value`; 0: it is none.
-static uint32_t attribute_begin(str text, uint32_t value) {
-    uint32_t at = value;
-    if (at < 2 || (text.ptr[at - 1] != '"' && text.ptr[at - 1] != '\''))
-        return 0;
-    at--;
-    while (at > 0 && is_blank(text.ptr[at - 1]))
-        at--;
-    if (at == 0 || text.ptr[at - 1] != '=')
-        return 0;
-    at--;
-    while (at > 0 && is_blank(text.ptr[at - 1]))
-        at--;
-    while (at > 0 && !is_blank(text.ptr[at - 1]))
-        at--;
-    while (at > 0 && is_blank(text.ptr[at - 1]))
-        at--;
-    return at;
-}
-
-// The '>' of the tag that goes on at `at`; the text's length where it does not end.
-static uint32_t tag_close(str text, uint32_t at) {
-    char quote = '\0';
-    for (; at < text.len; at++) {
-        char c = text.ptr[at];
-        if (quote ? c == quote : c == '"' || c == '\'')
-            quote = quote ? '\0' : c;
-        else if (c == '>' && !quote)
-            break;
+// false: no attribute of a tag that ends has its value at `value`.
+static bool find_tag(str text, uint32_t value, struct tag *tag) {
+    uint32_t open = value;
+    while (open > 0 && text.ptr[open - 1] != '<')
+        open--;
+    if (open == 0)
+        return false;
+    uint32_t at = xml_name_end(text, open - 1);
+    struct xml_attribute attribute;
+    *tag = (struct tag){.name_begin = open, .name_end = at};
+    for (;;) {
+        uint32_t before = at;
+        tag->end = xml_next_attribute(text, &at, &attribute);
+        if (tag->end != XML_TAG_MORE) {
+            tag->rest_end = before;
+            tag->behind = xml_behind(text, at, ">");
+            return tag->begin && tag->end != XML_TAG_MALFORMED;
+        }
+        str words = str_slice(text, attribute.value_begin, attribute.value_end);
+        tag->others = tag->others || (tag->begin && mend_is_numbers(words));
+        if (attribute.value_begin == value)
+            tag->begin = before;
     }
-    return at;
 }
 
-// Whether another value of the tag is several numbers: it goes first, so that the fixes do not lie over each
-// other.
-static bool has_other(str rest) {
-    while (rest.len) {
-        size_t begin = 0;
-        while (begin < rest.len && rest.ptr[begin] != '"' && rest.ptr[begin] != '\'')
-            begin++;
-        size_t end = begin + 1;
-        while (end < rest.len && rest.ptr[end] != rest.ptr[begin])
-            end++;
-        if (end >= rest.len)
-            return false;
-        if (mend_is_numbers(str_slice(rest, begin + 1, end)))
-            return true;
-        rest = str_slice(rest, end + 1, rest.len);
-    }
-    return false;
-}
-
+// Of several such attributes of a tag the last one goes first, so that the fixes do not lie over each other.
 void bind_fix_as_child(struct bind_context *context, tree_index value, str child) {
     span at = tree_span(context->tree, value);
     str text = context->sources->items[at.source].text;
-    uint32_t begin = attribute_begin(text, at.begin), close = tag_close(text, at.end + 1);
-    uint32_t open = begin;
-    while (open > 0 && text.ptr[open - 1] != '<')
-        open--;
-    if (begin == 0 || open == 0 || close >= text.len || has_other(str_slice(text, at.end + 1, close)))
+    struct tag tag;
+    if (!find_tag(text, at.begin, &tag) || tag.others)
         return;
-    uint32_t name_end = open;
-    while (name_end < begin && !is_blank(text.ptr[name_end]))
-        name_end++;
-    bool alone = text.ptr[close - 1] == '/';
-    uint32_t rest_end = alone ? close - 1 : close;
-    while (rest_end > at.end + 1 && is_blank(text.ptr[rest_end - 1]))
-        rest_end--;
-    str end_tag =
-        alone ? arena_format(context->scratch, "</%.*s>", STR_ARG(str_slice(text, open, name_end))) : STR("");
-    diag_fix(context->sink, true, (span){at.source, begin, close + 1},
-             arena_format(context->scratch, "%.*s>%.*s%.*s", STR_ARG(str_slice(text, at.end + 1, rest_end)),
-                          STR_ARG(child), STR_ARG(end_tag)));
+    str end_tag = STR("");
+    if (tag.end != XML_TAG_OPEN)
+        end_tag =
+            arena_format(context->scratch, "</%.*s>", STR_ARG(str_slice(text, tag.name_begin, tag.name_end)));
+    diag_fix(context->sink, true, (span){at.source, tag.begin, tag.behind},
+             arena_format(context->scratch, "%.*s>%.*s%.*s",
+                          STR_ARG(str_slice(text, at.end + 1, tag.rest_end)), STR_ARG(child),
+                          STR_ARG(end_tag)));
 }

@@ -2,6 +2,7 @@
 #include "parser/bind.h"
 #include "parser/mend.h"
 #include "parser/say.h"
+#include "parser/xml_scan.h"
 
 #include "core/number.h"
 
@@ -56,13 +57,10 @@ static str hex_like(struct bind_context *context, tree_index node, uint32_t rgb)
     if (!context->tree->is_xml)
         return arena_format(context->scratch, "\"#%06" PRIx32 "\"", rgb);
     str written = source_text(context->sources, tree_span(context->tree, node));
-    size_t end = 1;
-    while (end < written.len && !isspace((unsigned char)written.ptr[end]))
-        end++;
     if (written.len < 2 || written.ptr[0] != '<' || written.ptr[written.len - 2] != '/')
         return STR("");
     return arena_format(context->scratch, "%.*s " SCHEMA_HEX_ATTRIBUTE "=\"#%06" PRIx32 "\"/>",
-                        STR_ARG(str_slice(written, 0, end)), rgb);
+                        STR_ARG(str_slice(written, 0, xml_name_end(written, 0))), rgb);
 }
 
 void bind_check_bytes(struct bind_context *context, struct bind_subject subject, tree_index node,

@@ -3,6 +3,7 @@
 #include "parser/bind.h"
 #include "parser/mend.h"
 #include "parser/say.h"
+#include "parser/xml_scan.h"
 
 #include <string.h>
 
@@ -44,23 +45,18 @@ int bind_find_style(struct bind_context *context, const struct bind_frame *frame
 }
 
 void bind_fix_tag(struct bind_context *context, span at, tree_index element, bool safe, str right) {
+    str text = context->sources->items[at.source].text;
     str name = source_text(context->sources, at);
-    str rest =
-        source_text(context->sources, (span){at.source, at.end, tree_node(context->tree, element)->end});
-    size_t end = rest.len;
-    while (end > 0 && rest.ptr[end - 1] != '<')
-        end--;
-    bool alone = rest.len >= 2 && rest.ptr[rest.len - 2] == '/';
-    bool closed = end + 1 < rest.len && rest.ptr[end] == '/' &&
-                  str_starts_with(str_slice(rest, end + 1, rest.len), name);
-    if (alone) {
-        diag_fix(context->sink, safe, at, right);
-    } else if (closed) {
-        str between = str_slice(rest, 0, end + 1);
-        at.end += (uint32_t)(between.len + name.len);
+    span whole = tree_span(context->tree, element);
+    uint32_t closing = xml_end_name(text, whole.begin, whole.end);
+    if (closing && str_starts_with(str_slice(text, closing, whole.end), name)) {
+        str between = str_slice(text, at.end, closing);
+        at.end = closing + (uint32_t)name.len;
         diag_fix(
             context->sink, safe, at,
             arena_format(context->scratch, "%.*s%.*s%.*s", STR_ARG(right), STR_ARG(between), STR_ARG(right)));
+    } else if (whole.end >= at.end + 2 && text.ptr[whole.end - 2] == '/') {
+        diag_fix(context->sink, safe, at, right);
     }
 }
 

@@ -1,4 +1,5 @@
 #include "parser/format_parts.h"
+#include "parser/xml_scan.h"
 
 #include <string.h>
 
@@ -38,22 +39,10 @@ static bool is_break(char c) {
     return c == '\n' || c == '\r';
 }
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || is_break(c);
-}
-
 // ---- pieces
 
-static uint32_t behind(const struct printer *p, uint32_t at, const char *end) {
-    size_t length = strlen(end);
-    for (; at + length <= p->text.len; at++)
-        if (memcmp(p->text.ptr + at, end, length) == 0)
-            return at + (uint32_t)length;
-    return 0;
-}
-
-// Behind the '>' of the tag or DOCTYPE at `at`; 0: there is none.
-static uint32_t behind_tag(const struct printer *p, uint32_t at) {
+// Behind the '>' of the DOCTYPE at `at`; 0: there is none.
+static uint32_t behind_doctype(const struct printer *p, uint32_t at) {
     char quote = '\0';
     for (; at < p->text.len; at++) {
         char c = p->text.ptr[at];
@@ -73,18 +62,23 @@ static uint32_t behind_text(const struct printer *p, uint32_t at) {
         bool data = str_starts_with(str_slice(p->text, at, p->text.len), STR("<![CDATA["));
         if (p->text.ptr[at] == '<' && !data)
             break;
-        uint32_t next = data ? behind(p, at, "]]>") : at + 1;
-        end = is_blank(p->text.ptr[at]) ? end : next;
+        uint32_t next = data ? xml_behind(p->text, at, "]]>") : at + 1;
+        end = xml_is_blank(p->text.ptr[at]) ? end : next;
         at = next;
     }
     return at ? end : 0;
 }
 
-static bool is_leaf(const struct printer *p, uint32_t end) {
-    uint32_t at = end - 1;
-    while (is_blank(p->text.ptr[at - 1]))
-        at--;
-    return p->text.ptr[at - 1] == '/';
+// Behind the opening tag at `at`; 0: it has no end.
+static uint32_t behind_tag(const struct printer *p, uint32_t at, uint32_t *kind) {
+    struct xml_attribute ignored;
+    enum xml_tag_end end;
+    at = xml_name_end(p->text, at);
+    do
+        end = xml_next_attribute(p->text, &at, &ignored);
+    while (end == XML_TAG_MORE);
+    *kind = end == XML_TAG_OPEN ? PIECE_OPEN : PIECE_LEAF;
+    return end == XML_TAG_MALFORMED ? 0 : xml_behind(p->text, at, ">");
 }
 
 static struct piece next_piece(const struct printer *p, uint32_t at) {
@@ -92,17 +86,16 @@ static struct piece next_piece(const struct printer *p, uint32_t at) {
     struct piece piece = {.kind = PIECE_OTHER, .begin = at};
     if (str_starts_with(rest, STR("<!--"))) {
         piece.kind = PIECE_COMMENT;
-        piece.end = behind(p, at + 4, "-->");
+        piece.end = xml_behind(p->text, at + 4, "-->");
     } else if (str_starts_with(rest, STR("<?"))) {
-        piece.end = behind(p, at, "?>");
+        piece.end = xml_behind(p->text, at, "?>");
     } else if (str_starts_with(rest, STR("<!DOCTYPE"))) {
-        piece.end = behind_tag(p, at);
+        piece.end = behind_doctype(p, at);
     } else if (str_starts_with(rest, STR("</"))) {
         piece.kind = PIECE_CLOSE;
-        piece.end = behind_tag(p, at);
+        piece.end = xml_behind(p->text, at, ">");
     } else if (rest.ptr[0] == '<' && !str_starts_with(rest, STR("<![CDATA["))) {
-        piece.end = behind_tag(p, at);
-        piece.kind = piece.end && is_leaf(p, piece.end) ? PIECE_LEAF : PIECE_OPEN;
+        piece.end = behind_tag(p, at, &piece.kind);
     } else {
         piece.end = behind_text(p, at);
     }
@@ -111,7 +104,7 @@ static struct piece next_piece(const struct printer *p, uint32_t at) {
 
 static bool find_pieces(struct printer *p) {
     for (uint32_t at = p->begin; at < p->text.len;) {
-        if (is_blank(p->text.ptr[at])) {
+        if (xml_is_blank(p->text.ptr[at])) {
             at++;
             continue;
         }
@@ -136,23 +129,12 @@ struct attribute {
 };
 
 // The next attribute from *at on, which moves behind it; false: the tag ends.
-static bool next_attribute(str tag, size_t *at, struct attribute *attribute) {
-    size_t i = *at;
-    while (i < tag.len && is_blank(tag.ptr[i]))
-        i++;
-    size_t name = i;
-    while (i < tag.len && !is_blank(tag.ptr[i]) && !memchr("=/>", tag.ptr[i], 3))
-        i++;
-    attribute->name = str_slice(tag, name, i);
-    while (i < tag.len && (is_blank(tag.ptr[i]) || tag.ptr[i] == '='))
-        i++;
-    if (attribute->name.len == 0 || i >= tag.len || (tag.ptr[i] != '"' && tag.ptr[i] != '\''))
+static bool next_attribute(const struct printer *p, uint32_t *at, struct attribute *attribute) {
+    struct xml_attribute place;
+    if (xml_next_attribute(p->text, at, &place) != XML_TAG_MORE)
         return false;
-    const char *end = memchr(tag.ptr + i + 1, tag.ptr[i], tag.len - i - 1);
-    if (!end)
-        return false;
-    attribute->value = str_slice(tag, i, (size_t)(end - tag.ptr) + 1);
-    *at = (size_t)(end - tag.ptr) + 1;
+    attribute->name = str_slice(p->text, place.name_begin, place.name_end);
+    attribute->value = str_slice(p->text, place.value_begin - 1, place.value_end + 1);
     return true;
 }
 
@@ -160,12 +142,8 @@ static str piece_text(const struct printer *p, const struct piece *piece) {
     return str_slice(p->text, piece->begin, piece->end);
 }
 
-static str tag_name(str tag) {
-    size_t begin = 1, end;
-    begin += tag.len > 1 && tag.ptr[1] == '/';
-    for (end = begin; end < tag.len && !is_blank(tag.ptr[end]) && !memchr("/>", tag.ptr[end], 2);)
-        end++;
-    return str_slice(tag, 0, end);
+static uint32_t name_end(const struct printer *p, const struct piece *tag) {
+    return xml_name_end(p->text, tag->kind == PIECE_CLOSE ? tag->begin + 1 : tag->begin);
 }
 
 static const char *tag_end(const struct piece *piece) {
@@ -174,12 +152,11 @@ static const char *tag_end(const struct piece *piece) {
 
 // Columns of a tag on one line; UINT32_MAX where a value holds a line end.
 static uint32_t tag_width(const struct printer *p, const struct piece *piece) {
-    str tag = piece_text(p, piece);
-    str name = tag_name(tag);
-    size_t at = name.len;
+    uint32_t at = name_end(p, piece);
+    str name = str_slice(p->text, piece->begin, at);
     size_t width = utf8_count(name) + strlen(tag_end(piece));
     struct attribute a;
-    while (next_attribute(tag, &at, &a)) {
+    while (next_attribute(p, &at, &a)) {
         if (memchr(a.value.ptr, '\n', a.value.len) || memchr(a.value.ptr, '\r', a.value.len))
             return UINT32_MAX;
         width += 2 + utf8_count(a.name) + utf8_count(a.value);
@@ -203,14 +180,12 @@ static void put_value(struct printer *p, str value) {
 
 // A tag; attributes that do not fit into the line go on below the first one, where they fit at all.
 static void put_tag(struct printer *p, const struct piece *piece) {
-    str tag = piece_text(p, piece);
-    str name = tag_name(tag);
+    uint32_t at = name_end(p, piece);
     uint32_t ending = (uint32_t)strlen(tag_end(piece));
-    size_t at = name.len;
-    format_lines_text(p->lines, name);
+    format_lines_text(p->lines, str_slice(p->text, piece->begin, at));
     uint32_t first = p->lines->column + 1;
     struct attribute a;
-    for (bool begun = false; next_attribute(tag, &at, &a); begun = true) {
+    for (bool begun = false; next_attribute(p, &at, &a); begun = true) {
         size_t width = 2 + utf8_count(a.name) + utf8_count(a.value) + ending;
         if (begun && p->lines->column + width > FORMAT_WIDTH && first + width - 1 <= FORMAT_WIDTH)
             format_lines_next(p->lines, 0, first);

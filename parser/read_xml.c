@@ -182,11 +182,30 @@ static void run_expat(struct xml_reader *r) {
     finish(r);
 }
 
+// The encoding that the XML declaration names; false: none is named.
+static bool declared_encoding(str text, struct reader_range *encoding) {
+    uint32_t at = str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : 0;
+    str rest = str_slice(text, at, text.len);
+    if (!str_starts_with(rest, STR("<?xml")) || rest.len < 6 || !xml_is_blank(rest.ptr[5]))
+        return false;
+    uint32_t end = xml_behind(text, at, "?>");
+    str declaration = str_slice(text, 0, end ? end : text.len);
+    at += 5;
+    struct xml_attribute attribute;
+    while (xml_next_attribute(declaration, &at, &attribute) == XML_TAG_MORE) {
+        if (!str_equal(str_slice(text, attribute.name_begin, attribute.name_end), STR("encoding")))
+            continue;
+        *encoding = (struct reader_range){attribute.value_begin, attribute.value_end};
+        return true;
+    }
+    return false;
+}
+
 // What needs no expat: encoding, UTF-8, and what can be repaired.
 static bool prepare(const struct reader_context *context, uint32_t source, struct reader_text *text) {
     struct reader_range encoding = {0};
     str all = context->sources->items[source].text;
-    bool foreign = xml_declared_encoding(all, &encoding);
+    bool foreign = declared_encoding(all, &encoding);
     str named = str_slice(all, encoding.begin, encoding.end);
     foreign = foreign && !(named.len == 5 && str_ends_with_nocase(named, "utf-8"));
     if (foreign) {

@@ -1,30 +1,18 @@
 // What the files of the XML reader share.
 //
-// read_xml_scan.c walks over tags by itself: it knows the place of each attribute, which expat does not
-// tell, and repairs beforehand what would otherwise end the file ('/ >', attributes given twice, unknown
-// entities). read_xml.c runs expat, read_xml_plain.c reads what needs no expat, read_xml_build.c builds the
-// tree for both, read_xml_take.c hands children of the root over before the file is read to its end,
-// read_xml_error.c puts expat's errors in words. Ownership: the arena of the reader_context. Nothing ever
-// jumps through expat's frames. Thread safety: one reader belongs to one thread.
+// read_xml_repair.c repairs beforehand what would otherwise end the file ('/ >', attributes given twice,
+// unknown entities). read_xml.c runs expat, with the places of attributes from xml_scan.h, read_xml_plain.c
+// reads what needs no expat, read_xml_build.c builds the tree for both, read_xml_take.c hands children of the
+// root over before the file is read to its end, read_xml_error.c puts expat's errors in words. Ownership: the
+// arena of the reader_context. Nothing ever jumps through expat's frames. Thread safety: one reader belongs
+// to one thread.
 #ifndef GLINT_PARSER_READ_XML_H
 #define GLINT_PARSER_READ_XML_H
 
 #include "parser/reader_text.h"
+#include "parser/xml_scan.h"
 
 #include <expat.h>
-
-struct xml_attribute {
-    uint32_t name_begin, name_end;
-    uint32_t value_begin, value_end; // inside the quotes
-};
-
-enum xml_tag_end {
-    XML_TAG_MORE,      // an attribute was found
-    XML_TAG_OPEN,      // '>'
-    XML_TAG_EMPTY,     // '/>'
-    XML_TAG_SPLIT,     // '/', blanks, '>'
-    XML_TAG_MALFORMED, // what expat will refuse
-};
 
 // An element that is being read.
 struct xml_frame {
@@ -76,13 +64,7 @@ struct xml_reader {
     } taken;
 };
 
-// ---- read_xml_scan.c
-// The name behind '<' at `at`; its end. Equal to `at` + 1 where there is none.
-uint32_t xml_name_end(str text, uint32_t at);
-// The next attribute from *at on, which moves behind it, or how the tag ends (*at is at its '/' or '>').
-enum xml_tag_end xml_next_attribute(str text, uint32_t *at, struct xml_attribute *attribute);
-// The encoding that the XML declaration names; false: none is named.
-bool xml_declared_encoding(str text, struct reader_range *encoding);
+// ---- read_xml_repair.c
 // Reports and repairs, in the whole text.
 void xml_repair(const struct reader_context *context, struct reader_text *text);
 
@@ -121,9 +103,6 @@ void xml_report(struct xml_reader *reader);
 
 static inline span xml_span(const struct xml_reader *reader, uint32_t begin, uint32_t end) {
     return (span){reader->text->source, begin, end};
-}
-static inline bool xml_is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 static inline bool xml_has_prefix(str name, const char *prefix) {
     str p = str_from(prefix);

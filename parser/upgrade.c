@@ -2,6 +2,7 @@
 
 #include "core/number.h"
 #include "core/text_edit.h"
+#include "parser/xml_scan.h"
 
 const struct upgrade_table UPGRADE_STANDARD = {.version = 1};
 
@@ -16,23 +17,18 @@ struct upgrader {
     } edits;
 };
 
-static void replace(struct upgrader *u, tree_index node, str text) {
-    span at = tree_span(u->tree, node);
+static void replace(struct upgrader *u, span at, str text) {
     struct text_edit *edit = ARENA_PUSH(u->arena, &u->edits);
     *edit = (struct text_edit){at.begin, at.end, text, u->edits.count - 1};
 }
 
 // The closing tag's name as well, where the element has one.
 static void replace_closing(struct upgrader *u, tree_index key, str text, str source) {
-    const struct tree_node *value = tree_node(u->tree, tree_value(u->tree, key));
-    size_t length = tree_text(u->tree, key).len;
-    uint32_t at = value->end;
-    while (at > value->begin && source.ptr[at - 1] != '<')
-        at--;
-    if (at < value->end && source.ptr[at] == '/') {
-        struct text_edit *edit = ARENA_PUSH(u->arena, &u->edits);
-        *edit = (struct text_edit){at + 1, at + 1 + (uint32_t)length, text, u->edits.count - 1};
-    }
+    span at = tree_span(u->tree, tree_value(u->tree, key));
+    at.begin = xml_end_name(source, at.begin, at.end);
+    at.end = at.begin + (uint32_t)tree_text(u->tree, key).len;
+    if (at.begin)
+        replace(u, at, text);
 }
 
 static const char *old_name(const struct upgrade_rule *rule, bool is_child) {
@@ -58,12 +54,12 @@ static str upgrade_key(struct upgrader *u, const struct schema_element *element,
         }
     }
     if (!str_equal(name, first)) {
-        replace(u, key, name);
+        replace(u, tree_span(u->tree, key), name);
         if (is_child)
             replace_closing(u, key, name, source);
     }
     if (!str_equal(word, last_word))
-        replace(u, value, last_word);
+        replace(u, tree_span(u->tree, value), last_word);
     return name;
 }
 
@@ -121,7 +117,7 @@ bool upgrade_text(const struct reader_context *context, const struct upgrade_tab
         number >= table->version)
         return false;
     u.version = (int32_t)number;
-    replace(&u, version, arena_format(u.arena, "%d", (int)table->version));
+    replace(&u, tree_span(tree, version), arena_format(u.arena, "%d", (int)table->version));
     upgrade_map(&u, &SCHEMA_SCENE, tree->root, text);
     uint32_t count = text_edits_settle(u.edits.items, u.edits.count);
     struct strbuf out;

@@ -2,93 +2,6 @@
 
 #include <string.h>
 
-// A table: each byte of a name is looked at.
-static bool ends_name(char c) {
-    static const bool ends[256] = {
-        [' '] = true, ['\t'] = true, ['\n'] = true, ['\r'] = true, ['='] = true, ['/'] = true,
-        ['>'] = true, ['<'] = true,  ['"'] = true,  ['\''] = true, ['&'] = true};
-    return ends[(unsigned char)c];
-}
-
-uint32_t xml_name_end(str text, uint32_t at) {
-    at++;
-    while (at < text.len && !ends_name(text.ptr[at]))
-        at++;
-    return at;
-}
-
-static uint32_t skip_blanks(str text, uint32_t at) {
-    while (at < text.len && xml_is_blank(text.ptr[at]))
-        at++;
-    return at;
-}
-
-static enum xml_tag_end tag_end(str text, uint32_t at) {
-    if (text.ptr[at] == '>')
-        return XML_TAG_OPEN;
-    uint32_t behind = skip_blanks(text, at + 1);
-    if (text.ptr[at] != '/' || behind >= text.len || text.ptr[behind] != '>')
-        return XML_TAG_MALFORMED;
-    return behind == at + 1 ? XML_TAG_EMPTY : XML_TAG_SPLIT;
-}
-
-enum xml_tag_end xml_next_attribute(str text, uint32_t *at, struct xml_attribute *attribute) {
-    uint32_t begin = skip_blanks(text, *at);
-    *at = begin;
-    if (begin >= text.len)
-        return XML_TAG_MALFORMED;
-    uint32_t end = begin;
-    while (end < text.len && !ends_name(text.ptr[end]))
-        end++;
-    if (end == begin)
-        return tag_end(text, begin);
-    uint32_t sign = skip_blanks(text, end);
-    uint32_t quote =
-        sign < text.len && text.ptr[sign] == '=' ? skip_blanks(text, sign + 1) : (uint32_t)text.len;
-    if (quote >= text.len || (text.ptr[quote] != '"' && text.ptr[quote] != '\''))
-        return XML_TAG_MALFORMED;
-    uint32_t stop = quote + 1;
-    while (stop < text.len && text.ptr[stop] != text.ptr[quote] && text.ptr[stop] != '<')
-        stop++;
-    if (stop >= text.len || text.ptr[stop] == '<')
-        return XML_TAG_MALFORMED;
-    *attribute = (struct xml_attribute){begin, end, quote + 1, stop};
-    *at = stop + 1;
-    return XML_TAG_MORE;
-}
-
-static size_t find(str text, size_t from, const char *what) {
-    size_t length = strlen(what);
-    for (size_t at = from; at + length <= text.len; at++) {
-        const char *hit = memchr(text.ptr + at, what[0], text.len - length + 1 - at);
-        if (!hit)
-            break;
-        at = (size_t)(hit - text.ptr);
-        if (memcmp(hit, what, length) == 0)
-            return at;
-    }
-    return text.len;
-}
-
-bool xml_declared_encoding(str text, struct reader_range *encoding) {
-    uint32_t at = str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : 0;
-    str rest = str_slice(text, at, text.len);
-    if (!str_starts_with(rest, STR("<?xml")) || rest.len < 6 || !xml_is_blank(rest.ptr[5]))
-        return false;
-    str declaration = str_slice(text, 0, find(text, at, "?>"));
-    at += 5;
-    struct xml_attribute attribute;
-    while (xml_next_attribute(declaration, &at, &attribute) == XML_TAG_MORE) {
-        if (!str_equal(str_slice(text, attribute.name_begin, attribute.name_end), STR("encoding")))
-            continue;
-        *encoding = (struct reader_range){attribute.value_begin, attribute.value_end};
-        return true;
-    }
-    return false;
-}
-
-// ---- repairs
-
 struct repairer {
     const struct reader_context *context;
     struct reader_text *text;
@@ -189,7 +102,7 @@ static void check_twice(struct repairer *r, struct xml_attribute attribute) {
 }
 
 static void repair_split(struct repairer *r, uint32_t slash) {
-    uint32_t end = skip_blanks(r->text->bytes, slash + 1);
+    uint32_t end = xml_skip_blanks(r->text->bytes, slash + 1);
     struct diag_sink *sink = r->context->sink;
     diag_add(sink, DIAG_XML_SPLIT_CLOSE, place(r, slash, end + 1), "a space stands inside '/>'");
     diag_help(sink, "write '/>'");
@@ -215,7 +128,7 @@ static uint32_t repair_tag(struct repairer *r, uint32_t at) {
         if (end != XML_TAG_MORE) {
             if (end == XML_TAG_SPLIT)
                 repair_split(r, at);
-            return skip_blanks(r->text->bytes, at + 1) + 1;
+            return xml_skip_blanks(r->text->bytes, at + 1) + 1;
         }
         check_entities(r, attribute.value_begin, attribute.value_end);
         check_twice(r, attribute);
@@ -246,8 +159,8 @@ static uint32_t repair_doctype(struct repairer *r, uint32_t at) {
 }
 
 static uint32_t behind(str text, uint32_t at, const char *end) {
-    size_t found = find(text, at, end);
-    return (uint32_t)(found < text.len ? found + strlen(end) : text.len);
+    uint32_t found = xml_behind(text, at, end);
+    return found ? found : (uint32_t)text.len;
 }
 
 void xml_repair(const struct reader_context *context, struct reader_text *text) {
