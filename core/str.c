@@ -38,14 +38,10 @@ bool str_ends_with_nocase(str s, const char *suffix) {
     return true;
 }
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-
 str str_trim(str s) {
-    while (s.len && is_blank(s.ptr[0]))
+    while (s.len && char_is_space(s.ptr[0]))
         s = str_slice(s, 1, s.len);
-    while (s.len && is_blank(s.ptr[s.len - 1]))
+    while (s.len && char_is_space(s.ptr[s.len - 1]))
         s.len--;
     return s;
 }

@@ -20,6 +20,20 @@ typedef struct {
 // The two arguments of a `%.*s` conversion.
 #define STR_ARG(s) (int)((s).len), (s).ptr
 
+static inline bool char_is_break(char c) {
+    return c == '\n' || c == '\r';
+}
+static inline bool char_is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+static inline bool char_is_space(char c) {
+    return char_is_blank(c) || char_is_break(c);
+}
+// Bytes of the line end at `at`: LF, CR or both.
+static inline size_t str_break_length(str s, size_t at) {
+    return s.ptr[at] == '\r' && at + 1 < s.len && s.ptr[at + 1] == '\n' ? 2 : 1;
+}
+
 str str_from(const char *cstring); // NULL gives the empty string
 static inline bool str_equal(str a, str b) {
     return a.len == b.len && (a.len == 0 || memcmp(a.ptr, b.ptr, a.len) == 0);

@@ -1,16 +1,12 @@
 #include "parser/format_parts.h"
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-
 // Whether two texts are equal but for white space.
 static bool same_words(str a, str b) {
     size_t i = 0, j = 0;
     for (;;) {
-        while (i < a.len && is_blank(a.ptr[i]))
+        while (i < a.len && char_is_space(a.ptr[i]))
             i++;
-        while (j < b.len && is_blank(b.ptr[j]))
+        while (j < b.len && char_is_space(b.ptr[j]))
             j++;
         if (i == a.len || j == b.len)
             return i == a.len && j == b.len;

@@ -39,30 +39,22 @@ void format_lines_comment(struct format_lines *lines, str comment, uint32_t colu
     line->column = column;
 }
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t';
-}
-
-static bool is_break(char c) {
-    return c == '\n' || c == '\r';
-}
-
 str format_take_line(str text, size_t *at, bool *last) {
     size_t begin = *at, end = *at;
-    while (end < text.len && !is_break(text.ptr[end]))
+    while (end < text.len && !char_is_break(text.ptr[end]))
         end++;
     *last = end == text.len;
     *at = end;
     if (!*last)
-        *at += text.ptr[end] == '\r' && end + 1 < text.len && text.ptr[end + 1] == '\n' ? 2 : 1;
-    while (end > begin && is_blank(text.ptr[end - 1]))
+        *at += str_break_length(text, end);
+    while (end > begin && char_is_blank(text.ptr[end - 1]))
         end--;
     return str_slice(text, begin, end);
 }
 
 uint32_t format_column(str text, struct format_place *last, uint32_t at) {
     uint32_t start = at;
-    while (start > last->at && !is_break(text.ptr[start - 1]))
+    while (start > last->at && !char_is_break(text.ptr[start - 1]))
         start--;
     uint32_t before = start == last->at ? last->column : 0;
     *last = (struct format_place){at, before + (uint32_t)utf8_count(str_slice(text, start, at))};

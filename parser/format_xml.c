@@ -35,10 +35,6 @@ struct printer {
     uint32_t gap;              // where the last piece ended
 };
 
-static bool is_break(char c) {
-    return c == '\n' || c == '\r';
-}
-
 // ---- pieces
 
 // Behind the '>' of the DOCTYPE at `at`; 0: there is none.
@@ -63,7 +59,7 @@ static uint32_t behind_text(const struct printer *p, uint32_t at) {
         if (p->text.ptr[at] == '<' && !data)
             break;
         uint32_t next = data ? xml_behind(p->text, at, "]]>") : at + 1;
-        end = xml_is_blank(p->text.ptr[at]) ? end : next;
+        end = char_is_space(p->text.ptr[at]) ? end : next;
         at = next;
     }
     return at ? end : 0;
@@ -104,7 +100,7 @@ static struct piece next_piece(const struct printer *p, uint32_t at) {
 
 static bool find_pieces(struct printer *p) {
     for (uint32_t at = p->begin; at < p->text.len;) {
-        if (xml_is_blank(p->text.ptr[at])) {
+        if (char_is_space(p->text.ptr[at])) {
             at++;
             continue;
         }
@@ -168,11 +164,11 @@ static uint32_t tag_width(const struct printer *p, const struct piece *piece) {
 static void put_value(struct printer *p, str value) {
     size_t begin = 0;
     for (size_t i = 0; i < value.len; i++) {
-        if (!is_break(value.ptr[i]))
+        if (!char_is_break(value.ptr[i]))
             continue;
         format_lines_text(p->lines, str_slice(value, begin, i));
         format_lines_next(p->lines, 0, 0);
-        i += value.ptr[i] == '\r' && value.ptr[i + 1] == '\n';
+        i += str_break_length(value, i) - 1;
         begin = i + 1;
     }
     format_lines_text(p->lines, str_slice(value, begin, value.len));
@@ -202,7 +198,7 @@ static void put_tag(struct printer *p, const struct piece *piece) {
 
 static bool on_one_line(const struct printer *p, uint32_t begin, uint32_t end) {
     for (uint32_t i = begin; i < end; i++)
-        if (is_break(p->text.ptr[i]))
+        if (char_is_break(p->text.ptr[i]))
             return false;
     return true;
 }
@@ -232,8 +228,8 @@ static void put_plain(struct printer *p, const struct piece *piece) {
 static void begin_line(struct printer *p, const struct piece *piece, uint32_t indent) {
     uint32_t breaks = 0;
     for (uint32_t i = p->gap; i < piece->begin; i++) {
-        breaks += is_break(p->text.ptr[i]);
-        i += p->text.ptr[i] == '\r' && p->text.ptr[i + 1] == '\n';
+        breaks += char_is_break(p->text.ptr[i]);
+        i += (uint32_t)str_break_length(p->text, i) - 1;
     }
     uint32_t blank = breaks > 1 ? breaks - 1 : 0;
     format_lines_next(p->lines, blank < FORMAT_BLANK_MOST ? blank : FORMAT_BLANK_MOST, indent);

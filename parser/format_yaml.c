@@ -29,10 +29,6 @@ struct printer {
     struct level level; // of the block list or map that is being written
 };
 
-static bool is_break(char c) {
-    return c == '\n' || c == '\r';
-}
-
 static const struct yaml_token *peek(const struct printer *p) {
     return &p->tokens.items[p->at];
 }
@@ -40,7 +36,7 @@ static const struct yaml_token *peek(const struct printer *p) {
 // Whether a line ends between two places.
 static bool has_break(const struct printer *p, uint32_t begin, uint32_t end) {
     for (uint32_t i = begin; i < end; i++)
-        if (is_break(p->text.ptr[i]))
+        if (char_is_break(p->text.ptr[i]))
             return true;
     return false;
 }
@@ -77,7 +73,7 @@ static uint32_t blank_lines(const struct printer *p, const struct gap *gap) {
 
 static void put_comment(struct printer *p, struct gap *gap, uint32_t indent) {
     uint32_t begin = gap->at;
-    while (gap->at < gap->end && !is_break(p->text.ptr[gap->at]))
+    while (gap->at < gap->end && !char_is_break(p->text.ptr[gap->at]))
         gap->at++;
     str comment = str_trim(str_slice(p->text, begin, gap->at));
     uint32_t column = format_column(p->text, &p->place, begin);
@@ -101,8 +97,8 @@ static struct gap put_gap(struct printer *p, uint32_t end, uint32_t indent) {
         if (c == '#') {
             put_comment(p, &gap, indent);
         } else {
-            gap.breaks += is_break(c);
-            gap.at += c == '\r' && gap.at + 1 < end && p->text.ptr[gap.at + 1] == '\n' ? 2 : 1;
+            gap.breaks += char_is_break(c);
+            gap.at += (uint32_t)str_break_length(p->text, gap.at);
         }
     }
     return gap;
@@ -127,7 +123,7 @@ static void end_token(struct printer *p, const struct yaml_token *token) {
 
 static str skip_blanks(str line) {
     size_t i = 0;
-    while (i < line.len && (line.ptr[i] == ' ' || line.ptr[i] == '\t'))
+    while (i < line.len && char_is_blank(line.ptr[i]))
         i++;
     return str_slice(line, i, line.len);
 }
@@ -136,7 +132,7 @@ static str skip_blanks(str line) {
 static str take_whole_line(str text, size_t *at) {
     size_t begin = *at, end = *at;
     bool last;
-    while (end < text.len && !is_break(text.ptr[end]))
+    while (end < text.len && !char_is_break(text.ptr[end]))
         end++;
     format_take_line(text, at, &last);
     return str_slice(text, begin, end);
@@ -306,7 +302,7 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
 // be this entry's.
 static void put_comma(struct printer *p, uint32_t indent) {
     uint32_t behind = peek(p)->end;
-    while (behind < p->text.len && (p->text.ptr[behind] == ' ' || p->text.ptr[behind] == '\t'))
+    while (behind < p->text.len && char_is_blank(p->text.ptr[behind]))
         behind++;
     bool comment = behind < p->text.len && p->text.ptr[behind] == '#';
     enum join join = p->last == YAML_TOKEN_COLON ? JOIN_SPACE : JOIN_NONE;

@@ -43,9 +43,9 @@ static void guarded(struct xml_reader *r, void (*body)(struct xml_reader *, cons
 static void on_text(struct xml_reader *r, const struct xml_event *event) {
     str text = r->text->bytes;
     uint32_t begin = event->begin, end = event->end;
-    while (begin < end && xml_is_blank(text.ptr[begin]))
+    while (begin < end && char_is_space(text.ptr[begin]))
         begin++;
-    while (end > begin && xml_is_blank(text.ptr[end - 1]))
+    while (end > begin && char_is_space(text.ptr[end - 1]))
         end--;
     if (begin == end)
         return;
@@ -186,7 +186,7 @@ static void run_expat(struct xml_reader *r) {
 static bool declared_encoding(str text, struct reader_range *encoding) {
     uint32_t at = str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : 0;
     str rest = str_slice(text, at, text.len);
-    if (!str_starts_with(rest, STR("<?xml")) || rest.len < 6 || !xml_is_blank(rest.ptr[5]))
+    if (!str_starts_with(rest, STR("<?xml")) || rest.len < 6 || !char_is_space(rest.ptr[5]))
         return false;
     uint32_t end = xml_behind(text, at, "?>");
     str declaration = str_slice(text, 0, end ? end : text.len);

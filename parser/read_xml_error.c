@@ -8,7 +8,7 @@
 static span word_at(const struct xml_reader *r, uint32_t at) {
     str text = r->text->bytes;
     uint32_t end = at;
-    while (end < text.len && !xml_is_blank(text.ptr[end]) && !memchr("<>=/\"'", text.ptr[end], 6))
+    while (end < text.len && !char_is_space(text.ptr[end]) && !memchr("<>=/\"'", text.ptr[end], 6))
         end++;
     return xml_span(r, at, end > at ? end : at + (at < text.len));
 }
@@ -140,7 +140,7 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
     span name = word_at(r, pos);
     str written = str_slice(text, name.begin, name.end);
     uint32_t sign = name.end;
-    while (sign < text.len && xml_is_blank(text.ptr[sign]))
+    while (sign < text.len && char_is_space(text.ptr[sign]))
         sign++;
     char next = sign < text.len ? text.ptr[sign] : '\0';
     if (pos >= text.len || memchr("<>=/\"'&", text.ptr[pos], 7))
@@ -152,7 +152,7 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
         return true;
     }
     sign++;
-    while (sign < text.len && xml_is_blank(text.ptr[sign]))
+    while (sign < text.len && char_is_space(text.ptr[sign]))
         sign++;
     if (sign < text.len && text.ptr[sign] != '"' && text.ptr[sign] != '\'') {
         span value = word_at(r, sign);

@@ -33,7 +33,7 @@ static bool looking_at(const struct plain *p, const char *what) {
 // Gives whether there was a blank. Bytes that are neither are the caller's.
 static bool skip_blanks(struct plain *p) {
     uint32_t begin = p->at;
-    while (p->at < p->end && xml_is_blank(p->text[p->at]))
+    while (p->at < p->end && char_is_space(p->text[p->at]))
         p->at++;
     return p->at > begin;
 }

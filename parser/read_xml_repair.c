@@ -14,7 +14,7 @@ static span place(const struct repairer *r, uint32_t begin, uint32_t end) {
 
 static void blank_out(struct repairer *r, uint32_t begin, uint32_t end) {
     for (uint32_t at = begin; at < end; at++)
-        if (!xml_is_blank(r->text->bytes.ptr[at]))
+        if (!char_is_space(r->text->bytes.ptr[at]))
             reader_text_put(r->context, r->text, at, STR(" "));
 }
 

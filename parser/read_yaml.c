@@ -38,12 +38,8 @@ struct properties {
     span anchor, tag;
 };
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-
 static uint32_t skip_word(str text, uint32_t at, uint32_t end) {
-    while (at < end && !is_blank(text.ptr[at]))
+    while (at < end && !char_is_space(text.ptr[at]))
         at++;
     return at;
 }
@@ -51,7 +47,7 @@ static uint32_t skip_word(str text, uint32_t at, uint32_t end) {
 static uint32_t skip_anchor(str text, uint32_t at, uint32_t end) {
     do
         at++;
-    while (at < end && !is_blank(text.ptr[at]) && !memchr(",[]{}:", text.ptr[at], 6));
+    while (at < end && !char_is_space(text.ptr[at]) && !memchr(",[]{}:", text.ptr[at], 6));
     return at;
 }
 
@@ -73,7 +69,7 @@ static struct properties find_properties(struct yaml_reader *r, uint32_t begin, 
         } else if (c == '#') {
             while (at < end && text.ptr[at] != '\n' && text.ptr[at] != '\r')
                 at++;
-        } else if (is_blank(c)) {
+        } else if (char_is_space(c)) {
             at++;
         } else {
             p.end = at;
@@ -130,7 +126,7 @@ static uint8_t check_escapes(struct yaml_reader *r, str value, span at) {
 
 // Where the text of a scalar ends: libyaml ends a block scalar at the token behind it.
 static uint32_t scalar_end(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
-    while (end > begin && is_blank(r->text->bytes.ptr[end - 1]))
+    while (end > begin && char_is_space(r->text->bytes.ptr[end - 1]))
         end--;
     return end;
 }

@@ -6,20 +6,13 @@ static bool is_hex(char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t';
-}
-static bool is_break(char c) {
-    return c == '\n' || c == '\r';
-}
-
 static bool is_schema_line(str comment) {
     str body = str_trim(str_slice(comment, 1, comment.len));
     return str_starts_with(body, STR("yaml-language-server:"));
 }
 
 static uint32_t line_end(str text, uint32_t at) {
-    while (at < text.len && !is_break(text.ptr[at]))
+    while (at < text.len && !char_is_break(text.ptr[at]))
         at++;
     return at;
 }
@@ -53,14 +46,15 @@ void yaml_gap(struct yaml_reader *r, uint32_t end) {
     uint32_t at = r->gap;
     // A block scalar ends on the line behind it, and a value that is left out where the next token begins.
     uint32_t last = at;
-    while (last > r->text->begin && is_blank(text.ptr[last - 1]))
+    while (last > r->text->begin && char_is_blank(text.ptr[last - 1]))
         last--;
-    bool same_line = r->seen_token && last > r->text->begin && !is_break(text.ptr[last - 1]);
+    bool same_line = r->seen_token && last > r->text->begin && !char_is_break(text.ptr[last - 1]);
     while (at < end) {
         char c = text.ptr[at];
         uint32_t stop = at + 1;
-        bool directive = c == '%' && !r->seen_token && (at == r->text->begin || is_break(text.ptr[at - 1]));
-        if (is_break(c)) {
+        bool directive =
+            c == '%' && !r->seen_token && (at == r->text->begin || char_is_break(text.ptr[at - 1]));
+        if (char_is_break(c)) {
             same_line = false;
             r->line_entry = 0;
         } else if (c == '#') {
@@ -105,7 +99,7 @@ void yaml_end_comments(struct yaml_reader *r) {
 
 bool yaml_comment_color(const struct yaml_reader *r, uint32_t at, struct reader_range *color) {
     str text = r->text->bytes;
-    while (at < text.len && is_blank(text.ptr[at]))
+    while (at < text.len && char_is_blank(text.ptr[at]))
         at++;
     if (at >= text.len || text.ptr[at] != '#')
         return false;
@@ -113,8 +107,7 @@ bool yaml_comment_color(const struct yaml_reader *r, uint32_t at, struct reader_
     while (end < text.len && is_hex(text.ptr[end]))
         end++;
     uint32_t digits = end - at - 1;
-    bool ends = end == text.len || is_blank(text.ptr[end]) || is_break(text.ptr[end]) ||
-                memchr(",]}", text.ptr[end], 3) != NULL;
+    bool ends = end == text.len || char_is_space(text.ptr[end]) || memchr(",]}", text.ptr[end], 3) != NULL;
     *color = (struct reader_range){at, end};
     return ends && (digits == 6 || digits == 3);
 }

@@ -92,13 +92,6 @@ static const struct yaml_words *find_words(const char *problem, const char *cont
     return NULL;
 }
 
-static bool is_break(char c) {
-    return c == '\n' || c == '\r';
-}
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t';
-}
-
 static bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
@@ -110,7 +103,8 @@ static char byte_at(const struct yaml_reader *r, uint32_t at) {
 // One character, or nothing at a line's end.
 static span character_at(const struct yaml_reader *r, uint32_t at) {
     str text = r->text->bytes;
-    uint32_t length = at < text.len && !is_break(text.ptr[at]) ? (uint32_t)utf8_sequence_length(text, at) : 0;
+    uint32_t length =
+        at < text.len && !char_is_break(text.ptr[at]) ? (uint32_t)utf8_sequence_length(text, at) : 0;
     return yaml_span(r, at, at + length);
 }
 
@@ -118,7 +112,7 @@ static span character_at(const struct yaml_reader *r, uint32_t at) {
 static span word_at(const struct yaml_reader *r, uint32_t at) {
     str text = r->text->bytes;
     uint32_t end = at;
-    while (end < text.len && !is_break(text.ptr[end]) && !is_blank(text.ptr[end]))
+    while (end < text.len && !char_is_space(text.ptr[end]))
         end++;
     return yaml_span(r, at, end);
 }
@@ -128,9 +122,9 @@ static bool at_end(const struct yaml_reader *r, uint32_t at) {
     str text = r->text->bytes;
     for (; at < text.len; at++) {
         if (text.ptr[at] == '#')
-            while (at + 1 < text.len && !is_break(text.ptr[at + 1]))
+            while (at + 1 < text.len && !char_is_break(text.ptr[at + 1]))
                 at++;
-        else if (!is_blank(text.ptr[at]) && !is_break(text.ptr[at]))
+        else if (!char_is_space(text.ptr[at]))
             return false;
     }
     return true;
@@ -145,7 +139,7 @@ void yaml_report_document(struct yaml_reader *r, uint32_t at) {
 // Whether the text between two places of one line is blank.
 static bool only_blanks(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
     for (uint32_t at = begin; at < end; at++)
-        if (!is_blank(byte_at(r, at)))
+        if (!char_is_blank(byte_at(r, at)))
             return false;
     return begin <= end;
 }
@@ -173,14 +167,14 @@ void yaml_blame(struct yaml_reader *r) {
 
 static str rest_of_line(const struct yaml_reader *r, uint32_t at) {
     uint32_t end = at;
-    while (end < r->text->bytes.len && !is_break(byte_at(r, end)))
+    while (end < r->text->bytes.len && !char_is_break(byte_at(r, end)))
         end++;
     return str_slice(r->text->bytes, at, end);
 }
 
 // Whether `c` is the last character before `at`, blanks aside.
 static bool precedes(const struct yaml_reader *r, uint32_t at, char c) {
-    while (at > r->text->begin && is_blank(byte_at(r, at - 1)))
+    while (at > r->text->begin && char_is_blank(byte_at(r, at - 1)))
         at--;
     return at > r->text->begin && byte_at(r, at - 1) == c;
 }
@@ -204,18 +198,18 @@ static void help_pair(struct yaml_reader *r, str key, str value) {
 // "glint:1" or "camera" on the line above: YAML takes it for the beginning of a text that goes on here.
 static bool report_line_above(struct yaml_reader *r, uint32_t at) {
     uint32_t end = at;
-    while (end > r->text->begin && !is_break(byte_at(r, end - 1)))
+    while (end > r->text->begin && !char_is_break(byte_at(r, end - 1)))
         end--;
-    while (end > r->text->begin && (is_break(byte_at(r, end - 1)) || is_blank(byte_at(r, end - 1))))
+    while (end > r->text->begin && char_is_space(byte_at(r, end - 1)))
         end--;
     uint32_t begin = end;
-    while (begin > r->text->begin && !is_break(byte_at(r, begin - 1)))
+    while (begin > r->text->begin && !char_is_break(byte_at(r, begin - 1)))
         begin--;
-    while (begin < end &&
-           (is_blank(byte_at(r, begin)) || (byte_at(r, begin) == '-' && is_blank(byte_at(r, begin + 1)))))
+    while (begin < end && (char_is_blank(byte_at(r, begin)) ||
+                           (byte_at(r, begin) == '-' && char_is_blank(byte_at(r, begin + 1)))))
         begin++;
     uint32_t stop = begin;
-    while (stop < end && !is_blank(byte_at(r, stop)) && byte_at(r, stop) != ':')
+    while (stop < end && !char_is_blank(byte_at(r, stop)) && byte_at(r, stop) != ':')
         stop++;
     str word = str_slice(r->text->bytes, begin, stop);
     const struct tree_node *text = tree_node(r->tree, r->last_scalar);
@@ -236,11 +230,11 @@ static void report_colon(struct yaml_reader *r, uint32_t at) {
         return;
     uint32_t begin = at;
     bool second = false;
-    while (begin > r->text->begin && !is_break(byte_at(r, begin - 1))) {
+    while (begin > r->text->begin && !char_is_break(byte_at(r, begin - 1))) {
         begin--;
-        second |= byte_at(r, begin) == ':' && is_blank(byte_at(r, begin + 1)) && begin < at;
+        second |= byte_at(r, begin) == ':' && char_is_blank(byte_at(r, begin + 1)) && begin < at;
     }
-    while (begin < at && is_blank(byte_at(r, begin)))
+    while (begin < at && char_is_blank(byte_at(r, begin)))
         begin++;
     if (second) {
         diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "a second ':' on this line");
@@ -256,7 +250,7 @@ static void report_colon(struct yaml_reader *r, uint32_t at) {
 
 // "-center: ..." as the first key of the map that the error is about.
 static bool report_dash(struct yaml_reader *r, uint32_t begin) {
-    if (byte_at(r, begin) != '-' || is_blank(byte_at(r, begin + 1)))
+    if (byte_at(r, begin) != '-' || char_is_blank(byte_at(r, begin + 1)))
         return false;
     diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, begin), "a blank is missing behind the '-'");
     diag_help(&r->sink, "write '- %.*s'",
@@ -269,9 +263,9 @@ static bool report_dash(struct yaml_reader *r, uint32_t begin) {
 // What follows a value on its line.
 static void report_behind(struct yaml_reader *r, uint32_t at) {
     uint32_t begin = at;
-    while (begin > r->text->begin && !is_break(byte_at(r, begin - 1)))
+    while (begin > r->text->begin && !char_is_break(byte_at(r, begin - 1)))
         begin--;
-    while (begin < at && is_blank(byte_at(r, begin)))
+    while (begin < at && char_is_blank(byte_at(r, begin)))
         begin++;
     if (byte_at(r, begin) == '-' && (byte_at(r, begin + 1) == '{' || byte_at(r, begin + 1) == '[')) {
         report_dash(r, begin);
@@ -344,7 +338,8 @@ static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint
     }
     bool behind = strstr(row->problem, "expected key") || strstr(row->problem, "'-' indicator") ||
                   strstr(row->problem, "document start");
-    if (behind && r->seen_token && !is_break(byte_at(r, r->gap - 1)) && only_blanks(r, r->gap, problem)) {
+    if (behind && r->seen_token && !char_is_break(byte_at(r, r->gap - 1)) &&
+        only_blanks(r, r->gap, problem)) {
         report_behind(r, at);
         return;
     }

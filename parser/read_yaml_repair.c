@@ -2,13 +2,6 @@
 
 #include <string.h>
 
-static bool is_break(char c) {
-    return c == '\n' || c == '\r';
-}
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t';
-}
-
 static char byte_at(const struct yaml_reader *r, uint32_t at) {
     return at < r->text->bytes.len ? r->text->bytes.ptr[at] : '\0';
 }
@@ -19,8 +12,8 @@ static bool find_color(const struct yaml_reader *r, uint32_t begin, uint32_t end
                        struct reader_range *color) {
     str text = r->text->bytes;
     for (uint32_t at = begin; at < end && at < text.len; at++) {
-        bool starts =
-            text.ptr[at] == '#' && at > 0 && (is_blank(text.ptr[at - 1]) || strchr("[,:{", text.ptr[at - 1]));
+        bool starts = text.ptr[at] == '#' && at > 0 &&
+                      (char_is_blank(text.ptr[at - 1]) || strchr("[,:{", text.ptr[at - 1]));
         if (starts && yaml_comment_color(r, at, color)) {
             bool six = color->end - color->begin == 7;
             if (six || (color->end < text.len && strchr(",]}", text.ptr[color->end])))
@@ -40,15 +33,19 @@ static bool repair_color(struct yaml_reader *r, struct diag_sink *sink, uint32_t
     return true;
 }
 
+// A blank before the first token of a line, or the '-' of an item before that.
+static bool is_indent(str text, uint32_t at) {
+    return char_is_blank(text.ptr[at]) ||
+           (text.ptr[at] == '-' && at + 1 < text.len && char_is_blank(text.ptr[at + 1]));
+}
+
 // Puts a blank in the place of each tab before the first token of a line; counts the lines.
 static uint32_t replace_tabs(struct yaml_reader *r) {
     uint32_t lines = 0;
     str text = r->text->bytes;
     for (uint32_t at = r->text->begin; at < text.len;) {
         bool found = false;
-        for (; at < text.len && (is_blank(text.ptr[at]) ||
-                                 (text.ptr[at] == '-' && at + 1 < text.len && is_blank(text.ptr[at + 1])));
-             at++) {
+        for (; at < text.len && is_indent(text, at); at++) {
             if (text.ptr[at] != '\t')
                 continue;
             found = true;
@@ -56,15 +53,11 @@ static uint32_t replace_tabs(struct yaml_reader *r) {
             text = r->text->bytes;
         }
         lines += found;
-        while (at < text.len && !is_break(text.ptr[at]))
+        while (at < text.len && !char_is_break(text.ptr[at]))
             at++;
         at++;
     }
     return lines;
-}
-
-static bool is_indent(str text, uint32_t at) {
-    return is_blank(text.ptr[at]) || (text.ptr[at] == '-' && at + 1 < text.len && is_blank(text.ptr[at + 1]));
 }
 
 // Two spaces for each tab before the first token of a line, from `begin`, inside such blanks, on; *end is
@@ -76,7 +69,7 @@ static str with_spaces(struct yaml_reader *r, uint32_t begin, uint32_t *end) {
     bool indent = true;
     for (uint32_t at = begin; at < text.len; at++) {
         char c = text.ptr[at];
-        indent = is_break(c) || (indent && is_indent(text, at));
+        indent = char_is_break(c) || (indent && is_indent(text, at));
         out[length++] = indent && c == '\t' ? ' ' : c;
         if (!indent || c != '\t')
             continue;
@@ -116,13 +109,13 @@ static bool repair_tag(struct yaml_reader *r, struct diag_sink *sink, uint32_t p
     if (byte_at(r, begin) != '!')
         return false;
     uint32_t end = begin;
-    for (; end < r->text->bytes.len && !is_blank(byte_at(r, end)) && !is_break(byte_at(r, end)); end++)
+    for (; end < r->text->bytes.len && !char_is_space(byte_at(r, end)); end++)
         reader_text_put(r->context, r->text, end, STR(" "));
     str written = source_text(r->context->sources, yaml_span(r, begin, end));
     diag_add(sink, DIAG_YAML_TAG, yaml_span(r, begin, end), "the tag '%.*s' has no meaning in a scene",
              STR_ARG(reader_clip(written)));
     diag_help(sink, "remove it; a text that begins with '!' needs quotes");
-    while (end < r->text->bytes.len && !is_break(byte_at(r, end)))
+    while (end < r->text->bytes.len && !char_is_break(byte_at(r, end)))
         end++;
     reader_text_mark(r->context, r->text, begin, end);
     return true;

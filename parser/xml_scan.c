@@ -18,7 +18,7 @@ uint32_t xml_name_end(str text, uint32_t at) {
 }
 
 uint32_t xml_skip_blanks(str text, uint32_t at) {
-    while (at < text.len && xml_is_blank(text.ptr[at]))
+    while (at < text.len && char_is_space(text.ptr[at]))
         at++;
     return at;
 }

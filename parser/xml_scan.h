@@ -30,9 +30,6 @@ uint32_t xml_behind(str text, uint32_t at, const char *what);
 // none.
 uint32_t xml_end_name(str text, uint32_t begin, uint32_t end);
 
-static inline bool xml_is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
 uint32_t xml_skip_blanks(str text, uint32_t at);
 
 #endif

@@ -210,10 +210,26 @@ static void widths(void **state) {
     assert_false(unicode_is_control(0xA0));
 }
 
+static void blanks_and_line_ends(void **state) {
+    (void)state;
+    for (int c = 0; c < 256; c++) {
+        bool blank = c == ' ' || c == '\t', ends = c == '\n' || c == '\r';
+        assert_int_equal(char_is_blank((char)c), blank);
+        assert_int_equal(char_is_break((char)c), ends);
+        assert_int_equal(char_is_space((char)c), blank || ends);
+    }
+    str text = STR("a\r\nb\n\r");
+    assert_int_equal(str_break_length(text, 1), 2);
+    assert_int_equal(str_break_length(text, 2), 1);
+    assert_int_equal(str_break_length(text, 4), 1);
+    assert_int_equal(str_break_length(text, 5), 1); // nothing behind it is looked at
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(compares),
         cmocka_unit_test(slices_and_trims),
+        cmocka_unit_test(blanks_and_line_ends),
         cmocka_unit_test(hash_is_fnv1a),
         cmocka_unit_test(utf8_accepts_exactly_table_3_7),
         cmocka_unit_test(every_code_point_decodes),
