@@ -19,12 +19,6 @@ struct allows {
     } list;
 };
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-static bool is_break(char c) {
-    return c == '\n' || c == '\r';
-}
 static bool at_comment(str text, size_t at, bool is_xml) {
     return is_xml ? str_starts_with(str_slice(text, at, at + 4), STR("<!--")) : text.ptr[at] == '#';
 }
@@ -36,14 +30,14 @@ static uint32_t line_of(struct session *session, uint32_t source, size_t at) {
 // Behind blanks and comments.
 static size_t skip_to_content(str text, size_t at, bool is_xml) {
     while (at < text.len) {
-        if (is_blank(text.ptr[at])) {
+        if (char_is_space(text.ptr[at])) {
             at++;
         } else if (is_xml && at_comment(text, at, true)) {
             while (at < text.len && !str_starts_with(str_slice(text, at, at + 3), STR("-->")))
                 at++;
             at = at + 3 < text.len ? at + 3 : text.len;
         } else if (!is_xml && at_comment(text, at, false)) {
-            while (at < text.len && !is_break(text.ptr[at]))
+            while (at < text.len && !char_is_break(text.ptr[at]))
                 at++;
         } else {
             break;
@@ -70,8 +64,8 @@ static size_t tag_end(str text, size_t at) {
 
 // Whether more than the dash of a list's item stands on the line before `end`.
 static bool has_content(str text, size_t end) {
-    for (; end > 0 && !is_break(text.ptr[end - 1]); end--)
-        if (!is_blank(text.ptr[end - 1]) && text.ptr[end - 1] != '-')
+    for (; end > 0 && !char_is_break(text.ptr[end - 1]); end--)
+        if (!char_is_space(text.ptr[end - 1]) && text.ptr[end - 1] != '-')
             return true;
     return false;
 }
@@ -83,9 +77,9 @@ static void find_lines(struct session *session, span comment, struct allow *allo
     str text = source->text;
     bool is_xml = comment.begin < text.len && text.ptr[comment.begin] == '<';
     size_t before = comment.begin;
-    while (before > 0 && !is_break(text.ptr[before - 1]) && is_blank(text.ptr[before - 1]))
+    while (before > 0 && char_is_blank(text.ptr[before - 1]))
         before--;
-    bool trailing = before > 0 && !is_break(text.ptr[before - 1]);
+    bool trailing = before > 0 && !char_is_break(text.ptr[before - 1]);
     if (trailing && !is_xml)
         trailing = has_content(text, before);
     size_t first = trailing ? before - 1 : skip_to_content(text, comment.end, is_xml);
@@ -111,10 +105,10 @@ static void bad_comment(struct allows *allows, span at, const char *before, str 
 
 // The next word in text[*at, end): up to a blank, comma or colon; false: there is none.
 static bool next_word(str text, size_t *at, size_t end, span *word, uint32_t source) {
-    while (*at < end && (is_blank(text.ptr[*at]) || text.ptr[*at] == ','))
+    while (*at < end && (char_is_space(text.ptr[*at]) || text.ptr[*at] == ','))
         ++*at;
     size_t begin = *at;
-    while (*at < end && !is_blank(text.ptr[*at]) && !memchr(",:", text.ptr[*at], 2))
+    while (*at < end && !char_is_space(text.ptr[*at]) && !memchr(",:", text.ptr[*at], 2))
         ++*at;
     *word = (span){source, (uint32_t)begin, (uint32_t)*at};
     return *at > begin;

@@ -19,20 +19,10 @@ static uint32_t units(str text, size_t at, enum position_encoding encoding, size
     return encoding == POSITION_UTF16 && *length == 4 ? 2 : 1;
 }
 
-// Behind the line end at `at`.
-static size_t skip_line_end(str text, size_t at) {
-    bool two = text.ptr[at] == '\r' && at + 1 < text.len && text.ptr[at + 1] == '\n';
-    return at + (two ? 2 : 1);
-}
-
-static bool is_line_end(char c) {
-    return c == '\n' || c == '\r';
-}
-
 // The beginning of the line before the one that begins at `at`, which is not the first.
 static size_t line_before(str text, size_t at) {
     at -= at >= 2 && text.ptr[at - 1] == '\n' && text.ptr[at - 2] == '\r' ? 2 : 1;
-    while (at > 0 && !is_line_end(text.ptr[at - 1]))
+    while (at > 0 && !char_is_break(text.ptr[at - 1]))
         at--;
     return at;
 }
@@ -45,11 +35,11 @@ static size_t line_begin(str text, uint32_t line, struct position_hint *hint) {
         hint->begin = line_before(text, hint->begin);
     while (hint->line < line) {
         size_t at = hint->begin;
-        while (at < text.len && !is_line_end(text.ptr[at]))
+        while (at < text.len && !char_is_break(text.ptr[at]))
             at++;
         if (at == text.len)
             return text.len;
-        hint->begin = skip_line_end(text, at);
+        hint->begin = at + str_break_length(text, at);
         hint->line++;
     }
     return hint->begin;
@@ -59,7 +49,7 @@ static size_t find_offset(str text, enum position_encoding encoding, uint32_t li
                           struct position_hint *hint) {
     size_t at = line_begin(text, line, hint);
     uint32_t count = 0;
-    while (at < text.len && !is_line_end(text.ptr[at])) {
+    while (at < text.len && !char_is_break(text.ptr[at])) {
         size_t length;
         uint32_t more = units(text, at, encoding, &length);
         if (character - count < more)
@@ -74,8 +64,8 @@ static size_t find_offset(str text, enum position_encoding encoding, uint32_t li
 
 static void step(str text, enum position_encoding encoding, struct position_mark *at) {
     unsigned char c = (unsigned char)text.ptr[at->offset];
-    if (is_line_end((char)c)) {
-        *at = (struct position_mark){skip_line_end(text, at->offset), at->line + 1, 0};
+    if (char_is_break((char)c)) {
+        *at = (struct position_mark){at->offset + str_break_length(text, at->offset), at->line + 1, 0};
         return;
     }
     size_t length = 1;

@@ -10,16 +10,12 @@ enum {
     SIDE_MAX = 1 << 24,
 };
 
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-
 // The next word of the header; one blank behind the last is all that parts it from the pixels.
 static str next_word(str bytes, size_t *at) {
-    while (*at < bytes.len && is_blank(bytes.ptr[*at]))
+    while (*at < bytes.len && char_is_space(bytes.ptr[*at]))
         ++*at;
     const size_t begin = *at;
-    while (*at < bytes.len && !is_blank(bytes.ptr[*at]))
+    while (*at < bytes.len && !char_is_space(bytes.ptr[*at]))
         ++*at;
     return str_slice(bytes, begin, *at);
 }
@@ -45,7 +41,7 @@ const char *pfm_decode(str bytes, uint64_t most_pixels, struct picture_file *out
     size_t at = 2;
     const size_t channels = bytes.ptr[1] == 'F' ? 3 : 1;
     double scale = 0;
-    if (bytes.len < 3 || !is_blank(bytes.ptr[2]) || !read_side(next_word(bytes, &at), &out->width) ||
+    if (bytes.len < 3 || !char_is_space(bytes.ptr[2]) || !read_side(next_word(bytes, &at), &out->width) ||
         !read_side(next_word(bytes, &at), &out->height))
         return "its width or height is no whole number from 1 to 16777216";
     if (number_parse(next_word(bytes, &at), &scale) != NUMBER_OK || scale == 0)
