@@ -39,17 +39,21 @@ void format_lines_comment(struct format_lines *lines, str comment, uint32_t colu
     line->column = column;
 }
 
-str format_take_line(str text, size_t *at, bool *last) {
+str format_take_line(str text, size_t *at) {
     size_t begin = *at, end = *at;
     while (end < text.len && !char_is_break(text.ptr[end]))
         end++;
-    *last = end == text.len;
-    *at = end;
-    if (!*last)
-        *at += str_break_length(text, end);
-    while (end > begin && char_is_blank(text.ptr[end - 1]))
-        end--;
+    *at = end < text.len ? end + str_break_length(text, end) : end;
     return str_slice(text, begin, end);
+}
+
+// The same without trailing blanks. *last: the comment ends here.
+static str take_comment_line(str comment, size_t *at, bool *last) {
+    str line = format_take_line(comment, at);
+    *last = line.ptr + line.len == comment.ptr + comment.len;
+    while (line.len > 0 && char_is_blank(line.ptr[line.len - 1]))
+        line.len--;
+    return line;
 }
 
 uint32_t format_column(str text, struct format_place *last, uint32_t at) {
@@ -79,10 +83,10 @@ void format_lines_moved(struct format_lines *lines, str comment, uint32_t column
     uint32_t to = lines->column;
     bool last = false;
     size_t at = 0;
-    format_lines_text(lines, format_take_line(comment, &at, &last));
+    format_lines_text(lines, take_comment_line(comment, &at, &last));
     while (!last) {
         size_t skip = 0;
-        str line = format_take_line(comment, &at, &last);
+        str line = take_comment_line(comment, &at, &last);
         uint32_t indent = moved_indent(line, column, to, &skip);
         format_lines_next(lines, 0, line.len ? indent : 0);
         if (line.len)
@@ -110,10 +114,10 @@ static uint32_t comment_run(const struct format_lines *lines, uint32_t first, ui
 static void write_comment(const struct format_line *line, uint32_t column, str line_end, struct strbuf *out) {
     bool last = false;
     size_t at = 0;
-    strbuf_str(out, format_take_line(line->comment, &at, &last));
+    strbuf_str(out, take_comment_line(line->comment, &at, &last));
     while (!last) {
         size_t skip = 0;
-        str text = format_take_line(line->comment, &at, &last);
+        str text = take_comment_line(line->comment, &at, &last);
         uint32_t indent = moved_indent(text, line->column, column, &skip);
         strbuf_str(out, line_end);
         strbuf_repeat(out, ' ', text.len ? indent : 0);

@@ -41,9 +41,9 @@ void format_lines_moved(struct format_lines *lines, str comment, uint32_t column
 // All lines, each ended by `line_end`, the last one only where `last_end` says so.
 void format_lines_write(const struct format_lines *lines, str line_end, bool last_end, struct strbuf *out);
 
-// The part of `text` from *at to its line's end, without trailing blanks; *at moves behind the line end (LF,
-// CRLF or CR). `last`: the text ends here.
-str format_take_line(str text, size_t *at, bool *last);
+// The part of `text` from *at to its line's end, blanks included; *at moves behind the line end (LF, CRLF or
+// CR).
+str format_take_line(str text, size_t *at);
 // A place in a text and its column, from which the next one is counted.
 struct format_place {
     uint32_t at, column;

@@ -128,25 +128,15 @@ static str skip_blanks(str line) {
     return str_slice(line, i, line.len);
 }
 
-// The part of a text up to its line's end, blanks included; *at moves behind the line end.
-static str take_whole_line(str text, size_t *at) {
-    size_t begin = *at, end = *at;
-    bool last;
-    while (end < text.len && !char_is_break(text.ptr[end]))
-        end++;
-    format_take_line(text, at, &last);
-    return str_slice(text, begin, end);
-}
-
 // A token as it stands; of several lines, each further one begins at `indent`.
 static void put(struct printer *p, enum join join, uint32_t indent) {
     const struct yaml_token *token = peek(p);
     begin_token(p, token, join, indent);
     str text = str_slice(p->text, token->begin, token->end);
     size_t at = 0;
-    format_lines_text(p->lines, take_whole_line(text, &at));
+    format_lines_text(p->lines, format_take_line(text, &at));
     while (at < text.len) {
-        str line = skip_blanks(take_whole_line(text, &at));
+        str line = skip_blanks(format_take_line(text, &at));
         format_lines_next(p->lines, 0, line.len ? indent : 0);
         if (line.len)
             format_lines_text(p->lines, line);
@@ -168,9 +158,9 @@ static uint32_t block_text_indent(const struct printer *p, str text, uint32_t di
     if (digit)
         return p->level.source + digit;
     size_t at = 0;
-    take_whole_line(text, &at);
+    format_take_line(text, &at);
     while (at < text.len) {
-        str line = take_whole_line(text, &at);
+        str line = format_take_line(text, &at);
         if (skip_blanks(line).len)
             return count_spaces(line);
     }
@@ -182,7 +172,7 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     begin_token(p, &token, join, indent);
     str text = str_slice(p->text, token.begin, token.end);
     size_t at = 0;
-    str whole = take_whole_line(text, &at);
+    str whole = format_take_line(text, &at);
     size_t hash = 0;
     while (hash < whole.len && whole.ptr[hash] != '#')
         hash++;
@@ -202,7 +192,7 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     uint32_t to = digit ? p->level.written + digit : indent;
     uint32_t end = token.begin + (uint32_t)whole.len, empty = 0;
     while (at < text.len) {
-        str line = take_whole_line(text, &at);
+        str line = format_take_line(text, &at);
         if (line.len <= from && !skip_blanks(line).len) {
             empty++;
             continue;
