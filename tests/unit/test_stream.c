@@ -1,52 +1,18 @@
 // Scenes that are bound entry by entry while they are read: the same words and scenes as otherwise, in little
 // memory.
-#include "core/strbuf.h"
 #include "grammar/ir_print.h"
 #include "grammar/schema.h"
-#include "parser/parser.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "loaded.h"
 
 enum {
     SPHERES = 20000
 };
 
-struct job {
-    struct arena arena;
-    struct source_set sources;
-    struct files files;
-    struct diag_sink sink;
-    struct limits limits;
-    struct parser_output output;
-};
-
-static bool load(struct job *job, const char *name, str text, uint64_t memory_bytes) {
-    *job = (struct job){.limits = limits_default()};
-    job->limits.value[LIMIT_SCENE_MEMORY] = memory_bytes;
-    arena_init(&job->arena, (size_t)1 << 30);
-    source_set_init(&job->sources, &job->arena);
-    files_init(&job->files, &job->arena);
-    diag_sink_init(&job->sink);
-    uint32_t source = source_add(&job->sources, SOURCE_KIND_OVERLAY, str_from(name), text);
-    struct parser_input input = {.sources = &job->sources,
-                                 .files = &job->files,
-                                 .sink = &job->sink,
-                                 .limits = &job->limits,
-                                 .arena = &job->arena};
-    bool found = parser_load(&input, source, &job->output);
-    diag_sort(&job->sink);
-    return found;
-}
-
-static void finish(struct job *job) {
-    diag_sink_finish(&job->sink);
-    arena_finish(&job->arena);
+static bool load(struct loaded *l, bool xml, const char *text, uint64_t memory_bytes) {
+    loaded_init(l);
+    l->limits.value[LIMIT_SCENE_MEMORY] = memory_bytes;
+    loaded_run(l, xml ? "a.xml" : "a.yaml", text, NULL);
+    return l->ok;
 }
 
 // `odd` is the last sphere's radius.
@@ -70,20 +36,20 @@ static void little_memory_is_enough(void **state) {
     (void)state;
     for (int xml = 0; xml < 2; xml++) {
         struct strbuf text;
-        struct job job;
+        struct loaded l;
         write(&text, xml, "2");
-        assert_true(load(&job, xml ? "a.xml" : "a.yaml", strbuf_view(&text), 1 << 20));
-        assert_int_equal(job.sink.count, 0);
-        const struct ir_spheres *spheres = &job.output.scene->spheres;
+        assert_true(load(&l, xml, text.data, 1 << 20));
+        assert_int_equal(l.sink.count, 0);
+        const struct ir_spheres *spheres = &l.output.scene->spheres;
         assert_int_equal(spheres->count, SPHERES);
         for (uint32_t i = 0; i < SPHERES; i++) {
             assert_true(spheres->items[i].center.x == i);
             assert_int_equal(spheres->items[i].material.index, 0);
-            span at = ir_place_value(&job.output.origin, &spheres->items[i].head, &SCHEMA_SPHERE, "radius");
-            str written = source_text(&job.sources, at);
+            span at = ir_place_value(&l.output.origin, &spheres->items[i].head, &SCHEMA_SPHERE, "radius");
+            str written = source_text(&l.sources, at);
             assert_true(str_equal(written, i + 1 < SPHERES ? STR("1") : STR("2")));
         }
-        finish(&job);
+        loaded_finish(&l);
         strbuf_finish(&text);
     }
 }
@@ -92,15 +58,15 @@ static void mistakes_of_entries_are_told_in_little_memory(void **state) {
     (void)state;
     for (int xml = 0; xml < 2; xml++) {
         struct strbuf text;
-        struct job job;
+        struct loaded l;
         write(&text, xml, "-3");
-        assert_true(load(&job, xml ? "a.xml" : "a.yaml", strbuf_view(&text), 1 << 20));
-        assert_int_equal(job.sink.count, 1);
-        assert_int_equal(job.sink.errors, 1);
-        assert_int_equal(job.sink.items[0].code, DIAG_OUT_OF_RANGE);
-        assert_true(str_equal(source_text(&job.sources, job.sink.items[0].at), STR("-3")));
-        assert_int_equal(job.output.scene->spheres.count, SPHERES);
-        finish(&job);
+        assert_true(load(&l, xml, text.data, 1 << 20));
+        assert_int_equal(l.sink.count, 1);
+        assert_int_equal(l.sink.errors, 1);
+        assert_int_equal(l.sink.items[0].code, DIAG_OUT_OF_RANGE);
+        assert_true(str_equal(source_text(&l.sources, l.sink.items[0].at), STR("-3")));
+        assert_int_equal(l.output.scene->spheres.count, SPHERES);
+        loaded_finish(&l);
         strbuf_finish(&text);
     }
 }
@@ -110,26 +76,26 @@ static void mistakes_of_the_text_have_it_read_whole(void **state) {
     (void)state;
     for (int xml = 0; xml < 2; xml++) {
         struct strbuf text;
-        struct job job;
+        struct loaded l;
         write(&text, xml, xml ? "1\" radius=\"2" : "1, radius: 2");
-        assert_true(load(&job, xml ? "a.xml" : "a.yaml", strbuf_view(&text), (uint64_t)1 << 30));
-        assert_int_equal(job.sink.count, 1);
-        assert_int_equal(job.sink.items[0].code, xml ? DIAG_DUPLICATE_ATTRIBUTE : DIAG_DUPLICATE_KEY);
-        assert_int_equal(job.output.scene->spheres.count, SPHERES);
-        finish(&job);
-        assert_false(load(&job, xml ? "a.xml" : "a.yaml", strbuf_view(&text), 1 << 20));
-        assert_true(job.sink.count >= 1);
-        assert_int_equal(job.sink.items[0].code, DIAG_LIMIT);
-        finish(&job);
+        assert_true(load(&l, xml, text.data, (uint64_t)1 << 30));
+        assert_int_equal(l.sink.count, 1);
+        assert_int_equal(l.sink.items[0].code, xml ? DIAG_DUPLICATE_ATTRIBUTE : DIAG_DUPLICATE_KEY);
+        assert_int_equal(l.output.scene->spheres.count, SPHERES);
+        loaded_finish(&l);
+        assert_false(load(&l, xml, text.data, 1 << 20));
+        assert_true(l.sink.count >= 1);
+        assert_int_equal(l.sink.items[0].code, DIAG_LIMIT);
+        loaded_finish(&l);
         strbuf_finish(&text);
     }
 }
 
-static void write_again(struct job *job, bool xml, struct strbuf *out) {
-    const struct ir_scene *scene = job->output.origin.files.items[0].scene;
+static void write_again(struct loaded *l, bool xml, struct strbuf *out) {
+    const struct ir_scene *scene = l->output.origin.files.items[0].scene;
     strbuf_init(out);
-    (xml ? ir_write_xml : ir_write_yaml)(scene, &job->output.origin, &job->sources,
-                                         (struct ir_write_options){0}, out);
+    (xml ? ir_write_xml : ir_write_yaml)(scene, &l->output.origin, &l->sources, (struct ir_write_options){0},
+                                         out);
     strbuf_char(out, '\0');
 }
 
@@ -143,16 +109,16 @@ static void comments_find_their_entries(void **state) {
         "  </Light>\n  <!-- the second -->\n  <Light>\n    <Position x=\"4\" y=\"5\" z=\"6\"/>\n  </Light>\n"
         "</Scene>\n"};
     for (int xml = 0; xml < 2; xml++) {
-        struct job job;
+        struct loaded l;
         struct strbuf out;
-        assert_true(load(&job, xml ? "a.xml" : "a.yaml", str_from(texts[xml]), 1 << 20));
-        write_again(&job, xml, &out);
+        assert_true(load(&l, xml, texts[xml], 1 << 20));
+        write_again(&l, xml, &out);
         const char *first = strstr(strbuf_view(&out).ptr, "the first");
         const char *second = strstr(strbuf_view(&out).ptr, "the second");
         assert_non_null(first);
         assert_non_null(second);
         assert_true(first < strchr(first, '1') && strchr(first, '1') < second);
-        finish(&job);
+        loaded_finish(&l);
         strbuf_finish(&out);
     }
 }
