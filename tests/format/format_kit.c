@@ -10,16 +10,7 @@
 
 #include <cmocka.h>
 
-struct reading {
-    struct arena arena;
-    struct arena_guard guard;
-    struct source_set sources;
-    struct diag_sink sink;
-    struct limits limits;
-    struct reader_context context;
-};
-
-static void reading_init(struct reading *r) {
+void reading_init(struct reading *r) {
     arena_init(&r->arena, (size_t)1 << 30);
     source_set_init(&r->sources, &r->arena);
     diag_sink_init(&r->sink);
@@ -28,9 +19,15 @@ static void reading_init(struct reading *r) {
         .sources = &r->sources, .sink = &r->sink, .limits = &r->limits, .arena = &r->arena};
 }
 
-static void reading_finish(struct reading *r) {
+void reading_finish(struct reading *r) {
     diag_sink_finish(&r->sink);
     arena_finish(&r->arena);
+}
+
+bool reading_run(struct reading *r, const char *path, str text, struct tree *tree) {
+    uint32_t source = source_add(&r->sources, SOURCE_KIND_OVERLAY, str_from(path), text);
+    *tree = (struct tree){.source = source};
+    return (reader_is_xml(str_from(path), text) ? read_xml : read_yaml)(&r->context, source, tree);
 }
 
 enum format_status format_text(const char *path, str text, const struct upgrade_table *upgrade,
@@ -75,12 +72,11 @@ static void list_comments(const struct tree *tree, str text, tree_index node, st
 
 static void comments_of(const char *path, str text, struct strbuf *out) {
     struct reading r;
-    struct tree tree = {0};
+    struct tree tree;
     struct strbuf where;
     reading_init(&r);
     strbuf_init(&where);
-    uint32_t source = source_add(&r.sources, SOURCE_KIND_OVERLAY, str_from(path), text);
-    if (!(reader_is_xml(str_from(path), text) ? read_xml : read_yaml)(&r.context, source, &tree))
+    if (!reading_run(&r, path, text, &tree))
         fail_msg("%s: cannot be read", path);
     list_comments(&tree, text, tree.root, &where, out);
     strbuf_cstr(out, "at the end [");

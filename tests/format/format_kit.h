@@ -4,6 +4,20 @@
 
 #include "parser/format.h"
 
+// A text as the reader gives it.
+struct reading {
+    struct arena arena;
+    struct source_set sources;
+    struct diag_sink sink;
+    struct limits limits;
+    struct reader_context context;
+};
+
+void reading_init(struct reading *r);
+// false: it cannot be read.
+bool reading_run(struct reading *r, const char *path, str text, struct tree *tree);
+void reading_finish(struct reading *r);
+
 // Formats `text` as a file of that name; `out` begins empty.
 enum format_status format_text(const char *path, str text, const struct upgrade_table *upgrade,
                                struct strbuf *out);
