@@ -98,6 +98,16 @@ static inline uint32_t yaml_byte(struct yaml_reader *reader, yaml_mark_t mark) {
     return text->begin + (uint32_t)(mark.index < text->bytes.len ? mark.index : text->bytes.len);
 }
 
+// NUL behind the text.
+static inline char yaml_char(const struct yaml_reader *reader, uint32_t at) {
+    return at < reader->text->bytes.len ? reader->text->bytes.ptr[at] : '\0';
+}
+// A blank before the first token of a line, or the '-' of an item before that.
+static inline bool yaml_is_indent(const struct yaml_reader *reader, uint32_t at) {
+    return char_is_blank(yaml_char(reader, at)) ||
+           (yaml_char(reader, at) == '-' && char_is_blank(yaml_char(reader, at + 1)));
+}
+
 // ---- read_yaml_build.c
 // Adds a node, counted against the limit.
 tree_index yaml_add(struct yaml_reader *reader, struct tree_node node);

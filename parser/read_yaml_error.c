@@ -96,10 +96,6 @@ static bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-static char byte_at(const struct yaml_reader *r, uint32_t at) {
-    return at < r->text->bytes.len ? r->text->bytes.ptr[at] : '\0';
-}
-
 // One character, or nothing at a line's end.
 static span character_at(const struct yaml_reader *r, uint32_t at) {
     str text = r->text->bytes;
@@ -139,7 +135,7 @@ void yaml_report_document(struct yaml_reader *r, uint32_t at) {
 // Whether the text between two places of one line is blank.
 static bool only_blanks(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
     for (uint32_t at = begin; at < end; at++)
-        if (!char_is_blank(byte_at(r, at)))
+        if (!char_is_blank(yaml_char(r, at)))
             return false;
     return begin <= end;
 }
@@ -167,16 +163,30 @@ void yaml_blame(struct yaml_reader *r) {
 
 static str rest_of_line(const struct yaml_reader *r, uint32_t at) {
     uint32_t end = at;
-    while (end < r->text->bytes.len && !char_is_break(byte_at(r, end)))
+    while (end < r->text->bytes.len && !char_is_break(yaml_char(r, end)))
         end++;
     return str_slice(r->text->bytes, at, end);
 }
 
 // Whether `c` is the last character before `at`, blanks aside.
 static bool precedes(const struct yaml_reader *r, uint32_t at, char c) {
-    while (at > r->text->begin && char_is_blank(byte_at(r, at - 1)))
+    while (at > r->text->begin && char_is_blank(yaml_char(r, at - 1)))
         at--;
-    return at > r->text->begin && byte_at(r, at - 1) == c;
+    return at > r->text->begin && yaml_char(r, at - 1) == c;
+}
+
+static uint32_t line_begin(const struct yaml_reader *r, uint32_t at) {
+    while (at > r->text->begin && !char_is_break(yaml_char(r, at - 1)))
+        at--;
+    return at;
+}
+
+// Where the text of the line with `at` begins, which is not behind it.
+static uint32_t text_begin(const struct yaml_reader *r, uint32_t at) {
+    uint32_t begin = line_begin(r, at);
+    while (begin < at && char_is_blank(yaml_char(r, begin)))
+        begin++;
+    return begin;
 }
 
 // How a key and the value behind it are written.
@@ -197,26 +207,21 @@ static void help_pair(struct yaml_reader *r, str key, str value) {
 
 // "glint:1" or "camera" on the line above: YAML takes it for the beginning of a text that goes on here.
 static bool report_line_above(struct yaml_reader *r, uint32_t at) {
-    uint32_t end = at;
-    while (end > r->text->begin && !char_is_break(byte_at(r, end - 1)))
+    uint32_t end = line_begin(r, at);
+    while (end > r->text->begin && char_is_space(yaml_char(r, end - 1)))
         end--;
-    while (end > r->text->begin && char_is_space(byte_at(r, end - 1)))
-        end--;
-    uint32_t begin = end;
-    while (begin > r->text->begin && !char_is_break(byte_at(r, begin - 1)))
-        begin--;
-    while (begin < end && (char_is_blank(byte_at(r, begin)) ||
-                           (byte_at(r, begin) == '-' && char_is_blank(byte_at(r, begin + 1)))))
+    uint32_t begin = line_begin(r, end);
+    while (begin < end && yaml_is_indent(r, begin))
         begin++;
     uint32_t stop = begin;
-    while (stop < end && !char_is_blank(byte_at(r, stop)) && byte_at(r, stop) != ':')
+    while (stop < end && !char_is_blank(yaml_char(r, stop)) && yaml_char(r, stop) != ':')
         stop++;
     str word = str_slice(r->text->bytes, begin, stop);
     const struct tree_node *text = tree_node(r->tree, r->last_scalar);
     bool goes_on = r->last_scalar && text->style == TREE_PLAIN && text->begin == begin && text->end > end;
     if ((begin < r->gap && !goes_on) || !str_is_name(word))
         return false;
-    bool colon = byte_at(r, stop) == ':';
+    bool colon = yaml_char(r, stop) == ':';
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, colon ? end : stop),
              colon ? "a blank is missing behind the ':'" : "a ':' is missing behind this key");
     help_pair(r, word, str_slice(r->text->bytes, colon ? stop + 1 : stop, end));
@@ -228,14 +233,10 @@ static bool report_line_above(struct yaml_reader *r, uint32_t at) {
 static void report_colon(struct yaml_reader *r, uint32_t at) {
     if (report_line_above(r, at))
         return;
-    uint32_t begin = at;
+    uint32_t begin = text_begin(r, at);
     bool second = false;
-    while (begin > r->text->begin && !char_is_break(byte_at(r, begin - 1))) {
-        begin--;
-        second |= byte_at(r, begin) == ':' && char_is_blank(byte_at(r, begin + 1)) && begin < at;
-    }
-    while (begin < at && char_is_blank(byte_at(r, begin)))
-        begin++;
+    for (uint32_t i = begin; i < at && !second; i++)
+        second = yaml_char(r, i) == ':' && char_is_blank(yaml_char(r, i + 1));
     if (second) {
         diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "a second ':' on this line");
         diag_help(&r->sink, "put each key on a line of its own; a text that holds ': ' needs quotes");
@@ -250,34 +251,31 @@ static void report_colon(struct yaml_reader *r, uint32_t at) {
 
 // "-center: ..." as the first key of the map that the error is about.
 static bool report_dash(struct yaml_reader *r, uint32_t begin) {
-    if (byte_at(r, begin) != '-' || char_is_blank(byte_at(r, begin + 1)))
+    if (yaml_char(r, begin) != '-' || char_is_blank(yaml_char(r, begin + 1)))
         return false;
     diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, begin), "a blank is missing behind the '-'");
     diag_help(&r->sink, "write '- %.*s'",
               STR_ARG(reader_clip(str_slice(r->text->bytes, begin + 1, word_at(r, begin).end))));
-    bool number = byte_at(r, begin + 1) >= '0' && byte_at(r, begin + 1) <= '9';
-    diag_fix(&r->sink, !number, yaml_span(r, begin + 1, begin + 1), STR(" "));
+    diag_fix(&r->sink, !is_digit(yaml_char(r, begin + 1)), yaml_span(r, begin + 1, begin + 1), STR(" "));
     return true;
 }
 
 // What follows a value on its line.
 static void report_behind(struct yaml_reader *r, uint32_t at) {
-    uint32_t begin = at;
-    while (begin > r->text->begin && !char_is_break(byte_at(r, begin - 1)))
-        begin--;
-    while (begin < at && char_is_blank(byte_at(r, begin)))
-        begin++;
-    if (byte_at(r, begin) == '-' && (byte_at(r, begin + 1) == '{' || byte_at(r, begin + 1) == '[')) {
+    uint32_t begin = text_begin(r, at);
+    if (yaml_char(r, begin) == '-' && (yaml_char(r, begin + 1) == '{' || yaml_char(r, begin + 1) == '[')) {
         report_dash(r, begin);
         return;
     }
-    if (byte_at(r, at) == '}' || byte_at(r, at) == ']') {
-        diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "this '%c' closes nothing", byte_at(r, at));
-        diag_help(&r->sink, "remove it, or write the '%c' that it closes", byte_at(r, at) == '}' ? '{' : '[');
+    if (yaml_char(r, at) == '}' || yaml_char(r, at) == ']') {
+        diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "this '%c' closes nothing",
+                 yaml_char(r, at));
+        diag_help(&r->sink, "remove it, or write the '%c' that it closes",
+                  yaml_char(r, at) == '}' ? '{' : '[');
         diag_fix(&r->sink, false, character_at(r, at), STR(""));
         return;
     }
-    if (byte_at(r, at) == ',') {
+    if (yaml_char(r, at) == ',') {
         diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "this ',' parts nothing");
         diag_help(&r->sink, "remove it: outside brackets entries stand on lines of their own");
         diag_fix(&r->sink, true, character_at(r, at), STR(""));
@@ -289,7 +287,7 @@ static void report_behind(struct yaml_reader *r, uint32_t at) {
 
 // A character that begins no token.
 static void report_character(struct yaml_reader *r, uint32_t at) {
-    char c = byte_at(r, at);
+    char c = yaml_char(r, at);
     diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "nothing can begin with this character");
     if (c == '@' || c == '`' || c == '%')
         diag_help(&r->sink, "a text that begins with '%c' needs quotes", c);
@@ -312,10 +310,10 @@ static bool report_unclosed(struct yaml_reader *r) {
 // "position:[0, 0, 8]" in brackets, where YAML takes "position:[" for a broken word.
 static bool report_glued(struct yaml_reader *r, uint32_t at) {
     uint32_t begin = at;
-    while (begin > r->text->begin && !strchr(" \t\r\n,{[", byte_at(r, begin - 1)))
+    while (begin > r->text->begin && !strchr(" \t\r\n,{[", yaml_char(r, begin - 1)))
         begin--;
     str key = str_slice(r->text->bytes, begin, at);
-    char next = byte_at(r, at + 1);
+    char next = yaml_char(r, at + 1);
     if (!str_is_name(key) || (next != '[' && next != '{'))
         return false;
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, at + 1), "a blank is missing behind the ':'");
@@ -338,7 +336,7 @@ static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint
     }
     bool behind = strstr(row->problem, "expected key") || strstr(row->problem, "'-' indicator") ||
                   strstr(row->problem, "document start");
-    if (behind && r->seen_token && !char_is_break(byte_at(r, r->gap - 1)) &&
+    if (behind && r->seen_token && !char_is_break(yaml_char(r, r->gap - 1)) &&
         only_blanks(r, r->gap, problem)) {
         report_behind(r, at);
         return;
@@ -352,8 +350,8 @@ static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint
         help_pair(r, source_text(r->context->sources, word_at(r, at)), rest_of_line(r, word_at(r, at).end));
     else if (strstr(row->problem, "expected ','") && precedes(r, at, '='))
         diag_help(&r->sink, "a key and its value are joined by ':', not by '='");
-    else if (strstr(row->problem, "block sequence") && is_digit(byte_at(r, at + 2)))
-        diag_help(&r->sink, "a negative number is written without the blank: -%c", byte_at(r, at + 2));
+    else if (strstr(row->problem, "block sequence") && is_digit(yaml_char(r, at + 2)))
+        diag_help(&r->sink, "a negative number is written without the blank: -%c", yaml_char(r, at + 2));
     else if (row->help)
         diag_help(&r->sink, "%s", row->help);
 }
@@ -379,7 +377,7 @@ void yaml_report(struct yaml_reader *r) {
                  row ? row->message : "the value cannot be read");
         diag_help(&r->sink, "a value is YAML flow text: 1.5, \"text\", [a, b] or {key: value}");
     } else if (row && r->document_end && row->code == DIAG_YAML_SYNTAX && strstr(problem, "document start") &&
-               byte_at(r, r->document_end - 1) == '.') {
+               yaml_char(r, r->document_end - 1) == '.') {
         yaml_report_document(r, at);
     } else if (row) {
         report_row(r, row, at, context);

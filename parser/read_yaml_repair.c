@@ -2,10 +2,6 @@
 
 #include <string.h>
 
-static char byte_at(const struct yaml_reader *r, uint32_t at) {
-    return at < r->text->bytes.len ? r->text->bytes.ptr[at] : '\0';
-}
-
 // An unquoted colour that made a comment of the rest of its line, in text that libyaml has scanned and given
 // no event for.
 static bool find_color(const struct yaml_reader *r, uint32_t begin, uint32_t end,
@@ -33,19 +29,13 @@ static bool repair_color(struct yaml_reader *r, struct diag_sink *sink, uint32_t
     return true;
 }
 
-// A blank before the first token of a line, or the '-' of an item before that.
-static bool is_indent(str text, uint32_t at) {
-    return char_is_blank(text.ptr[at]) ||
-           (text.ptr[at] == '-' && at + 1 < text.len && char_is_blank(text.ptr[at + 1]));
-}
-
 // Puts a blank in the place of each tab before the first token of a line; counts the lines.
 static uint32_t replace_tabs(struct yaml_reader *r) {
     uint32_t lines = 0;
     str text = r->text->bytes;
     for (uint32_t at = r->text->begin; at < text.len;) {
         bool found = false;
-        for (; at < text.len && is_indent(text, at); at++) {
+        for (; at < text.len && yaml_is_indent(r, at); at++) {
             if (text.ptr[at] != '\t')
                 continue;
             found = true;
@@ -69,7 +59,7 @@ static str with_spaces(struct yaml_reader *r, uint32_t begin, uint32_t *end) {
     bool indent = true;
     for (uint32_t at = begin; at < text.len; at++) {
         char c = text.ptr[at];
-        indent = char_is_break(c) || (indent && is_indent(text, at));
+        indent = char_is_break(c) || (indent && yaml_is_indent(r, at));
         out[length++] = indent && c == '\t' ? ' ' : c;
         if (!indent || c != '\t')
             continue;
@@ -85,7 +75,7 @@ static bool repair_tabs(struct yaml_reader *r, struct diag_sink *sink, uint32_t 
     uint32_t at = problem;
     while (at < text.len && text.ptr[at] == ' ')
         at++;
-    if (byte_at(r, at) != '\t')
+    if (yaml_char(r, at) != '\t')
         return false;
     uint32_t end = at;
     while (end < text.len && text.ptr[end] == '\t')
@@ -98,7 +88,7 @@ static bool repair_tabs(struct yaml_reader *r, struct diag_sink *sink, uint32_t 
     uint32_t lines = replace_tabs(r);
     if (lines > 1)
         diag_note(sink, SPAN_NONE, "%u lines of the file are indented with tabs", lines);
-    return byte_at(r, at) != '\t';
+    return yaml_char(r, at) != '\t';
 }
 
 // A tag whose handle is not declared, or that is malformed: blanked out, and what it stands before is bad.
@@ -106,16 +96,16 @@ static bool repair_tag(struct yaml_reader *r, struct diag_sink *sink, uint32_t p
     const yaml_parser_t *p = &r->parser;
     bool in_tag = p->context && (strstr(p->context, "scanning a tag") || strstr(p->context, "parsing a tag"));
     uint32_t begin = in_tag && !strstr(p->context, "directive") ? yaml_byte(r, p->context_mark) : problem;
-    if (byte_at(r, begin) != '!')
+    if (yaml_char(r, begin) != '!')
         return false;
     uint32_t end = begin;
-    for (; end < r->text->bytes.len && !char_is_space(byte_at(r, end)); end++)
+    for (; end < r->text->bytes.len && !char_is_space(yaml_char(r, end)); end++)
         reader_text_put(r->context, r->text, end, STR(" "));
     str written = source_text(r->context->sources, yaml_span(r, begin, end));
     diag_add(sink, DIAG_YAML_TAG, yaml_span(r, begin, end), "the tag '%.*s' has no meaning in a scene",
              STR_ARG(reader_clip(written)));
     diag_help(sink, "remove it; a text that begins with '!' needs quotes");
-    while (end < r->text->bytes.len && !char_is_break(byte_at(r, end)))
+    while (end < r->text->bytes.len && !char_is_break(yaml_char(r, end)))
         end++;
     reader_text_mark(r->context, r->text, begin, end);
     return true;
