@@ -34,6 +34,8 @@ static void test_edits_that_collide(void **state) {
     check_edits("abcdef", overlap, 3, "aearlyZf");
     struct text_edit inside[] = {{0, 6, STR("all"), 2}, {2, 2, STR("in"), 1}};
     check_edits("abcdef", inside, 2, "abincdef");
+    struct text_edit behind[] = {{3, 3, STR("-"), 1}, {1, 3, STR("X"), 0}};
+    check_edits("abcdef", behind, 2, "aXdef");
 }
 
 static void check_diff(const char *a, const char *b, const char *expected) {
