@@ -199,8 +199,7 @@ static bool keeps(void *context, struct diag *item) {
 static bool is_alone(const struct allows *allows, const struct allow *allow) {
     for (uint32_t i = 0; i < allows->list.count; i++) {
         const struct allow *other = &allows->list.items[i];
-        if (other != allow && other->comment.source == allow->comment.source &&
-            other->comment.begin == allow->comment.begin)
+        if (other != allow && span_equal(other->comment, allow->comment))
             return false;
     }
     return true;

@@ -8,17 +8,13 @@ const char *inventory_role_name(enum inventory_role role) {
     return names[role];
 }
 
-static bool same_span(span a, span b) {
-    return a.source == b.source && a.begin == b.begin && a.end == b.end;
-}
-
 // The path of an include as it is written, from the place where that stands.
 static str include_name(const struct session *session, span at) {
     for (uint32_t f = 0; f < session->origin.files.count; f++) {
         const struct ir_scene *scene = session->origin.files.items[f].scene;
         for (uint32_t i = 0; scene && i < scene->includes.count; i++) {
             const struct ir_include *include = &scene->includes.items[i];
-            if (same_span(ir_place_value(&session->origin, &include->head, &SCHEMA_INCLUDE, "file"), at))
+            if (span_equal(ir_place_value(&session->origin, &include->head, &SCHEMA_INCLUDE, "file"), at))
                 return include->file;
         }
     }

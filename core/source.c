@@ -132,3 +132,7 @@ span span_join(span a, span b) {
 bool span_is_none(span s) {
     return s.source == SOURCE_DEFAULT;
 }
+
+bool span_equal(span a, span b) {
+    return a.source == b.source && a.begin == b.begin && a.end == b.end;
+}

@@ -67,5 +67,6 @@ str source_text(const struct source_set *set, span at);
 // From the beginning of `a` to the end of `b`; both of one source.
 span span_join(span a, span b);
 bool span_is_none(span s);
+bool span_equal(span a, span b);
 
 #endif

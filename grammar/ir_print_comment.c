@@ -180,9 +180,7 @@ static void neutral_from_xml(str text, struct strbuf *out) {
 
 // Fills `lines` with the neutral form; false where there is nothing to write.
 static bool neutral(struct print_places *places, span comments, struct strbuf *lines) {
-    bool again = comments.source == places->last.source && comments.begin == places->last.begin &&
-                 comments.end == places->last.end;
-    if (span_is_none(comments) || !places->sources || again)
+    if (span_is_none(comments) || !places->sources || span_equal(comments, places->last))
         return false;
     places->last = comments;
     str text = source_text(places->sources, comments);

@@ -101,8 +101,7 @@ static void note_users(void *context, const struct schema_element *schema, const
         const struct ir_row_origin *place = ir_origin_row(&users->session->origin, ir_walk_head(element), i);
         bool known = !place;
         for (uint32_t k = 0; !known && k < users->out->uses.count; k++)
-            known = users->out->uses.items[k].source == place->value.source &&
-                    users->out->uses.items[k].begin == place->value.begin;
+            known = span_equal(users->out->uses.items[k], place->value);
         if (!known)
             *ARENA_PUSH(users->arena, &users->out->uses) = place->value;
     }
@@ -117,10 +116,6 @@ static span name_place(const struct session *session, const struct schema_elemen
     return row ? row->value : ir_place_label(&session->origin, ir_walk_head(element));
 }
 
-static bool same_place(span a, span b) {
-    return a.source == b.source && a.begin == b.begin && a.end == b.end;
-}
-
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out) {
     *out = (struct located_name){0};
@@ -131,7 +126,7 @@ bool locate_name(struct session *session, const struct located *at, struct arena
     if (at->row && at->row->kind == SCHEMA_REFERENCE && at->in_value) {
         schema = at->row->child;
         named = ir_walk_referent(session->scene, at->row, schema_field_const(at->row, at->element));
-    } else if (!same_place(at->at, name_place(session, schema, named))) {
+    } else if (!span_equal(at->at, name_place(session, schema, named))) {
         return false;
     }
     if (!named || ir_walk_key(schema, named).len == 0)
