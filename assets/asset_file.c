@@ -1,5 +1,7 @@
 #include "assets/asset_file.h"
 
+#include "grammar/schema.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -195,10 +197,9 @@ void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
 
 static void report_missing(struct asset_file *file, str path) {
     asset_report_named(file, DIAG_FILE_MISSING, "the %s '%.*s' does not exist", file->what, STR_ARG(path));
-    static const char *const meshes[] = {".obj", NULL};
-    static const char *const images[] = {".png", ".jpg", ".jpeg", ".hdr", NULL};
     bool is_image = file->limit == LIMIT_IMAGE_BYTES;
-    str near = files_suggest(file->input->files, file->path, is_image ? images : meshes);
+    str near = files_suggest(file->input->files, file->path,
+                             schema_file_endings(is_image ? SCHEMA_FILE_IMAGE : SCHEMA_FILE_MESH));
     str folder = str_slice(path, 0, path.len - path_base(path).len);
     str advice = files_advice(file->input->files->arena, path);
     if (advice.len) {

@@ -172,6 +172,10 @@ bool schema_is_attribute(const struct schema_row *row);
 const char *schema_yaml_key(const struct schema_row *row);
 // Names of a kind's components: {"x","y","z"}, {"r","g","b"}, {"diffuse",...}; NULL at the end.
 const char *const *schema_components(enum schema_kind kind);
+// Endings of the files of a kind: {".png", ".jpg", ...}; NULL at the end.
+const char *const *schema_file_endings(enum schema_file kind);
+// Whether a path ends as the files of the kind do, without regard to case.
+bool schema_file_fits(enum schema_file kind, str path);
 
 // Sets a field of one value (number, word, text, vector, colour, weights, boolean) from scene text, which
 // must be right: the table's own defaults and examples. Text is not copied.

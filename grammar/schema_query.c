@@ -125,6 +125,24 @@ const char *const *schema_components(enum schema_kind kind) {
     return kind == SCHEMA_VECTOR ? xyz : kind == SCHEMA_COLOR ? rgb : kind == SCHEMA_WEIGHTS ? weights : none;
 }
 
+const char *const *schema_file_endings(enum schema_file kind) {
+    static const char *const scenes[] = {".yaml", ".yml", ".json", ".xml", NULL};
+    static const char *const images[] = {".png", ".jpg", ".jpeg", ".hdr", NULL};
+    static const char *const meshes[] = {".obj", NULL};
+    static const char *const none[] = {NULL};
+    return kind == SCHEMA_FILE_SCENE   ? scenes
+           : kind == SCHEMA_FILE_IMAGE ? images
+           : kind == SCHEMA_FILE_MESH  ? meshes
+                                       : none;
+}
+
+bool schema_file_fits(enum schema_file kind, str path) {
+    for (const char *const *ending = schema_file_endings(kind); *ending; ending++)
+        if (str_ends_with_nocase(path, *ending))
+            return true;
+    return false;
+}
+
 static uint32_t read_numbers(const char *text, double out[4]) {
     uint32_t count = 0;
     str rest = str_from(text);

@@ -209,19 +209,6 @@ static void offer_names(struct completing *c, const struct schema_element *targe
     }
 }
 
-static bool fits_kind(str name, enum schema_file kind) {
-    static const char *const scenes[] = {".yaml", ".yml", ".xml", ".json", NULL};
-    static const char *const images[] = {".png", ".jpg", ".jpeg", ".hdr", NULL};
-    static const char *const meshes[] = {".obj", NULL};
-    const char *const *endings = kind == SCHEMA_FILE_SCENE   ? scenes
-                                 : kind == SCHEMA_FILE_IMAGE ? images
-                                                             : meshes;
-    for (; *endings; endings++)
-        if (str_ends_with_nocase(name, *endings))
-            return true;
-    return false;
-}
-
 // Files and folders that lie where the path typed so far leads, beside the document.
 static void offer_files(struct completing *c, enum schema_file kind) {
     str typed = c->typed.word;
@@ -236,7 +223,7 @@ static void offer_files(struct completing *c, enum schema_file kind) {
         str label = arena_format(c->arena, "%.*s%.*s", STR_ARG(stem), STR_ARG(name));
         if (files_is_folder(path))
             offer(c, arena_format(c->arena, "%.*s/", STR_ARG(label)), COMPLETION_FOLDER, NULL);
-        else if (fits_kind(name, kind))
+        else if (schema_file_fits(kind, name))
             offer(c, label, COMPLETION_FILE, NULL);
     }
 }

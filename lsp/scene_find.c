@@ -2,6 +2,7 @@
 #include "lsp/scene.h"
 
 #include "core/files_walk.h"
+#include "grammar/schema.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,11 +18,7 @@ bool scenes_is_settings(str path) {
 }
 
 static bool is_scene_path(str path) {
-    static const char *const endings[] = {".yaml", ".yml", ".xml", ".json"};
-    for (size_t i = 0; i < sizeof endings / sizeof *endings && !scenes_is_settings(path); i++)
-        if (str_ends_with_nocase(path, endings[i]))
-            return true;
-    return false;
+    return !scenes_is_settings(path) && schema_file_fits(SCHEMA_FILE_SCENE, path);
 }
 
 static bool holds(str text, str what) {

@@ -11,8 +11,7 @@ static str shown(const struct loader *loader, uint32_t file) {
 static void report_missing(struct loader *loader, span at, str path, str tried) {
     struct diag_sink *sink = loader->input->sink;
     diag_add(sink, DIAG_FILE_MISSING, at, "the included file '%.*s' does not exist", STR_ARG(path));
-    static const char *const endings[] = {".yaml", ".yml", ".json", ".xml", NULL};
-    str near = files_suggest(loader->input->files, tried, endings);
+    str near = files_suggest(loader->input->files, tried, schema_file_endings(SCHEMA_FILE_SCENE));
     str folder = str_slice(path, 0, path.len - path_base(path).len);
     str advice = files_advice(loader->input->arena, path);
     if (advice.len) {
