@@ -76,10 +76,8 @@ void strbuf_repeat(struct strbuf *buffer, char c, size_t count) {
     buffer->data[buffer->len] = '\0';
 }
 
-void strbuf_format(struct strbuf *buffer, const char *format, ...) {
-    va_list args;
+void strbuf_vformat(struct strbuf *buffer, const char *format, va_list args) {
     va_list again;
-    va_start(args, format);
     va_copy(again, args);
     int length = vsnprintf(NULL, 0, format, args);
     if (length < 0)
@@ -89,6 +87,12 @@ void strbuf_format(struct strbuf *buffer, const char *format, ...) {
         buffer->len += (size_t)length;
     }
     va_end(again);
+}
+
+void strbuf_format(struct strbuf *buffer, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    strbuf_vformat(buffer, format, args);
     va_end(args);
 }
 

@@ -9,6 +9,8 @@
 
 #include "core/str.h"
 
+#include <stdarg.h>
+
 struct strbuf {
     char *data; // NUL-terminated where not NULL
     size_t len;
@@ -27,6 +29,8 @@ void strbuf_cstr(struct strbuf *buffer, const char *s);
 void strbuf_char(struct strbuf *buffer, char c);
 void strbuf_repeat(struct strbuf *buffer, char c, size_t count);
 void strbuf_format(struct strbuf *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void strbuf_vformat(struct strbuf *buffer, const char *format, va_list args)
+    __attribute__((format(printf, 2, 0)));
 str strbuf_view(const struct strbuf *buffer);
 
 #endif

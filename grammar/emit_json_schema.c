@@ -2,6 +2,7 @@
 #include "grammar/emit.h"
 
 #include "core/number.h"
+#include "grammar/emit_lines.h"
 #include "grammar/emit_words.h"
 
 #include <jansson.h>
@@ -63,7 +64,7 @@ static json_t *components_schema(const struct schema_row *row) {
         json_array_append_new(forms, number_schema(row));
     if (row->kind == SCHEMA_COLOR)
         json_array_append_new(forms,
-                              json_pack("{s:s, s:s}", "type", "string", "pattern", "^#[0-9A-Fa-f]{6}$"));
+                              json_pack("{s:s, s:s}", "type", "string", "pattern", "^" EMIT_HEX_PATTERN "$"));
     return json_pack("{s:o}", "anyOf", forms);
 }
 

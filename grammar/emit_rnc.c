@@ -1,37 +1,18 @@
 // RELAX NG in its compact syntax: the same language as emit_relaxng.c, for Emacs and for people.
 #include "grammar/emit.h"
 
-#include "grammar/emit_words.h"
+#include "grammar/emit_lines.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/schema.h"
 
 #include <string.h>
 
-enum {
-    RNC_STEP = 2
-};
-
-struct rnc_writer {
-    struct strbuf *out;
-    uint32_t depth;
-};
-
-static void indent(struct rnc_writer *w) {
-    strbuf_repeat(w->out, ' ', (size_t)w->depth * RNC_STEP);
-}
-
-static void line(struct rnc_writer *w, const char *text) {
-    indent(w);
-    strbuf_format(w->out, "%s\n", text);
-}
-
-static void documentation(struct rnc_writer *w, const char *doc) {
-    indent(w);
-    strbuf_format(w->out, "## %s\n", doc);
+static void documentation(struct emit_lines *w, const char *doc) {
+    emit_line(w, "## %s", doc);
 }
 
 // A definition's name; the syntax' own words need a mark (RELAX NG Compact Syntax, OASIS 2002, section 2.5).
-static void definition_name(struct rnc_writer *w, const char *name) {
+static void definition_name(struct emit_lines *w, const char *name) {
     static const char *const words[] = {"attribute", "default",    "datatypes", "div",     "element",
                                         "empty",     "external",   "grammar",   "include", "list",
                                         "inherit",   "mixed",      "namespace", "parent",  "start",
@@ -44,10 +25,10 @@ static void definition_name(struct rnc_writer *w, const char *name) {
 
 // ---- data
 
-static void number_data(struct rnc_writer *w, bool integer, double least, double greatest, bool open) {
+static void number_data(struct emit_lines *w, bool integer, double least, double greatest, bool open) {
     strbuf_format(w->out, "xsd:%s {", integer ? "integer" : "double");
     if (!integer)
-        strbuf_cstr(w->out, " pattern = \"[+\\-]?(\\d+\\.?\\d*|\\.\\d+)([eE][+\\-]?\\d+)?\"");
+        strbuf_cstr(w->out, " pattern = \"" EMIT_NUMBER_PATTERN "\"");
     strbuf_format(w->out, " %s = \"", open ? "minExclusive" : "minInclusive");
     print_number(w->out, least);
     strbuf_format(w->out, "\" %s = \"", open ? "maxExclusive" : "maxInclusive");
@@ -55,12 +36,11 @@ static void number_data(struct rnc_writer *w, bool integer, double least, double
     strbuf_cstr(w->out, "\" }");
 }
 
-static void number_definitions(struct rnc_writer *w) {
+static void number_definitions(struct emit_lines *w) {
     for (enum schema_range range = SCHEMA_RANGE_NONE + 1; range < SCHEMA_RANGE_COUNT; range++) {
         const struct schema_range_info *info = schema_range_info(range);
         bool integer = emit_is_integer(range);
-        emit_range_name(range, w->out);
-        strbuf_cstr(w->out, " = ");
+        strbuf_format(w->out, "number_%s = ", info->name);
         number_data(w, integer, info->least, info->greatest, info->open);
         if (info->magnitude) {
             strbuf_cstr(w->out, " | ");
@@ -70,17 +50,16 @@ static void number_definitions(struct rnc_writer *w) {
     }
 }
 
-static void text_definitions(struct rnc_writer *w) {
-    line(w, "boolean = xsd:string \"true\" | xsd:string \"false\"");
-    line(w, "hex_color = xsd:string { pattern = \"#[0-9A-Fa-f]{6}\" }");
-    line(w,
-         "name = xsd:string { pattern = \"[^\\d\\s!-,./:-@\\[-\\^`{-~][^\\s!-,./:-@\\[-\\^`{-~]{0,127}\" }");
-    line(w, "some_text = xsd:string { minLength = \"1\" }");
+static void text_definitions(struct emit_lines *w) {
+    emit_line(w, "boolean = xsd:string \"true\" | xsd:string \"false\"");
+    emit_line(w, "hex_color = xsd:string { pattern = \"" EMIT_HEX_PATTERN "\" }");
+    emit_line(w, "name = xsd:string { pattern = \"" EMIT_NAME_PATTERN "\" }");
+    emit_line(w, "some_text = xsd:string { minLength = \"1\" }");
 }
 
 // ---- values of attributes
 
-static void attribute_data(struct rnc_writer *w, const struct schema_row *row) {
+static void attribute_data(struct emit_lines *w, const struct schema_row *row) {
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
         strbuf_cstr(w->out, "boolean");
@@ -95,8 +74,7 @@ static void attribute_data(struct rnc_writer *w, const struct schema_row *row) {
                                                             : "some_text");
         break;
     case SCHEMA_COLOR:
-        emit_range_name(row->range, w->out);
-        strbuf_cstr(w->out, " | hex_color");
+        strbuf_format(w->out, "number_%s | hex_color", schema_range_info(row->range)->name);
         break;
     case SCHEMA_ELEMENT:
         attribute_data(w, &row->child->rows[schema_short_row(row->child)]);
@@ -105,14 +83,14 @@ static void attribute_data(struct rnc_writer *w, const struct schema_row *row) {
         strbuf_cstr(w->out, "some_text");
         break;
     default:
-        emit_range_name(row->range, w->out);
+        strbuf_format(w->out, "number_%s", schema_range_info(row->range)->name);
         break;
     }
 }
 
-static void attribute(struct rnc_writer *w, const struct schema_row *row) {
+static void attribute(struct emit_lines *w, const struct schema_row *row) {
     documentation(w, row->doc);
-    indent(w);
+    emit_indent(w);
     strbuf_format(w->out, "attribute %s { ", row->name);
     attribute_data(w, row);
     strbuf_cstr(w->out, " }");
@@ -120,26 +98,24 @@ static void attribute(struct rnc_writer *w, const struct schema_row *row) {
 
 // ---- child elements
 
-static void component_attributes(struct rnc_writer *w, const struct schema_row *row) {
+static void component_attributes(struct emit_lines *w, const struct schema_row *row) {
     const char *const *names = schema_components(row->kind);
     const char *mark = row->kind == SCHEMA_WEIGHTS ? "?" : "";
-    indent(w);
+    emit_indent(w);
     strbuf_cstr(w->out, "(");
-    for (uint32_t i = 0; names[i]; i++) {
-        strbuf_format(w->out, "%sattribute %s { ", i ? ", " : "", names[i]);
-        emit_range_name(row->range, w->out);
-        strbuf_format(w->out, " }%s", mark);
-    }
+    for (uint32_t i = 0; names[i]; i++)
+        strbuf_format(w->out, "%sattribute %s { number_%s }%s", i ? ", " : "", names[i],
+                      schema_range_info(row->range)->name, mark);
     strbuf_cstr(w->out, ")");
     if (row->kind == SCHEMA_COLOR)
         strbuf_cstr(w->out, " | attribute " SCHEMA_HEX_ATTRIBUTE " { hex_color }");
 }
 
-static void child_content(struct rnc_writer *w, const struct schema_row *row) {
+static void child_content(struct emit_lines *w, const struct schema_row *row) {
     int only = schema_short_row(row->child);
     int key = row->many == SCHEMA_NAMED_MAP ? schema_key_row(row->child) : -1;
     bool has_components = only >= 0 && schema_components(row->child->rows[only].kind)[0];
-    indent(w);
+    emit_indent(w);
     strbuf_cstr(w->out, has_components ? "(" : "");
     definition_name(w, row->child->name);
     if (has_components) {
@@ -151,30 +127,28 @@ static void child_content(struct rnc_writer *w, const struct schema_row *row) {
         return;
     strbuf_cstr(w->out, ",\n");
     if (row->single)
-        line(w, "(");
+        emit_line(w, "(");
     attribute(w, &row->child->rows[key]);
     if (row->single)
         strbuf_cstr(w->out, ")?");
 }
 
-static void child_element(struct rnc_writer *w, const struct schema_row *row) {
+static void child_element(struct emit_lines *w, const struct schema_row *row) {
     documentation(w, row->doc);
-    indent(w);
-    strbuf_format(w->out, "element %s {\n", row->element);
-    w->depth++;
+    emit_open(w, "element %s {", row->element);
     if (row->child)
         child_content(w, row);
     else
         component_attributes(w, row);
     w->depth--;
     strbuf_char(w->out, '\n');
-    indent(w);
+    emit_indent(w);
     strbuf_cstr(w->out, "}");
 }
 
 // ---- rows and elements
 
-static void row_pattern(struct rnc_writer *w, const struct schema_row *row) {
+static void row_pattern(struct emit_lines *w, const struct schema_row *row) {
     if (row->many == SCHEMA_FIXED) {
         for (uint32_t i = 0; i < row->fixed_count; i++) {
             strbuf_cstr(w->out, i ? ",\n" : "");
@@ -191,12 +165,12 @@ static void row_pattern(struct rnc_writer *w, const struct schema_row *row) {
 }
 
 // The patterns of a choice, or of a row outside of one, in parentheses with their mark.
-static void grouped(struct rnc_writer *w, const struct schema_element *schema, uint32_t first) {
+static void grouped(struct emit_lines *w, const struct schema_element *schema, uint32_t first) {
     const struct schema_row *row = &schema->rows[first];
     const char *mark = row->kind == SCHEMA_LIST ? "*" : row->required ? "" : "?";
     if (row->choice)
         mark = schema->choices[row->choice - 1].rule == SCHEMA_CHOICE_AT_MOST_ONE ? "?" : "";
-    line(w, "(");
+    emit_line(w, "(");
     w->depth++;
     bool any = false;
     for (uint32_t i = first; i < schema->row_count; i++) {
@@ -205,7 +179,7 @@ static void grouped(struct rnc_writer *w, const struct schema_element *schema, u
         strbuf_cstr(w->out, any ? " |\n" : "");
         bool inner = row->choice && schema->rows[i].many == SCHEMA_FIXED;
         if (inner)
-            line(w, "(");
+            emit_line(w, "(");
         row_pattern(w, &schema->rows[i]);
         if (inner)
             strbuf_cstr(w->out, ")");
@@ -215,7 +189,7 @@ static void grouped(struct rnc_writer *w, const struct schema_element *schema, u
     strbuf_format(w->out, ")%s", mark);
 }
 
-static void element_definition(struct rnc_writer *w, const struct schema_element *schema) {
+static void element_definition(struct emit_lines *w, const struct schema_element *schema) {
     strbuf_char(w->out, '\n');
     definition_name(w, schema->name);
     strbuf_cstr(w->out, " =\n");
@@ -235,16 +209,14 @@ static void element_definition(struct rnc_writer *w, const struct schema_element
 }
 
 void emit_relaxng_compact(struct strbuf *out) {
-    struct rnc_writer w = {.out = out};
-    line(&w, "namespace xsi = \"http://www.w3.org/2001/XMLSchema-instance\"");
-    line(&w, "datatypes xsd = \"http://www.w3.org/2001/XMLSchema-datatypes\"");
-    line(&w, "");
-    line(&w, "start =");
+    struct emit_lines w = {.out = out};
+    emit_line(&w, "namespace xsi = \"http://www.w3.org/2001/XMLSchema-instance\"");
+    emit_line(&w, "datatypes xsd = \"http://www.w3.org/2001/XMLSchema-datatypes\"");
+    strbuf_char(out, '\n');
+    emit_line(&w, "start =");
     w.depth++;
     documentation(&w, SCHEMA_SCENE.doc);
-    indent(&w);
-    strbuf_format(out, "element %s { attribute xsi:* { text }*, %s }\n", SCHEMA_SCENE.element,
-                  SCHEMA_SCENE.name);
+    emit_line(&w, "element %s { attribute xsi:* { text }*, %s }", SCHEMA_SCENE.element, SCHEMA_SCENE.name);
     w.depth--;
     for (const struct schema_element *const *e = schema_elements; *e; e++)
         element_definition(&w, *e);

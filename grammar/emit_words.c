@@ -148,24 +148,3 @@ void emit_yaml_example(const struct schema_element *schema, struct strbuf *out) 
 void emit_xml_example(const struct schema_element *schema, struct strbuf *out) {
     emit_example(schema, ir_write_xml, out);
 }
-
-bool emit_is_integer(enum schema_range range) {
-    for (const struct schema_element *const *e = schema_elements; *e; e++)
-        for (uint32_t i = 0; i < (*e)->row_count; i++)
-            if ((*e)->rows[i].range == range)
-                return (*e)->rows[i].kind == SCHEMA_INTEGER;
-    return false;
-}
-
-void emit_range_name(enum schema_range range, struct strbuf *out) {
-    strbuf_cstr(out, "number_");
-    for (const char *c = schema_range_info(range)->name; *c; c++)
-        strbuf_char(out, *c == ' ' ? '_' : *c);
-}
-
-bool emit_is_first_of_choice(const struct schema_element *schema, uint32_t i) {
-    for (uint32_t k = 0; k < i; k++)
-        if (schema->rows[k].choice == schema->rows[i].choice)
-            return false;
-    return true;
-}

@@ -15,12 +15,6 @@ void emit_range_words(const struct schema_row *row, struct strbuf *out);
 void emit_default_words(const struct schema_row *row, struct strbuf *out);
 // The element's choice rows that exclude this one: "`look_at`, `rotation`"; their number.
 uint32_t emit_rivals(const struct schema_element *schema, uint32_t i, const char *quote, struct strbuf *out);
-// Whether the rows of this range are whole numbers.
-bool emit_is_integer(enum schema_range range);
-// The name of a range as schemas define it: "number_field_of_view".
-void emit_range_name(enum schema_range range, struct strbuf *out);
-// Whether no row before `i` is of its choice.
-bool emit_is_first_of_choice(const struct schema_element *schema, uint32_t i);
 // An example of the row in both spellings, each on one line.
 void emit_yaml_sample(const struct schema_element *schema, uint32_t i, struct strbuf *out);
 void emit_xml_sample(const struct schema_element *schema, uint32_t i, struct strbuf *out);

@@ -71,7 +71,7 @@ enum schema_range {
 };
 
 struct schema_range_info {
-    const char *name; // "coordinate"
+    const char *name; // "coordinate", "field_of_view": as schemas define it
     double least, greatest;
     bool open;        // the ends are excluded
     bool magnitude;   // the ends apply to the absolute value; 0 is accepted by the range itself

@@ -21,7 +21,7 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_SCALE] = {"scale", 1e-18, 1e18, false, true, "of magnitude 1e-18 to 1e18"},
     [SCHEMA_RANGE_WEIGHT] = {"weight", 0, 1e6, false, false, "from 0 to 1e6"},
     [SCHEMA_RANGE_ANGLE] = {"angle", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
-    [SCHEMA_RANGE_FOV] = {"field of view", 0, 180, true, false, "greater than 0 and less than 180"},
+    [SCHEMA_RANGE_FOV] = {"field_of_view", 0, 180, true, false, "greater than 0 and less than 180"},
     [SCHEMA_RANGE_EXPONENT] = {"exponent", 0, 1e6, false, false, "from 0 to 1e6"},
     [SCHEMA_RANGE_INDEX] = {"index", 0.1, 10, false, false, "from 0.1 to 10"},
 };
