@@ -11,16 +11,6 @@ rm -rf -- ./*
 
 . "$source/tests/cli/expect.sh"
 
-same() {
-    if cmp -s "$2" "$3"; then
-        echo "ok   $1"
-    else
-        echo "FAIL $1"
-        diff "$2" "$3" | head -20
-        failed=1
-    fi
-}
-
 # ---- format
 printf 'glint:  1\n# a comment\nimage: { width: 3 }\n' >loose.glint.yaml
 printf 'glint: 1\n# a comment\nimage: {width: 3}\n' >tight.yaml
