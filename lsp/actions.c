@@ -14,9 +14,9 @@ enum {
     TITLE_BYTES = 60,
 };
 
-static json_t *edit_of(struct server *server, const struct session *session, const struct diag *diag) {
+static json_t *edit_of(const struct request *request, const struct diag *diag) {
     json_t *edit = json_object();
-    json_object_set_new(edit, "range", server_range(server, session, diag->fix_at));
+    json_object_set_new(edit, "range", server_range(request->server, request->session, diag->fix_at));
     json_object_set_new(edit, "newText", position_string(diag->fix_text));
     return edit;
 }
@@ -45,32 +45,32 @@ static bool overlaps(span a, size_t begin, size_t end) {
     return a.begin <= end && begin <= a.end;
 }
 
-static void add_fix(struct server *server, struct session *session, struct arena *arena,
-                    const struct document *document, const struct diag *diag, json_t *list) {
-    str title = title_of(arena, session, diag);
+static void add_fix(const struct request *request, const struct diag *diag, json_t *list) {
+    str title = title_of(request->arena, request->session, diag);
     json_t *action = json_object();
     json_t *edits = json_array();
     json_t *diagnostics = json_array();
-    json_array_append_new(edits, edit_of(server, session, diag));
-    json_array_append_new(diagnostics, server_diagnostic(server, session, arena, diag));
+    json_array_append_new(edits, edit_of(request, diag));
+    json_array_append_new(diagnostics,
+                          server_diagnostic(request->server, request->session, request->arena, diag));
     json_object_set_new(action, "title", position_string(title));
     json_object_set_new(action, "kind", json_string("quickfix"));
     json_object_set_new(action, "isPreferred", json_boolean(diag->fix_is_safe));
     json_object_set_new(action, "diagnostics", diagnostics);
-    json_object_set_new(action, "edit", workspace_edit(document->uri, edits));
+    json_object_set_new(action, "edit", workspace_edit(request->document->uri, edits));
     json_array_append_new(list, action);
 }
 
 // All fixes that leave no doubt, in one.
-static void add_fix_all(struct server *server, struct session *session, const struct document *document,
-                        uint32_t source, json_t *list) {
+static void add_fix_all(const struct request *request, uint32_t source, json_t *list) {
+    const struct session *session = request->session;
     json_t *edits = json_array();
     uint32_t end = 0;
     for (uint32_t i = 0; i < session->sink.count; i++) {
         const struct diag *diag = &session->sink.items[i];
         if (!diag->has_fix || !diag->fix_is_safe || diag->fix_at.source != source || diag->fix_at.begin < end)
             continue;
-        json_array_append_new(edits, edit_of(server, session, diag));
+        json_array_append_new(edits, edit_of(request, diag));
         end = diag->fix_at.end;
     }
     if (json_array_size(edits) == 0) {
@@ -80,7 +80,7 @@ static void add_fix_all(struct server *server, struct session *session, const st
     json_t *action = json_object();
     json_object_set_new(action, "title", json_string("Fix all that has one right spelling"));
     json_object_set_new(action, "kind", json_string("source.fixAll.glint"));
-    json_object_set_new(action, "edit", workspace_edit(document->uri, edits));
+    json_object_set_new(action, "edit", workspace_edit(request->document->uri, edits));
     json_array_append_new(list, action);
 }
 
@@ -100,26 +100,24 @@ static bool wants(const json_t *context, const char *kind) {
     return false;
 }
 
-json_t *server_code_actions(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
+json_t *server_code_actions(const struct request *request) {
     json_t *list = json_array();
-    const json_t *context = json_object_get(params, "context");
-    const json_t *range = json_object_get(params, "range");
-    if (!server_place(server, params, &place) || !place.scene)
-        return list;
-    struct session *session = &place.scene->session;
-    uint32_t source = locate_source(session, place.document->path);
-    str text = document_text(place.document);
-    size_t begin = position_read(text, server->encoding, json_object_get(range, "start"), NULL);
-    size_t end = position_read(text, server->encoding, json_object_get(range, "end"), NULL);
+    const json_t *context = json_object_get(request->params, "context");
+    const json_t *range = json_object_get(request->params, "range");
+    enum position_encoding encoding = request->server->encoding;
+    const struct session *session = request->session;
+    uint32_t source = locate_source(request->session, request->document->path);
+    str text = document_text(request->document);
+    size_t begin = position_read(text, encoding, json_object_get(range, "start"), NULL);
+    size_t end = position_read(text, encoding, json_object_get(range, "end"), NULL);
     for (uint32_t i = 0; wants(context, "quickfix") && i < session->sink.count; i++) {
         const struct diag *diag = &session->sink.items[i];
         if (diag->has_fix && diag->fix_at.source == source && diag->at.source == source &&
             (overlaps(diag->at, begin, end) || overlaps(diag->fix_at, begin, end)))
-            add_fix(server, session, arena, place.document, diag, list);
+            add_fix(request, diag, list);
     }
     if (wants(context, "source.fixAll.glint"))
-        add_fix_all(server, session, place.document, source, list);
+        add_fix_all(request, source, list);
     return list;
 }
 
@@ -157,13 +155,10 @@ static struct typed typed_at(str text, size_t offset) {
 }
 
 struct completing {
-    struct session *session;
-    struct arena *arena;
-    const struct document *document;
+    const struct request *request;
     struct typed typed;
-    const json_t *remembered; // names by element, from before the text was broken
-    json_t *range;            // of the word
-    json_t *known;            // labels that were offered
+    json_t *range; // of the word
+    json_t *known; // labels that were offered
     json_t *items;
 };
 
@@ -195,13 +190,14 @@ static void offer(struct completing *c, str label, enum completion_kind kind, co
 
 static void offer_names(struct completing *c, const struct schema_element *target) {
     const struct schema_row *pool = ir_walk_pool(target);
+    const struct ir_scene *scene = c->request->session->scene;
     size_t index;
     const json_t *name_before;
-    json_array_foreach(json_object_get(c->remembered, target->name), index, name_before)
+    json_array_foreach(json_object_get(c->request->scene->names, target->name), index, name_before)
         offer(c, str_from(json_string_value(name_before)), COMPLETION_REFERENCE, target->doc);
-    if (!pool || !c->session->scene)
+    if (!pool || !scene)
         return;
-    struct ir_any_list list = ir_walk_list(pool, c->session->scene);
+    struct ir_any_list list = ir_walk_list(pool, scene);
     for (uint32_t i = 0; i < list.count; i++) {
         str name = ir_walk_key(target, ir_walk_item(pool, list, i));
         if (name.len)
@@ -211,18 +207,20 @@ static void offer_names(struct completing *c, const struct schema_element *targe
 
 // Files and folders that lie where the path typed so far leads, beside the document.
 static void offer_files(struct completing *c, enum schema_file kind) {
+    struct arena *arena = c->request->arena;
     str typed = c->typed.word;
     str base = path_base(typed);
     str stem = str_slice(typed, 0, typed.len - base.len);
-    str folder = arena_format(c->arena, "%.*s/%.*s", STR_ARG(path_folder(c->document->path)), STR_ARG(stem));
+    str folder =
+        arena_format(arena, "%.*s/%.*s", STR_ARG(path_folder(c->request->document->path)), STR_ARG(stem));
     struct files_names names = {0};
-    files_list_folder(c->arena, folder, &names);
+    files_list_folder(arena, folder, &names);
     for (uint32_t i = 0; i < names.count && i < FILES_MOST; i++) {
         str name = names.items[i];
-        str path = arena_format(c->arena, "%.*s%.*s", STR_ARG(folder), STR_ARG(name));
-        str label = arena_format(c->arena, "%.*s%.*s", STR_ARG(stem), STR_ARG(name));
+        str path = arena_format(arena, "%.*s%.*s", STR_ARG(folder), STR_ARG(name));
+        str label = arena_format(arena, "%.*s%.*s", STR_ARG(stem), STR_ARG(name));
         if (files_is_folder(path))
-            offer(c, arena_format(c->arena, "%.*s/", STR_ARG(label)), COMPLETION_FOLDER, NULL);
+            offer(c, arena_format(arena, "%.*s/", STR_ARG(label)), COMPLETION_FOLDER, NULL);
         else if (schema_file_fits(kind, name))
             offer(c, label, COMPLETION_FILE, NULL);
     }
@@ -252,51 +250,42 @@ static void offer_for(struct completing *c, const struct schema_row *row) {
     }
 }
 
-json_t *server_completion(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
-    json_t *list = json_object();
-    json_t *items = json_array();
-    json_object_set_new(list, "isIncomplete", json_false());
-    json_object_set_new(list, "items", items);
-    if (!server_place(server, params, &place) || !place.scene)
-        return list;
-    str text = document_text(place.document);
-    struct typed typed = typed_at(text, place.offset);
-    struct completing completing = {
-        .session = &place.scene->session,
-        .arena = arena,
-        .document = place.document,
-        .typed = typed,
-        .remembered = place.scene->names,
-        .range = position_range_once(text, server->encoding, typed.begin, typed.begin + typed.word.len),
-        .known = json_object(),
-        .items = items};
-    for (uint32_t e = 0; completing.typed.key.len && schema_elements[e]; e++)
+json_t *server_completion(const struct request *request) {
+    str text = document_text(request->document);
+    struct typed typed = typed_at(text, request->offset);
+    struct completing completing = {.request = request,
+                                    .typed = typed,
+                                    .range = position_range_once(text, request->server->encoding, typed.begin,
+                                                                 typed.begin + typed.word.len),
+                                    .known = json_object(),
+                                    .items = json_array()};
+    for (uint32_t e = 0; typed.key.len && schema_elements[e]; e++)
         for (uint32_t i = 0; i < schema_elements[e]->row_count; i++)
             offer_for(&completing, &schema_elements[e]->rows[i]);
     json_decref(completing.range);
     json_decref(completing.known);
+    json_t *list = json_object();
+    json_object_set_new(list, "isIncomplete", json_false());
+    json_object_set_new(list, "items", completing.items);
     return list;
 }
 
 // ---- formatting
 
 // The text as a whole: what the layout leaves alone stays, so that the editor's own diff is small.
-json_t *server_formatting(struct server *server, const json_t *params, struct arena *arena) {
-    const char *uri = json_string_value(json_object_get(json_object_get(params, "textDocument"), "uri"));
-    struct document *document = documents_find(&server->documents, uri ? uri : "");
-    if (!document)
-        return NULL;
+json_t *server_formatting(const struct request *request) {
+    struct server *server = request->server;
+    struct arena *arena = request->arena;
     struct source_set sources;
     struct diag_sink sink;
     struct strbuf text;
     source_set_init(&sources, arena);
     diag_sink_init(&sink);
     strbuf_init(&text);
-    str old = arena_copy(arena, document_text(document));
+    str old = arena_copy(arena, document_text(request->document));
     struct reader_context context = {
         .sources = &sources, .sink = &sink, .limits = &server->scenes.limits, .arena = arena};
-    uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, document->path, old);
+    uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, request->document->path, old);
     enum format_status status = format_source(&context, source, NULL, &text);
     json_t *edits = NULL;
     if (status == FORMAT_DONE && !text.failed) {

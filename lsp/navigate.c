@@ -11,6 +11,24 @@ enum {
     SNIPPET_BYTES = 1000, // of a definition that is shown
 };
 
+static struct located located_at(const struct request *request) {
+    return locate(request->session, request->document->path, request->offset);
+}
+
+static bool name_at(const struct request *request, const struct located *at, struct located_name *name) {
+    return locate_name(request->session, at, request->arena, name);
+}
+
+static json_t *location_of(const struct request *request, span at) {
+    return server_location(request->server, request->session, request->arena, at);
+}
+
+static void add_location(const struct request *request, json_t *list, span at) {
+    json_t *location = location_of(request, at);
+    if (location)
+        json_array_append_new(list, location);
+}
+
 static json_t *file_location(struct arena *arena, str path) {
     json_t *location = json_object();
     json_object_set_new(location, "uri", json_string(position_uri(arena, path).ptr));
@@ -23,16 +41,17 @@ static bool is_path(const struct located *at) {
 }
 
 // The file that a path in the document names; the empty string where it is not found.
-static str resolve(struct session *session, const struct document *document, const struct located *at) {
-    const str *path = schema_field_const(at->row, at->element);
+static str resolve(const struct request *request, str path) {
+    struct files *files = &request->session->files;
     str found;
-    if (path->len == 0 || files_resolve(&session->files, document->path, *path, &found) != FILE_OK)
+    if (path.len == 0 || files_resolve(files, request->document->path, path, &found) != FILE_OK)
         return STR("");
-    return files_canonical(&session->files, found);
+    return files_canonical(files, found);
 }
 
 // The line of a mesh in which its first face of a material stands.
-static json_t *mesh_group_location(struct session *session, struct arena *arena, const struct located *at) {
+static json_t *mesh_group_location(const struct request *request, const struct located *at) {
+    struct session *session = request->session;
     const str *name = schema_field_const(at->row, at->element);
     for (uint32_t i = 0; i < session->assets.model_count; i++) {
         const struct ir_model *model = &session->scene->models.items[i];
@@ -45,7 +64,7 @@ static json_t *mesh_group_location(struct session *session, struct arena *arena,
         for (uint32_t g = 0; is_mine && mesh && g < mesh->group_count; g++) {
             if (!str_equal(mesh->groups[g].name, *name) || mesh->groups[g].line == 0)
                 continue;
-            json_t *location = file_location(arena, files_canonical(&session->files, mesh->path));
+            json_t *location = file_location(request->arena, files_canonical(&session->files, mesh->path));
             json_t *start = json_object_get(json_object_get(location, "range"), "start");
             json_t *end = json_object_get(json_object_get(location, "range"), "end");
             json_object_set_new(start, "line", json_integer(mesh->groups[g].line - 1));
@@ -56,44 +75,29 @@ static json_t *mesh_group_location(struct session *session, struct arena *arena,
     return NULL;
 }
 
-json_t *server_definition(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
+json_t *server_definition(const struct request *request) {
     struct located_name name;
-    if (!server_place(server, params, &place) || !place.scene)
-        return NULL;
-    struct session *session = &place.scene->session;
-    struct located at = locate(session, place.document->path, place.offset);
+    struct located at = located_at(request);
     if (is_path(&at)) {
-        str path = resolve(session, place.document, &at);
-        return path.len ? file_location(arena, path) : NULL;
+        str path = resolve(request, *(const str *)schema_field_const(at.row, at.element));
+        return path.len ? file_location(request->arena, path) : NULL;
     }
     if (at.row && at.row->kind == SCHEMA_TEXT && at.row->text == SCHEMA_TEXT_FOREIGN_NAME && at.in_value)
-        return mesh_group_location(session, arena, &at);
-    if (!locate_name(session, &at, arena, &name))
-        return NULL;
-    return server_location(server, session, arena, name.definition);
+        return mesh_group_location(request, &at);
+    return name_at(request, &at, &name) ? location_of(request, name.definition) : NULL;
 }
 
-json_t *server_references(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
+json_t *server_references(const struct request *request) {
     struct located_name name;
+    struct located at = located_at(request);
     json_t *list = json_array();
-    if (!server_place(server, params, &place) || !place.scene)
+    const json_t *context = json_object_get(request->params, "context");
+    if (!name_at(request, &at, &name))
         return list;
-    struct session *session = &place.scene->session;
-    struct located at = locate(session, place.document->path, place.offset);
-    if (!locate_name(session, &at, arena, &name))
-        return list;
-    if (json_is_true(json_object_get(json_object_get(params, "context"), "includeDeclaration"))) {
-        json_t *location = server_location(server, session, arena, name.definition);
-        if (location)
-            json_array_append_new(list, location);
-    }
-    for (uint32_t i = 0; i < name.uses.count; i++) {
-        json_t *location = server_location(server, session, arena, name.uses.items[i]);
-        if (location)
-            json_array_append_new(list, location);
-    }
+    if (json_is_true(json_object_get(context, "includeDeclaration")))
+        add_location(request, list, name.definition);
+    for (uint32_t i = 0; i < name.uses.count; i++)
+        add_location(request, list, name.uses.items[i]);
     return list;
 }
 
@@ -114,15 +118,15 @@ static bool is_of_xml(const struct session *session, uint32_t source) {
     return false;
 }
 
-static void add_edit(struct server *server, struct session *session, struct arena *arena, json_t *changes,
-                     span at, str name, const char *text) {
+static void add_edit(const struct request *request, json_t *changes, span at, str name, const char *text) {
+    const struct session *session = request->session;
     span inner = bare(session, at);
     // In quotes a name may be spelled with escapes, and in an attribute with entities; a name never needs
     // any. What else is not spelled there comes through an anchor.
     bool whole = inner.begin != at.begin || is_of_xml(session, at.source);
     if (!whole && !str_equal(source_text(&session->sources, inner), name))
         return;
-    json_t *location = server_location(server, session, arena, inner);
+    json_t *location = location_of(request, inner);
     if (!location)
         return;
     const char *uri = json_string_value(json_object_get(location, "uri"));
@@ -138,16 +142,12 @@ static void add_edit(struct server *server, struct session *session, struct aren
     json_decref(location);
 }
 
-json_t *server_prepare_rename(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
+json_t *server_prepare_rename(const struct request *request) {
     struct located_name name;
-    if (!server_place(server, params, &place) || !place.scene)
+    struct located at = located_at(request);
+    if (!name_at(request, &at, &name))
         return NULL;
-    struct session *session = &place.scene->session;
-    struct located at = locate(session, place.document->path, place.offset);
-    if (!locate_name(session, &at, arena, &name))
-        return NULL;
-    return server_range(server, session, bare(session, at.at));
+    return server_range(request->server, request->session, bare(request->session, at.at));
 }
 
 // Whether something else of the kind has the name.
@@ -162,39 +162,35 @@ static bool is_taken(const struct session *session, const struct schema_element 
     return false;
 }
 
-json_t *server_rename(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
+json_t *server_rename(const struct request *request) {
     struct located_name name;
-    const char *text = json_string_value(json_object_get(params, "newName"));
+    const char *text = json_string_value(json_object_get(request->params, "newName"));
     if (!text || !str_is_name(str_from(text))) {
-        server->refusal = "a name has letters, digits, '_' and '-', and does not begin with a digit";
+        request->server->refusal = "a name has letters, digits, '_' and '-', and does not begin with a digit";
         return NULL;
     }
-    if (!server_place(server, params, &place) || !place.scene)
+    struct located at = located_at(request);
+    if (!name_at(request, &at, &name))
         return NULL;
-    struct session *session = &place.scene->session;
-    struct located at = locate(session, place.document->path, place.offset);
-    if (!locate_name(session, &at, arena, &name))
-        return NULL;
-    if (!str_equal(str_from(text), name.name) && is_taken(session, name.schema, str_from(text))) {
-        server->refusal = "another one has this name";
+    if (!str_equal(str_from(text), name.name) && is_taken(request->session, name.schema, str_from(text))) {
+        request->server->refusal = "another one has this name";
         return NULL;
     }
     json_t *edit = json_object();
     json_t *changes = json_object();
-    add_edit(server, session, arena, changes, name.definition, name.name, text);
+    add_edit(request, changes, name.definition, name.name, text);
     for (uint32_t i = 0; i < name.uses.count; i++)
-        add_edit(server, session, arena, changes, name.uses.items[i], name.name, text);
+        add_edit(request, changes, name.uses.items[i], name.name, text);
     json_object_set_new(edit, "changes", changes);
     return edit;
 }
 
 // ---- hover
 
-static void add_definition(struct session *session, struct arena *arena, const struct located *at,
-                           struct strbuf *out) {
+static void add_definition(const struct request *request, const struct located *at, struct strbuf *out) {
+    struct session *session = request->session;
     struct located_name name;
-    if (!at->in_value || !locate_name(session, at, arena, &name))
+    if (!at->in_value || !name_at(request, at, &name))
         return;
     str text = source_text(&session->sources, name.definition);
     // The whole element, from where its name stands.
@@ -209,27 +205,23 @@ static void add_definition(struct session *session, struct arena *arena, const s
                   STR_ARG(name.name), STR_ARG(path_base(where.path)), where.line, STR_ARG(text));
 }
 
-json_t *server_hover(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
-    if (!server_place(server, params, &place) || !place.scene)
-        return NULL;
-    struct session *session = &place.scene->session;
-    struct located at = locate(session, place.document->path, place.offset);
+json_t *server_hover(const struct request *request) {
+    struct located at = located_at(request);
     if (!at.schema)
         return NULL;
     struct strbuf text;
     strbuf_init(&text);
     if (at.row && at.row->kind == SCHEMA_REFERENCE)
-        add_definition(session, arena, &at, &text);
-    str what =
-        at.row ? arena_format(arena, "%s.%s", at.schema->name, at.row->name) : str_from(at.schema->name);
+        add_definition(request, &at, &text);
+    str what = at.row ? arena_format(request->arena, "%s.%s", at.schema->name, at.row->name)
+                      : str_from(at.schema->name);
     explain(what, false, &text);
     json_t *hover = json_object();
     json_t *contents = json_object();
     json_object_set_new(contents, "kind", json_string("plaintext"));
     json_object_set_new(contents, "value", position_string(strbuf_view(&text)));
     json_object_set_new(hover, "contents", contents);
-    json_object_set_new(hover, "range", server_range(server, session, at.at));
+    json_object_set_new(hover, "range", server_range(request->server, request->session, at.at));
     strbuf_finish(&text);
     return hover;
 }
@@ -270,11 +262,8 @@ static str symbol_name(struct arena *arena, const struct schema_element *schema,
 }
 
 struct outline {
-    struct server *server;
-    struct session *session;
-    struct arena *arena;
+    const struct request *request;
     uint32_t source;
-    const struct ir_scene *scene;
 };
 
 static void add_symbol(struct outline *outline, json_t *list, const struct schema_element *schema,
@@ -297,42 +286,35 @@ static void add_symbols(struct outline *outline, json_t *list, const struct sche
 
 static void add_symbol(struct outline *outline, json_t *list, const struct schema_element *schema,
                        const void *element, int index) {
+    const struct request *request = outline->request;
     span at;
     span label;
-    if (!stands_in(outline->session, element, outline->source, &at, &label))
+    if (!stands_in(request->session, element, outline->source, &at, &label))
         return;
-    str name = symbol_name(outline->arena, schema, element, index);
+    str name = symbol_name(request->arena, schema, element, index);
     json_t *symbol = json_object();
     json_t *children = json_array();
     json_object_set_new(symbol, "name", position_string(name));
     json_object_set_new(symbol, "detail", json_string(schema->element));
     json_object_set_new(symbol, "kind", json_integer(index < 0 ? SYMBOL_FIELD : SYMBOL_OBJECT));
-    json_object_set_new(symbol, "range", server_range(outline->server, outline->session, at));
-    json_object_set_new(symbol, "selectionRange", server_range(outline->server, outline->session, label));
+    json_object_set_new(symbol, "range", server_range(request->server, request->session, at));
+    json_object_set_new(symbol, "selectionRange", server_range(request->server, request->session, label));
     add_symbols(outline, children, schema, element);
     json_object_set_new(symbol, "children", children);
     json_array_append_new(list, symbol);
 }
 
-json_t *server_symbols(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
+json_t *server_symbols(const struct request *request) {
     json_t *list = json_array();
-    if (!server_place(server, params, &place) || !place.scene)
-        return list;
-    struct session *session = &place.scene->session;
-    uint32_t source = locate_source(session, place.document->path);
-    struct outline outline = {server, session, arena, source, session->scene};
-    add_symbols(&outline, list, &SCHEMA_SCENE, session->scene);
+    struct outline outline = {request, locate_source(request->session, request->document->path)};
+    add_symbols(&outline, list, &SCHEMA_SCENE, request->session->scene);
     return list;
 }
 
 // ---- links
 
 struct linking {
-    struct server *server;
-    struct session *session;
-    struct arena *arena;
-    const struct document *document;
+    const struct request *request;
     uint32_t source;
     json_t *list;
 };
@@ -340,31 +322,26 @@ struct linking {
 static void add_link(void *context, const struct schema_element *schema, void *element,
                      const struct schema_row *row, str *path) {
     struct linking *linking = context;
-    (void)path;
-    span at = ir_place_value(&linking->session->origin, ir_walk_head(element), schema, row->name);
+    const struct request *request = linking->request;
+    struct session *session = request->session;
+    span at = ir_place_value(&session->origin, ir_walk_head(element), schema, row->name);
     if (at.source != linking->source)
         return;
-    struct located located = {schema, element, row, true, at};
-    str target = resolve(linking->session, linking->document, &located);
+    str target = resolve(request, *path);
     if (target.len == 0)
         return;
     json_t *link = json_object();
-    json_object_set_new(link, "range",
-                        server_range(linking->server, linking->session, bare(linking->session, at)));
-    json_object_set_new(link, "target", json_string(position_uri(linking->arena, target).ptr));
+    json_object_set_new(link, "range", server_range(request->server, session, bare(session, at)));
+    json_object_set_new(link, "target", json_string(position_uri(request->arena, target).ptr));
     json_array_append_new(linking->list, link);
 }
 
-json_t *server_links(struct server *server, const json_t *params, struct arena *arena) {
-    struct place place;
-    json_t *list = json_array();
-    if (!server_place(server, params, &place) || !place.scene)
-        return list;
-    struct session *session = &place.scene->session;
-    uint32_t source = locate_source(session, place.document->path);
-    struct linking linking = {server, session, arena, place.document, source, list};
+json_t *server_links(const struct request *request) {
+    const struct session *session = request->session;
+    uint32_t source = locate_source(request->session, request->document->path);
+    struct linking linking = {request, source, json_array()};
     for (uint32_t i = 0; i < session->origin.files.count; i++)
         if (session->origin.files.items[i].source == source && session->origin.files.items[i].scene)
             ir_walk_paths(session->origin.files.items[i].scene, add_link, &linking);
-    return list;
+    return linking.list;
 }

@@ -95,17 +95,6 @@ static void did_save(struct server *server, const json_t *params) {
     server->was_saved = true;
 }
 
-bool server_place(struct server *server, const json_t *params, struct place *out) {
-    *out = (struct place){.document = documents_find(&server->documents, uri_of(params))};
-    if (!out->document)
-        return false;
-    out->scene = scenes_of(&server->scenes, out->document->path);
-    const json_t *position = json_object_get(params, "position");
-    if (position)
-        out->offset = position_read(document_text(out->document), server->encoding, position, NULL);
-    return true;
-}
-
 // A mesh that another program writes is as much a part of the scene as its text.
 static void initialized(struct server *server, const json_t *params) {
     (void)params;
@@ -122,15 +111,28 @@ static void initialized(struct server *server, const json_t *params) {
 
 // ---- dispatch
 
-static const struct {
-    const char *method;
-    server_request *answer;
-} requests[] = {
-    {"textDocument/codeAction", server_code_actions}, {"textDocument/definition", server_definition},
-    {"textDocument/references", server_references},   {"textDocument/prepareRename", server_prepare_rename},
-    {"textDocument/rename", server_rename},           {"textDocument/hover", server_hover},
-    {"textDocument/documentSymbol", server_symbols},  {"textDocument/documentLink", server_links},
-    {"textDocument/completion", server_completion},   {"textDocument/formatting", server_formatting},
+// What is answered where the document belongs to no scene that could be loaded.
+enum without_scene {
+    ANSWER_NULL,
+    ANSWER_EMPTY, // a list
+    ANSWER_STILL, // it needs none
+};
+
+static const struct method {
+    const char *name;
+    server_answer *answer;
+    enum without_scene without_scene;
+} methods[] = {
+    {"textDocument/codeAction", server_code_actions, ANSWER_EMPTY},
+    {"textDocument/definition", server_definition, ANSWER_NULL},
+    {"textDocument/references", server_references, ANSWER_EMPTY},
+    {"textDocument/prepareRename", server_prepare_rename, ANSWER_NULL},
+    {"textDocument/rename", server_rename, ANSWER_NULL},
+    {"textDocument/hover", server_hover, ANSWER_NULL},
+    {"textDocument/documentSymbol", server_symbols, ANSWER_EMPTY},
+    {"textDocument/documentLink", server_links, ANSWER_EMPTY},
+    {"textDocument/completion", server_completion, ANSWER_EMPTY},
+    {"textDocument/formatting", server_formatting, ANSWER_STILL},
 };
 
 static const struct {
@@ -151,23 +153,34 @@ static void refresh(struct server *server, enum scenes_effort effort) {
 }
 
 // What a request allocates in a session's arena, and in its own, ends the request alone where memory does.
-static json_t *answer(struct server *server, server_request *request, const json_t *params, bool *good) {
+static json_t *answer(struct server *server, const struct method *method, const json_t *params, bool *good) {
     struct arena arena;
     struct arena_guard guard;
-    struct place place;
+    struct document *document = documents_find(&server->documents, uri_of(params));
+    struct lsp_scene *scene = document ? scenes_of(&server->scenes, document->path) : NULL;
+    struct session *session = scene ? &scene->session : NULL;
     json_t *volatile result = NULL;
+    server->refusal = NULL;
+    *good = true;
+    if (!session && (!document || method->without_scene != ANSWER_STILL))
+        return method->without_scene == ANSWER_EMPTY ? json_array() : NULL;
+    struct request request = {.server = server,
+                              .arena = &arena,
+                              .params = params,
+                              .document = document,
+                              .scene = scene,
+                              .session = session,
+                              .offset = position_read(document_text(document), server->encoding,
+                                                      json_object_get(params, "position"), NULL)};
     arena_init(&arena, SIZE_MAX / 2);
     arena_set_guard(&arena, &guard);
-    struct session *session =
-        server_place(server, params, &place) && place.scene ? &place.scene->session : NULL;
-    server->refusal = NULL;
     if (session) {
         arena_set_guard(&session->arena, &guard);
         session->files.arena = &arena; // or the session would grow with every request
     }
     *good = setjmp(guard.jump) == 0;
     if (*good)
-        result = request(server, params, &arena);
+        result = method->answer(&request);
     if (session) {
         arena_set_guard(&session->arena, NULL);
         session->files.arena = &session->arena;
@@ -191,12 +204,12 @@ static void take_request(struct server *server, const char *method, json_t *id, 
         rpc_reply(&server->rpc, id, NULL);
         return;
     }
-    for (size_t i = 0; i < sizeof requests / sizeof *requests; i++) {
-        if (strcmp(method, requests[i].method) != 0)
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        if (strcmp(method, methods[i].name) != 0)
             continue;
         bool good;
         refresh(server, SCENES_QUICK);
-        json_t *result = answer(server, requests[i].answer, params, &good);
+        json_t *result = answer(server, &methods[i], params, &good);
         if (good && server->refusal)
             rpc_refuse(&server->rpc, id, RPC_REQUEST_FAILED, server->refusal);
         else if (good)

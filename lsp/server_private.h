@@ -27,13 +27,17 @@ struct server {
     const char *refusal; // why a request is refused; NULL: it is not
 };
 
-// A request about a place in a document: the scene it belongs to, up to date.
-struct place {
+// A request about an open document, or a place in it.
+struct request {
+    struct server *server;
+    struct arena *arena; // for the request alone; paths that the session's `files` makes lie in it too
+    const json_t *params;
     struct document *document;
-    struct lsp_scene *scene; // NULL: none that could be loaded
-    size_t offset;
+    struct lsp_scene *scene; // that the document belongs to, up to date
+    struct session *session; // of that scene
+    size_t offset;           // of the place in the document
 };
-bool server_place(struct server *server, const json_t *params, struct place *out);
+
 // The Location of a span; NULL where it has no file.
 json_t *server_location(struct server *server, struct session *session, struct arena *arena, span at);
 // The text that positions in a source refer to.
@@ -47,10 +51,10 @@ void server_publish(struct server *server);
 json_t *server_diagnostic(struct server *server, struct session *session, struct arena *arena,
                           const struct diag *diag);
 
-// Each answers one request; the result is a new reference, NULL for null. Paths that the scene's `files`
-// makes then lie in the arena.
-typedef json_t *server_request(struct server *server, const json_t *params, struct arena *arena);
-server_request server_code_actions, server_definition, server_references, server_prepare_rename,
-    server_rename, server_hover, server_symbols, server_links, server_completion, server_formatting;
+// Each answers one request; the result is a new reference, NULL for null. Only server_formatting is asked for
+// documents without a scene.
+typedef json_t *server_answer(const struct request *request);
+server_answer server_code_actions, server_definition, server_references, server_prepare_rename, server_rename,
+    server_hover, server_symbols, server_links, server_completion, server_formatting;
 
 #endif
