@@ -59,14 +59,14 @@ static void add_assets(struct session *session, struct inventory *out) {
 }
 
 static void add_settings(struct session *session, struct inventory *out) {
+    str path = session->config.path;
+    str canonical = path.len ? files_canonical(&session->files, path) : path;
     for (uint32_t i = 0; i < session->files.log.count; i++) {
         const struct file_read *read = &session->files.log.items[i];
-        if (!str_equal(path_base(read->path), STR(".glintrc.yaml")))
+        if (!str_equal(read->path, canonical))
             continue;
-        *ARENA_PUSH(&session->arena, out) = (struct inventory_use){.role = INVENTORY_SETTINGS,
-                                                                   .path = read->path,
-                                                                   .canonical = read->path,
-                                                                   .size_bytes = read->size_bytes};
+        *ARENA_PUSH(&session->arena, out) = (struct inventory_use){
+            .role = INVENTORY_SETTINGS, .path = path, .canonical = canonical, .size_bytes = read->size_bytes};
     }
 }
 

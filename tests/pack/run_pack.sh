@@ -90,6 +90,10 @@ printf 'glint: 1\nmodels: [{mesh: gone.obj}]\n' >gone.yaml
 expect "deps of a scene with a missing mesh" 1 'gone.yaml$' 'gone.yaml:2:17: error: .*E601' "$glint" deps gone.yaml
 expect "deps knows its formats" 2 - make "$glint" deps --format mak gone.yaml
 
+mkdir linked && printf 'max_messages: 9\n' >settings && ln -s ../settings linked/.glintrc.yaml
+cp in/two/more.yaml in/two/tri.obj in/two/tri.mtl linked/
+expect "deps tells settings that are a link" 0 '/linked/\.glintrc\.yaml$' - "$glint" deps linked/more.yaml
+
 # ---- pack
 expect "pack into a folder" 0 - - "$glint" pack in/sub/scene.yaml packed
 (cd packed && find . -type f | sort) >packed.txt
