@@ -21,9 +21,9 @@ struct pack_file {
 };
 
 struct pack_plan {
-    struct pack_file *items; // the scene first
+    const struct inventory *inventory; // of the scene
+    struct pack_file *items;           // the scene first
     uint32_t count, capacity;
-    uint32_t rewritten; // paths
 };
 
 enum pack_status {
@@ -38,7 +38,7 @@ struct pack_error {
 };
 
 // Where each file goes, and the rewritten scene files. `session` has been loaded without errors. The plan
-// lies in the session's arena. PACK_OK or PACK_SCENE.
+// lies in the session's arena and keeps the inventory. PACK_OK or PACK_SCENE.
 enum pack_status pack_make_plan(struct session *session, const struct inventory *inventory,
                                 struct pack_plan *plan);
 // Writes the plan to `out`: a ZIP archive where it ends in .zip, else a new or empty folder. All or nothing;

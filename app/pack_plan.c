@@ -14,7 +14,6 @@ enum {
 
 struct planner {
     struct session *session;
-    const struct inventory *inventory;
     struct pack_plan *plan;
 };
 
@@ -30,6 +29,14 @@ struct edits {
 
 static bool same_name(str a, str b) {
     return a.len == b.len && strncasecmp(a.ptr, b.ptr, a.len) == 0; // some file systems know no case
+}
+
+// The first: a material file may lie beside several meshes.
+static struct pack_file *find_canonical(const struct pack_plan *plan, str canonical) {
+    for (uint32_t i = 0; i < plan->count; i++)
+        if (str_equal(plan->items[i].canonical, canonical))
+            return &plan->items[i];
+    return NULL;
 }
 
 static const struct pack_file *find_target(const struct pack_plan *plan, str target) {
@@ -108,8 +115,8 @@ static bool belongs_to(const struct inventory_use *library, const struct invento
 static bool fits(struct planner *p, str folder, const struct inventory_use *mesh, str target) {
     if (!is_free(p->plan, target, mesh->canonical))
         return false;
-    for (uint32_t i = 0; i < p->inventory->count; i++) {
-        const struct inventory_use *use = &p->inventory->items[i];
+    for (uint32_t i = 0; i < p->plan->inventory->count; i++) {
+        const struct inventory_use *use = &p->plan->inventory->items[i];
         if (!belongs_to(use, mesh))
             continue;
         str library = library_target(p, folder, use);
@@ -121,8 +128,8 @@ static bool fits(struct planner *p, str folder, const struct inventory_use *mesh
 
 static void add_libraries(struct planner *p, str folder, const struct inventory_use *mesh) {
     struct diag_sink *sink = &p->session->sink;
-    for (uint32_t i = 0; i < p->inventory->count; i++) {
-        const struct inventory_use *use = &p->inventory->items[i];
+    for (uint32_t i = 0; i < p->plan->inventory->count; i++) {
+        const struct inventory_use *use = &p->plan->inventory->items[i];
         if (!belongs_to(use, mesh))
             continue;
         str target = library_target(p, folder, use);
@@ -139,9 +146,8 @@ static void add_libraries(struct planner *p, str folder, const struct inventory_
 }
 
 static void place(struct planner *p, const struct inventory_use *use, const char *folder) {
-    for (uint32_t i = 0; i < p->plan->count; i++)
-        if (str_equal(p->plan->items[i].canonical, use->canonical))
-            return;
+    if (find_canonical(p->plan, use->canonical))
+        return;
     for (int number = 1; number <= TRIES; number++) {
         str in = folder_name(p, folder, number);
         str target = arena_format(&p->session->arena, "%.*s%.*s", STR_ARG(in), STR_ARG(path_base(use->path)));
@@ -172,8 +178,8 @@ static void add_limits(struct planner *p) {
 }
 
 static void place_all(struct planner *p) {
-    for (uint32_t i = 0; i < p->inventory->count; i++) {
-        const struct inventory_use *use = &p->inventory->items[i];
+    for (uint32_t i = 0; i < p->plan->inventory->count; i++) {
+        const struct inventory_use *use = &p->plan->inventory->items[i];
         if (use->role == INVENTORY_SCENE)
             add_file(p, arena_copy(&p->session->arena, path_base(use->path)), use);
         else if (use->role == INVENTORY_INCLUDE)
@@ -186,13 +192,6 @@ static void place_all(struct planner *p) {
 }
 
 // ---- scene files
-
-static str target_of(const struct planner *p, str canonical) {
-    for (uint32_t i = 0; i < p->plan->count; i++)
-        if (str_equal(p->plan->items[i].canonical, canonical))
-            return p->plan->items[i].target;
-    return STR("");
-}
 
 // The way from one file of the package to another. Folders are one level deep.
 static str way(struct arena *arena, str from, str to) {
@@ -231,11 +230,13 @@ static int compare_edits(const void *a, const void *b) {
 static void collect_edits(struct planner *p, const struct ir_file_origin *file, str from,
                           struct edits *edits) {
     struct arena *arena = &p->session->arena;
-    for (uint32_t i = 0; i < p->inventory->count; i++) {
-        const struct inventory_use *use = &p->inventory->items[i];
-        bool named_here = use->named.len && !use->named_in.len && use->at.source == file->source;
-        str path = named_here ? way(arena, from, target_of(p, use->canonical)) : STR("");
-        if (!named_here || str_equal(path, use->named))
+    for (uint32_t i = 0; i < p->plan->inventory->count; i++) {
+        const struct inventory_use *use = &p->plan->inventory->items[i];
+        if (!use->named.len || use->named_in.len || use->at.source != file->source)
+            continue;
+        const struct pack_file *to = find_canonical(p->plan, use->canonical);
+        str path = to ? way(arena, from, to->target) : use->named;
+        if (str_equal(path, use->named))
             continue;
         str old = source_text(&p->session->sources, use->at);
         *ARENA_PUSH(arena, edits) = (struct edit){use->at, spell(arena, file->is_xml, old, path)};
@@ -258,7 +259,6 @@ static void rewrite(struct planner *p, const struct ir_file_origin *file, struct
         strbuf_str(&text, str_slice(old, at, edit->at.begin));
         strbuf_str(&text, edit->text);
         at = edit->at.end;
-        p->plan->rewritten++;
     }
     strbuf_str(&text, str_slice(old, at, old.len));
     if (text.failed)
@@ -272,17 +272,17 @@ static void rewrite_all(struct planner *p) {
     for (uint32_t f = 0; f < p->session->origin.files.count; f++) {
         const struct ir_file_origin *file = &p->session->origin.files.items[f];
         str canonical = files_canonical(&p->session->files, p->session->sources.items[file->source].path);
-        for (uint32_t i = 0; i < p->plan->count; i++)
-            if (str_equal(p->plan->items[i].canonical, canonical))
-                rewrite(p, file, &p->plan->items[i]);
+        struct pack_file *out = find_canonical(p->plan, canonical);
+        if (out)
+            rewrite(p, file, out);
     }
 }
 
 enum pack_status pack_make_plan(struct session *session, const struct inventory *inventory,
                                 struct pack_plan *plan) {
-    struct planner planner = {session, inventory, plan};
+    struct planner planner = {session, plan};
     struct arena_guard guard;
-    *plan = (struct pack_plan){0};
+    *plan = (struct pack_plan){.inventory = inventory};
     arena_set_guard(&session->arena, &guard);
     if (setjmp(guard.jump) == 0) {
         place_all(&planner);

@@ -106,8 +106,9 @@ static void dump(struct session *session, struct strbuf *out) {
 }
 
 // The file that the packed scene reads in the place of each one that the scene reads.
-static bool same_files(struct session *session, const struct inventory *before, const struct inventory *after,
-                       const struct pack_plan *plan, const char *folder) {
+static bool same_files(struct session *session, const struct inventory *after, const struct pack_plan *plan,
+                       const char *folder) {
+    const struct inventory *before = plan->inventory;
     uint32_t a = 0;
     uint32_t b = 0;
     char path[PATH_BYTES];
@@ -132,16 +133,14 @@ static bool same_files(struct session *session, const struct inventory *before, 
 
 static bool compare(struct session *session, struct session *packed, const struct pack_plan *plan,
                     const char *folder) {
-    struct inventory before;
     struct inventory after;
-    if (packed->state != SESSION_LOADED || packed->sink.errors || !inventory_make(session, &before) ||
-        !inventory_make(packed, &after))
+    if (packed->state != SESSION_LOADED || packed->sink.errors || !inventory_make(packed, &after))
         return false;
     struct arena_guard guard;
     volatile bool same = false;
     arena_set_guard(&session->arena, &guard);
     if (setjmp(guard.jump) == 0)
-        same = same_files(session, &before, &after, plan, folder);
+        same = same_files(session, &after, plan, folder);
     arena_set_guard(&session->arena, NULL);
     if (!same)
         return false;

@@ -185,6 +185,12 @@ expect "pack with a limit that was raised" 0 - - "$glint" pack limited/more.yaml
 printf 'limits:\n  include-files: 300\n  mesh-corners: 70000\n' >wanted.txt
 same "raised limits go along" limited.d/.glintrc.yaml wanted.txt
 
+mkdir -p shared/a shared/b
+cp in/one/tri.obj shared/a/ && cp in/two/tri.obj shared/b/ && cp in/one/tri.mtl shared/a/ && ln -s ../a/tri.mtl shared/b/tri.mtl
+printf 'glint: 1\nmodels: [{mesh: a/tri.obj}, {mesh: b/tri.obj}]\n' >shared/scene.yaml
+expect "pack with a material file of two meshes" 0 - - "$glint" pack shared/scene.yaml shared.d
+same "it lies beside each of them" shared.d/meshes/tri.mtl shared.d/meshes-2/tri.mtl
+
 # ---- what must not happen
 mkdir full && : >full/mine
 expect "pack into a folder with files" 3 - 'is not an empty folder' "$glint" pack in/sub/scene.yaml full
