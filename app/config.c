@@ -333,17 +333,19 @@ void config_read(const struct config_input *input, uint32_t source, str path, st
     read_and_bind(&binder, source, &limits);
 }
 
-void config_load(const struct config_input *input, str scene_path, struct config *config) {
-    str text;
-    *config = (struct config){.path = files_find_config(input->files, scene_path)};
-    if (config->path.len == 0)
-        return;
-    enum file_status status = files_read(input->files, config->path, CONFIG_BYTES_MAX, input->arena, &text);
-    uint32_t source =
-        source_add(input->sources, SOURCE_KIND_FILE, path_shown(input, scene_path, config->path), text);
+void config_read_file(const struct config_input *input, str path, str shown, struct config *config) {
+    str text = STR("");
+    enum file_status status = files_read(input->files, path, CONFIG_BYTES_MAX, input->arena, &text);
+    uint32_t source = source_add(input->sources, SOURCE_KIND_FILE, shown, text);
     if (status == FILE_OK)
-        config_read(input, source, config->path, config);
+        config_read(input, source, path, config);
     else
         diag_add(input->sink, status == FILE_TOO_LARGE ? DIAG_LIMIT : DIAG_FILE_UNREADABLE,
                  (span){source, 0, 0}, "the configuration %s", file_status_text(input->files, status));
+}
+
+void config_load(const struct config_input *input, str scene_path, struct config *config) {
+    *config = (struct config){.path = files_find_config(input->files, scene_path)};
+    if (config->path.len)
+        config_read_file(input, config->path, path_shown(input, scene_path, config->path), config);
 }

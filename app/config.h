@@ -38,6 +38,8 @@ struct config_input {
 
 // Takes the settings from a source that is in the set; `path` is absolute, for the folders in it.
 void config_read(const struct config_input *input, uint32_t source, str path, struct config *config);
+// Reads those at `path`, absolute, which diagnostics call `shown`.
+void config_read_file(const struct config_input *input, str path, str shown, struct config *config);
 // Finds and reads it; a zeroed config where there is none.
 void config_load(const struct config_input *input, str scene_path, struct config *config);
 

@@ -66,11 +66,15 @@ static str scene_around_mesh(struct session *session, str path) {
     return copy;
 }
 
-static void load_config(struct session *session) {
-    struct config_input input = {.files = &session->files,
+static struct config_input config_input(struct session *session) {
+    return (struct config_input){.files = &session->files,
                                  .sources = &session->sources,
                                  .sink = &session->sink,
                                  .arena = &session->arena};
+}
+
+static void load_config(struct session *session) {
+    struct config_input input = config_input(session);
     config_load(&input, session->options.path, &session->config);
     session->config_failed = session->sink.errors > 0;
     limits_fill(&session->options.limits, &session->config.limits);
@@ -139,9 +143,23 @@ static void take_image_options(struct session *session) {
         session->image.samples = session->options.samples;
 }
 
-static enum session_state load_stages(struct session *session, struct asset_store *store, bool alone) {
+// What of the path is loaded.
+enum extent {
+    EXTENT_SCENE,
+    EXTENT_FILE,     // without includes and assets
+    EXTENT_SETTINGS, // it is a configuration
+};
+
+static enum session_state load_stages(struct session *session, struct asset_store *store,
+                                      enum extent extent) {
+    bool alone = extent == EXTENT_FILE;
     uint32_t source = 0;
     double start = clock_seconds();
+    if (extent == EXTENT_SETTINGS) {
+        struct config_input settings = config_input(session);
+        config_read_file(&settings, session->options.path, session->options.path, &session->config);
+        return SESSION_NO_SCENE;
+    }
     enum session_state state = open_source(session, &source);
     if (state != SESSION_LOADED)
         return state;
@@ -168,7 +186,7 @@ static enum session_state load_stages(struct session *session, struct asset_stor
 }
 
 static enum session_state guarded_load(struct session *session, const struct session_options *options,
-                                       struct asset_store *store, bool alone) {
+                                       struct asset_store *store, enum extent extent) {
     struct arena_guard guard;
     *session = (struct session){.options = *options};
     diag_sink_init(&session->sink);
@@ -179,7 +197,7 @@ static enum session_state guarded_load(struct session *session, const struct ses
         files_init(&session->files, &session->arena);
         for (uint32_t i = 0; i < options->overlay_count; i++)
             files_add_overlay(&session->files, options->overlays[i].path, options->overlays[i].text);
-        session->state = load_stages(session, store, alone);
+        session->state = load_stages(session, store, extent);
     } else {
         diag_add(&session->sink, guard.fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "the scene needs more memory than %s",
@@ -203,11 +221,15 @@ void session_group(struct session *session) {
 
 enum session_state session_load(struct session *session, const struct session_options *options,
                                 struct asset_store *store) {
-    return guarded_load(session, options, store, false);
+    return guarded_load(session, options, store, EXTENT_SCENE);
 }
 
 enum session_state session_load_text(struct session *session, const struct session_options *options) {
-    return guarded_load(session, options, NULL, true);
+    return guarded_load(session, options, NULL, EXTENT_FILE);
+}
+
+enum session_state session_load_settings(struct session *session, const struct session_options *options) {
+    return guarded_load(session, options, NULL, EXTENT_SETTINGS);
 }
 
 void session_finish(struct session *session) {

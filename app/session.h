@@ -70,7 +70,7 @@ void session_finish(struct session *session);
 enum diag_code session_file_code(enum file_status status);
 // What session_load does last, as options.lint says.
 void session_lint(struct session *session);
-// Sorts the diagnostics and groups those of one code and file.
+// Sorts the diagnostics and groups those of one code and file, where the findings are judged.
 void session_group(struct session *session);
 
 // Index of the camera of this name, or IR_NO_INDEX with a diagnostic E302. An empty name is the first
@@ -88,5 +88,7 @@ bool session_rebase(struct session *session, str out);
 
 // One file alone, for `convert`: no includes, no assets. The IR is origin.files[0].scene too.
 enum session_state session_load_text(struct session *session, const struct session_options *options);
+// `.glintrc.yaml` by itself: a session without a scene (SESSION_NO_SCENE).
+enum session_state session_load_settings(struct session *session, const struct session_options *options);
 
 #endif

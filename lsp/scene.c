@@ -8,7 +8,6 @@
 
 enum {
     ROUNDS_MOST = 4, // until every document has its scene: what one load finds may need another
-    SETTINGS_BYTES_MOST = 1 << 20,
 };
 // Rules about light that take longer wait until no one types.
 #define LINT_SECONDS_QUICK 0.1
@@ -137,29 +136,6 @@ static void load_scene(struct lsp_scene *scene, const struct session_options *op
         scene->lint_seconds = scene->session.lint_seconds;
 }
 
-// `.glintrc.yaml` by itself: a session without a scene.
-static void load_settings(struct lsp_scene *scene, const struct session_options *options) {
-    struct session *session = &scene->session;
-    struct arena_guard guard;
-    *session = (struct session){.options = *options, .state = SESSION_NO_SCENE};
-    diag_sink_init(&session->sink);
-    arena_init(&session->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
-    arena_set_guard(&session->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        struct config_input input = {&session->files, &session->sources, &session->sink, &session->arena};
-        str text;
-        source_set_init(&session->sources, &session->arena);
-        files_init(&session->files, &session->arena);
-        for (uint32_t i = 0; i < options->overlay_count; i++)
-            files_add_overlay(&session->files, options->overlays[i].path, options->overlays[i].text);
-        if (files_read(&session->files, scene->path, SETTINGS_BYTES_MOST, &session->arena, &text) == FILE_OK)
-            config_read(&input, source_add(&session->sources, SOURCE_KIND_FILE, scene->path, text),
-                        scene->path, &session->config);
-    }
-    arena_set_guard(&session->arena, NULL);
-    session_group(session);
-}
-
 static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_effort effort) {
     struct file_overlay *overlays = scenes_overlays(scenes);
     struct session_options options = {.path = scene->path,
@@ -171,7 +147,7 @@ static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_eff
                                       .overlay_count = overlays ? scenes->documents->count : 0};
     unload(scene);
     if (scenes_is_settings(scene->path))
-        load_settings(scene, &options);
+        session_load_settings(&scene->session, &options);
     else
         load_scene(scene, &options, scenes->store);
     // The texts are the session's by now.
