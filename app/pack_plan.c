@@ -173,7 +173,7 @@ static void add_limits(struct planner *p) {
     }
     if (text.len)
         *ARENA_PUSH(&p->session->arena, p->plan) = (struct pack_file){
-            .target = STR(".glintrc.yaml"), .text = arena_copy(&p->session->arena, strbuf_view(&text))};
+            .target = STR(FILES_CONFIG_NAME), .text = arena_copy(&p->session->arena, strbuf_view(&text))};
     strbuf_finish(&text);
 }
 

@@ -110,7 +110,7 @@ enum file_status files_add_root(struct files *files, str directory) {
 str files_find_config(struct files *files, str scene_path) {
     str above = files_canonical(files, path_folder(scene_path));
     for (;;) {
-        str marker = join(files->arena, above, STR(".glintrc.yaml"));
+        str marker = join(files->arena, above, STR(FILES_CONFIG_NAME));
         struct stat info;
         if (stat(marker.ptr, &info) == 0 && S_ISREG(info.st_mode))
             return marker;

@@ -55,6 +55,7 @@ enum file_status files_add_root(struct files *files, str directory);
 // Text from memory in place of the file at `path` (which need not exist); copied. The newest one for a path
 // counts.
 void files_add_overlay(struct files *files, str path, str text);
+#define FILES_CONFIG_NAME ".glintrc.yaml"
 // The scene's root: the folder of the nearest `.glintrc.yaml` at or above the scene's folder, else the
 // scene's folder. `scene_path` is as given by the user. On FILE_OK the root has been added.
 enum file_status files_add_scene_root(struct files *files, str scene_path);

@@ -14,7 +14,7 @@ enum {
 #define CANDIDATE_BYTES ((uint64_t)1 << 20)
 
 bool scenes_is_settings(str path) {
-    return str_equal(path_base(path), STR(".glintrc.yaml"));
+    return str_equal(path_base(path), STR(FILES_CONFIG_NAME));
 }
 
 static bool is_scene_path(str path) {

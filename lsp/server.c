@@ -103,7 +103,7 @@ static void initialized(struct server *server, const json_t *params) {
     json_t *watchers = json_array();
     json_array_append_new(
         watchers, json_pack("{s:s}", "globPattern", "**/*.{yaml,yml,json,xml,obj,mtl,png,jpg,jpeg,hdr}"));
-    json_array_append_new(watchers, json_pack("{s:s}", "globPattern", "**/.glintrc.yaml"));
+    json_array_append_new(watchers, json_pack("{s:s}", "globPattern", "**/" FILES_CONFIG_NAME));
     rpc_ask(&server->rpc, "watch", "client/registerCapability",
             json_pack("{s:[{s:s, s:s, s:{s:o}}]}", "registrations", "id", "watch", "method",
                       "workspace/didChangeWatchedFiles", "registerOptions", "watchers", watchers));
