@@ -1,5 +1,7 @@
 #include "assets/store.h"
 
+#include "core/heap.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,14 +59,11 @@ void store_release(struct asset_hold *hold) {
 }
 
 static bool take(struct asset_hold *hold, struct store_entry *entry) {
-    if (hold->count == hold->capacity) {
-        uint32_t capacity = hold->capacity ? hold->capacity * 2 : 8;
-        struct store_entry **items = realloc(hold->items, capacity * sizeof(struct store_entry *));
-        if (!items)
-            return false;
-        hold->items = items;
-        hold->capacity = capacity;
-    }
+    struct store_entry **items =
+        heap_grow(hold->items, hold->count, &hold->capacity, sizeof(struct store_entry *));
+    if (!items)
+        return false;
+    hold->items = items;
     hold->items[hold->count++] = entry;
     entry->references++;
     return true;

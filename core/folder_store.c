@@ -1,5 +1,6 @@
 #include "core/folder_store.h"
 
+#include "core/heap.h"
 #include "core/output.h"
 
 #include <dirent.h>
@@ -107,18 +108,15 @@ static int compare_entries(const void *a, const void *b) {
 // All regular files of the folder; leftovers of programs that were killed are among them.
 static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total) {
     size_t count = 0;
-    size_t capacity = 0;
+    uint32_t capacity = 0;
     for (struct dirent *item = readdir(folder); item; item = readdir(folder)) {
         struct stat info;
         if (fstatat(dirfd(folder), item->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(info.st_mode))
             continue;
-        if (count == capacity) {
-            capacity = capacity ? 2 * capacity : 64;
-            struct entry *grown = realloc(*entries, capacity * sizeof *grown);
-            if (!grown)
-                break;
-            *entries = grown;
-        }
+        struct entry *grown = heap_grow(*entries, count, &capacity, sizeof *grown);
+        if (!grown)
+            break;
+        *entries = grown;
         struct entry *entry = &(*entries)[count];
         *entry = (struct entry){strdup(item->d_name), info.st_mtim, (uint64_t)info.st_size};
         if (!entry->name)

@@ -1,5 +1,7 @@
 #include "lsp/document.h"
 
+#include "core/heap.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,14 +56,11 @@ static str path_of(struct arena *arena, const char *uri) {
 
 static struct document *add(struct documents *documents, const char *uri) {
     struct arena_guard guard;
-    if (documents->count == documents->capacity) {
-        uint32_t capacity = documents->capacity ? 2 * documents->capacity : 8;
-        struct document *items = realloc(documents->items, capacity * sizeof *items);
-        if (!items)
-            return NULL;
-        documents->items = items;
-        documents->capacity = capacity;
-    }
+    struct document *items =
+        heap_grow(documents->items, documents->count, &documents->capacity, sizeof *items);
+    if (!items)
+        return NULL;
+    documents->items = items;
     arena_set_guard(&documents->arena, &guard);
     str path = STR("");
     if (setjmp(guard.jump) == 0)

@@ -1,5 +1,6 @@
 #include "lsp/position.h"
 
+#include "core/heap.h"
 #include "core/strbuf.h"
 
 #include <stdlib.h>
@@ -74,14 +75,10 @@ static void step(str text, enum position_encoding encoding, struct position_mark
 }
 
 static bool add_mark(struct position_index *index, struct position_mark mark) {
-    if (index->count == index->capacity) {
-        size_t capacity = index->capacity ? 2 * index->capacity : 64;
-        struct position_mark *marks = realloc(index->marks, capacity * sizeof *marks);
-        if (!marks)
-            return false;
-        index->marks = marks;
-        index->capacity = capacity;
-    }
+    struct position_mark *marks = heap_grow(index->marks, index->count, &index->capacity, sizeof *marks);
+    if (!marks)
+        return false;
+    index->marks = marks;
     index->marks[index->count++] = mark;
     return true;
 }

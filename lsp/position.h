@@ -28,7 +28,7 @@ struct position_index {
     str text; // not owned
     enum position_encoding encoding;
     struct position_mark *marks;
-    size_t count, capacity;
+    uint32_t count, capacity;
 };
 
 // Zeroed memory is an index of no text. Makes it one of `text`; does nothing where it is that already. Where

@@ -1,6 +1,7 @@
 #include "lsp/scene.h"
 
 #include "app/check.h"
+#include "core/heap.h"
 #include "grammar/ir_walk.h"
 
 #include <stdlib.h>
@@ -170,14 +171,10 @@ struct lsp_scene *scenes_add(struct scenes *scenes, str path) {
     struct lsp_scene *known = scenes_find(scenes, path);
     if (known)
         return known;
-    if (scenes->count == scenes->capacity) {
-        uint32_t capacity = scenes->capacity ? 2 * scenes->capacity : 8;
-        struct lsp_scene **items = realloc(scenes->items, capacity * sizeof *items);
-        if (!items)
-            return NULL;
-        scenes->items = items;
-        scenes->capacity = capacity;
-    }
+    struct lsp_scene **items = heap_grow(scenes->items, scenes->count, &scenes->capacity, sizeof *items);
+    if (!items)
+        return NULL;
+    scenes->items = items;
     struct lsp_scene *volatile scene = calloc(1, sizeof *scene);
     struct arena_guard guard;
     if (!scene)

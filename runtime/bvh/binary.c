@@ -1,5 +1,6 @@
 #include "runtime/bvh/binary.h"
 
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "runtime/bvh/split.h"
 
@@ -165,14 +166,10 @@ static uint32_t cut_wide(struct wide_cut *cut, uint32_t count) {
 }
 
 static bool push_top(struct build *build, struct binary_range range, unsigned level, uint32_t *index) {
-    if (build->top_count == build->top_capacity) {
-        uint32_t capacity = build->top_capacity ? build->top_capacity * 2 : 256;
-        struct top_node *moved = realloc(build->top, capacity * sizeof *moved);
-        if (!moved)
-            return false;
-        build->top = moved;
-        build->top_capacity = capacity;
-    }
+    struct top_node *top = heap_grow(build->top, build->top_count, &build->top_capacity, sizeof *top);
+    if (!top)
+        return false;
+    build->top = top;
     *index = build->top_count++;
     build->top[*index] = (struct top_node){.range = range, .level = level};
     return true;

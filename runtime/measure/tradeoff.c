@@ -1,6 +1,7 @@
 #include "runtime/measure/tradeoff.h"
 
 #include "core/clock.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "runtime/measure/plan.h"
 #include "runtime/measure/study.h"
@@ -62,14 +63,10 @@ static bool is_over(const struct study *s, double share) {
 // ---- rows
 
 static struct row *add_row(struct tradeoff *t, const struct row *row) {
-    if (t->count == t->capacity) {
-        const uint32_t capacity = t->capacity ? 2 * t->capacity : 32;
-        struct row *rows = realloc(t->rows, capacity * sizeof *rows);
-        if (!rows)
-            return NULL;
-        t->rows = rows;
-        t->capacity = capacity;
-    }
+    struct row *rows = heap_grow(t->rows, t->count, &t->capacity, sizeof *rows);
+    if (!rows)
+        return NULL;
+    t->rows = rows;
     struct row *added = &t->rows[t->count++];
     *added = *row;
     strbuf_init(&added->thumbnail);

@@ -156,7 +156,7 @@ struct branch {
 // Rays that wait.
 struct queue {
     struct branch *items;
-    size_t count, capacity;
+    uint32_t count, capacity;
     bool heaviest_first; // else last in, first out
     bool failed;         // no memory
 };

@@ -1,11 +1,8 @@
 // One sample: its paths, ray by ray (LANGUAGE "Hit", "Depth and weight").
+#include "core/heap.h"
 #include "runtime/reference/parts.h"
 
 #include <stdlib.h>
-
-enum {
-    QUEUE_LEAST = 64
-};
 
 // ---- rays that wait
 
@@ -16,16 +13,12 @@ void reference_queue_finish(struct queue *queue) {
 
 // A heap by weight, or a stack.
 static void push(struct queue *q, const struct branch *branch) {
-    if (q->count == q->capacity) {
-        size_t capacity = q->capacity ? 2 * q->capacity : QUEUE_LEAST;
-        struct branch *items = realloc(q->items, capacity * sizeof *items);
-        if (!items) {
-            q->failed = true;
-            return;
-        }
-        q->items = items;
-        q->capacity = capacity;
+    struct branch *items = heap_grow(q->items, q->count, &q->capacity, sizeof *items);
+    if (!items) {
+        q->failed = true;
+        return;
     }
+    q->items = items;
     size_t at = q->count++;
     while (q->heaviest_first && at > 0 && q->items[(at - 1) / 2].weight < branch->weight) {
         q->items[at] = q->items[(at - 1) / 2];

@@ -4,6 +4,7 @@
 // A range of n items has 2n - 1 nodes at most, its first child's behind its own node, then its second's: so
 // every node's place is known before its children are built, and the tree does not depend on threads.
 #include "core/clock.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "runtime/reference/parts.h"
 
@@ -43,7 +44,7 @@ struct building {
     struct item *items;
     struct tree_node *nodes;
     struct range *tasks;
-    size_t task_count, task_capacity;
+    uint32_t task_count, task_capacity;
 };
 
 // ---- items
@@ -277,14 +278,10 @@ static void build_tasks(void *context, size_t begin, size_t end) {
 }
 
 static bool add_task(struct building *b, struct range range) {
-    if (b->task_count == b->task_capacity) {
-        size_t capacity = b->task_capacity ? 2 * b->task_capacity : 64;
-        struct range *tasks = realloc(b->tasks, capacity * sizeof *tasks);
-        if (!tasks)
-            return false;
-        b->tasks = tasks;
-        b->task_capacity = capacity;
-    }
+    struct range *tasks = heap_grow(b->tasks, b->task_count, &b->task_capacity, sizeof *tasks);
+    if (!tasks)
+        return false;
+    b->tasks = tasks;
     b->tasks[b->task_count++] = range;
     return true;
 }
