@@ -97,13 +97,8 @@ static void fill_assets(struct report_scene *out, const struct session *session,
     out->has_assets = true;
 }
 
-struct path_finder {
-    const struct session *session;
-};
-
 static str find_path(void *context, struct arena *arena, span at) {
-    const struct path_finder *finder = context;
-    return check_scene_path(finder->session, arena, at);
+    return check_scene_path(context, arena, at);
 }
 
 static enum report_state state_of(const struct session *session) {
@@ -115,13 +110,12 @@ static enum report_state state_of(const struct session *session) {
 }
 
 bool check_report(struct report_scene *out, struct session *session, const char *root) {
-    struct path_finder finder = {session};
     struct report_input input = {.sink = &session->sink,
                                  .sources = &session->sources,
                                  .root = root,
                                  .most = (uint32_t)session->options.limits.value[LIMIT_MESSAGES],
                                  .find_path = find_path,
-                                 .context = &finder};
+                                 .context = session};
     struct arena_guard guard = {.fault = ARENA_FAULT_NONE};
     out->state = state_of(session);
     if (!report_scene_add(out, &input))

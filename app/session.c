@@ -120,15 +120,19 @@ static enum session_state open_source(struct session *session, uint32_t *source)
     return SESSION_LOADED;
 }
 
-static void load_assets(struct session *session, struct asset_store *store) {
-    double start = clock_seconds();
-    struct assets_input input = {.scene = session->scene,
+struct assets_input session_assets_input(struct session *session) {
+    return (struct assets_input){.scene = session->scene,
                                  .origin = &session->origin,
                                  .sources = &session->sources,
                                  .files = &session->files,
                                  .limits = &session->options.limits,
                                  .sink = &session->sink,
                                  .arena = &session->arena};
+}
+
+static void load_assets(struct session *session, struct asset_store *store) {
+    double start = clock_seconds();
+    struct assets_input input = session_assets_input(session);
     assets_load(store, &input, session->options.skip_pixels, &session->assets);
     session->assets_seconds = clock_seconds() - start;
 }
@@ -178,10 +182,10 @@ static enum session_state load_stages(struct session *session, struct asset_stor
     session->scene = output.scene;
     session->origin = output.origin;
     take_image_options(session);
-    if (!alone && !session->options.text_only)
+    if (!alone && !session->options.text_only) {
         load_assets(session, store);
-    if (!alone && !session->options.text_only)
         session_lint(session);
+    }
     return SESSION_LOADED;
 }
 

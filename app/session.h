@@ -31,7 +31,8 @@ struct session_options {
     bool skip_pixels;                 // the background's header is checked, its pixels are not decoded
     int32_t width, height;            // 0: as the scene says
     int32_t samples;                  // 0: as the scene says
-    enum lint_level lint;             // rules about light that run where the scene has no error
+    enum lint_level lint;             // rules about light that run where the scene has no error; check_scene
+                                      // runs all, unless skip_lint
     const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
     bool skip_lint; // for check_scene: leaves the rules about light out, and the use of comments unjudged
     bool judged;    // the caller judges the findings by policy and comments (app/check.h): they are not yet
@@ -68,6 +69,8 @@ enum session_state session_load(struct session *session, const struct session_op
 void session_finish(struct session *session);
 // What is said of a scene file that cannot be read.
 enum diag_code session_file_code(enum file_status status);
+// What reads meshes and images of the loaded scene; it points into the session.
+struct assets_input session_assets_input(struct session *session);
 // What session_load does last, as options.lint says.
 void session_lint(struct session *session);
 // Sorts the diagnostics and groups those of one code and file, where the findings are judged.

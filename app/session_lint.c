@@ -7,13 +7,7 @@ void session_lint(struct session *session) {
     if (session->options.lint == LINT_NONE || session->sink.errors > 0)
         return;
     double start = clock_seconds();
-    struct assets_input scene = {.scene = session->scene,
-                                 .origin = &session->origin,
-                                 .sources = &session->sources,
-                                 .files = &session->files,
-                                 .limits = &session->options.limits,
-                                 .sink = &session->sink,
-                                 .arena = &session->arena};
+    struct assets_input scene = session_assets_input(session);
     struct lint_input input = {.scene = &scene, .assets = &session->assets, .image = &session->image};
     lint_run(&input, session->options.lint);
     if (session->options.lint == LINT_ALL)

@@ -67,7 +67,6 @@ static void check_one(struct check *check, struct check_file *file, struct asset
     struct session session;
     struct session_options options = cli_session_options(cli, file->path);
     options.policy = &cli->options.policy;
-    options.lint = LINT_ALL;
     check_scene(&session, &options, store);
     file->status = status_of(&session);
     if (check->format == CHECK_TEXT) {
