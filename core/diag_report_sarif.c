@@ -1,5 +1,6 @@
 // SARIF 2.1.0, as GitHub's code scanning takes it.
 #include "core/diag_report_text.h"
+#include "core/diag_text.h"
 #include "core/json_write.h"
 
 #include <stdlib.h>
@@ -178,7 +179,6 @@ static void put_rule_name(struct strbuf *out, const char *name) {
 }
 
 static void rule(struct json_writer *w, const struct diag_info *info) {
-    static const char *const levels[] = {"error", "warning", "note"};
     static const char *const problems[] = {"error", "warning", "recommendation"};
     struct strbuf text;
     strbuf_init(&text);
@@ -199,7 +199,7 @@ static void rule(struct json_writer *w, const struct diag_info *info) {
     json_write_text(w, "markdown", strbuf_view(&text));
     json_close_object(w);
     json_open_object(w, "defaultConfiguration");
-    json_write_text(w, "level", str_from(levels[info->severity]));
+    json_write_text(w, "level", str_from(diag_severity_name(info->severity)));
     json_close_object(w);
     json_open_object(w, "properties");
     json_open_list(w, "tags");
