@@ -154,34 +154,34 @@ static void take_fail_on(struct binder *b, tree_index key, tree_index value) {
         diag_help(b->input->sink, "fail_on: warning makes warnings fail, too");
 }
 
-static void take_limit_named(struct binder *b, tree_index key, tree_index value, str name) {
-    struct arena *arena = b->input->arena;
-    enum limit which = LIMIT_COUNT;
-    str assignment = arena_format(arena, "%.*s=%.*s", STR_ARG(name), STR_ARG(tree_text(b->tree, value)));
-    enum limit_status status = limits_set(&b->config->limits, assignment, &which);
-    if (status == LIMIT_BAD_VALUE) {
-        const struct limit_info *info = limit_info(which);
-        diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, value),
-                 "'%.*s' takes a whole number from %llu to %llu", STR_ARG(shown(b, key)),
-                 (unsigned long long)info->least, (unsigned long long)info->greatest);
-    } else if (status == LIMIT_UNKNOWN_NAME) {
-        struct nearest search = nearest_begin(name);
-        for (int i = 0; i < LIMIT_COUNT; i++)
-            nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
-        bad_value(b, key, "there is no limit ", "");
-        if (nearest_best(&search).len)
-            did_you_mean(b, key, &search);
-        else
-            diag_help(b->input->sink, "'glint check --limit help' lists the limits");
-    }
+static void set_limit(struct binder *b, tree_index key, tree_index value, enum limit which) {
+    if (limits_set_value(&b->config->limits, which, tree_text(b->tree, value)))
+        return;
+    const struct limit_info *info = limit_info(which);
+    diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, value),
+             "'%.*s' takes a whole number from %llu to %llu", STR_ARG(shown(b, key)),
+             (unsigned long long)info->least, (unsigned long long)info->greatest);
 }
 
 static void take_limit(struct binder *b, tree_index key, tree_index value) {
-    take_limit_named(b, key, value, tree_text(b->tree, key));
+    str name = tree_text(b->tree, key);
+    enum limit which;
+    if (limit_find(name, &which)) {
+        set_limit(b, key, value, which);
+        return;
+    }
+    struct nearest search = nearest_begin(name);
+    for (int i = 0; i < LIMIT_COUNT; i++)
+        nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
+    bad_value(b, key, "there is no limit ", "");
+    if (nearest_best(&search).len)
+        did_you_mean(b, key, &search);
+    else
+        diag_help(b->input->sink, "'glint check --limit help' lists the limits");
 }
 
 static void take_max_messages(struct binder *b, tree_index key, tree_index value) {
-    take_limit_named(b, key, value, str_from(limit_info(LIMIT_MESSAGES)->name));
+    set_limit(b, key, value, LIMIT_MESSAGES);
 }
 
 static const struct setting settings[] = {

@@ -19,24 +19,33 @@ const struct limit_info *limit_info(enum limit which) {
     return &infos[which];
 }
 
+bool limit_find(str name, enum limit *which) {
+    for (int i = 0; i < LIMIT_COUNT; i++)
+        if (str_equal_cstr(name, infos[i].name)) {
+            *which = (enum limit)i;
+            return true;
+        }
+    return false;
+}
+
+bool limits_set_value(struct limits *limits, enum limit which, str value) {
+    int64_t number;
+    if (number_parse_integer(value, &number) != NUMBER_OK || number < (int64_t)infos[which].least ||
+        number > (int64_t)infos[which].greatest)
+        return false;
+    limits->value[which] = (uint64_t)number;
+    limits->given |= (uint64_t)1 << which;
+    return true;
+}
+
 enum limit_status limits_set(struct limits *limits, str assignment, enum limit *which) {
     size_t equals = 0;
     while (equals < assignment.len && assignment.ptr[equals] != '=')
         equals++;
-    str name = str_slice(assignment, 0, equals);
-    for (int i = 0; i < LIMIT_COUNT; i++) {
-        if (!str_equal_cstr(name, infos[i].name))
-            continue;
-        *which = (enum limit)i;
-        int64_t value;
-        if (number_parse_integer(str_slice(assignment, equals + 1, assignment.len), &value) != NUMBER_OK ||
-            value < (int64_t)infos[i].least || value > (int64_t)infos[i].greatest)
-            return LIMIT_BAD_VALUE;
-        limits->value[i] = (uint64_t)value;
-        limits->given |= (uint64_t)1 << i;
-        return LIMIT_SET;
-    }
-    return LIMIT_UNKNOWN_NAME;
+    if (!limit_find(str_slice(assignment, 0, equals), which))
+        return LIMIT_UNKNOWN_NAME;
+    str value = str_slice(assignment, equals + 1, assignment.len);
+    return limits_set_value(limits, *which, value) ? LIMIT_SET : LIMIT_BAD_VALUE;
 }
 
 void limits_fill(struct limits *limits, const struct limits *from) {
