@@ -2,24 +2,8 @@
 #include "core/diag_report_text.h"
 #include "core/diag_text.h"
 
-// Text for XML 1.0, in which no control character may stand, escaped or not.
-static void escape(struct strbuf *out, str s) {
-    for (size_t i = 0; i < s.len; i++) {
-        char c = s.ptr[i];
-        if (c == '&')
-            strbuf_cstr(out, "&amp;");
-        else if (c == '<')
-            strbuf_cstr(out, "&lt;");
-        else if (c == '>')
-            strbuf_cstr(out, "&gt;");
-        else if (c == '"')
-            strbuf_cstr(out, "&quot;");
-        else
-            strbuf_char(out, c);
-    }
-}
-
-// U+FFFE and U+FFFF are text in UTF-8 and none in XML.
+// Text for XML 1.0, in which no control character may stand, escaped or not, and neither may U+FFFE and
+// U+FFFF, which are text in UTF-8.
 static void plain(struct strbuf *out, str s) {
     struct strbuf text;
     strbuf_init(&text);
@@ -31,11 +15,11 @@ static void plain(struct strbuf *out, str s) {
                     (unsigned char)view.ptr[at + 2] >= 0xBE;
         if (!none)
             continue;
-        escape(out, str_slice(view, from, at));
+        strbuf_markup(out, str_slice(view, from, at));
         strbuf_char(out, '?');
         from = at + 3;
     }
-    escape(out, str_slice(view, from, view.len));
+    strbuf_markup(out, str_slice(view, from, view.len));
     out->failed = out->failed || text.failed;
     strbuf_finish(&text);
 }

@@ -68,6 +68,22 @@ void strbuf_char(struct strbuf *buffer, char c) {
     strbuf_add(buffer, &c, 1);
 }
 
+void strbuf_markup(struct strbuf *buffer, str s) {
+    for (size_t i = 0; i < s.len; i++) {
+        char c = s.ptr[i];
+        if (c == '&')
+            strbuf_cstr(buffer, "&amp;");
+        else if (c == '<')
+            strbuf_cstr(buffer, "&lt;");
+        else if (c == '>')
+            strbuf_cstr(buffer, "&gt;");
+        else if (c == '"')
+            strbuf_cstr(buffer, "&quot;");
+        else
+            strbuf_char(buffer, c);
+    }
+}
+
 void strbuf_repeat(struct strbuf *buffer, char c, size_t count) {
     if (!reserve(buffer, count))
         return;

@@ -145,18 +145,10 @@ void print_xml_text(struct strbuf *out, str text) {
     for (size_t at = 0; at < text.len;) {
         size_t n = utf8_sequence_length(text, at);
         uint32_t c = utf8_decode(text, at);
-        if (c == '&')
-            strbuf_cstr(out, "&amp;");
-        else if (c == '<')
-            strbuf_cstr(out, "&lt;");
-        else if (c == '>')
-            strbuf_cstr(out, "&gt;");
-        else if (c == '"')
-            strbuf_cstr(out, "&quot;");
-        else if (is_odd(c))
+        if (is_odd(c))
             strbuf_format(out, "&#%u;", (unsigned)c);
         else
-            strbuf_str(out, str_slice(text, at, at + n));
+            strbuf_markup(out, str_slice(text, at, at + n));
         at += n ? n : 1;
     }
 }

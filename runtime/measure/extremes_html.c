@@ -1,7 +1,6 @@
 // Extremes as one HTML file: the matrix as SVG, an axis a row, a value a cell, a strip of it a metric; then
 // all numbers. No scripts, nothing from outside.
 #include "runtime/measure/extremes.h"
-#include "runtime/measure/report_html.h"
 
 #include <math.h>
 
@@ -139,17 +138,17 @@ static void put_tables(struct strbuf *out, const struct extremes *e) {
 void extremes_html(const struct extremes_report *report, struct strbuf *out) {
     const struct extremes *e = report->extremes;
     strbuf_cstr(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>");
-    html_text(out, report->scene);
+    strbuf_markup(out, report->scene);
     strbuf_format(out, " at its extremes</title><style>%s</style></head><body>\n<h1>", style);
-    html_text(out, report->scene);
+    strbuf_markup(out, report->scene);
     strbuf_format(out,
                   " at its extremes</h1>\n<p>%u cells, %u left out, <b>%u broken</b>. %u x %u pixels on ",
                   e->count, e->left_out, e->broken, report->input->width, report->input->height);
-    html_text(out, str_from(e->device));
+    strbuf_markup(out, str_from(e->device));
     if (report->input->study != RENDER_STUDY_NONE)
         strbuf_format(out, ", traced by another way (%s)", render_study_name(report->input->study));
     strbuf_cstr(out, ", against the double-precision reference; bounds of ");
-    html_text(out, report->thresholds);
+    strbuf_markup(out, report->thresholds);
     strbuf_cstr(out, ".</p>\n");
     put_matrix(out, e);
     strbuf_cstr(out, "<p>A strip of a cell is a metric, from the left: ");

@@ -50,22 +50,6 @@ static const char SCRIPT[] =
     "y==='number'?(isNaN(x)-isNaN(y))||(x-y):String(x).localeCompare(String(y));"
     "return up?o:-o}).forEach(r=>b.append(r))}))";
 
-void html_text(struct strbuf *out, str text) {
-    for (size_t i = 0; i < text.len; i++) {
-        const char c = text.ptr[i];
-        if (c == '<')
-            strbuf_cstr(out, "&lt;");
-        else if (c == '>')
-            strbuf_cstr(out, "&gt;");
-        else if (c == '&')
-            strbuf_cstr(out, "&amp;");
-        else if (c == '"')
-            strbuf_cstr(out, "&quot;");
-        else
-            strbuf_char(out, c);
-    }
-}
-
 static const char *const knob_names[KNOB_COUNT] = {"max_depth", "min_weight", "precision", "samples",
                                                    "shadows",   "resolution", "features",  "study"};
 
@@ -107,7 +91,7 @@ static void begin_row(const struct row *row, uint32_t index, struct strbuf *out)
                   : row->choosable ? ""
                                    : "never",
                   index, index, html_kind(row));
-    html_text(out, str_from(row->name));
+    strbuf_markup(out, str_from(row->name));
     strbuf_cstr(out, "</td>");
 }
 
@@ -200,7 +184,7 @@ static void cards(const struct tradeoff *t, struct strbuf *out) {
         picture(out, &row->thumbnail, "picture");
         picture(out, &row->difference, "difference, largest of each square");
         strbuf_format(out, "<div>%u <b class=\"%s\">&#9679;</b> ", i, html_kind(row));
-        html_text(out, str_from(row->name));
+        strbuf_markup(out, str_from(row->name));
         strbuf_format(out, "%s</div><div class=\"soft\">%.4g ms, MAE %.3g, FLIP %.3g</div></div>\n",
                       i == t->knee ? " (knee)" : "", row->time_ms, row->value[METRIC_MAE],
                       row->value[METRIC_FLIP]);
@@ -213,7 +197,7 @@ static void escaped(struct strbuf *out, void (*write)(const struct tradeoff *, s
     struct strbuf text;
     strbuf_init(&text);
     write(t, &text);
-    html_text(out, strbuf_view(&text));
+    strbuf_markup(out, strbuf_view(&text));
     out->failed |= text.failed;
     strbuf_finish(&text);
 }
@@ -223,11 +207,11 @@ static void head(const struct tradeoff *t, const char *scene, struct strbuf *out
     strbuf_cstr(out,
                 "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
                 "content=\"width=device-width\">\n<title>glint tradeoff: ");
-    html_text(out, str_from(scene));
+    strbuf_markup(out, str_from(scene));
     strbuf_format(out, "</title>\n<style>%s</style></head><body>\n<h1>What speed costs: ", STYLE);
-    html_text(out, str_from(scene));
+    strbuf_markup(out, str_from(scene));
     strbuf_format(out, "</h1>\n<p class=\"soft\">%u &times; %u pixels on ", base->width, base->height);
-    html_text(out, str_from(t->device));
+    strbuf_markup(out, str_from(t->device));
     strbuf_cstr(out, ".</p>\n<p class=\"soft lines\">");
     escaped(out, tradeoff_notes, t);
     strbuf_cstr(out, "</p>\n");

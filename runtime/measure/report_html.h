@@ -4,8 +4,6 @@
 
 #include "runtime/measure/tradeoff.h"
 
-// Text with what HTML would take for markup replaced.
-void html_text(struct strbuf *out, str text);
 // The colour class of a row by its knobs: the knob's name, "pair", "file" or "study".
 const char *html_kind(const struct row *row);
 // Time against error of all rows, the front joined, as an SVG; both axes logarithmic.

@@ -125,7 +125,7 @@ static void point(const struct plot *p, uint32_t index, struct strbuf *out) {
                   "y2=\"%.1f\"/><circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"/><title>row %u: ",
                   html_kind(row), place(&p->x, fmax(row->time_low_ms, 1e-6)),
                   place(&p->x, fmax(row->time_high_ms, 1e-6)), y, y, x, y, row->on_front ? "6" : "4", index);
-    html_text(out, str_from(row->name));
+    strbuf_markup(out, str_from(row->name));
     strbuf_format(out, "\n%.4g ms, %s %.4g</title></g>\n", row->time_ms, metric_infos[t->options.metric].name,
                   row->value[t->options.metric]);
     if (index == t->knee)

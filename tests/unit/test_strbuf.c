@@ -29,6 +29,16 @@ static void appends_in_every_way(void **state) {
     strbuf_finish(NULL);
 }
 
+static void escapes_markup_alone(void **state) {
+    (void)state;
+    struct strbuf buffer;
+    strbuf_init(&buffer);
+    strbuf_markup(&buffer, STR(""));
+    strbuf_markup(&buffer, STR("a<b>&\"c\"'\n;\xC3\xA4&amp;"));
+    assert_string_equal(buffer.data, "a&lt;b&gt;&amp;&quot;c&quot;'\n;\xC3\xA4&amp;amp;");
+    strbuf_finish(&buffer);
+}
+
 static void grows_far(void **state) {
     (void)state;
     struct strbuf buffer;
@@ -95,8 +105,11 @@ static void sizes_that_overflow_fail(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(appends_in_every_way),     cmocka_unit_test(grows_far),
-        cmocka_unit_test(clear_keeps_memory),       cmocka_unit_test(cap_stops_whole_appends),
+        cmocka_unit_test(appends_in_every_way),
+        cmocka_unit_test(escapes_markup_alone),
+        cmocka_unit_test(grows_far),
+        cmocka_unit_test(clear_keeps_memory),
+        cmocka_unit_test(cap_stops_whole_appends),
         cmocka_unit_test(sizes_that_overflow_fail),
     };
     return cmocka_run_group_tests_name("strbuf", tests, NULL, NULL);
