@@ -87,15 +87,11 @@ static void take_asset_path(struct binder *b, tree_index key, tree_index value) 
     (void)key;
     str path = tree_text(b->tree, value);
     struct arena *arena = b->input->arena;
-    bool absolute = path.len && path.ptr[0] == '/';
-    str joined = absolute ? path : arena_format(arena, "%.*s/%.*s", STR_ARG(b->folder), STR_ARG(path));
-    str canonical = files_canonical(b->input->files, joined);
-    size_t length = b->folder.len;
-    bool below = str_starts_with(canonical, b->folder) &&
-                 (canonical.len == length || length == 1 || canonical.ptr[length] == '/');
+    str canonical = files_canonical(b->input->files, path_join(arena, b->folder, path));
+    str rest;
     struct files probe;
     files_init(&probe, arena);
-    if (!below) {
+    if (!path_is_below(canonical, b->folder, &rest)) {
         bad_value(b, value, "the folder ", " lies outside the configuration's own");
         diag_help(b->input->sink, "move .glintrc.yaml to a folder above both, or name it with --asset-path");
     } else if (files_add_root(&probe, canonical) != FILE_OK) {
@@ -320,7 +316,7 @@ static str path_shown(const struct config_input *input, str scene_path, str conf
     for (str at = path_folder(scene_path);; at = path_folder(at)) {
         bool ends = str_equal_cstr(at, ".") || str_equal_cstr(at, "/");
         if (str_equal(files_canonical(input->files, at), wanted))
-            return ends ? base : arena_format(input->arena, "%.*s/%.*s", STR_ARG(at), STR_ARG(base));
+            return path_join(input->arena, at, base);
         if (ends || str_equal_cstr(path_base(at), ".."))
             return config_path;
     }

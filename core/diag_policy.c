@@ -1,5 +1,6 @@
 #include "core/diag_policy.h"
 
+#include "core/files.h"
 #include "core/glob.h"
 
 const char *const diag_level_words[] = {"error", "warning", "note", "off", NULL};
@@ -97,13 +98,8 @@ void diag_policy_overlay(struct diag_policy *policy, struct arena *arena, const 
 bool diag_policy_ignores(const struct diag_policy *policy, str path) {
     for (uint32_t i = 0; i < policy->ignored.count; i++) {
         const struct diag_ignored_path *ignored = &policy->ignored.items[i];
-        size_t length = ignored->folder.len;
-        if (length && ignored->folder.ptr[length - 1] == '/')
-            length--;
-        if (path.len <= length || !str_starts_with(path, str_slice(ignored->folder, 0, length)) ||
-            path.ptr[length] != '/')
-            continue;
-        if (glob_match(ignored->pattern, str_slice(path, length + 1, path.len)))
+        str rest;
+        if (path_is_below(path, ignored->folder, &rest) && rest.len && glob_match(ignored->pattern, rest))
             return true;
     }
     return false;

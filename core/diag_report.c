@@ -1,5 +1,6 @@
 #include "core/diag_report.h"
 
+#include "core/files.h"
 #include "core/source.h"
 
 #include <stdlib.h>
@@ -26,10 +27,6 @@ void report_scene_finish(struct report_scene *scene) {
 
 // ---- paths
 
-static bool is_part(str part, const char *text) {
-    return str_equal_cstr(part, text);
-}
-
 // Writes `path` without "." and with ".." taken back, where there is something to take back; gives its
 // length.
 static size_t tidy(char *out, str path) {
@@ -45,21 +42,21 @@ static size_t tidy(char *out, str path) {
             end++;
         str part = str_slice(path, at, end);
         at = end + 1;
-        if (part.len == 0 || is_part(part, "."))
+        if (part.len == 0 || str_equal_cstr(part, "."))
             continue;
-        if (is_part(part, "..") && length > floor) {
+        if (str_equal_cstr(part, "..") && length > floor) {
             while (length > floor && out[length - 1] != '/')
                 length--;
             length -= length > floor;
             continue;
         }
-        if (is_part(part, "..") && absolute)
+        if (str_equal_cstr(part, "..") && absolute)
             continue;
         if (length > 0 && out[length - 1] != '/')
             out[length++] = '/';
         memcpy(out + length, part.ptr, part.len);
         length += part.len;
-        floor = is_part(part, "..") ? length : floor;
+        floor = str_equal_cstr(part, "..") ? length : floor;
     }
     return length;
 }
@@ -67,13 +64,9 @@ static size_t tidy(char *out, str path) {
 str report_path(struct arena *arena, const char *root, str path) {
     char *text = arena_alloc(arena, path.len + 2);
     str tidied = {text, tidy(text, path)};
-    size_t above = root ? strlen(root) : 0;
-    while (above && root[above - 1] == '/')
-        above--;
-    bool below = root && root[0] == '/' && tidied.len > above + 1 && memcmp(tidied.ptr, root, above) == 0 &&
-                 tidied.ptr[above] == '/';
-    if (below)
-        return str_slice(tidied, above + 1, tidied.len);
+    str rest;
+    if (root && root[0] == '/' && path_is_below(tidied, str_from(root), &rest) && rest.len)
+        return rest;
     return tidied.len ? tidied : STR(".");
 }
 

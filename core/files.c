@@ -36,13 +36,20 @@ str path_base(str path) {
     return str_slice(path, at, path.len);
 }
 
-static str join(struct arena *arena, str folder, str path) {
+str path_join(struct arena *arena, str folder, str path) {
     if (path.len && path.ptr[0] == '/')
         return arena_copy(arena, path);
     if (str_equal(folder, STR(".")))
         return arena_copy(arena, path);
     bool slash = folder.len && folder.ptr[folder.len - 1] == '/';
     return arena_format(arena, "%.*s%s%.*s", STR_ARG(folder), slash ? "" : "/", STR_ARG(path));
+}
+
+bool path_is_below(str path, str folder, str *rest) {
+    while (folder.len && folder.ptr[folder.len - 1] == '/')
+        folder.len--;
+    *rest = str_slice(path, folder.len + 1, path.len);
+    return str_starts_with(path, folder) && (path.len == folder.len || path.ptr[folder.len] == '/');
 }
 
 // NUL-terminated copy of a path, or NULL where it holds a NUL itself or is too long for the system.
@@ -71,7 +78,7 @@ str files_canonical(struct files *files, str path) {
     // A file that is still to be written has a folder already.
     str base = path_base(path);
     if (base.len && !str_equal(base, STR("..")) && resolve_links(files, path_folder(path), &resolved))
-        return join(files->arena, resolved, base);
+        return path_join(files->arena, resolved, base);
     return arena_copy(files->arena, path);
 }
 
@@ -110,7 +117,7 @@ enum file_status files_add_root(struct files *files, str directory) {
 str files_find_config(struct files *files, str scene_path) {
     str above = files_canonical(files, path_folder(scene_path));
     for (;;) {
-        str marker = join(files->arena, above, STR(FILES_CONFIG_NAME));
+        str marker = path_join(files->arena, above, STR(FILES_CONFIG_NAME));
         struct stat info;
         if (stat(marker.ptr, &info) == 0 && S_ISREG(info.st_mode))
             return marker;
@@ -125,15 +132,10 @@ enum file_status files_add_scene_root(struct files *files, str scene_path) {
     return files_add_root(files, path_folder(config.len ? config : scene_path));
 }
 
-static bool below(str path, str root) {
-    if (str_equal(root, STR("/")))
-        return true;
-    return str_starts_with(path, root) && (path.len == root.len || path.ptr[root.len] == '/');
-}
-
 static bool below_a_root(const struct files *files, str canonical) {
+    str rest;
     for (uint32_t i = 0; i < files->roots.count; i++)
-        if (below(canonical, files->roots.items[i]))
+        if (path_is_below(canonical, files->roots.items[i], &rest))
             return true;
     return false;
 }
@@ -159,12 +161,12 @@ static enum file_status try_path(struct files *files, str path, str *out) {
 }
 
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out) {
-    enum file_status status = try_path(files, join(files->arena, path_folder(base_path), path), out);
+    enum file_status status = try_path(files, path_join(files->arena, path_folder(base_path), path), out);
     if (status != FILE_MISSING || (path.len && path.ptr[0] == '/'))
         return status;
     str first = *out;
     for (uint32_t i = 1; i < files->roots.count; i++) {
-        enum file_status other = try_path(files, join(files->arena, files->roots.items[i], path), out);
+        enum file_status other = try_path(files, path_join(files->arena, files->roots.items[i], path), out);
         if (other != FILE_MISSING)
             return other;
     }

@@ -91,6 +91,11 @@ str files_canonical(struct files *files, str path);
 // The folder part of a path ("." if it has none) and the part behind the last '/'.
 str path_folder(str path);
 str path_base(str path);
+// `path` as it is where it is absolute or the folder is ".", else behind the folder.
+str path_join(struct arena *arena, str folder, str path);
+// Whether `path` is `folder` or lies below it, both absolute; *rest is what follows the folder: "a/b", or
+// nothing.
+bool path_is_below(str path, str folder, str *rest);
 // What went wrong, as words: "does not exist", ...; system errors with strerror's text.
 const char *file_status_text(const struct files *files, enum file_status status);
 

@@ -33,7 +33,7 @@ static str way(struct arena *arena, str from, str to) {
 }
 
 static bool exists_beside(struct files *files, str folder, str path) {
-    return access(arena_format(files->arena, "%.*s/%.*s", STR_ARG(folder), STR_ARG(path)).ptr, F_OK) == 0;
+    return access(path_join(files->arena, folder, path).ptr, F_OK) == 0;
 }
 
 str files_rebase(struct files *files, str path, str from_file, str to_file) {

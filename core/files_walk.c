@@ -24,13 +24,6 @@ static bool has_ending(const struct files_found *found, str name) {
     return false;
 }
 
-static str join(struct arena *arena, str folder, const char *name) {
-    if (str_equal_cstr(folder, "."))
-        return arena_copy(arena, str_from(name));
-    bool slash = folder.len && folder.ptr[folder.len - 1] == '/';
-    return arena_format(arena, "%.*s%s%s", STR_ARG(folder), slash ? "" : "/", name);
-}
-
 static int compare(const void *a, const void *b) {
     return str_compare(*(const str *)a, *(const str *)b);
 }
@@ -63,7 +56,7 @@ enum file_status files_walk(struct files_found *found, str folder) {
         return FILE_UNREADABLE;
     found->depth++;
     for (uint32_t i = 0; i < names.count; i++) {
-        str path = join(found->arena, folder, names.items[i].ptr);
+        str path = path_join(found->arena, folder, names.items[i]);
         struct stat link;
         struct stat target;
         if (lstat(path.ptr, &link) != 0 || stat(path.ptr, &target) != 0)

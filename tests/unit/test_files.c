@@ -70,6 +70,35 @@ static void paths_split(void **state) {
     assert_true(str_equal_cstr(path_base(STR("a/")), ""));
 }
 
+static void paths_join(void **state) {
+    struct fixture *f = *state;
+    static const char *const rows[][3] = {
+        {"a/b", "c/d", "a/b/c/d"}, {"/", "c", "/c"},   {".", "c", "c"}, {"a", "/c", "/c"},
+        {"..", "c", "../c"},       {"a/", "c", "a/c"}, {"a", "", "a/"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_true(
+            str_equal_cstr(path_join(&f->arena, str_from(rows[i][0]), str_from(rows[i][1])), rows[i][2]));
+}
+
+static void a_folder_holds_what_lies_below_it(void **state) {
+    (void)state;
+    static const struct {
+        const char *path, *folder, *rest; // NULL: it is not below
+    } rows[] = {
+        {"/a/b/c", "/a", "b/c"}, {"/a/b", "/a/", "b"}, {"/a", "/a", ""},    {"/", "/", ""},
+        {"/a", "/", "a"},        {"/ab", "/a", NULL},  {"/a", "/ab", NULL}, {"/b/a", "/a", NULL},
+        {"a/b", "/", NULL},      {"/", "/a", NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        str rest;
+        bool below = path_is_below(str_from(rows[i].path), str_from(rows[i].folder), &rest);
+        assert_int_equal(below, rows[i].rest != NULL);
+        if (below)
+            assert_true(str_equal_cstr(rest, rows[i].rest));
+    }
+}
+
 static enum file_status resolve(struct fixture *f, const char *path, str *out) {
     return files_resolve(&f->files, at(f, "in/scene.yaml"), str_from(path), out);
 }
@@ -423,6 +452,8 @@ int main(void) {
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         T(paths_split),
+        T(paths_join),
+        T(a_folder_holds_what_lies_below_it),
         T(the_scene_s_folder_is_its_root),
         T(nothing_outside_the_roots_is_reached),
         T(what_is_missing_is_missing),
