@@ -109,9 +109,7 @@ span cli_place(const struct cli *cli, int arg);
 int cli_operand_place(const struct cli *cli, int index);
 // Gives one error of the command line and returns CLI_USAGE.
 int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((format(printf, 3, 4)));
-// Prints the command line's own diagnostics.
-void cli_print_usage(struct cli *cli);
-// Prints diagnostics of files in cli->sources.
+// Prints diagnostics of the command line and of files in cli->sources.
 void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
 // Prints a session's diagnostics, notes too unless `quiet`; gives the exit code that they ask for.
 int cli_report(struct cli *cli, struct session *session, bool notes);

@@ -290,7 +290,7 @@ int main(int argc, char **argv) {
     init(&cli, argc, argv);
     int status = run(&cli);
     if (cli.sink.count)
-        cli_print_usage(&cli);
+        cli_print_sink(&cli, &cli.sink);
     diag_sink_finish(&cli.sink);
     arena_finish(&cli.arena);
     return status;

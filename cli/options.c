@@ -191,26 +191,19 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command) {
     }
 }
 
-static bool read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t most,
-                       int32_t *out) {
-    int64_t value = 0;
-    if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < 1 || value > most) {
-        cli_usage(cli, arg, "--%s takes a whole number from 1 to %lld, not '%s'", name, (long long)most,
-                  text);
-        return false;
-    }
-    *out = (int32_t)value;
-    return true;
+static bool bad_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least,
+                      int64_t most) {
+    cli_usage(cli, arg, "--%s takes a whole number from %lld to %lld, not '%s'", name, (long long)least,
+              (long long)most, text);
+    return false;
 }
 
-static bool read_sample(struct cli *cli, int arg, const char *text) {
+static bool read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least,
+                       int64_t most, int32_t *out) {
     int64_t value = 0;
-    if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < 0 || value > 4095) {
-        cli_usage(cli, arg, "--sample takes a whole number from 0 to 4095, not '%s'", text);
-        return false;
-    }
-    cli->options.sample = (int32_t)value;
-    cli->options.sample_arg = arg;
+    if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < least || value > most)
+        return bad_count(cli, arg, name, text, least, most);
+    *out = (int32_t)value;
     return true;
 }
 
@@ -329,19 +322,17 @@ static void keep_place(struct cli_options *options, int id, int arg) {
                  : id == OPTION_AXIS    ? &options->axes_arg
                  : id == OPTION_STUDY   ? &options->study_arg
                  : id == OPTION_FORMAT  ? &options->format_arg
+                 : id == OPTION_SAMPLE  ? &options->sample_arg
+                 : id == OPTION_FIX     ? &options->fix_arg
                                         : NULL;
     if (place)
         *place = arg;
 }
 
-static bool read_max_messages(struct cli *cli, int arg, const char *value) {
-    struct limits *limits = &cli->options.limits;
-    int32_t most = 0;
-    if (!read_count(cli, arg, "max-messages", value, 1000000, &most))
-        return false;
-    limits->value[LIMIT_MESSAGES] = (uint64_t)most;
-    limits->given |= (uint64_t)1 << LIMIT_MESSAGES;
-    return true;
+static bool read_max_messages(struct cli *cli, int arg, const char *text) {
+    const struct limit_info *info = limit_info(LIMIT_MESSAGES);
+    return limits_set_value(&cli->options.limits, LIMIT_MESSAGES, str_from(text)) ||
+           bad_count(cli, arg, "max-messages", text, (int64_t)info->least, (int64_t)info->greatest);
 }
 
 // The rest: options whose text means something.
@@ -351,9 +342,9 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
     case OPTION_SIZE:
         return read_size(cli, arg, value);
     case OPTION_SAMPLES:
-        return read_count(cli, arg, "samples", value, 4096, &options->samples);
+        return read_count(cli, arg, "samples", value, 1, 4096, &options->samples);
     case OPTION_SAMPLE:
-        return read_sample(cli, arg, value);
+        return read_count(cli, arg, "sample", value, 0, 4095, &options->sample);
     case OPTION_CAMERA:
         options->camera = str_from(value);
         return true;
@@ -370,14 +361,13 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
     case OPTION_MAX_MESSAGES:
         return read_max_messages(cli, arg, value);
     case OPTION_REPEAT:
-        return read_count(cli, arg, "repeat", value, 100000, &options->repeat);
+        return read_count(cli, arg, "repeat", value, 1, 100000, &options->repeat);
     case OPTION_STATS:
         options->stats = value ? CLI_STATS_JSON : CLI_STATS_TEXT;
         if (value && strcmp(value, "json") != 0)
             cli_usage(cli, arg, "--stats takes 'json' or nothing, not '%s'", value);
         return !value || strcmp(value, "json") == 0;
     case OPTION_FIX:
-        options->fix_arg = arg;
         options->fix = value ? FIX_ALL : FIX_SAFE;
         if (value && strcmp(value, "all") != 0)
             cli_usage(cli, arg, "--fix takes 'all' or nothing, not '%s'", value);

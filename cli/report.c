@@ -34,22 +34,22 @@ int cli_usage(struct cli *cli, int arg, const char *format, ...) {
     return CLI_USAGE;
 }
 
+void cli_write_error(str text) {
+    fwrite(text.ptr, 1, text.len, stderr);
+}
+
 static void print(struct cli *cli, const struct diag_sink *sink, struct source_set *sources, bool notes) {
     struct strbuf text;
     strbuf_init(&text);
     struct diag_text_options options = {
         .color = cli->color, .notes = notes, .most = (uint32_t)cli->options.limits.value[LIMIT_MESSAGES]};
     diag_text(&text, sink, sources, options);
-    fwrite(text.data ? text.data : "", 1, text.len, stderr);
+    cli_write_error(strbuf_view(&text));
     strbuf_finish(&text);
 }
 
 void cli_print_sink(struct cli *cli, const struct diag_sink *sink) {
     print(cli, sink, &cli->sources, true);
-}
-
-void cli_print_usage(struct cli *cli) {
-    print(cli, &cli->sink, &cli->sources, true);
 }
 
 static bool has_code(const struct diag_sink *sink, enum diag_code code) {
@@ -77,10 +77,6 @@ int cli_report(struct cli *cli, struct session *session, bool notes) {
     return cli_session_status(session);
 }
 
-void cli_write_error(str text) {
-    fwrite(text.ptr, 1, text.len, stderr);
-}
-
 void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
                ...) {
     struct diag_sink sink;
@@ -94,7 +90,7 @@ void cli_error(struct cli *cli, enum diag_code code, const char *path, const cha
     diag_add(&sink, code, (span){source, 0, 0}, "%s", fixed);
     if (help)
         diag_help(&sink, "%s", help);
-    print(cli, &sink, &cli->sources, true);
+    cli_print_sink(cli, &sink);
     diag_sink_finish(&sink);
 }
 
