@@ -1,14 +1,7 @@
 #!/bin/sh
 # glint compare as a user sees it.
 # Usage: run_compare.sh GLINT SOURCE_FOLDER WORK_FOLDER
-set -u
-glint=$1
-source=$2
-work=$3
-failed=0
-cd "$work" || exit 2
-rm -rf -- ./*
-. "$source/tests/cli/expect.sh"
+. "$(dirname -- "$0")/lib.sh"
 
 # 2 x 1: 0.5 grey and 1 grey; the same with 0.25 in place of 0.5; one with a NaN; a larger one.
 half='\000\000\000\077' one='\000\000\200\077' quarter='\000\000\200\076' nan='\000\000\300\177'

@@ -1,15 +1,7 @@
 #!/bin/sh
 # What changes files, and what tells changes: format, check --fix, diff.
 # Usage: run_edit.sh GLINT SOURCE_FOLDER WORK_FOLDER
-set -u
-glint=$1
-source=$2
-work=$3
-failed=0
-cd "$work" || exit 2
-rm -rf -- ./*
-
-. "$source/tests/cli/expect.sh"
+. "$(dirname -- "$0")/lib.sh"
 
 # ---- format
 printf 'glint:  1\n# a comment\nimage: { width: 3 }\n' >loose.glint.yaml

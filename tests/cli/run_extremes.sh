@@ -2,15 +2,8 @@
 # glint extremes as a user sees it.
 # Usage: run_extremes.sh GLINT SOURCE_FOLDER WORK_FOLDER [SCENE]...
 # With scenes: each at the default bounds, small, all axes; nothing else.
-set -u
-glint=$1
-source=$2
-work=$3
+. "$(dirname -- "$0")/lib.sh"
 shift 3
-failed=0
-cd "$work" || exit 2
-rm -rf -- ./*
-. "$source/tests/cli/expect.sh"
 
 "$glint" devices | grep -q . || {
     echo "skip: no Vulkan device"
@@ -72,8 +65,5 @@ expect "missing triangles" 1 '^  scaled by 1e-06: wrong hits per million, at sil
 expect "JSON" 0 '"axis": "camera", "value": 0.001, "precision": "single"' - "$glint" extremes scene.yaml --axis camera --size 24x16 -q --format json
 expect "a report" 0 'cells' - "$glint" extremes scene.yaml --axis light,gap --size 24x16 -q -o report.html
 expect "its matrix" 0 '<svg ' '' cat report.html
-[ "$(grep -c '<title>' report.html)" -eq 12 ] || {
-    echo "FAIL a title for each cell"
-    failed=1
-}
+ok "a title for each cell" test "$(grep -c '<title>' report.html)" -eq 12
 exit $failed

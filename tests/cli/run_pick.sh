@@ -1,14 +1,7 @@
 #!/bin/sh
 # glint pick as a user sees it, and faults of numbers from the picture to the path that shows them.
 # Usage: run_pick.sh GLINT SOURCE_FOLDER WORK_FOLDER
-set -u
-glint=$1
-source=$2
-work=$3
-failed=0
-cd "$work" || exit 2
-rm -rf -- ./*
-. "$source/tests/cli/expect.sh"
+. "$(dirname -- "$0")/lib.sh"
 
 # A glass ball before a mirror of one quad, on a floor, two lights; the camera looks along -z.
 printf 'v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\n# a mirror\nusemtl front\nf 1 2 3 4\n' >wall.obj

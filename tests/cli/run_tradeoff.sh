@@ -3,16 +3,9 @@
 # Usage: run_tradeoff.sh GLINT SOURCE_FOLDER WORK_FOLDER [whole|same]
 #   else: studies that a small budget cuts short. whole: whole ones, and what they promise. same: the showcase's
 #   choice in 10 of 10 runs.
-set -u
-glint=$1
-source=$2
-work=$3
+. "$(dirname -- "$0")/lib.sh"
 mode=${4:-}
-failed=0
-cd "$work" || exit 2
-rm -rf -- ./*
 export XDG_CACHE_HOME="$work/cache"
-. "$source/tests/cli/expect.sh"
 
 cat >small.yaml <<'S'
 glint: 1

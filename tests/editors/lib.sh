@@ -1,24 +1,8 @@
-# What the editor tests share. Usage of each: NAME.sh GLINT SOURCE_FOLDER WORK_FOLDER GENERATE_SCENE
-set -eu
-glint=$1
-source=$2
-work=$3
+# What the editor tests share.
+. "$(dirname -- "$0")/../clients.sh"
 generate=$4
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work"
+manual=docs/editors.md
 
-skip() {
-    echo "skipped: $1"
-    exit 77
-}
-fail() {
-    echo "FAIL $1"
-    exit 1
-}
-needs() {
-    command -v "$1" >/dev/null 2>&1 || skip "$1 is not installed"
-}
 # The folder of a node module: GLINT_NODE_MODULES, or what npm has installed for all.
 node_module() {
     needs node

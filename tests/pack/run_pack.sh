@@ -1,21 +1,7 @@
 #!/bin/sh
 # glint deps and glint pack: what they list, and that a package means and shows the same elsewhere.
 # Usage: run_pack.sh GLINT SOURCE_FOLDER WORK_FOLDER
-set -u
-glint=$1
-source=$2
-work=$3
-failed=0
-cd "$work" || exit 2
-rm -rf -- ./*
-
-. "$source/tests/cli/expect.sh"
-
-fail() {
-    echo "FAIL $1"
-    failed=1
-}
-ok() { echo "ok   $1"; }
+. "$(dirname -- "$0")/../cli/lib.sh"
 
 # A scene whose files lie in many places, some under one name, spelled in many ways.
 mkdir -p in/sub/deep in/one in/two other
@@ -78,7 +64,7 @@ S
 "$glint" deps in/sub/scene.yaml | while read -r file; do realpath --relative-to=. "$file"; done | sort >deps.txt
 same "deps lists every file once" deps.txt wanted.txt
 "$glint" deps in/sub/scene.yaml in/two/more.yaml | wc -l >count.txt
-[ "$(cat count.txt)" -eq 11 ] && ok "deps of two scenes tells a file once" || fail "deps of two scenes"
+[ "$(cat count.txt)" -eq 11 ] && pass "deps of two scenes tells a file once" || fail "deps of two scenes"
 expect "deps tells roles" 0 '"role": "materials"' - "$glint" deps --format json in/sub/scene.yaml
 expect "deps tells places" 0 '"line": 11' - "$glint" deps --format json in/sub/scene.yaml
 "$glint" deps --format make in/sub/scene.yaml >scene.d
@@ -115,8 +101,8 @@ sed -e 's|deep/parts.xml|includes/parts.xml|; s|"../two/more.yaml"|includes/more
     -e 's|mesh: ../one/tri|mesh: meshes-2/tri|; s|&other "../../other/away.obj"|\&other meshes/away.obj|' \
     in/sub/scene.yaml >wanted.txt
 same "pack changes paths alone" packed/scene.yaml wanted.txt
-[ "$(grep -c 'kept' packed/includes/parts.xml)" -eq 1 ] && ok "pack keeps comments" || fail "pack keeps comments"
-[ "$(tr -dc '\r' <packed/includes/more.yaml | wc -c)" -eq 3 ] && ok "pack keeps line ends" || fail "pack keeps line ends"
+[ "$(grep -c 'kept' packed/includes/parts.xml)" -eq 1 ] && pass "pack keeps comments" || fail "pack keeps comments"
+[ "$(tr -dc '\r' <packed/includes/more.yaml | wc -c)" -eq 3 ] && pass "pack keeps line ends" || fail "pack keeps line ends"
 mkdir elsewhere && mv packed elsewhere/scene && mv in away && mv other away2
 "$glint" render elsewhere/scene/scene.yaml -o packed.pfm -q || fail "the package renders"
 mv away in && mv away2 other
@@ -128,7 +114,7 @@ same "equal scenes give equal archives" one.zip two.zip
 if command -v unzip >/dev/null 2>&1; then
     mkdir unzipped && (cd unzipped && unzip -q ../one.zip) && (cd unzipped && find . -type f | sort) >unzipped.txt
     same "an archive holds the folder's files" unzipped.txt packed.txt
-    diff -r unzipped elsewhere/scene >/dev/null && ok "and their bytes" || fail "and their bytes"
+    diff -r unzipped elsewhere/scene >/dev/null && pass "and their bytes" || fail "and their bytes"
 else
     echo "skip what an archive holds: unzip is not installed"
 fi
@@ -142,7 +128,7 @@ for scene in "$source"/scenes/*.yaml "$source"/scenes/*.xml "$source"/scenes/ele
     }
     rm -rf "all/$name.d"
 done
-[ $failed -eq 0 ] && ok "every scene that ships can be packed"
+[ $failed -eq 0 ] && pass "every scene that ships can be packed"
 
 # ---- names that others stumble over
 mkdir -p odd/A odd/a odd/blobs
@@ -161,9 +147,9 @@ cp in/one/tri.obj odd/blobs/0123 && ln -s blobs/0123 odd/link.obj
 } >odd/-s.yaml
 expect "pack of odd names" 0 - W601 "$glint" pack -- odd/-s.yaml odd-packed
 find odd-packed -name '*.obj' | wc -l >count.txt
-[ "$(cat count.txt)" -eq 12 ] && ok "every odd name is packed" || fail "every odd name is packed"
-[ -f odd-packed/meshes/link.obj ] && ok "a link's file is packed under the link's name" || fail "links"
-[ -f odd-packed/meshes/Tri.obj ] && [ -f odd-packed/meshes-2/tri.obj ] && ok "names differ without regard to case" || fail "case"
+[ "$(cat count.txt)" -eq 12 ] && pass "every odd name is packed" || fail "every odd name is packed"
+[ -f odd-packed/meshes/link.obj ] && pass "a link's file is packed under the link's name" || fail "links"
+[ -f odd-packed/meshes/Tri.obj ] && [ -f odd-packed/meshes-2/tri.obj ] && pass "names differ without regard to case" || fail "case"
 expect "pack into an archive with a long name" 0 - W601 "$glint" pack odd/-s.yaml "${long%obj}zip"
 if command -v python3 >/dev/null 2>&1; then
     expect "python reads the archive" 0 '^None 13$' - python3 -c \
@@ -201,8 +187,8 @@ printf 'glint: 1\nmodels:\n  - mesh: >-\n      in/one/tri.obj\n' >block.yaml
 "$glint" pack block.yaml block >err.txt 2>&1
 status=$?
 if [ $status -eq 0 ]; then
-    "$glint" check block/block.yaml && ok "a path in a block is packed" || fail "a path in a block is packed"
-elif grep -q 'on one line' err.txt && [ ! -e block ]; then ok "a path in a block is refused"; else fail "a path in a block"; fi
+    "$glint" check block/block.yaml && pass "a path in a block is packed" || fail "a path in a block is packed"
+elif grep -q 'on one line' err.txt && [ ! -e block ]; then pass "a path in a block is refused"; else fail "a path in a block"; fi
 printf 'mtllib %s/mats/deep.mtl\n' "$(pwd -P)" >abs.obj
 sed 1d in/one/tri.obj >>abs.obj
 printf 'glint: 1\nmodels: [{mesh: abs.obj}]\n' >abs.yaml
@@ -221,8 +207,8 @@ done
 kill -TERM $pid 2>/dev/null
 wait $pid
 status=$?
-if [ $status -eq 143 ] && [ ! -e large.d ] && grep -q interrupted err.txt; then ok "a signal leaves nothing"; elif
+if [ $status -eq 143 ] && [ ! -e large.d ] && grep -q interrupted err.txt; then pass "a signal leaves nothing"; elif
     [ $status -eq 0 ] && [ -f large.d/scene.yaml ]
 then echo "skip a signal leaves nothing: it came too late"; else fail "a signal leaves nothing: exit $status"; fi
-find . -maxdepth 1 -name '.glint-*' | grep . && fail "nothing is left behind" || ok "nothing is left behind"
+find . -maxdepth 1 -name '.glint-*' | grep . && fail "nothing is left behind" || pass "nothing is left behind"
 exit $failed

@@ -1,47 +1,9 @@
 #!/bin/sh
 # Reports, folders, settings and comments, as a user meets them.
-# Usage: run_report.sh GLINT REPORT_TOOL SOURCE_FOLDER WORK_FOLDER
-set -u
-glint=$1
-tool=$2
-source=$3
-work=$4
-failed=0
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work" || exit 2
+# Usage: run_report.sh GLINT SOURCE_FOLDER WORK_FOLDER REPORT_TOOL
+. "$(dirname -- "$0")/../cli/lib.sh"
+tool=$4
 
-ok() { # NAME command...
-    name=$1
-    shift
-    if "$@" >said.txt 2>&1; then
-        echo "ok   $name"
-    else
-        echo "FAIL $name: $*"
-        head -20 said.txt
-        failed=1
-    fi
-}
-
-# expect NAME EXIT PATTERN command...: of standard output and error together; '-' is silence.
-expect() {
-    name=$1 wanted=$2 pattern=$3
-    shift 3
-    "$@" >out.txt 2>&1 </dev/null
-    got=$?
-    if [ "$pattern" = - ]; then
-        [ ! -s out.txt ]
-    else
-        grep -qE -e "$pattern" out.txt
-    fi
-    if [ $? -eq 0 ] && [ $got -eq "$wanted" ]; then
-        echo "ok   $name"
-    else
-        echo "FAIL $name: exit $got, wanted $wanted with '$pattern'"
-        head -20 out.txt
-        failed=1
-    fi
-}
 get() { [ "$("$tool" get "$1" "$2")" = "$3" ]; }
 lacks() { ! grep -qE -e "$2" "$1"; }
 
@@ -69,7 +31,7 @@ fi
 ok "good scenes are silent as text" test ! -s scenes.text
 ok "good scenes are silent as annotations" test ! -s scenes.github
 ok "a wrong corpus is not" test -s corpus.text
-expect "good scenes pass" 0 - "$glint" check "$source/scenes"
+tells "good scenes pass" 0 - "$glint" check "$source/scenes"
 ok "ten errors are annotated" test "$(grep -c '^::error ' corpus.github)" -eq 10
 ok "ten warnings are annotated" test "$(grep -c '^::warning ' corpus.github)" -eq 10
 ok "no notice without --verbose but the last" test "$(grep -c '^::notice ' corpus.github)" -eq 1
@@ -153,11 +115,11 @@ command -v taskset >/dev/null && taskset -c 0 "$glint" check tree 2>alone.txt
 "$glint" check tree $(cut -d: -f1 places.txt) >/dev/null 2>again.txt
 ok "a scene that is named twice is checked once" cmp order.txt again.txt
 mkdir -p empty
-expect "a folder without scenes" 2 'command-line:1:13: error: there is no scene in the folder' "$glint" check empty
-expect "text into a file" 1 - "$glint" check tree -o text.txt
+tells "a folder without scenes" 2 'command-line:1:13: error: there is no scene in the folder' "$glint" check empty
+tells "text into a file" 1 - "$glint" check tree -o text.txt
 ok "it is the text" cmp text.txt order.txt
-expect "no such format" 2 "did you mean 'sarif'" "$glint" check tree --format sarf
-expect "an output that cannot be written" 3 'cannot be written' "$glint" check tree --format json -o none/report.json
+tells "no such format" 2 "did you mean 'sarif'" "$glint" check tree --format sarf
+tells "an output that cannot be written" 3 'cannot be written' "$glint" check tree --format json -o none/report.json
 "$glint" check minimal.yaml none.yaml --format junit >unreadable.junit
 ok "a file that cannot be read is an error of the suite" grep -q 'failures="0" errors="1"' unreadable.junit
 
@@ -170,49 +132,49 @@ models:
   - {mesh: open.obj, material: {albedo: [0.1, 0, 0, 0.9], refractive_index: 1.5}}
 S
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >open.obj
-expect "a warning does not fail" 0 'w.glint.yaml:5:[0-9]+: warning: .*\[W401\]' "$glint" check --only W401 w.glint.yaml
-expect "unless asked" 1 'W401' "$glint" check w.glint.yaml --fail-on warning --only W4xx
-expect "a severity by option" 1 'error: .*\[W401\]' "$glint" check w.glint.yaml --severity W401=error
-expect "a code ignored" 0 - "$glint" check w.glint.yaml --ignore Wxxx --ignore W401 --only W401
-expect "off" 0 - "$glint" check w.glint.yaml --severity W401=off --only W401
-expect "only others" 0 - "$glint" check w.glint.yaml --only W601
-expect "a path ignored" 0 - "$glint" check bad.glint.yaml --ignore 'bad*'
-expect "a path of another folder" 1 E301 "$glint" check bad.glint.yaml --ignore 'tree/bad*'
-expect "errors are not silenced" 2 "errors cannot be silenced" "$glint" check bad.glint.yaml --ignore E301
-expect "errors pass --only" 1 'E301' "$glint" check bad.glint.yaml --only W401
-expect "an unknown code" 2 "there is no code 'W999'" "$glint" check bad.glint.yaml --only W999
-expect "an unknown severity" 2 "did you mean 'warning'" "$glint" check bad.glint.yaml --severity W401=warnin
-expect "an unknown level" 2 "did you mean 'error'" "$glint" check bad.glint.yaml --fail-on eror
+tells "a warning does not fail" 0 'w.glint.yaml:5:[0-9]+: warning: .*\[W401\]' "$glint" check --only W401 w.glint.yaml
+tells "unless asked" 1 'W401' "$glint" check w.glint.yaml --fail-on warning --only W4xx
+tells "a severity by option" 1 'error: .*\[W401\]' "$glint" check w.glint.yaml --severity W401=error
+tells "a code ignored" 0 - "$glint" check w.glint.yaml --ignore Wxxx --ignore W401 --only W401
+tells "off" 0 - "$glint" check w.glint.yaml --severity W401=off --only W401
+tells "only others" 0 - "$glint" check w.glint.yaml --only W601
+tells "a path ignored" 0 - "$glint" check bad.glint.yaml --ignore 'bad*'
+tells "a path of another folder" 1 E301 "$glint" check bad.glint.yaml --ignore 'tree/bad*'
+tells "errors are not silenced" 2 "errors cannot be silenced" "$glint" check bad.glint.yaml --ignore E301
+tells "errors pass --only" 1 'E301' "$glint" check bad.glint.yaml --only W401
+tells "an unknown code" 2 "there is no code 'W999'" "$glint" check bad.glint.yaml --only W999
+tells "an unknown severity" 2 "did you mean 'warning'" "$glint" check bad.glint.yaml --severity W401=warnin
+tells "an unknown level" 2 "did you mean 'error'" "$glint" check bad.glint.yaml --fail-on eror
 
 printf 'severity: {W401: error}\nonly: [W401]\n' >.glintrc.yaml
-expect "a severity by configuration" 1 'error: .*\[W401\]' "$glint" check w.glint.yaml
-expect "options go before it" 0 'warning: .*\[W401\]' "$glint" check w.glint.yaml --severity W401=warning
+tells "a severity by configuration" 1 'error: .*\[W401\]' "$glint" check w.glint.yaml
+tells "options go before it" 0 'warning: .*\[W401\]' "$glint" check w.glint.yaml --severity W401=warning
 mkdir -p sub
 cp w.glint.yaml open.obj sub
-expect "it holds for folders below" 1 'sub/w.glint.yaml:5:.*error: .*\[W401\]' "$glint" check sub
+tells "it holds for folders below" 1 'sub/w.glint.yaml:5:.*error: .*\[W401\]' "$glint" check sub
 printf 'only: [W401]\nseverity: {W401: off}\n' >sub/.glintrc.yaml
-expect "the nearest one counts" 0 - "$glint" check sub
+tells "the nearest one counts" 0 - "$glint" check sub
 rm sub/.glintrc.yaml
 printf 'fail_on: warning\nonly: [W401]\n' >.glintrc.yaml
-expect "fail_on by configuration" 1 'warning: .*\[W401\]' "$glint" check w.glint.yaml
-expect "and back by option" 0 'warning: .*\[W401\]' "$glint" check w.glint.yaml --fail-on error
+tells "fail_on by configuration" 1 'warning: .*\[W401\]' "$glint" check w.glint.yaml
+tells "and back by option" 0 'warning: .*\[W401\]' "$glint" check w.glint.yaml --fail-on error
 printf 'ignore: ["sub/**", W401]\nonly: [W401]\n' >.glintrc.yaml
-expect "paths and codes ignored" 0 - "$glint" check sub w.glint.yaml
+tells "paths and codes ignored" 0 - "$glint" check sub w.glint.yaml
 "$glint" check sub --format json >ignored.json
 ok "what is ignored is said" get ignored.json scenes/0/state ignored
 printf 'max_messages: 1\nlimits: {mesh-bytes: 3}\n' >.glintrc.yaml
-expect "limits by configuration" 1 'E501' "$glint" check w.glint.yaml
-expect "limits by option first" 0 '' "$glint" check w.glint.yaml --limit mesh-bytes=1000
-expect "max_messages by configuration" 1 '2 more messages not shown' "$glint" check bad.glint.yaml
+tells "limits by configuration" 1 'E501' "$glint" check w.glint.yaml
+tells "limits by option first" 0 '' "$glint" check w.glint.yaml --limit mesh-bytes=1000
+tells "max_messages by configuration" 1 '2 more messages not shown' "$glint" check bad.glint.yaml
 mkdir -p meshes
 mv open.obj meshes
 printf 'asset_paths: [meshes]\n' >.glintrc.yaml
-expect "asset paths by configuration" 0 'W401' "$glint" check w.glint.yaml
+tells "asset paths by configuration" 0 'W401' "$glint" check w.glint.yaml
 printf 'asset_paths: [..]\n' >.glintrc.yaml
-expect "none outside" 2 '^\.glintrc\.yaml:1:15: error: .*outside.*\[E806\]' "$glint" check w.glint.yaml
+tells "none outside" 2 '^\.glintrc\.yaml:1:15: error: .*outside.*\[E806\]' "$glint" check w.glint.yaml
 printf 'fial_on: warning\nseverity: {W401: eror, W999: off, E301: off}\nlimits: {mesh-byte: 3}\nonly: W401\n' >.glintrc.yaml
 "$glint" check w.glint.yaml >/dev/null 2>config.txt
-expect "a wrong configuration is an error of usage" 2 '' "$glint" check w.glint.yaml
+tells "a wrong configuration is an error of usage" 2 '' "$glint" check w.glint.yaml
 ok "an unknown setting" grep -q "^.glintrc.yaml:1:1: error: there is no setting 'fial_on' \[E805\]" config.txt
 ok "and what was meant" grep -q "did you mean 'fail_on'" config.txt
 ok "an unknown severity" grep -q "^.glintrc.yaml:2:18: error: 'eror' is no severity \[E806\]" config.txt
@@ -221,11 +183,11 @@ ok "an error's code" grep -q "^.glintrc.yaml:2:35: error: errors cannot be silen
 ok "an unknown limit" grep -q "^.glintrc.yaml:3:10: error: there is no limit 'mesh-byte' \[E806\]" config.txt
 ok "a wrong form" grep -q "^.glintrc.yaml:4:7: error: 'only' takes a list of codes \[E806\]" config.txt
 printf 'fail_on: [\n' >.glintrc.yaml
-expect "broken YAML" 2 '^\.glintrc\.yaml:[0-9]+:[0-9]+: error: .*\[E101\]' "$glint" check minimal.yaml
+tells "broken YAML" 2 '^\.glintrc\.yaml:[0-9]+:[0-9]+: error: .*\[E101\]' "$glint" check minimal.yaml
 printf -- '- a\n' >.glintrc.yaml
-expect "no map" 2 'error: a configuration is a map of settings \[E806\]' "$glint" check minimal.yaml
+tells "no map" 2 'error: a configuration is a map of settings \[E806\]' "$glint" check minimal.yaml
 printf '# nothing\n' >.glintrc.yaml
-expect "an empty one marks a folder" 0 - "$glint" check minimal.yaml
+tells "an empty one marks a folder" 0 - "$glint" check minimal.yaml
 rm .glintrc.yaml
 mv meshes/open.obj .
 # The schema for editors and glint agree.
@@ -268,27 +230,27 @@ done
 line='  - {mesh: open.obj, material: {albedo: [0.1, 0, 0, 0.9], refractive_index: 1.5}}'
 head -4 w.glint.yaml >c.glint.yaml
 printf '  # glint: allow W401: a pane\n%s\n' "$line" >>c.glint.yaml
-expect "a comment before" 0 - "$glint" check --only W401 --only W8xx c.glint.yaml
+tells "a comment before" 0 - "$glint" check --only W401 --only W8xx c.glint.yaml
 head -4 w.glint.yaml >c.glint.yaml
 printf '%s # glint: allow W401\n' "$line" >>c.glint.yaml
-expect "a comment behind" 0 - "$glint" check --only W401 --only W8xx c.glint.yaml
+tells "a comment behind" 0 - "$glint" check --only W401 --only W8xx c.glint.yaml
 head -4 w.glint.yaml >c.glint.yaml
 printf '  # glint: allow W401\n\n  # the pane\n%s\n' "$line" >>c.glint.yaml
-expect "blank lines and comments between" 0 - "$glint" check --only W401 --only W8xx c.glint.yaml
+tells "blank lines and comments between" 0 - "$glint" check --only W401 --only W8xx c.glint.yaml
 cp c.glint.yaml behind.glint.yaml
 sed -i '5,$d' behind.glint.yaml
 printf '  - # glint: allow W401\n    {mesh: open.obj, material: {albedo: [0.1, 0, 0, 0.9], refractive_index: 1.5}}\n' >>behind.glint.yaml
-expect "a comment behind the dash of an item" 0 - "$glint" check --only W401 --only W8xx behind.glint.yaml
+tells "a comment behind the dash of an item" 0 - "$glint" check --only W401 --only W8xx behind.glint.yaml
 sed -i 's/allow W401/allow W401, W601/' c.glint.yaml
-expect "an unused code" 0 'c.glint.yaml:5:24: warning: W601 does not occur .*\[W801\]' "$glint" check --only W401 --only W8xx c.glint.yaml
-expect "it fails where warnings do" 1 'W801' "$glint" check --only W401 --only W8xx c.glint.yaml --fail-on warning
+tells "an unused code" 0 'c.glint.yaml:5:24: warning: W601 does not occur .*\[W801\]' "$glint" check --only W401 --only W8xx c.glint.yaml
+tells "it fails where warnings do" 1 'W801' "$glint" check --only W401 --only W8xx c.glint.yaml --fail-on warning
 sed -i 's/allow W401, W601/allow W999, E301/' c.glint.yaml
 "$glint" check c.glint.yaml >/dev/null 2>comment.txt
 ok "an unknown code in a comment" grep -q "c.glint.yaml:5:18: warning: there is no code 'W999' \[W802\]" comment.txt
 ok "an error's code in a comment" grep -q 'c.glint.yaml:5:24: warning: errors cannot be silenced, and E301 is one \[W802\]' comment.txt
 ok "the finding stays" grep -q 'W401' comment.txt
 printf 'glint: 1\ndescription: "# glint: allow W401"\n' >text.glint.yaml
-expect "text is no comment" 0 - "$glint" check text.glint.yaml
+tells "text is no comment" 0 - "$glint" check text.glint.yaml
 cat >c.glint.xml <<'S'
 <Scene glint="1">
   <Camera><Position x="0" y="0" z="5"/></Camera>
@@ -299,10 +261,10 @@ cat >c.glint.xml <<'S'
   <Material name="glass" refractive_index="1.5"><Albedo diffuse="0.1" refraction="0.9"/></Material>
 </Scene>
 S
-expect "a comment for a tag of several lines" 0 - "$glint" check --only W401 --only W8xx c.glint.xml
+tells "a comment for a tag of several lines" 0 - "$glint" check --only W401 --only W8xx c.glint.xml
 sed -i 's|  <!-- glint: allow W401: a pane -->||; s|"glass"/>|"glass"/> <!-- glint: allow W401 -->|' c.glint.xml
-expect "a comment behind a tag" 0 - "$glint" check --only W401 --only W8xx c.glint.xml
+tells "a comment behind a tag" 0 - "$glint" check --only W401 --only W8xx c.glint.xml
 sed -i 's/allow W401/alow W401/' c.glint.xml
-expect "a word that is none" 0 'W802' "$glint" check c.glint.xml
+tells "a word that is none" 0 'W802' "$glint" check c.glint.xml
 
 exit $failed

@@ -1,25 +1,8 @@
-# What the tests with real clients share. Each is run as `NAME.sh GLINT REPORT_TOOL SOURCE_FOLDER WORK_FOLDER`; it exits 77
-# and says so where its client is not installed.
-set -eu
-glint=$1
-tool=$2
-source=$3
-work=$4
+# What the tests with real clients of reports share: scenes to report on.
+. "$(dirname -- "$0")/../../clients.sh"
+tool=$4
+manual=docs/ci.md
 
-needs() {
-    command -v "$1" >/dev/null && return 0
-    echo "skipped: $1 is not installed (docs/ci.md says how)"
-    exit 77
-}
-
-fail() {
-    echo "FAIL $*"
-    exit 1
-}
-
-rm -rf "$work"
-mkdir -p "$work"
-cd "$work"
 cat >wrong.glint.yaml <<'S'
 glint: 1
 camera: {position: [0, 0, 5]}

@@ -2,7 +2,7 @@
 # The errorformat of docs/ci.md in Vim.
 . "$(dirname -- "$0")/lib.sh"
 needs vim
-vim --version | grep -q '+quickfix' || { echo "skipped: this vim has no quickfix list"; exit 77; }
+vim --version | grep -q '+quickfix' || skip "this vim has no quickfix list"
 
 grep '^set errorformat=' "$source/docs/ci.md" >format.vim
 [ -s format.vim ] || fail "docs/ci.md has no errorformat"
