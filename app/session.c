@@ -3,6 +3,7 @@
 #include "app/check.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
+#include "grammar/ir_print_text.h"
 #include "parser/parser.h"
 
 #include <stdlib.h>
@@ -39,27 +40,16 @@ static enum session_state unreadable(struct session *session, str path, enum fil
     return SESSION_UNREADABLE;
 }
 
-// YAML in double quotes: the two characters that need it, and what is not printable.
-static void quote_yaml(struct strbuf *out, str text) {
-    strbuf_char(out, '"');
-    for (size_t i = 0; i < text.len; i++) {
-        unsigned char c = (unsigned char)text.ptr[i];
-        if (c == '"' || c == '\\')
-            strbuf_char(out, '\\');
-        if (c < 0x20 || c == 0x7F)
-            strbuf_format(out, "\\x%02x", c);
-        else
-            strbuf_char(out, (char)c);
-    }
-    strbuf_char(out, '"');
-}
-
 // A mesh stands for a scene with that one model, which no one wrote.
 static str scene_around_mesh(struct session *session, str path) {
     struct strbuf text;
+    str name = path_base(path);
     strbuf_init(&text);
     strbuf_cstr(&text, "glint: 1\nmodels:\n  - mesh: ");
-    quote_yaml(&text, path_base(path));
+    if (utf8_first_error(name) == name.len)
+        print_yaml_text(&text, name, false);
+    else
+        strbuf_str(&text, name); // the reader says what is wrong with it
     strbuf_char(&text, '\n');
     str copy = arena_copy(&session->arena, strbuf_view(&text));
     strbuf_finish(&text);

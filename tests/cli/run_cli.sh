@@ -66,6 +66,12 @@ expect "no colours where no terminal is" 1 - - grep -q "$(printf '\033')" all.tx
 expect "messages have a limit" 1 - '1 more message not shown; --limit messages=N shows more' \
     "$glint" check two.yaml --set image.width=0 --set image.height=0 --limit messages=1
 expect "a mesh is checked" 0 - - "$glint" check tri.obj
+odd=$(printf '"q" \302\205\342\200\250#: .obj')
+cp tri.obj "$odd"
+expect "a mesh with an odd name is checked" 0 - - "$glint" check "$odd"
+odd=$(printf 'x\377.obj')
+cp tri.obj "$odd"
+expect "a mesh whose name is no text is told from one that is missing" 1 - 'byte 0xFF is not part .*E103' "$glint" check "$odd"
 printf 'v 0 0 0\nv 1 0\nf 1 2 3\n' >broken.obj
 expect "a broken mesh shows itself alone" 1 - 'broken.obj:2:1: error: .v. needs three numbers' "$glint" check broken.obj
 cp err.txt broken.txt
