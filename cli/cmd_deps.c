@@ -2,10 +2,8 @@
 #include "cli/cli.h"
 
 #include "app/inventory.h"
-#include "core/strbuf.h"
+#include "core/json_write.h"
 
-#include <jansson.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum form {
@@ -19,7 +17,7 @@ struct listing {
     struct cli *cli;
     enum form form;
     struct strbuf out;
-    json_t *scenes;
+    struct json_writer json; // into `out`
     struct {
         str *items;
         uint32_t count, capacity;
@@ -77,49 +75,50 @@ static void add_make(struct listing *listing, const struct inventory *inventory,
     strbuf_char(&listing->out, '\n');
 }
 
-// The place that names a file, as an object.
-static json_t *place(struct session *session, const struct inventory_use *use) {
-    json_t *object = json_object();
+// The place that names a file.
+static void add_place(struct json_writer *w, struct session *session, const struct inventory_use *use) {
+    json_open_object(w, NULL);
     if (use->named_in.len) {
-        json_object_set_new(object, "file", json_stringn(use->named_in.ptr, use->named_in.len));
-        json_object_set_new(object, "line", json_integer(use->named_line));
+        json_write_text(w, "file", use->named_in);
+        json_write_integer(w, "line", use->named_line);
     } else {
         struct source_place at = source_locate(&session->sources, use->at);
-        json_object_set_new(object, "file", json_stringn(at.path.ptr, at.path.len));
-        json_object_set_new(object, "line", json_integer(at.line));
-        json_object_set_new(object, "column", json_integer(at.column));
+        json_write_text(w, "file", at.path);
+        json_write_integer(w, "line", at.line);
+        json_write_integer(w, "column", at.column);
     }
-    json_object_set_new(object, "as", json_stringn(use->named.ptr, use->named.len));
-    return object;
+    json_write_text(w, "as", use->named);
+    json_close_object(w);
 }
 
-static json_t *file_object(struct session *session, const struct inventory *inventory, uint32_t first) {
+static void add_file(struct json_writer *w, struct session *session, const struct inventory *inventory,
+                     uint32_t first) {
     const struct inventory_use *use = &inventory->items[first];
-    json_t *object = json_object();
-    json_t *places = json_array();
-    json_object_set_new(object, "path", json_stringn(use->path.ptr, use->path.len));
-    json_object_set_new(object, "role", json_string(inventory_role_name(use->role)));
-    json_object_set_new(object, "bytes", json_integer((json_int_t)use->size_bytes));
+    json_open_object(w, NULL);
+    json_write_text(w, "path", use->path);
+    json_write_text(w, "role", str_from(inventory_role_name(use->role)));
+    json_write_integer(w, "bytes", use->size_bytes);
+    json_open_list(w, "named");
     for (uint32_t i = first; i < inventory->count; i++) {
         const struct inventory_use *other = &inventory->items[i];
         if (other->named.len && str_equal(other->canonical, use->canonical))
-            json_array_append_new(places, place(session, other));
+            add_place(w, session, other);
     }
-    json_object_set_new(object, "named", places);
-    return object;
+    json_close_list(w);
+    json_close_object(w);
 }
 
-static void add_json(struct listing *listing, struct session *session, const struct inventory *inventory,
+static void add_json(struct json_writer *w, struct session *session, const struct inventory *inventory,
                      const char *scene) {
-    json_t *object = json_object();
-    json_t *files = json_array();
-    json_object_set_new(object, "scene", json_string(scene));
-    json_object_set_new(object, "complete", json_boolean(session->sink.errors == 0));
+    json_open_object(w, NULL);
+    json_write_text(w, "scene", str_from(scene));
+    json_write_boolean(w, "complete", session->sink.errors == 0);
+    json_open_list(w, "files");
     for (uint32_t i = 0; i < inventory->count; i++)
         if (!inventory_is_repeat(inventory, i))
-            json_array_append_new(files, file_object(session, inventory, i));
-    json_object_set_new(object, "files", files);
-    json_array_append_new(listing->scenes, object);
+            add_file(w, session, inventory, i);
+    json_close_list(w);
+    json_close_object(w);
 }
 
 static int list_scene(struct listing *listing, struct asset_store *store, const char *path) {
@@ -132,7 +131,7 @@ static int list_scene(struct listing *listing, struct asset_store *store, const 
         diag_add(&session.sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory to list the files");
     if (listing->form == FORM_JSON)
-        add_json(listing, &session, &inventory, path);
+        add_json(&listing->json, &session, &inventory, path);
     else if (listing->form == FORM_MAKE)
         add_make(listing, &inventory, path);
     else
@@ -143,13 +142,11 @@ static int list_scene(struct listing *listing, struct asset_store *store, const 
 }
 
 static int print_listing(struct listing *listing) {
-    if (listing->form != FORM_JSON)
-        return cli_print(listing->cli, strbuf_view(&listing->out));
-    char *text = json_dumps(listing->scenes, JSON_INDENT(2));
-    if (text)
-        strbuf_format(&listing->out, "%s\n", text);
-    free(text);
-    return cli_print(listing->cli, strbuf_view(&listing->out));
+    struct cli *cli = listing->cli;
+    if (!listing->out.failed)
+        return cli_print(cli, strbuf_view(&listing->out));
+    cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "there is no memory for the list");
+    return CLI_FILE;
 }
 
 int cmd_deps(struct cli *cli) {
@@ -157,17 +154,23 @@ int cmd_deps(struct cli *cli) {
     int form = 0;
     if (!cli_format(cli, forms, &form))
         return CLI_USAGE;
-    struct listing listing = {.cli = cli, .form = (enum form)form, .scenes = json_array()};
+    struct listing listing = {.cli = cli, .form = (enum form)form};
     struct asset_store *store = asset_store_create();
     int worst = CLI_OK;
     strbuf_init(&listing.out);
+    json_writer_init(&listing.json, &listing.out, JSON_WRITE_DEPTH_MAX);
+    if (listing.form == FORM_JSON)
+        json_open_list(&listing.json, NULL);
     for (int i = 0; i < cli->operand_count; i++) {
         int status = list_scene(&listing, store, cli->operands[i]);
         worst = status > worst ? status : worst;
     }
+    if (listing.form == FORM_JSON) {
+        json_close_list(&listing.json);
+        json_end(&listing.json);
+    }
     int printed = print_listing(&listing);
     worst = printed > worst ? printed : worst;
-    json_decref(listing.scenes);
     strbuf_finish(&listing.out);
     asset_store_destroy(store);
     return worst;

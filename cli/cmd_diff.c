@@ -1,9 +1,7 @@
 // glint diff A B: what differs in meaning between two scenes, with both places.
 #include "cli/cli.h"
+#include "core/json_write.h"
 #include "grammar/ir_diff.h"
-
-#include <jansson.h>
-#include <stdlib.h>
 
 static const char *const formats[] = {"text", "json", NULL};
 static const char *const kinds[] = {
@@ -89,46 +87,46 @@ static void make_text(struct comparison *c, struct strbuf *out) {
 
 // ---- JSON
 
-static json_t *half(struct session *session, str path, str value, bool is_default, span at) {
-    json_t *object = json_object();
-    if (path.len == 0)
-        return json_decref(object), json_null();
-    json_object_set_new(object, "path", json_stringn(path.ptr, path.len));
+static void half(struct json_writer *w, const char *key, struct session *session, str path, str value,
+                 bool is_default, span at) {
+    if (path.len == 0) {
+        json_write_null(w, key);
+        return;
+    }
+    json_open_object(w, key);
+    json_write_text(w, "path", path);
     if (value.len)
-        json_object_set_new(object, "value", json_stringn(value.ptr, value.len));
+        json_write_text(w, "value", value);
     if (is_default)
-        json_object_set_new(object, "default", json_true());
+        json_write_boolean(w, "default", true);
     if (!span_is_none(at)) {
         struct source_place place = source_locate(&session->sources, at);
-        json_object_set_new(object, "file", json_stringn(place.path.ptr, place.path.len));
-        json_object_set_new(object, "line", json_integer(place.line));
-        json_object_set_new(object, "column", json_integer(place.column));
+        json_write_text(w, "file", place.path);
+        json_write_integer(w, "line", place.line);
+        json_write_integer(w, "column", place.column);
     }
-    return object;
+    json_close_object(w);
 }
 
 static void make_json(struct comparison *c, struct strbuf *out) {
-    json_t *root = json_object(), *list = json_array();
+    struct json_writer w;
+    json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
+    json_open_object(&w, NULL);
+    json_write_integer(&w, "version", 1);
+    json_open_list(&w, "differences");
     for (uint32_t i = 0; i < c->changes.count; i++) {
         const struct ir_change *change = &c->changes.items[i];
-        json_t *item = json_object();
-        json_object_set_new(item, "kind", json_string(kinds[change->kind]));
-        json_object_set_new(item, "before",
-                            half(&c->sessions[0], change->path_before, change->value_before,
-                                 change->default_before, change->before));
-        json_object_set_new(item, "after",
-                            half(&c->sessions[1], change->path_after, change->value_after,
-                                 change->default_after, change->after));
-        json_array_append_new(list, item);
+        json_open_object(&w, NULL);
+        json_write_text(&w, "kind", str_from(kinds[change->kind]));
+        half(&w, "before", &c->sessions[0], change->path_before, change->value_before, change->default_before,
+             change->before);
+        half(&w, "after", &c->sessions[1], change->path_after, change->value_after, change->default_after,
+             change->after);
+        json_close_object(&w);
     }
-    json_object_set_new(root, "version", json_integer(1));
-    json_object_set_new(root, "differences", list);
-    char *text = json_dumps(root, JSON_INDENT(2));
-    out->failed = out->failed || !text;
-    strbuf_cstr(out, text ? text : "");
-    strbuf_char(out, '\n');
-    free(text);
-    json_decref(root);
+    json_close_list(&w);
+    json_close_object(&w);
+    json_end(&w);
 }
 
 // ---- the command

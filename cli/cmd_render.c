@@ -121,16 +121,8 @@ static int report_stats(struct render_job *job) {
     snprintf(s->device, sizeof s->device, "%s", gpu_info(job->gpu)->name);
     struct strbuf text;
     strbuf_init(&text);
-    int status = CLI_OK;
-    if (job->cli->options.stats == CLI_STATS_JSON) {
-        stats_json(s, &text);
-        if (strcmp(job->output, "-") != 0)
-            status = cli_print(job->cli, strbuf_view(&text));
-    } else {
-        stats_text(s, &text);
-    }
-    if (job->cli->options.stats == CLI_STATS_TEXT || strcmp(job->output, "-") == 0)
-        fwrite(text.data ? text.data : "", 1, text.len, stderr);
+    (job->cli->options.stats == CLI_STATS_JSON ? stats_json : stats_text)(s, &text);
+    int status = stats_tell(job->cli, job->output, strbuf_view(&text));
     strbuf_finish(&text);
     return status;
 }

@@ -1,9 +1,9 @@
 // glint render --device reference: the same files as a device makes, by the tracer in double precision.
 #include "app/exact.h"
 #include "cli/render_job.h"
+#include "core/json_write.h"
 
-#include <jansson.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 // The progress bar speaks of render_progress; both are the same question.
@@ -40,42 +40,45 @@ static void text_of(const struct exact *exact, const struct reference_statistics
         s->left_weight_most, s->left_weight_mean, s->brightest, s->bound);
 }
 
-static bool json_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
+static void json_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
     const struct reference_settings *settings = &exact->settings;
-    json_t *root = json_pack(
-        "{s:s, s:b, s:b, s:I, s:I, s:I, s:f, s:{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}, s:{s:f, s:f, "
-        "s:f, s:f}}",
-        "device", "reference", "as_file", settings->as_file, "cached", exact->source.found > 0, "width",
-        (json_int_t)settings->width, "height", (json_int_t)settings->height, "samples",
-        (json_int_t)settings->samples, "seconds", s->seconds, "rays", "primary", (json_int_t)s->primary,
-        "reflected", (json_int_t)s->reflected, "refracted", (json_int_t)s->refracted, "shadow",
-        (json_int_t)s->shadow, "total_reflections", (json_int_t)s->total_reflections, "cut_by_depth",
-        (json_int_t)s->cut_by_depth, "cut_by_weight", (json_int_t)s->cut_by_weight, "cut_by_segments",
-        (json_int_t)s->cut_by_segments, "deepest", (json_int_t)s->deepest, "left", "worst_pixel",
-        s->left_weight_most, "mean", s->left_weight_mean, "brightest", s->brightest, "bound", s->bound);
-    char *text = root ? json_dumps(root, JSON_INDENT(2)) : NULL;
-    bool made = text != NULL;
-    if (made)
-        strbuf_format(out, "%s\n", text);
-    free(text);
-    json_decref(root);
-    return made;
+    struct json_writer w;
+    json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
+    json_open_object(&w, NULL);
+    json_write_text(&w, "device", STR("reference"));
+    json_write_boolean(&w, "as_file", settings->as_file);
+    json_write_boolean(&w, "cached", exact->source.found > 0);
+    json_write_integer(&w, "width", settings->width);
+    json_write_integer(&w, "height", settings->height);
+    json_write_integer(&w, "samples", settings->samples);
+    json_write_real(&w, "seconds", s->seconds);
+    json_open_object(&w, "rays");
+    json_write_integer(&w, "primary", s->primary);
+    json_write_integer(&w, "reflected", s->reflected);
+    json_write_integer(&w, "refracted", s->refracted);
+    json_write_integer(&w, "shadow", s->shadow);
+    json_write_integer(&w, "total_reflections", s->total_reflections);
+    json_write_integer(&w, "cut_by_depth", s->cut_by_depth);
+    json_write_integer(&w, "cut_by_weight", s->cut_by_weight);
+    json_write_integer(&w, "cut_by_segments", s->cut_by_segments);
+    json_write_integer(&w, "deepest", s->deepest);
+    json_close_object(&w);
+    json_open_object(&w, "left");
+    json_write_real(&w, "worst_pixel", s->left_weight_most);
+    json_write_real(&w, "mean", s->left_weight_mean);
+    json_write_real(&w, "brightest", s->brightest);
+    json_write_real(&w, "bound", s->bound);
+    json_close_object(&w);
+    json_close_object(&w);
+    json_end(&w);
 }
 
 static int tell_statistics(struct render_job *job, const struct exact *exact,
                            const struct reference_statistics *statistics) {
     struct strbuf text;
     strbuf_init(&text);
-    int status = CLI_OK;
-    bool json = job->cli->options.stats == CLI_STATS_JSON;
-    if (!json)
-        text_of(exact, statistics, &text);
-    else if (!json_of(exact, statistics, &text))
-        status = CLI_FILE;
-    if (json && strcmp(job->output, "-") != 0)
-        status = cli_print(job->cli, strbuf_view(&text));
-    else
-        fwrite(text.data ? text.data : "", 1, text.len, stderr);
+    (job->cli->options.stats == CLI_STATS_JSON ? json_of : text_of)(exact, statistics, &text);
+    int status = stats_tell(job->cli, job->output, strbuf_view(&text));
     strbuf_finish(&text);
     return status;
 }

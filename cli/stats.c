@@ -1,9 +1,8 @@
 #include "cli/stats.h"
 
+#include "core/json_write.h"
 #include "grammar/ir_features.h"
 
-#include <jansson.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void seconds(struct strbuf *out, const char *name, double value) {
@@ -63,84 +62,78 @@ void stats_text(const struct stats *s, struct strbuf *out) {
     bytes(out, "process, peak", (uint64_t)s->peak_memory_bytes);
 }
 
-static void set_integer(json_t *object, const char *key, uint64_t value) {
-    json_object_set_new(object, key, json_integer((json_int_t)value));
+static void put_times(struct json_writer *w, const struct stats *s) {
+    json_open_object(w, "times");
+    json_write_real(w, "read_s", s->read_seconds);
+    json_write_real(w, "assets_s", s->assets_seconds);
+    json_write_real(w, "flatten_s", s->flatten_seconds);
+    json_write_real(w, "trees_s", s->build_seconds);
+    json_write_real(w, "open_device_s", s->device_seconds);
+    json_write_real(w, "upload_s", s->upload_seconds);
+    json_write_real(w, "first_frame_s", s->first_frame_seconds);
+    json_write_real(w, "median_frame_s", s->median_frame_seconds);
+    json_write_real(w, "least_frame_s", s->least_frame_seconds);
+    json_write_real(w, "most_frame_s", s->most_frame_seconds);
+    json_write_real(w, "last_frame_device_s", s->last.device_seconds);
+    json_write_real(w, "encode_s", s->encode_seconds);
+    json_write_integer(w, "frames", (uint64_t)s->frames);
+    json_close_object(w);
 }
 
-static void set_real(json_t *object, const char *key, double value) {
-    json_object_set_new(object, key, json_real(value));
+static void put_rays(struct json_writer *w, const struct render_rays *r) {
+    json_open_object(w, "rays");
+    json_write_integer(w, "primary", r->primary);
+    json_write_integer(w, "reflected", r->reflected);
+    json_write_integer(w, "refracted", r->refracted);
+    json_write_integer(w, "shadow", r->shadow);
+    json_write_integer(w, "total_reflections", r->total_reflections);
+    json_write_integer(w, "deepest", r->deepest);
+    json_write_integer(w, "nodes_tested", r->nodes);
+    json_write_integer(w, "items_tested", r->items);
+    json_write_integer(w, "cut_by_depth", r->cut_by_depth);
+    json_write_integer(w, "cut_by_weight", r->cut_by_weight);
+    json_write_real(w, "largest_lost_by_depth", r->lost_by_depth);
+    json_write_real(w, "largest_lost_by_weight", r->lost_by_weight);
+    json_close_object(w);
 }
 
-static json_t *times_object(const struct stats *s) {
-    json_t *times = json_object();
-    set_real(times, "read_s", s->read_seconds);
-    set_real(times, "assets_s", s->assets_seconds);
-    set_real(times, "flatten_s", s->flatten_seconds);
-    set_real(times, "trees_s", s->build_seconds);
-    set_real(times, "open_device_s", s->device_seconds);
-    set_real(times, "upload_s", s->upload_seconds);
-    set_real(times, "first_frame_s", s->first_frame_seconds);
-    set_real(times, "median_frame_s", s->median_frame_seconds);
-    set_real(times, "least_frame_s", s->least_frame_seconds);
-    set_real(times, "most_frame_s", s->most_frame_seconds);
-    set_real(times, "last_frame_device_s", s->last.device_seconds);
-    set_real(times, "encode_s", s->encode_seconds);
-    set_integer(times, "frames", (uint64_t)s->frames);
-    return times;
-}
-
-static json_t *rays_object(const struct render_rays *r) {
-    json_t *rays = json_object();
-    set_integer(rays, "primary", r->primary);
-    set_integer(rays, "reflected", r->reflected);
-    set_integer(rays, "refracted", r->refracted);
-    set_integer(rays, "shadow", r->shadow);
-    set_integer(rays, "total_reflections", r->total_reflections);
-    set_integer(rays, "deepest", r->deepest);
-    set_integer(rays, "nodes_tested", r->nodes);
-    set_integer(rays, "items_tested", r->items);
-    set_integer(rays, "cut_by_depth", r->cut_by_depth);
-    set_integer(rays, "cut_by_weight", r->cut_by_weight);
-    set_real(rays, "largest_lost_by_depth", r->lost_by_depth);
-    set_real(rays, "largest_lost_by_weight", r->lost_by_weight);
-    return rays;
-}
-
-static json_t *features_array(uint32_t mask) {
-    json_t *names = json_array();
+static void put_features(struct json_writer *w, uint32_t mask) {
+    json_open_list(w, "features");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++)
         if (mask & (1u << i))
-            json_array_append_new(names, json_string(feature_name(1u << i)));
-    return names;
+            json_write_text(w, NULL, str_from(feature_name(1u << i)));
+    json_close_list(w);
 }
 
 void stats_json(const struct stats *s, struct strbuf *out) {
-    json_t *root = json_object();
-    json_object_set_new(root, "device", json_string(s->device));
-    set_integer(root, "width", s->width);
-    set_integer(root, "height", s->height);
-    set_integer(root, "samples", s->samples);
-    json_object_set_new(root, "precision", json_string(s->is_double ? "double" : "single"));
-    json_object_set_new(root, "times", times_object(s));
-    json_object_set_new(root, "rays", rays_object(&s->rays));
-    json_object_set_new(root, "features", features_array(s->features));
-    set_integer(root, "triangles", s->triangles);
-    set_integer(root, "dropped_triangles", s->dropped);
-    set_integer(root, "spheres", s->spheres);
-    set_integer(root, "tree_levels", s->triangle_depth);
-    set_integer(root, "dispatches", s->last.dispatches);
-    set_integer(root, "slices", s->last.slices);
-    set_integer(root, "bands", s->last.bands);
-    set_integer(root, "scene_bytes", s->scene_bytes);
-    set_integer(root, "band_bytes", s->band_bytes);
-    set_integer(root, "peak_memory_bytes", (uint64_t)s->peak_memory_bytes);
-    char *text = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
-    if (text) {
-        strbuf_cstr(out, text);
-        strbuf_char(out, '\n');
-    } else {
-        out->failed = true;
-    }
-    free(text);
-    json_decref(root);
+    struct json_writer w;
+    json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
+    json_open_object(&w, NULL);
+    json_write_text(&w, "device", str_from(s->device));
+    json_write_integer(&w, "width", s->width);
+    json_write_integer(&w, "height", s->height);
+    json_write_integer(&w, "samples", s->samples);
+    json_write_text(&w, "precision", s->is_double ? STR("double") : STR("single"));
+    put_times(&w, s);
+    put_rays(&w, &s->rays);
+    put_features(&w, s->features);
+    json_write_integer(&w, "triangles", s->triangles);
+    json_write_integer(&w, "dropped_triangles", s->dropped);
+    json_write_integer(&w, "spheres", s->spheres);
+    json_write_integer(&w, "tree_levels", s->triangle_depth);
+    json_write_integer(&w, "dispatches", s->last.dispatches);
+    json_write_integer(&w, "slices", s->last.slices);
+    json_write_integer(&w, "bands", s->last.bands);
+    json_write_integer(&w, "scene_bytes", s->scene_bytes);
+    json_write_integer(&w, "band_bytes", s->band_bytes);
+    json_write_integer(&w, "peak_memory_bytes", (uint64_t)s->peak_memory_bytes);
+    json_close_object(&w);
+    json_end(&w);
+}
+
+int stats_tell(struct cli *cli, const char *output, str text) {
+    if (cli->options.stats == CLI_STATS_JSON && strcmp(output, "-") != 0)
+        return cli_print(cli, text);
+    cli_write_error(text);
+    return CLI_OK;
 }

@@ -23,5 +23,8 @@ struct stats {
 
 void stats_text(const struct stats *stats, struct strbuf *out);
 void stats_json(const struct stats *stats, struct strbuf *out);
+// JSON to standard output, unless the picture (`output` is "-") goes there; text to standard error. An exit
+// code.
+int stats_tell(struct cli *cli, const char *output, str text);
 
 #endif

@@ -107,6 +107,11 @@ void json_write_boolean(struct json_writer *writer, const char *key, bool value)
     strbuf_cstr(writer->out, value ? "true" : "false");
 }
 
+void json_write_null(struct json_writer *writer, const char *key) {
+    begin_value(writer, key);
+    strbuf_cstr(writer->out, "null");
+}
+
 void json_end(struct json_writer *writer) {
     strbuf_char(writer->out, '\n');
 }

@@ -10,7 +10,7 @@
 #include "core/strbuf.h"
 
 enum {
-    JSON_WRITE_DEPTH_MAX = 32
+    JSON_WRITE_DEPTH_MAX = 32 // as a `flat_depth`: every value has a line
 };
 
 struct json_writer {
@@ -31,6 +31,7 @@ void json_write_integer(struct json_writer *writer, const char *key, uint64_t va
 // null where it is infinite or no number; else the fewest digits that read back to the same double.
 void json_write_real(struct json_writer *writer, const char *key, double value);
 void json_write_boolean(struct json_writer *writer, const char *key, bool value);
+void json_write_null(struct json_writer *writer, const char *key);
 // A line end behind the whole.
 void json_end(struct json_writer *writer);
 

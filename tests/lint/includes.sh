@@ -28,7 +28,7 @@ function foreign(path, target) {
     if (target ~ /^(volk|vulkan)/) return path ~ /^runtime\/gpu\//
     if (target ~ /^stb/) return path ~ /^(assets|runtime\/image|tools|tests)\//
     if (target ~ /^png\.h/) return path ~ /^(runtime\/image|tests)\//
-    if (target ~ /^jansson/) return path ~ /^(grammar|app|lsp|cli|tests|bench)\//
+    if (target ~ /^jansson/) return path ~ /^(grammar|lsp|tests)\//
     if (target ~ /^minizip/) return path ~ /^app\/pack_zip/
     if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//
     if (target ~ /^cmocka/) return path ~ /^tests\//

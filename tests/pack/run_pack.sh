@@ -72,6 +72,9 @@ printf 'all: scene.png\ninclude scene.d\nscene.png: ; @echo built\n' >makefile
 if command -v make >/dev/null 2>&1; then expect "make reads the rule" 0 built - make -s -f makefile; else
     echo "skip make reads the rule: make is not installed"
 fi
+odd=$(printf 'x\377.yaml')
+printf 'glint: 1\n' >"$odd"
+tells "deps tells of a name that is no text" 0 "$(printf '"scene": "x\357\277\275.yaml"')" "$glint" deps --format json "$odd"
 printf 'glint: 1\nmodels: [{mesh: gone.obj}]\n' >gone.yaml
 expect "deps of a scene with a missing mesh" 1 'gone.yaml$' 'gone.yaml:2:17: error: .*E601' "$glint" deps gone.yaml
 expect "deps knows its formats" 2 - make "$glint" deps --format mak gone.yaml

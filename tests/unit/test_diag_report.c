@@ -154,6 +154,7 @@ static void json_is_escaped(void **state) {
     json_open_list(&w, "l");
     json_write_integer(&w, NULL, UINT64_MAX);
     json_write_boolean(&w, NULL, true);
+    json_write_null(&w, NULL);
     json_open_object(&w, NULL);
     json_close_object(&w);
     json_close_list(&w);
@@ -161,7 +162,7 @@ static void json_is_escaped(void **state) {
     json_end(&w);
     assert_string_equal(out.data,
                         "{\n  \"a\\\"\": \"q\\\" b\\\\ n\\n t\\u0009 u\\u0001 \xC3\xA9 \xEF\xBF\xBD\",\n"
-                        "  \"l\": [18446744073709551615, true, {}]\n}\n");
+                        "  \"l\": [18446744073709551615, true, null, {}]\n}\n");
     strbuf_finish(&out);
 }
 
