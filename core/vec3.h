@@ -87,6 +87,13 @@ static inline mat3 mat3_mul(mat3 a, mat3 b) {
     return c;
 }
 
+static inline double mat3_determinant(mat3 a) {
+    vec3 rows[3];
+    for (int i = 0; i < 3; i++)
+        rows[i] = (vec3){a.m[i][0], a.m[i][1], a.m[i][2]};
+    return vec3_dot(rows[0], vec3_cross(rows[1], rows[2]));
+}
+
 static inline vec3 affine3_apply(affine3 a, vec3 v) {
     return vec3_add(mat3_apply(a.linear, v), a.offset);
 }

@@ -18,16 +18,10 @@ enum {
     RECTANGLE_TRIANGLES = 2,
 };
 
-static double determinant(const mat3 *a) {
-    vec3 rows[3];
-    for (int i = 0; i < 3; i++)
-        rows[i] = (vec3){a->m[i][0], a->m[i][1], a->m[i][2]};
-    return vec3_dot(rows[0], vec3_cross(rows[1], rows[2]));
-}
-
 struct placing flatten_placing(const struct flattening *f, uint32_t model) {
     affine3 map = view_model_transform(&f->input->scene->models.items[model]);
-    return (struct placing){map.linear, vec3_sub(map.offset, f->out->origin), determinant(&map.linear) < 0};
+    return (struct placing){map.linear, vec3_sub(map.offset, f->out->origin),
+                            mat3_determinant(map.linear) < 0};
 }
 
 static vec3 place(const struct placing *placing, vec3 point) {

@@ -63,13 +63,6 @@ const struct lint_tree *lint_tree_of(struct lint *lint, struct lint_mesh *mesh) 
 
 // ---- bodies
 
-static double determinant(mat3 a) {
-    vec3 x = {a.m[0][0], a.m[1][0], a.m[2][0]};
-    vec3 y = {a.m[0][1], a.m[1][1], a.m[2][1]};
-    vec3 z = {a.m[0][2], a.m[1][2], a.m[2][2]};
-    return vec3_dot(x, vec3_cross(y, z));
-}
-
 // The inverse of T·R·S: columns of R·S are orthogonal, so that each row is a column over its square.
 affine3 lint_inverse(affine3 a) {
     affine3 b;
@@ -120,7 +113,7 @@ static void add_model(struct lint *lint, uint32_t i) {
     if (!mesh)
         return;
     affine3 placing = view_model_transform(model);
-    body->is_mirrored = determinant(placing.linear) < 0;
+    body->is_mirrored = mat3_determinant(placing.linear) < 0;
     body->box = lint_box_place((struct lint_box){mesh->lower, mesh->upper}, &placing);
     body->mesh = mesh_of(lint, mesh, i);
     body->is_solid = mesh->closed;

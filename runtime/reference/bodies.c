@@ -1,13 +1,6 @@
 // From the IR to bodies and materials with everything resolved.
 #include "runtime/reference/parts.h"
 
-static double determinant(const mat3 *a) {
-    vec3 rows[3];
-    for (int i = 0; i < 3; i++)
-        rows[i] = (vec3){a->m[i][0], a->m[i][1], a->m[i][2]};
-    return vec3_dot(rows[0], vec3_cross(rows[1], rows[2]));
-}
-
 // Cofactors are the inverse transpose times the determinant, whose sign is taken back.
 static mat3 normal_map(const mat3 *a, bool mirrors) {
     mat3 out;
@@ -58,7 +51,7 @@ static void make_model(const struct reference *r, uint32_t model, struct body *b
     *body = (struct body){.kind = BODY_MODEL, .mesh = asset->mesh, .group_material = asset->group_material};
     body->place = view_model_transform(&r->input.scene->models.items[model]);
     body->place.offset = vec3_sub(body->place.offset, r->origin);
-    body->mirrors = determinant(&body->place.linear) < 0;
+    body->mirrors = mat3_determinant(body->place.linear) < 0;
     body->normal_map = normal_map(&body->place.linear, body->mirrors);
     if (!asset->mesh)
         return;

@@ -1,11 +1,8 @@
 #include "reference_kit.h"
 
-#include "grammar/schema.h"
-
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <string.h>
 
 #include <cmocka.h>
 
@@ -15,13 +12,7 @@ void reference_kit_camera(struct kit *kit, vec3 position) {
 }
 
 struct reference *reference_kit_make(struct kit *kit, enum reference_test test, bool no_tree) {
-    uint32_t count = kit->scene.materials.count;
-    memcpy(kit->assets.materials, kit->scene.materials.items, count * sizeof *kit->assets.materials);
-    schema_init(&SCHEMA_MATERIAL, &kit->assets.materials[count]);
-    kit->assets.material_count = count + 1;
-    for (uint32_t i = 0; i < kit->scene.models.count; i++)
-        if (kit->scene.models.items[i].material.index == IR_NO_INDEX)
-            kit->assets.models[i].group_material[0] = count;
+    kit_resolve(kit);
     struct reference_input input = {
         .scene = &kit->scene, .assets = &kit->assets, .view = &kit->view, .test = test, .no_tree = no_tree};
     struct reference *reference = reference_create(&input);

@@ -156,7 +156,7 @@ struct mesh *kit_icosphere(struct kit *kit, int levels, double grid) {
     return kit_mesh(kit, positions, count, (const uint32_t(*)[3])indices, faces, true);
 }
 
-bool kit_flatten(struct kit *kit, struct flat_scene *flat) {
+void kit_resolve(struct kit *kit) {
     uint32_t count = kit->scene.materials.count;
     memcpy(kit->assets.materials, kit->scene.materials.items, count * sizeof *kit->assets.materials);
     schema_init(&SCHEMA_MATERIAL, &kit->assets.materials[count]);
@@ -164,6 +164,10 @@ bool kit_flatten(struct kit *kit, struct flat_scene *flat) {
     for (uint32_t i = 0; i < kit->scene.models.count; i++)
         if (kit->scene.models.items[i].material.index == IR_NO_INDEX)
             kit->assets.models[i].group_material[0] = count;
+}
+
+bool kit_flatten(struct kit *kit, struct flat_scene *flat) {
+    kit_resolve(kit);
     struct flat_input input = {.scene = &kit->scene,
                                .assets = &kit->assets,
                                .view = &kit->view,

@@ -42,6 +42,8 @@ struct mesh *kit_mesh(struct kit *kit, const vec3 *positions, uint32_t position_
 // multiples of `grid`; closed, outward.
 struct mesh *kit_icosphere(struct kit *kit, int levels, double grid);
 
+// The materials of the assets, as loading the scene as it now is would leave them.
+void kit_resolve(struct kit *kit);
 bool kit_flatten(struct kit *kit, struct flat_scene *flat);
 
 // Fields of the buffers.
