@@ -52,9 +52,11 @@ static enum shot_status log_device(struct pick *pick, struct gpu *gpu, uint32_t 
         const uint32_t sample = i < pick->sample_count ? i : pick->sample;
         if (renderer_log(shot.renderer, &shot.view.camera, pick->x, pick->y, sample, &log) != RENDER_DONE)
             status = SHOT_DEVICE;
-        else if (i < pick->sample_count)
+        if (status == SHOT_OK && i < pick->sample_count) {
             pick->samples[PICK_DEVICE][i] =
                 (vec3){(double)log.rgb[0], (double)log.rgb[1], (double)log.rgb[2]};
+            pick->is_sample_whole[i] = log.whole;
+        }
     }
     if (status == SHOT_OK) {
         out->count = log.count;
@@ -99,6 +101,10 @@ static enum shot_status log_reference(struct pick *pick, uint32_t camera) {
 // ---- differences
 
 static void differ(struct pick *pick, enum pick_difference_kind kind, uint32_t device, uint32_t reference) {
+    // What a log does not have may lie behind its end.
+    if ((device == UINT32_MAX && !pick->logs[PICK_DEVICE].whole) ||
+        (reference == UINT32_MAX && !pick->logs[PICK_REFERENCE].whole))
+        return;
     if (pick->difference_count < PICK_DIFFERENCES_MAX)
         pick->differences[pick->difference_count] = (struct pick_difference){kind, device, reference};
     pick->difference_count++;

@@ -22,14 +22,15 @@ struct pick_log {
     struct reference_segment *segments;
     uint32_t count;
     bool whole; // else PICK_SEGMENTS_MAX ended it
-    vec3 color; // of the sample
+    // Of the sample; of the device's log only what its rays add, while the reference follows all.
+    vec3 color;
 };
 
 enum pick_difference_kind {
     PICK_OTHER_BODY, // or another triangle
     PICK_OTHER_LIGHTS,
     PICK_OTHER_DISTANCE, // by more than PICK_DISTANCE_ERROR of it
-    PICK_OTHER_RAYS,     // one sends a ray that the other does not
+    PICK_OTHER_RAYS,     // one sends a ray that the other, whose log is whole, does not
 };
 #define PICK_DISTANCE_ERROR 1e-4
 
@@ -45,8 +46,9 @@ struct pick {
     str device;     // its name; empty: the reference alone
     bool is_double; // the device's precision
     uint32_t max_depth;
-    struct pick_log logs[2];           // device, reference
-    vec3 samples[2][PICK_SAMPLES_MAX]; // the colours of the first samples
+    struct pick_log logs[2];                // device, reference
+    vec3 samples[2][PICK_SAMPLES_MAX];      // the colours of the first samples
+    bool is_sample_whole[PICK_SAMPLES_MAX]; // else the device's is that of PICK_SEGMENTS_MAX rays
     uint32_t sample_count;
     struct pick_difference differences[PICK_DIFFERENCES_MAX];
     uint32_t difference_count; // told or not

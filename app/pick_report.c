@@ -137,22 +137,34 @@ static void put_difference(const struct pick *pick, const struct pick_difference
     strbuf_char(out, '\n');
 }
 
-static void put_color(const struct pick_log *log, const char *words, struct strbuf *out) {
+// Whose colour it is; not `whole`: that of the rays which were followed.
+static void put_source(const char *words, bool whole, struct strbuf *out) {
+    strbuf_format(out, " (%s", words);
+    if (!whole)
+        strbuf_format(out, ", of the first %u rays", (unsigned)PICK_SEGMENTS_MAX);
+    strbuf_char(out, ')');
+}
+
+static void put_color(const struct pick_log *log, const char *words, bool whole, struct strbuf *out) {
     strbuf_cstr(out, "colour     ");
     put_vector(out, log->color);
     if (!isfinite(log->color.x + log->color.y + log->color.z))
         strbuf_cstr(out, ": infinite or not a number");
-    strbuf_format(out, " (%s)\n", words);
+    put_source(words, whole, out);
+    strbuf_char(out, '\n');
 }
 
 // Which sample a mean owes its colour to.
 static void put_samples(const struct pick *pick, struct strbuf *out) {
     for (uint32_t i = 0; pick->sample_count > 1 && i < pick->sample_count; i++) {
         strbuf_format(out, "sample %-4u", i);
-        for (int side = pick->device.len ? PICK_DEVICE : PICK_REFERENCE; side <= PICK_REFERENCE; side++) {
-            put_vector(out, pick->samples[side][i]);
-            strbuf_cstr(out, side == PICK_DEVICE ? " (device), " : " (reference)\n");
+        if (pick->device.len) {
+            put_vector(out, pick->samples[PICK_DEVICE][i]);
+            put_source("device", pick->is_sample_whole[i], out);
+            strbuf_cstr(out, ", ");
         }
+        put_vector(out, pick->samples[PICK_REFERENCE][i]);
+        strbuf_cstr(out, " (reference)\n");
     }
 }
 
@@ -164,8 +176,8 @@ void pick_text(const struct pick *pick, struct strbuf *out) {
                   session->image.samples);
     put_seen(pick, out);
     if (pick->device.len)
-        put_color(&pick->logs[PICK_DEVICE], precision, out);
-    put_color(&pick->logs[PICK_REFERENCE], "reference", out);
+        put_color(&pick->logs[PICK_DEVICE], precision, pick->logs[PICK_DEVICE].whole, out);
+    put_color(&pick->logs[PICK_REFERENCE], "reference", true, out);
     put_samples(pick, out);
     if (pick->device.len) {
         strbuf_format(out, "\npath as %.*s sees it, %s\n", STR_ARG(pick->device), precision);

@@ -50,6 +50,27 @@ if "$glint" devices | grep -q .; then
     expect "JSON" 0 '"difference_count": 0' - "$glint" pick scene.yaml 32,32 --format json
     expect "JSON's mesh line" 0 '"mesh_line": 7' - "$glint" pick scene.yaml 20,10 --format json
 
+    # Thousands of rays between panes: what lies behind the last ray told is no difference.
+    cat >panes.yaml <<'END'
+glint: 1
+image: {width: 8, height: 8, samples: 2}
+camera: {position: [0, 0, 4]}
+background: {color: 0.25}
+trace: {max_depth: 20, min_weight: 0}
+materials:
+  pane: {albedo: [0, 0, 0.5, 0.5]}
+rectangles:
+  - {corner: [-9, -9, 0], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: pane}
+  - {corner: [-9, -9, -1], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: pane}
+  - {corner: [-9, -9, -2], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: pane}
+  - {corner: [-9, -9, -3], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: pane}
+  - {corner: [-9, -9, -4], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: pane}
+END
+    expect "a path that is not told whole" 0 '^differences: 0$' - "$glint" pick panes.yaml 4,4
+    expect "its colour" 0 '^colour .*\(single precision, of the first 4096 rays\)$' - "$glint" pick panes.yaml 4,4
+    expect "and of each sample" 0 '^sample 1 .*\(device, of the first 4096 rays\), .* \(reference\)$' - "$glint" pick panes.yaml 4,4
+    expect "one that is" 0 '^sample 1 .*\(device\), .* \(reference\)$' - "$glint" pick panes.yaml 4,4 --set trace.max_depth=8
+
     # Values that a float does not hold, from attributes inside their ranges: weights that grow from mirror to
     # mirror, a background, a sum of samples, a light at a hair's breadth.
     sed 's/0.1, 0, 0.9, 0/0, 0, 1.0e6, 0/; s/translation: \[0, 0, -6\]/translation: [0, 0, -6]}\n  - {mesh: wall.obj, material: mirror, translation: [0, 0, 9]/; /^spheres:/d; /ball/d; s/max_depth: 6/max_depth: 20/' scene.yaml >mirrors.yaml
