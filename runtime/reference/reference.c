@@ -146,9 +146,11 @@ struct work {
 
 // One thread at a time tells how far the work is; the others go on.
 static void tell(struct work *w, size_t pixels) {
-    size_t done = atomic_fetch_add(&w->done, pixels) + pixels;
+    atomic_fetch_add(&w->done, pixels);
     if (!w->progress || atomic_flag_test_and_set(&w->reporting))
         return;
+    // Read here, so that what is told never goes back.
+    size_t done = atomic_load(&w->done);
     if (!w->progress->report(w->progress->context, (double)done / (double)w->pixels))
         atomic_store(&w->cancelled, true);
     atomic_flag_clear(&w->reporting);
@@ -184,23 +186,20 @@ static void draw_pixel(const struct work *w, uint32_t x, uint32_t y, struct queu
     bool not_finite = false;
     bool over_segments = false;
     struct sample sample;
-    struct sample first_bad = {0};
     for (uint32_t n = 0; n < settings->samples && !queue->failed; n++) {
         vec3 direction = reference_camera_ray(w->r, settings, x, y, n);
         reference_follow(w->r, settings, direction, queue, NULL, &sample);
         bool bad = !is_finite(sample.radiance);
         sum = bad ? (vec3){NAN, NAN, NAN} : vec3_add(sum, sample.radiance);
-        if ((bad || sample.over_segments) && !not_finite && !over_segments)
-            first_bad = sample;
+        if (bad && !not_finite)
+            note_fault(&tile->not_finite, x, y, &sample);
+        if (sample.over_segments && !over_segments)
+            note_fault(&tile->over_segments, x, y, &sample);
         not_finite |= bad;
         over_segments |= sample.over_segments;
         left += sample.left_weight;
         add_sample(tile, &sample);
     }
-    if (not_finite)
-        note_fault(&tile->not_finite, x, y, &first_bad);
-    if (over_segments)
-        note_fault(&tile->over_segments, x, y, &first_bad);
     left /= settings->samples;
     tile->left_weight_most = fmax(tile->left_weight_most, left);
     tile->left_weight += left;

@@ -16,7 +16,7 @@
 #include "runtime/hits.h"
 
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
-#define REFERENCE_VERSION 2
+#define REFERENCE_VERSION 3
 
 // How far paths are followed where the file is not to be obeyed.
 #define REFERENCE_MIN_WEIGHT 1e-6
