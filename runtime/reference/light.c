@@ -106,16 +106,12 @@ vec3 reference_background(const struct reference *r, vec3 direction) {
     return r->input.assets->background ? background_image(r, direction) : r->background_color;
 }
 
-static double largest(vec3 v) {
-    return fmax(v.x, fmax(v.y, v.z));
-}
-
 static double image_brightest(const struct reference *r) {
     const struct picture *picture = r->input.assets->background;
     double most = 0;
     for (size_t row = 0; row < picture->height; row++)
         for (size_t column = 0; column < picture->width; column++)
-            most = fmax(most, largest(texel(r, column, row)));
+            most = fmax(most, reference_brightest(texel(r, column, row)));
     return most;
 }
 
@@ -129,7 +125,7 @@ void reference_make_background(struct reference *r) {
     mat3 turn = view_rotation((vec3){0, background->rotation, 0});
     r->background_cosine = turn.m[0][0];
     r->background_sine = turn.m[0][2];
-    r->background_brightest = largest(r->background_color);
+    r->background_brightest = reference_brightest(r->background_color);
     if (!picture)
         return;
     if (picture->depth != PICTURE_FLOAT) {

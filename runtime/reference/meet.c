@@ -29,16 +29,8 @@ static struct sheared shear(const struct ray *ray) {
     return s;
 }
 
-// No fmax: it is a call, because of NaN.
-static double larger(double a, double b) {
-    return a > b ? a : b;
-}
-static double smaller(double a, double b) {
-    return a < b ? a : b;
-}
-
 static double largest_of(double a, double b, double c) {
-    return larger(fabs(a), larger(fabs(b), fabs(c)));
+    return reference_larger(fabs(a), reference_larger(fabs(b), fabs(c)));
 }
 
 // Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"; the bound of t: Pharr, Jakob, Humphreys
@@ -66,8 +58,9 @@ static bool meet_watertight(const struct sheared *s, const struct primitive *p, 
     double y_error = REFERENCE_GAMMA(5) * (y_most + z_most);
     double edge_error = 2 * (REFERENCE_GAMMA(2) * x_most * y_most + y_error * x_most + x_error * y_most);
     // An error of the weights moves t by the spread of the corners at most.
-    double spread = larger(z[0], larger(z[1], z[2])) - smaller(z[0], smaller(z[1], z[2]));
-    double weight_error = smaller(3 * edge_error / fabs(det), 1);
+    double spread = reference_larger(z[0], reference_larger(z[1], z[2])) -
+                    reference_smaller(z[0], reference_smaller(z[1], z[2]));
+    double weight_error = reference_smaller(3 * edge_error / fabs(det), 1);
     out->t = (u * z[0] + v * z[1] + w * z[2]) / det;
     out->b1 = v / det;
     out->b2 = w / det;

@@ -13,6 +13,17 @@
 
 #define NO_PRIMITIVE UINT32_MAX
 
+// Where NaN does not come, or may pass: fmin and fmax are calls.
+static inline double reference_smaller(double a, double b) {
+    return a < b ? a : b;
+}
+static inline double reference_larger(double a, double b) {
+    return a > b ? a : b;
+}
+static inline double reference_brightest(vec3 color) {
+    return fmax(color.x, fmax(color.y, color.z));
+}
+
 // A triangle, or a sphere: then its centre is v[0] and its radius v[1][0].
 struct primitive {
     double v[3][3];
@@ -74,7 +85,6 @@ struct reference {
     struct primitive *primitives; // in the tree's order
     uint32_t primitive_count;
     struct tree_node *nodes;
-    double build_seconds;
 };
 
 // ---- bodies.c

@@ -60,7 +60,7 @@ static void add(struct following *f, vec3 value, double weight) {
 }
 
 static void see(struct following *f, vec3 value) {
-    f->sample->brightest = fmax(f->sample->brightest, fmax(value.x, fmax(value.y, value.z)));
+    f->sample->brightest = fmax(f->sample->brightest, reference_brightest(value));
 }
 
 // A ray that leaves a surface: it waits, or is cut. Gives the weight cut.

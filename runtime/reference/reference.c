@@ -46,10 +46,6 @@ void reference_destroy(struct reference *r) {
     free(r);
 }
 
-double reference_build_seconds(const struct reference *r) {
-    return r->build_seconds;
-}
-
 struct reference_settings reference_settings_of(const struct ir_scene *scene, const struct ir_image *image,
                                                 const struct limits *limits, bool as_file) {
     const struct ir_trace *trace = &scene->trace;

@@ -94,7 +94,6 @@ struct reference;
 // NULL: no memory.
 struct reference *reference_create(const struct reference_input *input);
 void reference_destroy(struct reference *reference); // NULL does nothing
-double reference_build_seconds(const struct reference *reference);
 
 // width * height * 3 linear values, rows from the top: the mean of the samples, before tone and transfer; NaN
 // in all three where a sample is not finite.

@@ -3,7 +3,6 @@
 //
 // A range of n items has 2n - 1 nodes at most, its first child's behind its own node, then its second's: so
 // every node's place is known before its children are built, and the tree does not depend on threads.
-#include "core/clock.h"
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "runtime/reference/parts.h"
@@ -69,6 +68,7 @@ static void put_box(struct item *item, const struct primitive *p, bool is_sphere
     }
 }
 
+// The last body that begins no later: those without primitives end before the one whose number they share.
 static const struct body *body_of(const struct reference *r, uint32_t number) {
     uint32_t low = 0;
     uint32_t high = r->body_count;
@@ -79,9 +79,6 @@ static const struct body *body_of(const struct reference *r, uint32_t number) {
         else
             high = middle;
     }
-    // Bodies without primitives share their number with the one behind them.
-    while (number - r->bodies[low].first_primitive >= r->bodies[low].primitive_count)
-        low--;
     return &r->bodies[low];
 }
 
@@ -113,18 +110,10 @@ static struct box no_box(void) {
     return (struct box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 }
 
-// No fmin: it is a call, because of NaN, which boxes do not hold.
-static double smaller(double a, double b) {
-    return a < b ? a : b;
-}
-static double larger(double a, double b) {
-    return a > b ? a : b;
-}
-
 static void join(struct box *box, const struct box *other) {
     for (int a = 0; a < 3; a++) {
-        box->lower[a] = smaller(box->lower[a], other->lower[a]);
-        box->upper[a] = larger(box->upper[a], other->upper[a]);
+        box->lower[a] = reference_smaller(box->lower[a], other->lower[a]);
+        box->upper[a] = reference_larger(box->upper[a], other->upper[a]);
     }
 }
 
@@ -207,8 +196,8 @@ static size_t split(const struct building *b, struct range range) {
         join(&box, &item->box);
         for (int a = 0; a < 3; a++) {
             double at = centre(item, a);
-            centres.lower[a] = smaller(centres.lower[a], at);
-            centres.upper[a] = larger(centres.upper[a], at);
+            centres.lower[a] = reference_smaller(centres.lower[a], at);
+            centres.upper[a] = reference_larger(centres.upper[a], at);
         }
     }
     double size = 0;
@@ -331,11 +320,9 @@ static bool make(struct building *b) {
 }
 
 bool reference_make_tree(struct reference *r) {
-    double start = clock_seconds();
     struct building b = {.r = r};
     bool made = r->primitive_count == 0 || make(&b);
     free(b.items);
     free(b.tasks);
-    r->build_seconds = clock_seconds() - start;
     return made;
 }
