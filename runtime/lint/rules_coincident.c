@@ -122,11 +122,6 @@ struct search {
     uint32_t first_a, first_b; // triangles of the first pair
 };
 
-static void place_triangle(struct lint_triangle *t, const affine3 *place) {
-    for (int k = 0; k < 3; k++)
-        t->p[k] = affine3_apply(*place, t->p[k]);
-}
-
 static bool shows(const struct lint_body *body, const struct lint_face *face, vec3 eye) {
     if (!body->is_solid || !body->is_opaque)
         return true;
@@ -159,8 +154,7 @@ static bool visit_other(void *context, uint32_t first, uint32_t count) {
     const struct lint_tree *tree = &s->b->mesh->tree;
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
-        place_triangle(&t, &s->placing_b);
-        compare_faces(s, t, tree->order[i]);
+        compare_faces(s, lint_triangle_place(t, &s->placing_b), tree->order[i]);
     }
     *s->work_left -= *s->work_left < count ? *s->work_left : count;
     return *s->work_left > 0;
@@ -186,8 +180,7 @@ static bool visit_own(void *context, uint32_t first, uint32_t count) {
     const struct lint_tree *tree = &s->a->mesh->tree;
     for (uint32_t i = first; i<first + count && * s->work_left> 0; i++) {
         struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
-        place_triangle(&t, &s->placing_a);
-        search_face(s, t, tree->order[i]);
+        search_face(s, lint_triangle_place(t, &s->placing_a), tree->order[i]);
         *s->work_left -= *s->work_left > 0;
     }
     return *s->work_left > 0;

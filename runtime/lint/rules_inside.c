@@ -59,8 +59,7 @@ static bool measure(void *context, uint32_t first, uint32_t count) {
     struct nearest_face *nearest = context;
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(nearest->tree->mesh, nearest->tree->order[i]);
-        for (int k = 0; k < 3; k++)
-            t.p[k] = affine3_apply(nearest->placing, t.p[k]);
+        t = lint_triangle_place(t, &nearest->placing);
         double distance = lint_triangle_distance(&t, nearest->point);
         if (distance < nearest->distance) {
             nearest->distance = distance;

@@ -110,51 +110,33 @@ void lint_duplicates(struct lint *lint) {
 
 // ---- normals
 
-static vec3 face_normal(const struct mesh *mesh, uint32_t triangle) {
-    struct lint_triangle t = lint_mesh_triangle(mesh, triangle);
-    return vec3_unit(vec3_cross(vec3_sub(t.p[1], t.p[0]), vec3_sub(t.p[2], t.p[0])));
-}
-
-// Whether the triangle's own normals point to both of its sides: no turning makes them all fit.
-static bool is_torn(const struct mesh *mesh, uint32_t triangle) {
-    // A normal along the face, which rounding tips over, is none that opposes it.
-    static const double SLACK = 0.05;
-    const uint32_t *normals = mesh->triangles[triangle].normals;
-    vec3 face = face_normal(mesh, triangle);
-    bool along = false;
-    bool against = false;
-    for (int k = 0; k < 3; k++) {
-        if (normals[k] == IR_NO_INDEX)
-            continue;
-        double cosine = vec3_dot(face, mesh->normals[normals[k]]);
-        along = along || cosine > SLACK;
-        against = against || cosine < -SLACK;
-    }
-    return along && against;
-}
+// A normal along the face, which rounding tips over, is none that opposes it.
+static const double SLACK = 0.05;
 
 struct torn {
-    uint32_t count, line;   // faces whose normals point to both sides
+    uint32_t count, line;   // faces whose normals point to both sides: no turning makes them all fit
     uint32_t opposed, seen; // faces whose normals all point against them, of those with normals
     uint32_t opposed_line;
 };
 
 static void look_at(const struct mesh *mesh, uint32_t i, struct torn *torn) {
     const struct mesh_triangle *triangle = &mesh->triangles[i];
-    if (triangle->normals[0] == IR_NO_INDEX && triangle->normals[1] == IR_NO_INDEX &&
-        triangle->normals[2] == IR_NO_INDEX)
-        return;
-    torn->seen++;
-    if (is_torn(mesh, i)) {
-        torn->line = torn->count++ == 0 ? triangle->line : torn->line;
-        return;
+    vec3 face = lint_face_of(lint_mesh_triangle(mesh, i)).normal;
+    bool any = false;
+    bool along = false;
+    bool against = false;
+    for (int k = 0; k < 3; k++) {
+        if (triangle->normals[k] == IR_NO_INDEX)
+            continue;
+        double cosine = vec3_dot(face, mesh->normals[triangle->normals[k]]);
+        any = true;
+        along = along || cosine > SLACK;
+        against = against || cosine < -SLACK;
     }
-    vec3 face = face_normal(mesh, i);
-    double least = 0;
-    for (int k = 0; k < 3; k++)
-        if (triangle->normals[k] != IR_NO_INDEX)
-            least = fmin(least, vec3_dot(face, mesh->normals[triangle->normals[k]]));
-    if (least < -0.05)
+    torn->seen += any;
+    if (along && against)
+        torn->line = torn->count++ == 0 ? triangle->line : torn->line;
+    else if (against)
         torn->opposed_line = torn->opposed++ == 0 ? triangle->line : torn->opposed_line;
 }
 

@@ -76,11 +76,9 @@ static void report_cameras(struct lint *lint) {
         diag_add(lint->sink, DIAG_UNSEEN, at,
                  "the cameras see none of the %u bodies, and no shadow of them falls into view",
                  lint->body_count);
-    struct lint_box all = lint->bodies[0].box;
-    for (uint32_t k = 1; k < lint->body_count; k++) {
-        all.lower = vec3_min(all.lower, lint->bodies[k].box.lower);
-        all.upper = vec3_max(all.upper, lint->bodies[k].box.upper);
-    }
+    struct lint_box all = lint_box_empty();
+    for (uint32_t k = 0; k < lint->body_count; k++)
+        all = lint_box_join(all, lint->bodies[k].box);
     vec3 middle = vec3_mul(vec3_add(all.lower, all.upper), 0.5);
     diag_help(lint->sink, "turn it to them: their middle is at %.3g %.3g %.3g", middle.x, middle.y, middle.z);
 }

@@ -5,7 +5,7 @@ static const double SHALLOW = 0.001;
 // Planes that meet at a smaller angle meet nowhere in particular.
 static const double PARALLEL_SINE = 1e-6;
 
-// ---- boxes
+// ---- boxes and places
 
 bool lint_box_holds(const struct lint_box *box, vec3 point) {
     return point.x >= box->lower.x && point.x <= box->upper.x && point.y >= box->lower.y &&
@@ -21,6 +21,12 @@ struct lint_box lint_box_place(struct lint_box box, const affine3 *place) {
         placed = lint_box_join(placed, (struct lint_box){at, at});
     }
     return placed;
+}
+
+struct lint_triangle lint_triangle_place(struct lint_triangle triangle, const affine3 *place) {
+    for (int k = 0; k < 3; k++)
+        triangle.p[k] = affine3_apply(*place, triangle.p[k]);
+    return triangle;
 }
 
 // ---- crossing

@@ -55,6 +55,7 @@ bool lint_box_holds(const struct lint_box *box, vec3 point);
 // The box around the images of all points of `box`.
 struct lint_box lint_box_place(struct lint_box box, const affine3 *place);
 
+struct lint_triangle lint_triangle_place(struct lint_triangle triangle, const affine3 *place);
 struct lint_face lint_face_of(struct lint_triangle triangle);
 
 // Whether they cut through each other: each has corners on both sides of the other's plane, and the parts in
