@@ -100,6 +100,7 @@ static int compare_crossings(const void *a, const void *b) {
     return x->t < y->t ? -1 : x->t > y->t;
 }
 
+// 0 where a ray's work ends first: what was not tried may stand before all glass.
 static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direction) {
     struct ray_hits hits = {.count = 0};
     double nearest = INFINITY;
@@ -112,7 +113,7 @@ static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direct
         for (uint32_t i = 0; i < hits.count; i++)
             nearest = fmin(nearest, hits.items[i].t);
     }
-    return nearest;
+    return hits.tried < RAY_WORK_MAX ? nearest : 0;
 }
 
 // Surfaces that the ray passes before `end`, while it carries enough weight to be traced.

@@ -76,6 +76,28 @@ printf 'v 0 0 0\nv 1 0\nf 1 2 3\n' >broken.obj
 expect "a broken mesh shows itself alone" 1 - 'broken.obj:2:1: error: .v. needs three numbers' "$glint" check broken.obj
 cp err.txt broken.txt
 expect "and no scene that no one wrote" 1 - - grep -q 'mesh:' broken.txt
+# Glass behind a wall, and before both more needles than a ray may try: what was not tried may hide the glass.
+awk 'BEGIN { print "v -1 -1 0"; for (i = 0; i <= 17000; i++) printf "v 1 %.6f 0\n", 1 + i * 1e-5
+             for (i = 2; i <= 17001; i++) print "f 1", i, i + 1 }' >comb.obj
+printf 'v -1 -1 0.5\nv 1 1 0.5\nv 1 1.001 0.5\nv 1 1.002 0.5\nv 1 1.003 0.5\nv 1 1.004 0.5\nv -1 -1 0\nv 20 -1 0\nv 20 20 0\nv -1 20 0
+f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 6\nf 7 8 9\nf 7 9 10\n' >wall.obj
+cat >glass.yaml <<'END'
+glint: 1
+image: {width: 16, height: 16}
+camera: {position: [0, 0, 8], fov: 10}
+trace: {max_depth: 1}
+materials: {glass: {albedo: [0, 0, 0, 1], refractive_index: 1.5}}
+rectangles:
+  - {corner: [-1, -1, -1], edge_u: [2, 0, 0], edge_v: [0, 2, 0], material: glass}
+  - {corner: [-1, -1, -2], edge_u: [2, 0, 0], edge_v: [0, 2, 0], material: glass}
+models:
+  - {mesh: comb.obj, translation: [0, 0, 4]}
+  - {mesh: wall.obj}
+END
+sed '/comb/d' glass.yaml >wall.yaml
+expect "glass deeper than max_depth" 0 - 'W406' "$glint" check glass.yaml --set models=
+expect "glass behind a wall" 0 - - "$glint" check wall.yaml
+expect "and behind more than can be tried" 0 - - "$glint" check glass.yaml
 expect "a closed stream is an error of the write" 3 - 'cannot be written' sh -c '"$1" schema json >&-' sh "$glint"
 expect "a full disk is an error of the write" 3 - 'cannot be written: No space' sh -c '"$1" schema json >/dev/full' sh "$glint"
 expect "a closed pipe is an error of the write" 3 - 'cannot be written: Broken pipe' \
