@@ -145,13 +145,6 @@ static void evict(const struct folder_store *store) {
     closedir(folder);
 }
 
-void folder_store_remove(const struct folder_store *store, const char *name) {
-    char *path = is_usable(store) ? joined(store->path, name) : NULL;
-    if (path)
-        unlink(path);
-    free(path);
-}
-
 // ---- writing
 
 bool folder_store_write(const struct folder_store *store, const char *name,

@@ -25,7 +25,6 @@ void *folder_store_read(const struct folder_store *store, const char *name, size
 // Writes the parts, one behind the other, then removes what is too much. false: it was not kept.
 bool folder_store_write(const struct folder_store *store, const char *name,
                         const struct folder_store_part *parts, int part_count);
-void folder_store_remove(const struct folder_store *store, const char *name);
 
 // "$XDG_CACHE_HOME/glint/NAME", or ~/.cache/glint/NAME, from malloc; NULL where neither is known (XDG Base
 // Directory Specification 0.8: a relative XDG_CACHE_HOME is ignored).
