@@ -20,37 +20,18 @@ struct reference *reference_kit_make(struct kit *kit, enum reference_test test, 
     return reference;
 }
 
-// SplitMix64 (Steele, Lea, Flood 2014).
-static uint64_t next_bits(struct random *random) {
-    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
-
-double random_unit(struct random *random) {
-    return (double)(next_bits(random) >> 11) * 0x1p-53;
-}
-
-uint32_t random_below(struct random *random, uint32_t end) {
+uint32_t random_below(uint64_t *random, uint32_t end) {
     return (uint32_t)(random_unit(random) * end);
 }
 
-vec3 random_direction(struct random *random) {
-    double z = 2 * random_unit(random) - 1;
-    double angle = 6.283185307179586 * random_unit(random);
-    double r = sqrt(1 - z * z);
-    return (vec3){r * cos(angle), r * sin(angle), z};
-}
-
-vec3 random_in_cube(struct random *random) {
+vec3 random_in_cube(uint64_t *random) {
     double x = 2 * random_unit(random) - 1;
     double y = 2 * random_unit(random) - 1;
     return (vec3){x, y, 2 * random_unit(random) - 1};
 }
 
 struct mesh *reference_kit_soup(struct kit *kit, uint32_t triangles, uint64_t seed) {
-    struct random random = {seed};
+    uint64_t random = seed;
     vec3 *positions = ARENA_ARRAY(&kit->arena, vec3, 3 * triangles);
     uint32_t(*faces)[3] = arena_alloc_array(&kit->arena, triangles, sizeof *faces);
     for (uint32_t i = 0; i < triangles; i++) {

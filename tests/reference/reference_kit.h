@@ -4,6 +4,7 @@
 
 #include "runtime/reference/reference.h"
 #include "tests/unit/flat_kit.h"
+#include "tests/unit/random.h"
 
 // Millions of rays take minutes under the sanitizers.
 #ifdef GLINT_ARENA_EXACT
@@ -17,13 +18,8 @@ void reference_kit_camera(struct kit *kit, vec3 position);
 // The scene as it now is; fails the test where there is no memory.
 struct reference *reference_kit_make(struct kit *kit, enum reference_test test, bool no_tree);
 
-struct random {
-    uint64_t state;
-};
-double random_unit(struct random *random);    // 0..1
-vec3 random_direction(struct random *random); // on the unit sphere
-vec3 random_in_cube(struct random *random);   // -1..1 each
-uint32_t random_below(struct random *random, uint32_t end);
+vec3 random_in_cube(uint64_t *random); // -1..1 each
+uint32_t random_below(uint64_t *random, uint32_t end);
 
 // Many triangles of all shapes and sizes in -1..1, in one open mesh.
 struct mesh *reference_kit_soup(struct kit *kit, uint32_t triangles, uint64_t seed);

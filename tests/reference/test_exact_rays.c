@@ -22,7 +22,7 @@ static bool is_tie(const struct reference_hit *hit) {
 static uint32_t differing(struct kit *kit, uint32_t rays, uint64_t seed) {
     struct reference *a = reference_kit_make(kit, REFERENCE_WATERTIGHT, false);
     struct reference *b = reference_kit_make(kit, REFERENCE_MOELLER_TRUMBORE, false);
-    struct random random = {seed};
+    uint64_t random = seed;
     uint32_t different = 0;
     uint32_t hits = 0;
     for (uint32_t i = 0; i < rays; i++) {
@@ -70,7 +70,7 @@ static void check_tree(const struct reference *tree, const struct reference *pla
 static void test_tree_loses_nothing(void **state) {
     (void)state;
     struct kit kit;
-    struct random random = {5};
+    uint64_t random = 5;
     kit_init(&kit);
     kit_model(&kit, reference_kit_soup(&kit, 300, 7));
     for (int i = 0; i < 5; i++) {
@@ -111,7 +111,7 @@ static struct reference *place_ball(struct kit *kit, const struct placed *placed
     return reference_kit_make(kit, REFERENCE_WATERTIGHT, false);
 }
 
-static vec3 on_edge(const struct mesh *mesh, struct random *random, bool vertex) {
+static vec3 on_edge(const struct mesh *mesh, uint64_t *random, bool vertex) {
     const struct mesh_triangle *t = &mesh->triangles[random_below(random, mesh->triangle_count)];
     double part = vertex ? 0 : random_unit(random);
     uint32_t k = random_below(random, 3);
@@ -128,7 +128,7 @@ static void test_no_ray_slips_through(void **state) {
                                            {1, {1e9, 0, 1e9}, {1e9, 0, 1e9}}};
     for (size_t p = 0; p < sizeof places / sizeof places[0]; p++) {
         struct kit kit;
-        struct random random = {p + 1};
+        uint64_t random = p + 1;
         struct reference *r = place_ball(&kit, &places[p], 3);
         uint32_t misses = 0;
         for (uint32_t i = 0; i < REFERENCE_TEST_RAYS / 5; i++) {
@@ -155,7 +155,7 @@ static void test_starts_are_on_their_side(void **state) {
                                            {1, {1e6, 0, 0}, {0, 0, 0}}};
     for (size_t p = 0; p < sizeof places / sizeof places[0]; p++) {
         struct kit kit;
-        struct random random = {p + 1};
+        uint64_t random = p + 1;
         struct reference *r = place_ball(&kit, &places[p], 4);
         uint32_t again = 0;
         uint32_t lost = 0;
@@ -196,7 +196,7 @@ static void test_outline_of_a_sphere(void **state) {
         kit_init(&kit);
         kit_sphere(&kit)->center = (vec3){0, 0, -distances[i]};
         struct reference *r = reference_kit_make(&kit, REFERENCE_WATERTIGHT, false);
-        struct random random = {i};
+        uint64_t random = i;
         for (int k = 0; k < 2000; k++) {
             double turn = 6.283185307179586 * random_unit(&random);
             double sine = 1 / distances[i];
@@ -220,7 +220,7 @@ static void test_outline_of_a_sphere(void **state) {
 // Faces in one plane, whatever the plane and however they are cut: rounding must not choose.
 static void test_equal_distance_goes_to_the_lower_body(void **state) {
     (void)state;
-    struct random random = {9};
+    uint64_t random = 9;
     for (int turn = 0; turn < 20; turn++) {
         struct kit kit;
         kit_init(&kit);

@@ -137,20 +137,3 @@ bool probe_trace(struct probe *probe, const struct probe_ray *rays, uint32_t cou
         hits[i] = read_hit(probe, probe->words + (size_t)i * hit_words);
     return true;
 }
-
-uint64_t probe_mix(uint64_t *state) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
-
-double probe_unit(uint64_t *state) {
-    return (double)(probe_mix(state) >> 11) * 0x1p-53;
-}
-
-vec3 probe_direction(uint64_t *state) {
-    const double z = 2 * probe_unit(state) - 1, angle = 6.283185307179586 * probe_unit(state),
-                 r = sqrt(1 - z * z);
-    return (vec3){r * cos(angle), r * sin(angle), z};
-}

@@ -45,9 +45,4 @@ void probe_finish(struct probe *probe);
 vec3 probe_round(const struct probe *probe, vec3 v);
 bool probe_trace(struct probe *probe, const struct probe_ray *rays, uint32_t count, struct probe_hit *hits);
 
-// SplitMix64, and what is made of it: 0 .. 1, and a point on the unit sphere.
-uint64_t probe_mix(uint64_t *state);
-double probe_unit(uint64_t *state);
-vec3 probe_direction(uint64_t *state);
-
 #endif

@@ -1,4 +1,5 @@
 #include "core/number.h"
+#include "random.h"
 
 #include <float.h>
 #include <math.h>
@@ -11,13 +12,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-static uint64_t next_random(uint64_t *seed) {
-    uint64_t z = (*seed += UINT64_C(0x9E3779B97F4A7C15));
-    z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ z >> 27) * UINT64_C(0x94D049BB133111EB);
-    return z ^ z >> 31;
-}
 
 static double from_bits(uint64_t bits) {
     double value;
@@ -220,16 +214,16 @@ static void parses_as_strtod_does(void **state) {
     uint64_t seed = 1;
     for (int i = 0; i < 400000; i++) {
         char text[80];
-        uint64_t mantissa = next_random(&seed) >> next_random(&seed) % 64;
-        int exponent = (int)(next_random(&seed) % 64) - 32;
+        uint64_t mantissa = random_bits(&seed) >> random_bits(&seed) % 64;
+        int exponent = (int)(random_bits(&seed) % 64) - 32;
         if (i % 8 == 0)
-            exponent = (int)(next_random(&seed) % 700) - 350;
+            exponent = (int)(random_bits(&seed) % 700) - 350;
         if (i % 2)
             snprintf(text, sizeof text, "%llue%d", (unsigned long long)mantissa, exponent);
         else
             snprintf(text, sizeof text, "%s%llu.%0*llu", i % 4 ? "-" : "",
                      (unsigned long long)(mantissa % 100000), (int)(seed % 12) + 6,
-                     (unsigned long long)(next_random(&seed) % 1000000));
+                     (unsigned long long)(random_bits(&seed) % 1000000));
         double value;
         double expected = strtod(text, NULL);
         enum number_status status = number_parse(str_from(text), &value);
@@ -289,13 +283,13 @@ static void writes_the_shortest_of_random_doubles(void **state) {
     (void)state;
     uint64_t seed = 42;
     for (int i = 0; i < 100000; i++) {
-        double value = from_bits(next_random(&seed));
+        double value = from_bits(random_bits(&seed));
         if (isfinite(value) && value != 0)
             check_format(value);
     }
     for (int i = 0; i < 20000; i++) {
-        check_format(from_bits(1 + (next_random(&seed) >> (12 + next_random(&seed) % 50)))); // denormals
-        check_format((double)(float)(from_bits(next_random(&seed) >> 12 | UINT64_C(0x3FF) << 52) - 1.5));
+        check_format(from_bits(1 + (random_bits(&seed) >> (12 + random_bits(&seed) % 50)))); // denormals
+        check_format((double)(float)(from_bits(random_bits(&seed) >> 12 | UINT64_C(0x3FF) << 52) - 1.5));
     }
 }
 
@@ -303,8 +297,8 @@ static void writes_the_shortest_of_decimals(void **state) {
     (void)state;
     uint64_t seed = 7;
     for (int i = 0; i < 100000; i++) {
-        double value = (double)(1 + (next_random(&seed) >> (14 + next_random(&seed) % 48)));
-        value /= pow(10, (double)(next_random(&seed) % 20));
+        double value = (double)(1 + (random_bits(&seed) >> (14 + random_bits(&seed) % 48)));
+        value /= pow(10, (double)(random_bits(&seed) % 20));
         check_format(i % 2 ? value : -value);
     }
 }

@@ -6,6 +6,7 @@
 // Usage: test_rays [full]: `full` sends ten million rays in each precision, at all sizes and distances.
 #include "flat_kit.h"
 #include "probe_kit.h"
+#include "random.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -76,20 +77,20 @@ struct aim {
 
 static vec3 choose_target(const struct aim *aim, uint64_t *state) {
     if (aim->flat->sphere_count)
-        return vec3_add(aim->center, vec3_mul(probe_direction(state), aim->radius * (1 - 1e-6)));
-    const uint32_t item = (uint32_t)(probe_mix(state) % aim->flat->triangle_count);
-    const int corner = (int)(probe_mix(state) % 3);
+        return vec3_add(aim->center, vec3_mul(random_direction(state), aim->radius * (1 - 1e-6)));
+    const uint32_t item = (uint32_t)(random_bits(state) % aim->flat->triangle_count);
+    const int corner = (int)(random_bits(state) % 3);
     const vec3 a = kit_vertex(aim->flat, item, corner), b = kit_vertex(aim->flat, item, (corner + 1) % 3);
-    return probe_mix(state) % 2 ? a : vec3_add(a, vec3_mul(vec3_sub(b, a), probe_unit(state)));
+    return random_bits(state) % 2 ? a : vec3_add(a, vec3_mul(vec3_sub(b, a), random_unit(state)));
 }
 
 // From inside, from near by outside, and in double precision also from the camera: in single precision a ray
 // from there is rounded by more than the body's triangles where it is far away.
 static vec3 choose_start(const struct aim *aim, bool inside, uint64_t *state) {
-    if (!inside && aim->probe->is_double && probe_mix(state) % 4 == 0)
+    if (!inside && aim->probe->is_double && random_bits(state) % 4 == 0)
         return aim->camera;
-    const double away = aim->radius * (inside ? 0.9 * probe_unit(state) : 1.2 + 8 * probe_unit(state));
-    return vec3_add(aim->center, vec3_mul(probe_direction(state), away));
+    const double away = aim->radius * (inside ? 0.9 * random_unit(state) : 1.2 + 8 * random_unit(state));
+    return vec3_add(aim->center, vec3_mul(random_direction(state), away));
 }
 
 // A ray at an edge, vertex or sphere, from inside or outside, and one that leaves its target: at least 0.6
@@ -99,9 +100,9 @@ static void choose_ray(const struct aim *aim, uint64_t seed, struct probe_ray *r
     for (;;) {
         const vec3 target = choose_target(aim, &state);
         const vec3 out = vec3_unit(vec3_sub(target, aim->center));
-        const bool inside = probe_mix(&state) % 2;
+        const bool inside = random_bits(&state) % 2;
         const vec3 start = probe_round(aim->probe, choose_start(aim, inside, &state));
-        const vec3 to = vec3_sub(target, start), next = probe_direction(&state);
+        const vec3 to = vec3_sub(target, start), next = random_direction(&state);
         if ((!inside && vec3_dot(out, vec3_unit(to)) > -0.2) || fabs(vec3_dot(out, next)) < 0.1)
             continue;
         *ray = (struct probe_ray){start, aim->flat->sphere_count ? vec3_unit(to) : to, 3e38, next};
@@ -259,7 +260,7 @@ static void check_inside(void **state, bool is_double, int levels, unsigned batc
     for (uint64_t batch = 0; batch < batches; batch++) {
         for (uint64_t i = 0; i < PROBE_RAYS; i++) {
             uint64_t seed = batch * PROBE_RAYS + i;
-            const vec3 direction = probe_direction(&seed);
+            const vec3 direction = random_direction(&seed);
             f->rays[i] = (struct probe_ray){camera, direction, 3e38, vec3_neg(direction)};
         }
         assert_true(probe_trace(&probe, f->rays, PROBE_RAYS, f->hits));
@@ -314,13 +315,13 @@ static struct probe_ray choose_gap_ray(const struct probe *probe, const struct p
     const double factor = ldexp(1, flat->scale_exponent);
     vec3 from, next;
     do
-        from = probe_direction(&seed);
+        from = random_direction(&seed);
     while (vec3_dot(from, p->normal) < 0.1);
     do
-        next = probe_direction(&seed);
+        next = random_direction(&seed);
     while (vec3_dot(next, p->normal) > -0.1);
-    const vec3 place = vec3_add(vec3_mul(p->u, 0.1 + 0.8 * probe_unit(&seed)),
-                                vec3_mul(p->v, 0.1 + 0.8 * probe_unit(&seed)));
+    const vec3 place = vec3_add(vec3_mul(p->u, 0.1 + 0.8 * random_unit(&seed)),
+                                vec3_mul(p->v, 0.1 + 0.8 * random_unit(&seed)));
     const vec3 target = vec3_mul(vec3_sub(vec3_add(p->corner, place), flat->origin), factor);
     const vec3 start = probe_round(probe, vec3_add(target, vec3_mul(from, gap->size * factor * 2)));
     return (struct probe_ray){start, vec3_neg(from), 3e38, next};

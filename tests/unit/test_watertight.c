@@ -6,6 +6,7 @@
 // inside, outside near it, and at the camera. A miss is no hit where the target is.
 #include "core/parallel.h"
 #include "flat_kit.h"
+#include "random.h"
 #include "runtime/bvh/traverse.h"
 #include "shaders/gpu_scene.h"
 
@@ -30,32 +31,15 @@ struct aim {
     atomic_uint shot;
 };
 
-static uint64_t mix(uint64_t *state) { // SplitMix64
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
-static double mix_unit(uint64_t *state) {
-    return (double)(mix(state) >> 11) * 0x1p-53;
-}
-
-static vec3 random_direction(uint64_t *state) {
-    double z = 2 * mix_unit(state) - 1;
-    double angle = 6.283185307179586 * mix_unit(state);
-    double r = sqrt(1 - z * z);
-    return (vec3){r * cos(angle), r * sin(angle), z};
-}
-
 // Where the ray with this number starts; false: the target is not well in view from there.
 static bool choose_start(const struct aim *aim, size_t number, vec3 target, uint64_t *state, float start[3]) {
     vec3 at = {0, 0, 0};
     uint32_t kind = number / 2 % 4;
     if (kind < 2)
-        at = vec3_add(aim->center, vec3_mul(random_direction(state), aim->radius * 0.9 * mix_unit(state)));
+        at = vec3_add(aim->center, vec3_mul(random_direction(state), aim->radius * 0.9 * random_unit(state)));
     else if (kind == 2)
         at = vec3_add(aim->center,
-                      vec3_mul(random_direction(state), aim->radius * (1.2 + 8 * mix_unit(state))));
+                      vec3_mul(random_direction(state), aim->radius * (1.2 + 8 * random_unit(state))));
     start[0] = (float)at.x;
     start[1] = (float)at.y;
     start[2] = (float)at.z;
@@ -64,11 +48,11 @@ static bool choose_start(const struct aim *aim, size_t number, vec3 target, uint
 }
 
 static vec3 choose_target(const struct aim *aim, size_t number, uint64_t *state) {
-    uint32_t item = (uint32_t)(mix(state) % aim->flat->triangle_count);
-    int corner = (int)(mix(state) % 3);
+    uint32_t item = (uint32_t)(random_bits(state) % aim->flat->triangle_count);
+    int corner = (int)(random_bits(state) % 3);
     vec3 a = kit_vertex(aim->flat, item, corner);
     vec3 b = kit_vertex(aim->flat, item, (corner + 1) % 3);
-    return number % 2 ? a : vec3_add(a, vec3_mul(vec3_sub(b, a), mix_unit(state)));
+    return number % 2 ? a : vec3_add(a, vec3_mul(vec3_sub(b, a), random_unit(state)));
 }
 
 static void shoot(void *context, size_t begin, size_t end) {
