@@ -1,5 +1,5 @@
 // Rules about light that a grammar cannot hold: what is a scene by every rule of the language, and will still
-// not show what its author meant. Each rule has a code of the family W9xx (docs/lint.md has a page for each).
+// not show what its author meant. Each rule has a code of the family W4xx (docs/lint.md has a page for each).
 //
 // Input: a scene without errors, with its meshes; neither pixels of images nor a device. Output: warnings in
 // the sink, placed in the scene, with notes at lines of mesh files. A rule says what is certain: where it

@@ -99,7 +99,6 @@ str lint_words(struct lint *lint, const struct lint_body *body);
 // "sphere 'ball'", or "a sphere".
 str lint_words_other(struct lint *lint, const struct lint_body *body);
 span lint_place(const struct lint *lint, const struct lint_body *body);
-span lint_place_material(const struct lint *lint, const struct lint_body *body);
 span lint_place_mesh(const struct lint *lint, uint32_t model);
 // A note at a line of a mesh file.
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...)

@@ -10,17 +10,6 @@ enum {
     NOTE_MAX = 512
 };
 
-static const struct schema_element *schema_of(const struct lint_body *body) {
-    switch (body->kind) {
-    case LINT_SPHERE:
-        return &SCHEMA_SPHERE;
-    case LINT_RECTANGLE:
-        return &SCHEMA_RECTANGLE;
-    default:
-        return &SCHEMA_MODEL;
-    }
-}
-
 static const char *kind_of(const struct lint_body *body) {
     static const char *const kinds[] = {"sphere", "rectangle", "model"};
     return kinds[body->kind];
@@ -40,10 +29,6 @@ str lint_words_other(struct lint *lint, const struct lint_body *body) {
 
 span lint_place(const struct lint *lint, const struct lint_body *body) {
     return ir_place_label(lint->origin, body->head);
-}
-
-span lint_place_material(const struct lint *lint, const struct lint_body *body) {
-    return ir_place_value(lint->origin, body->head, schema_of(body), "material");
 }
 
 span lint_place_mesh(const struct lint *lint, uint32_t model) {
