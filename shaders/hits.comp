@@ -4,8 +4,6 @@
 // left in OUTPUT.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_spirv_intrinsics : require
-spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
 
 #include "scene.glsl"
 #include "records.glsl"

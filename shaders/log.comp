@@ -2,11 +2,6 @@
 // sample's path with it, ray by ray (runtime/render_log.c).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_spirv_intrinsics : require
-spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
-#ifdef DOUBLE_PRECISION
-spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 64);
-#endif
 
 #include "scene.glsl"
 #include "records.glsl"

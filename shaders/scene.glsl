@@ -1,7 +1,12 @@
-// Bindings, specialization constants and the one door to the scene's words.
+// What each kernel begins with: bindings, specialization constants and the one door to the scene's words.
 //
 // WORDS are texel buffers on CPU devices (lavapipe loads a texel in one piece, but a storage buffer lane
 // by lane) and storage buffers on GPUs: FETCH hides which.
+#extension GL_EXT_spirv_intrinsics : require
+// SignedZeroInfNanPreserve, or a compiler may take NaN for absent; stripped where a device lacks it;
+// tools/spirv_exact asks for it of doubles too.
+spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
+
 #include "features.h"
 #include "frame.h"
 #include "gpu_scene.h"

@@ -1,4 +1,4 @@
-// The one kernel: follows a sample's path through the scene, Whitted 1980.
+// The kernel that makes pictures: follows a sample's path through the scene, Whitted 1980.
 //
 // One loop, a ray an iteration: the path's own ray, or a shadow ray of the last hit. lavapipe runs 8
 // invocations as a vector in which an `if` never skips and only the end of a loop does: so lanes whose
@@ -6,10 +6,6 @@
 // all, and then take up the refracted rays that wait on the stack.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_spirv_intrinsics : require
-// SignedZeroInfNanPreserve, or a compiler may take NaN for absent; stripped where a device lacks it;
-// tools/spirv_exact asks for it of doubles too.
-spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
 
 #include "scene.glsl"
 #include "records.glsl"
