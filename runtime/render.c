@@ -69,14 +69,11 @@ static void plan(struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint32_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
     renderer->features = settings->features;
-    if (renderer->settings.workgroup == 0)
-        renderer->settings.workgroup = TILE_PIXELS;
     // Without shadow rays the lights are scanned in one go, however many there are.
     if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
         renderer->features |= FEATURE_SLICES;
     // A surface at the last level leaves its refracted ray, which sees the background, on the stack too.
-    if ((renderer->features & bounces) == bounces)
-        renderer->path_stack = settings->max_depth + 1;
+    renderer->path_stack = (renderer->features & bounces) == bounces ? settings->max_depth + 1 : 0;
     renderer->tiles_x = (settings->width + TILE_SIDE - 1) / TILE_SIDE;
     const uint32_t tiles_y = (settings->height + TILE_SIDE - 1) / TILE_SIDE;
     renderer->run_tiles = RUN_TILES;
@@ -161,21 +158,22 @@ static void drop_frame(struct renderer *renderer) {
     renderer->pending = 0;
 }
 
+static void take_settings(struct renderer *renderer, const struct render_settings *settings) {
+    renderer->settings = *settings;
+    if (settings->workgroup == 0)
+        renderer->settings.workgroup = TILE_PIXELS;
+}
+
 bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
                      const struct render_settings *settings) {
-    const struct render_settings now = renderer->settings;
-    const bool same_frame = now.width == settings->width && now.height == settings->height &&
-                            now.max_depth == settings->max_depth && now.features == settings->features &&
-                            now.study == settings->study &&
-                            (settings->workgroup == 0 || now.workgroup == settings->workgroup);
+    const struct render_settings old = renderer->settings, *now = &renderer->settings;
     renderer->flat = flat;
-    renderer->settings = *settings;
-    if (same_frame) {
-        renderer->settings.workgroup = now.workgroup;
+    take_settings(renderer, settings);
+    if (old.width == now->width && old.height == now->height && old.max_depth == now->max_depth &&
+        old.features == now->features && old.study == now->study && old.workgroup == now->workgroup &&
+        old.band_tiles == now->band_tiles)
         return true;
-    }
     drop_frame(renderer);
-    renderer->path_stack = 0;
     return make_frame(renderer);
 }
 
@@ -186,7 +184,7 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
         return NULL;
     renderer->gpu = gpu;
     renderer->flat = flat;
-    renderer->settings = *settings;
+    take_settings(renderer, settings);
     if (upload_scene(renderer) && make_frame(renderer))
         return renderer;
     renderer_destroy(renderer);

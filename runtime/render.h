@@ -43,7 +43,7 @@ struct render_settings {
     uint32_t slice_iterations; // SLICE_ITERATIONS of shaders/frame.h; 0 gives slices of one ray
     enum render_study study;   // in single precision only
     uint32_t workgroup;        // invocations of a workgroup, at most 128; 0: a tile's
-    uint32_t band_tiles;       // most tiles of 64 pixels in a band; 0: as many as fit the memory for one
+    uint32_t band_tiles;       // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
 };
 
 // What scene, flat scene and limits ask for.

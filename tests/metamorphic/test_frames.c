@@ -18,7 +18,7 @@ static void expect(struct frames *f, bool good, const char *what) {
     f->failed += !good;
 }
 
-// A scene on the device, with settings that a test may change before the renderer is made anew.
+// A scene on the device, with settings that a test may change and then apply.
 struct stage {
     struct session session;
     struct shot shot;
@@ -43,10 +43,8 @@ static void close_stage(struct stage *stage) {
     session_finish(&stage->session);
 }
 
-static bool renew(struct stage *stage) {
-    renderer_destroy(stage->shot.renderer);
-    stage->shot.renderer = renderer_create(stage->shot.gpu, &stage->shot.flat, &stage->shot.settings);
-    return stage->shot.renderer != NULL;
+static bool apply(struct stage *stage) {
+    return renderer_change(stage->shot.renderer, &stage->shot.flat, &stage->shot.settings);
 }
 
 static bool take(struct stage *stage, struct image *image, struct render_statistics *statistics) {
@@ -78,7 +76,7 @@ static void test_cancel(struct frames *f) {
     if (!open_stage(f, &stage, 96, 72, 3))
         return;
     stage.shot.settings.slice_iterations = 40; // many dispatches, so that many places can be cancelled
-    bool good = renew(&stage) && take(&stage, &whole, &statistics) && picture_variety(&whole) > 1000;
+    bool good = apply(&stage) && take(&stage, &whole, &statistics) && picture_variety(&whole) > 1000;
     expect(f, good && statistics.slices > 10, "a frame of many slices");
     struct countdown all = {.left = 1 << 30, .ordered = true};
     const struct render_progress watch = {count_down, &all};
@@ -101,29 +99,32 @@ static void test_cancel(struct frames *f) {
 
 // ---- bands and slices
 
-// A path's state grows with max_depth, so that fewer tiles fit a band; by weight no path gets that deep.
+// A path's state grows with max_depth; by weight no path gets that deep.
 static void test_bands(struct frames *f) {
     struct stage stage;
-    struct image one, many, counted;
-    struct render_statistics of_one = {0}, of_many = {0};
+    struct image one = {0}, many = {0}, deep = {0}, counted = {0};
+    struct render_statistics of_one = {0}, of_many = {0}, of_deep = {0};
     struct render_rays rays = {0};
     if (!open_stage(f, &stage, 320, 240, 2))
         return;
     stage.shot.settings.min_weight = 0.01;
     stage.shot.settings.max_depth = 20;
-    bool good = renew(&stage) && take(&stage, &one, &of_one);
-    stage.shot.settings.max_depth = 64;
+    bool good = apply(&stage) && take(&stage, &one, &of_one);
     stage.shot.settings.band_tiles = 500; // a GPU has room for all of this picture at once
-    good = renew(&stage) && take(&stage, &many, &of_many) && good;
+    good = apply(&stage) && take(&stage, &many, &of_many) && good;
+    stage.shot.settings.max_depth = 64;
+    good = apply(&stage) && take(&stage, &deep, &of_deep) && good;
     good = good && renderer_count(stage.shot.renderer, &stage.shot.view.camera, NULL, &rays) == RENDER_DONE;
     expect(f, good && rays.deepest < 20 && rays.primary == (uint64_t)320 * 240 * 2,
            "no path needs more depth");
-    expect(f, of_one.bands == 1 && of_many.bands > 1, "one band, and several");
+    expect(f, of_one.bands == 1 && of_many.bands > 1 && of_deep.bands > 1, "one band, and several");
     expect(f, good && picture_differences(&one, &many, "bands") == 0, "bands do not show");
-    good = take(&stage, &counted, &of_many) && picture_differences(&one, &counted, "after counting") == 0;
+    expect(f, good && picture_differences(&one, &deep, "deep") == 0, "room for deeper paths does not show");
+    good = take(&stage, &counted, &of_deep) && picture_differences(&one, &counted, "after counting") == 0;
     expect(f, good, "counting rays does not show");
     image_finish(&one);
     image_finish(&many);
+    image_finish(&deep);
     image_finish(&counted);
     close_stage(&stage);
 }
@@ -139,7 +140,7 @@ static void test_slices(struct frames *f) {
     const uint32_t least = statistics.slices;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         stage.shot.settings.slice_iterations = sizes[i];
-        good = renew(&stage) && take(&stage, &image, &statistics) && statistics.slices > least && good &&
+        good = apply(&stage) && take(&stage, &image, &statistics) && statistics.slices > least && good &&
                picture_differences(&whole, &image, "slices") == 0;
         image_finish(&image);
     }
@@ -161,7 +162,8 @@ static void test_crop(struct frames *f) {
     struct render_statistics statistics;
     if (!open_stage(f, &large, WIDTH, HEIGHT, 1))
         return;
-    bool good = take(&large, &whole, &statistics);
+    large.shot.settings.band_tiles = 16384;
+    bool good = apply(&large) && take(&large, &whole, &statistics);
     expect(f, good && statistics.bands > 1, "a picture of several bands");
     good = open_stage(f, &small, WIDTH / 2, HEIGHT / 2, 1) && good;
     small.shot.view.camera.tan_half_fov = large.shot.view.camera.tan_half_fov / 2;
@@ -189,7 +191,7 @@ static void test_segments(struct frames *f) {
         return;
     bool good = take(&stage, &whole, &statistics) && statistics.faults[RENDER_SEGMENTS].pixels == 0;
     stage.shot.settings.path_segments = 12;
-    good = good && renew(&stage) && image_init(&image, 96, 72) &&
+    good = good && apply(&stage) && image_init(&image, 96, 72) &&
            shot_take(&stage.shot, &image, NULL, &statistics) == SHOT_OK;
     const struct render_fault *fault = &statistics.faults[RENDER_SEGMENTS];
     const int64_t changed = good ? picture_differences(&whole, &image, "fewer rays") : -1;
