@@ -14,13 +14,14 @@ enum {
     GRID_WIDTH_MAX = 65535, // what every device allows; more workgroups go to further rows
 };
 
-void renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y) {
     const uint32_t tile = tile_begin + slot / TILE_PIXELS, i = slot % TILE_PIXELS;
     const uint32_t run = tile / renderer->run_tiles * renderer->run_step % renderer->runs;
     const uint32_t place = run * renderer->run_tiles + tile % renderer->run_tiles;
     *x = place % renderer->tiles_x * TILE_SIDE + ((i & 1) | (i >> 1 & 2) | (i >> 2 & 4));
     *y = place / renderer->tiles_x * TILE_SIDE + ((i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4));
+    return *x < renderer->settings.width && *y < renderer->settings.height;
 }
 
 static void put(float out[3], vec3 v) {
@@ -159,8 +160,7 @@ static void unpack_tiles(void *context, size_t begin, size_t end) {
     const float samples = (float)settings->samples;
     for (size_t slot = begin * TILE_PIXELS; slot < end * TILE_PIXELS; slot++) {
         uint32_t x, y;
-        renderer_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y);
-        if (x >= settings->width || y >= settings->height)
+        if (!renderer_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y))
             continue;
         float sum[3];
         memcpy(sum, u->renderer->band + 4 * slot, sizeof sum);
@@ -212,8 +212,7 @@ static void note_faults(const struct renderer *renderer, uint32_t tile_begin, ui
         if (word == 0)
             continue;
         uint32_t x, y;
-        renderer_pixel(renderer, tile_begin, slot, &x, &y);
-        if (x < renderer->settings.width && y < renderer->settings.height)
+        if (renderer_pixel(renderer, tile_begin, slot, &x, &y))
             note_fault(renderer, word, x, y, &statistics->faults[word >> FAULT_KIND_SHIFT]);
     }
 }
@@ -267,12 +266,6 @@ enum render_result renderer_render(struct renderer *renderer, const struct view_
     return draw_frame(&run, camera, rgb);
 }
 
-static double float_of(uint32_t bits) {
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 static uint64_t wide(const uint32_t words[2]) {
     return (uint64_t)words[1] << 32 | words[0];
 }
@@ -301,7 +294,7 @@ enum render_result renderer_count(struct renderer *renderer, const struct view_c
                                  .nodes = wide(values + COUNTER_NODES),
                                  .items = wide(values + COUNTER_ITEMS),
                                  .deepest = values[COUNTER_DEEPEST],
-                                 .lost_by_depth = float_of(values[COUNTER_LOST_DEPTH]),
-                                 .lost_by_weight = float_of(values[COUNTER_LOST_WEIGHT])};
+                                 .lost_by_depth = renderer_float(values[COUNTER_LOST_DEPTH]),
+                                 .lost_by_weight = renderer_float(values[COUNTER_LOST_WEIGHT])};
     return result;
 }

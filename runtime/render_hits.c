@@ -98,12 +98,6 @@ static enum render_result draw_band(struct renderer *renderer, uint32_t tile_beg
     return RENDER_DONE;
 }
 
-static double number_of(uint32_t bits) {
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
 static uint32_t body_of(const struct renderer *renderer, uint32_t number) {
     uint32_t body = HIT_NONE, triangle;
     if (number != HITS_NOTHING)
@@ -121,7 +115,7 @@ static struct hit_pixel read_hit(const struct renderer *renderer, const struct g
     hit.reflected = body_of(renderer, words[2].z);
     hit.refracted = body_of(renderer, words[2].w);
     hit.distance = ldexp(renderer_real(renderer, words[0].x, words[0].y), -renderer->flat->scale_exponent);
-    hit.normal = (vec3){number_of(words[3].x), number_of(words[3].y), number_of(words[3].z)};
+    hit.normal = (vec3){renderer_float(words[3].x), renderer_float(words[3].y), renderer_float(words[3].z)};
     return hit;
 }
 
@@ -133,12 +127,10 @@ struct unpacking {
 
 static void unpack_tiles(void *context, size_t begin, size_t end) {
     const struct unpacking *u = context;
-    const struct render_settings *settings = &u->renderer->settings;
     for (size_t slot = begin * TILE_PIXELS; slot < end * TILE_PIXELS; slot++) {
         uint32_t x, y;
-        renderer_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y);
-        if (x < settings->width && y < settings->height)
-            u->out[(size_t)y * settings->width + x] =
+        if (renderer_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y))
+            u->out[(size_t)y * u->renderer->settings.width + x] =
                 read_hit(u->renderer, u->renderer->hits->words + slot * HITS_WORDS);
     }
 }
@@ -146,8 +138,7 @@ static void unpack_tiles(void *context, size_t begin, size_t end) {
 static void count_unfinished(struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count) {
     for (uint32_t slot = 0; slot < tile_count * TILE_PIXELS; slot++) {
         uint32_t x, y;
-        renderer_pixel(renderer, tile_begin, slot, &x, &y);
-        if (x < renderer->settings.width && y < renderer->settings.height)
+        if (renderer_pixel(renderer, tile_begin, slot, &x, &y))
             renderer->hits->unfinished += renderer->hits->words[(size_t)slot * HITS_WORDS + 3].w;
     }
 }

@@ -71,13 +71,19 @@ static uint32_t bits_of(double value) {
     return bits;
 }
 
+float renderer_float(uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high) {
+    if (!renderer->flat->is_double)
+        return (double)renderer_float(low);
     const uint64_t bits = (uint64_t)high << 32 | low;
-    float single;
     double value;
     memcpy(&value, &bits, sizeof value);
-    memcpy(&single, &low, sizeof single);
-    return renderer->flat->is_double ? value : (double)single;
+    return value;
 }
 
 static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {

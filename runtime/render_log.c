@@ -100,12 +100,6 @@ static bool follow(struct walk *walk, uint32_t begin, uint32_t end) {
     return gpu_read(renderer->gpu, log->output, 0, log->told, sizeof log->told);
 }
 
-static double float_of(uint32_t bits) {
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
 // Three numbers in two words.
 static vec3 vector_at(const struct renderer *renderer, const struct gpu_word *words) {
     return (vec3){renderer_real(renderer, words[0].x, words[0].y),
@@ -159,8 +153,8 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
     s->point = point_at(renderer, told + 4);
     s->geometric = vector_at(renderer, told + 6);
     s->shading = vector_at(renderer, told + 8);
-    add_child(walk, index, RENDER_RAY_REFLECTED, (float)float_of(told[5].z), told + 10);
-    add_child(walk, index, RENDER_RAY_REFRACTED, (float)float_of(told[5].w), told + 14);
+    add_child(walk, index, RENDER_RAY_REFLECTED, renderer_float(told[5].z), told + 10);
+    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + 14);
 }
 
 static void take(struct walk *walk, uint32_t index, const struct gpu_word *told) {
@@ -170,7 +164,7 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
     s->weight = (double)node->weight;
     s->origin = point_at(renderer, node->ray);
     s->direction = vector_at(renderer, node->ray + 2);
-    s->radiance = (vec3){float_of(told[3].x), float_of(told[3].y), float_of(told[3].z)};
+    s->radiance = (vec3){renderer_float(told[3].x), renderer_float(told[3].y), renderer_float(told[3].z)};
     node->radiance[0] = (float)s->radiance.x;
     node->radiance[1] = (float)s->radiance.y;
     node->radiance[2] = (float)s->radiance.z;

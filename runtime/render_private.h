@@ -1,4 +1,4 @@
-// Inside of the renderer: what render.c and render_frame.c share. Thread safety: as render.h.
+// Inside of the renderer: what the files render*.c share. Thread safety: as render.h.
 #ifndef GLINT_RUNTIME_RENDER_PRIVATE_H
 #define GLINT_RUNTIME_RENDER_PRIVATE_H
 
@@ -69,6 +69,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // The tracing kernel with these features, compiled now or before, over the band's buffers.
 struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t features);
+float renderer_float(uint32_t bits);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
 // The frame's uniforms for a camera.
@@ -79,8 +80,8 @@ uint32_t renderer_grid_width(uint32_t groups);
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);
 void renderer_hits_destroy(struct renderer *renderer); // what renderer_hits made
 void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made
-// Which pixel of the picture a slot of the band at `tile_begin` shows.
-void renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture.
+bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y);
 
 #endif
