@@ -1,5 +1,5 @@
 // The GPU layer: choosing devices, buffers, dispatches, the layout of records, and doing without Vulkan.
-#include "runtime/gpu/gpu.h"
+#include "device_kit.h"
 #include "runtime/gpu_records.h"
 #include "shaders/frame.h"
 #include "shaders/kernels.h"
@@ -22,39 +22,6 @@ void *__wrap_dlopen(const char *path, int flags) {
     return hide_loader && path && strstr(path, "libvulkan") ? NULL : __real_dlopen(path, flags);
 }
 
-struct fixture {
-    struct gpu *gpu;
-    uint32_t messages;
-};
-
-static int setup(void **state) {
-    struct fixture *f = calloc(1, sizeof *f);
-    char error[GPU_ERROR_BYTES];
-    const struct gpu_options options = {
-        .device = getenv("GLINT_DEVICE"), .validate = true, .validation_messages = &f->messages};
-    if (gpu_create(&options, &f->gpu, error) != GPU_OK)
-        fprintf(stderr, "skipped: %s\n", error);
-    *state = f;
-    return 0;
-}
-
-static int teardown(void **state) {
-    struct fixture *f = *state;
-    gpu_destroy(f->gpu);
-    const uint32_t messages = f->messages;
-    free(f);
-    if (messages)
-        fprintf(stderr, "error: %u validation messages\n", messages);
-    return messages ? -1 : 0;
-}
-
-static struct gpu *needed(void **state) {
-    struct fixture *f = *state;
-    if (!f->gpu)
-        skip();
-    return f->gpu;
-}
-
 // ---- without Vulkan
 
 static void test_no_loader(void **state) {
@@ -74,7 +41,7 @@ static void test_no_loader(void **state) {
 }
 
 static void test_no_driver(void **state) {
-    needed(state);
+    device_kit_need(state, false);
     // Newer loaders read the second name first.
     static const char *const names[] = {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"};
     char *kept[2];
@@ -102,7 +69,7 @@ static void test_no_driver(void **state) {
 // ---- devices
 
 static void test_choice(void **state) {
-    needed(state);
+    device_kit_need(state, false);
     char error[GPU_ERROR_BYTES];
     struct gpu_device_info infos[16];
     uint32_t count, preferred = 0;
@@ -136,7 +103,7 @@ static void test_choice(void **state) {
 // ---- buffers
 
 static void test_buffers(void **state) {
-    struct gpu *gpu = needed(state);
+    struct gpu *gpu = device_kit_need(state, false);
     const enum gpu_use uses[] = {GPU_WORDS, GPU_TEXELS_U8, GPU_TEXELS_F32, GPU_STORAGE, GPU_UNIFORM};
     const uint64_t sizes[] = {0, 1, 15, 16, 4096, 65536, (16u << 20) + 48};
     uint8_t *in = malloc(sizes[6]), *out = malloc(sizes[6]);
@@ -165,7 +132,7 @@ static void test_buffers(void **state) {
 }
 
 static void test_too_large(void **state) {
-    struct gpu *gpu = needed(state);
+    struct gpu *gpu = device_kit_need(state, false);
     assert_null(gpu_buffer_create(gpu, GPU_UNIFORM, 1u << 30));
     assert_int_equal(gpu_last_status(gpu), GPU_NO_MEMORY);
     assert_non_null(strstr(gpu_error(gpu), "MiB"));
@@ -321,7 +288,7 @@ static void expect_listing(struct gpu *gpu, const struct gpu_program_source *sou
 }
 
 static void test_layout(void **state) {
-    struct gpu *gpu = needed(state);
+    struct gpu *gpu = device_kit_need(state, false);
     struct all_records all;
     uint32_t numbers[sizeof all / sizeof(uint32_t)];
     fill(numbers, sizeof all / sizeof(uint32_t), 1000);
@@ -333,9 +300,7 @@ static void test_layout(void **state) {
 }
 
 static void test_layout64(void **state) {
-    struct gpu *gpu = needed(state);
-    if (!gpu_info(gpu)->has_double)
-        skip();
+    struct gpu *gpu = device_kit_need(state, true);
     struct all_records64 all;
     uint32_t numbers[sizeof all / sizeof(uint32_t)];
     fill(numbers, sizeof all / sizeof(uint32_t), 1000);
@@ -349,7 +314,7 @@ static void test_layout64(void **state) {
 // What the silence of the layer in all other tests is worth: more workgroups than allowed, never submitted,
 // are a message.
 static void test_messages_are_counted(void **state) {
-    needed(state);
+    device_kit_need(state, false);
     char error[GPU_ERROR_BYTES];
     struct gpu *gpu;
     uint32_t messages = 0;
@@ -375,13 +340,13 @@ static void test_messages_are_counted(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_loader),
-        cmocka_unit_test_setup_teardown(test_no_driver, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_choice, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_messages_are_counted, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_buffers, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_too_large, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_layout, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_layout64, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_no_driver, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_choice, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_messages_are_counted, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_buffers, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_too_large, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_layout, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_layout64, device_kit_setup, device_kit_teardown),
     };
     return cmocka_run_group_tests_name("gpu", tests, NULL, NULL);
 }

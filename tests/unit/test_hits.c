@@ -1,5 +1,6 @@
 // What every pixel's first ray meets, on the device, against closed forms in double and against the same
 // traversal on the processor.
+#include "device_kit.h"
 #include "flat_kit.h"
 #include "runtime/bvh/traverse.h"
 #include "runtime/render.h"
@@ -21,30 +22,6 @@ enum {
 };
 #define TAN_HALF_FOV 0.6
 
-struct fixture {
-    struct gpu *gpu;
-    uint32_t messages;
-};
-
-static int setup(void **state) {
-    struct fixture *f = calloc(1, sizeof *f);
-    char error[GPU_ERROR_BYTES];
-    const struct gpu_options options = {
-        .device = getenv("GLINT_DEVICE"), .validate = true, .validation_messages = &f->messages};
-    if (gpu_create(&options, &f->gpu, error) != GPU_OK)
-        fprintf(stderr, "skipped: %s\n", error);
-    *state = f;
-    return 0;
-}
-
-static int teardown(void **state) {
-    struct fixture *f = *state;
-    gpu_destroy(f->gpu);
-    const uint32_t messages = f->messages;
-    free(f);
-    return messages ? -1 : 0;
-}
-
 static struct view_camera camera_at(vec3 position) {
     return (struct view_camera){.position = position,
                                 .right = {1, 0, 0},
@@ -65,8 +42,7 @@ static struct hit_pixel *take(void **state, struct kit *kit, const struct flat_s
     settings.study = study;
     settings.width = WIDTH;
     settings.height = HEIGHT;
-    struct gpu *gpu = ((struct fixture *)*state)->gpu;
-    struct renderer *renderer = renderer_create(gpu, flat, &settings);
+    struct renderer *renderer = renderer_create(device_kit_need(state, flat->is_double), flat, &settings);
     assert_non_null(renderer);
     struct hit_pixel *hits = calloc(PIXELS, sizeof *hits);
     const struct view_camera camera = camera_at(position);
@@ -212,12 +188,8 @@ static void compare(const struct hit_pixel *got, const struct hit_pixel *wanted,
                  wanted->normal.y, wanted->normal.z);
 }
 
-static void needs_device(void **state) {
-    if (!((struct fixture *)*state)->gpu)
-        skip();
-}
-
 static void check_closed_forms(void **state, bool is_double) {
+    device_kit_need(state, is_double);
     struct kit kit;
     struct flat_scene flat;
     make_scene(&kit);
@@ -250,12 +222,10 @@ static void check_closed_forms(void **state, bool is_double) {
 }
 
 static void test_closed_forms(void **state) {
-    needs_device(state);
     check_closed_forms(state, false);
 }
 
 static void test_closed_forms_double(void **state) {
-    needs_device(state);
     check_closed_forms(state, true);
 }
 
@@ -273,7 +243,7 @@ static struct hit_pixel traversed(const struct flat_scene *flat, vec3 direction)
 }
 
 static void test_mesh(void **state) {
-    needs_device(state);
+    device_kit_need(state, false);
     struct kit kit;
     struct flat_scene flat;
     kit_init(&kit);
@@ -311,6 +281,7 @@ static void check_log(void **state, bool is_double) {
     enum {
         SEGMENTS = 512
     };
+    struct gpu *gpu = device_kit_need(state, is_double);
     struct kit kit;
     struct flat_scene flat;
     make_scene(&kit);
@@ -323,7 +294,7 @@ static void check_log(void **state, bool is_double) {
     settings.height = HEIGHT;
     settings.background = (vec3){0.2, 0.7, 0.8};
     const struct view_camera camera = camera_at((vec3){0, 0, 0});
-    struct renderer *renderer = renderer_create(((struct fixture *)*state)->gpu, &flat, &settings);
+    struct renderer *renderer = renderer_create(gpu, &flat, &settings);
     assert_non_null(renderer);
     float *rgb = calloc(3 * PIXELS, sizeof *rgb);
     struct hit_pixel *hits = calloc(PIXELS, sizeof *hits);
@@ -366,19 +337,17 @@ static void check_log(void **state, bool is_double) {
 }
 
 static void test_log(void **state) {
-    needs_device(state);
     check_log(state, false);
 }
 
 static void test_log_double(void **state) {
-    needs_device(state);
     check_log(state, true);
 }
 
 // ---- one ray with more to do than lavapipe lets it: told, not hidden
 
 static void test_unfinished(void **state) {
-    needs_device(state);
+    device_kit_need(state, false);
     enum {
         LAYERS = 9000
     };
@@ -422,7 +391,7 @@ static struct counts count(void **state, struct kit *kit, vec3 position, enum re
 }
 
 static void test_study_small_mesh(void **state) {
-    needs_device(state);
+    device_kit_need(state, false);
     struct kit kit;
     kit_init(&kit);
     struct ir_model *model = kit_model(&kit, kit_icosphere(&kit, 3, 0));
@@ -444,7 +413,7 @@ static void test_study_small_mesh(void **state) {
 
 // A wide sloping plane, lit from above: no point of it lies in shadow.
 static void test_study_self_hits(void **state) {
-    needs_device(state);
+    device_kit_need(state, false);
     struct kit kit;
     kit_init(&kit);
     struct ir_rectangle *r = kit_rectangle(&kit);
@@ -463,7 +432,7 @@ static void test_study_self_hits(void **state) {
 
 // Between two plates that are nearer to each other than a ray's start is moved: no light from above.
 static void test_study_leaks(void **state) {
-    needs_device(state);
+    device_kit_need(state, false);
     struct kit kit;
     kit_init(&kit);
     for (int plate = 0; plate < 2; plate++) {
@@ -493,6 +462,7 @@ int main(void) {
         cmocka_unit_test(test_study_small_mesh),
         cmocka_unit_test(test_study_self_hits),
         cmocka_unit_test(test_study_leaks),
+        cmocka_unit_test(device_kit_silent),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, device_kit_setup, device_kit_teardown);
 }

@@ -4,6 +4,7 @@
 // Rays are aimed at edges and vertices of icospheres, and at spheres. A second ray leaves each hit: outward
 // from a convex body it must meet nothing, inward it must meet the body again, elsewhere.
 // Usage: test_rays [full]: `full` sends ten million rays in each precision, at all sizes and distances.
+#include "device_kit.h"
 #include "flat_kit.h"
 #include "probe_kit.h"
 #include "random.h"
@@ -19,8 +20,7 @@
 #include <cmocka.h>
 
 struct fixture {
-    struct gpu *gpu;
-    uint32_t messages;
+    struct device_kit device;
     struct probe_ray *rays;
     struct probe_hit *hits;
     uint64_t sent;
@@ -28,11 +28,7 @@ struct fixture {
 
 static int setup(void **state) {
     struct fixture *f = calloc(1, sizeof *f);
-    char error[GPU_ERROR_BYTES];
-    const struct gpu_options options = {
-        .device = getenv("GLINT_DEVICE"), .validate = true, .validation_messages = &f->messages};
-    if (gpu_create(&options, &f->gpu, error) != GPU_OK)
-        fprintf(stderr, "skipped: %s\n", error);
+    device_kit_open(&f->device);
     f->rays = calloc(PROBE_RAYS, sizeof *f->rays);
     f->hits = calloc(PROBE_RAYS, sizeof *f->hits);
     *state = f;
@@ -41,20 +37,15 @@ static int setup(void **state) {
 
 static int teardown(void **state) {
     struct fixture *f = *state;
-    gpu_destroy(f->gpu);
-    const uint32_t messages = f->messages;
     printf("%llu rays were sent\n", (unsigned long long)f->sent);
     free(f->rays);
     free(f->hits);
-    free(f);
-    return messages ? -1 : 0;
+    return device_kit_teardown(state);
 }
 
 static struct fixture *needed(void **state, bool is_double) {
-    struct fixture *f = *state;
-    if (!f->gpu || (is_double && !gpu_info(f->gpu)->has_double))
-        skip();
-    return f;
+    device_kit_need(state, is_double);
+    return *state;
 }
 
 // ---- closed bodies
@@ -140,7 +131,7 @@ static void check(struct fixture *f, const struct flat_scene *flat, const struct
     struct misses misses = {0, 0, 0, 0};
     for (uint64_t batch = 0; batch < batches; batch++) {
         // Both ways to keep groups of nodes; this tree is small enough for the short one.
-        assert_true(probe_init(&probe, f->gpu, flat, batch % 2));
+        assert_true(probe_init(&probe, f->device.gpu, flat, batch % 2));
         for (uint64_t i = 0; i < PROBE_RAYS; i++)
             choose_ray(&aim, batch * PROBE_RAYS + i, &f->rays[i]);
         assert_true(probe_trace(&probe, f->rays, PROBE_RAYS, f->hits));
@@ -254,7 +245,7 @@ static void check_inside(void **state, bool is_double, int levels, unsigned batc
     }
     kit_model(&kit, mesh);
     assert_true(kit_flatten(&kit, &flat));
-    assert_true(probe_init(&probe, f->gpu, &flat, false));
+    assert_true(probe_init(&probe, f->device.gpu, &flat, false));
     const vec3 camera = vec3_mul(vec3_sub(kit.origin, flat.origin), ldexp(1, flat.scale_exponent));
     unsigned lost = 0;
     for (uint64_t batch = 0; batch < batches; batch++) {
@@ -342,7 +333,7 @@ static void check_gap(void **state, struct gap gap) {
         r->edge_v = plates.v;
     }
     assert_true(kit_flatten(&kit, &flat));
-    assert_true(probe_init(&probe, f->gpu, &flat, true));
+    assert_true(probe_init(&probe, f->device.gpu, &flat, true));
     for (uint64_t i = 0; i < PROBE_RAYS; i++)
         f->rays[i] = choose_gap_ray(&probe, &plates, &gap, &flat, i);
     assert_true(probe_trace(&probe, f->rays, PROBE_RAYS, f->hits));
@@ -379,16 +370,13 @@ static void test_all_gaps(void **state) {
 
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mesh),
-        cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_inside),
-        cmocka_unit_test(test_gap),
+        cmocka_unit_test(test_mesh), cmocka_unit_test(test_sphere),       cmocka_unit_test(test_inside),
+        cmocka_unit_test(test_gap),  cmocka_unit_test(device_kit_silent),
     };
     const struct CMUnitTest all[] = {
-        cmocka_unit_test(test_all_meshes),
-        cmocka_unit_test(test_all_distances),
-        cmocka_unit_test(test_inside_a_million),
-        cmocka_unit_test(test_all_gaps),
+        cmocka_unit_test(test_all_meshes),       cmocka_unit_test(test_all_distances),
+        cmocka_unit_test(test_inside_a_million), cmocka_unit_test(test_all_gaps),
+        cmocka_unit_test(device_kit_silent),
     };
     if (argc > 1 && strcmp(argv[1], "full") == 0)
         return cmocka_run_group_tests_name("rays, all", all, setup, teardown);
