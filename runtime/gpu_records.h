@@ -9,122 +9,83 @@
 #include <assert.h>
 #include <stddef.h>
 
+#define GPU_MEMBER_REAL3(name, word)            double name[3];
+#define GPU_MEMBER_REAL(name, word, half)       double name;
 #define GPU_MEMBER_VECTOR(name, word)           float name[3];
 #define GPU_MEMBER_FLOAT(name, word, component) float name;
 #define GPU_MEMBER_UINT(name, word, component)  uint32_t name;
+#define GPU_MEMBERS(RECORD)                                                                                  \
+    RECORD##_FIELDS(GPU_MEMBER_REAL3, GPU_MEMBER_REAL, GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
 
 struct gpu_node {
-    NODE_FIELDS(GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
+    GPU_MEMBERS(NODE)
 };
 struct gpu_triangle {
-    TRIANGLE_FIELDS(GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
+    GPU_MEMBERS(TRIANGLE)
 };
 struct gpu_sphere {
-    SPHERE_FIELDS(GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
+    GPU_MEMBERS(SPHERE)
 };
 struct gpu_body {
-    BODY_FIELDS(GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
+    GPU_MEMBERS(BODY)
 };
 struct gpu_material {
-    MATERIAL_FIELDS(GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
+    GPU_MEMBERS(MATERIAL)
 };
 struct gpu_light {
-    LIGHT_FIELDS(GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
+    GPU_MEMBERS(LIGHT)
 };
 
 // Of scenes in double precision.
-#define GPU_MEMBER_REAL3(name, word)      double name[3];
-#define GPU_MEMBER_REAL(name, word, half) double name;
-#define GPU_MEMBERS64(FIELDS)                                                                                \
-    FIELDS(GPU_MEMBER_REAL3, GPU_MEMBER_REAL, GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
 struct gpu_triangle64 {
-    GPU_MEMBERS64(TRIANGLE64_FIELDS)
+    GPU_MEMBERS(TRIANGLE64)
 };
 struct gpu_sphere64 {
-    GPU_MEMBERS64(SPHERE64_FIELDS)
+    GPU_MEMBERS(SPHERE64)
 };
 struct gpu_normal64 {
-    GPU_MEMBERS64(NORMAL64_FIELDS)
+    GPU_MEMBERS(NORMAL64)
 };
 struct gpu_body64 {
-    GPU_MEMBERS64(BODY64_FIELDS)
+    GPU_MEMBERS(BODY64)
 };
 struct gpu_material64 {
-    GPU_MEMBERS64(MATERIAL64_FIELDS)
+    GPU_MEMBERS(MATERIAL64)
 };
 struct gpu_light64 {
-    GPU_MEMBERS64(LIGHT64_FIELDS)
+    GPU_MEMBERS(LIGHT64)
 };
 
-#define GPU_PLACE(record, name, word, component)                                                             \
-    static_assert(offsetof(struct record, name) ==                                                           \
-                      (word) * sizeof(struct gpu_word) + offsetof(struct gpu_word, component),               \
-                  #record " and records.h disagree about " #name);
-#define GPU_RECORD_IS(record, words)                                                                         \
-    static_assert(sizeof(struct record) == (words) * sizeof(struct gpu_word), #record " has another size");
-
-#define GPU_NODE_VECTOR(name, word)                GPU_PLACE(gpu_node, name, word, x)
-#define GPU_NODE_SCALAR(name, word, component)     GPU_PLACE(gpu_node, name, word, component)
-#define GPU_TRIANGLE_VECTOR(name, word)            GPU_PLACE(gpu_triangle, name, word, x)
-#define GPU_TRIANGLE_SCALAR(name, word, component) GPU_PLACE(gpu_triangle, name, word, component)
-#define GPU_SPHERE_VECTOR(name, word)              GPU_PLACE(gpu_sphere, name, word, x)
-#define GPU_SPHERE_SCALAR(name, word, component)   GPU_PLACE(gpu_sphere, name, word, component)
-#define GPU_BODY_VECTOR(name, word)                GPU_PLACE(gpu_body, name, word, x)
-#define GPU_BODY_SCALAR(name, word, component)     GPU_PLACE(gpu_body, name, word, component)
-#define GPU_MATERIAL_VECTOR(name, word)            GPU_PLACE(gpu_material, name, word, x)
-#define GPU_MATERIAL_SCALAR(name, word, component) GPU_PLACE(gpu_material, name, word, component)
-#define GPU_LIGHT_VECTOR(name, word)               GPU_PLACE(gpu_light, name, word, x)
-#define GPU_LIGHT_SCALAR(name, word, component)    GPU_PLACE(gpu_light, name, word, component)
-
-NODE_FIELDS(GPU_NODE_VECTOR, GPU_NODE_SCALAR, GPU_NODE_SCALAR)
-TRIANGLE_FIELDS(GPU_TRIANGLE_VECTOR, GPU_TRIANGLE_SCALAR, GPU_TRIANGLE_SCALAR)
-SPHERE_FIELDS(GPU_SPHERE_VECTOR, GPU_SPHERE_SCALAR, GPU_SPHERE_SCALAR)
-BODY_FIELDS(GPU_BODY_VECTOR, GPU_BODY_SCALAR, GPU_BODY_SCALAR)
-MATERIAL_FIELDS(GPU_MATERIAL_VECTOR, GPU_MATERIAL_SCALAR, GPU_MATERIAL_SCALAR)
-LIGHT_FIELDS(GPU_LIGHT_VECTOR, GPU_LIGHT_SCALAR, GPU_LIGHT_SCALAR)
-GPU_RECORD_IS(gpu_node, NODE_WORDS)
-GPU_RECORD_IS(gpu_triangle, TRIANGLE_WORDS)
-GPU_RECORD_IS(gpu_sphere, SPHERE_WORDS)
-GPU_RECORD_IS(gpu_body, BODY_WORDS)
-GPU_RECORD_IS(gpu_material, MATERIAL_WORDS)
-GPU_RECORD_IS(gpu_light, LIGHT_WORDS)
-
 // Half a word is named by its components.
-#define GPU_HALF_xy                        x
-#define GPU_HALF_zw                        z
-#define GPU_TRIANGLE64_REAL3(name, word)   GPU_PLACE(gpu_triangle64, name, word, x)
-#define GPU_TRIANGLE64_REAL(name, word, h) GPU_PLACE(gpu_triangle64, name, word, GPU_HALF_##h)
-#define GPU_TRIANGLE64_UINT(name, word, c) GPU_PLACE(gpu_triangle64, name, word, c)
-#define GPU_SPHERE64_REAL3(name, word)     GPU_PLACE(gpu_sphere64, name, word, x)
-#define GPU_SPHERE64_REAL(name, word, h)   GPU_PLACE(gpu_sphere64, name, word, GPU_HALF_##h)
-#define GPU_SPHERE64_UINT(name, word, c)   GPU_PLACE(gpu_sphere64, name, word, c)
-#define GPU_NORMAL64_REAL3(name, word)     GPU_PLACE(gpu_normal64, name, word, x)
-#define GPU_NORMAL64_REAL(name, word, h)   GPU_PLACE(gpu_normal64, name, word, GPU_HALF_##h)
-#define GPU_NORMAL64_UINT(name, word, c)   GPU_PLACE(gpu_normal64, name, word, c)
-#define GPU_BODY64_REAL3(name, word)       GPU_PLACE(gpu_body64, name, word, x)
-#define GPU_BODY64_REAL(name, word, h)     GPU_PLACE(gpu_body64, name, word, GPU_HALF_##h)
-#define GPU_BODY64_UINT(name, word, c)     GPU_PLACE(gpu_body64, name, word, c)
-#define GPU_MATERIAL64_REAL3(name, word)   GPU_PLACE(gpu_material64, name, word, x)
-#define GPU_MATERIAL64_REAL(name, word, h) GPU_PLACE(gpu_material64, name, word, GPU_HALF_##h)
-#define GPU_MATERIAL64_UINT(name, word, c) GPU_PLACE(gpu_material64, name, word, c)
-#define GPU_LIGHT64_REAL3(name, word)      GPU_PLACE(gpu_light64, name, word, x)
-#define GPU_LIGHT64_REAL(name, word, h)    GPU_PLACE(gpu_light64, name, word, GPU_HALF_##h)
-#define GPU_LIGHT64_UINT(name, word, c)    GPU_PLACE(gpu_light64, name, word, c)
-#define GPU_CHECK64(RECORD)                                                                                  \
-    RECORD##64_FIELDS(GPU_##RECORD##64_REAL3, GPU_##RECORD##64_REAL, GPU_##RECORD##64_REAL3,                 \
-                      GPU_##RECORD##64_UINT, GPU_##RECORD##64_UINT)
+#define GPU_HALF_xy x
+#define GPU_HALF_zw z
+#define GPU_PLACE(name, word, component)                                                                     \
+    static_assert(offsetof(record, name) ==                                                                  \
+                      (word) * sizeof(struct gpu_word) + offsetof(struct gpu_word, component),               \
+                  "the C struct and records.h disagree about " #name);
+#define GPU_PLACE_HALF(name, word, half) GPU_PLACE(name, word, GPU_HALF_##half)
+#define GPU_PLACE_START(name, word)      GPU_PLACE(name, word, x)
+#define GPU_CHECK(type, RECORD)                                                                              \
+    {                                                                                                        \
+        typedef struct type record;                                                                          \
+        static_assert(sizeof(record) == RECORD##_WORDS * sizeof(struct gpu_word), "another size");           \
+        RECORD##_FIELDS(GPU_PLACE_START, GPU_PLACE_HALF, GPU_PLACE_START, GPU_PLACE, GPU_PLACE)              \
+    }
 
-GPU_CHECK64(TRIANGLE)
-GPU_CHECK64(SPHERE)
-GPU_CHECK64(NORMAL)
-GPU_CHECK64(BODY)
-GPU_CHECK64(MATERIAL)
-GPU_CHECK64(LIGHT)
-GPU_RECORD_IS(gpu_triangle64, TRIANGLE64_WORDS)
-GPU_RECORD_IS(gpu_sphere64, SPHERE64_WORDS)
-GPU_RECORD_IS(gpu_normal64, NORMAL64_WORDS)
-GPU_RECORD_IS(gpu_body64, BODY64_WORDS)
-GPU_RECORD_IS(gpu_material64, MATERIAL64_WORDS)
-GPU_RECORD_IS(gpu_light64, LIGHT64_WORDS)
+// Asserts alone.
+static inline void gpu_check_records(void) {
+    GPU_CHECK(gpu_node, NODE)
+    GPU_CHECK(gpu_triangle, TRIANGLE)
+    GPU_CHECK(gpu_sphere, SPHERE)
+    GPU_CHECK(gpu_body, BODY)
+    GPU_CHECK(gpu_material, MATERIAL)
+    GPU_CHECK(gpu_light, LIGHT)
+    GPU_CHECK(gpu_triangle64, TRIANGLE64)
+    GPU_CHECK(gpu_sphere64, SPHERE64)
+    GPU_CHECK(gpu_normal64, NORMAL64)
+    GPU_CHECK(gpu_body64, BODY64)
+    GPU_CHECK(gpu_material64, MATERIAL64)
+    GPU_CHECK(gpu_light64, LIGHT64)
+}
 
 #endif

@@ -1,12 +1,12 @@
 /* The fields of the records of gpu_scene.h, word by word: one list expands to the C struct and its asserts
    (runtime/gpu_records.h) and to the GLSL struct and its loader (records.glsl). VECTOR(name, word) takes
    x, y, z of a word; FLOAT and UINT(name, word, component) one component. In the order of memory.
-   Lists with 64 in their names are of scenes in double precision: REAL3(name, word) takes a word and half of
-   the next, REAL(name, word, half) the xy or zw of a word. */
+   Lists with 64 in their names are of scenes in double precision, and they alone have doubles: REAL3(name,
+   word) takes a word and half of the next, REAL(name, word, half) the xy or zw of a word. */
 #ifndef GLINT_SHADERS_RECORDS_H
 #define GLINT_SHADERS_RECORDS_H
 
-#define NODE_FIELDS(VECTOR, FLOAT, UINT)                                                                     \
+#define NODE_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                        \
     VECTOR(corner, 0)                                                                                        \
     UINT(exponents, 0, w) /* and the mask of inner children */                                               \
     UINT(first_node, 1, x)                                                                                   \
@@ -26,7 +26,7 @@
     UINT(high_z_a, 4, z)                                                                                     \
     UINT(high_z_b, 4, w)
 
-#define TRIANGLE_FIELDS(VECTOR, FLOAT, UINT)                                                                 \
+#define TRIANGLE_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                    \
     VECTOR(v0, 0)                                                                                            \
     UINT(number, 0, w)                                                                                       \
     VECTOR(v1, 1)                                                                                            \
@@ -34,7 +34,7 @@
     VECTOR(v2, 2)                                                                                            \
     UINT(shade, 2, w) /* material and flags */
 
-#define SPHERE_FIELDS(VECTOR, FLOAT, UINT)                                                                   \
+#define SPHERE_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                      \
     VECTOR(center, 0)                                                                                        \
     FLOAT(radius, 0, w)                                                                                      \
     UINT(body, 1, x)                                                                                         \
@@ -42,7 +42,7 @@
     UINT(spare_z, 1, z)                                                                                      \
     UINT(spare_w, 1, w)
 
-#define BODY_FIELDS(VECTOR, FLOAT, UINT)                                                                     \
+#define BODY_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                        \
     UINT(first_triangle, 0, x)                                                                               \
     UINT(normal_base, 0, y)                                                                                  \
     UINT(spare_z, 0, z)                                                                                      \
@@ -54,7 +54,7 @@
     VECTOR(row_z, 3)                                                                                         \
     FLOAT(offset_z, 3, w)
 
-#define MATERIAL_FIELDS(VECTOR, FLOAT, UINT)                                                                 \
+#define MATERIAL_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                    \
     FLOAT(weight_diffuse, 0, x)                                                                              \
     FLOAT(weight_specular, 0, y)                                                                             \
     FLOAT(weight_reflection, 0, z)                                                                           \
@@ -66,7 +66,7 @@
     VECTOR(second, 3) /* colour of the checker */                                                            \
     FLOAT(cell, 3, w)
 
-#define LIGHT_FIELDS(VECTOR, FLOAT, UINT)                                                                    \
+#define LIGHT_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                       \
     VECTOR(place, 0)                                                                                         \
     UINT(flags, 0, w)                                                                                        \
     VECTOR(emission, 1)                                                                                      \

@@ -164,10 +164,10 @@ struct all_records64 {
     struct gpu_node triangle_node, sphere_node;
     struct gpu_triangle64 triangle;
     struct gpu_sphere64 sphere;
-    struct gpu_normal64 normal;
     struct gpu_body64 body;
     struct gpu_material64 material;
     struct gpu_light64 light;
+    struct gpu_normal64 normal;
 };
 
 // The fields of the structs in order, each filled up to four components, as shaders/layout.comp writes them.
@@ -185,7 +185,7 @@ static void list_field(struct listing *listing, const void *field, size_t bytes)
 #define LIST(name, ...) list_field(listing, &record->name, sizeof record->name);
 #define LISTER(function, type, FIELDS)                                                                       \
     static void function(struct listing *listing, const struct type *record) {                               \
-        FIELDS(LIST, LIST, LIST)                                                                             \
+        FIELDS(LIST, LIST, LIST, LIST, LIST)                                                                 \
     }
 LISTER(list_node, gpu_node, NODE_FIELDS)
 LISTER(list_triangle, gpu_triangle, TRIANGLE_FIELDS)
@@ -193,27 +193,22 @@ LISTER(list_sphere, gpu_sphere, SPHERE_FIELDS)
 LISTER(list_body, gpu_body, BODY_FIELDS)
 LISTER(list_material, gpu_material, MATERIAL_FIELDS)
 LISTER(list_light, gpu_light, LIGHT_FIELDS)
-
-#define LISTER64(function, type, FIELDS)                                                                     \
-    static void function(struct listing *listing, const struct type *record) {                               \
-        FIELDS(LIST, LIST, LIST, LIST, LIST)                                                                 \
-    }
-LISTER64(list_triangle64, gpu_triangle64, TRIANGLE64_FIELDS)
-LISTER64(list_sphere64, gpu_sphere64, SPHERE64_FIELDS)
-LISTER64(list_normal64, gpu_normal64, NORMAL64_FIELDS)
-LISTER64(list_body64, gpu_body64, BODY64_FIELDS)
-LISTER64(list_material64, gpu_material64, MATERIAL64_FIELDS)
-LISTER64(list_light64, gpu_light64, LIGHT64_FIELDS)
+LISTER(list_triangle64, gpu_triangle64, TRIANGLE64_FIELDS)
+LISTER(list_sphere64, gpu_sphere64, SPHERE64_FIELDS)
+LISTER(list_normal64, gpu_normal64, NORMAL64_FIELDS)
+LISTER(list_body64, gpu_body64, BODY64_FIELDS)
+LISTER(list_material64, gpu_material64, MATERIAL64_FIELDS)
+LISTER(list_light64, gpu_light64, LIGHT64_FIELDS)
 
 static void list_all64(struct listing *listing, const struct all_records64 *all) {
     list_node(listing, &all->triangle_node);
     list_node(listing, &all->sphere_node);
     list_triangle64(listing, &all->triangle);
     list_sphere64(listing, &all->sphere);
-    list_normal64(listing, &all->normal);
     list_body64(listing, &all->body);
     list_material64(listing, &all->material);
     list_light64(listing, &all->light);
+    list_normal64(listing, &all->normal);
 }
 
 static void list_all(struct listing *listing, const struct all_records *all) {
@@ -235,37 +230,32 @@ static void bind(struct gpu *gpu, struct gpu_program_source *source, uint32_t bi
     source->buffers[binding] = buffer;
 }
 
+// The kernel over the records of an all_records or an all_records64.
+#define LAYOUT_SOURCE(gpu, kernel, all, source)                                                              \
+    do {                                                                                                     \
+        const bool texels = gpu_fetches_texels(gpu);                                                         \
+        (source)->spirv = texels ? kernel##_texels : kernel##_storage;                                       \
+        (source)->spirv_words = texels ? kernel##_texels_words : kernel##_storage_words;                     \
+        bind(gpu, source, BINDING_TRIANGLE_NODES, &(all)->triangle_node, sizeof(all)->triangle_node);        \
+        bind(gpu, source, BINDING_SPHERE_NODES, &(all)->sphere_node, sizeof(all)->sphere_node);              \
+        bind(gpu, source, BINDING_TRIANGLES, &(all)->triangle, sizeof(all)->triangle);                       \
+        bind(gpu, source, BINDING_SPHERES, &(all)->sphere, sizeof(all)->sphere);                             \
+        bind(gpu, source, BINDING_BODIES, &(all)->body, sizeof(all)->body);                                  \
+        bind(gpu, source, BINDING_MATERIALS, &(all)->material, sizeof(all)->material);                       \
+        bind(gpu, source, BINDING_LIGHTS, &(all)->light, sizeof(all)->light);                                \
+        bind(gpu, source, BINDING_NORMALS, &(all)->normal, sizeof(all)->normal);                             \
+        bind(gpu, source, BINDING_OUTPUT, NULL, sizeof(struct listing));                                     \
+    } while (false)
+
 static struct gpu_program_source layout_source(struct gpu *gpu, const struct all_records *all) {
-    const bool texels = gpu_fetches_texels(gpu);
-    struct gpu_program_source source = {.spirv = texels ? kernel_layout_texels : kernel_layout_storage,
-                                        .spirv_words = texels ? kernel_layout_texels_words
-                                                              : kernel_layout_storage_words};
-    bind(gpu, &source, BINDING_TRIANGLE_NODES, &all->triangle_node, sizeof all->triangle_node);
-    bind(gpu, &source, BINDING_SPHERE_NODES, &all->sphere_node, sizeof all->sphere_node);
-    bind(gpu, &source, BINDING_TRIANGLES, &all->triangle, sizeof all->triangle);
-    bind(gpu, &source, BINDING_SPHERES, &all->sphere, sizeof all->sphere);
-    bind(gpu, &source, BINDING_BODIES, &all->body, sizeof all->body);
-    bind(gpu, &source, BINDING_MATERIALS, &all->material, sizeof all->material);
-    bind(gpu, &source, BINDING_LIGHTS, &all->light, sizeof all->light);
-    bind(gpu, &source, BINDING_NORMALS, &all->normal, sizeof all->normal);
-    bind(gpu, &source, BINDING_OUTPUT, NULL, sizeof(struct listing));
+    struct gpu_program_source source = {.spirv = NULL};
+    LAYOUT_SOURCE(gpu, kernel_layout, all, &source);
     return source;
 }
 
 static struct gpu_program_source layout64_source(struct gpu *gpu, const struct all_records64 *all) {
-    const bool texels = gpu_fetches_texels(gpu);
-    struct gpu_program_source source = {.spirv = texels ? kernel_layout64_texels : kernel_layout64_storage,
-                                        .spirv_words = texels ? kernel_layout64_texels_words
-                                                              : kernel_layout64_storage_words};
-    bind(gpu, &source, BINDING_TRIANGLE_NODES, &all->triangle_node, sizeof all->triangle_node);
-    bind(gpu, &source, BINDING_SPHERE_NODES, &all->sphere_node, sizeof all->sphere_node);
-    bind(gpu, &source, BINDING_TRIANGLES, &all->triangle, sizeof all->triangle);
-    bind(gpu, &source, BINDING_SPHERES, &all->sphere, sizeof all->sphere);
-    bind(gpu, &source, BINDING_NORMALS, &all->normal, sizeof all->normal);
-    bind(gpu, &source, BINDING_BODIES, &all->body, sizeof all->body);
-    bind(gpu, &source, BINDING_MATERIALS, &all->material, sizeof all->material);
-    bind(gpu, &source, BINDING_LIGHTS, &all->light, sizeof all->light);
-    bind(gpu, &source, BINDING_OUTPUT, NULL, sizeof(struct listing));
+    struct gpu_program_source source = {.spirv = NULL};
+    LAYOUT_SOURCE(gpu, kernel_layout64, all, &source);
     return source;
 }
 
