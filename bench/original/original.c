@@ -140,14 +140,13 @@ void original_destroy(struct original *o) {
 }
 
 static void unpack(const struct original *o, float *rgb, uint32_t *cut) {
-    const struct render_settings *settings = &o->renderer->settings;
+    const uint32_t width = o->renderer->settings.width;
     *cut = 0;
     for (uint32_t slot = 0; slot < o->tiles * TILE_PIXELS; slot++) {
         uint32_t x, y;
-        renderer_pixel(o->renderer, 0, slot, &x, &y);
-        if (x >= settings->width || y >= settings->height)
+        if (!renderer_pixel(o->renderer, 0, slot, &x, &y))
             continue;
-        memcpy(rgb + ((size_t)y * settings->width + x) * 3, &o->slots[slot], 3 * sizeof *rgb);
+        memcpy(rgb + ((size_t)y * width + x) * 3, &o->slots[slot], 3 * sizeof *rgb);
         *cut += o->slots[slot].w != PIXEL_WHOLE;
     }
 }

@@ -1,4 +1,4 @@
-// What makes no difference: frames repeated, trees of other shapes, workgroups of other sizes, runs of tiles.
+// What makes no difference: frames repeated, trees of other shapes, workgroups of other sizes.
 // The picture has the same bytes, in single and in double precision.
 //
 // Usage: test_same REPEATS SCENE...

@@ -45,8 +45,10 @@ static uint32_t levels(uint32_t depth) {
 bool probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed) {
     const struct frame_block frame = {.sphere_count = flat->sphere_count};
     const uint32_t constants[CONSTANT_COUNT] = {
-        flat->features & (FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_SMOOTH), levels(flat->triangle_depth),
-        levels(flat->sphere_depth), packed};
+        [CONSTANT_FEATURES] = flat->features & (FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_SMOOTH),
+        [CONSTANT_TRIANGLE_STACK] = levels(flat->triangle_depth),
+        [CONSTANT_SPHERE_STACK] = levels(flat->sphere_depth),
+        [CONSTANT_PACKED_GROUPS] = packed};
     const uint32_t *const code[2][2] = {{kernel_probe_storage, kernel_probe_texels},
                                         {kernel_probe64_storage, kernel_probe64_texels}};
     const size_t words[2][2] = {{kernel_probe_storage_words, kernel_probe_texels_words},
