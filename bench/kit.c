@@ -1,5 +1,6 @@
 #include "bench/kit.h"
 
+#include "app/precision.h"
 #include "core/clock.h"
 #include "core/diag_text.h"
 
@@ -46,13 +47,7 @@ bool bench_scene_open(struct bench_scene *scene, const char *path, const char *a
     session_load(session, &options, scene->store);
     if (session->state != SESSION_LOADED || session->sink.errors || !session_view(session, 0, &scene->view))
         return report(session);
-    struct flat_input input = {.scene = session->scene,
-                               .origin_places = &session->origin,
-                               .assets = &session->assets,
-                               .view = &scene->view,
-                               .origin = session_origin(session, &scene->view),
-                               .limits = &session->options.limits,
-                               .sink = &session->sink};
+    struct flat_input input = precision_input(session, &scene->view);
     if (!flatten(&input, &scene->flat))
         return report(session);
     input.is_double = true;

@@ -2,6 +2,7 @@
 // The picture has the same bytes, in single and in double precision.
 //
 // Usage: test_same REPEATS SCENE...
+#include "app/precision.h"
 #include "tests/pictures/picture_kit.h"
 
 #include <stdio.h>
@@ -47,15 +48,9 @@ static bool render(struct bench *b, const struct variant *variant, bool is_doubl
     struct flat_scene flat;
     struct render_statistics statistics;
     struct image image;
-    const struct flat_input input = {.scene = b->session.scene,
-                                     .origin_places = &b->session.origin,
-                                     .assets = &b->session.assets,
-                                     .view = &b->view,
-                                     .origin = session_origin(&b->session, &b->view),
-                                     .is_double = is_double,
-                                     .method = variant->method,
-                                     .limits = &b->session.options.limits,
-                                     .sink = &b->session.sink};
+    struct flat_input input = precision_input(&b->session, &b->view);
+    input.is_double = is_double;
+    input.method = variant->method;
     if (!flatten(&input, &flat))
         return false;
     struct render_settings settings = render_settings_of(b->session.scene, &flat, input.limits);

@@ -23,13 +23,7 @@ static void begin(struct fixture *f, const char *path, const char *set) {
     assert_int_equal(session_load(&f->session, &options, f->store), SESSION_LOADED);
     assert_int_equal(f->session.sink.errors, 0);
     assert_true(session_view(&f->session, 0, &f->view));
-    f->input = (struct flat_input){.scene = f->session.scene,
-                                   .origin_places = &f->session.origin,
-                                   .assets = &f->session.assets,
-                                   .view = &f->view,
-                                   .origin = session_origin(&f->session, &f->view),
-                                   .limits = &f->session.options.limits,
-                                   .sink = &f->session.sink};
+    f->input = precision_input(&f->session, &f->view);
 }
 
 static void end(struct fixture *f) {
