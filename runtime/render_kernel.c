@@ -17,16 +17,16 @@ struct kernel_code {
             &kernel_##name##_storage_words                                                                   \
     }
 
-static const struct kernel_code exact_code[RENDERER_KERNELS] = {
-    [RENDERER_TRACE] = KERNEL(trace), [RENDERER_HITS] = KERNEL(hits), [RENDERER_LOG] = KERNEL(log)};
-static const struct kernel_code double_code[RENDERER_KERNELS] = {
-    [RENDERER_TRACE] = KERNEL(trace64), [RENDERER_HITS] = KERNEL(hits64), [RENDERER_LOG] = KERNEL(log64)};
-static const struct kernel_code study_code[RENDERER_KERNELS] = {[RENDERER_TRACE] = KERNEL(trace_study),
-                                                                [RENDERER_HITS] = KERNEL(hits_study),
-                                                                [RENDERER_LOG] = KERNEL(log_study)};
-static const struct kernel_code fused_code[RENDERER_KERNELS] = {[RENDERER_TRACE] = KERNEL(trace_fused),
-                                                                [RENDERER_HITS] = KERNEL(hits_fused),
-                                                                [RENDERER_LOG] = KERNEL(log_fused)};
+// Those of one way, which ends their names.
+#define KERNELS(way)                                                                                         \
+    {                                                                                                        \
+        [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
+        [RENDERER_LOG] = KERNEL(log##way)                                                                    \
+    }
+static const struct kernel_code exact_code[RENDERER_KERNELS] = KERNELS();
+static const struct kernel_code double_code[RENDERER_KERNELS] = KERNELS(64);
+static const struct kernel_code study_code[RENDERER_KERNELS] = KERNELS(_study);
+static const struct kernel_code fused_code[RENDERER_KERNELS] = KERNELS(_fused);
 
 static const struct study {
     const char *name;
