@@ -64,7 +64,7 @@ static int take_frames(struct render_job *job) {
         if (i == 0)
             job->stats.first_frame_seconds = times[i];
         if (job->session.sink.errors > errors)
-            break; // a faulty picture: more frames would tell the same
+            frames = i + 1; // a faulty picture: more frames would tell the same
     }
     qsort(times, (size_t)frames, sizeof *times, compare_doubles);
     job->stats.frames = frames;

@@ -211,6 +211,7 @@ if "$glint" devices >devices.txt 2>/dev/null; then
     expect "the picture is written all the same" 0 'PNG' '' head -c 4 faulty.png
     sed 's/0\.9/1.0e6/' mirrors.yaml >endless.yaml
     expect "not a number" 1 - 'endless.yaml:[78]:5: error: [0-9]+ pixels got a value that is infinite or not a number.*\[E706\]' "$glint" render endless.yaml -o endless.pfm
+    expect "and not taken again" 1 - 'median frame [0-9.]+ ms of 1, from' "$glint" render endless.yaml -o endless.pfm --repeat 3
     expect "that picture too" 0 'PF' '' head -c 2 endless.pfm
     # A long render, ended from outside: its own exit code, a message, and the old file.
     printf 'precious' >kept.png
