@@ -158,8 +158,8 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
     if (t->pairs_left_out)
         strbuf_format(out, "%u less promising pairs were left out\n", t->pairs_left_out);
     if (t->too_costly)
-        strbuf_format(out, "%u settings that would cost more than 64 times the file's own were left out\n",
-                      t->too_costly);
+        strbuf_format(out, "%u settings that would cost more than %d times the file's own were left out\n",
+                      t->too_costly, TRADEOFF_COST_MOST);
     if (t->cut_short)
         strbuf_cstr(out, "the budget cut the study short: further pairs or rounds might change the choice\n");
     if (t->options.budget_s > 0 && t->seconds > t->options.budget_s)

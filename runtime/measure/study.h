@@ -53,8 +53,10 @@ double study_seconds(const struct study *s);
 
 // ---- study_device.c: all give TRADEOFF_DONE or what went wrong
 
+// Fills not_finite.
 enum tradeoff_status device_picture(struct study *s, struct row *row, float *rgb);
-enum tradeoff_status device_count(struct study *s, struct row *row, uint64_t most_cost, bool *too_much);
+// Fills work.
+enum tradeoff_status device_count(struct study *s, struct row *row);
 // Brings an idle GPU to its clock, before the first device_time.
 enum tradeoff_status device_wake(struct study *s);
 // Median of some frames, in milliseconds of the device's clock.

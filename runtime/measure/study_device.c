@@ -112,14 +112,13 @@ enum tradeoff_status device_picture(struct study *s, struct row *row, float *rgb
 }
 
 // Rays, nodes and items of one sample a pixel, times the samples: what counts the same for all samples needs
-// no further frames. Ends early where the work is more than `most_cost` allows.
-enum tradeoff_status device_count(struct study *s, struct row *row, uint64_t most_cost, bool *too_much) {
+// no further frames.
+enum tradeoff_status device_count(struct study *s, struct row *row) {
     struct setting one = row->setting;
     struct renderer *renderer;
     struct render_rays rays;
     const struct render_progress progress = {report_frame, s};
     one.samples = 1;
-    *too_much = false;
     enum tradeoff_status status = set(s, &one, &renderer);
     if (status == TRADEOFF_DONE)
         status = status_of(renderer_count(renderer, &s->input->view->camera, &progress, &rays));
@@ -131,7 +130,6 @@ enum tradeoff_status device_count(struct study *s, struct row *row, uint64_t mos
                               .triangles = n * rays.items};
     row->work.deepest = rays.deepest;
     row->work.cost = (double)(row->work.nodes + row->work.triangles) * (row->setting.is_double ? 2 : 1);
-    *too_much = most_cost && row->work.cost > (double)most_cost;
     return TRADEOFF_DONE;
 }
 

@@ -27,8 +27,6 @@ enum {
 static const double REFERENCE_RAYS = 4e5;
 // Share of the budget for the truth; shares after which no further rows, and no pairs, are begun.
 static const double TRUTH_SHARE = 0.3, ROWS_SHARE = 0.7, PAIRS_SHARE = 0.6;
-// Settings that cost more than this many times the file's own are not tried further.
-static const double COST_MOST = 64;
 
 double tradeoff_error(enum metric metric, double value) {
     return metric_infos[metric].higher_is_better ? -value : value;
@@ -85,14 +83,12 @@ static void drop_row(struct tradeoff *t) {
 // Work, picture and errors of a new row. A row that costs far too much is taken out again.
 static enum tradeoff_status try_row(struct study *s, const struct row *planned) {
     struct row *row = add_row(s->out, planned);
-    const double most = s->out->count > 1 ? COST_MOST * s->out->rows[0].work.cost : 0;
-    bool too_much = false;
     if (!row)
         return TRADEOFF_MEMORY;
     if (!study_step(s, row->name))
         return TRADEOFF_CANCELLED;
-    enum tradeoff_status status = device_count(s, row, (uint64_t)most, &too_much);
-    if (status == TRADEOFF_DONE && too_much) {
+    enum tradeoff_status status = device_count(s, row);
+    if (status == TRADEOFF_DONE && row->work.cost > TRADEOFF_COST_MOST * s->out->rows[0].work.cost) {
         drop_row(s->out);
         s->out->too_costly++;
         return status;
@@ -188,8 +184,7 @@ static enum tradeoff_status run_rows(struct study *s) {
         return TRADEOFF_MEMORY;
     // The file's own settings are counted first: how deep paths go decides the ladders.
     struct row own = {.setting = s->base};
-    bool too_much;
-    enum tradeoff_status status = device_count(s, &own, 0, &too_much);
+    enum tradeoff_status status = device_count(s, &own);
     if (status == TRADEOFF_DONE)
         status = make_truth(s, own.work.rays);
     const struct plan_input input = {.base = s->base,

@@ -14,6 +14,10 @@
 #include "runtime/reference/cache.h"
 #include "runtime/render.h"
 
+enum {
+    TRADEOFF_COST_MOST = 64, // settings that cost more than this many times the file's own are left out
+};
+
 enum knob {
     KNOB_MAX_DEPTH,
     KNOB_MIN_WEIGHT,
