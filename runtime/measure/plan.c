@@ -9,7 +9,7 @@
 
 // ---- what a setting is called
 
-static bool differs(const struct setting *a, const struct setting *b, enum knob knob) {
+bool plan_differs(const struct setting *a, const struct setting *b, enum knob knob) {
     switch (knob) {
     case KNOB_MAX_DEPTH:
         return a->max_depth != b->max_depth;
@@ -72,7 +72,7 @@ void plan_describe(struct row *row, const struct setting *base) {
     row->name[0] = '\0';
     for (int knob = 0; knob < KNOB_COUNT; knob++) {
         char part[64];
-        if (!differs(&row->setting, base, (enum knob)knob))
+        if (!plan_differs(&row->setting, base, (enum knob)knob))
             continue;
         row->knobs |= 1u << knob;
         name_part(&row->setting, (enum knob)knob, part, sizeof part);

@@ -37,6 +37,8 @@ uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, 
 // and is set to the middle of it; all else stays. false: no memory.
 bool plan_order_times(struct row *rows, uint32_t count);
 
+// Whether the knob stands otherwise.
+bool plan_differs(const struct setting *a, const struct setting *b, enum knob knob);
 // Fills knobs, choosable and name from the setting.
 void plan_describe(struct row *row, const struct setting *base);
 

@@ -49,7 +49,8 @@ struct study {
 bool study_step(struct study *s, const char *what);
 // Passes the reference's progress on.
 struct reference_progress study_reference_progress(struct study *s);
-double study_seconds(const struct study *s);
+// Whether the row asks for the file's own rays, and differs at most in how they are computed.
+bool study_traces_as_file(const struct row *row);
 
 // ---- study_device.c: all give TRADEOFF_DONE or what went wrong
 
@@ -69,6 +70,8 @@ void device_close(struct study *s);
 enum tradeoff_status errors_make_truth(struct study *s);
 // Fills value, not_finite and the thumbnails from the row's picture.
 enum tradeoff_status errors_measure(struct study *s, struct row *row);
+// Of pixel `at` of `to`: the two of `from` around its middle, and how far it is from the first.
+double errors_around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]);
 // Displayed values at the file's size, bilinear.
 void errors_scale_up(const float *in, uint32_t width, uint32_t height, float *out, uint32_t to_width,
                      uint32_t to_height);

@@ -1,6 +1,7 @@
 #include "runtime/measure/study.h"
 
 #include "core/clock.h"
+#include "runtime/measure/plan.h"
 #include "shaders/features.h"
 
 #include <stdlib.h>
@@ -46,11 +47,10 @@ static enum tradeoff_status open_precision(struct study *s, bool is_double) {
 }
 
 static bool is_equal(const struct setting *a, const struct setting *b) {
-    return a->width == b->width && a->height == b->height && a->samples == b->samples &&
-           a->max_depth == b->max_depth &&
-           !(a->min_weight < b->min_weight || a->min_weight > b->min_weight) &&
-           a->is_double == b->is_double && a->shadows == b->shadows && a->general == b->general &&
-           a->study == b->study;
+    bool equal = true;
+    for (int knob = 0; knob < KNOB_COUNT; knob++)
+        equal &= !plan_differs(a, b, (enum knob)knob);
+    return equal;
 }
 
 // The renderer of the setting's precision, set to it.

@@ -43,8 +43,7 @@ struct scaling {
     uint32_t to_width, to_height;
 };
 
-// The two places around a coordinate, and how far it is from the first.
-static double around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]) {
+double errors_around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]) {
     const double x = fmin(fmax((at + 0.5) * from / to - 0.5, 0), from - 1);
     places[0] = (uint32_t)x;
     places[1] = places[0] + 1 < from ? places[0] + 1 : places[0];
@@ -55,9 +54,9 @@ static void scale_rows(void *context, size_t begin, size_t end) {
     const struct scaling *j = context;
     for (size_t y = begin; y < end; y++) {
         uint32_t ys[2], xs[2];
-        const double v = around((uint32_t)y, j->height, j->to_height, ys);
+        const double v = errors_around((uint32_t)y, j->height, j->to_height, ys);
         for (uint32_t x = 0; x < j->to_width; x++) {
-            const double u = around(x, j->width, j->to_width, xs);
+            const double u = errors_around(x, j->width, j->to_width, xs);
             for (size_t k = 0; k < 3; k++) {
                 const float *a = j->in + 3 * (size_t)ys[0] * j->width + k;
                 const float *b = j->in + 3 * (size_t)ys[1] * j->width + k;

@@ -55,13 +55,6 @@ static void pixel_value(const struct probing *p, uint32_t x, uint32_t y, float o
     measure_display(out, 1, p->s->display, out);
 }
 
-static double corner(double at, uint32_t from, uint32_t to, uint32_t places[2]) {
-    const double x = fmin(fmax((at + 0.5) * from / to - 0.5, 0), from - 1);
-    places[0] = (uint32_t)x;
-    places[1] = places[0] + 1 < from ? places[0] + 1 : places[0];
-    return x - places[0];
-}
-
 // As errors_scale_up does it for whole pictures.
 static void probe_value(const struct probing *p, uint32_t x, uint32_t y, float out[3]) {
     const struct setting *base = &p->s->base;
@@ -71,7 +64,7 @@ static void probe_value(const struct probing *p, uint32_t x, uint32_t y, float o
         pixel_value(p, x, y, out);
         return;
     }
-    const double u = corner(x, width, base->width, xs), v = corner(y, height, base->height, ys);
+    const double u = errors_around(x, width, base->width, xs), v = errors_around(y, height, base->height, ys);
     double sum[3] = {0};
     for (int i = 0; i < CORNERS; i++) {
         const double weight = (i & 1 ? u : 1 - u) * (i & 2 ? v : 1 - v);
@@ -130,11 +123,11 @@ static const float *probe(struct study *s, struct probe_set wanted) {
     return values;
 }
 
-static double mean_difference(const float *a, const float *b, uint32_t count) {
+static double mean_difference(const float *a, const float *b, size_t count) {
     double sum = 0;
-    for (size_t i = 0; i < (size_t)3 * count; i++)
+    for (size_t i = 0; i < 3 * count; i++)
         sum += fabs((double)a[i] - (double)b[i]);
-    return sum / (3.0 * count);
+    return sum / (3 * (double)count);
 }
 
 // What differs only in how it is computed is rare and far apart: it is measured over the whole picture.
@@ -159,10 +152,7 @@ static enum tradeoff_status whole_numeric(struct study *s, double *numeric) {
         measure_display(shown, pixels, s->display, shown);
         s->as_file = shown;
     }
-    double sum = 0;
-    for (size_t i = 0; i < 3 * pixels; i++)
-        sum += fabs((double)s->shown[i] - (double)s->as_file[i]);
-    *numeric = sum / (3 * (double)pixels);
+    *numeric = mean_difference(s->shown, s->as_file, pixels);
     return TRADEOFF_DONE;
 }
 
@@ -197,8 +187,7 @@ enum tradeoff_status parts_measure(struct study *s, struct row *row) {
                                       .resolution = mean_difference(samples, truth, count)};
     s->out->part_pixels = count;
     free(own);
-    const uint32_t how = 1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY;
-    return row->knobs & ~how ? TRADEOFF_DONE : whole_numeric(s, &row->parts.numeric);
+    return study_traces_as_file(row) ? whole_numeric(s, &row->parts.numeric) : TRADEOFF_DONE;
 }
 
 void parts_close(struct study *s) {

@@ -32,7 +32,7 @@ double tradeoff_error(enum metric metric, double value) {
     return metric_infos[metric].higher_is_better ? -value : value;
 }
 
-double study_seconds(const struct study *s) {
+static double seconds_since_begun(const struct study *s) {
     return clock_seconds() - s->begun;
 }
 
@@ -53,9 +53,13 @@ struct reference_progress study_reference_progress(struct study *s) {
     return (struct reference_progress){report_reference, s};
 }
 
+bool study_traces_as_file(const struct row *row) {
+    return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY));
+}
+
 static bool is_over(const struct study *s, double share) {
     const double budget = s->out->options.budget_s;
-    return budget > 0 && study_seconds(s) > share * budget;
+    return budget > 0 && seconds_since_begun(s) > share * budget;
 }
 
 // ---- rows
@@ -98,8 +102,7 @@ static enum tradeoff_status try_row(struct study *s, const struct row *planned) 
     if (status != TRADEOFF_DONE || s->out->options.quick)
         return status;
     status = parts_measure(s, row);
-    const uint32_t how = 1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY;
-    if (status == TRADEOFF_DONE && !(row->knobs & ~how))
+    if (status == TRADEOFF_DONE && study_traces_as_file(row))
         status = hits_measure(s, row);
     return status;
 }
@@ -190,7 +193,7 @@ static enum tradeoff_status run_rows(struct study *s) {
     const struct plan_input input = {.base = s->base,
                                      .bounces = bounces(s),
                                      .deepest = own.work.deepest,
-                                     .knows_double = s->out->knows_double,
+                                     .knows_double = gpu_info(s->input->gpu)->has_double,
                                      .has_triangles = s->flat[s->base.is_double].triangle_count > 0,
                                      .quick = s->out->options.quick,
                                      .most_samples = s->out->truth_samples / 2};
@@ -253,7 +256,6 @@ static void fill_times(struct tradeoff *t, double *times) {
             own[r] = fabs(own[r] - row->time_ms);
         qsort(own, t->rounds, sizeof *own, compare_doubles);
         row->noise_ms = 1.2533 * 1.4826 * quantile(own, t->rounds, 0.5) / sqrt(t->rounds);
-        row->rounds = t->rounds;
     }
 }
 
@@ -281,9 +283,9 @@ static enum tradeoff_status run_times(struct study *s) {
     double *times = malloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
     enum tradeoff_status status = times ? device_wake(s) : TRADEOFF_MEMORY;
     const uint32_t rounds = t->options.quick ? ROUNDS_QUICK : ROUNDS_MOST;
-    const double begun = study_seconds(s), budget = t->options.budget_s;
+    const double begun = seconds_since_begun(s), budget = t->options.budget_s;
     while (status == TRADEOFF_DONE && t->rounds < rounds) {
-        const double now = study_seconds(s);
+        const double now = seconds_since_begun(s);
         if (t->rounds >= ROUNDS_QUIET && is_quiet(t, times))
             break;
         if (budget > 0 && t->rounds >= ROUNDS_LEAST && now + (now - begun) / t->rounds > budget) {
@@ -310,31 +312,32 @@ static enum tradeoff_status run_times(struct study *s) {
 
 static enum tradeoff_status choose(struct tradeoff *t) {
     const enum metric metric = t->options.metric;
-    t->choices = malloc(t->count * sizeof *t->choices);
-    if (!t->choices)
+    struct choice_row *choices = malloc(t->count * sizeof *choices);
+    if (!choices)
         return TRADEOFF_MEMORY;
     for (uint32_t i = 0; i < t->count; i++) {
         const struct row *row = &t->rows[i];
         // A picture with pixels that are no number is never chosen.
-        t->choices[i] = (struct choice_row){.time_ms = row->time_ms,
-                                            .noise_ms = row->noise_ms,
-                                            .work = row->work.cost,
-                                            .error = tradeoff_error(metric, row->value[metric]),
-                                            .choosable = row->choosable && !row->not_finite};
+        choices[i] = (struct choice_row){.time_ms = row->time_ms,
+                                         .noise_ms = row->noise_ms,
+                                         .work = row->work.cost,
+                                         .error = tradeoff_error(metric, row->value[metric]),
+                                         .choosable = row->choosable && !row->not_finite};
     }
-    t->noise = choice_classify(t->choices, t->count);
+    t->noise = choice_classify(choices, t->count);
     for (uint32_t i = 0; i < t->count; i++) {
-        t->rows[i].time_class = t->choices[i].time_class;
-        t->rows[i].rank = t->choices[i].rank;
-        t->rows[i].on_front = t->choices[i].on_front;
+        t->rows[i].time_class = choices[i].time_class;
+        t->rows[i].rank = choices[i].rank;
+        t->rows[i].on_front = choices[i].on_front;
     }
-    t->knee = choice_knee(t->choices, t->count);
+    t->knee = choice_knee(choices, t->count);
     t->cheapest = t->best_within = (struct choice){CHOICE_NONE, CHOICE_NONE, false, CHOICE_NONE, 0};
     if (!isnan(t->options.max_error))
         t->cheapest =
-            choice_cheapest(t->choices, t->count, t->noise, tradeoff_error(metric, t->options.max_error));
+            choice_cheapest(choices, t->count, t->noise, tradeoff_error(metric, t->options.max_error));
     if (!isnan(t->options.max_time_ms))
-        t->best_within = choice_best_within(t->choices, t->count, t->noise, t->options.max_time_ms);
+        t->best_within = choice_best_within(choices, t->count, t->noise, t->options.max_time_ms);
+    free(choices);
     return TRADEOFF_DONE;
 }
 
@@ -353,16 +356,14 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
     s->step = "the scene";
     s->display = (struct image_display){input->image->tone, input->image->transfer};
     s->base = file_setting(input);
-    const struct gpu_device_info *info = gpu_info(input->gpu);
-    study->knows_double = info->has_double;
-    snprintf(study->device, sizeof study->device, "%s", info->name);
+    snprintf(study->device, sizeof study->device, "%s", gpu_info(input->gpu)->name);
     open_reference(s);
     enum tradeoff_status status = run_rows(s);
     if (status == TRADEOFF_DONE)
         status = run_times(s);
     if (status == TRADEOFF_DONE)
         status = choose(study);
-    study->seconds = study_seconds(s);
+    study->seconds = seconds_since_begun(s);
     device_close(s);
     parts_close(s);
     for (int i = 0; i < 2; i++) {
@@ -382,6 +383,5 @@ void tradeoff_finish(struct tradeoff *study) {
     while (study->count)
         drop_row(study);
     free(study->rows);
-    free(study->choices);
     *study = (struct tradeoff){0};
 }

@@ -74,9 +74,8 @@ struct row {
     struct work work;
     double time_ms;                             // median, ordered by plan_order_times
     double time_low_ms, time_high_ms, noise_ms; // quartiles, standard error of the median
-    uint32_t rounds;
-    double value[METRIC_COUNT]; // as measure_result
-    uint64_t not_finite;        // pixels the device reported
+    double value[METRIC_COUNT];                 // as measure_result
+    uint64_t not_finite;                        // pixels the device reported
     struct error_parts parts;
     struct hit_errors hits;
     struct strbuf thumbnail, difference; // PNG; empty where not wanted
@@ -134,11 +133,9 @@ struct tradeoff {
     bool cut_short;          // by the budget
     uint32_t part_pixels;    // at which the parts were measured
     double seconds, reference_seconds;
-    bool knows_double; // the device can
     char device[256];
-    struct choice_row *choices; // a row each
-    double noise;               // share of a time below which two are equal
-    uint32_t knee;              // CHOICE_NONE: none
+    double noise;  // share of a time below which two are equal
+    uint32_t knee; // CHOICE_NONE: none
     struct choice cheapest, best_within;
 };
 
