@@ -3,7 +3,7 @@
 #include "cli/progress.h"
 #include "cli/study.h"
 
-#include <string.h>
+#include <math.h>
 
 static int write_html(struct cli *cli, const struct tradeoff *study) {
     struct strbuf page;
@@ -33,7 +33,8 @@ static int print_report(struct cli *cli, const struct tradeoff *study, int kind)
 }
 
 static bool nothing_fits(const struct tradeoff *study) {
-    return study->cheapest.nearest != CHOICE_NONE || study->best_within.nearest != CHOICE_NONE;
+    return (!isnan(study->options.max_error) && study->cheapest.row == CHOICE_NONE) ||
+           (!isnan(study->options.max_time_ms) && study->best_within.row == CHOICE_NONE);
 }
 
 static int study_and_report(struct cli *cli, struct session *session, const struct tradeoff_options *options,

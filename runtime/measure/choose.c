@@ -181,7 +181,7 @@ typedef uint32_t preference(const struct search *s, uint32_t without);
 
 static struct choice choose(const struct search *fitting, const struct search *others, preference *prefer,
                             preference *come_near) {
-    struct choice choice = {.nearest = CHOICE_NONE};
+    struct choice choice = {.nearest = CHOICE_NONE, .short_by = (double)NAN};
     choice.row = prefer(fitting, CHOICE_NONE);
     const uint32_t nearest = come_near(others, CHOICE_NONE);
     if (choice.row == CHOICE_NONE) {

@@ -40,8 +40,8 @@ struct choice {
     uint32_t row;       // CHOICE_NONE: nothing fits
     uint32_t runner_up; // the next that fits; where none does, the next that nearly fits; CHOICE_NONE: none
     bool runner_up_fits;
-    uint32_t nearest; // where nothing fits: what comes nearest
-    double short_by;  // and how much it lacks: error, or milliseconds
+    uint32_t nearest; // where nothing fits: what comes nearest; CHOICE_NONE: no row is choosable
+    double short_by;  // and how much it lacks: error, or milliseconds; NaN: there is none
 };
 
 // The cheapest row with error <= bound. `noise` is what choice_classify gave.

@@ -331,7 +331,7 @@ static enum tradeoff_status choose(struct tradeoff *t) {
         t->rows[i].on_front = choices[i].on_front;
     }
     t->knee = choice_knee(choices, t->count);
-    t->cheapest = t->best_within = (struct choice){CHOICE_NONE, CHOICE_NONE, false, CHOICE_NONE, 0};
+    t->cheapest = t->best_within = (struct choice){CHOICE_NONE, CHOICE_NONE, false, CHOICE_NONE, (double)NAN};
     if (!isnan(t->options.max_error))
         t->cheapest =
             choice_cheapest(choices, t->count, t->noise, tradeoff_error(metric, t->options.max_error));

@@ -45,6 +45,9 @@ if [ -z "$mode" ]; then
     expect "its file's own row" 0 '^  0 .*as the file says' - cat study.txt
     expect "the report is one file" 0 '<svg.*time against error' - cat report.html
     expect "nothing fits" 1 '"misses_by"' - "$glint" tradeoff small.yaml -q --max-error mae=0 --budget 1 --format json
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\377\377\377\377' >sky.hdr
+    printf 'glint: 1\nimage: {width: 16, height: 16}\ncamera: {}\nbackground: {image: sky.hdr, intensity: 4}\n' >endless.yaml
+    expect "no picture of numbers fits" 1 '"nearest": null,' - "$glint" tradeoff endless.yaml -q --max-error mae=1 --budget 1 --format json
     expect "render says so too" 1 - 'E807' "$glint" render small.yaml -q --max-time 0.000001 --budget 1 -o none.png
     expect "and writes nothing" 1 - - test -e none.png
     expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.5 --budget 1 -o chosen.png
