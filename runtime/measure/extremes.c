@@ -1,8 +1,8 @@
 #include "runtime/measure/extremes_parts.h"
 
 #include "core/clock.h"
+#include "runtime/measure/hit_errors.h"
 #include "runtime/measure/metrics.h"
-#include "runtime/measure/study.h"
 #include "runtime/precision.h"
 #include "runtime/reference/reference.h"
 #include "runtime/render.h"
@@ -35,6 +35,10 @@ const struct extreme_metric_info extreme_metrics[EXTREME_METRICS] = {
     [EXTREME_OFF] = {"off", "share of pixels off by more than 1/255", EXTREME_SHARE},
     [EXTREME_ERROR] = {"error", "mean absolute difference", EXTREME_SMALL},
     [EXTREME_CHANGED] = {"changed", "share of pixels off against the picture at rest", EXTREME_SHARE},
+};
+
+enum {
+    MOVES_AND_SCALES = 1u << EXTREME_MOVE | 1u << EXTREME_SCALE, // measured against the picture at rest too
 };
 
 struct run {
@@ -126,55 +130,52 @@ static enum extremes_status trace_reference(struct run *run, const struct varian
 
 // ---- comparing
 
-static bool is_off(const float *a, const float *b) {
-    for (int i = 0; i < 3; i++)
-        if (fabsf(a[i] - b[i]) > 1.0f / 255)
-            return true;
-    return false;
+// Displayed pictures. false: no memory.
+static bool measure(const struct run *run, const float *picture, const float *reference,
+                    struct measure_result *result) {
+    struct measure_options options = measure_options_default();
+    options.metrics = 1u << METRIC_MAE | 1u << METRIC_SHARE;
+    return measure_pictures(run->input->width, run->input->height, picture, reference, &options, result, NULL,
+                            NULL);
 }
 
-static double share_off(const struct run *run, const float *a, const float *b) {
+static bool compare_pictures(struct run *run, const struct variant *v, struct extreme_cell *cell) {
     const size_t count = pixels_of(run);
-    size_t off = 0;
-    for (size_t i = 0; i < count; i++)
-        off += is_off(a + 3 * i, b + 3 * i);
-    return (double)off / (double)count;
-}
-
-static void compare_pictures(struct run *run, const struct variant *v, struct extreme_cell *cell) {
-    const size_t count = pixels_of(run);
+    struct measure_result result;
     uint64_t not_finite = 0;
-    double sum = 0;
     for (size_t i = 0; i < count; i++)
         not_finite += image_is_marked(run->rgb + 3 * i);
     for (size_t i = 0; i < 3 * count; i++)
         run->shown[1][i] = (float)run->exact[i];
     measure_display(run->shown[1], count, display_of(&v->scene), run->shown[1]);
     measure_display(run->rgb, count, display_of(&v->scene), run->shown[0]);
-    for (size_t i = 0; i < 3 * count; i++)
-        sum += fabs((double)run->shown[0][i] - (double)run->shown[1][i]);
+    if (!measure(run, run->shown[0], run->shown[1], &result))
+        return false;
     cell->measured[EXTREME_NOT_FINITE] = (double)not_finite;
-    cell->measured[EXTREME_OFF] = share_off(run, run->shown[0], run->shown[1]);
-    cell->measured[EXTREME_ERROR] = sum / (3 * (double)count);
-    if (run->rest && (cell->axis == EXTREME_MOVE || cell->axis == EXTREME_SCALE))
-        cell->measured[EXTREME_CHANGED] = share_off(run, run->shown[0], run->rest);
+    cell->measured[EXTREME_OFF] = result.value[METRIC_SHARE];
+    cell->measured[EXTREME_ERROR] = result.value[METRIC_MAE];
+    if (!run->rest || !(MOVES_AND_SCALES >> cell->axis & 1))
+        return true;
+    if (!measure(run, run->shown[0], run->rest, &result))
+        return false;
+    cell->measured[EXTREME_CHANGED] = result.value[METRIC_SHARE];
+    return true;
 }
 
-static void compare_hits(struct run *run, const struct variant *v, struct extreme_cell *cell) {
-    const struct ir_scene *scene = &v->scene;
-    const uint32_t count = ir_body_count(scene), first_model = count - scene->models.count;
-    bool *closed = ARENA_ARRAY(v->arena, bool, (size_t)count + 1);
-    for (uint32_t i = 0; i < count; i++) {
-        const struct mesh *mesh = i < first_model ? NULL : v->assets.models[i - first_model].mesh;
-        closed[i] = i < scene->spheres.count || (mesh && mesh->closed);
-    }
+static bool compare_hits(struct run *run, const struct variant *v, struct extreme_cell *cell) {
+    uint32_t count;
+    bool *closed = hits_closed_bodies(&v->scene, &v->assets, &count);
     struct hit_errors errors;
+    if (!closed)
+        return false;
     hits_compare(v->width, v->height, run->hits[0], run->hits[1], closed, count, &errors);
+    free(closed);
     cell->measured[EXTREME_WRONG] = errors.wrong_outside;
     cell->measured[EXTREME_BAND] = errors.wrong_inside;
     cell->measured[EXTREME_SELF_HITS] = errors.acne;
     cell->measured[EXTREME_LEAKS] = errors.leaks;
     cell->measured[EXTREME_HOLES] = errors.holes;
+    return true;
 }
 
 static void judge(const struct extremes_input *input, struct extreme_cell *cell) {
@@ -204,8 +205,8 @@ static enum extremes_status measure_cell(struct run *run, struct extreme_cell *c
     status = trace_reference(run, &v, true);
     if (status != EXTREMES_DONE)
         return status;
-    compare_hits(run, &v, cell);
-    compare_pictures(run, &v, cell);
+    if (!compare_hits(run, &v, cell) || !compare_pictures(run, &v, cell))
+        return EXTREMES_MEMORY;
     judge(run->input, cell);
     return EXTREMES_DONE;
 }
@@ -298,9 +299,8 @@ static bool make_pictures(struct run *run) {
 
 static enum extremes_status measure_cells(struct run *run, struct extremes *out,
                                           const struct extremes_progress *progress) {
-    const uint32_t compared = 1u << EXTREME_MOVE | 1u << EXTREME_SCALE;
     enum extremes_status status = make_base(run);
-    if (status == EXTREMES_DONE && (run->input->axes & compared))
+    if (status == EXTREMES_DONE && (run->input->axes & MOVES_AND_SCALES))
         status = make_rest(run);
     for (uint32_t i = 0; status == EXTREMES_DONE && i < out->count; i++) {
         struct extreme_cell *cell = &out->cells[i];

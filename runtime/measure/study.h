@@ -86,9 +86,5 @@ void parts_close(struct study *s);
 
 // Fills hits.
 enum tradeoff_status hits_measure(struct study *s, struct row *row);
-// The comparison itself: pure. `closed` tells of each body whether nothing can be seen through it.
-void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *device,
-                  const struct hit_pixel *reference, const bool *closed, uint32_t bodies,
-                  struct hit_errors *out);
 
 #endif

@@ -10,6 +10,7 @@
 #define GLINT_RUNTIME_MEASURE_TRADEOFF_H
 
 #include "runtime/measure/choose.h"
+#include "runtime/measure/hit_errors.h"
 #include "runtime/measure/metrics.h"
 #include "runtime/reference/cache.h"
 #include "runtime/render.h"
@@ -43,18 +44,6 @@ struct work {
     uint64_t rays, nodes, triangles; // rays of all kinds; nodes and triangles (spheres too) tested
     uint32_t deepest;                // level of a ray that was traced
     double cost;                     // nodes + triangles, doubled in double precision; see docs/accuracy.md
-};
-
-// What the first rays met against what they meet in the reference, per million pixels.
-struct hit_errors {
-    bool known;
-    double wrong_inside, wrong_outside; // of the silhouettes' band, one pixel wide
-    double band;                        // pixels that lie in it
-    double acne;         // dark although nothing is between hit and light, away from shadows' edges
-    double leaks;        // lit although something is between
-    double shadow_edge;  // lit differently in the band around shadows' edges
-    double holes;        // the background seen where the reference meets a closed body, outside the band
-    double wrong_second; // another body met by the mirrored or the refracted ray, outside the band
 };
 
 // Mean absolute errors of what comes one behind the other; the signed errors add up to that of the picture.
