@@ -69,7 +69,7 @@ static bool offer_display(struct comparison *c) {
     for (int i = 0; i < 4; i++) {
         const struct image_display display = {.tone = i & 1 ? IR_TONE_NORMALIZE : IR_TONE_CLIP,
                                               .transfer = i & 2 ? IR_TRANSFER_SRGB : IR_TRANSFER_NONE};
-        measure_display(c->linear, (size_t)p[0].width * p[0].height, display, shown);
+        image_to_displayed(c->linear, (size_t)p[0].width * p[0].height, display, shown);
         if (!measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &options, &result, NULL, NULL))
             return false;
         if (result.value[METRIC_MAE] < best) {
@@ -112,8 +112,8 @@ static int choose_space(struct comparison *c) {
             return no_memory(c);
     for (int i = 0; i < 2; i++)
         if (c->options.space == MEASURE_DISPLAYED && c->pictures[i].space == MEASURE_LINEAR)
-            measure_display(c->pictures[i].rgb, (size_t)c->pictures[i].width * c->pictures[i].height,
-                            m->display, c->pictures[i].rgb);
+            image_to_displayed(c->pictures[i].rgb, (size_t)c->pictures[i].width * c->pictures[i].height,
+                               m->display, c->pictures[i].rgb);
     return CLI_OK;
 }
 

@@ -1,4 +1,4 @@
-// One writer a format. Private to runtime/image.
+// One writer a format: for image_encode, and for the maps and thumbnails of runtime/measure.
 #ifndef GLINT_RUNTIME_IMAGE_ENCODE_PARTS_H
 #define GLINT_RUNTIME_IMAGE_ENCODE_PARTS_H
 

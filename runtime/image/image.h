@@ -1,6 +1,6 @@
 // A finished picture: linear floats, from there to displayed bytes and files in memory.
 //
-// image_to_bytes is the one place where tone, transfer and rounding to 8 bits happen (LANGUAGE "Output"):
+// tone.c is the one place where tone, transfer and rounding to 8 bits happen (LANGUAGE "Output"):
 // mean -> tone -> transfer -> floor(255 * clamp(c) + 1/2). The float formats hold the mean before them.
 // A pixel with a channel that is no number is a fault of the renderer, and marked: magenta in bytes (whatever
 // tone and transfer) and in HDR; PFM keeps it.
@@ -42,6 +42,10 @@ static inline bool image_is_marked(const float rgb[3]) {
 
 // `bytes` has room for 3 * width * height.
 void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes);
+// The same before rounding: 0..1, what is no number 0. `displayed` may be `linear`.
+void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
+// 0..1 to 0..1.
+double image_srgb_encode(double linear);
 
 // By the ending of a path; false: none that is written.
 bool image_format_of_path(str path, enum image_format *format);

@@ -9,7 +9,7 @@ enum {
 };
 
 // IEC 61966-2-1.
-static double srgb_encode(double linear) {
+double image_srgb_encode(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
 }
 
@@ -23,7 +23,7 @@ struct thresholds {
 };
 
 static bool reaches(float linear, int byte) {
-    return round_to_byte(srgb_encode(linear)) >= byte;
+    return round_to_byte(image_srgb_encode(linear)) >= byte;
 }
 
 static void thresholds_make(struct thresholds *t) {
@@ -68,6 +68,11 @@ static float tone_divisor(const float c[3], unsigned tone) {
     return largest;
 }
 
+static float toned(float c, float divisor) {
+    // Also where both are infinite: the largest channel is full.
+    return divisor > 1 && c == divisor ? 1 : clamped(c / divisor);
+}
+
 static void convert_pixels(void *context, size_t begin, size_t end) {
     const struct conversion *job = context;
     for (size_t i = begin; i < end; i++) {
@@ -78,8 +83,7 @@ static void convert_pixels(void *context, size_t begin, size_t end) {
         }
         float divisor = tone_divisor(c, job->display.tone);
         for (int k = 0; k < 3; k++) {
-            // Also where both are infinite: the largest channel is full.
-            float value = divisor > 1 && c[k] == divisor ? 1 : clamped(c[k] / divisor);
+            float value = toned(c[k], divisor);
             job->bytes[3 * i + (size_t)k] = job->display.transfer == IR_TRANSFER_SRGB
                                                 ? threshold_byte(&job->thresholds, value)
                                                 : round_to_byte(value);
@@ -93,4 +97,28 @@ void image_to_bytes(const struct image *image, struct image_display display, uin
     if (display.transfer == IR_TRANSFER_SRGB)
         thresholds_make(&job.thresholds);
     parallel_for((size_t)image->width * image->height, PIECE_PIXELS, convert_pixels, &job);
+}
+
+struct displaying {
+    const float *linear;
+    float *displayed;
+    struct image_display display;
+};
+
+static void display_pixels(void *context, size_t begin, size_t end) {
+    const struct displaying *job = context;
+    for (size_t i = begin; i < end; i++) {
+        const float *c = job->linear + 3 * i;
+        const float divisor = tone_divisor(c, job->display.tone);
+        for (size_t k = 0; k < 3; k++) {
+            const float value = toned(c[k], divisor);
+            job->displayed[3 * i + k] =
+                job->display.transfer == IR_TRANSFER_SRGB ? (float)image_srgb_encode((double)value) : value;
+        }
+    }
+}
+
+void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed) {
+    struct displaying job = {linear, displayed, display};
+    parallel_for(pixels, PIECE_PIXELS, display_pixels, &job);
 }

@@ -147,8 +147,8 @@ static bool compare_pictures(struct run *run, const struct variant *v, struct ex
         not_finite += image_is_marked(run->rgb + 3 * i);
     for (size_t i = 0; i < 3 * count; i++)
         run->shown[1][i] = (float)run->exact[i];
-    measure_display(run->shown[1], count, display_of(&v->scene), run->shown[1]);
-    measure_display(run->rgb, count, display_of(&v->scene), run->shown[0]);
+    image_to_displayed(run->shown[1], count, display_of(&v->scene), run->shown[1]);
+    image_to_displayed(run->rgb, count, display_of(&v->scene), run->shown[0]);
     if (!measure(run, run->shown[0], run->shown[1], &result))
         return false;
     cell->measured[EXTREME_NOT_FINITE] = (double)not_finite;
@@ -279,7 +279,7 @@ static enum extremes_status make_rest(struct run *run) {
     float *rest = malloc(3 * pixels_of(run) * sizeof *rest);
     if (!rest)
         return EXTREMES_MEMORY;
-    measure_display(run->rgb, pixels_of(run), display_of(run->input->scene), rest);
+    image_to_displayed(run->rgb, pixels_of(run), display_of(run->input->scene), rest);
     run->rest = rest;
     return EXTREMES_DONE;
 }

@@ -1,6 +1,7 @@
 #include "runtime/measure/heatmap.h"
 
 #include "runtime/image/encode_parts.h"
+#include "runtime/image/image.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +11,7 @@ static const double PI = 3.14159265358979323846;
 
 static uint8_t srgb_byte(double linear) {
     const double c = linear > 0 ? (linear < 1 ? linear : 1) : 0;
-    const double displayed = c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
-    return (uint8_t)floor(255 * displayed + 0.5);
+    return (uint8_t)floor(255 * image_srgb_encode(c) + 0.5);
 }
 
 // OKLab to linear sRGB, the matrices of its definition.

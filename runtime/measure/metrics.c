@@ -34,42 +34,6 @@ struct measure_options measure_options_default(void) {
     return (struct measure_options){.threshold = 1.0 / 255, .pixels_per_degree = 67};
 }
 
-// ---- display
-
-static double srgb_encode(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-}
-
-struct displaying {
-    const float *linear;
-    float *displayed;
-    struct image_display display;
-};
-
-static void display_pixels(void *context, size_t begin, size_t end) {
-    const struct displaying *d = context;
-    for (size_t i = begin; i < end; i++) {
-        const float *c = d->linear + 3 * i;
-        float divisor = 1;
-        for (int k = 0; d->display.tone == IR_TONE_NORMALIZE && k < 3; k++)
-            divisor = c[k] > divisor ? c[k] : divisor;
-        for (size_t k = 0; k < 3; k++) {
-            const float value = divisor > 1 && c[k] == divisor ? 1 : c[k] / divisor;
-            const float clamped = value > 0 ? (value < 1 ? value : 1) : 0;
-            d->displayed[3 * i + k] =
-                d->display.transfer == IR_TRANSFER_SRGB ? (float)srgb_encode((double)clamped) : clamped;
-        }
-    }
-}
-
-void measure_display(const float *linear, size_t pixels, struct image_display display, float *displayed) {
-    enum {
-        PIECE = 16384
-    };
-    struct displaying context = {linear, displayed, display};
-    parallel_for(pixels, PIECE, display_pixels, &context);
-}
-
 // ---- sums over pixels
 
 struct row_sums {
@@ -181,7 +145,7 @@ static float *displayed_copy(const float *picture, size_t pixels, const struct m
     // Displayed values only lose what is no number.
     const struct image_display none = {IR_TONE_CLIP, IR_TRANSFER_NONE};
     if (copy)
-        measure_display(picture, pixels, options->space == MEASURE_LINEAR ? options->display : none, copy);
+        image_to_displayed(picture, pixels, options->space == MEASURE_LINEAR ? options->display : none, copy);
     return copy;
 }
 

@@ -73,8 +73,4 @@ bool measure_pictures(uint32_t width, uint32_t height, const float *picture, con
                       const struct measure_options *options, struct measure_result *result, float *difference,
                       float *flip);
 
-// `count` floats of linear colours (three a pixel) as displayed values in 0..1, not rounded to bytes: tone,
-// clamping, transfer. What is no number becomes 0.
-void measure_display(const float *linear, size_t pixels, struct image_display display, float *displayed);
-
 #endif

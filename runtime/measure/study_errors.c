@@ -26,7 +26,7 @@ enum tradeoff_status errors_make_truth(struct study *s) {
     if (result == REFERENCE_DONE) {
         for (size_t i = 0; i < values; i++)
             s->truth[i] = (float)rgb[i];
-        measure_display(s->truth, values / 3, s->display, s->truth);
+        image_to_displayed(s->truth, values / 3, s->display, s->truth);
     }
     free(rgb);
     return result == REFERENCE_DONE        ? TRADEOFF_DONE
@@ -166,7 +166,7 @@ enum tradeoff_status errors_measure(struct study *s, struct row *row) {
     if (status != TRADEOFF_DONE)
         return status;
     // NaN is what the device reports; it is shown as black, as the writers do.
-    measure_display(s->picture, (size_t)setting->width * setting->height, s->display, s->picture);
+    image_to_displayed(s->picture, (size_t)setting->width * setting->height, s->display, s->picture);
     errors_scale_up(s->picture, setting->width, setting->height, s->shown, s->base.width, s->base.height);
     return measure(s, row) ? TRADEOFF_DONE : TRADEOFF_MEMORY;
 }

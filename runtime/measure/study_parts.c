@@ -52,7 +52,7 @@ static void pixel_value(const struct probing *p, uint32_t x, uint32_t y, float o
     }
     for (int k = 0; k < 3; k++)
         out[k] = (float)(sum[k] / p->settings.samples);
-    measure_display(out, 1, p->s->display, out);
+    image_to_displayed(out, 1, p->s->display, out);
 }
 
 // As errors_scale_up does it for whole pictures.
@@ -149,7 +149,7 @@ static enum tradeoff_status whole_numeric(struct study *s, double *numeric) {
             free(shown);
             return result == REFERENCE_CANCELLED ? TRADEOFF_CANCELLED : TRADEOFF_MEMORY;
         }
-        measure_display(shown, pixels, s->display, shown);
+        image_to_displayed(shown, pixels, s->display, shown);
         s->as_file = shown;
     }
     *numeric = mean_difference(s->shown, s->as_file, pixels);

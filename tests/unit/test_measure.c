@@ -201,13 +201,13 @@ static void test_spaces(void **state) {
     near(p->result.value[METRIC_MAE], 2, 0);
     near(p->result.value[METRIC_FLIP], 0, 0);
     float linear[6] = {0.5f, -1, 2, NAN, 0.0031308f, 8}, shown[6];
-    measure_display(linear, 2, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_SRGB}, shown);
+    image_to_displayed(linear, 2, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_SRGB}, shown);
     near((double)shown[0], 0.735357, 1e-6);
     near((double)shown[1], 0, 0);
     near((double)shown[2], 1, 0);
     near((double)shown[3], 0, 0);
     near((double)shown[4], 12.92 * 0.0031308, 1e-6);
-    measure_display(linear, 2, (struct image_display){IR_TONE_NORMALIZE, IR_TRANSFER_NONE}, shown);
+    image_to_displayed(linear, 2, (struct image_display){IR_TONE_NORMALIZE, IR_TRANSFER_NONE}, shown);
     near((double)shown[0], 0.25, 0);
     near((double)shown[2], 1, 0);
     free(p);
@@ -225,7 +225,7 @@ static void test_display_rounds_to_bytes(void **state) {
             const struct image_display display = {tone, transfer};
             struct image image = {64, 1, linear};
             image_to_bytes(&image, display, bytes);
-            measure_display(linear, 64, display, shown);
+            image_to_displayed(linear, 64, display, shown);
             for (size_t i = 0; i < 3 * 64; i++)
                 assert_true(fabs(255 * (double)shown[i] - bytes[i]) <= 0.5 + 1e-4);
         }
