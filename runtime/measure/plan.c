@@ -106,10 +106,11 @@ static void add_depths(struct planning *p) {
     static const uint32_t ladder[] = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
     struct setting s = p->input->base;
     // Beyond the deepest level that is reached nothing changes, unless the file's own limit is what stops it.
-    const uint32_t most = p->input->deepest < s.max_depth ? p->input->deepest : 2 * s.max_depth;
+    const bool stopped = p->input->deepest >= s.max_depth;
+    const uint32_t twice = s.max_depth ? 2 * s.max_depth : 1;
     for (size_t i = 0; i < sizeof ladder / sizeof *ladder; i++) {
         s.max_depth = ladder[i];
-        if (s.max_depth < most || (s.max_depth <= 64 && most > p->input->deepest && s.max_depth <= most))
+        if (stopped ? s.max_depth <= twice : s.max_depth < p->input->deepest)
             add(p, s);
     }
 }

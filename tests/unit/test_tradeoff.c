@@ -89,46 +89,48 @@ static void test_studies_take_no_part(void **state) {
 
 // ---- the answers
 
+// Error falls with time, but for the third.
+static double four_rows(struct choice_row rows[4]) {
+    rows[0] = row(10, 0.01, 1, 0.3);
+    rows[1] = row(20, 0.01, 2, 0.05);
+    rows[2] = row(30, 0.01, 3, 0.06);
+    rows[3] = row(40, 0.01, 4, 0.01);
+    return choice_classify(rows, 4);
+}
+
+static void chooses(struct choice c, uint32_t wanted, uint32_t runner_up, bool runner_up_fits) {
+    assert_int_equal(c.row, wanted);
+    assert_int_equal(c.nearest, CHOICE_NONE);
+    assert_int_equal(c.runner_up, runner_up);
+    assert_int_equal(c.runner_up_fits, runner_up_fits);
+}
+
+static void misses(struct choice c, uint32_t nearest, double by, uint32_t runner_up) {
+    assert_int_equal(c.row, CHOICE_NONE);
+    assert_int_equal(c.nearest, nearest);
+    assert_true(fabs(c.short_by - by) < 1e-12);
+    assert_int_equal(c.runner_up, runner_up);
+    assert_false(c.runner_up_fits);
+}
+
 static void test_cheapest(void **state) {
     (void)state;
-    struct choice_row rows[] = {row(10, 0.01, 1, 0.3), row(20, 0.01, 2, 0.05), row(30, 0.01, 3, 0.06),
-                                row(40, 0.01, 4, 0.01)};
-    const double noise = choice_classify(rows, 4);
-    struct choice c = choice_cheapest(rows, 4, noise, 0.1);
-    assert_int_equal(c.row, 1);
-    assert_int_equal(c.runner_up, 2);
-    assert_true(c.runner_up_fits);
-    c = choice_cheapest(rows, 4, noise, 0.05); // exactly met
-    assert_int_equal(c.row, 1);
-    assert_int_equal(c.runner_up, 3);
-    c = choice_cheapest(rows, 4, noise, 0.02); // one fits: the runner-up comes nearest in error
-    assert_int_equal(c.row, 3);
-    assert_int_equal(c.runner_up, 1);
-    assert_false(c.runner_up_fits);
-    c = choice_cheapest(rows, 4, noise, 0.004);
-    assert_int_equal(c.row, CHOICE_NONE);
-    assert_int_equal(c.nearest, 3);
-    assert_int_equal(c.runner_up, 1);
-    assert_true(fabs(c.short_by - 0.006) < 1e-12);
+    struct choice_row rows[4];
+    const double noise = four_rows(rows);
+    chooses(choice_cheapest(rows, 4, noise, 0.1), 1, 2, true);
+    chooses(choice_cheapest(rows, 4, noise, 0.05), 1, 3, true); // exactly met
+    // One fits: the runner-up comes nearest in error.
+    chooses(choice_cheapest(rows, 4, noise, 0.02), 3, 1, false);
+    misses(choice_cheapest(rows, 4, noise, 0.004), 3, 0.006, 1);
 }
 
 static void test_best_within(void **state) {
     (void)state;
-    struct choice_row rows[] = {row(10, 0.01, 1, 0.3), row(20, 0.01, 2, 0.05), row(30, 0.01, 3, 0.06),
-                                row(40, 0.01, 4, 0.01)};
-    const double noise = choice_classify(rows, 4);
-    struct choice c = choice_best_within(rows, 4, noise, 35);
-    assert_int_equal(c.row, 1);
-    assert_int_equal(c.runner_up, 2);
-    c = choice_best_within(rows, 4, noise, 12);
-    assert_int_equal(c.row, 0);
-    assert_int_equal(c.runner_up, 1);
-    assert_false(c.runner_up_fits);
-    c = choice_best_within(rows, 4, noise, 8);
-    assert_int_equal(c.row, CHOICE_NONE);
-    assert_int_equal(c.nearest, 0);
-    assert_int_equal(c.runner_up, 1);
-    assert_true(fabs(c.short_by - 2) < 1e-12);
+    struct choice_row rows[4];
+    const double noise = four_rows(rows);
+    chooses(choice_best_within(rows, 4, noise, 35), 1, 2, true);
+    chooses(choice_best_within(rows, 4, noise, 12), 0, 1, false);
+    misses(choice_best_within(rows, 4, noise, 8), 0, 2, 1);
 }
 
 static void test_not_a_number(void **state) {
@@ -227,6 +229,10 @@ static void test_plan_single(void **state) {
     input.base.max_depth = input.deepest = 4;
     count = plan_single(&input, rows);
     assert_int_equal(count_of(rows, count, KNOB_MAX_DEPTH), 6); // 0 1 2 3, 6 8
+    input.base.max_depth = input.deepest = 0;
+    count = plan_single(&input, rows);
+    assert_int_equal(count_of(rows, count, KNOB_MAX_DEPTH), 1);
+    assert_string_equal(rows[1].name, "max_depth 1");
     input.bounces = false;
     input.quick = true;
     input.knows_double = false;
