@@ -130,6 +130,8 @@ const char *cli_default_picture(struct cli *cli, const char *scene);
 int cli_print(struct cli *cli, str text);
 // Writes a whole file (or "-"); CLI_OK or CLI_FILE with an error printed.
 int cli_write(struct cli *cli, const char *path, str bytes);
+// The same of what was made in memory, `what` by name: where memory ended, CLI_SCENE with an error printed.
+int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made, const char *what);
 // Whether the output can be made at all, which is better known before long work than behind it: CLI_OK, or
 // CLI_FILE with an error printed. NULL: there is none.
 int cli_try_output(struct cli *cli, const char *path);

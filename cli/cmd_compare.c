@@ -132,11 +132,7 @@ static int write_heatmap(struct comparison *c) {
     strbuf_init(&png);
     heatmap_png(c->pictures[0].width, c->pictures[0].height, c->map,
                 m->heatmap_flip ? HEATMAP_LINEAR : HEATMAP_LOGARITHMIC, &png);
-    int status = CLI_SCENE;
-    if (png.failed)
-        cli_error(c->cli, DIAG_OUT_OF_MEMORY, m->heatmap, NULL, "not enough memory for the heat map");
-    else
-        status = cli_write(c->cli, m->heatmap, strbuf_view(&png));
+    const int status = cli_write_made(c->cli, m->heatmap, &png, "the heat map");
     strbuf_finish(&png);
     return status;
 }
@@ -156,7 +152,7 @@ static int report(struct comparison *c, int format) {
         compare_json(&report, &text);
     else
         compare_text(&report, &text);
-    int status = cli_print(cli, strbuf_view(&text));
+    const int status = cli_write_made(cli, "-", &text, "the report");
     strbuf_finish(&text);
     return status == CLI_OK && !compare_keeps_bounds(&report) ? CLI_SCENE : status;
 }

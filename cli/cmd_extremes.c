@@ -144,10 +144,10 @@ static int tell(struct job *job, enum kind kind) {
                                            .thresholds = job->bounds_path};
     struct strbuf text;
     strbuf_init(&text);
-    int status = CLI_OK;
-    if (cli->options.output) {
+    int status = cli_report(cli, &job->session, !cli->options.quiet);
+    if (status == CLI_OK && cli->options.output) {
         extremes_html(&report, &text);
-        status = cli_write(cli, cli->options.output, strbuf_view(&text));
+        status = cli_write_made(cli, cli->options.output, &text, "the report");
     }
     strbuf_clear(&text);
     if (kind == KIND_JSON)
@@ -155,7 +155,7 @@ static int tell(struct job *job, enum kind kind) {
     else
         extremes_text(&report, &text);
     if (status == CLI_OK && !(cli->options.output && strcmp(cli->options.output, "-") == 0))
-        status = cli_print(cli, strbuf_view(&text));
+        status = cli_write_made(cli, "-", &text, "the report");
     strbuf_finish(&text);
     return status == CLI_OK && job->extremes.broken ? CLI_SCENE : status;
 }
@@ -164,7 +164,7 @@ static int run_scene(struct job *job, enum kind kind) {
     struct cli *cli = job->cli;
     const uint32_t camera = session_camera(&job->session, cli->options.camera);
     if (camera == IR_NO_INDEX)
-        return cli_report(cli, &job->session, true);
+        return cli_report(cli, &job->session, !cli->options.quiet);
     int status = cli_try_output(cli, cli->options.output);
     if (status == CLI_OK)
         status = cli_open_device(cli, &job->gpu);
@@ -208,7 +208,7 @@ int cmd_extremes(struct cli *cli) {
     const struct session_options options = cli_session_options(cli, cli->operands[0]);
     session_load(&job.session, &options, store);
     const bool good = job.session.state == SESSION_LOADED && job.session.sink.errors == 0;
-    status = good ? run_scene(&job, (enum kind)kind) : cli_report(cli, &job.session, true);
+    status = good ? run_scene(&job, (enum kind)kind) : cli_report(cli, &job.session, !cli->options.quiet);
     extremes_finish(&job.extremes);
     gpu_destroy(job.gpu);
     session_finish(&job.session);

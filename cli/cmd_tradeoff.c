@@ -9,11 +9,7 @@ static int write_html(struct cli *cli, const struct tradeoff *study) {
     struct strbuf page;
     strbuf_init(&page);
     tradeoff_html(study, cli->operands[0], &page);
-    int status = CLI_SCENE;
-    if (page.failed)
-        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->options.output, NULL, "not enough memory for the report");
-    else
-        status = cli_write(cli, cli->options.output, strbuf_view(&page));
+    const int status = cli_write_made(cli, cli->options.output, &page, "the report");
     strbuf_finish(&page);
     return status;
 }
@@ -27,7 +23,7 @@ static int print_report(struct cli *cli, const struct tradeoff *study, int kind)
         tradeoff_json(study, cli->operands[0], &text);
     else
         tradeoff_csv(study, &text);
-    const int status = cli_print(cli, strbuf_view(&text));
+    const int status = cli_write_made(cli, "-", &text, "the report");
     strbuf_finish(&text);
     return status;
 }

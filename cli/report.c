@@ -134,6 +134,14 @@ int cli_try_output(struct cli *cli, const char *path) {
     return CLI_FILE;
 }
 
+int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made, const char *what) {
+    if (!made->failed)
+        return cli_write(cli, path, strbuf_view(made));
+    cli_error(cli, DIAG_OUT_OF_MEMORY, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
+              "not enough memory for %s", what);
+    return CLI_SCENE;
+}
+
 int cli_print(struct cli *cli, str text) {
     return cli_write(cli, "-", text);
 }

@@ -53,6 +53,9 @@ expect "a missing scene" 3 - 'error' "$glint" extremes missing.yaml
 # Told before the work, which would take longer than this.
 expect "a report that cannot be written" 3 - 'E802' timeout 20 "$glint" extremes "$source/scenes/showcase.glint.yaml" -o nowhere/r.html
 expect "gaps" 0 '^5 cells, 0 left out, 0 broken' - "$glint" extremes scene.yaml --axis gap --size 24x16 -q
+printf 'mtllib none.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >tri.obj
+{ cat scene.yaml && echo 'models: [{mesh: tri.obj}]'; } >mesh.yaml
+expect "what the scene is warned of" 0 '^5 cells' 'tri.obj:1:1: warning: .*\[W601\]' "$glint" extremes mesh.yaml --axis gap --size 24x16 -q
 expect "an axis that the scene lacks" 0 'left out: no material refracts' - "$glint" extremes scene.yaml --axis index --size 24x16 -q
 printf 'all:\n  - {error: 100}\nscale:\n  - {to: 1.0e-6, error: 0}\n' >strict.yaml
 expect "a broken bound" 1 '^  scaled by 1e-06: mean absolute difference .*, at most 0' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --thresholds strict.yaml
