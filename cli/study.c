@@ -33,9 +33,8 @@ static bool read_max_error(struct cli *cli, struct tradeoff_options *options) {
                       "write METRIC=X, METRIC one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
         return false;
     }
-    const bool may_be_negative = options->metric == METRIC_PSNR || options->metric == METRIC_SSIM;
     if (equals && number_parse(str_from(equals + 1), &options->max_error) == NUMBER_OK &&
-        (options->max_error >= 0 || may_be_negative))
+        (options->max_error >= 0 || metric_infos[options->metric].higher_is_better))
         return true;
     cli_usage(cli, m->max_error_arg, "--max-error takes METRIC=X, such as %s=%s, not '%s'",
               metric_infos[options->metric].name,

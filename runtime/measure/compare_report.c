@@ -34,7 +34,7 @@ static const char *space_name(const struct compare_report *report) {
 }
 
 static const char *metric_space(const struct compare_report *report, enum metric metric) {
-    return metric == METRIC_SSIM || metric == METRIC_FLIP ? "displayed" : space_name(report);
+    return metric_infos[metric].of_displayed ? "displayed" : space_name(report);
 }
 
 // ---- text

@@ -8,19 +8,14 @@
 #include <string.h>
 
 const struct metric_info metric_infos[METRIC_COUNT] = {
-    [METRIC_MAE] = {"mae", "mean absolute difference", false, "as compared", "mean |a - b|"},
-    [METRIC_RMSE] = {"rmse", "root mean square", false, "as compared", "root of the mean (a - b)^2"},
-    [METRIC_RELMSE] = {"relmse", "relative mean square", false, "as compared",
-                       "mean (a - b)^2 / (b^2 + 0.01), b the reference"},
-    [METRIC_LARGEST] = {"largest", "largest difference", false, "as compared",
-                        "largest |a - b| of a channel"},
-    [METRIC_PSNR] = {"psnr", "peak signal to noise, dB", true, "as compared",
-                     "10 log10(1 / MSE); infinite where equal"},
-    [METRIC_SSIM] = {"ssim", "structural similarity", true, "displayed",
-                     "Wang et al. 2004, of the luma; 1 where equal"},
-    [METRIC_FLIP] = {"flip", "FLIP, mean", false, "displayed", "Andersson et al. 2020; 0 where equal"},
-    [METRIC_SHARE] = {"share", "pixels over the threshold", false, "as compared",
-                      "share of pixels with a channel that differs by more than the threshold"},
+    [METRIC_MAE] = {"mae", "mean absolute difference", false, false},
+    [METRIC_RMSE] = {"rmse", "root mean square", false, false},
+    [METRIC_RELMSE] = {"relmse", "relative mean square", false, false},
+    [METRIC_LARGEST] = {"largest", "largest difference", false, false},
+    [METRIC_PSNR] = {"psnr", "peak signal to noise, dB", true, false},
+    [METRIC_SSIM] = {"ssim", "structural similarity", true, true},
+    [METRIC_FLIP] = {"flip", "FLIP, mean", false, true},
+    [METRIC_SHARE] = {"share", "pixels over the threshold", false, false},
 };
 
 enum metric metric_find(str name) {

@@ -30,8 +30,7 @@ struct metric_info {
     const char *name; // "mae"
     const char *title;
     bool higher_is_better;
-    const char *space; // "as compared" or "displayed"
-    const char *doc;
+    bool of_displayed; // always of displayed values; the others of those compared
 };
 
 enum measure_space {
