@@ -10,7 +10,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 const struct extreme_axis_info extreme_axes[EXTREME_AXES] = {
     [EXTREME_MOVE] = {"move", "moved by"},

@@ -1,9 +1,7 @@
 // The report of a study as one HTML file: plot, answers, a table that can be sorted, pictures.
 #include "runtime/measure/report_html.h"
 
-#include <inttypes.h>
 #include <math.h>
-#include <string.h>
 
 static const char STYLE[] =
     ":root{--ink:#1c1f24;--soft:#5d6570;--paper:#fff;--panel:#f4f5f7;--line:#d6dae0;--accent:#b3261e;"
