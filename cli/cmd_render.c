@@ -4,9 +4,9 @@
 #include "cli/study.h"
 #include "core/clock.h"
 #include "core/output.h"
+#include "core/quantile.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
@@ -42,12 +42,6 @@ static int shot_failed(struct render_job *job, enum shot_status status) {
     return cli_device_failed(job->cli, job->gpu);
 }
 
-static int compare_doubles(const void *a, const void *b) {
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 static int take_frames(struct render_job *job) {
     int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
     double *times = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);
@@ -66,11 +60,11 @@ static int take_frames(struct render_job *job) {
         if (job->session.sink.errors > errors)
             frames = i + 1; // a faulty picture: more frames would tell the same
     }
-    qsort(times, (size_t)frames, sizeof *times, compare_doubles);
+    quantile_sort(times, (size_t)frames);
     job->stats.frames = frames;
     job->stats.least_frame_seconds = times[0];
     job->stats.most_frame_seconds = times[frames - 1];
-    job->stats.median_frame_seconds = 0.5 * (times[(frames - 1) / 2] + times[frames / 2]);
+    job->stats.median_frame_seconds = quantile(times, (size_t)frames, 0.5);
     return CLI_OK;
 }
 

@@ -1,5 +1,7 @@
 #include "runtime/measure/choose.h"
 
+#include "core/quantile.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,10 +12,6 @@ static int compare_values(double a, double b) {
     return a < b ? -1 : a > b;
 }
 
-static int compare_doubles(const void *a, const void *b) {
-    return compare_values(*(const double *)a, *(const double *)b);
-}
-
 // Three standard errors of the difference of two times, as a share of them, in the median row.
 static double pooled_noise(const struct choice_row *rows, uint32_t count) {
     double *shares = malloc((count ? count : 1) * sizeof *shares);
@@ -22,8 +20,8 @@ static double pooled_noise(const struct choice_row *rows, uint32_t count) {
         if (rows[i].choosable && rows[i].time_ms > 0)
             shares[known++] = rows[i].noise_ms / rows[i].time_ms;
     if (known)
-        qsort(shares, known, sizeof *shares, compare_doubles);
-    const double median = known ? 0.5 * (shares[(known - 1) / 2] + shares[known / 2]) : 0;
+        quantile_sort(shares, known);
+    const double median = known ? quantile(shares, known, 0.5) : 0;
     free(shares);
     return fmax(3 * sqrt(2) * median, CHOICE_NOISE_FLOOR);
 }

@@ -1,11 +1,9 @@
 #include "runtime/measure/study.h"
 
 #include "core/clock.h"
+#include "core/quantile.h"
 #include "runtime/measure/plan.h"
 #include "shaders/features.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 enum {
     FRAMES_MOST = 24, // of one timing
@@ -133,11 +131,6 @@ enum tradeoff_status device_count(struct study *s, struct row *row) {
     return TRADEOFF_DONE;
 }
 
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 enum tradeoff_status device_time(struct study *s, const struct setting *setting, double *ms) {
     double times[FRAMES_MOST], warm = 0, timed = 0;
     struct render_statistics statistics;
@@ -157,8 +150,8 @@ enum tradeoff_status device_time(struct study *s, const struct setting *setting,
     }
     if (status != TRADEOFF_DONE)
         return status;
-    qsort(times, (size_t)count, sizeof *times, compare_doubles);
-    *ms = 500 * (times[(count - 1) / 2] + times[count / 2]);
+    quantile_sort(times, (size_t)count);
+    *ms = 1e3 * quantile(times, (size_t)count, 0.5);
     return TRADEOFF_DONE;
 }
 

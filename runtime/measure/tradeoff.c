@@ -3,6 +3,7 @@
 #include "core/clock.h"
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "core/quantile.h"
 #include "runtime/measure/plan.h"
 #include "runtime/measure/study.h"
 #include "shaders/features.h"
@@ -213,18 +214,6 @@ static enum tradeoff_status run_rows(struct study *s) {
 
 // ---- times
 
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
-// Of a sorted list, linear between its places.
-static double quantile(const double *sorted, uint32_t count, double share) {
-    const double at = share * (count - 1);
-    const uint32_t low = (uint32_t)at, high = low + 1 < count ? low + 1 : low;
-    return sorted[low] + (at - low) * (sorted[high] - sorted[low]);
-}
-
 // What a whole round was slower or faster than the others is the machine's, not the rows'.
 static void remove_drift(double *times, uint32_t rows, uint32_t rounds) {
     double mean = 0;
@@ -247,14 +236,14 @@ static void fill_times(struct tradeoff *t, double *times) {
         struct row *row = &t->rows[i];
         for (uint32_t r = 0; r < t->rounds; r++)
             own[r] = times[r * t->count + i];
-        qsort(own, t->rounds, sizeof *own, compare_doubles);
+        quantile_sort(own, t->rounds);
         row->time_ms = quantile(own, t->rounds, 0.5);
         row->time_low_ms = quantile(own, t->rounds, 0.25);
         row->time_high_ms = quantile(own, t->rounds, 0.75);
         // 1.4826 MAD is the deviation of a normal distribution, 1.2533 / sqrt(n) its median's share of it.
         for (uint32_t r = 0; r < t->rounds; r++)
             own[r] = fabs(own[r] - row->time_ms);
-        qsort(own, t->rounds, sizeof *own, compare_doubles);
+        quantile_sort(own, t->rounds);
         row->noise_ms = 1.2533 * 1.4826 * quantile(own, t->rounds, 0.5) / sqrt(t->rounds);
     }
 }
@@ -269,7 +258,7 @@ static bool is_quiet(struct tradeoff *t, const double *times) {
         fill_times(t, copy);
         for (uint32_t i = 0; i < t->count; i++)
             shares[i] = t->rows[i].noise_ms / fmax(t->rows[i].time_ms, 1e-9);
-        qsort(shares, t->count, sizeof *shares, compare_doubles);
+        quantile_sort(shares, t->count);
         quiet = 3 * sqrt(2) * quantile(shares, t->count, 0.5) <= CHOICE_NOISE_FLOOR;
     }
     free(copy);

@@ -1,0 +1,15 @@
+// Medians and other quantiles of measured numbers.
+//
+// Ownership: the caller's arrays. Thread safety: pure.
+#ifndef GLINT_CORE_QUANTILE_H
+#define GLINT_CORE_QUANTILE_H
+
+#include <stddef.h>
+
+// Sorts in place, rising; what is no number comes last.
+void quantile_sort(double *values, size_t count);
+// Of sorted values, linear between their places: 0 gives the least, 1 the largest, 0.5 the median. `count` is
+// at least 1.
+double quantile(const double *sorted, size_t count, double share);
+
+#endif
