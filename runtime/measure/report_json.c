@@ -113,6 +113,7 @@ static void put_choice(const struct tradeoff *t, const char *key, double bound, 
     strbuf_clear(&text);
     setting_xml(&t->rows[choice->row].setting, &t->rows[0].setting, &text);
     json_write_text(json, "xml", strbuf_view(&text));
+    json->out->failed |= text.failed;
     strbuf_finish(&text);
     json_close_object(json);
 }

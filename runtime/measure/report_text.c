@@ -12,12 +12,10 @@ static void paste(const struct tradeoff *t, uint32_t index, struct strbuf *out) 
     struct strbuf text;
     strbuf_init(&text);
     setting_options(chosen, base, &text);
-    if (!text.len) {
+    if (text.len)
+        strbuf_format(out, "  options   %s\n", text.data);
+    else
         strbuf_cstr(out, "  the file's own settings: there is nothing to change\n");
-        strbuf_finish(&text);
-        return;
-    }
-    strbuf_format(out, "  options   %s\n", text.data);
     strbuf_clear(&text);
     setting_yaml(chosen, base, &text);
     setting_xml(chosen, base, &text);
@@ -26,6 +24,7 @@ static void paste(const struct tradeoff *t, uint32_t index, struct strbuf *out) 
         strbuf_format(out, "  %s%.*s\n", *line == '<' ? "XML       " : "YAML      ", (int)length, line);
         line += length + (line[length] == '\n');
     }
+    out->failed |= text.failed;
     strbuf_finish(&text);
 }
 
@@ -43,9 +42,9 @@ static void runner_up(const struct tradeoff *t, const struct choice *choice, str
                 choice->runner_up, out);
 }
 
-static void answer(const struct tradeoff *t, const char *question, const char *unit,
-                   const struct choice *choice, struct strbuf *out) {
-    strbuf_format(out, "\n%s\n", question);
+static void answer(const struct tradeoff *t, str question, const char *unit, const struct choice *choice,
+                   struct strbuf *out) {
+    strbuf_format(out, "\n%.*s\n", STR_ARG(question));
     if (choice->row != CHOICE_NONE) {
         one_row(t, "  chosen", choice->row, out);
         runner_up(t, choice, out);
@@ -68,18 +67,19 @@ void tradeoff_answers(const struct tradeoff *t, struct strbuf *out) {
         strbuf_format(&question, "cheapest with %s %s %.6g", metric,
                       metric_infos[t->options.metric].higher_is_better ? "at least" : "at most",
                       t->options.max_error);
-        answer(t, question.data, metric, &t->cheapest, out);
+        answer(t, strbuf_view(&question), metric, &t->cheapest, out);
     }
     strbuf_clear(&question);
     if (!isnan(t->options.max_time_ms)) {
         strbuf_format(&question, "best %s within %.6g ms", metric, t->options.max_time_ms);
-        answer(t, question.data, "ms", &t->best_within, out);
+        answer(t, strbuf_view(&question), "ms", &t->best_within, out);
     }
     if (t->knee != CHOICE_NONE && isnan(t->options.max_error) && isnan(t->options.max_time_ms)) {
         strbuf_cstr(out, "\n");
         one_row(t, "the knee of the front", t->knee, out);
         paste(t, t->knee, out);
     }
+    out->failed |= question.failed;
     strbuf_finish(&question);
 }
 
