@@ -1,4 +1,4 @@
-#include "runtime/measure/parts.h"
+#include "runtime/measure/metrics_parts.h"
 
 #include "core/parallel.h"
 

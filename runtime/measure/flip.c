@@ -5,7 +5,7 @@
 // that can be shown, to L*a*b* with the Hunt effect, HyAB distance, redistributed to 0..1 (4.1.2, 4.1.3).
 // Features: edges and points of the luminance (4.2). Together: colour^(1 - feature) (4.3). Filters are sums
 // of products of one-dimensional ones, so that each is two passes.
-#include "runtime/measure/parts.h"
+#include "runtime/measure/metrics_parts.h"
 
 #include "core/parallel.h"
 #include "core/vec3.h"

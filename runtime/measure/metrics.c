@@ -1,7 +1,7 @@
 #include "runtime/measure/metrics.h"
 
 #include "core/parallel.h"
-#include "runtime/measure/parts.h"
+#include "runtime/measure/metrics_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // Structural similarity: Wang, Bovik, Sheikh, Simoncelli 2004, "Image Quality Assessment: From Error
 // Visibility to Structural Similarity", equations 12 and 13 with the window and constants of section III-C.
-#include "runtime/measure/parts.h"
+#include "runtime/measure/metrics_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -136,7 +136,7 @@ void tradeoff_finish(struct tradeoff *study);
 // The metric's value as an error: lower is better.
 double tradeoff_error(enum metric metric, double value);
 
-// ---- what to paste (words.c); only what differs from `base` is written.
+// ---- what to paste (setting_text.c); only what differs from `base` is written.
 
 void setting_yaml(const struct setting *setting, const struct setting *base, struct strbuf *out);
 void setting_xml(const struct setting *setting, const struct setting *base, struct strbuf *out);
@@ -146,7 +146,7 @@ void setting_options(const struct setting *setting, const struct setting *base, 
 bool setting_assignment(const struct setting *setting, const struct setting *base, uint32_t index, char *out,
                         size_t capacity);
 
-// ---- reports
+// ---- reports (tradeoff_text.c, tradeoff_json.c, tradeoff_html.c)
 
 // The answers alone, and what was left out: part of the text.
 void tradeoff_answers(const struct tradeoff *study, struct strbuf *out);

@@ -303,7 +303,7 @@ static void test_ordered_times(void **state) {
     free(rows);
 }
 
-static void test_words(void **state) {
+static void test_setting_text(void **state) {
     (void)state;
     const struct setting base = input_of().base;
     struct setting s = base;
@@ -419,7 +419,7 @@ int main(void) {
         cmocka_unit_test(test_plan_single),
         cmocka_unit_test(test_plan_pairs),
         cmocka_unit_test(test_ordered_times),
-        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_setting_text),
         cmocka_unit_test(test_hits),
         cmocka_unit_test(test_scale_up),
     };

@@ -1,5 +1,5 @@
 // The report of a study as one HTML file: plot, answers, a table that can be sorted, pictures.
-#include "runtime/measure/report_html.h"
+#include "runtime/measure/tradeoff_html.h"
 
 #include <math.h>
 

@@ -2,8 +2,8 @@
 // runtime/measure.
 //
 // Thread safety: pure; planes are the caller's. Errors: false where memory lacks.
-#ifndef GLINT_RUNTIME_MEASURE_PARTS_H
-#define GLINT_RUNTIME_MEASURE_PARTS_H
+#ifndef GLINT_RUNTIME_MEASURE_METRICS_PARTS_H
+#define GLINT_RUNTIME_MEASURE_METRICS_PARTS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // Pieces of the HTML reports. Private to runtime/measure. Thread safety: pure.
-#ifndef GLINT_RUNTIME_MEASURE_REPORT_HTML_H
-#define GLINT_RUNTIME_MEASURE_REPORT_HTML_H
+#ifndef GLINT_RUNTIME_MEASURE_TRADEOFF_HTML_H
+#define GLINT_RUNTIME_MEASURE_TRADEOFF_HTML_H
 
 #include "runtime/measure/tradeoff.h"
 

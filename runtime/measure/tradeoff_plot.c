@@ -1,5 +1,5 @@
 // The plot of the report: time and error of every row, the front as a line.
-#include "runtime/measure/report_html.h"
+#include "runtime/measure/tradeoff_html.h"
 
 #include <math.h>
 #include <stdlib.h>
