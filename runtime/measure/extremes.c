@@ -25,15 +25,15 @@ const struct extreme_axis_info extreme_axes[EXTREME_AXES] = {
 };
 
 const struct extreme_metric_info extreme_metrics[EXTREME_METRICS] = {
-    [EXTREME_WRONG] = {"wrong", "wrong hits per million, outside silhouettes", EXTREME_COUNT},
-    [EXTREME_BAND] = {"band", "wrong hits per million, at silhouettes", EXTREME_COUNT},
-    [EXTREME_SELF_HITS] = {"self_hits", "self-hits per million", EXTREME_COUNT},
-    [EXTREME_LEAKS] = {"leaks", "leaks per million", EXTREME_COUNT},
-    [EXTREME_HOLES] = {"holes", "holes in closed bodies per million", EXTREME_COUNT},
-    [EXTREME_NOT_FINITE] = {"not_finite", "pixels that are no number", EXTREME_COUNT},
-    [EXTREME_OFF] = {"off", "share of pixels off by more than 1/255", EXTREME_SHARE},
-    [EXTREME_ERROR] = {"error", "mean absolute difference", EXTREME_SMALL},
-    [EXTREME_CHANGED] = {"changed", "share of pixels off against the picture at rest", EXTREME_SHARE},
+    [EXTREME_WRONG] = {"wrong", "wrong hits per million, outside silhouettes", EXTREME_UNIT_WHOLE},
+    [EXTREME_BAND] = {"band", "wrong hits per million, at silhouettes", EXTREME_UNIT_WHOLE},
+    [EXTREME_SELF_HITS] = {"self_hits", "self-hits per million", EXTREME_UNIT_WHOLE},
+    [EXTREME_LEAKS] = {"leaks", "leaks per million", EXTREME_UNIT_WHOLE},
+    [EXTREME_HOLES] = {"holes", "holes in closed bodies per million", EXTREME_UNIT_WHOLE},
+    [EXTREME_NOT_FINITE] = {"not_finite", "pixels that are no number", EXTREME_UNIT_WHOLE},
+    [EXTREME_OFF] = {"off", "share of pixels off by more than 1/255", EXTREME_UNIT_SHARE},
+    [EXTREME_ERROR] = {"error", "mean absolute difference", EXTREME_UNIT_SMALL},
+    [EXTREME_CHANGED] = {"changed", "share of pixels off against the picture at rest", EXTREME_UNIT_SHARE},
 };
 
 enum {

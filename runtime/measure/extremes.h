@@ -47,9 +47,9 @@ struct extreme_axis_info {
     const char *title; // "moved by"
 };
 enum extreme_unit {
-    EXTREME_COUNT, // whole numbers
-    EXTREME_SHARE,
-    EXTREME_SMALL, // two digits that count
+    EXTREME_UNIT_WHOLE,
+    EXTREME_UNIT_SHARE,
+    EXTREME_UNIT_SMALL, // two digits that count
 };
 struct extreme_metric_info {
     const char *name, *title;

@@ -12,9 +12,9 @@ enum {
 void extreme_number(enum extreme_metric metric, double value, struct strbuf *out) {
     if (isnan(value))
         strbuf_char(out, '-');
-    else if (extreme_metrics[metric].unit == EXTREME_COUNT)
+    else if (extreme_metrics[metric].unit == EXTREME_UNIT_WHOLE)
         strbuf_format(out, "%.0f", value);
-    else if (extreme_metrics[metric].unit == EXTREME_SHARE)
+    else if (extreme_metrics[metric].unit == EXTREME_UNIT_SHARE)
         strbuf_format(out, "%.5f", value);
     else
         strbuf_format(out, "%.2g", value);
