@@ -58,6 +58,14 @@ bool study_traces_as_file(const struct row *row) {
     return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY));
 }
 
+static uint32_t pairs_most(const struct study *s) {
+    return s->out->options.quick ? PAIRS_MOST_QUICK : PAIRS_MOST;
+}
+
+static uint32_t rounds_most(const struct study *s) {
+    return s->out->options.quick ? ROUNDS_QUICK : ROUNDS_MOST;
+}
+
 static bool is_over(const struct study *s, double share) {
     const double budget = s->out->options.budget_s;
     return budget > 0 && seconds_since_begun(s) > share * budget;
@@ -163,12 +171,11 @@ static bool bounces(const struct study *s) {
 // ---- the rows
 
 static enum tradeoff_status run_pairs(struct study *s) {
-    const bool quick = s->out->options.quick;
     struct row *pairs = calloc(PLAN_ROWS_MAX, sizeof *pairs);
     if (!pairs)
         return TRADEOFF_MEMORY;
-    const uint32_t count = plan_pairs(s->out->rows, s->out->count, s->out->options.metric,
-                                      quick ? PAIRS_MOST_QUICK : PAIRS_MOST, pairs, &s->out->pairs_left_out);
+    const uint32_t count = plan_pairs(s->out->rows, s->out->count, s->out->options.metric, pairs_most(s),
+                                      pairs, &s->out->pairs_left_out);
     enum tradeoff_status status = TRADEOFF_DONE;
     for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
         if (is_over(s, PAIRS_SHARE)) {
@@ -199,7 +206,7 @@ static enum tradeoff_status run_rows(struct study *s) {
                                      .quick = s->out->options.quick,
                                      .most_samples = s->out->truth_samples / 2};
     const uint32_t count = status == TRADEOFF_DONE ? plan_single(&input, planned) : 0;
-    s->steps = count + PAIRS_MOST + ROUNDS_MOST;
+    s->steps = 1 + count + pairs_most(s) + rounds_most(s); // the reference is the first
     for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
         if (i > 0 && is_over(s, ROWS_SHARE)) {
             s->out->rows_left_out = count - i;
@@ -271,9 +278,8 @@ static enum tradeoff_status run_times(struct study *s) {
     struct tradeoff *t = s->out;
     double *times = malloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
     enum tradeoff_status status = times ? device_wake(s) : TRADEOFF_MEMORY;
-    const uint32_t rounds = t->options.quick ? ROUNDS_QUICK : ROUNDS_MOST;
     const double begun = seconds_since_begun(s), budget = t->options.budget_s;
-    while (status == TRADEOFF_DONE && t->rounds < rounds) {
+    while (status == TRADEOFF_DONE && t->rounds < rounds_most(s)) {
         const double now = seconds_since_begun(s);
         if (t->rounds >= ROUNDS_QUIET && is_quiet(t, times))
             break;
@@ -341,7 +347,7 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
     s->progress = progress;
     s->out = study;
     s->begun = clock_seconds();
-    s->steps = 1 + ROUNDS_MOST;
+    s->steps = 1 + PLAN_ROWS_MAX; // until the rows are planned
     s->step = "the scene";
     s->display = (struct image_display){input->image->tone, input->image->transfer};
     s->base = file_setting(input);
