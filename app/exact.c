@@ -6,17 +6,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-static enum shot_status no_memory(struct session *session) {
-    diag_add(&session->sink, DIAG_OUT_OF_MEMORY, ir_place_label(&session->origin, &session->scene->head),
-             "not enough memory for the reference");
-    return SHOT_SCENE;
-}
-
 enum shot_status exact_open(struct exact *exact, struct session *session, uint32_t camera,
                             struct exact_options options) {
     *exact = (struct exact){.session = session};
     if (!session_view(session, camera, &exact->view))
-        return no_memory(session);
+        return shot_no_memory(session, "the reference");
     struct reference_input input = {
         .scene = session->scene, .assets = &session->assets, .view = &exact->view};
     exact->settings =
@@ -74,7 +68,7 @@ enum shot_status exact_take(struct exact *exact, struct image *image, double *rg
     size_t count = (size_t)exact->settings.width * exact->settings.height * 3;
     double *values = rgb ? rgb : malloc(count * sizeof *values);
     if (!values)
-        return no_memory(exact->session);
+        return shot_no_memory(exact->session, "the reference");
     enum reference_result result =
         reference_source_render(&exact->source, &exact->settings, values, progress, statistics);
     struct reference_fault too_large = {0};
@@ -83,11 +77,10 @@ enum shot_status exact_take(struct exact *exact, struct image *image, double *rg
     if (!rgb)
         free(values);
     if (result != REFERENCE_DONE)
-        return result == REFERENCE_CANCELLED ? SHOT_CANCELLED : no_memory(exact->session);
-    report_fault(exact->session, DIAG_NOT_FINITE, &statistics->not_finite,
-                 "got a value that is infinite or not a number");
+        return result == REFERENCE_CANCELLED ? SHOT_CANCELLED
+                                             : shot_no_memory(exact->session, "the reference");
+    report_fault(exact->session, DIAG_NOT_FINITE, &statistics->not_finite, WHERE_NOT_FINITE);
     report_fault(exact->session, DIAG_NOT_FINITE, &too_large, "got a value that no float holds");
-    report_fault(exact->session, DIAG_PATH_SEGMENTS, &statistics->over_segments,
-                 "needed more rays than the limit path-segments");
+    report_fault(exact->session, DIAG_PATH_SEGMENTS, &statistics->over_segments, WHERE_OVER_SEGMENTS);
     return SHOT_OK;
 }

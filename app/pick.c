@@ -5,12 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static enum shot_status no_memory(struct session *session) {
-    diag_add(&session->sink, DIAG_OUT_OF_MEMORY, ir_place_label(&session->origin, &session->scene->head),
-             "not enough memory for the path");
-    return SHOT_SCENE;
-}
-
 // ---- the two paths
 
 static struct reference_segment common_segment(const struct render_segment *s) {
@@ -45,7 +39,7 @@ static enum shot_status log_device(struct pick *pick, struct gpu *gpu, uint32_t 
     struct render_segment *segments = malloc(PICK_SEGMENTS_MAX * sizeof *segments);
     out->segments = malloc(PICK_SEGMENTS_MAX * sizeof *out->segments);
     if (status == SHOT_OK && (!segments || !out->segments))
-        status = no_memory(pick->session);
+        status = shot_no_memory(pick->session, "the path");
     struct render_log log = {.segments = segments, .capacity = PICK_SEGMENTS_MAX};
     for (uint32_t i = 0; status == SHOT_OK && i <= pick->sample_count; i++) {
         // The one that is told comes last.
@@ -88,7 +82,7 @@ static enum shot_status log_reference(struct pick *pick, uint32_t camera) {
                           &pick->samples[PICK_REFERENCE][i]);
         out->whole = out->count <= PICK_SEGMENTS_MAX;
         if (out->count == 0)
-            status = no_memory(pick->session);
+            status = shot_no_memory(pick->session, "the path");
         if (!out->whole)
             out->count = PICK_SEGMENTS_MAX;
         pick->camera = exact.view.camera.name;
@@ -139,7 +133,7 @@ static enum shot_status compare_paths(struct pick *pick) {
     const struct pick_log *logs = pick->logs;
     uint32_t *twin = malloc(((size_t)logs[PICK_DEVICE].count + 1) * sizeof *twin); // in the reference's log
     if (!twin)
-        return no_memory(pick->session);
+        return shot_no_memory(pick->session, "the path");
     for (uint32_t i = 0; i < logs[PICK_DEVICE].count; i++) {
         const struct reference_segment *s = &logs[PICK_DEVICE].segments[i];
         if (i > 0 && (s->depth > pick->max_depth || twin[s->parent] == UINT32_MAX)) {

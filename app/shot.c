@@ -13,13 +13,16 @@ static bool flatten_shot(struct shot *shot) {
     return good;
 }
 
+enum shot_status shot_no_memory(struct session *session, const char *what) {
+    diag_add(&session->sink, DIAG_OUT_OF_MEMORY, ir_place_label(&session->origin, &session->scene->head),
+             "not enough memory for %s", what);
+    return SHOT_SCENE;
+}
+
 enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera) {
     *shot = (struct shot){.session = session, .gpu = gpu};
-    if (!session_view(session, camera, &shot->view)) {
-        diag_add(&session->sink, DIAG_OUT_OF_MEMORY, ir_place_label(&session->origin, &session->scene->head),
-                 "not enough memory for the view");
-        return SHOT_SCENE;
-    }
+    if (!session_view(session, camera, &shot->view))
+        return shot_no_memory(session, "the view");
     if (!flatten_shot(shot))
         return SHOT_SCENE;
     shot->settings = render_settings_of(session->scene, &shot->flat, &session->options.limits);
@@ -41,9 +44,9 @@ void shot_close(struct shot *shot) {
 }
 
 enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
-    if (shot->session->scene->lights.count && shot->renderer)
-        return session_view(shot->session, camera, &shot->view) ? SHOT_OK : SHOT_SCENE;
     struct session *session = shot->session;
+    if (session->scene->lights.count && shot->renderer)
+        return session_view(session, camera, &shot->view) ? SHOT_OK : shot_no_memory(session, "the view");
     struct gpu *gpu = shot->gpu;
     shot_close(shot);
     return shot_open(shot, session, gpu, camera);
@@ -51,8 +54,8 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
 
 static void report_fault(struct shot *shot, enum render_fault_kind kind, const struct render_fault *fault) {
     static const char *const words[RENDER_FAULT_KINDS] = {
-        [RENDER_NOT_FINITE] = "got a value that is infinite or not a number",
-        [RENDER_SEGMENTS] = "needed more rays than the limit path-segments",
+        [RENDER_NOT_FINITE] = WHERE_NOT_FINITE,
+        [RENDER_SEGMENTS] = WHERE_OVER_SEGMENTS,
         [RENDER_ITERATIONS] = "sent a ray that did not end",
     };
     struct session *s = shot->session;

@@ -30,6 +30,8 @@ struct shot {
 // `camera` is an index of session_camera. Leaves a shot that shot_close takes, whatever the status.
 enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera);
 void shot_close(struct shot *shot);
+// Says in the sink that there is no memory for `what`; gives SHOT_SCENE.
+enum shot_status shot_no_memory(struct session *session, const char *what);
 // Looks through another camera of the same session; only the lights of a scene without lights need
 // flattening anew.
 enum shot_status shot_turn(struct shot *shot, uint32_t camera);

@@ -28,11 +28,15 @@ void where_body_words(const struct where *where, struct strbuf *out);
 // "material 'jade'", "the default material".
 void where_material_words(const struct where *where, struct strbuf *out);
 
+// What either tracer may say of pixels.
+#define WHERE_NOT_FINITE    "got a value that is infinite or not a number"
+#define WHERE_OVER_SEGMENTS "needed more rays than the limit path-segments"
+
 // Says in the sink that pixels have a fault, with the body (HIT_NONE: none) that the first one's path met
 // last: its material, and the lines of scene and mesh.
 struct where_fault {
     enum diag_code code;
-    const char *words; // "got a value that is ..."
+    const char *words; // WHERE_NOT_FINITE, or others that follow "3 pixels"
     uint32_t pixels, x, y;
     uint32_t body, triangle;
 };
