@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <yaml.h>
@@ -18,6 +19,10 @@ enum {
     MODELS = 10000,
     MATERIALS_SHARE = 2000, // bytes of the file for each material
 };
+
+// What must hold: glint's speed as a part of the event loop's, and its memory as a multiple of the file.
+#define SPEED_LEAST 0.5
+#define MEMORY_MOST 8.0
 
 struct options {
     uint64_t bytes;
@@ -310,10 +315,8 @@ static double median(double *values, unsigned count) {
 static bool contest(const char *title, const char *path, bool xml, unsigned rounds) {
     double wall[2][ROUNDS_MAX], processor[2][ROUNDS_MAX], ratios[ROUNDS_MAX];
     uint64_t peak = 0;
-    size_t size;
-    char *text = read_whole(path, &size);
-    bool good = text != NULL;
-    free(text);
+    struct stat file;
+    bool good = stat(path, &file) == 0;
     for (unsigned i = 0; good && i < rounds; i++) {
         for (int glint = 0; glint < 2; glint++) {
             struct run run = measure(path, xml, glint);
@@ -329,11 +332,14 @@ static bool contest(const char *title, const char *path, bool xml, unsigned roun
         return false;
     }
     double events = median(wall[0], rounds), glint = median(wall[1], rounds);
-    double megabytes = (double)size / 1e6;
-    printf("%-22s %7.1f MB  %s %6.1f MB/s  glint %6.1f MB/s  speed %.2f (processor %.2f)  memory %.1f x\n",
+    double megabytes = (double)file.st_size / 1e6;
+    // Judged by processor time: what else runs makes one process wait longer than the other.
+    double share = median(ratios, rounds), memory = (double)peak / (double)file.st_size;
+    good = share >= SPEED_LEAST && memory <= MEMORY_MOST;
+    printf("%-22s %7.1f MB  %s %6.1f MB/s  glint %6.1f MB/s  speed %.2f (processor %.2f)  memory %.1f x%s\n",
            title, megabytes, xml ? "expat  " : "libyaml", megabytes / events, megabytes / glint,
-           events / glint, median(ratios, rounds), (double)peak / (double)size);
-    return true;
+           events / glint, share, memory, good ? "" : ": FAIL");
+    return good;
 }
 
 static bool run_case(const struct options *options, const char *title, bool xml, uint64_t bytes) {
