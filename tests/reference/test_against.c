@@ -24,6 +24,7 @@
 // Of small pictures some pixels more: rays that meet the edge of a checker's cell exactly, where rounding
 // decides, lie on lines through the picture.
 #define FAR_PIXELS_MORE 8
+#define SMALL_PIXELS    100000
 
 struct pair {
     uint32_t width, height;
@@ -112,8 +113,8 @@ static bool judge(const struct pair *p, const char *path, struct image_display d
     compare_hits(p, &v);
     double count = (double)p->width * p->height;
     double per_million = v.outside ? 1e6 * v.wrong_outside / v.outside : 0;
-    bool good = v.not_finite == 0 && v.far_pixels <= FAR_PIXELS_SHARE * count + FAR_PIXELS_MORE &&
-                per_million <= WRONG_HITS_PER_MILLION;
+    double far_most = FAR_PIXELS_SHARE * count + (count < SMALL_PIXELS ? FAR_PIXELS_MORE : 0);
+    bool good = v.not_finite == 0 && v.far_pixels <= far_most && per_million <= WRONG_HITS_PER_MILLION;
     double rest = 2 + 1e-6 * WRONG_REST_PER_MILLION * v.outside;
     good = good && v.wrong_lights <= rest && v.wrong_bounces <= rest && v.wrong_numbers <= rest;
     printf("%s %s %ux%u: other hits %u, outside silhouettes %u of %u (%.1f a million); of these other lights "
