@@ -74,8 +74,12 @@ same "check --fix writes the file" fix.yaml fixed.yaml
 expect "nothing is left to fix" 0 - - "$glint" check --fix fix.yaml
 
 printf 'glint: 1\nspheres: [{center: 0, radius: 1}, {radius: 1, centre: [0, 0, 0], material: "a&b"}]\n' >more.yaml
-cp more.yaml kept.yaml
-"$glint" check --fix=all more.yaml >out.txt 2>err.txt
+sed 's/centre/center/' more.yaml >safe.yaml
+sed 's/center: 0/center: [0, 0, 0]/' safe.yaml >all.yaml
+expect "--fix makes what is safe alone" 1 - 'more.yaml: 1 fix made' "$glint" check --fix more.yaml
+same "and no suggestion" more.yaml safe.yaml
+expect "--fix=all makes suggestions" 1 - 'more.yaml: 1 fix made' "$glint" check --fix=all more.yaml
+same "the suggestion is written" more.yaml all.yaml
 printf '<Scene glint="1"><Image width="3" / ><Light intensity="2"><position x="0" y="1" z="2"/></Light><Modle mesh="a.obj"><Scale x="1" y="2" z="1"/></Modle></Scene>' >fix.xml
 sed 's, / >, />,;s,<position,<Position,;s,Modle,Model,g' fix.xml >want.xml
 "$glint" check --fix fix.xml >out.txt 2>err.txt
@@ -173,6 +177,15 @@ sed -n '1,6p' a.yaml >b.yaml
 sed -n 8p a.yaml >>b.yaml
 sed -n 7p a.yaml >>b.yaml
 expect "a body that moved" 1 '^moved spheres' - "$glint" diff a.yaml b.yaml
+# A path is the file that it names.
+mkdir -p shapes/deep
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >shapes/pane.obj
+printf 'glint: 1\nmodels: [{mesh: shapes/pane.obj}]\n' >a-mesh.yaml
+printf 'glint: 1\nmodels: [{mesh: pane.obj}]\n' >shapes/mesh.yaml
+expect "one mesh by two paths" 0 - - "$glint" diff a-mesh.yaml shapes/mesh.yaml
+cp shapes/pane.obj shapes/deep/
+cp shapes/mesh.yaml shapes/deep/
+expect "two meshes by one path" 1 '^changed models.0..mesh: pane.obj -> pane.obj$' - "$glint" diff shapes/mesh.yaml shapes/deep/mesh.yaml
 expect "diff as JSON" 1 '"kind": "moved"' - "$glint" diff --format json a.yaml b.yaml
 expect "diff of a broken scene" 1 - 'E101' "$glint" diff a.yaml broken.yaml
 expect "diff of a missing scene" 3 - 'missing.yaml:1:1: error' "$glint" diff a.yaml missing.yaml
