@@ -47,6 +47,31 @@ if "$glint" devices | grep -q .; then
     expect "no such sample" 2 - 'the picture has 1 sample a pixel, counted from 0' "$glint" pick scene.yaml 32,32 --sample 1
     expect "a shadow" 0 "rectangles\[0\], at [0-9.]+; 'sun' in shadow; adds 0 0 0" - "$glint" pick scene.yaml 32,63
     expect "a light below" 0 "rectangles\[0\], at [0-9.]+; 'sun' lit; adds 0\.[0-9]" - "$glint" pick scene.yaml 4,62
+    # Below what single precision resolves: a plane behind another is met, and a lid under a lamp not seen.
+    cat >behind.yaml <<'END'
+glint: 1
+image: {width: 64, height: 64}
+camera: {position: [0, 0, 3]}
+trace: {precision: single}
+lights: [{position: [0, 0, 9]}]
+rectangles:
+  - {name: behind, corner: [-2, -2, -1.0e-9], edge_u: [4, 0, 0], edge_v: [0, 4, 0]}
+  - {name: before, corner: [-2, -2, 0], edge_u: [4, 0, 0], edge_v: [0, 4, 0]}
+END
+    expect "another body" 0 "the reference, ray 0, has rectangle 'before'" - "$glint" pick behind.yaml 32,32
+    expect "its kind" 0 '"of": "body"' - "$glint" pick behind.yaml 32,32 --format json
+    cat >lid.yaml <<'END'
+glint: 1
+image: {width: 64, height: 64}
+camera: {position: [0, -3, 0.7], look_at: [0, 0, 0], up: [0, 0, 1], fov: 20}
+trace: {precision: single}
+lights: [{name: lamp, position: [0, 0, 1]}]
+rectangles:
+  - {corner: [-2, -2, 0], edge_u: [4, 0, 0], edge_v: [0, 4, 0]}
+  - {corner: [-0.5, -0.5, 0.999999999], edge_u: [1, 0, 0], edge_v: [0, 1, 0]}
+END
+    expect "another light" 0 "the reference, ray 0, .*; 'lamp' in shadow" - "$glint" pick lid.yaml 32,32
+    expect "that is a difference of lights" 0 '"of": "lights"' - "$glint" pick lid.yaml 32,32 --format json
     expect "JSON" 0 '"difference_count": 0' - "$glint" pick scene.yaml 32,32 --format json
     expect "JSON's mesh line" 0 '"mesh_line": 7' - "$glint" pick scene.yaml 20,10 --format json
 
