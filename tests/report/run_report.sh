@@ -249,6 +249,12 @@ sed -i 's/allow W401, W601/allow W999, E301/' c.glint.yaml
 ok "an unknown code in a comment" grep -q "c.glint.yaml:5:18: warning: there is no code 'W999' \[W802\]" comment.txt
 ok "an error's code in a comment" grep -q 'c.glint.yaml:5:24: warning: errors cannot be silenced, and E301 is one \[W802\]' comment.txt
 ok "the finding stays" grep -q 'W401' comment.txt
+printf 'mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl grey\nf 1 2 3\n' >bare.obj
+head -4 w.glint.yaml >m.glint.yaml
+printf '  - {mesh: bare.obj}\n' >>m.glint.yaml
+expect "a finding in a mesh" 0 '^bare.obj:1:[0-9]+: warning: .*\[W601\]' "$glint" check --only W601 m.glint.yaml
+sed -i '5s/$/  # glint: allow W601/' m.glint.yaml
+expect "a comment where the mesh is named" 0 - "$glint" check --only W601 --only W8xx m.glint.yaml
 printf 'glint: 1\ndescription: "# glint: allow W401"\n' >text.glint.yaml
 tells "text is no comment" 0 - "$glint" check text.glint.yaml
 cat >c.glint.xml <<'S'
