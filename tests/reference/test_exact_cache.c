@@ -137,6 +137,21 @@ static void step(struct kit *kit) {
 static void see(struct kit *kit) {
     kit->scene.background.color.b = 0.5;
 }
+static void dim_sky(struct kit *kit) {
+    kit->scene.background.intensity = 0.5;
+}
+static void turn_sky(struct kit *kit) {
+    kit->scene.background.rotation = 1;
+}
+static void grow_sphere(struct kit *kit) {
+    kit->scene.spheres.items[0].radius *= 1 + 0x1p-40;
+}
+static void bend(struct kit *kit) {
+    kit->assets.materials[0].refractive_index += 0x1p-40;
+}
+static void sharpen(struct kit *kit) {
+    kit->assets.materials[0].specular_exponent += 1;
+}
 static void no_shadows(struct kit *kit) {
     kit->scene.trace.shadows = false;
 }
@@ -144,7 +159,8 @@ static void no_shadows(struct kit *kit) {
 static void test_no_change_is_missed(void **state) {
     (void)state;
     static change *const changes[] = {move_sphere, turn_model, smooth_model, move_vertex, turn_face,
-                                      paint,       shine,      step,         see,         no_shadows};
+                                      paint,       shine,      step,         see,         no_shadows,
+                                      dim_sky,     turn_sky,   grow_sphere,  bend,        sharpen};
     struct reference_settings settings = settings_of(1);
     double rgb[VALUES];
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
