@@ -197,6 +197,30 @@ static void finds_uses_and_renames(void **state) {
     json_decref(error);
 }
 
+// An alias spells no name; the value behind its anchor does.
+static void renames_behind_anchors_and_to_free_names(void **state) {
+    struct lsp_client *client = *state;
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml",
+                "glint: 1\nmaterials: {glass: {}, brass: {}}\nspheres:\n"
+                "  - {center: [0, 0, 0], radius: 1, material: &m glass}\n"
+                "  - {center: [3, 0, 0], radius: 1, material: *m}\n");
+    json_t *params = client_at(client, "main.yaml", 1, 14);
+    json_object_set_new(params, "newName", json_string("window"));
+    json_t *edit = client_request(client, "textDocument/rename", params, NULL);
+    const json_t *edits = json_object_get(json_object_get(edit, "changes"), client_uri(client, "main.yaml"));
+    assert_int_equal(json_array_size(edits), 2);
+    expect_range(json_object_get(json_array_get(edits, 0), "range"), 1, 12, 17);
+    expect_range(json_object_get(json_array_get(edits, 1), "range"), 3, 48, 53);
+    json_decref(edit);
+    params = client_at(client, "main.yaml", 1, 14);
+    json_object_set_new(params, "newName", json_string("brass"));
+    json_t *error = NULL;
+    json_decref(client_request(client, "textDocument/rename", params, &error));
+    assert_int_equal(json_integer_value(json_object_get(error, "code")), -32803);
+    json_decref(error);
+}
+
 static void offers_fixes(void **state) {
     struct lsp_client *client = *state;
     client_initialize(client, NULL);
@@ -470,6 +494,7 @@ int main(int argc, char **argv) {
         TEST(counts_columns_as_agreed),
         TEST(finds_definitions_over_includes),
         TEST(finds_uses_and_renames),
+        TEST(renames_behind_anchors_and_to_free_names),
         TEST(offers_fixes),
         TEST(completes_names_words_and_files),
         TEST(explains_outlines_and_links),
