@@ -1,6 +1,6 @@
 // Every case of tests/invalid through the program, as a user runs it: a case of an error ends with a status
-// other than 0 and a finding with file, line and column; each within 64 KB of output and, with `measure`,
-// within a second and 256 MB.
+// other than 0 and an error with file, line and column; each within 64 KB of output and, with `measure`,
+// within a second and 256 MB. The good file beside a case ends with 0 and in silence.
 //
 // Usage: run_corpus GLINT CORPUS check|measure
 #include <dirent.h>
@@ -96,10 +96,13 @@ static bool add_options(char **arguments, int *count, char *text, size_t size) {
     return true;
 }
 
-static bool has_finding(const char *output) {
+static bool has_finding(const char *output, bool is_error) {
+    static const char *const patterns[] = {
+        "(^|\n)[^\n]+:[1-9][0-9]*:[1-9][0-9]*: (error|warning|note): ",
+        "(^|\n)[^\n]+:[1-9][0-9]*:[1-9][0-9]*: error: ",
+    };
     regex_t regex;
-    if (regcomp(&regex, "(^|\n)[^\n]+:[1-9][0-9]*:[1-9][0-9]*: (error|warning|note): ",
-                REG_EXTENDED | REG_NOSUB) != 0)
+    if (regcomp(&regex, patterns[is_error], REG_EXTENDED | REG_NOSUB) != 0)
         return false;
     bool found = regexec(&regex, output, 0, NULL, 0) == 0;
     regfree(&regex);
@@ -111,7 +114,7 @@ static int judge(const char *name, const struct run *run, bool measured) {
     bool is_error = name[0] == 'e';
     if (run->status < 0 || run->status > 3 || (is_error && run->status == 0))
         bad = fprintf(stderr, "%s: exit status %d\n", name, run->status);
-    if (!has_finding(run->output))
+    if (!has_finding(run->output, is_error))
         bad = fprintf(stderr, "%s: no finding with file, line and column\n", name);
     if (run->output_bytes > OUTPUT_MAX)
         bad = fprintf(stderr, "%s: more than 64 KB of output\n", name);
@@ -129,6 +132,18 @@ static int run_case(char *glint, const char *name, struct run *run, bool measure
         return 0;
     execute(arguments, run);
     return judge(name, run, measured);
+}
+
+// 0: there is none, or it is silent.
+static int run_good(char *glint, const char *name, struct run *run) {
+    char *arguments[] = {glint, (char *)"check", (char *)"good.yaml", NULL};
+    if (access("good.yaml", R_OK) != 0)
+        return 0;
+    execute(arguments, run);
+    if (run->status == 0 && run->output_bytes == 0)
+        return 0;
+    fprintf(stderr, "%s/good.yaml: exit status %d\n%.1000s", name, run->status, run->output);
+    return 1;
 }
 
 int main(int argc, char **argv) {
@@ -150,6 +165,7 @@ int main(int argc, char **argv) {
         slowest = run->seconds > slowest ? run->seconds : slowest;
         largest = run->memory_kb > largest ? run->memory_kb : largest;
         cases++;
+        bad += run_good(glint, entry->d_name, run);
         if (chdir("..") != 0)
             return 2;
     }
