@@ -32,6 +32,11 @@ ok "good scenes are silent as text" test ! -s scenes.text
 ok "good scenes are silent as annotations" test ! -s scenes.github
 ok "a wrong corpus is not" test -s corpus.text
 tells "good scenes pass" 0 - "$glint" check "$source/scenes"
+tells "a note is not told" 0 - "$glint" check minimal.yaml
+tells "but with --verbose" 0 'note: .*\[N401\]' "$glint" check --verbose minimal.yaml
+for format in json sarif gitlab junit; do ok "and in $format" grep -q N401 minimal.$format; done
+ok "but not in annotations" test ! -s minimal.github
+tells "as an annotation with --verbose" 0 '^::notice .*N401' "$glint" check --verbose minimal.yaml --format github
 ok "ten errors are annotated" test "$(grep -c '^::error ' corpus.github)" -eq 10
 ok "ten warnings are annotated" test "$(grep -c '^::warning ' corpus.github)" -eq 10
 ok "no notice without --verbose but the last" test "$(grep -c '^::notice ' corpus.github)" -eq 1
