@@ -257,13 +257,13 @@ ok "the finding stays" grep -q 'W401' comment.txt
 printf 'mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl grey\nf 1 2 3\n' >bare.obj
 head -4 w.glint.yaml >m.glint.yaml
 printf '  - {mesh: bare.obj}\n' >>m.glint.yaml
-expect "a finding in a mesh" 0 '^bare.obj:1:[0-9]+: warning: .*\[W601\]' "$glint" check --only W601 m.glint.yaml
-expect "a mesh that is ignored" 0 - "$glint" check --only W601 --ignore '*.obj' m.glint.yaml
+tells "a finding in a mesh" 0 '^bare.obj:1:[0-9]+: warning: .*\[W601\]' "$glint" check --only W601 m.glint.yaml
+tells "a mesh that is ignored" 0 - "$glint" check --only W601 --ignore '*.obj' m.glint.yaml
 printf 'v 0 0 x\n' >wrong.obj
 sed 's/bare/wrong/' m.glint.yaml >wrong-mesh.glint.yaml
-expect "errors in it are told" 1 '^wrong.obj:1:[0-9]+: error: ' "$glint" check --ignore '*.obj' wrong-mesh.glint.yaml
+tells "errors in it are told" 1 '^wrong.obj:1:[0-9]+: error: ' "$glint" check --ignore '*.obj' wrong-mesh.glint.yaml
 sed -i '5s/$/  # glint: allow W601/' m.glint.yaml
-expect "a comment where the mesh is named" 0 - "$glint" check --only W601 --only W8xx m.glint.yaml
+tells "a comment where the mesh is named" 0 - "$glint" check --only W601 --only W8xx m.glint.yaml
 printf 'glint: 1\ndescription: "# glint: allow W401"\n' >text.glint.yaml
 tells "text is no comment" 0 - "$glint" check text.glint.yaml
 cat >c.glint.xml <<'S'
