@@ -161,6 +161,8 @@ printf 'only: [W401]\nseverity: {W401: off}\n' >sub/.glintrc.yaml
 tells "the nearest one counts" 0 - "$glint" check sub
 rm sub/.glintrc.yaml
 printf 'fail_on: warning\nonly: [W401]\n' >.glintrc.yaml
+"$glint" check w.glint.yaml --format junit >failed.junit
+ok "warnings that fail are a failed test" grep -q '<failure message="1 warning' failed.junit
 tells "fail_on by configuration" 1 'warning: .*\[W401\]' "$glint" check w.glint.yaml
 tells "and back by option" 0 'warning: .*\[W401\]' "$glint" check w.glint.yaml --fail-on error
 printf 'ignore: ["sub/**", W401]\nonly: [W401]\n' >.glintrc.yaml
