@@ -49,6 +49,7 @@ struct study {
 bool study_step(struct study *s, const char *what);
 // Passes the reference's progress on.
 struct reference_progress study_reference_progress(struct study *s);
+enum tradeoff_status study_reference_status(enum reference_result result);
 // Whether the row asks for the file's own rays, and differs at most in how they are computed.
 bool study_traces_as_file(const struct row *row);
 
@@ -67,6 +68,9 @@ void device_close(struct study *s);
 
 // ---- study_errors.c
 
+// The reference's picture of the file's size, displayed.
+enum tradeoff_status errors_reference(struct study *s, const struct reference_settings *settings,
+                                      float *shown);
 enum tradeoff_status errors_make_truth(struct study *s);
 // Fills value, not_finite and the thumbnails from the row's picture.
 enum tradeoff_status errors_measure(struct study *s, struct row *row);

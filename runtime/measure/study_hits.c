@@ -13,11 +13,7 @@ static enum tradeoff_status make_reference_hits(struct study *s) {
     if (!s->hits[0] || !s->hits[1])
         return TRADEOFF_MEMORY;
     const struct reference_progress progress = study_reference_progress(s);
-    const enum reference_result result =
-        reference_source_hits(&s->source[0], &s->full, s->hits[1], &progress);
-    return result == REFERENCE_DONE        ? TRADEOFF_DONE
-           : result == REFERENCE_CANCELLED ? TRADEOFF_CANCELLED
-                                           : TRADEOFF_MEMORY;
+    return study_reference_status(reference_source_hits(&s->source[0], &s->full, s->hits[1], &progress));
 }
 
 enum tradeoff_status hits_measure(struct study *s, struct row *row) {

@@ -136,20 +136,12 @@ static enum tradeoff_status whole_numeric(struct study *s, double *numeric) {
     if (!s->as_file) {
         const struct reference_settings settings =
             reference_settings_of(s->input->scene, s->input->image, s->input->limits, true);
-        const struct reference_progress progress = study_reference_progress(s);
-        double *rgb = malloc(3 * pixels * sizeof *rgb);
         float *shown = malloc(3 * pixels * sizeof *shown);
-        enum reference_result result = REFERENCE_NO_MEMORY;
-        if (rgb && shown)
-            result = reference_source_render(&s->source[0], &settings, rgb, &progress, NULL);
-        for (size_t i = 0; result == REFERENCE_DONE && i < 3 * pixels; i++)
-            shown[i] = (float)rgb[i];
-        free(rgb);
-        if (result != REFERENCE_DONE) {
+        const enum tradeoff_status status = shown ? errors_reference(s, &settings, shown) : TRADEOFF_MEMORY;
+        if (status != TRADEOFF_DONE) {
             free(shown);
-            return result == REFERENCE_CANCELLED ? TRADEOFF_CANCELLED : TRADEOFF_MEMORY;
+            return status;
         }
-        image_to_displayed(shown, pixels, s->display, shown);
         s->as_file = shown;
     }
     *numeric = mean_difference(s->shown, s->as_file, pixels);

@@ -58,6 +58,12 @@ bool study_traces_as_file(const struct row *row) {
     return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY));
 }
 
+enum tradeoff_status study_reference_status(enum reference_result result) {
+    return result == REFERENCE_DONE        ? TRADEOFF_DONE
+           : result == REFERENCE_CANCELLED ? TRADEOFF_CANCELLED
+                                           : TRADEOFF_MEMORY;
+}
+
 static uint32_t pairs_most(const struct study *s) {
     return s->out->options.quick ? PAIRS_MOST_QUICK : PAIRS_MOST;
 }
