@@ -125,6 +125,9 @@ static void test_xml(void **state) {
         "<!-- one\n     two -->\n<Scene glint=\"1\"> <!-- a --> <!-- b -->\n  <!-- three\n       four\ntabs "
         "-->\n"
         "  <Light/> <!-- l -->\n</Scene>\n<!-- end -->\n");
+    // Lines of a comment that are indented by tabs stay.
+    xml("<Scene glint=\"1\">\n<!-- one\n\ttwo -->\n<Light/> <!-- l\n \tm -->\n</Scene>\n",
+        "<Scene glint=\"1\">\n  <!-- one\n\ttwo -->\n  <Light/> <!-- l\n \tm -->\n</Scene>\n");
 }
 
 static void test_xml_long_tags(void **state) {
@@ -210,9 +213,10 @@ static void test_upgrade(void **state) {
         "<Scene glint='0'><View angle='40'></View ><Ball size='1'><Middle x='0' y='0' z='0'/></Ball></Scene>",
         "<Scene glint='2'><Camera fov='40'></Camera><Sphere radius='1'><Center x='0' y='0' z='0'/></Sphere>"
         "</Scene>");
-    // Of today's version, and of none, nothing is replaced.
+    // Of today's version, of none and of one to come nothing is replaced.
     check_upgrade("a.yaml", "glint: 2\nballs: []\n", "glint: 2\nballs: []\n");
     check_upgrade("a.yaml", "balls: []\n", "balls: []\n");
+    check_upgrade("a.yaml", "glint: 3\nballs: []\n", "glint: 3\nballs: []\n");
 }
 
 static void test_upgrade_of_version_one(void **state) {
