@@ -25,7 +25,7 @@ static void write_line(struct strbuf *out, bool is_xml, str address) {
 
 // Where a first line belongs: behind a byte order mark, and behind XML's declaration with its line end.
 static size_t first_place(str text, bool is_xml) {
-    size_t at = text.len >= 3 && memcmp(text.ptr, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    size_t at = str_skip_mark(text);
     if (!is_xml || text.len < at + 6 || memcmp(text.ptr + at, "<?xml", 5) != 0 || text.ptr[at + 5] == '-')
         return at;
     while (at < text.len && text.ptr[at] != '>')
@@ -34,11 +34,6 @@ static size_t first_place(str text, bool is_xml) {
     if (at < text.len && text.ptr[at] == '\r')
         at++;
     return at < text.len && text.ptr[at] == '\n' ? at + 1 : at;
-}
-
-static const char *line_end(str text) {
-    const char *end = text.len ? memchr(text.ptr, '\n', text.len) : NULL;
-    return end && end > text.ptr && end[-1] == '\r' ? "\r\n" : "\n";
 }
 
 bool schema_line_put(struct session *session, str address, struct strbuf *out) {
@@ -55,9 +50,9 @@ bool schema_line_put(struct session *session, str address, struct strbuf *out) {
         size_t end = there ? file->schema_line.begin + str_trim(old).len : begin;
         bool glued = !there && begin > 0 && text.ptr[begin - 1] == '>'; // a declaration without a line end
         strbuf_str(out, str_slice(text, 0, begin));
-        strbuf_cstr(out, glued ? line_end(text) : "");
+        strbuf_str(out, glued ? str_line_end(text) : STR(""));
         strbuf_str(out, strbuf_view(&line));
-        strbuf_cstr(out, there || glued ? "" : line_end(text));
+        strbuf_str(out, there || glued ? STR("") : str_line_end(text));
         strbuf_str(out, str_slice(text, end, text.len));
     }
     out->failed |= line.failed;

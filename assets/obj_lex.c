@@ -15,9 +15,8 @@ static const double exact_powers[EXACT_POWER_MAX + 1] = {1e0,  1e1,  1e2,  1e3, 
                                                          1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 void obj_lex_init(struct obj_lex *lex, str text) {
-    *lex = (struct obj_lex){.begin = text.ptr, .end = text.ptr + text.len, .at = text.ptr, .line = 1};
-    if (str_starts_with(text, STR("\xEF\xBB\xBF")))
-        lex->at += 3;
+    *lex = (struct obj_lex){
+        .begin = text.ptr, .end = text.ptr + text.len, .at = text.ptr + str_skip_mark(text), .line = 1};
 }
 
 static bool is_line_end(char c) {

@@ -71,7 +71,7 @@ static struct line find_line(const struct source *source, uint32_t offset) {
 
 // A byte order mark takes no column.
 static size_t skip_mark(str text, size_t begin) {
-    return begin == 0 && str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : begin;
+    return begin == 0 ? str_skip_mark(text) : begin;
 }
 
 // An offset inside a character means the character.

@@ -46,6 +46,20 @@ str str_trim(str s) {
     return s;
 }
 
+str str_line_end(str text) {
+    size_t lf = 0, crlf = 0, cr = 0;
+    for (size_t i = 0; i < text.len; i++) {
+        bool pair = text.ptr[i] == '\r' && i + 1 < text.len && text.ptr[i + 1] == '\n';
+        crlf += pair;
+        cr += text.ptr[i] == '\r' && !pair;
+        lf += text.ptr[i] == '\n';
+        i += pair;
+    }
+    if (crlf > lf && crlf >= cr)
+        return STR("\r\n");
+    return cr > lf ? STR("\r") : STR("\n");
+}
+
 uint64_t str_hash(str s) {
     uint64_t h = UINT64_C(14695981039346656037);
     for (size_t i = 0; i < s.len; i++)

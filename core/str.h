@@ -54,6 +54,14 @@ static inline str str_slice(str s, size_t begin, size_t end) {
 }
 // Without the blanks, tabs and line ends at both ends.
 str str_trim(str s);
+// Where a text begins behind its byte order mark, if it has one: 3 or 0.
+static inline size_t str_skip_mark(str text) {
+    return str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : 0;
+}
+// The kind of line end that most lines of a text have; of equal counts "\n" goes before "\r\n", and that
+// before
+// "\r".
+str str_line_end(str text);
 
 // FNV-1a, 64 bits (Fowler, Noll, Vo).
 uint64_t str_hash(str s);

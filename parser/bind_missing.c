@@ -26,15 +26,13 @@ static void report_choice(struct bind_context *context, struct bind_frame *frame
 static void fix_version(struct bind_context *context, const struct schema_row *row) {
     const struct tree *tree = context->tree;
     str written = say_example(context->scratch, row, tree->is_xml);
-    str all = context->sources->items[tree->source].text;
-    const char *end = memchr(all.ptr, '\n', all.len);
-    const char *line_end = end && end > all.ptr && end[-1] == '\r' ? "\r\n" : "\n";
     bool flow = tree_node(tree, tree->root)->style == TREE_FLOW;
     uint32_t begin = tree->is_xml ? tree->root_name.end : tree_node(tree, tree->root)->begin + flow;
-    str text = arena_format(context->scratch, "%s%.*s%s", tree->is_xml ? " " : "", STR_ARG(written),
-                            tree->is_xml ? ""
-                            : flow       ? ", "
-                                         : line_end);
+    str behind = tree->is_xml ? STR("")
+                 : flow       ? STR(", ")
+                              : str_line_end(context->sources->items[tree->source].text);
+    str text = arena_format(context->scratch, "%s%.*s%.*s", tree->is_xml ? " " : "", STR_ARG(written),
+                            STR_ARG(behind));
     diag_fix(context->sink, true, (span){tree->source, begin, begin}, text);
 }
 

@@ -2,26 +2,11 @@
 
 #include "parser/format_parts.h"
 
-// The kind of line end that most lines of a text have; of equal counts the first.
-static str line_end_of(str text) {
-    size_t lf = 0, crlf = 0, cr = 0;
-    for (size_t i = 0; i < text.len; i++) {
-        bool pair = text.ptr[i] == '\r' && i + 1 < text.len && text.ptr[i + 1] == '\n';
-        crlf += pair;
-        cr += text.ptr[i] == '\r' && !pair;
-        lf += text.ptr[i] == '\n';
-        i += pair;
-    }
-    if (crlf > lf && crlf >= cr)
-        return STR("\r\n");
-    return cr > lf ? STR("\r") : STR("\n");
-}
-
 static bool ends_line(str text) {
     size_t end = text.len;
-    while (end > 0 && (text.ptr[end - 1] == ' ' || text.ptr[end - 1] == '\t'))
+    while (end > 0 && char_is_blank(text.ptr[end - 1]))
         end--;
-    return end > 0 && (text.ptr[end - 1] == '\n' || text.ptr[end - 1] == '\r');
+    return end > 0 && char_is_break(text.ptr[end - 1]);
 }
 
 // Calls `work`, and whatever the arena does, comes back; then the jump goes to the guard of before.
@@ -54,12 +39,12 @@ static bool find_lines(void *context) {
 static bool lay_out(struct arena *arena, str text, bool is_xml, struct strbuf *out) {
     struct layout layout = {.text = text, .is_xml = is_xml};
     enum arena_fault fault;
-    layout.begin = str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : 0;
+    layout.begin = (uint32_t)str_skip_mark(text);
     format_lines_init(&layout.lines, arena, is_xml ? 1 : 2);
     bool done = guarded(arena, find_lines, &layout, &fault);
     if (done) {
         strbuf_str(out, str_slice(text, 0, layout.begin));
-        format_lines_write(&layout.lines, line_end_of(text), ends_line(text) && !layout.lines.is_open, out);
+        format_lines_write(&layout.lines, str_line_end(text), ends_line(text) && !layout.lines.is_open, out);
     }
     format_lines_finish(&layout.lines);
     if (fault)

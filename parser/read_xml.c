@@ -184,7 +184,7 @@ static void run_expat(struct xml_reader *r) {
 
 // The encoding that the XML declaration names; false: none is named.
 static bool declared_encoding(str text, struct reader_range *encoding) {
-    uint32_t at = str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : 0;
+    uint32_t at = (uint32_t)str_skip_mark(text);
     str rest = str_slice(text, at, text.len);
     if (!str_starts_with(rest, STR("<?xml")) || rest.len < 6 || !char_is_space(rest.ptr[5]))
         return false;

@@ -118,8 +118,8 @@ bool reader_text_open(const struct reader_context *context, uint32_t source, uin
         diag_help(context->sink, "save it as UTF-8");
         return false;
     }
-    if (begin == 0 && str_starts_with(all, STR("\xEF\xBB\xBF")))
-        text->begin = 3;
+    if (begin == 0)
+        text->begin = (uint32_t)str_skip_mark(all);
     struct bad_bytes bytes = {0}, controls = {0};
     bool is_text = clean(context, text, &bytes, &controls);
     text->is_binary = bytes.count + controls.count > 8;

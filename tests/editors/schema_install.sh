@@ -6,8 +6,9 @@ printf '# a comment\nglint: 1\n' >a.yaml
 printf '<?xml version="1.0"?>\r\n<Scene glint="1"/>\r\n' >b.xml
 printf '<Scene glint="1"/>' >c.xml
 printf '\357\273\277glint: 1\n' >d.yaml
+printf 'glint: 1\rimage: {width: 3}\r' >e.yaml
 mkdir deep && cp a.yaml deep/
-"$glint" schema install a.yaml b.xml c.xml d.yaml deep/a.yaml || fail "install"
+"$glint" schema install a.yaml b.xml c.xml d.yaml e.yaml deep/a.yaml || fail "install"
 
 printf '# yaml-language-server: $schema=glint.schema.json\n# a comment\nglint: 1\n' >wanted
 cmp a.yaml wanted || fail "a comment before the first key"
@@ -18,7 +19,9 @@ printf '%s\n<Scene glint="1"/>' "$pi" >wanted
 cmp c.xml wanted || fail "no declaration, no last line end"
 printf '\357\273\277# yaml-language-server: $schema=glint.schema.json\nglint: 1\n' >wanted
 cmp d.yaml wanted || fail "behind the byte order mark"
-for file in a.yaml b.xml c.xml d.yaml deep/a.yaml; do "$glint" check $file || fail "$file is still a scene"; done
+printf '# yaml-language-server: $schema=glint.schema.json\rglint: 1\rimage: {width: 3}\r' >wanted
+cmp e.yaml wanted || fail "line ends of one carriage return"
+for file in a.yaml b.xml c.xml d.yaml e.yaml deep/a.yaml; do "$glint" check $file || fail "$file is still a scene"; done
 
 # The schema lies beside the scene, and is what the program prints.
 "$glint" schema json >wanted

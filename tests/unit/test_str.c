@@ -225,6 +225,17 @@ static void blanks_and_line_ends(void **state) {
     assert_int_equal(str_break_length(text, 5), 1); // nothing behind it is looked at
 }
 
+static void finds_the_line_end_of_most_lines(void **state) {
+    (void)state;
+    assert_true(str_equal(str_line_end(STR("")), STR("\n")));
+    assert_true(str_equal(str_line_end(STR("a\r\nb\r\nc\n")), STR("\r\n")));
+    assert_true(str_equal(str_line_end(STR("a\rb\rc\n")), STR("\r")));
+    assert_true(str_equal(str_line_end(STR("a\r\nb\n")), STR("\n")));
+    assert_true(str_equal(str_line_end(STR("a\r\nb\r")), STR("\r\n")));
+    assert_int_equal(str_skip_mark(STR("\xEF\xBB\xBFx")), 3);
+    assert_int_equal(str_skip_mark(STR("\xEF\xBB")), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(compares),
@@ -238,6 +249,7 @@ int main(void) {
         cmocka_unit_test(names_of_any_script),
         cmocka_unit_test(names_have_128_letters_at_most),
         cmocka_unit_test(widths),
+        cmocka_unit_test(finds_the_line_end_of_most_lines),
     };
     return cmocka_run_group_tests_name("str", tests, NULL, NULL);
 }
