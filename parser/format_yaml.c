@@ -280,7 +280,9 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     if (peek(p)->kind != YAML_TOKEN_COLON)
         return;
     bool apart = marked || p->last == YAML_TOKEN_ALIAS || p->last == YAML_TOKEN_COMMA;
-    put(p, apart ? JOIN_SPACE : JOIN_NONE, indent);
+    // "a: " would end a text "a:" before its colon.
+    bool ends_in_colon = p->last == YAML_TOKEN_TEXT && p->text.ptr[p->gap - 1] == ':';
+    put(p, apart && !ends_in_colon ? JOIN_SPACE : JOIN_NONE, indent);
     enum yaml_token_kind next = peek(p)->kind;
     if (next == YAML_TOKEN_COMMA || next == YAML_TOKEN_FLOW_CLOSE)
         return;

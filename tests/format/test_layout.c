@@ -71,6 +71,7 @@ static void test_yaml_comments(void **state) {
          "glint: 1    # a\nimage:      # b\n  width: 3  # c\n  height: 4  # d\n");
     yaml("glint: 1\ncamera:\n  position: [0, # x\n   1, 2] # y\n",
          "glint: 1\ncamera:\n  position: [0,  # x\n             1, 2]  # y\n");
+    yaml("glint: 1\nx-m: {?a : 1, ?b:: , ? c::: 2}\n", "glint: 1\nx-m: {? a : 1, ? b:: , ? c::: 2}\n");
     // Behind a comma that begins its line.
     yaml("glint: 1\nx-m: {a\n,# c\n b: 2}\n", "glint: 1\nx-m: {a\n      ,  # c\n      b: 2}\n");
 }
