@@ -1,4 +1,5 @@
 #include "parser/format_lines.h"
+#include "parser/reader_text.h"
 
 void format_lines_init(struct format_lines *lines, struct arena *arena, uint32_t comment_gap) {
     *lines = (struct format_lines){.arena = arena, .comment_gap = comment_gap};
@@ -66,7 +67,8 @@ uint32_t format_column(str text, struct format_place *last, uint32_t at) {
 }
 
 // Where a further line of a comment stands that began at `from` and now begins at `to`: as far right or left
-// as the comment was moved. Lines that are indented by tabs stay.
+// as the comment was moved, but never where it would be the mark of a merge conflict. Lines that are indented
+// by tabs stay.
 static uint32_t moved_indent(str line, uint32_t from, uint32_t to, size_t *skip) {
     size_t blanks = 0;
     while (blanks < line.len && line.ptr[blanks] == ' ')
@@ -76,7 +78,9 @@ static uint32_t moved_indent(str line, uint32_t from, uint32_t to, size_t *skip)
     if (tab)
         return 0;
     int64_t moved = (int64_t)blanks + (int64_t)to - (int64_t)from;
-    return moved > 0 ? (uint32_t)moved : 0;
+    if (moved <= 0)
+        return reader_begins_conflict(str_slice(line, blanks, line.len));
+    return (uint32_t)moved;
 }
 
 void format_lines_moved(struct format_lines *lines, str comment, uint32_t column) {

@@ -1,4 +1,5 @@
 #include "parser/format_parts.h"
+#include "parser/reader_text.h"
 #include "parser/yaml_tokens.h"
 
 enum join {
@@ -368,13 +369,22 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
 
 // ---- the file
 
+// 0, unless a key there would be taken for the mark of a merge conflict.
+static uint32_t root_indent(const struct printer *p) {
+    for (uint32_t i = p->at; i < p->tokens.count; i++)
+        if (p->tokens.items[i].kind == YAML_TOKEN_TEXT &&
+            reader_begins_conflict(str_slice(p->text, p->tokens.items[i].begin, p->text.len)))
+            return FORMAT_INDENT;
+    return 0;
+}
+
 static void put_document(struct printer *p) {
     while (peek(p)->kind == YAML_TOKEN_DIRECTIVE)
         put(p, JOIN_LINE, 0);
     bool marked = peek(p)->kind == YAML_TOKEN_DOCUMENT;
     if (marked)
         put(p, JOIN_LINE, 0);
-    put_node(p, marked && !breaks_before(p, peek(p)) ? JOIN_SPACE : JOIN_LINE, 0);
+    put_node(p, marked && !breaks_before(p, peek(p)) ? JOIN_SPACE : JOIN_LINE, root_indent(p));
     while (peek(p)->kind == YAML_TOKEN_DOCUMENT_END)
         put(p, JOIN_LINE, 0);
 }

@@ -23,6 +23,10 @@ static bool is_marker(str text, uint32_t at, char c) {
     return text.len - at == MARKER || memchr(" \r\n", text.ptr[at + MARKER], 3);
 }
 
+bool reader_begins_conflict(str line) {
+    return is_marker(line, 0, '<');
+}
+
 // The first line from `at` on that is a marker of `c`; the text's length where there is none.
 static uint32_t find_marker(str text, uint32_t at, char c) {
     while (at < text.len && !is_marker(text, at, c)) {

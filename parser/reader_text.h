@@ -29,6 +29,8 @@ struct reader_text {
 // characters. false: UTF-16 or binary data, reported; there is nothing to read.
 bool reader_text_open(const struct reader_context *context, uint32_t source, uint32_t begin,
                       bool foreign_encoding, struct reader_text *text);
+// Whether a line that begins so is the first mark of a merge conflict.
+bool reader_begins_conflict(str line);
 // Reports the marks of merge conflicts; they and the second version are overwritten, the first one is read.
 void reader_conflicts(const struct reader_context *context, struct reader_text *text);
 // Overwrites from `begin` on in the copy.

@@ -71,6 +71,8 @@ static void test_yaml_comments(void **state) {
          "glint: 1    # a\nimage:      # b\n  width: 3  # c\n  height: 4  # d\n");
     yaml("glint: 1\ncamera:\n  position: [0, # x\n   1, 2] # y\n",
          "glint: 1\ncamera:\n  position: [0,  # x\n             1, 2]  # y\n");
+    // What stood indented does not become the mark of a merge conflict.
+    yaml(" glint: 1\n # c\n <<<<<<< a: 1\n", "  glint: 1\n  # c\n  <<<<<<< a: 1\n");
     yaml("glint: 1\nx-m: {?a : 1, ?b:: , ? c::: 2}\n", "glint: 1\nx-m: {? a : 1, ? b:: , ? c::: 2}\n");
     // Behind a comma that begins its line.
     yaml("glint: 1\nx-m: {a\n,# c\n b: 2}\n", "glint: 1\nx-m: {a\n      ,  # c\n      b: 2}\n");
@@ -127,6 +129,8 @@ static void test_xml(void **state) {
         "-->\n"
         "  <Light/> <!-- l -->\n</Scene>\n<!-- end -->\n");
     // Lines of a comment that are indented by tabs stay.
+    xml("   <!-- one\n <<<<<<< two -->\n<Scene glint=\"1\"/>\n",
+        "<!-- one\n <<<<<<< two -->\n<Scene glint=\"1\"/>\n");
     xml("<Scene glint=\"1\">\n<!-- one\n\ttwo -->\n<Light/> <!-- l\n \tm -->\n</Scene>\n",
         "<Scene glint=\"1\">\n  <!-- one\n\ttwo -->\n  <Light/> <!-- l\n \tm -->\n</Scene>\n");
 }
