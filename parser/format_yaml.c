@@ -369,11 +369,18 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
 
 // ---- the file
 
-// 0, unless a key there would be taken for the mark of a merge conflict.
+// Whether a text at the beginning of a line would be more than text: a mark of a document or of a merge
+// conflict.
+static bool is_mark(str line) {
+    bool document = str_starts_with(line, STR("---")) || str_starts_with(line, STR("..."));
+    return reader_begins_conflict(line) || (document && (line.len == 3 || char_is_space(line.ptr[3])));
+}
+
+// 0, unless a key could not stand there.
 static uint32_t root_indent(const struct printer *p) {
     for (uint32_t i = p->at; i < p->tokens.count; i++)
         if (p->tokens.items[i].kind == YAML_TOKEN_TEXT &&
-            reader_begins_conflict(str_slice(p->text, p->tokens.items[i].begin, p->text.len)))
+            is_mark(str_slice(p->text, p->tokens.items[i].begin, p->text.len)))
             return FORMAT_INDENT;
     return 0;
 }
