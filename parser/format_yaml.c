@@ -369,18 +369,24 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
 
 // ---- the file
 
-// Whether a text at the beginning of a line would be more than text: a mark of a document or of a merge
-// conflict.
-static bool is_mark(str line) {
-    bool document = str_starts_with(line, STR("---")) || str_starts_with(line, STR("..."));
-    return reader_begins_conflict(line) || (document && (line.len == 3 || char_is_space(line.ptr[3])));
+// Whether a key at the beginning of a line would be more than that: a mark of a document or of a merge
+// conflict, which are words. (A key of one word has its colon directly behind it.)
+static bool is_mark(str key) {
+    size_t word = 0;
+    while (word < key.len && !char_is_space(key.ptr[word]))
+        word++;
+    str first = str_slice(key, 0, word);
+    return word < key.len &&
+           (reader_begins_conflict(first) || str_equal(first, STR("---")) || str_equal(first, STR("...")));
 }
 
 // 0, unless a key could not stand there.
 static uint32_t root_indent(const struct printer *p) {
+    if (peek(p)->kind != YAML_TOKEN_MAP)
+        return 0;
     for (uint32_t i = p->at; i < p->tokens.count; i++)
         if (p->tokens.items[i].kind == YAML_TOKEN_TEXT &&
-            is_mark(str_slice(p->text, p->tokens.items[i].begin, p->text.len)))
+            is_mark(str_slice(p->text, p->tokens.items[i].begin, p->tokens.items[i].end)))
             return FORMAT_INDENT;
     return 0;
 }

@@ -73,6 +73,7 @@ static void test_yaml_comments(void **state) {
          "glint: 1\ncamera:\n  position: [0,  # x\n             1, 2]  # y\n");
     // What stood indented does not become the mark of a document or of a merge conflict.
     yaml(" glint: 1\n --- a: 1\n", "  glint: 1\n  --- a: 1\n");
+    yaml(" glint: 1\n --- : 1\n <<<<<<< : 2\n", "glint: 1\n---: 1\n<<<<<<<: 2\n");
     yaml(" glint: 1\n ... a: {\n --- b: 1}\n", "  glint: 1\n  ... a: {\n      --- b: 1}\n");
     yaml(" glint: 1\n # c\n <<<<<<< a: 1\n", "  glint: 1\n  # c\n  <<<<<<< a: 1\n");
     yaml("glint: 1\nx-m: {?a : 1, ?b:: , ? c::: 2}\n", "glint: 1\nx-m: {? a : 1, ? b:: , ? c::: 2}\n");
