@@ -273,11 +273,11 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     bool marked = token->kind == YAML_TOKEN_KEY && token->begin < token->end;
     if (marked) {
         put(p, join, indent);
-        join = JOIN_SPACE;
+        join = flow_join(p, JOIN_SPACE);
     } else if (token->kind == YAML_TOKEN_KEY) {
         p->at++;
     }
-    put_node(p, join, indent);
+    put_node(p, join, marked && join == JOIN_LINE ? indent + FORMAT_INDENT : indent);
     if (peek(p)->kind != YAML_TOKEN_COLON)
         return;
     bool apart = marked || p->last == YAML_TOKEN_ALIAS || p->last == YAML_TOKEN_COMMA;
@@ -369,15 +369,17 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
 
 // ---- the file
 
-// Whether a key at the beginning of a line would be more than that: a mark of a document or of a merge
-// conflict, which are words. (A key of one word has its colon directly behind it.)
+// Whether a key at the beginning of a line would be more than that, or less: a mark of a document or of a
+// merge conflict, which are words (a key of one word has its colon directly behind it), or a byte order mark,
+// which libyaml skips there.
 static bool is_mark(str key) {
     size_t word = 0;
     while (word < key.len && !char_is_space(key.ptr[word]))
         word++;
     str first = str_slice(key, 0, word);
-    return word < key.len &&
-           (reader_begins_conflict(first) || str_equal(first, STR("---")) || str_equal(first, STR("...")));
+    bool marks =
+        reader_begins_conflict(first) || str_equal(first, STR("---")) || str_equal(first, STR("..."));
+    return (marks && word < key.len) || str_skip_mark(key);
 }
 
 // 0, unless a key could not stand there.

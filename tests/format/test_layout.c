@@ -74,8 +74,10 @@ static void test_yaml_comments(void **state) {
     // What stood indented does not become the mark of a document or of a merge conflict.
     yaml(" glint: 1\n --- a: 1\n", "  glint: 1\n  --- a: 1\n");
     yaml(" glint: 1\n --- : 1\n <<<<<<< : 2\n", "glint: 1\n---: 1\n<<<<<<<: 2\n");
+    yaml(" glint: 1\n \xEF\xBB\xBFn: 1\n", "  glint: 1\n  \xEF\xBB\xBFn: 1\n");
     yaml(" glint: 1\n ... a: {\n --- b: 1}\n", "  glint: 1\n  ... a: {\n      --- b: 1}\n");
     yaml(" glint: 1\n # c\n <<<<<<< a: 1\n", "  glint: 1\n  # c\n  <<<<<<< a: 1\n");
+    yaml("glint: 1\nx-m: {a, ?\nb, c} # c\n", "glint: 1\nx-m: {a, ?\n        b, c}  # c\n");
     yaml("glint: 1\nx-m: {?a : 1, ?b:: , ? c::: 2}\n", "glint: 1\nx-m: {? a : 1, ? b:: , ? c::: 2}\n");
     // Behind a comma that begins its line.
     yaml("glint: 1\nx-m: {a\n,# c\n b: 2}\n", "glint: 1\nx-m: {a\n      ,  # c\n      b: 2}\n");
