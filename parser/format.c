@@ -96,7 +96,7 @@ enum format_status format_source(const struct reader_context *context, uint32_t 
     size_t before = out->len;
     bool is_xml = reader_is_xml(from->path, text);
     bool readable = read_tree(context, source, is_xml, &tree);
-    if (!readable || tree.broken)
+    if (!readable || tree.broken || tree.overwritten)
         return FORMAT_REFUSED;
     if (upgrade && upgrade_text(context, upgrade, &tree, text, &text)) {
         uint32_t raised = source_add(context->sources, SOURCE_KIND_OVERLAY, from->path, text);

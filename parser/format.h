@@ -14,7 +14,7 @@
 
 enum format_status {
     FORMAT_DONE,    // also where the file holds mistakes of meaning, which stay as they are
-    FORMAT_REFUSED, // the text cannot be read to its end: the sink says why
+    FORMAT_REFUSED, // the text cannot be read to its end, or in part: the sink says why
     FORMAT_UNSAFE,  // the layout would have changed what the file means: a mistake of this program
 };
 

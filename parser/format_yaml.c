@@ -232,6 +232,11 @@ static void put_list(struct printer *p, enum join join, uint32_t indent) {
     close_block(p, outer);
 }
 
+// Whether a colon directly behind such a token would be a part of it.
+static bool takes_colon(enum yaml_token_kind kind) {
+    return kind == YAML_TOKEN_ALIAS || kind == YAML_TOKEN_PROPERTY;
+}
+
 static void put_map(struct printer *p, enum join join, uint32_t indent) {
     struct level outer = p->level;
     p->level = (struct level){peek(p)->column, indent};
@@ -246,7 +251,7 @@ static void put_map(struct printer *p, enum join join, uint32_t indent) {
         } else if (token->kind == YAML_TOKEN_KEY) {
             p->at++;
             put_node(p, join, indent);
-            colon = p->last == YAML_TOKEN_ALIAS ? JOIN_SPACE : JOIN_NONE;
+            colon = takes_colon(p->last) ? JOIN_SPACE : JOIN_NONE;
         } else if (token->kind == YAML_TOKEN_COLON) {
             colon = join;
         } else {
@@ -280,7 +285,7 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     put_node(p, join, marked && join == JOIN_LINE ? indent + FORMAT_INDENT : indent);
     if (peek(p)->kind != YAML_TOKEN_COLON)
         return;
-    bool apart = marked || p->last == YAML_TOKEN_ALIAS || p->last == YAML_TOKEN_COMMA;
+    bool apart = marked || takes_colon(p->last) || p->last == YAML_TOKEN_COMMA;
     // "a: " would end a text "a:" before its colon.
     bool ends_in_colon = p->last == YAML_TOKEN_TEXT && p->text.ptr[p->gap - 1] == ':';
     put(p, apart && !ends_in_colon ? JOIN_SPACE : JOIN_NONE, indent);
@@ -369,9 +374,8 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
 
 // ---- the file
 
-// Whether a key at the beginning of a line would be more than that, or less: a mark of a document or of a
-// merge conflict, which are words (a key of one word has its colon directly behind it), or a byte order mark,
-// which libyaml skips there.
+// Whether a key at the beginning of a line would be more than that: a mark of a document or of a merge
+// conflict, which are words. (A key of one word has its colon directly behind it.)
 static bool is_mark(str key) {
     size_t word = 0;
     while (word < key.len && !char_is_space(key.ptr[word]))
@@ -379,7 +383,7 @@ static bool is_mark(str key) {
     str first = str_slice(key, 0, word);
     bool marks =
         reader_begins_conflict(first) || str_equal(first, STR("---")) || str_equal(first, STR("..."));
-    return (marks && word < key.len) || str_skip_mark(key);
+    return marks && word < key.len;
 }
 
 // 0, unless a key could not stand there.

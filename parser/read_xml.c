@@ -239,6 +239,7 @@ bool read_xml(const struct reader_context *context, uint32_t source, struct tree
     struct reader_text text;
     if (!prepare(context, source, &text))
         return false;
+    tree->overwritten = text.is_overwritten;
     struct xml_reader reader = {.context = context, .text = &text, .tree = tree};
     reader.frames =
         ARENA_ARRAY(context->arena, struct xml_frame, context->limits->value[LIMIT_SCENE_DEPTH] + 1);

@@ -486,6 +486,7 @@ bool read_yaml(const struct reader_context *context, uint32_t source, struct tre
     struct reader_text text;
     if (!reader_text_open(context, source, 0, false, &text))
         return false;
+    tree->overwritten = text.is_overwritten;
     uint32_t errors = context->sink->errors;
     if (context->taker && errors)
         return false;

@@ -133,6 +133,7 @@ bool reader_text_open(const struct reader_context *context, uint32_t source, uin
     text->bytes = read;
     if (is_text && context->sources->items[source].kind != SOURCE_KIND_OPTION)
         reader_conflicts(context, text);
+    text->is_overwritten = text->copy != NULL;
     return is_text;
 }
 

@@ -15,10 +15,11 @@ struct reader_range {
 
 struct reader_text {
     uint32_t source;
-    uint32_t begin; // where reading begins: behind a byte order mark, or inside a --set option
-    str bytes;      // the whole source; what a library reads is bytes[begin..]
-    char *copy;     // NULL until something is overwritten; then bytes.ptr
-    bool is_binary; // so much was wrong that a failure of the library tells nothing new
+    uint32_t begin;      // where reading begins: behind a byte order mark, or inside a --set option
+    str bytes;           // the whole source; what a library reads is bytes[begin..]
+    char *copy;          // NULL until something is overwritten; then bytes.ptr
+    bool is_overwritten; // by reader_text_open
+    bool is_binary;      // so much was wrong that a failure of the library tells nothing new
     struct {
         struct reader_range *items;
         uint32_t count, capacity;

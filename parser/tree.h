@@ -89,7 +89,9 @@ struct tree {
     span schema_line;      // the editor's line, or SPAN_NONE
     str xsi_attributes;    // XML: the xsi attributes of the root, as text
     span closing_comments; // comments behind the last entry, or SPAN_NONE; XML: </Scene> may lie inside
-    bool broken;           // libyaml or expat itself stopped: what follows was not read
+    bool overwritten; // the source holds what is no text, or marks of conflicts: it was reported, and read as
+                      // blanks
+    bool broken;      // libyaml or expat itself stopped: what follows was not read
 };
 
 void tree_init(struct tree *tree, struct arena *arena, uint32_t source, bool is_xml);

@@ -74,9 +74,10 @@ static void test_yaml_comments(void **state) {
     // What stood indented does not become the mark of a document or of a merge conflict.
     yaml(" glint: 1\n --- a: 1\n", "  glint: 1\n  --- a: 1\n");
     yaml(" glint: 1\n --- : 1\n <<<<<<< : 2\n", "glint: 1\n---: 1\n<<<<<<<: 2\n");
-    yaml(" glint: 1\n \xEF\xBB\xBFn: 1\n", "  glint: 1\n  \xEF\xBB\xBFn: 1\n");
     yaml(" glint: 1\n ... a: {\n --- b: 1}\n", "  glint: 1\n  ... a: {\n      --- b: 1}\n");
     yaml(" glint: 1\n # c\n <<<<<<< a: 1\n", "  glint: 1\n  # c\n  <<<<<<< a: 1\n");
+    yaml("glint: 1\nx-m: {!!null : 1, &a : 2}\nx-n:\n  !!null : 1\n",
+         "glint: 1\nx-m: {!!null : 1, &a : 2}\nx-n:\n  !!null : 1\n");
     yaml("glint: 1\nx-m: {a, ?\nb, c} # c\n", "glint: 1\nx-m: {a, ?\n        b, c}  # c\n");
     yaml("glint: 1\nx-m: {?a : 1, ?b:: , ? c::: 2}\n", "glint: 1\nx-m: {? a : 1, ? b:: , ? c::: 2}\n");
     // Behind a comma that begins its line.
@@ -171,9 +172,13 @@ static void test_refused(void **state) {
                                              "glint: 1\nimage: {a: #123456}\n",
                                              "",
                                              "- 1\n",
-                                             "glint: 1\nx-a: *b\n- 2\n"};
+                                             "glint: 1\nx-a: *b\n- 2\n",
+                                             "glint: 1\nx-a: \x01\n",
+                                             "glint: 1\nx-a: b\xEF\xBB\xBF\n",
+                                             "glint: 1 # \xFF\n",
+                                             "glint: 1\n<<<<<<< a\nx-a: 1\n=======\nx-a: 2\n>>>>>>> b\n"};
     static const char *const xml_texts[] = {"<Scene glint=\"1\">", "<Scene glint=1/>", "text",
-                                            "<Scene/><Scene/>"};
+                                            "<Scene/><Scene/>", "<Scene glint=\"1\"><!-- \x7F --></Scene>"};
     (void)state;
     struct strbuf out;
     strbuf_init(&out);
