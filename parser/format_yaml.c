@@ -285,10 +285,8 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     put_node(p, join, marked && join == JOIN_LINE ? indent + FORMAT_INDENT : indent);
     if (peek(p)->kind != YAML_TOKEN_COLON)
         return;
-    bool apart = marked || takes_colon(p->last) || p->last == YAML_TOKEN_COMMA;
-    // "a: " would end a text "a:" before its colon.
-    bool ends_in_colon = p->last == YAML_TOKEN_TEXT && p->text.ptr[p->gap - 1] == ':';
-    put(p, apart && !ends_in_colon ? JOIN_SPACE : JOIN_NONE, indent);
+    bool apart = takes_colon(p->last) || p->last == YAML_TOKEN_KEY || p->last == YAML_TOKEN_COMMA;
+    put(p, apart ? JOIN_SPACE : JOIN_NONE, indent);
     enum yaml_token_kind next = peek(p)->kind;
     if (next == YAML_TOKEN_COMMA || next == YAML_TOKEN_FLOW_CLOSE)
         return;
