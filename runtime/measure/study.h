@@ -12,6 +12,9 @@ enum {
     THUMBNAIL_WIDTH = 160,
 };
 
+// Share of the budget after which no further rows are begun.
+#define STUDY_ROWS_SHARE 0.7
+
 // What the reference says at the probes, displayed.
 struct probe_set {
     uint32_t width, height, samples, max_depth;
@@ -24,7 +27,10 @@ struct study {
     const struct tradeoff_input *input;
     const struct tradeoff_progress *progress;
     struct tradeoff *out;
-    double begun; // clock
+    double begun;         // clock
+    double round_seconds; // that a round of timing the rows takes, as far as their pictures tell
+    double deadline;      // clock; rays of the device end there, and `late` is set. 0: none
+    bool late;
     uint32_t steps_done, steps;
     const char *step; // what is under way
     // On the device: single and double precision.
@@ -34,13 +40,17 @@ struct study {
     // The reference, and the same without shadows.
     struct ir_scene scene_shadowless;
     struct reference_source source[2];
-    struct reference_settings full; // of the file's size, truth's samples
+    struct reference_settings full; // of the file's size, truth's samples and rays
+    double truth_rays;              // that a sample of the truth took, on average
+    double reference_rate;          // rays a second of the truth
     // Displayed values of the truth, three a pixel of the file's size.
     float *truth, *shown, *picture; // the two others are a row's, shown at the file's size
     struct image_display display;
     struct setting base;
     struct hit_pixel *hits[2]; // device's, reference's
     float *as_file;            // the reference at the file's own settings, displayed; NULL until asked
+    bool only_probes;          // the budget does not allow as_file
+    bool no_hits;              // nor hits
     struct probe_set sets[PROBE_SETS_MAX];
     uint32_t set_count;
 };
@@ -66,12 +76,19 @@ enum tradeoff_status device_time(struct study *s, const struct setting *setting,
 enum tradeoff_status device_hits(struct study *s, const struct setting *setting, struct hit_pixel *hits);
 void device_close(struct study *s);
 
+// ---- study_truth.c
+
+// The reference's picture of the file's size, displayed. `statistics` may be NULL.
+enum tradeoff_status truth_picture(struct study *s, const struct reference_settings *settings, float *shown,
+                                   struct reference_statistics *statistics);
+// Fills `full` and the truth, as far as the budget allows. `own`: of the file's settings; bounces: something
+// reflects or refracts.
+enum tradeoff_status truth_make(struct study *s, const struct work *own, bool bounces);
+// Whether the reference may trace so many rays more before the time for rows is over.
+bool truth_affords(const struct study *s, double rays);
+
 // ---- study_errors.c
 
-// The reference's picture of the file's size, displayed.
-enum tradeoff_status errors_reference(struct study *s, const struct reference_settings *settings,
-                                      float *shown);
-enum tradeoff_status errors_make_truth(struct study *s);
 // Fills value, not_finite and the thumbnails from the row's picture.
 enum tradeoff_status errors_measure(struct study *s, struct row *row);
 // Of pixel `at` of `to`: the two of `from` around its middle, and how far it is from the first.

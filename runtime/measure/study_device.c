@@ -82,6 +82,10 @@ void device_close(struct study *s) {
 static bool report_frame(void *context, double fraction) {
     struct study *s = context;
     (void)fraction;
+    if (s->deadline > 0 && clock_seconds() > s->deadline) {
+        s->late = true;
+        return false;
+    }
     return !s->progress ||
            s->progress->report(s->progress->context, (double)s->steps_done / s->steps, s->step);
 }
@@ -106,6 +110,9 @@ enum tradeoff_status device_picture(struct study *s, struct row *row, float *rgb
         status = frame(s, renderer, rgb, &statistics);
     if (status == TRADEOFF_DONE)
         row->not_finite = statistics.faults[RENDER_NOT_FINITE].pixels;
+    if (status == TRADEOFF_DONE)
+        s->round_seconds +=
+            statistics.device_seconds > TIMED_SECONDS ? statistics.device_seconds : TIMED_SECONDS;
     return status;
 }
 
@@ -136,13 +143,16 @@ enum tradeoff_status device_time(struct study *s, const struct setting *setting,
     struct render_statistics statistics;
     struct renderer *renderer;
     const bool is_gpu = gpu_info(s->input->gpu)->kind != GPU_CPU;
+    const bool is_warm =
+        !is_gpu && s->renderer[setting->is_double] && is_equal(&s->current[setting->is_double], setting);
     int count = 0;
     enum tradeoff_status status = set(s, setting, &renderer);
-    do {
-        if (status == TRADEOFF_DONE)
-            status = frame(s, renderer, s->picture, &statistics);
+    statistics.device_seconds = 1;
+    while (status == TRADEOFF_DONE && !is_warm && statistics.device_seconds > 0 &&
+           (warm <= 0 || (is_gpu && warm < WARM_SECONDS_GPU))) {
+        status = frame(s, renderer, s->picture, &statistics);
         warm += status == TRADEOFF_DONE ? statistics.device_seconds : 0;
-    } while (status == TRADEOFF_DONE && is_gpu && warm < WARM_SECONDS_GPU && statistics.device_seconds > 0);
+    }
     while (status == TRADEOFF_DONE && count < FRAMES_MOST && (count == 0 || timed < TIMED_SECONDS)) {
         status = frame(s, renderer, s->picture, &statistics);
         times[count++] = statistics.device_seconds;

@@ -7,36 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-// ---- the truth
-
-enum tradeoff_status errors_reference(struct study *s, const struct reference_settings *settings,
-                                      float *shown) {
-    const size_t pixels = (size_t)s->base.width * s->base.height;
-    double *rgb = malloc(3 * pixels * sizeof *rgb);
-    if (!rgb)
-        return TRADEOFF_MEMORY;
-    const struct reference_progress progress = study_reference_progress(s);
-    const enum reference_result result =
-        reference_source_render(&s->source[0], settings, rgb, &progress, NULL);
-    if (result == REFERENCE_DONE) {
-        for (size_t i = 0; i < 3 * pixels; i++)
-            shown[i] = (float)rgb[i];
-        image_to_displayed(shown, pixels, s->display, shown);
-    }
-    free(rgb);
-    return study_reference_status(result);
-}
-
-enum tradeoff_status errors_make_truth(struct study *s) {
-    const size_t values = (size_t)3 * s->base.width * s->base.height;
-    s->truth = malloc(values * sizeof *s->truth);
-    s->shown = malloc(values * sizeof *s->shown);
-    s->picture = malloc(values * sizeof *s->picture);
-    if (!s->truth || !s->shown || !s->picture)
-        return TRADEOFF_MEMORY;
-    return errors_reference(s, &s->full, s->truth);
-}
-
 // ---- pictures of other sizes
 
 struct scaling {

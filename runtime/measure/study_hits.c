@@ -3,6 +3,10 @@
 
 #include <stdlib.h>
 
+enum {
+    RAYS_A_HIT = 4, // about: the first, to lights, mirrored and refracted
+};
+
 // The reference's hits at the file's size, once.
 static enum tradeoff_status make_reference_hits(struct study *s) {
     const size_t pixels = (size_t)s->base.width * s->base.height;
@@ -18,6 +22,11 @@ static enum tradeoff_status make_reference_hits(struct study *s) {
 
 enum tradeoff_status hits_measure(struct study *s, struct row *row) {
     uint32_t bodies;
+    if (!s->hits[1] && !s->no_hits)
+        s->no_hits = s->out->hits_out =
+            !truth_affords(s, RAYS_A_HIT * (double)s->base.width * s->base.height);
+    if (s->no_hits)
+        return TRADEOFF_DONE;
     enum tradeoff_status status = make_reference_hits(s);
     if (status == TRADEOFF_DONE)
         status = device_hits(s, &row->setting, s->hits[0]);

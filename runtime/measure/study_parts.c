@@ -116,6 +116,8 @@ static const float *probe(struct study *s, struct probe_set wanted) {
     if (!wanted.full) {
         context.settings.max_depth = wanted.max_depth;
         context.settings.min_weight = wanted.min_weight;
+    } else {
+        context.settings.segments = s->full.segments;
     }
     parallel_for(count, PROBES_A_PIECE, probe_piece, &context);
     wanted.values = values;
@@ -133,11 +135,16 @@ static double mean_difference(const float *a, const float *b, size_t count) {
 // What differs only in how it is computed is rare and far apart: it is measured over the whole picture.
 static enum tradeoff_status whole_numeric(struct study *s, double *numeric) {
     const size_t pixels = (size_t)s->base.width * s->base.height;
+    if (!s->as_file && !s->only_probes)
+        s->only_probes = s->out->numeric_probed = !truth_affords(s, (double)s->out->rows[0].work.rays);
+    if (s->only_probes)
+        return TRADEOFF_DONE;
     if (!s->as_file) {
         const struct reference_settings settings =
             reference_settings_of(s->input->scene, s->input->image, s->input->limits, true);
         float *shown = malloc(3 * pixels * sizeof *shown);
-        const enum tradeoff_status status = shown ? errors_reference(s, &settings, shown) : TRADEOFF_MEMORY;
+        const enum tradeoff_status status =
+            shown ? truth_picture(s, &settings, shown, NULL) : TRADEOFF_MEMORY;
         if (status != TRADEOFF_DONE) {
             free(shown);
             return status;
@@ -151,6 +158,10 @@ static enum tradeoff_status whole_numeric(struct study *s, double *numeric) {
 enum tradeoff_status parts_measure(struct study *s, struct row *row) {
     const struct setting *t = &row->setting;
     const uint32_t count = probe_count(s);
+    if (!truth_affords(s, count * s->truth_rays * (s->out->truth_samples + t->samples))) {
+        s->out->parts_out++;
+        return TRADEOFF_DONE;
+    }
     const struct probe_set as_file = {t->width,      t->height,  t->samples, t->max_depth,
                                       t->min_weight, t->shadows, false,      NULL};
     struct probe_set full = {t->width, t->height, t->samples, 0, 0, s->base.shadows, true, NULL};

@@ -2,7 +2,6 @@
 
 #include "core/clock.h"
 #include "core/heap.h"
-#include "core/parallel.h"
 #include "core/quantile.h"
 #include "runtime/measure/plan.h"
 #include "runtime/measure/study.h"
@@ -20,14 +19,9 @@ enum {
     ROUNDS_MOST = 9,
     PAIRS_MOST = 24,
     PAIRS_MOST_QUICK = 12,
-    TRUTH_SAMPLES = 16, // at least; four times the file's where that is more
-    TRUTH_SAMPLES_MOST = 64,
 };
-// Rays a second and processor that the reference is taken to trace when samples are planned; fixed, so that
-// the plan does not depend on the load of the machine.
-static const double REFERENCE_RAYS = 4e5;
-// Share of the budget for the truth; shares after which no further rows, and no pairs, are begun.
-static const double TRUTH_SHARE = 0.3, ROWS_SHARE = 0.7, PAIRS_SHARE = 0.6;
+// Share of the budget after which no pairs are begun.
+static const double PAIRS_SHARE = 0.6;
 
 double tradeoff_error(enum metric metric, double value) {
     return metric_infos[metric].higher_is_better ? -value : value;
@@ -74,7 +68,9 @@ static uint32_t rounds_most(const struct study *s) {
 
 static bool is_over(const struct study *s, double share) {
     const double budget = s->out->options.budget_s;
-    return budget > 0 && seconds_since_begun(s) > share * budget;
+    const double now = seconds_since_begun(s);
+    // What has been begun must be timed, too.
+    return budget > 0 && (now > share * budget || now + ROUNDS_LEAST * s->round_seconds > budget);
 }
 
 // ---- rows
@@ -99,21 +95,31 @@ static void drop_row(struct tradeoff *t) {
     strbuf_finish(&row->difference);
 }
 
-// Work, picture and errors of a new row. A row that costs far too much is taken out again.
+// Work, picture and errors of a new row. A row that costs far too much, or that the budget's end comes upon
+// on the device, is taken out again.
 static enum tradeoff_status try_row(struct study *s, const struct row *planned) {
     struct row *row = add_row(s->out, planned);
     if (!row)
         return TRADEOFF_MEMORY;
     if (!study_step(s, row->name))
         return TRADEOFF_CANCELLED;
+    // The file's own settings are waited for, whatever they take.
+    const double budget = s->out->options.budget_s;
+    s->deadline = budget > 0 && s->out->count > 1 ? s->begun + budget : 0;
     enum tradeoff_status status = device_count(s, row);
-    if (status == TRADEOFF_DONE && row->work.cost > TRADEOFF_COST_MOST * s->out->rows[0].work.cost) {
-        drop_row(s->out);
-        s->out->too_costly++;
-        return status;
-    }
-    if (status == TRADEOFF_DONE)
+    const bool costly =
+        status == TRADEOFF_DONE && row->work.cost > TRADEOFF_COST_MOST * s->out->rows[0].work.cost;
+    if (status == TRADEOFF_DONE && !costly)
         status = errors_measure(s, row);
+    s->deadline = 0;
+    if (costly || (status == TRADEOFF_CANCELLED && s->late)) {
+        drop_row(s->out);
+        s->out->too_costly += costly;
+        s->out->rows_left_out += !costly;
+        s->out->cut_short |= !costly;
+        s->late = false;
+        return TRADEOFF_DONE;
+    }
     if (status != TRADEOFF_DONE || s->out->options.quick)
         return status;
     status = parts_measure(s, row);
@@ -135,17 +141,6 @@ static struct setting file_setting(const struct tradeoff_input *in) {
                             .shadows = trace->shadows};
 }
 
-// Samples of the truth: as many as the budget allows, at least twice the file's.
-static uint32_t truth_samples(const struct study *s, uint64_t rays) {
-    const uint32_t file = s->base.samples, least = 2 * file;
-    uint32_t samples = 4 * file > TRUTH_SAMPLES ? 4 * file : TRUTH_SAMPLES;
-    samples = samples < TRUTH_SAMPLES_MOST ? samples : TRUTH_SAMPLES_MOST;
-    const double budget = s->out->options.budget_s, rate = REFERENCE_RAYS * parallel_processors();
-    while (budget > 0 && samples / 2 >= least && (double)rays / file * samples > TRUTH_SHARE * budget * rate)
-        samples /= 2;
-    return samples > least ? samples : least;
-}
-
 static void open_reference(struct study *s) {
     const struct tradeoff_input *in = s->input;
     const struct folder_store none = {0};
@@ -155,19 +150,6 @@ static void open_reference(struct study *s) {
     s->scene_shadowless.trace.shadows = false;
     input.scene = &s->scene_shadowless;
     reference_source_init(&s->source[1], &input, none);
-}
-
-static enum tradeoff_status make_truth(struct study *s, uint64_t rays) {
-    struct ir_image image = *s->input->image;
-    s->out->truth_samples = truth_samples(s, rays);
-    image.samples = (int32_t)s->out->truth_samples;
-    s->full = reference_settings_of(s->input->scene, &image, s->input->limits, false);
-    if (!study_step(s, "the reference"))
-        return TRADEOFF_CANCELLED;
-    const double start = clock_seconds();
-    const enum tradeoff_status status = errors_make_truth(s);
-    s->out->reference_seconds = clock_seconds() - start;
-    return status;
 }
 
 static bool bounces(const struct study *s) {
@@ -202,8 +184,10 @@ static enum tradeoff_status run_rows(struct study *s) {
     // The file's own settings are counted first: how deep paths go decides the ladders.
     struct row own = {.setting = s->base};
     enum tradeoff_status status = device_count(s, &own);
+    if (status == TRADEOFF_DONE && !study_step(s, "the reference"))
+        status = TRADEOFF_CANCELLED;
     if (status == TRADEOFF_DONE)
-        status = make_truth(s, own.work.rays);
+        status = truth_make(s, &own.work, bounces(s));
     const struct plan_input input = {.base = s->base,
                                      .bounces = bounces(s),
                                      .deepest = own.work.deepest,
@@ -214,8 +198,8 @@ static enum tradeoff_status run_rows(struct study *s) {
     const uint32_t count = status == TRADEOFF_DONE ? plan_single(&input, planned) : 0;
     s->steps = 1 + count + pairs_most(s) + rounds_most(s); // the reference is the first
     for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
-        if (i > 0 && is_over(s, ROWS_SHARE)) {
-            s->out->rows_left_out = count - i;
+        if (i > 0 && is_over(s, STUDY_ROWS_SHARE)) {
+            s->out->rows_left_out += count - i;
             s->out->cut_short = true;
             break;
         }
@@ -285,11 +269,13 @@ static enum tradeoff_status run_times(struct study *s) {
     double *times = malloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
     enum tradeoff_status status = times ? device_wake(s) : TRADEOFF_MEMORY;
     const double begun = seconds_since_begun(s), budget = t->options.budget_s;
+    // A single row is compared with none: its noise, which would go with the drift, decides nothing.
+    const uint32_t least = t->count > 1 ? ROUNDS_LEAST : 1;
     while (status == TRADEOFF_DONE && t->rounds < rounds_most(s)) {
         const double now = seconds_since_begun(s);
         if (t->rounds >= ROUNDS_QUIET && is_quiet(t, times))
             break;
-        if (budget > 0 && t->rounds >= ROUNDS_LEAST && now + (now - begun) / t->rounds > budget) {
+        if (budget > 0 && t->rounds >= least && now + (now - begun) / t->rounds > budget) {
             t->cut_short |= t->rounds < ROUNDS_QUICK;
             break;
         }

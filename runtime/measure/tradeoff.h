@@ -115,6 +115,13 @@ struct tradeoff {
     struct row *rows; // [0]: the file's own settings
     uint32_t count, capacity;
     uint32_t truth_samples;
+    uint64_t truth_segments;  // rays that a sample of the truth might take
+    bool truth_cut;           // the budget lowered that, and some samples would have taken more
+    double truth_left_weight; // of the rays that the truth did not follow, mean of the pixels
+    // For want of time:
+    uint32_t parts_out;  // rows without parts
+    bool numeric_probed; // the numeric part was measured at the probes only
+    bool hits_out;       // first hits were not compared
     uint32_t rounds;
     uint32_t rows_left_out;  // for which the budget was too small
     uint32_t pairs_left_out; // less promising ones, and those for which the budget was too small

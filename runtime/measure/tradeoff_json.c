@@ -128,6 +128,12 @@ void tradeoff_json(const struct tradeoff *t, const char *scene, struct strbuf *o
     json_write_real(&json, "seconds", t->seconds);
     json_write_integer(&json, "rounds", t->rounds);
     json_write_integer(&json, "truth_samples", t->truth_samples);
+    json_write_integer(&json, "truth_segments", t->truth_segments);
+    json_write_boolean(&json, "truth_cut", t->truth_cut);
+    json_write_real(&json, "truth_left_weight", t->truth_left_weight);
+    json_write_integer(&json, "parts_left_out", t->parts_out);
+    json_write_boolean(&json, "numeric_probed", t->numeric_probed);
+    json_write_boolean(&json, "hits_left_out", t->hits_out);
     json_write_integer(&json, "rows_left_out", t->rows_left_out);
     json_write_integer(&json, "pairs_left_out", t->pairs_left_out);
     json_write_integer(&json, "too_costly", t->too_costly);

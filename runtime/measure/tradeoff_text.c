@@ -153,6 +153,24 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
     if (t->options.budget_s > 0)
         strbuf_format(out, "; the budget was %.6g s", t->options.budget_s);
     strbuf_char(out, '\n');
+    if (t->truth_samples <= t->rows[0].setting.samples)
+        strbuf_cstr(
+            out, "the budget let the reference have no more samples than the file: what more of them would "
+                 "mend is not seen\n");
+    if (t->truth_cut)
+        strbuf_format(out,
+                      "the budget let the reference follow %" PRIu64
+                      " rays a sample; those left out weigh %.2g of a pixel on average, and settings that "
+                      "follow more may look worse than they are\n",
+                      t->truth_segments, t->truth_left_weight);
+    if (t->parts_out)
+        strbuf_format(out, "the errors of %u settings were not split into parts for want of time\n",
+                      t->parts_out);
+    if (t->numeric_probed)
+        strbuf_cstr(out,
+                    "for want of time the numeric part was measured where the others were, not all over\n");
+    if (t->hits_out)
+        strbuf_cstr(out, "first hits were left out for want of time\n");
     if (t->rows_left_out)
         strbuf_format(out, "%u settings were left out for want of time\n", t->rows_left_out);
     if (t->pairs_left_out)
