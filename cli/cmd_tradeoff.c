@@ -3,8 +3,6 @@
 #include "cli/progress.h"
 #include "cli/study.h"
 
-#include <math.h>
-
 static int write_html(struct cli *cli, const struct tradeoff *study) {
     struct strbuf page;
     strbuf_init(&page);
@@ -29,8 +27,8 @@ static int print_report(struct cli *cli, const struct tradeoff *study, int kind)
 }
 
 static bool nothing_fits(const struct tradeoff *study) {
-    return (!isnan(study->options.max_error) && study->cheapest.row == CHOICE_NONE) ||
-           (!isnan(study->options.max_time_ms) && study->best_within.row == CHOICE_NONE);
+    const struct choice *choice = tradeoff_choice(study);
+    return choice && choice->row == CHOICE_NONE;
 }
 
 static int study_and_report(struct cli *cli, struct session *session, const struct tradeoff_options *options,

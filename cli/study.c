@@ -127,13 +127,8 @@ int cli_study(struct cli *cli, struct session *session, const struct tradeoff_op
 // ---- for render
 
 static int take_choice(struct cli *cli, const struct tradeoff *study) {
-    const bool by_error = !isnan(study->options.max_error);
-    const struct choice *choice = by_error ? &study->cheapest : &study->best_within;
+    const uint32_t row = tradeoff_choice(study)->row;
     struct strbuf text;
-    // Both bounds together: the cheapest for the error must keep the time too.
-    uint32_t row = choice->row;
-    if (by_error && row != CHOICE_NONE && study->rows[row].time_ms > study->options.max_time_ms)
-        row = CHOICE_NONE;
     strbuf_init(&text);
     tradeoff_answers(study, &text);
     if (!cli->options.quiet)

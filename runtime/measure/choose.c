@@ -31,13 +31,13 @@ struct search {
     const struct choice_row *rows;
     uint32_t count;
     double noise;
-    bool (*fits)(const struct choice_row *row, double bound);
-    double bound;
-    const bool *taken; // may be NULL: rows to leave out
+    bool (*fits)(const struct search *s, const struct choice_row *row);
+    double bound, limit_ms; // of the error, of the time
+    const bool *taken;      // may be NULL: rows to leave out
 };
 
 static bool is_open(const struct search *s, uint32_t i) {
-    return s->rows[i].choosable && !(s->taken && s->taken[i]) && (!s->fits || s->fits(&s->rows[i], s->bound));
+    return s->rows[i].choosable && !(s->taken && s->taken[i]) && (!s->fits || s->fits(s, &s->rows[i]));
 }
 
 static uint32_t fastest(const struct search *s, uint32_t without) {
@@ -146,20 +146,24 @@ uint32_t choice_knee(const struct choice_row *rows, uint32_t count) {
 
 // ---- choices
 
-static bool by_time(const struct choice_row *row, double limit) {
-    return row->time_ms <= limit && !isnan(row->error);
+static bool by_time(const struct search *s, const struct choice_row *row) {
+    return row->time_ms <= s->limit_ms && !isnan(row->error);
 }
 
-static bool by_error(const struct choice_row *row, double bound) {
-    return row->error <= bound;
+static bool by_error(const struct search *s, const struct choice_row *row) {
+    return row->error <= s->bound;
 }
 
-static bool not_by_time(const struct choice_row *row, double limit) {
-    return !by_time(row, limit);
+static bool by_both(const struct search *s, const struct choice_row *row) {
+    return by_time(s, row) && by_error(s, row);
 }
 
-static bool not_by_error(const struct choice_row *row, double bound) {
-    return !by_error(row, bound);
+static bool not_by_time(const struct search *s, const struct choice_row *row) {
+    return !by_time(s, row);
+}
+
+static bool not_by_error(const struct search *s, const struct choice_row *row) {
+    return !by_error(s, row);
 }
 
 static uint32_t least_error(const struct search *s, uint32_t without) {
@@ -195,18 +199,26 @@ static struct choice choose(const struct search *fitting, const struct search *o
 }
 
 struct choice choice_cheapest(const struct choice_row *rows, uint32_t count, double noise, double bound) {
-    const struct search fitting = {rows, count, noise, by_error, bound, NULL};
-    const struct search others = {rows, count, noise, not_by_error, bound, NULL};
+    const struct search fitting = {rows, count, noise, by_error, bound, 0, NULL};
+    const struct search others = {rows, count, noise, not_by_error, bound, 0, NULL};
     struct choice choice = choose(&fitting, &others, cheapest, least_error);
     if (choice.nearest != CHOICE_NONE)
         choice.short_by = rows[choice.nearest].error - bound;
     return choice;
 }
 
+struct choice choice_both(const struct choice_row *rows, uint32_t count, double noise, double bound,
+                          double limit_ms) {
+    const struct search fitting = {rows, count, noise, by_both, bound, limit_ms, NULL};
+    const uint32_t row = cheapest(&fitting, CHOICE_NONE);
+    const uint32_t runner_up = row == CHOICE_NONE ? row : cheapest(&fitting, row);
+    return (struct choice){row, runner_up, runner_up != CHOICE_NONE, CHOICE_NONE, (double)NAN};
+}
+
 struct choice choice_best_within(const struct choice_row *rows, uint32_t count, double noise,
                                  double limit_ms) {
-    const struct search fitting = {rows, count, noise, by_time, limit_ms, NULL};
-    const struct search others = {rows, count, noise, not_by_time, limit_ms, NULL};
+    const struct search fitting = {rows, count, noise, by_time, 0, limit_ms, NULL};
+    const struct search others = {rows, count, noise, not_by_time, 0, limit_ms, NULL};
     struct choice choice = choose(&fitting, &others, least_error, fastest);
     if (choice.nearest != CHOICE_NONE)
         choice.short_by = rows[choice.nearest].time_ms - limit_ms;

@@ -46,6 +46,11 @@ struct choice {
 
 // The cheapest row with error <= bound. `noise` is what choice_classify gave.
 struct choice choice_cheapest(const struct choice_row *rows, uint32_t count, double noise, double bound);
+// The cheapest row with error <= bound and time <= limit. The cheapest by its error alone may be a little
+// over the limit where another of its class keeps it. How near the others come is left to the other two:
+// nearest is CHOICE_NONE, and a runner-up fits.
+struct choice choice_both(const struct choice_row *rows, uint32_t count, double noise, double bound,
+                          double limit_ms);
 // The row of lowest error with time <= limit; the cheapest of equals.
 struct choice choice_best_within(const struct choice_row *rows, uint32_t count, double noise,
                                  double limit_ms);

@@ -318,14 +318,22 @@ static enum tradeoff_status choose(struct tradeoff *t) {
         t->rows[i].on_front = choices[i].on_front;
     }
     t->knee = choice_knee(choices, t->count);
-    t->cheapest = t->best_within = (struct choice){CHOICE_NONE, CHOICE_NONE, false, CHOICE_NONE, (double)NAN};
-    if (!isnan(t->options.max_error))
-        t->cheapest =
-            choice_cheapest(choices, t->count, t->noise, tradeoff_error(metric, t->options.max_error));
-    if (!isnan(t->options.max_time_ms))
-        t->best_within = choice_best_within(choices, t->count, t->noise, t->options.max_time_ms);
+    t->cheapest = t->best_within = t->both =
+        (struct choice){CHOICE_NONE, CHOICE_NONE, false, CHOICE_NONE, (double)NAN};
+    const double bound = tradeoff_error(metric, t->options.max_error), limit = t->options.max_time_ms;
+    if (!isnan(bound))
+        t->cheapest = choice_cheapest(choices, t->count, t->noise, bound);
+    if (!isnan(limit))
+        t->best_within = choice_best_within(choices, t->count, t->noise, limit);
+    if (!isnan(bound) && !isnan(limit))
+        t->both = choice_both(choices, t->count, t->noise, bound, limit);
     free(choices);
     return TRADEOFF_DONE;
+}
+
+const struct choice *tradeoff_choice(const struct tradeoff *t) {
+    const bool by_error = !isnan(t->options.max_error), by_time = !isnan(t->options.max_time_ms);
+    return by_error && by_time ? &t->both : by_error ? &t->cheapest : by_time ? &t->best_within : NULL;
 }
 
 enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_input *input,

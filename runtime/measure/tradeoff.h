@@ -130,9 +130,9 @@ struct tradeoff {
     uint32_t part_pixels;    // at which the parts were measured
     double seconds, reference_seconds;
     char device[256];
-    double noise;  // share of a time below which two are equal
-    uint32_t knee; // CHOICE_NONE: none
-    struct choice cheapest, best_within;
+    double noise;                              // share of a time below which two are equal
+    uint32_t knee;                             // CHOICE_NONE: none
+    struct choice cheapest, best_within, both; // the last where both bounds were asked for
 };
 
 enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_input *input,
@@ -142,6 +142,9 @@ void tradeoff_finish(struct tradeoff *study);
 
 // The metric's value as an error: lower is better.
 double tradeoff_error(enum metric metric, double value);
+
+// The one that keeps every bound that was asked for; NULL: none was asked for.
+const struct choice *tradeoff_choice(const struct tradeoff *study);
 
 // ---- what to paste (setting_text.c); only what differs from `base` is written.
 

@@ -229,8 +229,10 @@ void tradeoff_html(const struct tradeoff *t, const char *scene, struct strbuf *o
     escaped(out, tradeoff_answers, t);
     strbuf_cstr(out, "</pre>\n<h2>Settings</h2>\n<p class=\"soft\">Bold: on the front. Grey: studies and the "
                      "general shader, never chosen. A click on a head sorts.");
-    strbuf_format(out, " The last four columns split the mean absolute error by cause, at %u pixels.</p>\n",
-                  t->part_pixels);
+    if (t->part_pixels)
+        strbuf_format(out, " The last four columns split the mean absolute error by cause, at %u pixels.",
+                      t->part_pixels);
+    strbuf_cstr(out, "</p>\n");
     rows_table(t, out);
     strbuf_cstr(out,
                 "<h2>First hits against the reference</h2>\n<p class=\"soft\">Per million pixels. Acne: dark "

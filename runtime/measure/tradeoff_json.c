@@ -94,7 +94,8 @@ static void put_choice(const struct tradeoff *t, const char *key, double bound, 
     if (isnan(bound))
         return;
     json_open_object(json, key);
-    json_write_real(json, "bound", bound);
+    if (choice != &t->both) // its bounds stand beside the two others
+        json_write_real(json, "bound", bound);
     put_index("row", choice->row, json);
     put_index("runner_up", choice->runner_up, json);
     json_write_boolean(json, "runner_up_fits", choice->runner_up_fits);
@@ -141,6 +142,8 @@ void tradeoff_json(const struct tradeoff *t, const char *scene, struct strbuf *o
     put_index("knee", t->knee, &json);
     put_choice(t, "cheapest", t->options.max_error, &t->cheapest, &json);
     put_choice(t, "best_within", t->options.max_time_ms, &t->best_within, &json);
+    if (!isnan(t->options.max_error) && !isnan(t->options.max_time_ms))
+        put_choice(t, "both", 0, &t->both, &json);
     json_open_list(&json, "rows");
     for (uint32_t i = 0; i < t->count; i++)
         put_row(t, i, &json);

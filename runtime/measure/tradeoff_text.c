@@ -74,6 +74,11 @@ void tradeoff_answers(const struct tradeoff *t, struct strbuf *out) {
         strbuf_format(&question, "best %s within %.6g ms", metric, t->options.max_time_ms);
         answer(t, strbuf_view(&question), "ms", &t->best_within, out);
     }
+    if (!isnan(t->options.max_error) && !isnan(t->options.max_time_ms)) {
+        strbuf_clear(&question);
+        strbuf_format(&question, "cheapest that keeps both");
+        answer(t, strbuf_view(&question), metric, &t->both, out);
+    }
     if (t->knee != CHOICE_NONE && isnan(t->options.max_error) && isnan(t->options.max_time_ms)) {
         strbuf_cstr(out, "\n");
         one_row(t, "the knee of the front", t->knee, out);
@@ -164,7 +169,7 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
                       "follow more may look worse than they are\n",
                       t->truth_segments, t->truth_left_weight);
     if (t->parts_out)
-        strbuf_format(out, "the errors of %u settings were not split into parts for want of time\n",
+        strbuf_format(out, "settings whose errors were not split into parts, for want of time: %u\n",
                       t->parts_out);
     if (t->numeric_probed)
         strbuf_cstr(out,
@@ -195,7 +200,7 @@ void tradeoff_text(const struct tradeoff *t, const char *scene, struct strbuf *o
                   metric_infos[t->options.metric].name);
     strbuf_cstr(out, "\n  #    setting                                     time ms  spread cls      work"
                      "       mae      flip     share");
-    if (!t->options.quick)
+    if (t->part_pixels)
         strbuf_format(out, "   numeric truncated   sampled  resolved   (mae of the parts, at %u pixels)",
                       t->part_pixels);
     strbuf_char(out, '\n');

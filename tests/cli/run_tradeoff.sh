@@ -44,6 +44,11 @@ if [ -z "$mode" ]; then
     cp out.txt study.txt
     expect "its file's own row" 0 '^  0 .*as the file says' - cat study.txt
     expect "the report is one file" 0 '<svg.*time against error' - cat report.html
+    # The reference's share of the budget grows with the processors.
+    expect "a truth cut short, whatever the depth of the file" 0 'let the reference follow [0-9]+ rays a sample; those' - \
+        "$glint" tradeoff small.yaml -q --budget 1 --size 80x60 --samples $((8 * $(nproc))) --set trace.max_depth=0
+    expect "both bounds" 0 '^cheapest that keeps both' - \
+        "$glint" tradeoff small.yaml -q --budget 1 --max-error flip=0.9 --max-time 100000
     expect "nothing fits" 1 '"misses_by"' - "$glint" tradeoff small.yaml -q --max-error mae=0 --budget 1 --format json
     printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\377\377\377\377' >sky.hdr
     printf 'glint: 1\nimage: {width: 16, height: 16}\ncamera: {}\nbackground: {image: sky.hdr, intensity: 4}\n' >endless.yaml

@@ -133,6 +133,20 @@ static void test_best_within(void **state) {
     misses(choice_best_within(rows, 4, noise, 8), 0, 2, 1);
 }
 
+// The cheapest by its error is a little over the limit; one that cannot be told from it is not.
+static void test_both_bounds(void **state) {
+    (void)state;
+    struct choice_row rows[] = {row(10.15, 0.01, 1, 0.1), row(10, 0.01, 2, 0.1), row(9.9, 0.01, 3, 0.1),
+                                row(5, 0.01, 1, 0.3), row(10, 0.01, 1, (double)NAN)};
+    const double noise = choice_classify(rows, 5);
+    assert_int_equal(choice_cheapest(rows, 5, noise, 0.2).row, 0);
+    chooses(choice_both(rows, 5, noise, 0.2, 10.1), 1, 2, true);
+    chooses(choice_both(rows, 5, noise, 0.2, 9.95), 2, CHOICE_NONE, false);
+    chooses(choice_both(rows, 5, noise, 0.2, 20), 0, 1, true);
+    chooses(choice_both(rows, 5, noise, 0.2, 9), CHOICE_NONE, CHOICE_NONE, false);
+    chooses(choice_both(rows, 5, noise, 0.05, 20), CHOICE_NONE, CHOICE_NONE, false);
+}
+
 static void test_not_a_number(void **state) {
     (void)state;
     struct choice_row rows[] = {row(10, 0, 1, (double)NAN), row(20, 0, 2, 0.1)};
@@ -473,6 +487,7 @@ int main(void) {
         cmocka_unit_test(test_studies_take_no_part),
         cmocka_unit_test(test_cheapest),
         cmocka_unit_test(test_best_within),
+        cmocka_unit_test(test_both_bounds),
         cmocka_unit_test(test_not_a_number),
         cmocka_unit_test(test_same_choice_under_noise),
         cmocka_unit_test(test_knee),
