@@ -294,15 +294,18 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     put_node(p, value, value == JOIN_LINE ? indent + FORMAT_INDENT : indent);
 }
 
-// A comma that begins a line stays there only where a comment follows: behind the entry before it, that would
-// be this entry's.
-static void put_comma(struct printer *p, uint32_t indent) {
+// What separates entries or is only said of a value stays at the beginning of its line where a comment
+// follows: on the line before, that would be of the entry there.
+static enum join join_before_comment(const struct printer *p, enum join otherwise) {
     uint32_t behind = peek(p)->end;
     while (behind < p->text.len && char_is_blank(p->text.ptr[behind]))
         behind++;
     bool comment = behind < p->text.len && p->text.ptr[behind] == '#';
-    enum join join = p->last == YAML_TOKEN_COLON ? JOIN_SPACE : JOIN_NONE;
-    put(p, comment ? flow_join(p, join) : join, indent);
+    return comment ? flow_join(p, otherwise) : otherwise;
+}
+
+static void put_comma(struct printer *p, uint32_t indent) {
+    put(p, join_before_comment(p, p->last == YAML_TOKEN_COLON ? JOIN_SPACE : JOIN_NONE), indent);
 }
 
 // A list or map in brackets. Where the first entry stands on a line of its own, entries are indented; else
@@ -339,7 +342,7 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
     bool after_item = p->last == YAML_TOKEN_ITEM;
     bool properties = false;
     while (peek(p)->kind == YAML_TOKEN_PROPERTY) {
-        put(p, join, indent);
+        put(p, join_before_comment(p, join), indent);
         join = JOIN_SPACE;
         properties = true;
     }

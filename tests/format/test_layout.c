@@ -80,7 +80,9 @@ static void test_yaml_comments(void **state) {
          "glint: 1\nx-m: {!!null : 1, &a : 2}\nx-n:\n  !!null : 1\n");
     yaml("glint: 1\nx-m: {a, ?\nb, c} # c\n", "glint: 1\nx-m: {a, ?\n        b, c}  # c\n");
     yaml("glint: 1\nx-m: {?a : 1, ?b:: , ? c::: 2}\n", "glint: 1\nx-m: {? a: 1, ? b:: , ? c::: 2}\n");
-    // Behind a comma that begins its line.
+    // Behind an anchor or a comma that begins its line.
+    yaml("glint: 1\nx-m:\n   &a # c\n b: 1\n", "glint: 1\nx-m:\n  &a  # c\n  b: 1\n");
+    yaml("glint: 1\nx-m:\n   &a\n b: 1\n", "glint: 1\nx-m: &a\n  b: 1\n");
     yaml("glint: 1\nx-m: {a\n,# c\n b: 2}\n", "glint: 1\nx-m: {a\n      ,  # c\n      b: 2}\n");
 }
 
