@@ -171,6 +171,12 @@ static void finds_definitions_over_includes(void **state) {
     json_decref(location);
 }
 
+// Asks to rename what stands at `place` (client_at), which it takes.
+static json_t *rename_to(struct lsp_client *client, json_t *place, const char *name, json_t **error) {
+    json_object_set_new(place, "newName", json_string(name));
+    return client_request(client, "textDocument/rename", place, error);
+}
+
 static void finds_uses_and_renames(void **state) {
     struct lsp_client *client = *state;
     client_initialize(client, NULL);
@@ -180,19 +186,15 @@ static void finds_uses_and_renames(void **state) {
     json_t *list = client_request(client, "textDocument/references", params, NULL);
     assert_int_equal(json_array_size(list), 3);
     json_decref(list);
-    params = client_at(client, "main.yaml", 3, 30);
-    json_object_set_new(params, "newName", json_string("window"));
-    json_t *edit = client_request(client, "textDocument/rename", params, NULL);
+    json_t *edit = rename_to(client, client_at(client, "main.yaml", 3, 30), "window", NULL);
     const json_t *changes = json_object_get(edit, "changes");
     assert_int_equal(json_array_size(json_object_get(changes, client_uri(client, "main.yaml"))), 2);
     json_t *there = json_object_get(changes, client_uri(client, "materials.xml"));
     assert_int_equal(json_array_size(there), 1);
     expect_range(json_object_get(json_array_get(there, 0), "range"), 2, 18, 23);
     json_decref(edit);
-    params = client_at(client, "main.yaml", 3, 30);
-    json_object_set_new(params, "newName", json_string("no name"));
     json_t *error = NULL;
-    json_decref(client_request(client, "textDocument/rename", params, &error));
+    json_decref(rename_to(client, client_at(client, "main.yaml", 3, 30), "no name", &error));
     assert_int_equal(json_integer_value(json_object_get(error, "code")), -32803);
     json_decref(error);
 }
@@ -205,18 +207,14 @@ static void renames_behind_anchors_and_to_free_names(void **state) {
                 "glint: 1\nmaterials: {glass: {}, brass: {}}\nspheres:\n"
                 "  - {center: [0, 0, 0], radius: 1, material: &m glass}\n"
                 "  - {center: [3, 0, 0], radius: 1, material: *m}\n");
-    json_t *params = client_at(client, "main.yaml", 1, 14);
-    json_object_set_new(params, "newName", json_string("window"));
-    json_t *edit = client_request(client, "textDocument/rename", params, NULL);
+    json_t *edit = rename_to(client, client_at(client, "main.yaml", 1, 14), "window", NULL);
     const json_t *edits = json_object_get(json_object_get(edit, "changes"), client_uri(client, "main.yaml"));
     assert_int_equal(json_array_size(edits), 2);
     expect_range(json_object_get(json_array_get(edits, 0), "range"), 1, 12, 17);
     expect_range(json_object_get(json_array_get(edits, 1), "range"), 3, 48, 53);
     json_decref(edit);
-    params = client_at(client, "main.yaml", 1, 14);
-    json_object_set_new(params, "newName", json_string("brass"));
     json_t *error = NULL;
-    json_decref(client_request(client, "textDocument/rename", params, &error));
+    json_decref(rename_to(client, client_at(client, "main.yaml", 1, 14), "brass", &error));
     assert_int_equal(json_integer_value(json_object_get(error, "code")), -32803);
     json_decref(error);
 }
@@ -325,9 +323,7 @@ static void renames_what_is_spelled_with_entities(void **state) {
         client, "x.xml",
         "<Scene glint=\"1\">\n<Material name=\"gl&#97;ss\"/>\n"
         "<Sphere radius=\"1\" material='g&#108;ass'><Center x=\"0\" y=\"0\" z=\"0\"/></Sphere>\n</Scene>\n");
-    json_t *params = client_at(client, "x.xml", 2, 33);
-    json_object_set_new(params, "newName", json_string("window"));
-    json_t *edit = client_request(client, "textDocument/rename", params, NULL);
+    json_t *edit = rename_to(client, client_at(client, "x.xml", 2, 33), "window", NULL);
     const json_t *edits = json_object_get(json_object_get(edit, "changes"), client_uri(client, "x.xml"));
     assert_int_equal(json_array_size(edits), 2);
     expect_range(json_object_get(json_array_get(edits, 0), "range"), 1, 16, 25);
