@@ -8,7 +8,7 @@
 #define GLINT_APP_CHECK_H
 
 #include "app/session.h"
-#include "core/diag_report.h"
+#include "diag/diag_report.h"
 
 // The session's sink then holds the findings, sorted and grouped. Whatever the result, session_finish takes
 // it.

@@ -2,7 +2,7 @@
 
 #include "core/nearest.h"
 #include "core/unicode.h"
-#include "parser/reader.h"
+#include "parser/tree/reader.h"
 
 #include <string.h>
 

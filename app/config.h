@@ -14,10 +14,10 @@
 #ifndef GLINT_APP_CONFIG_H
 #define GLINT_APP_CONFIG_H
 
-#include "core/diag_policy.h"
-#include "core/files.h"
 #include "core/limits.h"
-#include "core/source.h"
+#include "diag/diag_policy.h"
+#include "diag/source.h"
+#include "files/files.h"
 
 struct config {
     str path; // empty: there is none

@@ -7,8 +7,8 @@
 
 #include "app/session.h"
 #include "app/shot.h"
-#include "runtime/image/image.h"
-#include "runtime/reference/cache.h"
+#include "picture/write/image.h"
+#include "reference/cache.h"
 
 struct exact_options {
     bool as_file;  // obey max_depth, min_weight and depth_limit

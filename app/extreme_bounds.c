@@ -2,7 +2,7 @@
 
 #include "core/nearest.h"
 #include "core/number.h"
-#include "parser/reader.h"
+#include "parser/tree/reader.h"
 
 #include <math.h>
 

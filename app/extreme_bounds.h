@@ -10,10 +10,10 @@
 #ifndef GLINT_APP_EXTREME_BOUNDS_H
 #define GLINT_APP_EXTREME_BOUNDS_H
 
-#include "core/diag.h"
 #include "core/limits.h"
-#include "core/source.h"
-#include "runtime/measure/extremes.h"
+#include "diag/diag.h"
+#include "diag/source.h"
+#include "measure/extremes/extremes.h"
 
 struct extreme_bounds {
     struct extreme_bound *items;

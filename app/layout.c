@@ -1,7 +1,7 @@
 #include "app/layout.h"
 
 #include "app/session.h"
-#include "parser/format.h"
+#include "parser/format/format.h"
 
 struct job {
     struct layout *layout;

@@ -5,10 +5,10 @@
 #ifndef GLINT_APP_LAYOUT_H
 #define GLINT_APP_LAYOUT_H
 
-#include "core/diag.h"
-#include "core/files.h"
 #include "core/limits.h"
 #include "core/strbuf.h"
+#include "diag/diag.h"
+#include "files/files.h"
 
 enum layout_status {
     LAYOUT_SAME,       // the text is in canonical layout

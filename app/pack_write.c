@@ -3,11 +3,11 @@
 
 #include "app/pack.h"
 
-#include "core/files_walk.h"
-#include "core/output.h"
 #include "core/strbuf.h"
-#include "grammar/ir_print.h"
+#include "files/files_walk.h"
+#include "files/output.h"
 #include "grammar/ir_walk.h"
+#include "grammar/print/ir_print.h"
 
 #include <errno.h>
 #include <ftw.h>

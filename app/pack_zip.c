@@ -2,8 +2,8 @@
 #include "app/pack.h"
 
 #include "core/arena.h"
-#include "core/files.h"
-#include "core/output.h"
+#include "files/files.h"
+#include "files/output.h"
 
 #include <errno.h>
 #include <minizip/zip.h>

@@ -8,7 +8,7 @@
 
 #include "app/shot.h"
 #include "core/strbuf.h"
-#include "runtime/reference/reference.h"
+#include "reference/reference.h"
 
 enum {
     PICK_SEGMENTS_MAX = 4096,  // rays of a path that are told

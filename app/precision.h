@@ -6,7 +6,7 @@
 
 #include "app/session.h"
 #include "core/strbuf.h"
-#include "runtime/precision.h"
+#include "tracer/flatten/precision.h"
 
 // What flattening takes for a session seen in this view; `view` must outlive it.
 struct flat_input precision_input(struct session *session, const struct view *view);

@@ -5,6 +5,7 @@
 #include "core/strbuf.h"
 #include "grammar/ir_print_text.h"
 #include "parser/parser.h"
+#include "scene/reach.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -124,6 +125,7 @@ static void load_assets(struct session *session, struct asset_store *store) {
     double start = clock_seconds();
     struct assets_input input = session_assets_input(session);
     assets_load(store, &input, session->options.skip_pixels, &session->assets);
+    scene_check_reach(session->scene, &session->assets, &session->sink);
     session->assets_seconds = clock_seconds() - start;
 }
 

@@ -9,14 +9,14 @@
 
 #include "app/config.h"
 #include "assets/assets.h"
-#include "assets/view.h"
-#include "core/diag.h"
-#include "core/diag_policy.h"
-#include "core/files.h"
 #include "core/limits.h"
+#include "diag/diag.h"
+#include "diag/diag_policy.h"
+#include "files/files.h"
 #include "grammar/ir.h"
 #include "grammar/ir_origin.h"
-#include "runtime/lint/lint.h"
+#include "lint/lint.h"
+#include "scene/view.h"
 
 struct session_options {
     str path; // of the scene, or of a mesh, which is then a scene with that one model

@@ -7,8 +7,8 @@
 #define GLINT_APP_SHOT_H
 
 #include "app/session.h"
-#include "runtime/image/image.h"
-#include "runtime/render.h"
+#include "picture/write/image.h"
+#include "tracer/render/render.h"
 
 enum shot_status {
     SHOT_OK,

@@ -1,6 +1,6 @@
 #include "app/where.h"
 
-#include "runtime/hits.h"
+#include "scene/hits.h"
 
 static const struct ir_material_ref *find_body(const struct session *session, uint32_t body,
                                                struct where *out) {

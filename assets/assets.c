@@ -2,10 +2,9 @@
 
 #include "assets/loader.h"
 #include "assets/mesh_build.h"
-#include "assets/picture_read.h"
-#include "assets/view.h"
 #include "core/strbuf.h"
 #include "grammar/schema.h"
+#include "picture/read/picture_read.h"
 
 #include <assert.h>
 
@@ -157,24 +156,6 @@ static bool fits_scene(struct loader *loader, struct assets *out, const struct m
     return false;
 }
 
-static void check_transform(struct loader *loader, const struct ir_model *model, const struct mesh *mesh) {
-    const struct assets_input *input = loader->input;
-    affine3 place = view_model_transform(model);
-    double largest = 0;
-    for (int i = 0; i < 8; i++) {
-        vec3 corner = {i & 1 ? mesh->upper.x : mesh->lower.x, i & 2 ? mesh->upper.y : mesh->lower.y,
-                       i & 4 ? mesh->upper.z : mesh->lower.z};
-        largest = fmax(largest, vec3_max_abs(affine3_apply(place, corner)));
-    }
-    const struct schema_range_info *range = schema_range_info(SCHEMA_RANGE_COORDINATE);
-    if (largest <= range->greatest)
-        return;
-    diag_add(input->sink, DIAG_TRANSFORM_OVERFLOW, ir_place_label(input->origin, &model->head),
-             "placed by its scale, rotation and translation, the model reaches coordinates of %.3g; the "
-             "largest allowed is 1e18",
-             largest);
-}
-
 static void check_refraction(struct loader *loader, const struct ir_model *model,
                              const struct assets_model *loaded_model, struct loaded_mesh *loaded, span at) {
     const struct mesh *mesh = loaded->mesh;
@@ -209,7 +190,6 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
         return;
     result->group_material = loader_group_materials(loader, model, loaded);
     result->mesh = loaded->mesh;
-    check_transform(loader, model, loaded->mesh);
     check_refraction(loader, model, result, loaded, at);
 }
 

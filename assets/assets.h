@@ -9,12 +9,12 @@
 #define GLINT_ASSETS_ASSETS_H
 
 #include "assets/mesh.h"
-#include "assets/picture.h"
-#include "core/diag.h"
-#include "core/files.h"
 #include "core/limits.h"
+#include "diag/diag.h"
+#include "files/files.h"
 #include "grammar/ir.h"
 #include "grammar/ir_origin.h"
+#include "picture/read/picture.h"
 
 struct asset_store;
 struct asset_hold;

@@ -6,10 +6,10 @@
 // For each size and method: seconds and seconds per million triangles (best of three), the tree's
 // expected cost, nodes, levels, and the work of rays from around the mesh through its middle.
 #include "core/clock.h"
-#include "runtime/bvh/bvh.h"
-#include "runtime/bvh/items.h"
-#include "runtime/bvh/traverse.h"
 #include "shaders/gpu_scene.h"
+#include "tracer/bvh/bvh.h"
+#include "tracer/bvh/items.h"
+#include "tracer/bvh/traverse.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -7,7 +7,7 @@
 #include "bench/kit.h"
 #include "bench/original/original.h"
 #include "core/number.h"
-#include "core/output.h"
+#include "files/output.h"
 
 #include <getopt.h>
 #include <stdio.h>

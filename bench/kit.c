@@ -2,7 +2,7 @@
 
 #include "app/precision.h"
 #include "core/clock.h"
-#include "core/diag_text.h"
+#include "diag/diag_text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -7,8 +7,8 @@
 #define GLINT_BENCH_KIT_H
 
 #include "app/session.h"
-#include "runtime/image/image.h"
-#include "runtime/render.h"
+#include "picture/write/image.h"
+#include "tracer/render/render.h"
 
 struct bench_scene {
     const char *path;

@@ -5,10 +5,10 @@
 
 #include "app/session.h"
 #include "cli/options_measure.h"
-#include "core/diag.h"
-#include "core/diag_policy.h"
 #include "core/limits.h"
 #include "core/strbuf.h"
+#include "diag/diag.h"
+#include "diag/diag_policy.h"
 
 enum cli_exit {
     CLI_OK = 0,

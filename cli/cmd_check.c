@@ -6,10 +6,10 @@
 #include "app/fixes.h"
 #include "cli/cli.h"
 #include "cli/fix.h"
-#include "core/diag_text.h"
-#include "core/files_walk.h"
 #include "core/parallel.h"
-#include "parser/reader_text.h"
+#include "diag/diag_text.h"
+#include "files/files_walk.h"
+#include "parser/tree/reader_text.h"
 
 #include <errno.h>
 #include <stdatomic.h>

@@ -1,10 +1,10 @@
 // glint compare A B: how far one picture is from another, and whether that is near enough.
 #include "cli/cli.h"
 
-#include "core/files.h"
-#include "runtime/measure/compare_report.h"
-#include "runtime/measure/heatmap.h"
-#include "runtime/measure/picture_file.h"
+#include "files/files.h"
+#include "picture/metrics/compare_report.h"
+#include "picture/metrics/heatmap.h"
+#include "picture/metrics/picture_file.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // glint convert IN OUT: what the scene means, in the other spelling.
 #include "cli/cli.h"
 
-#include "grammar/ir_print.h"
+#include "grammar/print/ir_print.h"
 
 #include <string.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 // glint devices: what can render here. The number or a part of the name goes to --device.
 #include "cli/cli.h"
 
-#include "runtime/gpu/gpu.h"
+#include "tracer/gpu/gpu.h"
 
 static const char *kind_name(enum gpu_kind kind) {
     switch (kind) {

@@ -1,7 +1,7 @@
 // glint diff A B: what differs in meaning between two scenes, with both places.
 #include "cli/cli.h"
 #include "core/json_write.h"
-#include "grammar/ir_diff.h"
+#include "grammar/print/ir_diff.h"
 
 static const char *const formats[] = {"text", "json", NULL};
 static const char *const kinds[] = {

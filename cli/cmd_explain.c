@@ -1,7 +1,7 @@
 // glint explain CODE|element[.attribute]
 #include "cli/cli.h"
 
-#include "grammar/explain.h"
+#include "grammar/emit/explain.h"
 
 #include <stdlib.h>
 #include <unistd.h>

@@ -3,9 +3,9 @@
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "cli/progress.h"
-#include "core/diag_text.h"
-#include "core/files.h"
 #include "core/nearest.h"
+#include "diag/diag_text.h"
+#include "files/files.h"
 
 #include <string.h>
 

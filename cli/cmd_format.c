@@ -1,9 +1,9 @@
 // glint format FILE...: scene files in canonical layout.
 #include "app/layout.h"
 #include "cli/cli.h"
-#include "core/diag_text.h"
-#include "core/files_walk.h"
 #include "core/text_diff.h"
+#include "diag/diag_text.h"
+#include "files/files_walk.h"
 
 #include <errno.h>
 #include <stdio.h>

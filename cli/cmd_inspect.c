@@ -4,8 +4,8 @@
 
 #include "core/number.h"
 #include "grammar/ir_features.h"
-#include "grammar/ir_print.h"
-#include "runtime/flatten.h"
+#include "grammar/print/ir_print.h"
+#include "tracer/flatten/flatten.h"
 
 static void number(struct strbuf *out, double value) {
     char text[NUMBER_FORMAT_MAX];

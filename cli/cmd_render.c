@@ -3,8 +3,8 @@
 #include "cli/render_job.h"
 #include "cli/study.h"
 #include "core/clock.h"
-#include "core/output.h"
 #include "core/quantile.h"
+#include "files/output.h"
 
 #include <errno.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 
 #include "app/schema_line.h"
 #include "core/nearest.h"
-#include "core/output.h"
-#include "grammar/emit.h"
+#include "files/output.h"
+#include "grammar/emit/emit.h"
 
 #include <string.h>
 

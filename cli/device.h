@@ -5,7 +5,7 @@
 #define GLINT_CLI_DEVICE_H
 
 #include "cli/cli.h"
-#include "runtime/gpu/gpu.h"
+#include "tracer/gpu/gpu.h"
 
 // NULL: none in particular.
 const char *cli_device_wanted(const struct cli *cli);

@@ -4,7 +4,7 @@
 #ifndef GLINT_CLI_OPTIONS_MEASURE_H
 #define GLINT_CLI_OPTIONS_MEASURE_H
 
-#include "runtime/measure/compare_report.h"
+#include "picture/metrics/compare_report.h"
 
 enum cli_measure_option {
     CLI_MEASURE_BOUND, // and enum metric behind it

@@ -2,7 +2,7 @@
 #ifndef GLINT_CLI_PROGRESS_H
 #define GLINT_CLI_PROGRESS_H
 
-#include "runtime/render.h"
+#include "tracer/render/render.h"
 
 struct progress {
     bool terminal, quiet;

@@ -2,8 +2,8 @@
 #include "cli/cli.h"
 
 #include "cli/progress.h"
-#include "core/diag_text.h"
-#include "core/output.h"
+#include "diag/diag_text.h"
+#include "files/output.h"
 
 #include <signal.h>
 #include <stdarg.h>

@@ -5,7 +5,7 @@
 #define GLINT_CLI_STUDY_H
 
 #include "cli/cli.h"
-#include "runtime/measure/tradeoff.h"
+#include "measure/tradeoff/tradeoff.h"
 
 // Whether --max-error or --max-time was given.
 bool cli_has_study(const struct cli *cli);

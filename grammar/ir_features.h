@@ -9,7 +9,7 @@
 #ifndef GLINT_GRAMMAR_IR_FEATURES_H
 #define GLINT_GRAMMAR_IR_FEATURES_H
 
-#include "core/source.h"
+#include "diag/source.h"
 #include "grammar/ir.h"
 #include "grammar/ir_origin.h"
 #include "shaders/features.h"

@@ -8,7 +8,7 @@
 #define GLINT_GRAMMAR_IR_ORIGIN_H
 
 #include "core/arena.h"
-#include "core/source.h"
+#include "diag/source.h"
 #include "grammar/ir.h"
 
 struct ir_row_origin {

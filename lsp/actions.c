@@ -1,10 +1,10 @@
 // Quick fixes, completions and formatting.
 #include "lsp/server_private.h"
 
-#include "core/files_walk.h"
 #include "core/strbuf.h"
+#include "files/files_walk.h"
 #include "grammar/ir_walk.h"
-#include "parser/format.h"
+#include "parser/format/format.h"
 
 #include <stdlib.h>
 #include <string.h>

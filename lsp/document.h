@@ -4,7 +4,7 @@
 #ifndef GLINT_LSP_DOCUMENT_H
 #define GLINT_LSP_DOCUMENT_H
 
-#include "core/files.h"
+#include "files/files.h"
 #include "lsp/position.h"
 
 #include <jansson.h>

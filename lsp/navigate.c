@@ -2,7 +2,7 @@
 #include "lsp/server_private.h"
 
 #include "core/strbuf.h"
-#include "grammar/explain.h"
+#include "grammar/emit/explain.h"
 #include "grammar/ir_walk.h"
 
 #include <string.h>

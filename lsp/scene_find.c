@@ -1,7 +1,7 @@
 // Which scene a document belongs to.
 #include "lsp/scene.h"
 
-#include "core/files_walk.h"
+#include "files/files_walk.h"
 #include "grammar/schema.h"
 
 #include <stdlib.h>

@@ -6,9 +6,9 @@
 #ifndef GLINT_PARSER_PARSER_H
 #define GLINT_PARSER_PARSER_H
 
-#include "core/diag.h"
-#include "core/files.h"
 #include "core/limits.h"
+#include "diag/diag.h"
+#include "files/files.h"
 #include "grammar/ir.h"
 #include "grammar/ir_origin.h"
 

@@ -1,4 +1,4 @@
-// What every pixel's first ray meets (runtime/hits.h), with the camera, trees, surfaces and lights of the tracer.
+// What every pixel's first ray meets (scene/hits.h), with the camera, trees, surfaces and lights of the tracer.
 //
 // A dispatch traces one kind of ray (hits.h). Later kinds make the surface again from the hit that the first one
 // left in OUTPUT.

@@ -1,4 +1,4 @@
-/* What hits.comp writes for each pixel (runtime/hits.h), and which of a pixel's rays a dispatch traces;
+/* What hits.comp writes for each pixel (scene/hits.h), and which of a pixel's rays a dispatch traces;
    compiled by C and by GLSL. */
 #ifndef GLINT_SHADERS_HITS_H
 #define GLINT_SHADERS_HITS_H

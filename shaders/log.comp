@@ -1,5 +1,5 @@
 // What single rays meet and where they go on, told in full, with the code of the tracer: the host walks one
-// sample's path with it, ray by ray (runtime/render_log.c).
+// sample's path with it, ray by ray (tracer/render/render_log.c).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,5 +1,5 @@
 /* The fields of the records of gpu_scene.h, word by word: one list expands to the C struct and its asserts
-   (runtime/gpu_records.h) and to the GLSL struct and its loader (records.glsl). VECTOR(name, word) takes
+   (tracer/gpu_records.h) and to the GLSL struct and its loader (records.glsl). VECTOR(name, word) takes
    x, y, z of a word; FLOAT and UINT(name, word, component) one component. In the order of memory.
    Lists with 64 in their names are of scenes in double precision, and they alone have doubles: REAL3(name,
    word) takes a word and half of the next, REAL(name, word, half) the xy or zw of a word. */

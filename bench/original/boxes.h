@@ -5,7 +5,7 @@
 #ifndef GLINT_BENCH_ORIGINAL_BOXES_H
 #define GLINT_BENCH_ORIGINAL_BOXES_H
 
-#include "runtime/flatten.h"
+#include "tracer/flatten/flatten.h"
 
 struct original_boxes {
     struct flat_array boxes, triangles, rectangles; // layout.h; `triangles` as in shaders/gpu_scene.h

@@ -2,7 +2,7 @@
 
 #include "bench/original/boxes.h"
 #include "bench/original/layout.h"
-#include "runtime/render_private.h"
+#include "tracer/render/render_private.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,7 +10,7 @@
 #ifndef GLINT_BENCH_ORIGINAL_ORIGINAL_H
 #define GLINT_BENCH_ORIGINAL_ORIGINAL_H
 
-#include "runtime/render.h"
+#include "tracer/render/render.h"
 
 enum original_fetch {
     ORIGINAL_STORAGE, // storage buffers, as the original

@@ -1,6 +1,6 @@
 #include "tests/equal/equal_kit.h"
 
-#include "core/diag_text.h"
+#include "diag/diag_text.h"
 #include "grammar/ir_walk.h"
 
 #include <setjmp.h>

@@ -2,9 +2,9 @@
 #ifndef GLINT_TESTS_EQUAL_KIT_H
 #define GLINT_TESTS_EQUAL_KIT_H
 
-#include "core/files.h"
 #include "core/strbuf.h"
-#include "grammar/ir_print.h"
+#include "files/files.h"
+#include "grammar/print/ir_print.h"
 #include "grammar/schema.h"
 #include "parser/parser.h"
 

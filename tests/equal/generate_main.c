@@ -2,7 +2,7 @@
 //     generate_scene SEED yaml|xml [MESH...]
 // With meshes the scene is one to render, and may name these.
 #include "grammar/generate.h"
-#include "grammar/ir_print.h"
+#include "grammar/print/ir_print.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "tests/equal/json_schema.h"
 
 #include "core/number.h"
-#include "parser/reader.h"
+#include "parser/tree/reader.h"
 
 #include <regex.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // What ir_diff finds in generated scenes: nothing between spellings, and one thing after one change.
 #include "grammar/generate.h"
-#include "grammar/ir_diff.h"
+#include "grammar/print/ir_diff.h"
 #include "tests/equal/equal_kit.h"
 
 #include <setjmp.h>

@@ -2,7 +2,7 @@
 // errors, but for those that tests/invalid/checker_only.txt names, and accepts the others. What is no YAML to
 // begin with (E1xx) is left to tests/editors/ajv.sh, whose reader is a strict one.
 #include "core/strbuf.h"
-#include "grammar/emit.h"
+#include "grammar/emit/emit.h"
 #include "tests/equal/json_schema.h"
 
 #include <dirent.h>

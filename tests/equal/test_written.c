@@ -1,7 +1,7 @@
 // What the writers and the table's examples make is read back without an error; comments survive; values
 // just outside a range are refused in both spellings.
-#include "grammar/emit_words.h"
-#include "grammar/example.h"
+#include "grammar/emit/emit_words.h"
+#include "grammar/emit/example.h"
 #include "grammar/ir_walk.h"
 #include "tests/equal/equal_kit.h"
 

@@ -2,7 +2,7 @@
 #ifndef GLINT_TESTS_FORMAT_KIT_H
 #define GLINT_TESTS_FORMAT_KIT_H
 
-#include "parser/format.h"
+#include "parser/format/format.h"
 
 // A text as the reader gives it.
 struct reading {

@@ -1,5 +1,5 @@
 // Layout at random that means the same.
-#include "parser/yaml_tokens.h"
+#include "parser/yaml/yaml_tokens.h"
 #include "tests/format/format_kit.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 // The files of the repository through the formatter: the scenes that ship are in its layout, and what is
 // wrong in the invalid corpus stays wrong in the same way, or is refused.
-#include "core/files.h"
+#include "files/files.h"
 #include "tests/format/format_kit.h"
 
 #include <glob.h>

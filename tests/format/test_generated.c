@@ -2,7 +2,7 @@
 // comment stays at its entry, and formatting twice is formatting once.
 //     format_generated [SCENES]
 #include "grammar/generate.h"
-#include "grammar/ir_print.h"
+#include "grammar/print/ir_print.h"
 #include "tests/format/format_kit.h"
 
 #include <setjmp.h>

@@ -1,7 +1,8 @@
 // libFuzzer entry: any bytes as a scene file, put into its canonical layout. The layout never changes what is
-// meant (parser/format.h proves that itself, or says FORMAT_UNSAFE), and a second time it changes nothing.
+// meant (parser/format/format.h proves that itself, or says FORMAT_UNSAFE), and a second time it changes
+// nothing.
 #include "fuzz_sample.h"
-#include "parser/format.h"
+#include "parser/format/format.h"
 
 #include <setjmp.h>
 #include <stdio.h>

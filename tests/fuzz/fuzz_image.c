@@ -1,5 +1,5 @@
 // libFuzzer entry: any bytes as an image file.
-#include "assets/picture_read.h"
+#include "picture/read/picture_read.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 // libFuzzer entry: any bytes as an OBJ mesh and, behind the first NUL byte, its material file own.mtl.
-#include "assets/view.h"
-#include "core/diag_text.h"
+#include "diag/diag_text.h"
 #include "fuzz_sample.h"
 #include "grammar/schema.h"
+#include "scene/view.h"
 
 #include <setjmp.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #ifndef GLINT_TESTS_FUZZ_FUZZ_READER_H
 #define GLINT_TESTS_FUZZ_FUZZ_READER_H
 
-#include "parser/reader.h"
+#include "parser/tree/reader.h"
 
 typedef bool fuzz_reader(const struct reader_context *context, uint32_t source, struct tree *tree);
 

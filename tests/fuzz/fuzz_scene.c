@@ -3,7 +3,7 @@
 // whether its entries are bound while it is read must not show.
 #include "core/strbuf.h"
 #include "fuzz_sample.h"
-#include "grammar/ir_print.h"
+#include "grammar/print/ir_print.h"
 #include "parser/parser.h"
 
 #include <stdint.h>

@@ -6,8 +6,8 @@
 //     run_invalid update FOLDER    writes expected.txt, to be read before it is committed
 //     run_invalid complete CORPUS  every code has a case for each kind of input where it can occur
 #include "app/check.h"
-#include "core/diag_text.h"
-#include "core/output.h"
+#include "diag/diag_text.h"
+#include "files/output.h"
 
 #include <ctype.h>
 #include <dirent.h>

@@ -5,7 +5,7 @@
 
 names=$("$2")
 [ -n "$names" ] || exit 1
-ours '^parser/bind.*\.[ch]$' | while IFS= read -r path; do
+ours '^parser/bind/.*\.[ch]$' | while IFS= read -r path; do
     awk -v path="$path" -v names="$names" '
     BEGIN {
         count = split(names, name)

@@ -1,39 +1,43 @@
 #!/bin/sh
-# Who may include whom: the table of docs/architecture.md.
+# Who may include whom: the table of cmake/rooms.txt, and which room may see which library.
 . "$(dirname -- "$0")/lib.sh"
 
 sources=$(ours '\.[ch]$')
 [ -z "$sources" ] && exit 0
 # shellcheck disable=SC2086
 awk '
-function own(path, target) {
-    if (path ~ /^core\//) return target ~ /^core\//
-    if (path ~ /^grammar\//) return target ~ /^(core|grammar)\// || target == "shaders/features.h"
-    if (path ~ /^parser\//) return target ~ /^(core|grammar|parser)\//
-    if (path ~ /^assets\//)
-        return target ~ /^(core|assets)\// || target ~ /^grammar\/(ir|ir_origin|schema)\.h$/
-    if (path ~ /^runtime\/reference\//)
-        return target ~ /^(core|grammar|assets|runtime\/reference)\// || target == "runtime/hits.h"
-    if (path ~ /^runtime\//) return target ~ /^(core|grammar|assets|runtime)\// || target ~ /^shaders\/.*\.h$/
-    if (path ~ /^shaders\//) return target ~ /^shaders\//
-    if (path ~ /^app\//) return target !~ /^(lsp|cli|viewer|tests|bench|tools)\//
-    if (path ~ /^lsp\//) return target !~ /^(cli|viewer|tests|bench|tools)\//
-    if (path ~ /^cli\//) return target !~ /^(viewer|tests|bench|tools)\//
-    if (path ~ /^viewer\//) return target !~ /^(cli|tests|bench|tools)\//
-    return 1
+FILENAME == "cmake/rooms.txt" {
+    if (!/^[a-z]/) next
+    room = $0
+    sub(/:.*/, "", room)
+    sub(/^[^:]*:/, "")
+    rooms[room] = 1
+    count = split($0, may)
+    for (i = 1; i <= count; i++) allowed[room, may[i]] = 1
+    next
+}
+function folder(path) {
+    sub(/\/[^\/]*$/, "", path)
+    return path
+}
+function own(path, target,    room) {
+    room = folder(path)
+    if (path ~ /^(tests|bench|tools)\//) return 1
+    if (!(room in rooms)) return 0
+    return folder(target) == room || (room, folder(target)) in allowed || (room, target) in allowed
 }
 function foreign(path, target) {
-    if (target ~ /^yaml\.h$/) return path ~ /^(parser\/read_yaml|bench\/bench_check)/
-    if (target ~ /^expat/) return path ~ /^(parser\/read_xml|bench\/bench_check)/
-    if (target ~ /^(volk|vulkan)/) return path ~ /^runtime\/gpu\//
-    if (target ~ /^stb/) return path ~ /^(assets|runtime\/image|tools|tests)\//
-    if (target ~ /^png\.h/) return path ~ /^(runtime\/image|tests)\//
-    if (target ~ /^jansson/) return path ~ /^(grammar|lsp|tests)\//
+    if (target ~ /^yaml\.h$/) return path ~ /^(parser\/yaml\/|bench\/bench_check)/
+    if (target ~ /^expat/) return path ~ /^(parser\/xml\/|bench\/bench_check)/
+    if (target ~ /^(volk|vulkan)/) return path ~ /^tracer\/gpu\//
+    if (target ~ /^stb/) return path ~ /^(picture|tools|tests)\//
+    if (target ~ /^png\.h/) return path ~ /^(picture|tests)\//
+    if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
     if (target ~ /^minizip/) return path ~ /^app\/pack_zip/
     if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//
     if (target ~ /^cmocka/) return path ~ /^tests\//
     if (target ~ /^pthread/) return path ~ /^(core|tests)\//
-    return target !~ /^(core|grammar|parser|assets|runtime|shaders|app|lsp|cli|viewer)\//
+    return !(folder(target) in rooms)
 }
 /^[ \t]*#[ \t]*include[ \t]*["<]/ {
     target = $0
@@ -50,4 +54,4 @@ function foreign(path, target) {
     } else if (!own(FILENAME, target)) {
         print place "\"" target "\" is not for this folder"
     }
-}' $sources | verdict
+}' cmake/rooms.txt $sources | verdict

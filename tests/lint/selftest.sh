@@ -53,23 +53,27 @@ repeat() { # TEXT COUNT
 }
 
 fresh
+rooms() { cp "$root/cmake/rooms.txt" "$work/rooms" && plant cmake/rooms.txt '' && cp "$work/rooms" cmake/rooms.txt; }
+rooms
 plant core/a.c '#include "core/a.h"' '#include <stdio.h>' '// #include "parser/x.h"'
 plant grammar/a.c '#include "core/a.h"' '#include "shaders/features.h"'
-plant parser/read_yaml.c '#include <yaml.h>' '#include "grammar/ir.h"'
-plant runtime/gpu/a.c '#include <volk.h>'
+plant parser/yaml/read_yaml.c '#include <yaml.h>' '#include "parser/tree/tree.h"'
+plant tracer/gpu/a.c '#include <volk.h>'
 plant tests/a.c '#include "cli/cli.h"' '#include "beside.h"'
 passes includes
 refuses includes core/b.c '#include "core/a.h"' '#include "grammar/ir.h"'
 refuses includes core/b.c '#include <stdio.h>' ' #  include "a.h"'
 refuses includes grammar/b.c '#include "shaders/gpu_scene.h"'
-refuses includes parser/b.c '#include "runtime/flatten.h"'
-refuses includes parser/b.c '#include <yaml.h>'
-refuses includes parser/read_yaml.h '#include <expat.h>'
-refuses includes assets/b.c '#include "grammar/ir_print.h"'
-refuses includes runtime/b.c '#include "parser/tree.h"'
-refuses includes runtime/b.c '#include <vulkan/vulkan.h>'
-refuses includes runtime/reference/b.c '#include "runtime/flatten.h"'
-refuses includes runtime/reference/b.c '#include "shaders/gpu_scene.h"'
+refuses includes parser/bind/b.c '#include "tracer/flatten/flatten.h"'
+refuses includes parser/bind/b.c '#include "parser/yaml/read_yaml.h"'
+refuses includes elsewhere/b.c '#include "core/a.h"'
+refuses includes parser/bind/b.c '#include <yaml.h>'
+refuses includes parser/yaml/read_yaml.h '#include <expat.h>'
+refuses includes assets/b.c '#include "grammar/print/ir_print.h"'
+refuses includes tracer/render/b.c '#include "parser/tree/tree.h"'
+refuses includes tracer/render/b.c '#include <vulkan/vulkan.h>'
+refuses includes reference/b.c '#include "tracer/flatten/flatten.h"'
+refuses includes reference/b.c '#include "shaders/gpu_scene.h"'
 refuses includes app/b.c '#include "cli/cli.h"'
 refuses includes cli/b.c '#include "viewer/window.h"'
 refuses includes cli/b.c '#include "../core/a.h"'
@@ -99,18 +103,19 @@ rm c.c
 finds lengths 'c.c:601:'
 
 fresh
+rooms
 plant core/a.c '// strcpy(a, b); exit(1);' '/* atoi(x)' '   printf("x"); */' 'f("strtok(a)", ascii_atoi(3), s->open(2));' 'snprintf(a, 3, "\"");'
 plant core/arena.c '        abort();'
-plant core/output.c '    f(stdout);' '    int fd = open(a, b);'
+plant files/output.c '    f(stdout);' '    int fd = open(a, b);'
 plant cli/a.c 'printf("x");' 'exit(1);'
-plant grammar/emit_main.c 'fprintf(stderr, "x");'
+plant grammar/emit/emit_main.c 'fprintf(stderr, "x");'
 passes banned
 for call in strcpy strcat sprintf vsprintf gets atoi atol atof strtok setlocale; do
     refuses banned cli/b.c '' "    x = $call(a);"
 done
 refuses banned core/b.c 'a(); /* b */ exit(1);'
 refuses banned core/arena.c 'abort();' 'exit(1);'
-refuses banned parser/b.c "x = '\"'; abort();"
+refuses banned parser/bind/b.c "x = '\"'; abort();"
 refuses banned app/b.c 'printf("x");'
 refuses banned assets/b.c '/* " */ fprintf(stderr, "x");'
 refuses banned assets/b.c 'FILE *f = fopen(a, "r");'
@@ -127,15 +132,15 @@ refuses words b.md 'Look into `x` at /t''mp/y.'
 refuses words CMakeLists.txt 'include_directories("/ho''me/me")'
 
 fresh
-plant parser/bind.c 'f(&SCHEMA_SCENE, "x-", "a sphere", "sphere is");'
-plant parser/validate.c 'f("sphere");'
+plant parser/bind/bind.c 'f(&SCHEMA_SCENE, "x-", "a sphere", "sphere is");'
+plant parser/stages/validate.c 'f("sphere");'
 plant ../names '#!/bin/sh' 'echo sphere; echo scene; echo Sphere'
 chmod +x ../names
 passes bind ../names
-plant parser/bind_b.c '' 'if (str_equal_cstr(name, "sphere"))'
-finds bind 'parser/bind_b.c:2: names "sphere"' ../names
-plant parser/bind_b.c '' 'if (element == &SCHEMA_SPHERE)'
-finds bind 'parser/bind_b.c:2: knows the element sphere' ../names
+plant parser/bind/bind_b.c '' 'if (str_equal_cstr(name, "sphere"))'
+finds bind 'parser/bind/bind_b.c:2: names "sphere"' ../names
+plant parser/bind/bind_b.c '' 'if (element == &SCHEMA_SPHERE)'
+finds bind 'parser/bind/bind_b.c:2: knows the element sphere' ../names
 
 fresh
 cp "$root/.clang-format" .
@@ -155,5 +160,5 @@ rm core/aa.c
 plant tests/unit/test_buf.c ''
 finds sources 'tests/unit/test_buf.c:1:'
 
-rm -rf "$work/tree" "$work/names"
+rm -rf "$work/tree" "$work/names" "$work/rooms"
 [ $failures -eq 0 ]

@@ -2,10 +2,10 @@
 // Of all misspellings by one edit (a letter left out, put in, taken for another, or two exchanged) of every
 // key, element, word and material name of four letters and more: how many get the right one suggested.
 //     misspelt [STRIDE]: every STRIDE-th misspelling, 1 by default
-#include "core/files.h"
+#include "files/files.h"
 #include "grammar/schema.h"
 #include "parser/parser.h"
-#include "parser/reader.h"
+#include "parser/tree/reader.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 #include "picture_kit.h"
 
 #include "app/exact.h"
-#include "core/diag_text.h"
+#include "diag/diag_text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

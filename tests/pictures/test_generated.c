@@ -3,9 +3,9 @@
 // Usage: test_generated FOLDER_WITH_MESHES WORK_FOLDER
 #include "picture_kit.h"
 
-#include "core/output.h"
+#include "files/output.h"
 #include "grammar/generate.h"
-#include "grammar/ir_print.h"
+#include "grammar/print/ir_print.h"
 
 #include <stdio.h>
 

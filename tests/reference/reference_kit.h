@@ -2,7 +2,7 @@
 #ifndef GLINT_TESTS_REFERENCE_REFERENCE_KIT_H
 #define GLINT_TESTS_REFERENCE_REFERENCE_KIT_H
 
-#include "runtime/reference/reference.h"
+#include "reference/reference.h"
 #include "tests/unit/flat_kit.h"
 #include "tests/unit/random.h"
 

@@ -6,9 +6,9 @@
 #include "tests/pictures/picture_kit.h"
 
 #include "app/exact.h"
-#include "core/output.h"
+#include "files/output.h"
 #include "grammar/generate.h"
-#include "grammar/ir_print.h"
+#include "grammar/print/ir_print.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // The cache of the reference: found again, not mistaken, and replaced where it is damaged.
+#include "reference/cache.h"
 #include "reference_kit.h"
-#include "runtime/reference/cache.h"
 #include "tests/unit/scratch.h"
 
 #include <setjmp.h>

@@ -3,8 +3,9 @@
 #define GLINT_TESTS_UNIT_ASSETS_SCENE_H
 
 #include "assets/assets.h"
-#include "core/diag_text.h"
+#include "diag/diag_text.h"
 #include "grammar/schema.h"
+#include "scene/reach.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -111,6 +112,7 @@ static inline void assets_scene_load(struct assets_scene *s) {
     struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
                                  &s->limits, &s->sink,   &s->arena,   NULL};
     assets_load(s->store, &input, false, &s->assets);
+    scene_check_reach(&s->scene, &s->assets, &s->sink);
     diag_sort(&s->sink);
 }
 

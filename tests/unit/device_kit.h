@@ -7,7 +7,7 @@
 #ifndef GLINT_TESTS_UNIT_DEVICE_KIT_H
 #define GLINT_TESTS_UNIT_DEVICE_KIT_H
 
-#include "runtime/gpu/gpu.h"
+#include "tracer/gpu/gpu.h"
 
 struct device_kit {
     struct gpu *gpu; // NULL: none

@@ -5,7 +5,7 @@
 #ifndef GLINT_TESTS_UNIT_FLAT_KIT_H
 #define GLINT_TESTS_UNIT_FLAT_KIT_H
 
-#include "runtime/flatten.h"
+#include "tracer/flatten/flatten.h"
 
 enum {
     KIT_MAX = 8 // elements of a list

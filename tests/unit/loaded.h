@@ -3,7 +3,7 @@
 #ifndef GLINT_TESTS_LOADED_H
 #define GLINT_TESTS_LOADED_H
 
-#include "core/diag_text.h"
+#include "diag/diag_text.h"
 #include "parser/parser.h"
 
 #include <setjmp.h>

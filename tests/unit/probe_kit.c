@@ -1,7 +1,7 @@
 #include "probe_kit.h"
 
-#include "runtime/render_private.h"
 #include "shaders/kernels.h"
+#include "tracer/render/render_private.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,8 +6,8 @@
 #define GLINT_TESTS_UNIT_PROBE_KIT_H
 
 #include "core/vec3.h"
-#include "runtime/flatten.h"
-#include "runtime/gpu/gpu.h"
+#include "tracer/flatten/flatten.h"
+#include "tracer/gpu/gpu.h"
 
 enum {
     PROBE_RAYS = 1 << 18 // of one probe_trace at most

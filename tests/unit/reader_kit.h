@@ -4,9 +4,9 @@
 #ifndef GLINT_TESTS_UNIT_READER_KIT_H
 #define GLINT_TESTS_UNIT_READER_KIT_H
 
-#include "core/diag.h"
 #include "core/strbuf.h"
-#include "parser/reader.h"
+#include "diag/diag.h"
+#include "parser/tree/reader.h"
 
 struct reader_kit {
     struct arena arena;

@@ -1,7 +1,7 @@
 #include "loaded.h"
 
 #include "grammar/schema.h"
-#include "parser/mend.h"
+#include "parser/tree/mend.h"
 
 static bool same_color(struct ir_color c, double r, double g, double b) {
     return !c.is_hex && c.r == r && c.g == g && c.b == b;

@@ -1,10 +1,10 @@
 // The compressed tree: whole, conservative, repeatable, and its traversal equal to testing every triangle.
 #include "core/parallel.h"
-#include "runtime/bvh/bvh.h"
-#include "runtime/bvh/encode.h"
-#include "runtime/bvh/items.h"
-#include "runtime/bvh/traverse.h"
 #include "shaders/gpu_scene.h"
+#include "tracer/bvh/bvh.h"
+#include "tracer/bvh/encode.h"
+#include "tracer/bvh/items.h"
+#include "tracer/bvh/traverse.h"
 
 #include <math.h>
 #include <setjmp.h>

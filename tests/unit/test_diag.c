@@ -1,5 +1,5 @@
-#include "core/diag.h"
-#include "core/diag_text.h"
+#include "diag/diag.h"
+#include "diag/diag_text.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-#include "core/diag_policy.h"
+#include "diag/diag_policy.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

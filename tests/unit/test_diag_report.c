@@ -1,5 +1,5 @@
-#include "core/diag_report.h"
 #include "core/json_write.h"
+#include "diag/diag_report.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,8 @@
 // The files made from the table are those that are committed, well formed, and hold every name; so does
 // what `glint explain` says.
-#include "core/diag.h"
-#include "grammar/emit.h"
-#include "grammar/explain.h"
+#include "diag/diag.h"
+#include "grammar/emit/emit.h"
+#include "grammar/emit/explain.h"
 #include "grammar/schema.h"
 
 #include <jansson.h>

@@ -1,6 +1,6 @@
 // Every system call that an output makes is made to fail in turn, and every kind of refusal that the system
 // itself can be brought to: the old file stays, nothing is left behind, and the error is told.
-#include "core/output.h"
+#include "files/output.h"
 
 #include "scratch.h"
 

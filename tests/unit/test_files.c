@@ -1,4 +1,4 @@
-#include "core/files.h"
+#include "files/files.h"
 
 #include "scratch.h"
 

@@ -1,6 +1,6 @@
 // A cache's folder: entries come back whole, the oldest go first, and nothing that fails is an error.
-#include "core/folder_store.h"
 #include "core/xxh64.h"
+#include "files/folder_store.h"
 #include "scratch.h"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-#include "core/glob.h"
+#include "files/glob.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,8 @@
 // The GPU layer: choosing devices, buffers, dispatches, the layout of records, and doing without Vulkan.
 #include "device_kit.h"
-#include "runtime/gpu_records.h"
 #include "shaders/frame.h"
 #include "shaders/kernels.h"
+#include "tracer/gpu_records.h"
 
 #include <dlfcn.h>
 #include <setjmp.h>

@@ -2,8 +2,8 @@
 // traversal on the processor.
 #include "device_kit.h"
 #include "flat_kit.h"
-#include "runtime/bvh/traverse.h"
-#include "runtime/render.h"
+#include "tracer/bvh/traverse.h"
+#include "tracer/render/render.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

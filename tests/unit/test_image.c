@@ -1,5 +1,5 @@
 // Tone, transfer and rounding as LANGUAGE says, and files that other readers would take.
-#include "runtime/image/image.h"
+#include "picture/write/image.h"
 
 #include <math.h>
 #include <setjmp.h>

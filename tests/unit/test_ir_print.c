@@ -1,8 +1,8 @@
 // The writers on IR that was made by hand: quoting, layout, what is written and what is not.
-#include "grammar/ir_print.h"
-#include "grammar/ir_print_comment.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/ir_walk.h"
+#include "grammar/print/ir_print.h"
+#include "grammar/print/ir_print_comment.h"
 #include "grammar/schema.h"
 
 #include <setjmp.h>

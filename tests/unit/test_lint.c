@@ -1,8 +1,8 @@
 // The geometry under the rules about light: what crosses, what coincides, what is inside; and the table of
 // rules.
-#include "core/diag.h"
-#include "runtime/lint/lint.h"
-#include "runtime/lint/lint_parts.h"
+#include "diag/diag.h"
+#include "lint/lint.h"
+#include "lint/lint_parts.h"
 
 // cmocka needs these before itself.
 #include <setjmp.h>

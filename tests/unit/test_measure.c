@@ -1,10 +1,10 @@
 // Each metric against its closed form, or a value computed apart by the definition of its paper.
-#include "runtime/measure/compare_report.h"
-#include "runtime/measure/heatmap.h"
-#include "runtime/measure/metrics.h"
-#include "runtime/measure/picture_file.h"
+#include "picture/metrics/compare_report.h"
+#include "picture/metrics/heatmap.h"
+#include "picture/metrics/metrics.h"
+#include "picture/metrics/picture_file.h"
 
-#include "runtime/image/image.h"
+#include "picture/write/image.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-#include "core/output.h"
+#include "files/output.h"
 
 #include "scratch.h"
 

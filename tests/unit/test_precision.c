@@ -1,6 +1,6 @@
 // What of a scene asks for double precision: the features that are measured, and those that are not.
 #include "flat_kit.h"
-#include "runtime/precision.h"
+#include "tracer/flatten/precision.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 // What joins the stages: paths and options in, a scene, its diagnostics and its views out.
 #include "app/session.h"
-#include "core/diag_text.h"
+#include "diag/diag_text.h"
 
 #include "scratch.h"
 

@@ -1,4 +1,4 @@
-#include "core/source.h"
+#include "diag/source.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-#include "parser/reader_text.h"
-#include "parser/tree.h"
+#include "parser/tree/reader_text.h"
+#include "parser/tree/tree.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 // Cameras, lights, rotations and colours, against values worked out by hand.
-#include "assets/view.h"
+#include "scene/view.h"
 
 #include "assets_scene.h"
 

@@ -7,8 +7,8 @@
 #include "core/parallel.h"
 #include "flat_kit.h"
 #include "random.h"
-#include "runtime/bvh/traverse.h"
 #include "shaders/gpu_scene.h"
+#include "tracer/bvh/traverse.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

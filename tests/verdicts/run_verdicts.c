@@ -9,7 +9,7 @@
 // are remarks. Whether the table is of YAML or of XML, its name tells. Every beginning of every text is read
 // too: the verdict is left open, but it must come to one.
 #include "core/strbuf.h"
-#include "grammar/ir_print.h"
+#include "grammar/print/ir_print.h"
 #include "parser/parser.h"
 
 #include <inttypes.h>

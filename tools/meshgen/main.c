@@ -5,7 +5,7 @@
 //     glint-meshgen --verify [NAME]  proves the meshes closed, outward and without flaws
 //
 // Exit: 0 done, 1 a mesh has a flaw, 2 usage, 3 a file could not be written.
-#include "core/output.h"
+#include "files/output.h"
 #include "tools/meshgen/generators.h"
 #include "tools/meshgen/png.h"
 #include "tools/meshgen/verify.h"

@@ -1,0 +1,311 @@
+#include "diag/diag.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    SINK_BYTES_MAX = 64 * 1024 * 1024,
+    TEXT_BYTES_MAX = 2000, // of one message, note or help line
+};
+
+#define SEVERITY(code) (code[0] == 'E' ? DIAG_ERROR : code[0] == 'W' ? DIAG_WARNING : DIAG_NOTE)
+
+static const struct diag_info infos[DIAG_CODE_COUNT] = {
+#define X(NAME, code, where, title, meaning, remedy)                                                         \
+    {#NAME, #code, SEVERITY(#code), where, title, meaning, remedy},
+#include "diag/diag_codes.def"
+#undef X
+};
+
+const struct diag_info *diag_info(enum diag_code code) {
+    return &infos[code];
+}
+
+enum diag_code diag_find(str code) {
+    for (int i = 0; i < DIAG_CODE_COUNT; i++)
+        if (code.len == strlen(infos[i].code) && str_ends_with_nocase(code, infos[i].code))
+            return (enum diag_code)i;
+    return DIAG_CODE_COUNT;
+}
+
+void diag_sink_init(struct diag_sink *sink) {
+    *sink = (struct diag_sink){0};
+    arena_init(&sink->arena, SINK_BYTES_MAX);
+}
+
+void diag_sink_finish(struct diag_sink *sink) {
+    if (!sink)
+        return;
+    arena_finish(&sink->arena);
+    *sink = (struct diag_sink){0};
+}
+
+// Formats without the guard: a sink that is full must not jump out of its user. false: no room.
+__attribute__((format(printf, 3, 0))) static bool format_text(struct diag_sink *sink, str *text,
+                                                              const char *format, va_list args) {
+    char buffer[TEXT_BYTES_MAX + 1];
+    int length = vsnprintf(buffer, sizeof buffer, format, args);
+    size_t size = length < 0 ? 0 : (size_t)length;
+    if (size > TEXT_BYTES_MAX) {
+        size = TEXT_BYTES_MAX - 3;
+        while (size > 0 && ((unsigned char)buffer[size] & 0xC0) == 0x80)
+            size--;
+        memcpy(buffer + size, "...", 3);
+        size += 3;
+    }
+    char *copy = arena_try_alloc(&sink->arena, size + 1);
+    if (!copy)
+        return false;
+    memcpy(copy, buffer, size);
+    *text = (str){copy, size};
+    return true;
+}
+
+static bool make_room(struct diag_sink *sink) {
+    if (sink->count < sink->capacity)
+        return true;
+    uint32_t capacity = sink->capacity ? sink->capacity * 2 : 16;
+    struct diag *items = arena_try_alloc(&sink->arena, capacity * sizeof *items);
+    if (!items)
+        return false;
+    if (sink->count)
+        memcpy(items, sink->items, sink->count * sizeof *items);
+    sink->items = items;
+    sink->capacity = capacity;
+    return true;
+}
+
+static void count(struct diag_sink *sink, enum diag_severity severity) {
+    if (severity == DIAG_ERROR)
+        sink->errors++;
+    else if (severity == DIAG_WARNING)
+        sink->warnings++;
+    else
+        sink->notes++;
+}
+
+bool diag_is_full(const struct diag_sink *sink) {
+    return sink->count >= DIAG_KEPT_MAX;
+}
+
+struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...) {
+    count(sink, infos[code].severity);
+    str message = STR("");
+    va_list args;
+    va_start(args, format);
+    sink->last_kept = !diag_is_full(sink) && make_room(sink) && format_text(sink, &message, format, args);
+    va_end(args);
+    struct diag *item = &sink->spare;
+    if (sink->last_kept)
+        item = &sink->items[sink->count++];
+    else
+        sink->dropped++;
+    *item = (struct diag){.code = code, .severity = infos[code].severity, .at = at, .message = message};
+    return item;
+}
+
+// The diagnostic that was added last; NULL where it was dropped.
+static struct diag *last(struct diag_sink *sink) {
+    return sink->last_kept && sink->count > 0 ? &sink->items[sink->count - 1] : NULL;
+}
+
+void diag_note(struct diag_sink *sink, span at, const char *format, ...) {
+    struct diag *item = last(sink);
+    struct diag_related *note = item ? arena_try_alloc(&sink->arena, sizeof *note) : NULL;
+    if (!note)
+        return;
+    note->at = at;
+    va_list args;
+    va_start(args, format);
+    bool formatted = format_text(sink, &note->message, format, args);
+    va_end(args);
+    struct diag_related **end = &item->notes;
+    while (*end)
+        end = &(*end)->next;
+    if (formatted)
+        *end = note;
+}
+
+void diag_help(struct diag_sink *sink, const char *format, ...) {
+    struct diag *item = last(sink);
+    if (!item)
+        return;
+    va_list args;
+    va_start(args, format);
+    format_text(sink, &item->help, format, args);
+    va_end(args);
+}
+
+void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement) {
+    struct diag *item = last(sink);
+    char *text = item ? arena_try_alloc(&sink->arena, replacement.len + 1) : NULL;
+    if (!text)
+        return;
+    if (replacement.len)
+        memcpy(text, replacement.ptr, replacement.len);
+    item->has_fix = true;
+    item->fix_is_safe = safe;
+    item->fix_at = at;
+    item->fix_text = (str){text, replacement.len};
+}
+
+void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, bool safe, str old,
+                   str replacement) {
+    struct diag *item = last(sink);
+    str text = item ? source_text(sources, item->at) : STR("");
+    for (size_t i = 0; old.len && i + old.len <= text.len; i++) {
+        if (!str_equal(str_slice(text, i, i + old.len), old))
+            continue;
+        uint32_t begin = item->at.begin + (uint32_t)i;
+        diag_fix(sink, safe, (span){item->at.source, begin, begin + (uint32_t)old.len}, replacement);
+        return;
+    }
+}
+
+static int compare_place(const struct diag *a, const struct diag *b) {
+    if (a->at.source != b->at.source)
+        return a->at.source < b->at.source ? -1 : 1;
+    if (a->at.begin != b->at.begin)
+        return a->at.begin < b->at.begin ? -1 : 1;
+    return 0;
+}
+
+// Merge sort: stable, so that equal places keep their order of report.
+static void sort_items(struct diag *items, struct diag *spare, size_t n) {
+    if (n < 2)
+        return;
+    size_t half = n / 2;
+    sort_items(items, spare, half);
+    sort_items(items + half, spare, n - half);
+    memcpy(spare, items, n * sizeof *items);
+    size_t left = 0;
+    size_t right = half;
+    for (size_t i = 0; i < n; i++) {
+        bool take_left = right == n || (left < half && compare_place(&spare[left], &spare[right]) <= 0);
+        items[i] = take_left ? spare[left++] : spare[right++];
+    }
+}
+
+static bool same(const struct diag *a, const struct diag *b) {
+    return a->code == b->code && compare_place(a, b) == 0 && a->at.end == b->at.end &&
+           str_equal(a->message, b->message);
+}
+
+static uint64_t hash(const struct diag *d) {
+    uint64_t h = str_hash(d->message);
+    h = (h ^ d->at.source) * UINT64_C(0x9E3779B97F4A7C15);
+    h = (h ^ d->at.begin) * UINT64_C(0x9E3779B97F4A7C15);
+    return h ^ h >> 29;
+}
+
+static void uncount(struct diag_sink *sink, enum diag_severity severity) {
+    if (severity == DIAG_ERROR)
+        sink->errors--;
+    else if (severity == DIAG_WARNING)
+        sink->warnings--;
+    else
+        sink->notes--;
+}
+
+// Removes what was reported before. `slots` (a power of two of them, zeroed) hold 1 + the index of an item
+// kept: a table and not a look at the neighbours, because a thousand may stand at one place.
+static void drop_repeats(struct diag_sink *sink, uint32_t *slots, size_t slot_count) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < sink->count; i++) {
+        const struct diag *item = &sink->items[i];
+        size_t at = (size_t)hash(item) & (slot_count - 1);
+        while (slots[at] && !same(&sink->items[slots[at] - 1], item))
+            at = (at + 1) & (slot_count - 1);
+        if (slots[at]) {
+            uncount(sink, item->severity);
+            continue;
+        }
+        sink->items[kept++] = *item;
+        slots[at] = kept;
+    }
+    sink->count = kept;
+}
+
+void diag_sort(struct diag_sink *sink) {
+    sink->last_kept = false;
+    if (sink->count < 2)
+        return;
+    size_t slot_count = 4;
+    while (slot_count < (size_t)sink->count * 2)
+        slot_count *= 2;
+    struct diag *spare = malloc(sink->count * sizeof *spare);
+    uint32_t *slots = calloc(slot_count, sizeof *slots);
+    if (spare)
+        sort_items(sink->items, spare, sink->count);
+    if (slots)
+        drop_repeats(sink, slots, slot_count);
+    free(slots);
+    free(spare);
+}
+
+void diag_group(struct diag_sink *sink, uint32_t most) {
+    uint32_t seen[DIAG_CODE_COUNT] = {0};
+    uint32_t last_of[DIAG_CODE_COUNT];
+    uint32_t kept = 0;
+    uint32_t source = 0;
+    sink->last_kept = false;
+    for (uint32_t i = 0; i < sink->count; i++) {
+        const struct diag item = sink->items[i];
+        if (kept == 0 || item.at.source != source)
+            memset(seen, 0, sizeof seen);
+        source = item.at.source;
+        if (seen[item.code] >= most && most > 0) {
+            sink->items[last_of[item.code]].repeats += 1 + item.repeats;
+            continue;
+        }
+        seen[item.code]++;
+        last_of[item.code] = kept;
+        sink->items[kept++] = item;
+    }
+    sink->count = kept;
+}
+
+void diag_filter(struct diag_sink *sink, diag_keep *keep, void *context) {
+    uint32_t kept = 0;
+    sink->last_kept = false;
+    for (uint32_t i = 0; i < sink->count; i++) {
+        struct diag item = sink->items[i];
+        enum diag_severity before = item.severity;
+        uint32_t members = 1 + item.repeats;
+        bool keeps = keep(context, &item);
+        for (uint32_t k = 0; k < members; k++) {
+            uncount(sink, before);
+            if (keeps)
+                count(sink, item.severity);
+        }
+        if (keeps)
+            sink->items[kept++] = item;
+    }
+    sink->count = kept;
+}
+
+static void copy_diag(struct diag_sink *into, const struct diag *d) {
+    struct diag *copy = diag_add(into, d->code, d->at, "%.*s", STR_ARG(d->message));
+    copy->repeats = d->repeats;
+    copy->severity = d->severity;
+    for (const struct diag_related *n = d->notes; n; n = n->next)
+        diag_note(into, n->at, "%.*s", STR_ARG(n->message));
+    if (d->help.len)
+        diag_help(into, "%.*s", STR_ARG(d->help));
+    if (d->has_fix)
+        diag_fix(into, d->fix_is_safe, d->fix_at, d->fix_text);
+}
+
+void diag_merge(struct diag_sink *into, const struct diag_sink *from) {
+    uint32_t errors = into->errors + from->errors;
+    uint32_t warnings = into->warnings + from->warnings;
+    uint32_t notes = into->notes + from->notes;
+    for (uint32_t i = 0; i < from->count; i++)
+        copy_diag(into, &from->items[i]);
+    into->dropped += from->dropped;
+    into->errors = errors;
+    into->warnings = warnings;
+    into->notes = notes;
+}

@@ -1,0 +1,250 @@
+#include "diag/diag_report.h"
+
+#include "diag/source.h"
+#include "files/files.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    SCENE_BYTES_MAX = 256 * 1024 * 1024,
+    FINDING_BYTES = 550, // on average, of a finding that is kept, in the longest format: 100 stay below 64 KB
+    FINDING_OVERHEAD = 430,
+    NOTE_OVERHEAD = 300,
+    FIX_OVERHEAD = 400,
+    LINE_BYTES_MAX = 400,
+};
+
+void report_scene_init(struct report_scene *scene, str path) {
+    *scene = (struct report_scene){.path = path};
+    arena_init(&scene->arena, SCENE_BYTES_MAX);
+}
+
+void report_scene_finish(struct report_scene *scene) {
+    if (scene)
+        arena_finish(&scene->arena);
+}
+
+// ---- paths
+
+// Writes `path` without "." and with ".." taken back, where there is something to take back; gives its
+// length.
+static size_t tidy(char *out, str path) {
+    size_t length = 0;
+    size_t floor = 0; // what ".." cannot take back
+    bool absolute = path.len && path.ptr[0] == '/';
+    if (absolute)
+        out[length++] = '/';
+    floor = length;
+    for (size_t at = 0; at < path.len;) {
+        size_t end = at;
+        while (end < path.len && path.ptr[end] != '/')
+            end++;
+        str part = str_slice(path, at, end);
+        at = end + 1;
+        if (part.len == 0 || str_equal_cstr(part, "."))
+            continue;
+        if (str_equal_cstr(part, "..") && length > floor) {
+            while (length > floor && out[length - 1] != '/')
+                length--;
+            length -= length > floor;
+            continue;
+        }
+        if (str_equal_cstr(part, "..") && absolute)
+            continue;
+        if (length > 0 && out[length - 1] != '/')
+            out[length++] = '/';
+        memcpy(out + length, part.ptr, part.len);
+        length += part.len;
+        floor = str_equal_cstr(part, "..") ? length : floor;
+    }
+    return length;
+}
+
+str report_path(struct arena *arena, const char *root, str path) {
+    char *text = arena_alloc(arena, path.len + 2);
+    str tidied = {text, tidy(text, path)};
+    str rest;
+    if (root && root[0] == '/' && path_is_below(tidied, str_from(root), &rest) && rest.len)
+        return rest;
+    return tidied.len ? tidied : STR(".");
+}
+
+// ---- findings
+
+struct adder {
+    struct report_scene *scene;
+    const struct report_input *input;
+    size_t bytes; // of the texts kept
+    bool error_kept;
+};
+
+static struct report_place place_of(struct adder *adder, struct source_place place) {
+    struct report_place out = {.line = place.line,
+                               .column = place.column,
+                               .end_line = place.end_line,
+                               .end_column = place.end_column};
+    out.path = report_path(&adder->scene->arena, adder->input->root, place.path);
+    return out;
+}
+
+static void add_notes(struct adder *adder, struct report_finding *finding, const struct diag *d) {
+    struct arena *arena = &adder->scene->arena;
+    for (const struct diag_related *n = d->notes; n; n = n->next)
+        finding->note_count++;
+    finding->notes = ARENA_ARRAY(arena, struct report_note, finding->note_count);
+    struct report_note *note = finding->notes;
+    for (const struct diag_related *n = d->notes; n; n = n->next, note++) {
+        if (!span_is_none(n->at))
+            note->at = place_of(adder, source_locate(adder->input->sources, n->at));
+        note->message = arena_copy(arena, n->message);
+        adder->bytes += NOTE_OVERHEAD + note->message.len + note->at.path.len;
+    }
+}
+
+// Where the finding itself stands in no scene, the place that names its file does.
+static str scene_path_of(struct adder *adder, const struct diag *d) {
+    const struct report_input *input = adder->input;
+    if (!input->find_path)
+        return STR("");
+    str path = input->find_path(input->context, &adder->scene->arena, d->at);
+    for (const struct diag_related *n = d->notes; n && path.len == 0; n = n->next)
+        if (n->at.source != d->at.source && !span_is_none(n->at))
+            path = input->find_path(input->context, &adder->scene->arena, n->at);
+    return path;
+}
+
+// Whether a place is in a file: options have no line that a reader of reports could open.
+static bool is_in_file(const struct adder *adder, span at) {
+    const struct source_set *sources = adder->input->sources;
+    enum source_kind kind = at.source < sources->count ? sources->items[at.source].kind : SOURCE_KIND_DEFAULT;
+    return kind != SOURCE_KIND_DEFAULT && kind != SOURCE_KIND_OPTION;
+}
+
+// Puts a finding that stands in no file at the beginning of the scene, and says where it does stand.
+static void place_in_scene(struct adder *adder, struct report_finding *finding, struct source_place place) {
+    struct arena *arena = &adder->scene->arena;
+    if (place.line_text.len)
+        finding->message = arena_format(arena, "%.*s (in %.*s %.*s)", STR_ARG(finding->message),
+                                        STR_ARG(place.path), STR_ARG(finding->line_text));
+    str path = report_path(arena, adder->input->root, adder->scene->path);
+    finding->at = (struct report_place){path, 1, 1, 1, 1};
+    finding->has_fix = false;
+}
+
+static void add_finding(struct adder *adder, const struct diag *d) {
+    struct report_scene *scene = adder->scene;
+    struct arena *arena = &scene->arena;
+    struct source_place place = source_locate(adder->input->sources, d->at);
+    str line = str_trim(str_slice(place.line_text, 0, LINE_BYTES_MAX));
+    struct report_finding finding = {.code = d->code,
+                                     .severity = d->severity,
+                                     .at = place_of(adder, place),
+                                     .message = arena_copy(arena, d->message),
+                                     .help = arena_copy(arena, d->help),
+                                     .line_text = arena_copy(arena, line),
+                                     .repeats = d->repeats,
+                                     .has_fix = d->has_fix,
+                                     .fix_is_safe = d->fix_is_safe};
+    if (!is_in_file(adder, d->at))
+        place_in_scene(adder, &finding, place);
+    finding.scene_path = scene_path_of(adder, d);
+    add_notes(adder, &finding, d);
+    if (finding.has_fix) {
+        finding.fix_at = place_of(adder, source_locate(adder->input->sources, d->fix_at));
+        finding.fix_text = arena_copy(arena, d->fix_text);
+    }
+    adder->bytes += FINDING_OVERHEAD + finding.message.len + finding.help.len + finding.at.path.len;
+    adder->bytes += finding.has_fix ? FIX_OVERHEAD + finding.fix_text.len : 0;
+    *ARENA_PUSH(arena, &scene->findings) = finding;
+}
+
+static void add_all(struct adder *adder) {
+    const struct report_input *input = adder->input;
+    for (uint32_t i = 0; i < input->sink->count; i++) {
+        const struct diag *d = &input->sink->items[i];
+        bool first_error = d->severity == DIAG_ERROR && !adder->error_kept;
+        bool full = adder->scene->findings.count >= input->most ||
+                    adder->bytes >= (size_t)input->most * FINDING_BYTES;
+        if (full && !first_error) {
+            adder->scene->left_out += 1 + d->repeats;
+            continue;
+        }
+        adder->error_kept = adder->error_kept || first_error;
+        add_finding(adder, d);
+    }
+}
+
+bool report_scene_add(struct report_scene *scene, const struct report_input *input) {
+    struct arena_guard guard = {.fault = ARENA_FAULT_NONE};
+    struct adder adder = {.scene = scene, .input = input};
+    scene->errors = input->sink->errors;
+    scene->warnings = input->sink->warnings;
+    scene->notes = input->sink->notes;
+    scene->left_out += input->sink->dropped;
+    arena_set_guard(&scene->arena, &guard);
+    if (setjmp(guard.jump) == 0)
+        add_all(&adder);
+    arena_set_guard(&scene->arena, NULL);
+    return guard.fault == ARENA_FAULT_NONE;
+}
+
+// ---- one list
+
+static uint64_t mix(uint64_t h, str text) {
+    return (h ^ str_hash(text)) * UINT64_C(0x9E3779B97F4A7C15) + 1;
+}
+
+uint64_t report_fingerprint(const struct report_finding *finding) {
+    uint64_t h = mix(0, str_from(diag_info(finding->code)->code));
+    h = mix(h, finding->at.path);
+    h = mix(h, finding->message);
+    h = mix(h, finding->line_text);
+    return h ^ h >> 31;
+}
+
+static bool same_place(const struct report_finding *a, const struct report_finding *b) {
+    return a->code == b->code && a->at.line == b->at.line && a->at.column == b->at.column &&
+           str_equal(a->at.path, b->at.path) && str_equal(a->message, b->message);
+}
+
+struct slots {
+    uint32_t *items; // 1 + index in the list
+    size_t count;    // a power of two
+};
+
+// Adds the finding unless it is there already, as another scene's.
+static void add_item(struct report_list *list, struct slots slots, const struct report_finding *finding,
+                     uint32_t scene) {
+    uint64_t fingerprint = report_fingerprint(finding);
+    uint32_t occurrence = 1;
+    size_t at = (size_t)fingerprint & (slots.count - 1);
+    for (; slots.items[at]; at = (at + 1) & (slots.count - 1)) {
+        const struct report_item *other = &list->items[slots.items[at] - 1];
+        if (other->fingerprint != fingerprint)
+            continue;
+        if (same_place(other->finding, finding))
+            return;
+        occurrence++;
+    }
+    list->items[list->count++] = (struct report_item){finding, scene, fingerprint, occurrence};
+    slots.items[at] = list->count;
+}
+
+bool report_list_all(const struct report *report, struct report_list *list) {
+    size_t total = 0;
+    *list = (struct report_list){0};
+    for (uint32_t i = 0; i < report->scene_count; i++)
+        total += report->scenes[i].findings.count;
+    struct slots slots = {.count = 16};
+    while (slots.count < total * 2)
+        slots.count *= 2;
+    slots.items = calloc(slots.count, sizeof *slots.items);
+    list->items = calloc(total + 1, sizeof *list->items);
+    bool good = slots.items && list->items;
+    for (uint32_t i = 0; i < report->scene_count && good; i++)
+        for (uint32_t k = 0; k < report->scenes[i].findings.count; k++)
+            add_item(list, slots, &report->scenes[i].findings.items[k], i);
+    free(slots.items);
+    return good;
+}

@@ -1,0 +1,126 @@
+// glint's own report; docs/schema/check-report.schema.json says what it holds.
+#include "core/json_write.h"
+#include "diag/diag_report_text.h"
+
+enum {
+    REPORT_VERSION = 1,
+    FLAT_DEPTH = 5, // a line a finding
+};
+
+static const char *const state_names[] = {"passed", "failed", "unreadable", "ignored"};
+
+static void place(struct json_writer *w, const struct report_place *at) {
+    json_write_text(w, "file", at->path);
+    json_write_integer(w, "line", at->line);
+    json_write_integer(w, "column", at->column);
+    json_write_integer(w, "end_line", at->end_line);
+    json_write_integer(w, "end_column", at->end_column);
+}
+
+static void finding(struct json_writer *w, const struct report_finding *f) {
+    json_open_object(w, NULL);
+    json_write_text(w, "severity", str_from(report_severity(f)));
+    json_write_text(w, "code", str_from(diag_info(f->code)->code));
+    place(w, &f->at);
+    if (f->scene_path.len)
+        json_write_text(w, "path", f->scene_path);
+    json_write_text(w, "message", f->message);
+    if (f->help.len)
+        json_write_text(w, "help", f->help);
+    if (f->repeats)
+        json_write_integer(w, "repeats", f->repeats);
+    if (f->note_count) {
+        json_open_list(w, "related");
+        for (uint32_t i = 0; i < f->note_count; i++) {
+            json_open_object(w, NULL);
+            if (f->notes[i].at.path.len)
+                place(w, &f->notes[i].at);
+            json_write_text(w, "message", f->notes[i].message);
+            json_close_object(w);
+        }
+        json_close_list(w);
+    }
+    if (f->has_fix) {
+        json_open_object(w, "fix");
+        json_write_boolean(w, "safe", f->fix_is_safe);
+        place(w, &f->fix_at);
+        json_write_text(w, "text", f->fix_text);
+        json_close_object(w);
+    }
+    json_close_object(w);
+}
+
+static void counts(struct json_writer *w, uint64_t errors, uint64_t warnings, uint64_t notes) {
+    json_open_object(w, "counts");
+    json_write_integer(w, "errors", errors);
+    json_write_integer(w, "warnings", warnings);
+    json_write_integer(w, "notes", notes);
+    json_close_object(w);
+}
+
+static void statistics(struct json_writer *w, const struct report_assets *a) {
+    json_open_object(w, "statistics");
+    json_write_integer(w, "cameras", a->cameras);
+    json_write_integer(w, "lights", a->lights);
+    json_write_integer(w, "materials", a->materials);
+    json_write_integer(w, "spheres", a->spheres);
+    json_write_integer(w, "rectangles", a->rectangles);
+    json_write_integer(w, "models", a->models);
+    json_write_integer(w, "triangles", a->triangles);
+    if (a->image_width) {
+        json_write_integer(w, "background_width", a->image_width);
+        json_write_integer(w, "background_height", a->image_height);
+    }
+    json_open_list(w, "files");
+    for (uint32_t i = 0; i < a->file_count; i++) {
+        json_open_object(w, NULL);
+        json_write_text(w, "file", a->files[i].path);
+        json_write_integer(w, "bytes", a->files[i].size_bytes);
+        json_close_object(w);
+    }
+    json_close_list(w);
+    json_close_object(w);
+}
+
+static void scene(struct json_writer *w, const struct report_scene *s) {
+    json_open_object(w, NULL);
+    json_write_text(w, "file", s->path);
+    json_write_text(w, "state", str_from(state_names[s->state]));
+    counts(w, s->errors, s->warnings, s->notes);
+    json_write_boolean(w, "truncated", s->left_out > 0);
+    json_write_integer(w, "left_out", s->left_out);
+    json_open_list(w, "findings");
+    for (uint32_t i = 0; i < s->findings.count; i++)
+        finding(w, &s->findings.items[i]);
+    json_close_list(w);
+    if (s->has_assets)
+        statistics(w, &s->assets);
+    json_close_object(w);
+}
+
+void report_json(struct strbuf *out, const struct report *report) {
+    struct json_writer w;
+    uint64_t errors = 0;
+    uint64_t warnings = 0;
+    uint64_t notes = 0;
+    bool truncated = false;
+    for (uint32_t i = 0; i < report->scene_count; i++) {
+        errors += report->scenes[i].errors;
+        warnings += report->scenes[i].warnings;
+        notes += report->scenes[i].notes;
+        truncated = truncated || report->scenes[i].left_out > 0;
+    }
+    json_writer_init(&w, out, FLAT_DEPTH);
+    json_open_object(&w, NULL);
+    json_write_text(&w, "report", STR("glint check"));
+    json_write_integer(&w, "version", REPORT_VERSION);
+    json_write_text(&w, "program", str_from(report->program_version));
+    counts(&w, errors, warnings, notes);
+    json_write_boolean(&w, "truncated", truncated);
+    json_open_list(&w, "scenes");
+    for (uint32_t i = 0; i < report->scene_count; i++)
+        scene(&w, &report->scenes[i]);
+    json_close_list(&w);
+    json_close_object(&w);
+    json_end(&w);
+}

@@ -1,0 +1,99 @@
+// JUnit's XML: a test case a scene, for what shows test results.
+#include "diag/diag_report_text.h"
+#include "diag/diag_text.h"
+
+// Text for XML 1.0, in which no control character may stand, escaped or not, and neither may U+FFFE and
+// U+FFFF, which are text in UTF-8.
+static void plain(struct strbuf *out, str s) {
+    struct strbuf text;
+    strbuf_init(&text);
+    diag_text_plain(&text, s);
+    str view = strbuf_view(&text);
+    size_t from = 0;
+    for (size_t at = 0; at + 3 <= view.len; at++) {
+        bool none = (unsigned char)view.ptr[at] == 0xEF && (unsigned char)view.ptr[at + 1] == 0xBF &&
+                    (unsigned char)view.ptr[at + 2] >= 0xBE;
+        if (!none)
+            continue;
+        strbuf_markup(out, str_slice(view, from, at));
+        strbuf_char(out, '?');
+        from = at + 3;
+    }
+    strbuf_markup(out, str_slice(view, from, view.len));
+    out->failed = out->failed || text.failed;
+    strbuf_finish(&text);
+}
+
+static void lines(struct strbuf *out, const struct report_scene *scene) {
+    struct strbuf line;
+    strbuf_init(&line);
+    for (uint32_t i = 0; i < scene->findings.count; i++) {
+        strbuf_clear(&line);
+        report_line(&line, &scene->findings.items[i]);
+        plain(out, strbuf_view(&line));
+        strbuf_char(out, '\n');
+        if (scene->findings.items[i].help.len) {
+            strbuf_cstr(out, "    help: ");
+            plain(out, scene->findings.items[i].help);
+            strbuf_char(out, '\n');
+        }
+    }
+    if (scene->left_out)
+        strbuf_format(out, "%u more not shown\n", scene->left_out);
+    out->failed = out->failed || line.failed;
+    strbuf_finish(&line);
+}
+
+// The worst finding: the first error, else the first warning.
+static const struct report_finding *worst(const struct report_scene *scene) {
+    const struct report_finding *found = NULL;
+    for (uint32_t i = 0; i < scene->findings.count; i++)
+        if (!found || scene->findings.items[i].severity < found->severity)
+            found = &scene->findings.items[i];
+    return found;
+}
+
+static void fault(struct strbuf *out, const struct report_scene *scene, const char *element) {
+    const struct report_finding *first = worst(scene);
+    strbuf_format(out, "      <%s message=\"", element);
+    report_counts(out, scene->errors, scene->warnings, scene->notes);
+    strbuf_format(out, "\" type=\"%s\">", first ? diag_info(first->code)->code : "");
+    lines(out, scene);
+    strbuf_format(out, "</%s>\n", element);
+}
+
+static void test_case(struct strbuf *out, const struct report_scene *scene) {
+    strbuf_cstr(out, "    <testcase classname=\"glint.check\" name=\"");
+    plain(out, scene->path);
+    strbuf_cstr(out, "\" file=\"");
+    plain(out, scene->path);
+    strbuf_cstr(out, "\" time=\"0\">\n");
+    if (scene->state == REPORT_FAILED)
+        fault(out, scene, "failure");
+    else if (scene->state == REPORT_UNREADABLE)
+        fault(out, scene, "error");
+    else if (scene->state == REPORT_IGNORED)
+        strbuf_cstr(out, "      <skipped message=\"ignored by the configuration\"/>\n");
+    if (scene->state == REPORT_PASSED && scene->findings.count) {
+        strbuf_cstr(out, "      <system-out>");
+        lines(out, scene);
+        strbuf_cstr(out, "</system-out>\n");
+    }
+    strbuf_cstr(out, "    </testcase>\n");
+}
+
+void report_junit(struct strbuf *out, const struct report *report) {
+    unsigned counts[4] = {0};
+    for (uint32_t i = 0; i < report->scene_count; i++)
+        counts[report->scenes[i].state]++;
+    strbuf_cstr(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    for (int level = 0; level < 2; level++)
+        strbuf_format(out,
+                      "%s name=\"glint check\" tests=\"%u\" failures=\"%u\" errors=\"%u\" skipped=\"%u\" "
+                      "time=\"0\">\n",
+                      level == 0 ? "<testsuites" : "  <testsuite", report->scene_count, counts[REPORT_FAILED],
+                      counts[REPORT_UNREADABLE], counts[REPORT_IGNORED]);
+    for (uint32_t i = 0; i < report->scene_count; i++)
+        test_case(out, &report->scenes[i]);
+    strbuf_cstr(out, "  </testsuite>\n</testsuites>\n");
+}

@@ -1,0 +1,16 @@
+// What the formats of a report share. Private to core/diag_report_*.c. Thread safety: pure.
+#ifndef GLINT_DIAG_DIAG_REPORT_TEXT_H
+#define GLINT_DIAG_DIAG_REPORT_TEXT_H
+
+#include "diag/diag_report.h"
+
+// The message, with what was grouped into it.
+void report_message(struct strbuf *out, const struct report_finding *finding);
+// "scene.yaml:4:12: error: message [E203]", with control characters shown as '?'; no line end.
+void report_line(struct strbuf *out, const struct report_finding *finding);
+// "2 errors, 1 warning"
+void report_counts(struct strbuf *out, uint32_t errors, uint32_t warnings, uint32_t notes);
+// "error", "warning", "note".
+const char *report_severity(const struct report_finding *finding);
+
+#endif

@@ -1,0 +1,164 @@
+#include "diag/diag_text.h"
+
+#include "core/unicode.h"
+
+enum {
+    LINE_SHOWN_MAX = 160, // bytes
+    MESSAGE_BYTES = 500,  // of one message with its notes, on average: `most` bounds the text too
+    TAB_COLUMNS = 8,
+};
+
+static const char *const severity_names[] = {"error", "warning", "note"};
+static const char *const severity_colors[] = {"\033[1;31m", "\033[1;35m", "\033[1;36m"};
+
+const char *diag_severity_name(enum diag_severity severity) {
+    return severity_names[severity];
+}
+
+static void paint(struct strbuf *out, struct diag_text_options options, const char *color) {
+    if (options.color)
+        strbuf_cstr(out, color);
+}
+
+// Writes the character at `at` as a terminal may show it, counts the columns that it takes from *column on,
+// and gives its length in bytes. Tabs become blanks, so that what stands below a line lines up; what a
+// terminal might obey and what is no UTF-8 becomes '?'.
+static size_t put_character(struct strbuf *out, str s, size_t at, unsigned *column) {
+    size_t size = utf8_sequence_length(s, at);
+    uint32_t c = size ? utf8_decode(s, at) : 0;
+    if (c == '\t') {
+        unsigned blanks = TAB_COLUMNS - *column % TAB_COLUMNS;
+        strbuf_repeat(out, ' ', blanks);
+        *column += blanks;
+    } else if (unicode_is_control(c)) {
+        strbuf_char(out, '?');
+        ++*column;
+    } else {
+        strbuf_add(out, s.ptr + at, size);
+        *column += unicode_width(c);
+    }
+    return size ? size : 1;
+}
+
+void diag_text_plain(struct strbuf *out, str s) {
+    for (size_t at = 0; at < s.len;) {
+        unsigned column = TAB_COLUMNS - 1;
+        at += put_character(out, s, at, &column);
+    }
+}
+
+// Byte offset of the character `count` characters behind `at`.
+static size_t skip_characters(str line, size_t at, size_t count) {
+    for (; count > 0 && at < line.len; count--) {
+        size_t size = utf8_sequence_length(line, at);
+        at += size ? size : 1;
+    }
+    return at;
+}
+
+// The source line, cut around the place where it is long, and the caret below it.
+static void excerpt(struct strbuf *out, struct source_place place, struct diag_text_options options) {
+    str line = place.line_text;
+    size_t begin = skip_characters(line, 0, place.column - 1);
+    size_t end = line.len;
+    if (place.end_line == place.line)
+        end = skip_characters(line, begin, place.end_column - place.column);
+    size_t first = begin > LINE_SHOWN_MAX / 2 ? begin - LINE_SHOWN_MAX / 2 : 0;
+    for (int i = 0; i < 3 && first > 0 && ((unsigned char)line.ptr[first] & 0xC0) == 0x80; i++)
+        first++;
+    size_t last = line.len - first > LINE_SHOWN_MAX ? first + LINE_SHOWN_MAX : line.len;
+    size_t gutter = out->len;
+    strbuf_format(out, "%6u", place.line);
+    gutter = out->len - gutter;
+    strbuf_cstr(out, first ? " | ..." : " | ");
+    unsigned column = first ? 3 : 0;
+    unsigned begin_column = column;
+    unsigned end_column = column;
+    for (size_t at = first; at < last;) {
+        at += put_character(out, line, at, &column);
+        begin_column = at <= begin ? column : begin_column;
+        end_column = at <= end ? column : end_column;
+    }
+    strbuf_cstr(out, last < line.len ? "...\n" : "\n");
+    strbuf_repeat(out, ' ', gutter);
+    strbuf_cstr(out, " | ");
+    strbuf_repeat(out, ' ', begin_column);
+    paint(out, options, "\033[1;32m");
+    strbuf_char(out, '^');
+    strbuf_repeat(out, '~', end_column > begin_column + 1 ? end_column - begin_column - 1 : 0);
+    paint(out, options, "\033[0m");
+    strbuf_char(out, '\n');
+}
+
+static void place_text(struct strbuf *out, struct source_place place) {
+    diag_text_plain(out, place.path);
+    strbuf_format(out, ":%u:%u: ", place.line, place.column);
+}
+
+static bool has_text(const struct source_set *sources, span at) {
+    return at.source < sources->count && sources->items[at.source].text.len > 0 &&
+           sources->items[at.source].kind != SOURCE_KIND_GENERATED;
+}
+
+static void labelled(struct strbuf *out, const char *label, str text) {
+    strbuf_cstr(out, label);
+    diag_text_plain(out, text);
+    strbuf_char(out, '\n');
+}
+
+static void one(struct strbuf *out, const struct diag *d, struct source_set *sources,
+                struct diag_text_options options) {
+    const struct diag_info *info = diag_info(d->code);
+    struct source_place place = source_locate(sources, d->at);
+    paint(out, options, "\033[1m");
+    place_text(out, place);
+    paint(out, options, severity_colors[d->severity]);
+    strbuf_format(out, "%s: ", severity_names[d->severity]);
+    paint(out, options, "\033[0m");
+    diag_text_plain(out, d->message);
+    if (d->repeats)
+        strbuf_format(out, " (and %u more like it)", d->repeats);
+    strbuf_format(out, " [%s]\n", info->code);
+    if (has_text(sources, d->at))
+        excerpt(out, place, options);
+    for (const struct diag_related *n = d->notes; n; n = n->next) {
+        if (span_is_none(n->at)) {
+            labelled(out, "       = note: ", n->message);
+            continue;
+        }
+        struct source_place related = source_locate(sources, n->at);
+        place_text(out, related);
+        labelled(out, "note: ", n->message);
+        if (has_text(sources, n->at))
+            excerpt(out, related, options);
+    }
+    if (d->help.len)
+        labelled(out, "       = help: ", d->help);
+}
+
+void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_set *sources,
+               struct diag_text_options options) {
+    uint32_t shown = 0;
+    uint32_t hidden = sink->dropped;
+    bool error_shown = false;
+    size_t begin = out->len;
+    for (uint32_t i = 0; i < sink->count; i++) {
+        const struct diag *d = &sink->items[i];
+        enum diag_severity severity = d->severity;
+        if (severity == DIAG_NOTE && !options.notes)
+            continue;
+        // A run that fails shows why, however many warnings come first.
+        bool first_error = severity == DIAG_ERROR && !error_shown;
+        bool full = shown >= options.most || out->len - begin >= (size_t)options.most * MESSAGE_BYTES;
+        if (options.most && full && !first_error) {
+            hidden++;
+            continue;
+        }
+        one(out, d, sources, options);
+        error_shown = error_shown || first_error;
+        shown++;
+    }
+    if (hidden)
+        strbuf_format(out, "glint: %u more message%s not shown; --limit messages=N shows more\n", hidden,
+                      hidden == 1 ? "" : "s");
+}

@@ -1,0 +1,138 @@
+#include "diag/source.h"
+
+void source_set_init(struct source_set *set, struct arena *arena) {
+    *set = (struct source_set){.arena = arena};
+    source_add(set, SOURCE_KIND_DEFAULT, STR("default"), STR(""));
+}
+
+uint32_t source_add(struct source_set *set, enum source_kind kind, str path, str text) {
+    struct source *source = ARENA_PUSH(set->arena, set);
+    *source = (struct source){.path = arena_copy(set->arena, path), .text = text, .kind = kind};
+    return set->count - 1;
+}
+
+// Line ends are \n, \r\n and a lone \r, as YAML and XML have them.
+static bool ends_line(str text, size_t at) {
+    return text.ptr[at] == '\n' || (text.ptr[at] == '\r' && !(at + 1 < text.len && text.ptr[at + 1] == '\n'));
+}
+
+// Text is made where no guard is set, perhaps because memory has ended: without room for the map, lines are
+// counted anew each time.
+static void map_lines(struct source_set *set, struct source *source) {
+    size_t count = 1;
+    for (size_t i = 0; i < source->text.len; i++)
+        count += ends_line(source->text, i);
+    uint32_t *starts = arena_try_alloc(set->arena, count * sizeof *starts);
+    if (!starts)
+        return;
+    source->line_starts = starts;
+    source->line_count = 1;
+    for (size_t i = 0; i < source->text.len; i++)
+        if (ends_line(source->text, i))
+            starts[source->line_count++] = (uint32_t)i + 1;
+}
+
+struct line {
+    uint32_t index;
+    size_t begin;
+    size_t end; // behind its line end
+};
+
+static struct line count_lines(str text, uint32_t offset) {
+    struct line line = {.end = text.len};
+    for (size_t i = 0; i < text.len; i++) {
+        if (!ends_line(text, i))
+            continue;
+        if (i >= offset) {
+            line.end = i + 1;
+            break;
+        }
+        line.index++;
+        line.begin = i + 1;
+    }
+    return line;
+}
+
+static struct line find_line(const struct source *source, uint32_t offset) {
+    if (!source->line_starts)
+        return count_lines(source->text, offset);
+    uint32_t low = 0;
+    uint32_t high = source->line_count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (source->line_starts[middle] <= offset)
+            low = middle;
+        else
+            high = middle;
+    }
+    size_t end = low + 1 < source->line_count ? source->line_starts[low + 1] : source->text.len;
+    return (struct line){low, source->line_starts[low], end};
+}
+
+// A byte order mark takes no column.
+static size_t skip_mark(str text, size_t begin) {
+    return begin == 0 ? str_skip_mark(text) : begin;
+}
+
+// An offset inside a character means the character.
+static size_t character_begin(str text, size_t offset) {
+    for (size_t back = 1; back <= 3 && back <= offset; back++)
+        if (utf8_sequence_length(text, offset - back) > back)
+            return offset - back;
+    return offset;
+}
+
+static uint32_t column_at(str text, size_t begin, size_t offset) {
+    offset = character_begin(text, offset);
+    return (uint32_t)utf8_count(str_slice(text, skip_mark(text, begin), offset)) + 1;
+}
+
+struct source_place source_locate(struct source_set *set, span at) {
+    if (set->count == 0) // memory ended before anything was read
+        return (struct source_place){
+            .path = STR("default"), .line = 1, .column = 1, .end_line = 1, .end_column = 1};
+    struct source *source = &set->items[at.source < set->count ? at.source : SOURCE_DEFAULT];
+    struct source_place place = {
+        .path = source->path, .line = 1, .column = 1, .end_line = 1, .end_column = 1};
+    if (source->text.len == 0 || source->kind == SOURCE_KIND_GENERATED)
+        return place; // what no one wrote has no lines to show
+    if (!source->line_starts)
+        map_lines(set, source);
+    str text = source->text;
+    uint32_t size = (uint32_t)text.len;
+    uint32_t begin = at.begin < size ? at.begin : size;
+    uint32_t end = at.end < begin ? begin : at.end < size ? at.end : size;
+    struct line line = find_line(source, begin);
+    struct line last = find_line(source, end);
+    place.line = line.index + 1;
+    place.column = column_at(text, line.begin, begin);
+    place.end_line = last.index + 1;
+    place.end_column = column_at(text, last.begin, end);
+    place.line_text = str_slice(text, skip_mark(text, line.begin), line.end);
+    while (place.line_text.len && (place.line_text.ptr[place.line_text.len - 1] == '\n' ||
+                                   place.line_text.ptr[place.line_text.len - 1] == '\r'))
+        place.line_text.len--;
+    return place;
+}
+
+str source_text(const struct source_set *set, span at) {
+    if (at.source >= set->count)
+        return STR("");
+    return str_slice(set->items[at.source].text, at.begin, at.end);
+}
+
+span span_join(span a, span b) {
+    if (a.source == SOURCE_DEFAULT)
+        return b;
+    if (b.source != a.source)
+        return a;
+    return (span){a.source, a.begin < b.begin ? a.begin : b.begin, a.end > b.end ? a.end : b.end};
+}
+
+bool span_is_none(span s) {
+    return s.source == SOURCE_DEFAULT;
+}
+
+bool span_equal(span a, span b) {
+    return a.source == b.source && a.begin == b.begin && a.end == b.end;
+}

@@ -1,0 +1,355 @@
+#include "files/files.h"
+
+#include "core/nearest.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+    SUGGEST_ENTRIES_MAX = 10000
+};
+
+void files_init(struct files *files, struct arena *arena) {
+    *files = (struct files){.arena = arena};
+}
+
+str path_folder(str path) {
+    size_t at = path.len;
+    while (at > 0 && path.ptr[at - 1] != '/')
+        at--;
+    if (at == 0)
+        return STR(".");
+    return str_slice(path, 0, at == 1 ? 1 : at - 1);
+}
+
+str path_base(str path) {
+    size_t at = path.len;
+    while (at > 0 && path.ptr[at - 1] != '/')
+        at--;
+    return str_slice(path, at, path.len);
+}
+
+str path_join(struct arena *arena, str folder, str path) {
+    if (path.len && path.ptr[0] == '/')
+        return arena_copy(arena, path);
+    if (str_equal(folder, STR(".")))
+        return arena_copy(arena, path);
+    bool slash = folder.len && folder.ptr[folder.len - 1] == '/';
+    return arena_format(arena, "%.*s%s%.*s", STR_ARG(folder), slash ? "" : "/", STR_ARG(path));
+}
+
+bool path_is_below(str path, str folder, str *rest) {
+    while (folder.len && folder.ptr[folder.len - 1] == '/')
+        folder.len--;
+    *rest = str_slice(path, folder.len + 1, path.len);
+    return str_starts_with(path, folder) && (path.len == folder.len || path.ptr[folder.len] == '/');
+}
+
+// NUL-terminated copy of a path, or NULL where it holds a NUL itself or is too long for the system.
+static const char *system_path(struct files *files, str path) {
+    if (path.len == 0 || path.len >= PATH_MAX || memchr(path.ptr, '\0', path.len))
+        return NULL;
+    return arena_copy(files->arena, path).ptr;
+}
+
+// false: errno says why.
+static bool resolve_links(struct files *files, str path, str *resolved) {
+    const char *name = system_path(files, path);
+    char text[PATH_MAX];
+    if (!name)
+        errno = ENOENT;
+    if (!name || !realpath(name, text))
+        return false;
+    *resolved = arena_copy(files->arena, str_from(text));
+    return true;
+}
+
+str files_canonical(struct files *files, str path) {
+    str resolved;
+    if (resolve_links(files, path, &resolved))
+        return resolved;
+    // A file that is still to be written has a folder already.
+    str base = path_base(path);
+    if (base.len && !str_equal(base, STR("..")) && resolve_links(files, path_folder(path), &resolved))
+        return path_join(files->arena, resolved, base);
+    return arena_copy(files->arena, path);
+}
+
+// The one that was added last: an editor's newer text counts.
+static const struct file_overlay *find_overlay(const struct files *files, str canonical) {
+    for (uint32_t i = files->overlays.count; i > 0; i--)
+        if (str_equal(files->overlays.items[i - 1].path, canonical))
+            return &files->overlays.items[i - 1];
+    return NULL;
+}
+
+void files_add_overlay(struct files *files, str path, str text) {
+    struct file_overlay *overlay = ARENA_PUSH(files->arena, &files->overlays);
+    *overlay = (struct file_overlay){files_canonical(files, path), arena_copy(files->arena, text)};
+}
+
+static enum file_status status_of_errno(struct files *files, int error) {
+    files->system_error = error;
+    return error == ENOENT || error == ENOTDIR ? FILE_MISSING : FILE_UNREADABLE;
+}
+
+enum file_status files_add_root(struct files *files, str directory) {
+    const char *name = system_path(files, directory);
+    struct stat info;
+    if (!name)
+        return FILE_MISSING;
+    if (stat(name, &info) != 0)
+        return status_of_errno(files, errno);
+    if (!S_ISDIR(info.st_mode))
+        return FILE_NOT_REGULAR;
+    str *root = ARENA_PUSH(files->arena, &files->roots);
+    *root = files_canonical(files, directory);
+    return FILE_OK;
+}
+
+str files_find_config(struct files *files, str scene_path) {
+    str above = files_canonical(files, path_folder(scene_path));
+    for (;;) {
+        str marker = path_join(files->arena, above, STR(FILES_CONFIG_NAME));
+        struct stat info;
+        if (stat(marker.ptr, &info) == 0 && S_ISREG(info.st_mode))
+            return marker;
+        if (above.len <= 1)
+            return STR("");
+        above = path_folder(above);
+    }
+}
+
+enum file_status files_add_scene_root(struct files *files, str scene_path) {
+    str config = files_find_config(files, scene_path);
+    return files_add_root(files, path_folder(config.len ? config : scene_path));
+}
+
+static bool below_a_root(const struct files *files, str canonical) {
+    str rest;
+    for (uint32_t i = 0; i < files->roots.count; i++)
+        if (path_is_below(canonical, files->roots.items[i], &rest))
+            return true;
+    return false;
+}
+
+static enum file_status try_path(struct files *files, str path, str *out) {
+    *out = path;
+    str canonical;
+    bool exists = resolve_links(files, path, &canonical);
+    int error = errno;
+    if (!exists)
+        canonical = files_canonical(files, path);
+    bool allowed = below_a_root(files, canonical);
+    if (find_overlay(files, canonical) && (allowed || files->roots.count == 0))
+        return FILE_OK;
+    if (!exists)
+        return status_of_errno(files, error);
+    if (allowed)
+        return FILE_OK;
+    *out = canonical;
+    struct stat info;
+    bool is_device = stat(canonical.ptr, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+    return is_device ? FILE_NOT_REGULAR : FILE_OUTSIDE;
+}
+
+enum file_status files_resolve(struct files *files, str base_path, str path, str *out) {
+    enum file_status status = try_path(files, path_join(files->arena, path_folder(base_path), path), out);
+    if (status != FILE_MISSING || (path.len && path.ptr[0] == '/'))
+        return status;
+    str first = *out;
+    for (uint32_t i = 1; i < files->roots.count; i++) {
+        enum file_status other = try_path(files, path_join(files->arena, files->roots.items[i], path), out);
+        if (other != FILE_MISSING)
+            return other;
+    }
+    *out = first;
+    return FILE_MISSING;
+}
+
+static void log_read(struct files *files, str path, const struct stat *info) {
+    str canonical = files_canonical(files, path);
+    for (uint32_t i = 0; i < files->log.count; i++)
+        if (str_equal(files->log.items[i].path, canonical))
+            return;
+    struct file_read *entry = ARENA_PUSH(files->arena, &files->log);
+    *entry = (struct file_read){canonical, (uint64_t)info->st_size,
+                                (int64_t)info->st_mtim.tv_sec * 1000000000 + info->st_mtim.tv_nsec};
+}
+
+static enum file_status read_all(struct files *files, int fd, size_t size, struct arena *into,
+                                 str *contents) {
+    char *data = arena_try_alloc(into, size + 1);
+    if (!data)
+        return FILE_NO_MEMORY;
+    size_t got = 0;
+    while (got < size) {
+        ssize_t n = read(fd, data + got, size - got);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return status_of_errno(files, errno);
+        if (n == 0)
+            break;
+        got += (size_t)n;
+    }
+    data[got] = '\0';
+    *contents = (str){data, got};
+    return FILE_OK;
+}
+
+enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
+                            str *contents) {
+    const struct file_overlay *overlay = find_overlay(files, files_canonical(files, path));
+    *contents = STR("");
+    if (overlay) {
+        *contents = overlay->text;
+        return overlay->text.len > cap_bytes ? FILE_TOO_LARGE : FILE_OK;
+    }
+    const char *name = system_path(files, path);
+    if (!name)
+        return FILE_MISSING;
+    int fd = open(name, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+    if (fd < 0)
+        return errno == ENXIO || errno == EISDIR ? FILE_NOT_REGULAR : status_of_errno(files, errno);
+    struct stat info;
+    enum file_status status = FILE_OK;
+    if (fstat(fd, &info) != 0)
+        status = status_of_errno(files, errno);
+    else if (!S_ISREG(info.st_mode))
+        status = FILE_NOT_REGULAR;
+    else if ((uint64_t)info.st_size > cap_bytes)
+        status = FILE_TOO_LARGE;
+    else
+        status = read_all(files, fd, (size_t)info.st_size, into, contents);
+    close(fd);
+    if (status == FILE_OK)
+        log_read(files, path, &info);
+    return status;
+}
+
+enum file_status files_identify(struct files *files, str path, struct file_read *out) {
+    *out = (struct file_read){.path = files_canonical(files, path)};
+    const struct file_overlay *overlay = find_overlay(files, out->path);
+    if (overlay) {
+        out->size_bytes = overlay->text.len;
+        out->modified_ns = (int64_t)str_hash(overlay->text);
+        return FILE_OK;
+    }
+    const char *name = system_path(files, path);
+    struct stat info;
+    if (!name)
+        return FILE_MISSING;
+    if (stat(name, &info) != 0)
+        return status_of_errno(files, errno);
+    if (!S_ISREG(info.st_mode))
+        return FILE_NOT_REGULAR;
+    out->size_bytes = (uint64_t)info.st_size;
+    out->modified_ns = (int64_t)info.st_mtim.tv_sec * 1000000000 + info.st_mtim.tv_nsec;
+    log_read(files, path, &info);
+    return FILE_OK;
+}
+
+// Where a name begins to be an ending: at its last dot, or at its end.
+static size_t ending_of(str name) {
+    for (size_t at = name.len; at > 1; at--)
+        if (name.ptr[at - 1] == '.')
+            return at - 1;
+    return name.len;
+}
+
+static bool has_ending(str name, const char *const *endings) {
+    for (; endings && *endings; endings++)
+        if (str_ends_with_nocase(name, *endings))
+            return true;
+    return !endings;
+}
+
+str files_suggest(struct files *files, str path, const char *const *endings) {
+    str folder = files_canonical(files, path_folder(path));
+    const char *system = below_a_root(files, folder) ? system_path(files, folder) : NULL;
+    DIR *directory = system ? opendir(system) : NULL;
+    if (!directory)
+        return STR("");
+    // Endings that are equal would make any two short names look alike.
+    str name = path_base(path);
+    size_t dot = ending_of(name);
+    struct nearest stems = nearest_begin(str_slice(name, 0, dot));
+    struct nearest names = nearest_begin(name);
+    char best[NAME_MAX + 1] = "";
+    struct dirent *entry;
+    for (int left = SUGGEST_ENTRIES_MAX; left > 0 && (entry = readdir(directory)); left--) {
+        str candidate = str_from(entry->d_name);
+        if (!has_ending(candidate, endings))
+            continue;
+        str stem = str_slice(candidate, 0, ending_of(candidate));
+        // A name without an ending has lost it.
+        bool same_ending =
+            dot == name.len || nearest_distance(str_slice(name, dot, name.len),
+                                                str_slice(candidate, stem.len, candidate.len)) == 0;
+        struct nearest *search = same_ending ? &stems : &names;
+        str offered = same_ending ? stem : candidate;
+        unsigned before = search->best_distance;
+        nearest_offer(search, offered);
+        // Folders have no order: of equals the first by name.
+        bool equal = before != UINT_MAX && nearest_distance(search->word, offered) == before;
+        bool better = search->best_distance < before || (equal && str_compare(candidate, str_from(best)) < 0);
+        if (!better || (!same_ending && stems.best.len))
+            continue;
+        snprintf(best, sizeof best, "%s", entry->d_name);
+        // The entry's memory is the directory's.
+        search->best = str_from(best);
+    }
+    closedir(directory);
+    return arena_copy(files->arena, str_from(best));
+}
+
+static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+str files_advice(struct arena *arena, str path) {
+    if (path.len > 2 && is_letter(path.ptr[0]) && path.ptr[1] == ':')
+        return STR("paths are relative to the file that holds them, with '/' between folders");
+    if (path.len && path.ptr[0] == '~')
+        return STR("'~' is not expanded: paths are relative to the file that holds them");
+    if (path.len && path.ptr[0] == '$')
+        return STR("variables are not expanded: paths are relative to the file that holds them");
+    for (size_t at = 0; at + 3 <= path.len; at++)
+        if (memcmp(path.ptr + at, "://", 3) == 0)
+            return STR("only files are read, and no addresses");
+    if (path.len == 0 || !memchr(path.ptr, '\\', path.len))
+        return STR("");
+    str copy = arena_copy(arena, path);
+    for (size_t at = 0; at < copy.len; at++)
+        if (copy.ptr[at] == '\\')
+            ((char *)copy.ptr)[at] = '/';
+    return arena_format(arena, "write '%.*s': '/' stands between folders on every system", STR_ARG(copy));
+}
+
+const char *file_status_text(const struct files *files, enum file_status status) {
+    switch (status) {
+    case FILE_OK:
+        return "was read";
+    case FILE_MISSING:
+        return "does not exist";
+    case FILE_OUTSIDE:
+        return "lies outside the folders that the scene may read";
+    case FILE_NOT_REGULAR:
+        return "is not a regular file";
+    case FILE_UNREADABLE:
+        return strerror(files->system_error);
+    case FILE_TOO_LARGE:
+        return "is too large";
+    case FILE_NO_MEMORY:
+        return "does not fit into memory";
+    }
+    return "cannot be read";
+}

@@ -1,0 +1,33 @@
+// The scenes in a folder and in the folders below it.
+//
+// Ownership: paths go into the arena given, whose guard the caller sets. Thread safety: pure but for the
+// arena.
+#ifndef GLINT_FILES_FILES_WALK_H
+#define GLINT_FILES_FILES_WALK_H
+
+#include "files/files.h"
+
+struct files_found {
+    struct arena *arena;
+    const char *const *endings; // ".glint.yaml", ...; NULL at the end; case matters
+    struct {
+        str *items;
+        uint32_t count, capacity;
+    } paths;        // sorted by their bytes, folder by folder
+    uint32_t depth; // folders that are open
+};
+
+bool files_is_folder(str path);
+struct files_names {
+    str *items;
+    uint32_t count, capacity;
+};
+// The names in a folder, sorted by their bytes, but for those that begin with a dot. false: errno says why it
+// cannot be opened.
+bool files_list_folder(struct arena *arena, str folder, struct files_names *names);
+// Adds the regular files below `folder` whose names have one of the endings. Names that begin with a dot are
+// left out, and so are links to folders. FILE_UNREADABLE: errno says why `folder` could not be opened;
+// folders below it that cannot be opened are left out.
+enum file_status files_walk(struct files_found *found, str folder);
+
+#endif

@@ -1,0 +1,185 @@
+#include "files/folder_store.h"
+
+#include "core/heap.h"
+#include "files/output.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool is_usable(const struct folder_store *store) {
+    return store->path && store->path[0] != '\0';
+}
+
+static char *joined(const char *folder, const char *name) {
+    size_t size = strlen(folder) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s", folder, name);
+    return path;
+}
+
+// The folder and those above it.
+static bool make_folders(const char *path) {
+    char *copy = strdup(path);
+    if (!copy)
+        return false;
+    for (char *p = copy + 1; *p; p++) {
+        if (*p != '/')
+            continue;
+        *p = '\0';
+        mkdir(copy, 0700);
+        *p = '/';
+    }
+    bool made = mkdir(copy, 0700) == 0 || errno == EEXIST;
+    free(copy);
+    return made;
+}
+
+// ---- reading
+
+static bool read_all(int fd, char *bytes, size_t count) {
+    size_t have = 0;
+    while (have < count) {
+        ssize_t got = read(fd, bytes + have, count - have);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            return false;
+        have += (size_t)got;
+    }
+    return true;
+}
+
+static char *read_file(int fd, size_t most_bytes, size_t *count) {
+    struct stat info;
+    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode) || (uintmax_t)info.st_size > most_bytes)
+        return NULL;
+    char *bytes = malloc((size_t)info.st_size + 1);
+    if (!bytes)
+        return NULL;
+    *count = (size_t)info.st_size;
+    if (read_all(fd, bytes, *count))
+        return bytes;
+    free(bytes);
+    return NULL;
+}
+
+void *folder_store_read(const struct folder_store *store, const char *name, size_t most_bytes,
+                        size_t *count) {
+    *count = 0;
+    char *path = is_usable(store) ? joined(store->path, name) : NULL;
+    if (!path)
+        return NULL;
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    free(path);
+    if (fd < 0)
+        return NULL;
+    char *bytes = read_file(fd, most_bytes, count);
+    if (bytes && futimens(fd, NULL) != 0)
+        errno = 0; // a read-only cache is a cache too
+    close(fd);
+    return bytes;
+}
+
+// ---- removing
+
+struct entry {
+    char *name;
+    struct timespec used;
+    uint64_t size_bytes;
+};
+
+static int compare_entries(const void *a, const void *b) {
+    const struct entry *x = a;
+    const struct entry *y = b;
+    if (x->used.tv_sec != y->used.tv_sec)
+        return x->used.tv_sec < y->used.tv_sec ? -1 : 1;
+    if (x->used.tv_nsec != y->used.tv_nsec)
+        return x->used.tv_nsec < y->used.tv_nsec ? -1 : 1;
+    return strcmp(x->name, y->name);
+}
+
+// All regular files of the folder; leftovers of programs that were killed are among them.
+static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total) {
+    size_t count = 0;
+    uint32_t capacity = 0;
+    for (struct dirent *item = readdir(folder); item; item = readdir(folder)) {
+        struct stat info;
+        if (fstatat(dirfd(folder), item->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(info.st_mode))
+            continue;
+        struct entry *grown = heap_grow(*entries, count, &capacity, sizeof *grown);
+        if (!grown)
+            break;
+        *entries = grown;
+        struct entry *entry = &(*entries)[count];
+        *entry = (struct entry){strdup(item->d_name), info.st_mtim, (uint64_t)info.st_size};
+        if (!entry->name)
+            break;
+        *total += entry->size_bytes;
+        count++;
+    }
+    return count;
+}
+
+static void evict(const struct folder_store *store) {
+    DIR *folder = opendir(store->path);
+    struct entry *entries = NULL;
+    uint64_t total = 0;
+    if (!folder)
+        return;
+    size_t count = list_entries(folder, &entries, &total);
+    if (count)
+        qsort(entries, count, sizeof *entries, compare_entries);
+    for (size_t i = 0; i < count; i++) {
+        if (total > store->cap_bytes && unlinkat(dirfd(folder), entries[i].name, 0) == 0)
+            total -= entries[i].size_bytes;
+        free(entries[i].name);
+    }
+    free(entries);
+    closedir(folder);
+}
+
+// ---- writing
+
+bool folder_store_write(const struct folder_store *store, const char *name,
+                        const struct folder_store_part *parts, int part_count) {
+    uint64_t size = 0;
+    for (int i = 0; i < part_count; i++)
+        size += parts[i].count;
+    if (!is_usable(store) || size > store->cap_bytes || !make_folders(store->path))
+        return false;
+    char *path = joined(store->path, name);
+    struct output output;
+    bool kept = path && output_open(&output, path);
+    if (kept) {
+        for (int i = 0; i < part_count; i++)
+            output_write(&output, parts[i].bytes, parts[i].count);
+        kept = output_commit(&output);
+    }
+    free(path);
+    evict(store);
+    return kept;
+}
+
+// ---- where
+
+char *folder_store_path(const char *name) {
+    const char *cache = getenv("XDG_CACHE_HOME");
+    const char *home = getenv("HOME");
+    bool has_cache = cache && cache[0] == '/';
+    if (!has_cache && (!home || home[0] != '/'))
+        return NULL;
+    const char *base = has_cache ? cache : home;
+    const char *middle = has_cache ? "glint" : ".cache/glint";
+    size_t size = strlen(base) + strlen(middle) + strlen(name) + 3;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s/%s", base, middle, name);
+    return path;
+}

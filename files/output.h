@@ -1,0 +1,34 @@
+// Outputs that are whole or not there: written to a temporary name beside the target, then renamed.
+//
+// A failed or abandoned run leaves the old file as it was. Permissions are kept, and links: their target is
+// replaced. A target that exists and is no regular file (a device, a pipe) is written to directly; "-" is
+// standard output. The program ignores SIGPIPE and SIGXFSZ, so that they come back as errors here.
+// Thread safety: one output belongs to one thread. After an error every later call does nothing.
+#ifndef GLINT_FILES_OUTPUT_H
+#define GLINT_FILES_OUTPUT_H
+
+#include "core/str.h"
+
+#include <stdio.h>
+
+struct output {
+    FILE *stream;
+    char *path;
+    char *temporary; // NULL where the target is written directly
+    int error;       // errno of the first failure, 0 if none
+};
+
+// Opens the temporary file. false: output.error says why; nothing else needs to be called.
+bool output_open(struct output *output, const char *path);
+void output_write(struct output *output, const void *bytes, size_t count);
+// Flushes, closes and renames. false: output.error says why; the old file is as it was.
+bool output_commit(struct output *output);
+// Removes the temporary file. Does nothing after output_commit.
+void output_abandon(struct output *output);
+// All of the above for bytes that are there already; 0 or an errno.
+int output_whole(const char *path, const void *bytes, size_t count);
+// A new file in a folder that is temporary itself: written in place, and not waited for until it is on the
+// disk, which takes milliseconds each. 0 or an errno.
+int output_part(const char *path, const void *bytes, size_t count);
+
+#endif

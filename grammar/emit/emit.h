@@ -1,0 +1,23 @@
+// Files made from the table: for editors, readers and the fuzzer. The committed copies
+// (docs/schema/, docs/reference.md, tests/fuzz/glint.dict) are kept equal by a test.
+//
+// Errors: none but memory; ask `out->failed`. Thread safety: pure but for `out`.
+#ifndef GLINT_GRAMMAR_EMIT_EMIT_H
+#define GLINT_GRAMMAR_EMIT_EMIT_H
+
+#include "core/strbuf.h"
+
+// JSON Schema draft-07 for the YAML spelling: closed objects, descriptions for hovering.
+void emit_json_schema(struct strbuf *out);
+// RELAX NG (XML syntax) for the XML spelling.
+void emit_relaxng(struct strbuf *out);
+// RELAX NG in its compact syntax: the same language.
+void emit_relaxng_compact(struct strbuf *out);
+// XML Schema 1.0 for the XML spelling: for completion; it accepts more than scenes.
+void emit_xml_schema(struct strbuf *out);
+// The reference page, docs/reference.md.
+void emit_markdown(struct strbuf *out);
+// A dictionary for libFuzzer with the words of both spellings.
+void emit_fuzz_dictionary(struct strbuf *out);
+
+#endif

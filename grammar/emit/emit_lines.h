@@ -1,0 +1,32 @@
+// What the schemas of the XML spelling have in common: indented lines, tags, patterns. Private to grammar/.
+//
+// Thread safety: pure but for `out`.
+#ifndef GLINT_GRAMMAR_EMIT_EMIT_LINES_H
+#define GLINT_GRAMMAR_EMIT_EMIT_LINES_H
+
+#include "core/strbuf.h"
+#include "grammar/schema.h"
+
+// Regular expressions as XML Schema writes them.
+#define EMIT_NUMBER_PATTERN "[+\\-]?(\\d+\\.?\\d*|\\.\\d+)([eE][+\\-]?\\d+)?"
+#define EMIT_HEX_PATTERN    "#[0-9A-Fa-f]{6}"
+#define EMIT_NAME_PATTERN   "[^\\d\\s!-,./:-@\\[-\\^`{-~][^\\s!-,./:-@\\[-\\^`{-~]{0,127}"
+
+struct emit_lines {
+    struct strbuf *out;
+    uint32_t depth;
+};
+
+// The blanks before a line.
+void emit_indent(const struct emit_lines *w);
+void emit_line(const struct emit_lines *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+// A start tag on a line, and what follows is deeper; the end tag on a line.
+void emit_open(struct emit_lines *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void emit_close(struct emit_lines *w, const char *tag);
+
+// Whether the rows of this range are whole numbers.
+bool emit_is_integer(enum schema_range range);
+// Whether no row before `i` is of its choice.
+bool emit_is_first_of_choice(const struct schema_element *schema, uint32_t i);
+
+#endif

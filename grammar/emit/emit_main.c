@@ -1,0 +1,29 @@
+// Writes one of the files that are made from the table to standard output:
+//     glint_emit json|relaxng|rnc|xsd|markdown|dictionary
+// The target `emitted` writes all of them to where they are committed.
+#include "grammar/emit/emit.h"
+
+#include <stdio.h>
+#include <string.h>
+
+int main(int count, char **arguments) {
+    static const struct {
+        const char *name;
+        void (*emit)(struct strbuf *out);
+    } kinds[] = {
+        {"json", emit_json_schema}, {"relaxng", emit_relaxng},   {"rnc", emit_relaxng_compact},
+        {"xsd", emit_xml_schema},   {"markdown", emit_markdown}, {"dictionary", emit_fuzz_dictionary},
+    };
+    for (size_t i = 0; count == 2 && i < sizeof kinds / sizeof kinds[0]; i++) {
+        if (strcmp(arguments[1], kinds[i].name) != 0)
+            continue;
+        struct strbuf out;
+        strbuf_init(&out);
+        kinds[i].emit(&out);
+        bool failed = out.failed || fwrite(out.data, 1, out.len, stdout) != out.len;
+        strbuf_finish(&out);
+        return fflush(stdout) != 0 || failed ? 3 : 0;
+    }
+    fprintf(stderr, "usage: glint_emit json|relaxng|rnc|xsd|markdown|dictionary\n");
+    return 2;
+}

@@ -1,0 +1,17 @@
+// `glint explain CODE|element[.attribute]`: what the diagnostics' list and the table say, as text.
+//
+// Codes: title, meaning, remedy, and where they can occur. Elements: every attribute with both spellings,
+// and an example in both. Attributes: type, range, unit, default, words. Nothing here is written by hand.
+// Thread safety: pure but for `out`.
+#ifndef GLINT_GRAMMAR_EMIT_EXPLAIN_H
+#define GLINT_GRAMMAR_EMIT_EXPLAIN_H
+
+#include "core/str.h"
+#include "core/strbuf.h"
+
+// `what`: "E206", "material", "material.albedo" or "Material" (case of codes does not matter; an
+// attribute alone will do where it is unique). `color`: ANSI colours.
+// false: there is no such thing; `out` then holds one sentence that names the nearest thing there is.
+bool explain(str what, bool color, struct strbuf *out);
+
+#endif

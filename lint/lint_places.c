@@ -1,0 +1,68 @@
+// Where findings stand and what they call things.
+#include "lint/lint_parts.h"
+
+#include "assets/asset_file.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+enum {
+    NOTE_MAX = 512
+};
+
+static const char *kind_of(const struct lint_body *body) {
+    static const char *const kinds[] = {"sphere", "rectangle", "model"};
+    return kinds[body->kind];
+}
+
+str lint_words(struct lint *lint, const struct lint_body *body) {
+    if (body->name.len)
+        return arena_format(lint->arena, "%s '%.*s'", kind_of(body), STR_ARG(body->name));
+    return arena_format(lint->arena, "this %s", kind_of(body));
+}
+
+str lint_words_other(struct lint *lint, const struct lint_body *body) {
+    if (body->name.len)
+        return lint_words(lint, body);
+    return arena_format(lint->arena, "a %s", kind_of(body));
+}
+
+span lint_place(const struct lint *lint, const struct lint_body *body) {
+    return ir_place_label(lint->origin, body->head);
+}
+
+span lint_place_mesh(const struct lint *lint, uint32_t model) {
+    return ir_place_value(lint->origin, &lint->scene->models.items[model].head, &SCHEMA_MODEL, "mesh");
+}
+
+// The source with the mesh's text that an earlier message made, if there is one.
+static uint32_t known_source(const struct source_set *sources, str path) {
+    for (uint32_t i = 1; i < sources->count; i++) {
+        const struct source *source = &sources->items[i];
+        if (source->kind == SOURCE_KIND_FILE && source->text.len && str_equal(source->path, path))
+            return i;
+    }
+    return SOURCE_DEFAULT;
+}
+
+void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...) {
+    char text[NOTE_MAX];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    const struct assets_input *input = lint->input->scene;
+    if (mesh->source == SOURCE_DEFAULT)
+        mesh->source = known_source(input->sources, mesh->mesh->path);
+    struct asset_file file = {.input = input,
+                              .path = mesh->mesh->path,
+                              .what = "mesh",
+                              .limit = LIMIT_MESH_BYTES,
+                              .source = mesh->source};
+    span at = asset_line(&file, line);
+    mesh->source = file.source;
+    if (input->sources->items[at.source].text.len == 0)
+        diag_note(lint->sink, at, "line %u: %s", line, text);
+    else
+        diag_note(lint->sink, at, "%s", text);
+}

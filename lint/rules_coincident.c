@@ -1,0 +1,277 @@
+// Faces that lie in one plane and cover each other: which one is seen is decided by rounding.
+//
+// Within a mesh: lint_find_pairs. Between bodies: those at equal places first, then each pair whose boxes
+// meet, the faces of the smaller body against the tree of the larger one. Two faces count only where a camera
+// could see both: the bottom of a box that stands on a floor is hidden by the box.
+#include "lint/lint_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// A few units of the last place of a single at the distance of the camera.
+#define NEAR 0x1p-22
+
+enum {
+    PAIRS_MAX = 50000000, // boxes against boxes
+    FACES_MAX = 10000000, // faces against faces
+};
+
+// ---- within a mesh
+
+static void check_mesh(struct lint *lint, struct lint_mesh *mesh) {
+    lint_find_pairs(lint, mesh);
+    const struct lint_pairs *pairs = &mesh->overlaps;
+    if (pairs->count == 0)
+        return;
+    diag_add(lint->sink, DIAG_COINCIDENT, lint_place_mesh(lint, mesh->first_model),
+             "%u of the mesh's %u triangles lie in one plane with others and cover a part of them",
+             pairs->count, mesh->mesh->triangle_count);
+    lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->first].line, "the first is in this face");
+    lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->second].line, "and covers a part of this one");
+    diag_help(lint->sink, "remove one of the faces, or move it by a visible amount");
+}
+
+// ---- bodies at equal places
+
+// What a body's place depends on.
+struct place {
+    double numbers[12];
+    const struct mesh *mesh;
+};
+
+struct place_key {
+    uint64_t hash;
+    uint32_t body;
+};
+
+static struct place place_of(const struct lint *lint, uint32_t index) {
+    const struct lint_body *body = &lint->bodies[index];
+    struct place place = {.numbers[11] = body->kind};
+    if (body->kind == LINT_SPHERE) {
+        const struct ir_sphere *sphere = &lint->scene->spheres.items[body->index];
+        memcpy(place.numbers, &sphere->center, sizeof sphere->center);
+        place.numbers[3] = sphere->radius;
+    } else if (body->kind == LINT_RECTANGLE) {
+        const struct ir_rectangle *r = &lint->scene->rectangles.items[body->index];
+        memcpy(place.numbers, &r->corner, sizeof(vec3));
+        memcpy(place.numbers + 3, &r->edge_u, sizeof(vec3));
+        memcpy(place.numbers + 6, &r->edge_v, sizeof(vec3));
+    } else {
+        const struct ir_model *model = &lint->scene->models.items[body->index];
+        memcpy(place.numbers, &model->scale, sizeof(vec3));
+        memcpy(place.numbers + 3, &model->rotation, sizeof(vec3));
+        memcpy(place.numbers + 6, &model->translation, sizeof(vec3));
+        place.mesh = body->mesh->mesh;
+    }
+    return place;
+}
+
+static bool is_same_place(const struct lint *lint, uint32_t a, uint32_t b) {
+    struct place x = place_of(lint, a);
+    struct place y = place_of(lint, b);
+    return x.mesh == y.mesh && memcmp(x.numbers, y.numbers, sizeof x.numbers) == 0;
+}
+
+static struct place_key key_of(const struct lint *lint, uint32_t body) {
+    struct place place = place_of(lint, body);
+    return (struct place_key){str_hash((str){(const char *)place.numbers, sizeof place.numbers}), body};
+}
+
+static int compare_keys(const void *a, const void *b) {
+    const struct place_key *x = a;
+    const struct place_key *y = b;
+    if (x->hash != y->hash)
+        return x->hash < y->hash ? -1 : 1;
+    return x->body < y->body ? -1 : x->body > y->body;
+}
+
+static bool *find_repeats(struct lint *lint) {
+    struct place_key *keys = ARENA_ARRAY(lint->arena, struct place_key, lint->body_count);
+    bool *repeats = ARENA_ARRAY(lint->arena, bool, lint->body_count);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (lint->bodies[i].kind != LINT_MODEL || lint->bodies[i].mesh)
+            keys[count++] = key_of(lint, i);
+    qsort(keys, count, sizeof *keys, compare_keys);
+    for (uint32_t i = 1, first = 0; i < count; i++) {
+        if (keys[first].hash != keys[i].hash || !is_same_place(lint, keys[first].body, keys[i].body)) {
+            first = i;
+            continue;
+        }
+        const struct lint_body *body = &lint->bodies[keys[i].body];
+        repeats[keys[i].body] = true;
+        diag_add(lint->sink, DIAG_COINCIDENT, lint_place(lint, body),
+                 "%.*s stands exactly where another one does", STR_ARG(lint_words(lint, body)));
+        diag_note(lint->sink, lint_place(lint, &lint->bodies[keys[first].body]), "this is the other one");
+        diag_help(lint->sink, "remove one of the two, or move it");
+    }
+    return repeats;
+}
+
+// ---- faces of two bodies
+
+struct search {
+    struct lint *lint;
+    const struct lint_body *a, *b;        // faces of `a` against those of `b`
+    affine3 placing_a, placing_b, back_b; // of models
+    struct lint_face face;                // of `a`, in scene units
+    uint32_t triangle;                    // of `a`
+    double near;
+    uint64_t *work_left;
+    uint32_t count;
+    uint32_t first_a, first_b; // triangles of the first pair
+};
+
+static bool shows(const struct lint_body *body, const struct lint_face *face, vec3 eye) {
+    if (!body->is_solid || !body->is_opaque)
+        return true;
+    double facing = vec3_dot(face->normal, vec3_sub(eye, face->t.p[0]));
+    return body->is_mirrored ? facing < 0 : facing > 0;
+}
+
+static bool both_show(const struct search *s, const struct lint_face *other) {
+    for (uint32_t i = 0; i < s->lint->view_count; i++) {
+        vec3 eye = s->lint->views[i].camera.position;
+        if (shows(s->a, &s->face, eye) && shows(s->b, other, eye))
+            return true;
+    }
+    return false;
+}
+
+static void compare_faces(struct search *s, struct lint_triangle triangle, uint32_t index) {
+    struct lint_face other = lint_face_of(triangle);
+    if (!lint_faces_coincide(&s->face, &other, s->near, 16 * s->near) || !both_show(s, &other))
+        return;
+    if (s->count == 0 || s->triangle < s->first_a || (s->triangle == s->first_a && index < s->first_b)) {
+        s->first_a = s->triangle;
+        s->first_b = index;
+    }
+    s->count++;
+}
+
+static bool visit_other(void *context, uint32_t first, uint32_t count) {
+    struct search *s = context;
+    const struct lint_tree *tree = &s->b->mesh->tree;
+    for (uint32_t i = first; i < first + count; i++) {
+        struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
+        compare_faces(s, lint_triangle_place(t, &s->placing_b), tree->order[i]);
+    }
+    *s->work_left -= *s->work_left < count ? *s->work_left : count;
+    return *s->work_left > 0;
+}
+
+static void search_face(struct search *s, struct lint_triangle triangle, uint32_t index) {
+    s->face = lint_face_of(triangle);
+    s->triangle = index;
+    if (s->b->kind == LINT_RECTANGLE) {
+        struct lint_triangle halves[2];
+        lint_rectangle(s->b, s->lint, halves);
+        compare_faces(s, halves[0], 0);
+        compare_faces(s, halves[1], 1);
+        return;
+    }
+    struct lint_box box = lint_box_grow(lint_box_of(&triangle), s->near);
+    box = lint_box_place(box, &s->back_b);
+    lint_tree_in_box(lint_tree_of(s->lint, s->b->mesh), &box, visit_other, s);
+}
+
+static bool visit_own(void *context, uint32_t first, uint32_t count) {
+    struct search *s = context;
+    const struct lint_tree *tree = &s->a->mesh->tree;
+    for (uint32_t i = first; i<first + count && * s->work_left> 0; i++) {
+        struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
+        search_face(s, lint_triangle_place(t, &s->placing_a), tree->order[i]);
+        *s->work_left -= *s->work_left > 0;
+    }
+    return *s->work_left > 0;
+}
+
+static void report(struct search *s) {
+    const struct lint_body *first = s->a < s->b ? s->a : s->b;
+    const struct lint_body *second = s->a < s->b ? s->b : s->a;
+    struct lint *lint = s->lint;
+    diag_add(
+        lint->sink, DIAG_COINCIDENT, lint_place(lint, second),
+        "faces of %.*s and of %.*s lie in one plane and cover each other: rounding decides which is seen",
+        STR_ARG(lint_words(lint, second)), STR_ARG(lint_words_other(lint, first)));
+    diag_note(lint->sink, lint_place(lint, first), "%u pair%s of triangles with those of this body", s->count,
+              s->count == 1 ? "" : "s");
+    if (s->a->mesh)
+        lint_note_mesh(lint, s->a->mesh, s->a->mesh->mesh->triangles[s->first_a].line,
+                       "the first is this face");
+    if (s->b->mesh)
+        lint_note_mesh(lint, s->b->mesh, s->b->mesh->mesh->triangles[s->first_b].line,
+                       s->a->mesh ? "with this one" : "the first is this face");
+    diag_help(lint->sink, "move one of the bodies by a visible amount");
+}
+
+static double farthest(const struct lint *lint, const struct lint_box *box) {
+    vec3 eye = lint->views[0].camera.position;
+    return fmax(vec3_max_abs(vec3_sub(box->lower, eye)), vec3_max_abs(vec3_sub(box->upper, eye)));
+}
+
+static uint32_t face_count(const struct lint_body *body) {
+    return body->mesh ? body->mesh->mesh->triangle_count : 2;
+}
+
+static void check_pair(struct lint *lint, const struct lint_body *a, const struct lint_body *b,
+                       uint64_t *work_left) {
+    struct search s = {.lint = lint, .a = a, .b = b, .work_left = work_left};
+    if (face_count(b) < face_count(a)) {
+        s.a = b;
+        s.b = a;
+    }
+    if (s.a->mesh)
+        s.placing_a = lint_placing(lint, s.a);
+    if (s.b->mesh) {
+        s.placing_b = lint_placing(lint, s.b);
+        s.back_b = lint_inverse(s.placing_b);
+    }
+    struct lint_box common = {vec3_max(a->box.lower, b->box.lower), vec3_min(a->box.upper, b->box.upper)};
+    s.near = NEAR * farthest(lint, &common);
+    common = lint_box_grow(common, s.near);
+    if (s.a->kind == LINT_RECTANGLE) {
+        struct lint_triangle halves[2];
+        lint_rectangle(s.a, lint, halves);
+        search_face(&s, halves[0], 0);
+        search_face(&s, halves[1], 1);
+    } else {
+        affine3 back = lint_inverse(s.placing_a);
+        struct lint_box own = lint_box_place(common, &back);
+        lint_tree_in_box(lint_tree_of(lint, s.a->mesh), &own, visit_own, &s);
+    }
+    if (s.count)
+        report(&s);
+}
+
+static int compare_bodies(const void *a, const void *b) {
+    const struct lint_body *x = *(const struct lint_body *const *)a;
+    const struct lint_body *y = *(const struct lint_body *const *)b;
+    if (x->box.lower.x != y->box.lower.x)
+        return x->box.lower.x < y->box.lower.x ? -1 : 1;
+    return x < y ? -1 : x > y;
+}
+
+void lint_coincident(struct lint *lint) {
+    for (uint32_t i = 0; i < lint->meshes.count; i++)
+        check_mesh(lint, lint->meshes.items[i]);
+    const bool *repeats = find_repeats(lint);
+    const struct lint_body **flat = ARENA_ARRAY(lint->arena, const struct lint_body *, lint->body_count);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->body_count; i++) {
+        const struct lint_body *body = &lint->bodies[i];
+        if (!repeats[i] && (body->kind == LINT_RECTANGLE || body->mesh))
+            flat[count++] = body;
+    }
+    qsort(flat, count, sizeof *flat, compare_bodies);
+    uint64_t pairs_left = PAIRS_MAX;
+    uint64_t work_left = FACES_MAX;
+    for (uint32_t i = 0; i < count && work_left > 0; i++) {
+        struct lint_box box = lint_box_grow(flat[i]->box, NEAR * farthest(lint, &flat[i]->box));
+        for (uint32_t k = i + 1; k < count && flat[k]->box.lower.x <= box.upper.x && pairs_left > 0; k++) {
+            pairs_left--;
+            if (lint_box_meets(&box, &flat[k]->box) && work_left > 0)
+                check_pair(lint, flat[i], flat[k], &work_left);
+        }
+    }
+}

@@ -1,0 +1,230 @@
+// Whether max_depth reaches through the layers of glass that the cameras see.
+//
+// A grid of rays goes straight on through all that refracts; the surfaces that it crosses, up to the first
+// opaque one and as long as its weight is at least min_weight, are the depth that it needs. Bending is left
+// out: it moves the layers in the picture, and hardly changes their number.
+#include "lint/lint_parts.h"
+
+#include "core/number.h"
+#include "core/parallel.h"
+
+#include <stdlib.h>
+
+enum {
+    COLUMNS = 96, // of the grid, at most
+    HITS_MAX = 256,
+    WORK_MAX = 20000000,    // rays times bodies
+    RAY_WORK_MAX = 1 << 14, // triangles that one ray may try: a fan of needles has them all in its way
+};
+
+struct crossing {
+    double t;
+    uint32_t body;
+};
+
+struct glass {
+    struct lint *lint;
+    const struct view_camera *camera;
+    uint32_t *refracting; // bodies
+    uint32_t refracting_count;
+    uint32_t columns, rows;
+    uint32_t *layers; // per ray
+    uint32_t *first;  // per ray: the body met first
+};
+
+struct ray_hits {
+    const struct lint_tree *tree;
+    vec3 origin, direction;
+    uint32_t body;
+    struct crossing items[HITS_MAX];
+    uint32_t count;
+    uint32_t tried;
+};
+
+static void add_hit(struct ray_hits *hits, double t) {
+    if (t > 0 && hits->count < HITS_MAX)
+        hits->items[hits->count++] = (struct crossing){t, hits->body};
+}
+
+static bool meet(void *context, uint32_t first, uint32_t count) {
+    struct ray_hits *hits = context;
+    for (uint32_t i = first; i < first + count; i++) {
+        struct lint_triangle t = lint_mesh_triangle(hits->tree->mesh, hits->tree->order[i]);
+        double at;
+        int side;
+        if (lint_triangle_ray(&t, hits->origin, hits->direction, &at, &side))
+            add_hit(hits, at);
+    }
+    hits->tried += count;
+    return hits->tried < RAY_WORK_MAX;
+}
+
+static void meet_sphere(struct ray_hits *hits, const struct ir_sphere *sphere, vec3 origin, vec3 direction) {
+    vec3 to_center = vec3_sub(sphere->center, origin);
+    double along = vec3_dot(to_center, direction);
+    double square =
+        sphere->radius * sphere->radius - vec3_dot(vec3_sub(to_center, vec3_mul(direction, along)),
+                                                   vec3_sub(to_center, vec3_mul(direction, along)));
+    if (!(square > 0))
+        return;
+    add_hit(hits, along - sqrt(square));
+    add_hit(hits, along + sqrt(square));
+}
+
+static void meet_body(const struct lint *lint, uint32_t index, vec3 origin, vec3 direction,
+                      struct ray_hits *hits) {
+    const struct lint_body *body = &lint->bodies[index];
+    hits->body = index;
+    if (body->kind == LINT_SPHERE) {
+        meet_sphere(hits, &lint->scene->spheres.items[body->index], origin, direction);
+    } else if (body->kind == LINT_RECTANGLE) {
+        struct lint_triangle halves[2];
+        double t;
+        int side;
+        lint_rectangle(body, lint, halves);
+        if (lint_triangle_ray(&halves[0], origin, direction, &t, &side) ||
+            lint_triangle_ray(&halves[1], origin, direction, &t, &side))
+            add_hit(hits, t);
+    } else if (body->mesh) {
+        hits->tree = &body->mesh->tree;
+        affine3 back = lint_inverse(lint_placing(lint, body));
+        hits->origin = affine3_apply(back, origin);
+        hits->direction = mat3_apply(back.linear, direction);
+        lint_tree_on_ray(hits->tree, hits->origin, hits->direction, meet, hits);
+    }
+}
+
+static int compare_crossings(const void *a, const void *b) {
+    const struct crossing *x = a;
+    const struct crossing *y = b;
+    return x->t < y->t ? -1 : x->t > y->t;
+}
+
+// 0 where a ray's work ends first: what was not tried may stand before all glass.
+static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direction) {
+    struct ray_hits hits = {.count = 0};
+    double nearest = INFINITY;
+    for (uint32_t k = 0; k < glass->lint->body_count; k++) {
+        const struct lint_body *body = &glass->lint->bodies[k];
+        if (!body->is_opaque || !lint_box_on_ray(&body->box, origin, direction))
+            continue;
+        hits.count = 0;
+        meet_body(glass->lint, k, origin, direction, &hits);
+        for (uint32_t i = 0; i < hits.count; i++)
+            nearest = fmin(nearest, hits.items[i].t);
+    }
+    return hits.tried < RAY_WORK_MAX ? nearest : 0;
+}
+
+// Surfaces that the ray passes before `end`, while it carries enough weight to be traced.
+static uint32_t count_layers(const struct lint *lint, const struct ray_hits *hits, double end) {
+    double weight = 1;
+    uint32_t layers = 0;
+    while (layers < hits->count && hits->items[layers].t < end) {
+        weight *= lint->bodies[hits->items[layers].body].refraction;
+        if (weight < lint->scene->trace.min_weight)
+            break;
+        layers++;
+    }
+    return layers;
+}
+
+static void trace_ray(const struct glass *glass, uint32_t index) {
+    const struct lint *lint = glass->lint;
+    const struct view_camera *camera = glass->camera;
+    double aspect = (double)lint->input->image->width / lint->input->image->height;
+    double x = 2 * (index % glass->columns + 0.5) / glass->columns - 1;
+    double y = 1 - 2 * (index / glass->columns + 0.5) / glass->rows;
+    vec3 direction = vec3_add(camera->forward, vec3_mul(camera->right, x * aspect * camera->tan_half_fov));
+    direction = vec3_unit(vec3_add(direction, vec3_mul(camera->up, y * camera->tan_half_fov)));
+    struct ray_hits hits = {.count = 0};
+    for (uint32_t i = 0; i < glass->refracting_count; i++)
+        if (lint_box_on_ray(&lint->bodies[glass->refracting[i]].box, camera->position, direction))
+            meet_body(lint, glass->refracting[i], camera->position, direction, &hits);
+    uint32_t most = (uint32_t)lint->scene->trace.max_depth;
+    if (hits.count <= most || hits.tried >= RAY_WORK_MAX)
+        return;
+    qsort(hits.items, hits.count, sizeof *hits.items, compare_crossings);
+    if (count_layers(lint, &hits, INFINITY) <= most)
+        return;
+    glass->layers[index] = count_layers(lint, &hits, nearest_opaque(glass, camera->position, direction));
+    glass->first[index] = hits.items[0].body;
+}
+
+static void trace_piece(void *context, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; i++)
+        trace_ray(context, (uint32_t)i);
+}
+
+static span depth_place(const struct lint *lint, const struct lint_body *body) {
+    span at = ir_place_value(lint->origin, &lint->scene->trace.head, &SCHEMA_TRACE, "max_depth");
+    return span_is_none(at) ? lint_place(lint, body) : at;
+}
+
+static void report(const struct glass *glass, uint32_t at, uint32_t rays) {
+    struct lint *lint = glass->lint;
+    const struct lint_body *body = &lint->bodies[glass->first[at]];
+    const struct ir_image *image = lint->input->image;
+    uint32_t x = (uint32_t)((at % glass->columns + 0.5) / glass->columns * image->width);
+    uint32_t y = (uint32_t)((at / glass->columns + 0.5) / glass->rows * image->height);
+    uint32_t needed = glass->layers[at];
+    diag_add(lint->sink, DIAG_DEPTH_SHORT, depth_place(lint, body),
+             "max_depth is %d, and a ray through pixel %u,%u crosses %u surfaces of glass: it ends before it "
+             "has passed them",
+             lint->scene->trace.max_depth, x, y, needed);
+    diag_note(lint->sink, lint_place(lint, body),
+              "the first is that of %.*s; in %.3g %% of the picture rays end in glass",
+              STR_ARG(lint_words_other(lint, body)), 100.0 * rays / (glass->columns * glass->rows));
+    if (needed <= 64)
+        diag_help(lint->sink, "write max_depth: %u", needed);
+    int row = schema_find_row(&SCHEMA_TRACE, STR("max_depth"));
+    const struct ir_row_origin *place = ir_origin_row(lint->origin, &lint->scene->trace.head, (uint32_t)row);
+    if (needed <= 64 && place)
+        diag_fix(lint->sink, false, place->value, arena_format(lint->arena, "%u", needed));
+}
+
+static void look(struct glass *glass) {
+    uint32_t rays = glass->columns * glass->rows;
+    for (uint32_t i = 0; i < rays; i++)
+        glass->layers[i] = 0;
+    parallel_for(rays, COLUMNS, trace_piece, glass);
+    uint32_t worst = 0;
+    uint32_t cut = 0;
+    for (uint32_t i = 0; i < rays; i++) {
+        cut += glass->layers[i] > (uint32_t)glass->lint->scene->trace.max_depth;
+        if (glass->layers[i] > glass->layers[worst])
+            worst = i;
+    }
+    if (cut)
+        report(glass, worst, cut);
+}
+
+void lint_depth_short(struct lint *lint) {
+    struct glass glass = {.lint = lint};
+    glass.refracting = ARENA_ARRAY(lint->arena, uint32_t, lint->body_count);
+    uint64_t surfaces = 0;
+    for (uint32_t i = 0; i < lint->body_count; i++) {
+        const struct lint_body *body = &lint->bodies[i];
+        if (body->is_opaque)
+            continue;
+        glass.refracting[glass.refracting_count++] = i;
+        surfaces += body->mesh ? body->mesh->mesh->triangle_count : 2;
+    }
+    if (surfaces <= (uint32_t)lint->scene->trace.max_depth)
+        return;
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (lint->bodies[i].mesh)
+            lint_tree_of(lint, lint->bodies[i].mesh);
+    const struct ir_image *image = lint->input->image;
+    glass.columns = COLUMNS < image->width ? COLUMNS : (uint32_t)image->width;
+    while (glass.columns > 8 && (uint64_t)glass.columns * glass.columns * lint->body_count > WORK_MAX)
+        glass.columns /= 2;
+    glass.rows = (uint32_t)ceil((double)glass.columns * image->height / image->width);
+    glass.rows = glass.rows > 4 * glass.columns ? 4 * glass.columns : glass.rows;
+    glass.layers = ARENA_ARRAY(lint->arena, uint32_t, (size_t)glass.columns * glass.rows);
+    glass.first = ARENA_ARRAY(lint->arena, uint32_t, (size_t)glass.columns * glass.rows);
+    for (uint32_t i = 0; i < lint->view_count; i++) {
+        glass.camera = &lint->views[i].camera;
+        look(&glass);
+    }
+}

@@ -1,0 +1,37 @@
+// Images of more texels than a picture can show.
+#include "lint/lint_parts.h"
+
+// Texels along a line for each sample of the picture: sixteen times as many texels as samples.
+static const double EXCESS = 4;
+static const double TURN = 6.283185307179586477;
+
+// Samples for each radian of direction, at most: they are densest in the corners of the field, where the
+// direction turns least from pixel to pixel.
+static double samples_per_radian(const struct lint *lint, const struct view_camera *camera) {
+    const struct ir_image *image = lint->input->image;
+    double up = camera->tan_half_fov;
+    double right = up * image->width / image->height;
+    double corner = 1 + up * up + right * right;
+    return image->height / (2 * up) * corner * sqrt(image->samples);
+}
+
+void lint_oversized_image(struct lint *lint) {
+    const struct ir_background *background = &lint->scene->background;
+    uint32_t width = lint->assets->background_width;
+    if (background->kind != IR_BACKDROP_IMAGE || width == 0)
+        return;
+    double finest = 0;
+    for (uint32_t i = 0; i < lint->view_count; i++)
+        finest = fmax(finest, samples_per_radian(lint, &lint->views[i].camera));
+    double texels = width / TURN;
+    if (!(texels > EXCESS * finest))
+        return;
+    const struct ir_image *image = lint->input->image;
+    diag_add(
+        lint->sink, DIAG_OVERSIZED_IMAGE,
+        ir_place_value(lint->origin, &background->head, &SCHEMA_BACKGROUND, "image"),
+        "the background of %u x %u pixels is at least %.3g times finer than a picture of %d x %d can show",
+        width, lint->assets->background_height, texels / finest, image->width, image->height);
+    double enough = exp2(ceil(log2(TURN * finest)));
+    diag_help(lint->sink, "an image %.0f pixels wide shows all that this picture can", enough);
+}

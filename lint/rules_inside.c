@@ -1,0 +1,147 @@
+// Cameras and lights inside bodies, lights on surfaces.
+#include "lint/lint_parts.h"
+
+enum {
+    WORK_MAX = 50000000, // bodies against cameras, or lights: further ones are not looked at
+};
+
+// ---- cameras
+
+// A room: what stands in an opaque body is lit there, and its camera sees it.
+static bool holds_light(struct lint *lint, const struct lint_body *body) {
+    const struct view *view = &lint->views[0];
+    for (uint32_t i = 0; i < view->light_count; i++) {
+        const struct view_light *light = &view->lights[i];
+        if (!light->directional && (light->automatic || lint_is_inside(lint, body, light->position)))
+            return true;
+    }
+    return false;
+}
+
+static void report_camera(struct lint *lint, const struct ir_camera *camera, const struct lint_body *body) {
+    span at = ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position");
+    diag_add(lint->sink, DIAG_CAMERA_INSIDE, at, "camera '%.*s' stands inside %.*s", STR_ARG(camera->name),
+             STR_ARG(lint_words_other(lint, body)));
+    if (body->is_opaque)
+        diag_note(lint->sink, lint_place(lint, body),
+                  "no light is inside: the camera sees its dark inner side");
+    else
+        diag_note(lint->sink, lint_place(lint, body),
+                  "it refracts, and rays are bent as they leave it: the picture is that of a diver");
+    diag_help(lint->sink, "move the camera out of the body");
+}
+
+void lint_camera_inside(struct lint *lint) {
+    uint64_t work = 0;
+    for (uint32_t i = 0; i < lint->scene->cameras.count && work < WORK_MAX; i++, work += lint->body_count) {
+        vec3 position = lint->views[i].camera.position;
+        for (uint32_t k = 0; k < lint->body_count; k++) {
+            const struct lint_body *body = &lint->bodies[k];
+            if (!lint_is_inside(lint, body, position) || (body->is_opaque && holds_light(lint, body)))
+                continue;
+            report_camera(lint, &lint->scene->cameras.items[i], body);
+            break;
+        }
+    }
+}
+
+// ---- lights
+
+struct nearest_face {
+    const struct lint_tree *tree;
+    affine3 placing;
+    vec3 point; // in scene units
+    double distance;
+    uint32_t triangle;
+};
+
+static bool measure(void *context, uint32_t first, uint32_t count) {
+    struct nearest_face *nearest = context;
+    for (uint32_t i = first; i < first + count; i++) {
+        struct lint_triangle t = lint_mesh_triangle(nearest->tree->mesh, nearest->tree->order[i]);
+        t = lint_triangle_place(t, &nearest->placing);
+        double distance = lint_triangle_distance(&t, nearest->point);
+        if (distance < nearest->distance) {
+            nearest->distance = distance;
+            nearest->triangle = nearest->tree->order[i];
+        }
+    }
+    return true;
+}
+
+// How far the point is from the body's surface, where that is at most `near`; *triangle of a mesh.
+static bool is_on(struct lint *lint, const struct lint_body *body, vec3 point, double near,
+                  uint32_t *triangle) {
+    if (body->kind == LINT_SPHERE) {
+        const struct ir_sphere *sphere = &lint->scene->spheres.items[body->index];
+        return fabs(vec3_length(vec3_sub(point, sphere->center)) - sphere->radius) <= near;
+    }
+    if (body->kind == LINT_RECTANGLE) {
+        struct lint_triangle halves[2];
+        lint_rectangle(body, lint, halves);
+        return fmin(lint_triangle_distance(&halves[0], point), lint_triangle_distance(&halves[1], point)) <=
+               near;
+    }
+    if (!body->mesh)
+        return false;
+    struct nearest_face nearest = {lint_tree_of(lint, body->mesh), lint_placing(lint, body), point, INFINITY,
+                                   0};
+    affine3 back = lint_inverse(nearest.placing);
+    struct lint_box around = lint_box_grow((struct lint_box){point, point}, near);
+    around = lint_box_place(around, &back);
+    lint_tree_in_box(nearest.tree, &around, measure, &nearest);
+    *triangle = nearest.triangle;
+    return nearest.distance <= near;
+}
+
+static bool any_camera_inside(struct lint *lint, const struct lint_body *body) {
+    for (uint32_t i = 0; i < lint->view_count; i++)
+        if (lint_is_inside(lint, body, lint->views[i].camera.position))
+            return true;
+    return false;
+}
+
+// true: told.
+static bool check_light(struct lint *lint, const struct ir_light *light, const struct lint_body *body) {
+    // A few units of the last place that single precision keeps of the light's and the body's coordinates.
+    double size = fmax(vec3_max_abs(body->box.lower), vec3_max_abs(body->box.upper));
+    double near = LINT_RESOLUTION * fmax(size, vec3_max_abs(light->position));
+    struct lint_box reach = lint_box_grow(body->box, near);
+    if (!lint_box_holds(&reach, light->position))
+        return false;
+    span at = ir_place_value(lint->origin, &light->head, &SCHEMA_LIGHT, "position");
+    uint32_t triangle = 0;
+    if (is_on(lint, body, light->position, near, &triangle)) {
+        diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
+                 "this light lies on the surface of %.*s: rounding decides which side it shines on",
+                 STR_ARG(lint_words_other(lint, body)));
+        if (body->mesh)
+            lint_note_mesh(lint, body->mesh, body->mesh->mesh->triangles[triangle].line, "on this face");
+        else
+            diag_note(lint->sink, lint_place(lint, body), "this body");
+        diag_help(lint->sink, "move the light off the surface");
+        return true;
+    }
+    if (!lint_is_inside(lint, body, light->position) || any_camera_inside(lint, body))
+        return false;
+    diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
+             "this light is inside %.*s, which keeps its light from everything outside",
+             STR_ARG(lint_words_other(lint, body)));
+    diag_note(lint->sink, lint_place(lint, body), "bodies cast full shadows, glass too");
+    diag_help(lint->sink, "move the light out, or set trace.shadows to false");
+    return true;
+}
+
+void lint_light_inside(struct lint *lint) {
+    if (!lint->scene->trace.shadows)
+        return;
+    uint64_t work = 0;
+    for (uint32_t i = 0; i < lint->scene->lights.count && work < WORK_MAX; i++, work += lint->body_count) {
+        const struct ir_light *light = &lint->scene->lights.items[i];
+        if (light->kind != IR_LIGHT_POSITION)
+            continue;
+        for (uint32_t k = 0; k < lint->body_count; k++)
+            if (check_light(lint, light, &lint->bodies[k]))
+                break;
+    }
+}

@@ -1,0 +1,122 @@
+// Weights and indices: what a material can and cannot do with light.
+#include "lint/lint_parts.h"
+
+#include "core/number.h"
+
+// Growth over all bounces below this is no more than a slip of the last digit of each weight.
+static const double GROWTH_MIN = 2;
+
+static str number(struct lint *lint, double value) {
+    char text[NUMBER_FORMAT_MAX];
+    size_t length = number_format(value, text);
+    return arena_copy(lint->arena, (str){text, length});
+}
+
+static span material_part(const struct lint *lint, const struct ir_material *material, const char *row,
+                          const struct lint_body *user) {
+    // Materials of mesh files and the default one have no place of their own.
+    if (material->head.origin == 0)
+        return lint_place(lint, user);
+    return ir_place_value(lint->origin, &material->head, &SCHEMA_MATERIAL, row);
+}
+
+static str material_words(struct lint *lint, const struct ir_material *material) {
+    if (material->name.len)
+        return arena_format(lint->arena, "material '%.*s'", STR_ARG(material->name));
+    return STR("this material");
+}
+
+// ---- refraction with index 1
+
+static void report_index(struct lint *lint, const struct lint_body *body,
+                         const struct ir_material *material) {
+    diag_add(lint->sink, DIAG_INDEX_ONE, material_part(lint, material, "refractive_index", body),
+             "%.*s refracts with weight %.*s and has the index of the air around it, 1: nothing is bent",
+             STR_ARG(material_words(lint, material)), STR_ARG(number(lint, material->albedo.refraction)));
+    diag_note(lint->sink, lint_place(lint, body), "%.*s has it", STR_ARG(lint_words(lint, body)));
+    diag_help(lint->sink,
+              "write refractive_index: 1.5 for glass, 1.33 for water; for a thin pane use a rectangle");
+}
+
+void lint_index_one(struct lint *lint) {
+    bool *told = ARENA_ARRAY(lint->arena, bool, lint->assets->material_count);
+    for (uint32_t i = 0; i < lint->body_count; i++) {
+        const struct lint_body *body = &lint->bodies[i];
+        // Open surfaces are thin panes, which need no index.
+        if (!body->is_solid || body->is_opaque)
+            continue;
+        for (uint32_t g = 0; g < lint_group_count(body); g++) {
+            const struct ir_material *material = lint_material(lint, body, g);
+            bool *here = &told[material - lint->assets->materials];
+            if (*here || !(material->albedo.refraction > 0) || material->refractive_index != 1)
+                continue;
+            *here = true;
+            report_index(lint, body, material);
+        }
+    }
+}
+
+// ---- weights that amplify
+
+struct cycle {
+    const struct lint_body *a, *b; // the same where light can go round within one
+    double gain;                   // of one bounce on each
+};
+
+static const struct ir_material *strongest(const struct lint *lint, const struct lint_body *body) {
+    const struct ir_material *found = NULL;
+    for (uint32_t g = 0; g < lint_group_count(body); g++) {
+        const struct ir_material *material = lint_material(lint, body, g);
+        if (!found || material->albedo.reflection + material->albedo.refraction >
+                          found->albedo.reflection + found->albedo.refraction)
+            found = material;
+    }
+    return found;
+}
+
+// Light that leaves a convex mirror does not come back to it by itself; inside glass, and between the parts
+// of a mesh, it does. Of all cycles the worst is one body alone or the two strongest: in any other cycle some
+// two neighbours have no smaller product, since the cycle's mean is no larger than theirs.
+static struct cycle worst_cycle(const struct lint *lint) {
+    struct cycle worst = {0};
+    const struct lint_body *first = NULL;
+    const struct lint_body *second = NULL;
+    for (uint32_t i = 0; i < lint->body_count; i++) {
+        const struct lint_body *body = &lint->bodies[i];
+        bool alone = body->kind == LINT_MODEL || (body->is_solid && body->refraction > 0);
+        if (alone && body->gain * body->gain > worst.gain)
+            worst = (struct cycle){body, body, body->gain * body->gain};
+        if (!first || body->gain > first->gain) {
+            second = first;
+            first = body;
+        } else if (!second || body->gain > second->gain) {
+            second = body;
+        }
+    }
+    if (second && first->gain * second->gain > worst.gain)
+        worst = (struct cycle){first, second, first->gain * second->gain};
+    return worst;
+}
+
+void lint_amplifying(struct lint *lint) {
+    struct cycle worst = worst_cycle(lint);
+    if (!(worst.gain > 1))
+        return;
+    int32_t depth = lint->scene->trace.max_depth;
+    double growth = pow(worst.gain, depth / 2.0);
+    if (growth < GROWTH_MIN)
+        return;
+    const struct lint_body *body = worst.a->gain >= worst.b->gain ? worst.a : worst.b;
+    const struct ir_material *material = strongest(lint, body);
+    diag_add(lint->sink, DIAG_AMPLIFYING, material_part(lint, material, "albedo", body),
+             "%.*s sends on %.*s times the light that it receives; between mirrors it grows %.3g times in "
+             "%d bounces",
+             STR_ARG(material_words(lint, material)), STR_ARG(number(lint, body->gain)), growth, depth);
+    if (worst.a == worst.b)
+        diag_note(lint->sink, lint_place(lint, body), "light can go round within %.*s",
+                  STR_ARG(lint_words_other(lint, body)));
+    else
+        diag_note(lint->sink, lint_place(lint, worst.b), "light can go to and fro between %.*s and %.*s",
+                  STR_ARG(lint_words_other(lint, worst.a)), STR_ARG(lint_words_other(lint, worst.b)));
+    diag_help(lint->sink, "let the weights of reflection and refraction add up to 1 at most");
+}

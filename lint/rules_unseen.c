@@ -1,0 +1,116 @@
+// Bodies that no camera sees: certainly, or not told.
+//
+// A body counts as unseen where its box lies wholly outside the field of each camera, nothing mirrors or
+// refracts, and it can cast no shadow into a field either.
+#include "lint/lint_parts.h"
+
+enum {
+    PLANES = 5,
+    WORK_MAX = 20000000, // boxes against cameras and lights
+};
+
+// Inside: dot(normal, p - at) >= 0. The plane of the camera and the four sides of its field.
+struct field {
+    vec3 at;
+    vec3 normals[PLANES];
+};
+
+static struct field field_of(const struct lint *lint, const struct view_camera *camera) {
+    const struct ir_image *image = lint->input->image;
+    double up = camera->tan_half_fov;
+    double right = up * image->width / image->height;
+    struct field field = {.at = camera->position};
+    field.normals[0] = camera->forward;
+    field.normals[1] = vec3_add(vec3_mul(camera->forward, right), camera->right);
+    field.normals[2] = vec3_sub(vec3_mul(camera->forward, right), camera->right);
+    field.normals[3] = vec3_add(vec3_mul(camera->forward, up), camera->up);
+    field.normals[4] = vec3_sub(vec3_mul(camera->forward, up), camera->up);
+    return field;
+}
+
+static double greatest(const struct lint_box *box, vec3 normal, vec3 from) {
+    vec3 corner = {normal.x > 0 ? box->upper.x : box->lower.x, normal.y > 0 ? box->upper.y : box->lower.y,
+                   normal.z > 0 ? box->upper.z : box->lower.z};
+    return vec3_dot(normal, vec3_sub(corner, from));
+}
+
+// Whether the shadow of the box stays on the outer side of a plane that the box is outside of: each ray of
+// light through it leads on, away from the plane or along it.
+static bool shadow_stays(const struct lint_box *box, vec3 normal, const struct view_light *light) {
+    if (light->directional)
+        return vec3_dot(normal, light->to_light) >= 0;
+    return greatest(box, normal, light->position) <= 0;
+}
+
+static bool is_outside(const struct lint *lint, const struct lint_box *box, const struct field *field,
+                       const struct view *view) {
+    for (int k = 0; k < PLANES; k++) {
+        vec3 normal = field->normals[k];
+        if (!(greatest(box, normal, field->at) < 0))
+            continue;
+        bool stays = true;
+        for (uint32_t i = 0; lint->scene->trace.shadows && stays && i < view->light_count; i++)
+            stays = shadow_stays(box, normal, &view->lights[i]);
+        if (stays)
+            return true;
+    }
+    return false;
+}
+
+static bool anything_mirrors(const struct lint *lint) {
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (lint->bodies[i].gain > 0)
+            return true;
+    return false;
+}
+
+// Cameras that see nothing at all are what is wrong, not the bodies.
+static void report_cameras(struct lint *lint) {
+    const struct ir_camera *camera = &lint->scene->cameras.items[0];
+    span at = ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position");
+    if (lint->view_count == 1)
+        diag_add(lint->sink, DIAG_UNSEEN, at,
+                 "camera '%.*s' sees none of the %u bodies, and no shadow of them falls into view",
+                 STR_ARG(camera->name), lint->body_count);
+    else
+        diag_add(lint->sink, DIAG_UNSEEN, at,
+                 "the cameras see none of the %u bodies, and no shadow of them falls into view",
+                 lint->body_count);
+    struct lint_box all = lint_box_empty();
+    for (uint32_t k = 0; k < lint->body_count; k++)
+        all = lint_box_join(all, lint->bodies[k].box);
+    vec3 middle = vec3_mul(vec3_add(all.lower, all.upper), 0.5);
+    diag_help(lint->sink, "turn it to them: their middle is at %.3g %.3g %.3g", middle.x, middle.y, middle.z);
+}
+
+static void report_body(struct lint *lint, const struct lint_body *body) {
+    diag_add(lint->sink, DIAG_UNSEEN, lint_place(lint, body),
+             "%.*s lies outside the view of %s, nothing mirrors it, and no shadow of it falls into view",
+             STR_ARG(lint_words(lint, body)), lint->view_count == 1 ? "the camera" : "all cameras");
+    diag_help(lint->sink, "turn a camera to it, or remove it");
+}
+
+void lint_unseen(struct lint *lint) {
+    if (lint->scene->cameras.count == 0 || anything_mirrors(lint))
+        return;
+    if ((uint64_t)lint->body_count * lint->view_count * (lint->scene->lights.count + 1) > WORK_MAX)
+        return;
+    struct field *fields = ARENA_ARRAY(lint->arena, struct field, lint->view_count);
+    uint32_t *unseen = ARENA_ARRAY(lint->arena, uint32_t, lint->body_count);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->view_count; i++)
+        fields[i] = field_of(lint, &lint->views[i].camera);
+    for (uint32_t k = 0; k < lint->body_count; k++) {
+        const struct lint_body *body = &lint->bodies[k];
+        bool outside = body->kind != LINT_MODEL || body->mesh;
+        for (uint32_t i = 0; outside && i < lint->view_count; i++)
+            outside = is_outside(lint, &body->box, &fields[i], &lint->views[i]);
+        if (outside)
+            unseen[count++] = k;
+    }
+    if (count > 1 && count == lint->body_count)
+        report_cameras(lint);
+    else
+        for (uint32_t k = 0; k < count; k++)
+            report_body(lint, &lint->bodies[unseen[k]]);
+}

@@ -1,0 +1,75 @@
+// What the scene holds and nothing uses.
+#include "lint/lint_parts.h"
+
+static void use(bool *used, const struct ir_material_ref *ref) {
+    if (ref->index != IR_NO_INDEX)
+        used[ref->index] = true;
+}
+
+static bool *used_materials(struct lint *lint) {
+    const struct ir_scene *scene = lint->scene;
+    bool *used = ARENA_ARRAY(lint->arena, bool, scene->materials.count);
+    for (uint32_t i = 0; i < scene->spheres.count; i++)
+        use(used, &scene->spheres.items[i].material);
+    for (uint32_t i = 0; i < scene->rectangles.count; i++)
+        use(used, &scene->rectangles.items[i].material);
+    for (uint32_t i = 0; i < scene->models.count; i++) {
+        const struct ir_model *model = &scene->models.items[i];
+        use(used, &model->material);
+        for (uint32_t k = 0; k < model->material_map.count; k++)
+            use(used, &model->material_map.items[k].to);
+    }
+    return used;
+}
+
+// Files that are libraries for others are made of what one of them uses and another does not.
+static bool is_of_main_file(const struct lint *lint, span at) {
+    return lint->origin->files.count > 0 && at.source == lint->origin->files.items[0].source;
+}
+
+void lint_unused_material(struct lint *lint) {
+    // A scene without bodies is a library itself.
+    if (lint->body_count == 0)
+        return;
+    bool *used = used_materials(lint);
+    for (uint32_t i = 0; i < lint->scene->materials.count; i++) {
+        const struct ir_material *material = &lint->scene->materials.items[i];
+        span at = ir_place_label(lint->origin, &material->head);
+        if (used[i] || material->name.len == 0 || !is_of_main_file(lint, at))
+            continue;
+        diag_add(lint->sink, DIAG_UNUSED_MATERIAL, at, "nothing uses material '%.*s'",
+                 STR_ARG(material->name));
+        diag_help(lint->sink, "give it to a body, or remove it");
+    }
+}
+
+// Whether the file holds anything that shows: all but materials, and materials that are used.
+static bool adds_anything(const struct lint *lint, const struct ir_file_origin *file, const bool *used) {
+    const struct ir_scene *own = file->scene;
+    if (!own)
+        return true;
+    if (ir_body_count(own) || own->cameras.count || own->lights.count || own->includes.count ||
+        own->image.head.written || own->trace.head.written || own->background.head.written)
+        return true;
+    for (uint32_t i = 0; i < lint->scene->materials.count; i++) {
+        const struct ir_material *material = &lint->scene->materials.items[i];
+        if (used[i] && ir_place_label(lint->origin, &material->head).source == file->source)
+            return true;
+    }
+    return false;
+}
+
+void lint_unused_include(struct lint *lint) {
+    if (lint->body_count == 0)
+        return;
+    bool *used = used_materials(lint);
+    for (uint32_t i = 1; i < lint->origin->files.count; i++) {
+        const struct ir_file_origin *file = &lint->origin->files.items[i];
+        if (span_is_none(file->included_at) || adds_anything(lint, file, used))
+            continue;
+        diag_add(lint->sink, DIAG_UNUSED_INCLUDE, file->included_at,
+                 "nothing of this file is used: it adds neither bodies, lights, cameras nor settings%s",
+                 file->scene->materials.count ? ", and no body has one of its materials" : "");
+        diag_help(lint->sink, "remove the include, or use a material of it");
+    }
+}

@@ -1,0 +1,365 @@
+#include "measure/extremes/extremes_parts.h"
+
+#include "core/clock.h"
+#include "measure/hit_errors.h"
+#include "picture/metrics/metrics.h"
+#include "reference/reference.h"
+#include "tracer/flatten/precision.h"
+#include "tracer/render/render.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+const struct extreme_axis_info extreme_axes[EXTREME_AXES] = {
+    [EXTREME_MOVE] = {"move", "moved by"},
+    [EXTREME_SCALE] = {"scale", "scaled by"},
+    [EXTREME_DISTANCE] = {"distance", "camera away, times"},
+    [EXTREME_INDEX] = {"index", "refractive index"},
+    [EXTREME_EXPONENT] = {"exponent", "specular exponent"},
+    [EXTREME_SLIVER] = {"sliver", "slivers of aspect"},
+    [EXTREME_LIGHT] = {"light", "light off a surface"},
+    [EXTREME_CAMERA] = {"camera", "camera off a surface"},
+    [EXTREME_COPLANAR] = {"coplanar", "coplanar, shifted by"},
+    [EXTREME_GAP] = {"gap", "gap between plates"},
+};
+
+const struct extreme_metric_info extreme_metrics[EXTREME_METRICS] = {
+    [EXTREME_WRONG] = {"wrong", "wrong hits per million, outside silhouettes", EXTREME_UNIT_WHOLE},
+    [EXTREME_BAND] = {"band", "wrong hits per million, at silhouettes", EXTREME_UNIT_WHOLE},
+    [EXTREME_SELF_HITS] = {"self_hits", "self-hits per million", EXTREME_UNIT_WHOLE},
+    [EXTREME_LEAKS] = {"leaks", "leaks per million", EXTREME_UNIT_WHOLE},
+    [EXTREME_HOLES] = {"holes", "holes in closed bodies per million", EXTREME_UNIT_WHOLE},
+    [EXTREME_NOT_FINITE] = {"not_finite", "pixels that are no number", EXTREME_UNIT_WHOLE},
+    [EXTREME_OFF] = {"off", "share of pixels off by more than 1/255", EXTREME_UNIT_SHARE},
+    [EXTREME_ERROR] = {"error", "mean absolute difference", EXTREME_UNIT_SMALL},
+    [EXTREME_CHANGED] = {"changed", "share of pixels off against the picture at rest", EXTREME_UNIT_SHARE},
+};
+
+enum {
+    MOVES_AND_SCALES = 1u << EXTREME_MOVE | 1u << EXTREME_SCALE, // measured against the picture at rest too
+};
+
+struct run {
+    const struct extremes_input *input;
+    struct arena arena; // of the variant under way
+    struct extreme_base base;
+    struct arena base_arena;
+    struct variant base_variant;
+    struct hit_pixel *hits[2]; // device, reference
+    double *exact;
+    float *rgb, *shown[2]; // the device's picture; displayed: device, reference
+    float *rest;           // the device's picture of the base, displayed; NULL: not made
+    struct diag_sink sink; // of flattening: what it says is told as a cell left out
+};
+
+static size_t pixels_of(const struct run *run) {
+    return (size_t)run->input->width * run->input->height;
+}
+
+static struct image_display display_of(const struct ir_scene *scene) {
+    return (struct image_display){scene->image.tone, scene->image.transfer};
+}
+
+// ---- the device's side
+
+static bool choose_precision(const struct run *run, const struct variant *v, struct flat_input *input) {
+    struct precision_report report = {.suffices = true};
+    if (run->input->study != RENDER_STUDY_NONE)
+        return true;
+    if (v->scene.trace.precision == IR_PRECISION_AUTO && !precision_measure(input, &report))
+        return false;
+    input->is_double = precision_is_double(&v->scene, &report) && gpu_info(run->input->gpu)->has_double;
+    return true;
+}
+
+static enum extremes_status draw(struct run *run, const struct variant *v, const struct flat_scene *flat) {
+    struct render_settings settings = render_settings_of(&v->scene, flat, run->input->limits);
+    settings.width = v->width;
+    settings.height = v->height;
+    settings.samples = 1;
+    settings.study = run->input->study;
+    struct render_statistics statistics;
+    struct renderer *renderer = renderer_create(run->input->gpu, flat, &settings);
+    bool good = renderer && renderer_hits(renderer, &v->view.camera, run->hits[0], NULL) == RENDER_DONE &&
+                renderer_render(renderer, &v->view.camera, run->rgb, NULL, &statistics) == RENDER_DONE;
+    renderer_destroy(renderer);
+    return good ? EXTREMES_DONE : EXTREMES_DEVICE;
+}
+
+static enum extremes_status trace_device(struct run *run, const struct variant *v,
+                                         struct extreme_cell *cell) {
+    struct flat_scene flat;
+    struct flat_input input = {.scene = &v->scene,
+                               .assets = &v->assets,
+                               .view = &v->view,
+                               .origin = v->view.camera.position,
+                               .limits = run->input->limits,
+                               .sink = &run->sink};
+    if (!choose_precision(run, v, &input))
+        return EXTREMES_MEMORY;
+    cell->is_double = input.is_double;
+    if (!flatten(&input, &flat)) {
+        cell->left_out = "its coordinates exceed 1e18";
+        return EXTREMES_DONE;
+    }
+    enum extremes_status status = draw(run, v, &flat);
+    flat_finish(&flat);
+    return status;
+}
+
+// ---- the reference's side
+
+static enum extremes_status trace_reference(struct run *run, const struct variant *v, bool with_picture) {
+    const struct reference_input input = {.scene = &v->scene, .assets = &v->assets, .view = &v->view};
+    struct ir_image image = v->scene.image;
+    image.width = (int32_t)v->width;
+    image.height = (int32_t)v->height;
+    image.samples = 1;
+    const struct reference_settings settings =
+        reference_settings_of(&v->scene, &image, run->input->limits, true);
+    struct reference *reference = reference_create(&input);
+    struct reference_statistics statistics;
+    bool good = reference && reference_hits(reference, &settings, run->hits[1], NULL) == REFERENCE_DONE &&
+                (!with_picture ||
+                 reference_render(reference, &settings, run->exact, NULL, &statistics) == REFERENCE_DONE);
+    reference_destroy(reference);
+    return good ? EXTREMES_DONE : EXTREMES_MEMORY;
+}
+
+// ---- comparing
+
+// Displayed pictures. false: no memory.
+static bool measure(const struct run *run, const float *picture, const float *reference,
+                    struct measure_result *result) {
+    struct measure_options options = measure_options_default();
+    options.metrics = 1u << METRIC_MAE | 1u << METRIC_SHARE;
+    return measure_pictures(run->input->width, run->input->height, picture, reference, &options, result, NULL,
+                            NULL);
+}
+
+static bool compare_pictures(struct run *run, const struct variant *v, struct extreme_cell *cell) {
+    const size_t count = pixels_of(run);
+    struct measure_result result;
+    uint64_t not_finite = 0;
+    for (size_t i = 0; i < count; i++)
+        not_finite += image_is_marked(run->rgb + 3 * i);
+    for (size_t i = 0; i < 3 * count; i++)
+        run->shown[1][i] = (float)run->exact[i];
+    image_to_displayed(run->shown[1], count, display_of(&v->scene), run->shown[1]);
+    image_to_displayed(run->rgb, count, display_of(&v->scene), run->shown[0]);
+    if (!measure(run, run->shown[0], run->shown[1], &result))
+        return false;
+    cell->measured[EXTREME_NOT_FINITE] = (double)not_finite;
+    cell->measured[EXTREME_OFF] = result.value[METRIC_SHARE];
+    cell->measured[EXTREME_ERROR] = result.value[METRIC_MAE];
+    if (!run->rest || !(MOVES_AND_SCALES >> cell->axis & 1))
+        return true;
+    if (!measure(run, run->shown[0], run->rest, &result))
+        return false;
+    cell->measured[EXTREME_CHANGED] = result.value[METRIC_SHARE];
+    return true;
+}
+
+static bool compare_hits(struct run *run, const struct variant *v, struct extreme_cell *cell) {
+    uint32_t count;
+    bool *closed = hits_closed_bodies(&v->scene, &v->assets, &count);
+    struct hit_errors errors;
+    if (!closed)
+        return false;
+    hits_compare(v->width, v->height, run->hits[0], run->hits[1], closed, count, &errors);
+    free(closed);
+    cell->measured[EXTREME_WRONG] = errors.wrong_outside;
+    cell->measured[EXTREME_BAND] = errors.wrong_inside;
+    cell->measured[EXTREME_SELF_HITS] = errors.acne;
+    cell->measured[EXTREME_LEAKS] = errors.leaks;
+    cell->measured[EXTREME_HOLES] = errors.holes;
+    return true;
+}
+
+static void judge(const struct extremes_input *input, struct extreme_cell *cell) {
+    for (uint32_t i = 0; i < input->bound_count; i++) {
+        const struct extreme_bound *b = &input->bounds[i];
+        if (!(b->axes >> cell->axis & 1) || cell->value < b->from || cell->value > b->to)
+            continue;
+        for (int m = 0; m < EXTREME_METRICS; m++)
+            cell->bound[m] = fmin(cell->bound[m], b->bound[m]);
+    }
+    for (int m = 0; m < EXTREME_METRICS; m++)
+        if (cell->measured[m] > cell->bound[m])
+            cell->broken |= 1u << m;
+}
+
+// ---- cells
+
+static enum extremes_status measure_cell(struct run *run, struct extreme_cell *cell) {
+    struct variant v;
+    arena_reset(&run->arena);
+    cell->left_out = variant_make(&v, &run->arena, &run->base, cell->axis, cell->value);
+    if (cell->left_out)
+        return EXTREMES_DONE;
+    enum extremes_status status = trace_device(run, &v, cell);
+    if (status != EXTREMES_DONE || cell->left_out)
+        return status;
+    status = trace_reference(run, &v, true);
+    if (status != EXTREMES_DONE)
+        return status;
+    if (!compare_hits(run, &v, cell) || !compare_pictures(run, &v, cell))
+        return EXTREMES_MEMORY;
+    judge(run->input, cell);
+    return EXTREMES_DONE;
+}
+
+static bool list_cells(struct extremes *out, uint32_t axes) {
+    out->cells = calloc((size_t)EXTREME_AXES * EXTREME_VALUES_MAX, sizeof *out->cells);
+    if (!out->cells)
+        return false;
+    for (int axis = 0; axis < EXTREME_AXES; axis++) {
+        double values[EXTREME_VALUES_MAX];
+        const uint32_t count = extreme_values((enum extreme_axis)axis, values);
+        for (uint32_t i = 0; (axes >> axis & 1) && i < count; i++) {
+            struct extreme_cell *cell = &out->cells[out->count++];
+            *cell = (struct extreme_cell){.axis = (enum extreme_axis)axis, .value = values[i]};
+            for (int m = 0; m < EXTREME_METRICS; m++)
+                cell->measured[m] = cell->bound[m] = (double)NAN;
+        }
+    }
+    return true;
+}
+
+// ---- the base
+
+// The surface seen nearest to the picture's middle that does not refract.
+static void find_surface(struct run *run) {
+    const struct variant *v = &run->base_variant;
+    struct extreme_base *base = &run->base;
+    double nearest = HUGE_VAL;
+    for (uint32_t y = 0; y < v->height; y++)
+        for (uint32_t x = 0; x < v->width; x++) {
+            const struct hit_pixel *hit = &run->hits[1][(size_t)y * v->width + x];
+            const double from_middle = hypot(x - 0.5 * v->width, y - 0.5 * v->height);
+            if (hit->body == HIT_NONE || hit->refracted != HIT_NONE || from_middle >= nearest)
+                continue;
+            const struct view_camera *c = &v->view.camera;
+            const double aspect = (double)v->width / v->height;
+            const double across = (2 * (x + 0.5) / v->width - 1) * aspect * c->tan_half_fov;
+            const double down = (1 - 2 * (y + 0.5) / v->height) * c->tan_half_fov;
+            const vec3 direction =
+                vec3_unit(vec3_add(c->forward, vec3_add(vec3_mul(c->right, across), vec3_mul(c->up, down))));
+            nearest = from_middle;
+            base->has_surface = true;
+            base->surface = vec3_add(c->position, vec3_mul(direction, hit->distance));
+            base->normal = hit->normal;
+            base->seen_along = direction;
+        }
+}
+
+static enum extremes_status make_base(struct run *run) {
+    struct variant *v = &run->base_variant;
+    variant_copy(v, &run->base_arena, run->input);
+    run->base = (struct extreme_base){.input = run->input, .view = v->view, .radius = 1};
+    vec3 lower, upper;
+    if (view_bounds(&v->scene, &v->assets, &lower, &upper)) {
+        run->base.center = vec3_mul(vec3_add(lower, upper), 0.5);
+        run->base.radius = 0.5 * vec3_length(vec3_sub(upper, lower));
+    }
+    enum extremes_status status = trace_reference(run, v, false);
+    if (status == EXTREMES_DONE)
+        find_surface(run);
+    return status;
+}
+
+// What moves and scales are compared with.
+static enum extremes_status make_rest(struct run *run) {
+    struct extreme_cell cell = {0};
+    enum extremes_status status = trace_device(run, &run->base_variant, &cell);
+    if (status != EXTREMES_DONE || cell.left_out)
+        return status;
+    float *rest = malloc(3 * pixels_of(run) * sizeof *rest);
+    if (!rest)
+        return EXTREMES_MEMORY;
+    image_to_displayed(run->rgb, pixels_of(run), display_of(run->input->scene), rest);
+    run->rest = rest;
+    return EXTREMES_DONE;
+}
+
+// ---- the whole
+
+static bool make_pictures(struct run *run) {
+    const size_t count = pixels_of(run);
+    for (int i = 0; i < 2; i++) {
+        run->hits[i] = malloc(count * sizeof *run->hits[i]);
+        run->shown[i] = malloc(3 * count * sizeof *run->shown[i]);
+    }
+    run->exact = malloc(3 * count * sizeof *run->exact);
+    run->rgb = malloc(3 * count * sizeof *run->rgb);
+    return run->hits[0] && run->hits[1] && run->shown[0] && run->shown[1] && run->exact && run->rgb;
+}
+
+static enum extremes_status measure_cells(struct run *run, struct extremes *out,
+                                          const struct extremes_progress *progress) {
+    enum extremes_status status = make_base(run);
+    if (status == EXTREMES_DONE && (run->input->axes & MOVES_AND_SCALES))
+        status = make_rest(run);
+    for (uint32_t i = 0; status == EXTREMES_DONE && i < out->count; i++) {
+        struct extreme_cell *cell = &out->cells[i];
+        const double start = clock_seconds();
+        if (progress && progress->report &&
+            !progress->report(progress->context, (double)i / out->count, cell))
+            return EXTREMES_CANCELLED;
+        status = measure_cell(run, cell);
+        cell->seconds = clock_seconds() - start;
+        out->broken += cell->broken != 0;
+        out->left_out += cell->left_out != NULL;
+    }
+    return status;
+}
+
+static void finish(struct run *run) {
+    for (int i = 0; i < 2; i++) {
+        free(run->hits[i]);
+        free(run->shown[i]);
+    }
+    free(run->exact);
+    free(run->rgb);
+    free(run->rest);
+    diag_sink_finish(&run->sink);
+    arena_finish(&run->arena);
+    arena_finish(&run->base_arena);
+}
+
+static enum extremes_status run_guarded(struct run *run, struct extremes *out,
+                                        const struct extremes_progress *progress) {
+    struct arena_guard guard;
+    arena_set_guard(&run->arena, &guard);
+    arena_set_guard(&run->base_arena, &guard);
+    if (setjmp(guard.jump) != 0 || !make_pictures(run) || !list_cells(out, run->input->axes))
+        return EXTREMES_MEMORY;
+    return measure_cells(run, out, progress);
+}
+
+enum extremes_status extremes_run(struct extremes *out, const struct extremes_input *input,
+                                  const struct extremes_progress *progress) {
+    const double start = clock_seconds();
+    *out = (struct extremes){0};
+    struct run *run = calloc(1, sizeof *run);
+    if (!run)
+        return EXTREMES_MEMORY;
+    run->input = input;
+    diag_sink_init(&run->sink);
+    arena_init(&run->arena, SIZE_MAX);
+    arena_init(&run->base_arena, SIZE_MAX);
+    snprintf(out->device, sizeof out->device, "%s", gpu_info(input->gpu)->name);
+    enum extremes_status status = run_guarded(run, out, progress);
+    out->seconds = clock_seconds() - start;
+    finish(run);
+    free(run);
+    return status;
+}
+
+void extremes_finish(struct extremes *extremes) {
+    if (!extremes)
+        return;
+    free(extremes->cells);
+    *extremes = (struct extremes){0};
+}

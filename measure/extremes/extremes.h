@@ -1,0 +1,136 @@
+// A scene at its extremes: moved, scaled, far away, with other indices, exponents, slivers, gaps, with light
+// and camera on surfaces; each variant on a device against the double-precision reference.
+//
+// Variants are made of the IR in memory, in double; meshes and images are loaded once. Each axis turns one
+// thing; a cell is one value of it. Axes that need a shape of their own put it where the scene is, as large
+// as the scene. What is compared: the first rays (hits.h) and a picture of one sample a pixel, the reference
+// obeying the file's depth and weight. Precision auto is decided anew for each cell. Ownership:
+// extremes_finish frees the cells; the input must outlive the run. Errors: a status; device errors in
+// gpu_error. Thread safety: the gpu's thread.
+#ifndef GLINT_MEASURE_EXTREMES_EXTREMES_H
+#define GLINT_MEASURE_EXTREMES_EXTREMES_H
+
+#include "core/limits.h"
+#include "core/strbuf.h"
+#include "scene/view.h"
+#include "tracer/render/render.h"
+
+enum extreme_axis {
+    EXTREME_MOVE,     // by so many units
+    EXTREME_SCALE,    // by this factor
+    EXTREME_DISTANCE, // the camera this many times as far away, with a field as much narrower
+    EXTREME_INDEX,    // refractive index of all that refracts
+    EXTREME_EXPONENT, // of all that shines
+    EXTREME_SLIVER,   // a disc of triangles of this aspect before the camera
+    EXTREME_LIGHT,    // the first light this far off a surface, in parts of the scene's radius
+    EXTREME_CAMERA,   // the camera likewise, looking away from it
+    EXTREME_COPLANAR, // two rectangles in one plane, one shifted by this part of its edges
+    EXTREME_GAP,      // a camera between two plates this far apart, in parts of their size
+    EXTREME_AXES,
+};
+
+enum extreme_metric {
+    EXTREME_WRONG,      // first rays per million that meet something else, outside silhouettes
+    EXTREME_BAND,       // the same in the silhouettes' band, a pixel wide
+    EXTREME_SELF_HITS,  // per million: dark, where the reference is lit, away from shadows' edges
+    EXTREME_LEAKS,      // per million: lit, where the reference is dark, away from shadows' edges
+    EXTREME_HOLES,      // per million: the background, where the reference meets a closed body
+    EXTREME_NOT_FINITE, // pixels
+    EXTREME_OFF,        // share of pixels that differ by more than 1/255 as displayed
+    EXTREME_ERROR,      // mean absolute difference as displayed
+    EXTREME_CHANGED,    // moves and scales: share of pixels off against the device's picture at rest
+    EXTREME_METRICS,
+};
+
+struct extreme_axis_info {
+    const char *name;  // "move"
+    const char *title; // "moved by"
+};
+enum extreme_unit {
+    EXTREME_UNIT_WHOLE,
+    EXTREME_UNIT_SHARE,
+    EXTREME_UNIT_SMALL, // two digits that count
+};
+struct extreme_metric_info {
+    const char *name, *title;
+    enum extreme_unit unit;
+};
+extern const struct extreme_axis_info extreme_axes[EXTREME_AXES];
+extern const struct extreme_metric_info extreme_metrics[EXTREME_METRICS];
+
+struct extreme_cell {
+    enum extreme_axis axis;
+    double value;
+    const char *left_out;             // why it was not measured; NULL: it was
+    bool is_double;                   // what the precision came to
+    double measured[EXTREME_METRICS]; // NaN: not measured
+    double bound[EXTREME_METRICS];    // the least that applies; NaN: none
+    uint32_t broken;                  // bit 1 << metric
+    double seconds;
+};
+
+// A bound holds for the cells of an axis from one value to another.
+struct extreme_bound {
+    uint32_t axes; // bit 1 << axis
+    double from, to;
+    double bound[EXTREME_METRICS]; // NaN: none
+};
+
+struct extremes_input {
+    const struct ir_scene *scene;
+    const struct assets *assets;
+    uint32_t camera;        // index in the scene; 0 where it has none
+    uint32_t width, height; // pixels
+    const struct limits *limits;
+    struct gpu *gpu;
+    const struct extreme_bound *bounds;
+    uint32_t bound_count;
+    uint32_t axes;           // bit 1 << axis: those wanted
+    enum render_study study; // another tracer's ways in place of glint's own, in single precision
+};
+
+// Called before each cell with what is done, 0..1, and the cell; false ends the run.
+struct extremes_progress {
+    bool (*report)(void *context, double fraction, const struct extreme_cell *cell);
+    void *context;
+};
+
+// The bounds that hold where no others are given: YAML (app/extreme_bounds.h), without a NUL behind it.
+extern const char extremes_default_bounds[];
+extern const size_t extremes_default_bounds_bytes;
+
+enum extremes_status {
+    EXTREMES_DONE,
+    EXTREMES_CANCELLED,
+    EXTREMES_DEVICE, // see gpu_error
+    EXTREMES_MEMORY,
+};
+
+struct extremes {
+    struct extreme_cell *cells; // by axis, then by value
+    uint32_t count;
+    uint32_t broken, left_out; // cells
+    char device[256];
+    double seconds;
+};
+
+enum extremes_status extremes_run(struct extremes *extremes, const struct extremes_input *input,
+                                  const struct extremes_progress *progress);
+void extremes_finish(struct extremes *extremes); // NULL and zeroed ones are fine
+
+// A value as people read it; "-" where it is NaN.
+void extreme_number(enum extreme_metric metric, double value, struct strbuf *out);
+
+// ---- reports (extremes_report.c, extremes_html.c)
+
+struct extremes_report {
+    const struct extremes *extremes;
+    const struct extremes_input *input;
+    str scene, thresholds; // paths as shown
+};
+void extremes_text(const struct extremes_report *report, struct strbuf *out);
+void extremes_json(const struct extremes_report *report, struct strbuf *out);
+// One file, without scripts: the matrix as SVG, and each cell's numbers.
+void extremes_html(const struct extremes_report *report, struct strbuf *out);
+
+#endif

@@ -1,0 +1,50 @@
+// The inside of extremes: variants of a scene, and the values of the axes. Private to runtime/measure.
+//
+// Ownership: a variant's copies lie in the arena given; meshes and images stay the base's. Where the arena
+// ends, its guard is jumped to. Thread safety: one thread.
+#ifndef GLINT_MEASURE_EXTREMES_EXTREMES_PARTS_H
+#define GLINT_MEASURE_EXTREMES_EXTREMES_PARTS_H
+
+#include "measure/extremes/extremes.h"
+#include "scene/hits.h"
+
+// A scene that can be changed without changing its base. Materials are changed in assets.materials alone:
+// bodies name them by index, and all that traces reads them there.
+struct variant {
+    struct arena *arena;
+    struct ir_scene scene;
+    struct assets assets;
+    struct view view;
+    uint32_t camera;
+    uint32_t width, height;
+};
+
+// What a variant is made from.
+struct extreme_base {
+    const struct extremes_input *input;
+    struct view view;
+    vec3 center; // of the bodies' box
+    double radius;
+    bool has_surface;                 // the camera sees one
+    vec3 surface, normal, seen_along; // a point on it, towards the viewer, the ray's direction
+};
+
+// The values of an axis; `values` has room for EXTREME_VALUES_MAX.
+enum {
+    EXTREME_VALUES_MAX = 16
+};
+uint32_t extreme_values(enum extreme_axis axis, double *values);
+
+// Fills `v` with a copy, changed as the cell says, and its view. Gives NULL, or why there is no such variant.
+const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,
+                         enum extreme_axis axis, double value);
+// The copy alone, with its view.
+void variant_copy(struct variant *v, struct arena *arena, const struct extremes_input *input);
+
+// ---- extremes_probe.c: shapes of their own. All take their place from the base.
+
+void probe_slivers(struct variant *v, const struct extreme_base *base, double aspect);
+void probe_coplanar(struct variant *v, const struct extreme_base *base, double shift);
+void probe_gap(struct variant *v, const struct extreme_base *base, double gap);
+
+#endif

@@ -1,0 +1,133 @@
+// Shapes that extremes puts where the scene is: a disc of slivers, two plates in one plane, two with a gap.
+#include "measure/extremes/extremes_parts.h"
+
+#include <math.h>
+
+enum {
+    SECTORS_MAX = 1024, // of the disc: two triangles each
+    SECTORS_LEAST = 8,
+};
+#define TWO_PI 6.28318530717958647692
+
+// A frame that no axis of the scene is parallel to, facing the camera: the probe's own right, up and normal.
+struct pose {
+    vec3 center, right, up, normal;
+    double size;
+};
+
+// Before the camera, so large that it fills half of the view's height, and leaning a little.
+static struct pose before_camera(const struct variant *v, const struct extreme_base *base) {
+    const struct view_camera *camera = &v->view.camera;
+    const double far = fmax(vec3_length(vec3_sub(base->center, camera->position)), base->radius);
+    const double distance = 0.25 * far;
+    struct pose pose = {.size = 0.5 * distance * camera->tan_half_fov};
+    pose.center = vec3_add(camera->position, vec3_mul(camera->forward, distance));
+    const vec3 leaning = vec3_add(vec3_neg(camera->forward),
+                                  vec3_add(vec3_mul(camera->right, 0.31), vec3_mul(camera->up, 0.23)));
+    pose.normal = vec3_unit(leaning);
+    pose.right = vec3_unit(vec3_cross(camera->up, pose.normal));
+    pose.up = vec3_cross(pose.normal, pose.right);
+    return pose;
+}
+
+static vec3 on_pose(const struct pose *pose, double x, double y) {
+    const vec3 across = vec3_mul(pose->right, x * pose->size), along = vec3_mul(pose->up, y * pose->size);
+    return vec3_add(pose->center, vec3_add(across, along));
+}
+
+// ---- slivers
+
+// Around the rim, a needle of the aspect, then what is left of the sector, by turns.
+static struct mesh *make_disc(struct arena *arena, const struct pose *pose, double aspect) {
+    const double wanted = ceil(TWO_PI * aspect);
+    const uint32_t sectors = wanted < SECTORS_LEAST ? SECTORS_LEAST
+                             : wanted > SECTORS_MAX ? SECTORS_MAX
+                                                    : (uint32_t)wanted;
+    const double sector = TWO_PI / sectors, needle = fmin(1 / aspect, 0.5 * sector);
+    struct mesh *mesh = ARENA_NEW(arena, struct mesh);
+    mesh->path = STR("a disc of slivers");
+    mesh->position_count = 2 * sectors + 1;
+    mesh->triangle_count = 2 * sectors;
+    mesh->positions = ARENA_ARRAY(arena, vec3, mesh->position_count);
+    mesh->merged = ARENA_ARRAY(arena, uint32_t, mesh->position_count);
+    mesh->triangles = ARENA_ARRAY(arena, struct mesh_triangle, mesh->triangle_count);
+    mesh->groups = ARENA_NEW(arena, struct mesh_group);
+    mesh->group_count = 1;
+    mesh->positions[2 * sectors] = pose->center;
+    for (uint32_t i = 0; i < 2 * sectors; i++) {
+        const double angle = sector * (i / 2) + (i % 2 ? needle : 0);
+        mesh->positions[i] = on_pose(pose, cos(angle), sin(angle));
+        mesh->triangles[i] = (struct mesh_triangle){.corners = {2 * sectors, i, (i + 1) % (2 * sectors)},
+                                                    .normals = {IR_NO_INDEX, IR_NO_INDEX, IR_NO_INDEX},
+                                                    .line = i + 1};
+    }
+    for (uint32_t i = 0; i < mesh->position_count; i++)
+        mesh->merged[i] = i;
+    mesh->face_count = mesh->triangle_count;
+    mesh->lower = mesh->upper = pose->center;
+    for (uint32_t i = 0; i < mesh->position_count; i++) {
+        mesh->lower = vec3_min(mesh->lower, mesh->positions[i]);
+        mesh->upper = vec3_max(mesh->upper, mesh->positions[i]);
+    }
+    return mesh;
+}
+
+void probe_slivers(struct variant *v, const struct extreme_base *base, double aspect) {
+    const struct pose pose = before_camera(v, base);
+    const uint32_t i = v->scene.models.count++;
+    v->scene.models.items[i] = (struct ir_model){.scale = {1, 1, 1}, .material.index = IR_NO_INDEX};
+    v->assets.models[i].mesh = make_disc(v->arena, &pose, aspect);
+    v->assets.models[i].group_material = ARENA_ARRAY(v->arena, uint32_t, 1);
+    v->assets.models[i].group_material[0] = v->scene.materials.count;
+    v->assets.model_count = v->scene.models.count;
+    v->assets.triangle_count += v->assets.models[i].mesh->triangle_count;
+}
+
+// ---- plates
+
+static void add_plate(struct variant *v, vec3 corner, vec3 edge_u, vec3 edge_v) {
+    v->scene.rectangles.items[v->scene.rectangles.count++] = (struct ir_rectangle){
+        .corner = corner, .edge_u = edge_u, .edge_v = edge_v, .material.index = IR_NO_INDEX};
+}
+
+void probe_coplanar(struct variant *v, const struct extreme_base *base, double shift) {
+    const struct pose pose = before_camera(v, base);
+    for (int plate = 0; plate < 2; plate++) {
+        const double moved = plate * 2 * shift;
+        add_plate(v, on_pose(&pose, -1 + moved, -1 + 0.7 * moved), vec3_mul(pose.right, 2 * pose.size),
+                  vec3_mul(pose.up, 2 * pose.size));
+    }
+}
+
+// Alone in the scene's place: the camera in the middle between the plates, a light between them before it,
+// and one above them that must not be seen.
+void probe_gap(struct variant *v, const struct extreme_base *base, double gap) {
+    struct view_camera *camera = &v->view.camera;
+    const double size = 2 * base->radius;
+    v->scene.spheres.count = v->scene.models.count = v->scene.rectangles.count = 0;
+    v->assets.model_count = 0;
+    v->assets.triangle_count = 0;
+    struct pose pose = {.center = base->center, .size = base->radius};
+    pose.normal = vec3_unit((vec3){0.31, 0.87, 0.23});
+    pose.right = vec3_unit(vec3_cross(pose.normal, (vec3){0.2, 0.1, 0.97}));
+    pose.up = vec3_cross(pose.normal, pose.right);
+    for (int plate = 0; plate < 2; plate++) {
+        const vec3 off = vec3_mul(pose.normal, (plate ? 0.5 : -0.5) * gap * size);
+        add_plate(v, vec3_add(on_pose(&pose, -1, -1), off), vec3_mul(pose.right, size),
+                  vec3_mul(pose.up, size));
+    }
+    camera->position = base->center;
+    camera->forward = vec3_unit(vec3_add(pose.right, vec3_mul(pose.up, 0.3)));
+    camera->up = pose.normal;
+    camera->right = vec3_unit(vec3_cross(camera->forward, camera->up));
+    camera->tan_half_fov = 0.6;
+    v->view.lights = ARENA_ARRAY(v->arena, struct view_light, 2);
+    v->view.light_count = 2;
+    const vec3 ahead = vec3_mul(camera->forward, 0.4 * size);
+    const vec3 above = vec3_mul(pose.normal, size);
+    v->view.lights[0] = (struct view_light){
+        .position = vec3_add(base->center, ahead), .emission = {1, 1, 1}, .index = IR_NO_INDEX};
+    v->view.lights[1] = (struct view_light){.position = vec3_add(base->center, vec3_add(ahead, above)),
+                                            .emission = {1, 1, 1},
+                                            .index = IR_NO_INDEX};
+}

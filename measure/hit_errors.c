@@ -1,0 +1,87 @@
+#include "measure/hit_errors.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct hit_counts {
+    uint64_t band, wrong_inside, wrong_outside, acne, leaks, shadow_edge, holes, wrong_second;
+};
+
+struct comparing {
+    uint32_t width, height;
+    const struct hit_pixel *device, *reference;
+    const bool *closed;
+    uint32_t bodies;
+};
+
+struct surroundings {
+    bool band, shadow_edge;
+};
+
+static struct surroundings look_around(const struct comparing *c, uint32_t x, uint32_t y) {
+    const struct hit_pixel *own = &c->reference[(size_t)y * c->width + x];
+    struct surroundings around = {0};
+    for (uint32_t v = y ? y - 1 : 0; v <= y + 1 && v < c->height; v++)
+        for (uint32_t u = x ? x - 1 : 0; u <= x + 1 && u < c->width; u++) {
+            const struct hit_pixel *other = &c->reference[(size_t)v * c->width + u];
+            const double nearer = fmin(own->distance, other->distance);
+            around.band |= other->body != own->body || fabs(own->distance - other->distance) > 0.05 * nearer;
+            around.shadow_edge |= other->lit != own->lit || other->considered != own->considered;
+        }
+    return around;
+}
+
+static bool is_second_wrong(const struct hit_pixel *d, const struct hit_pixel *r) {
+    return d->reflected != r->reflected || d->refracted != r->refracted;
+}
+
+static void compare_pixel(const struct comparing *c, uint32_t x, uint32_t y, struct hit_counts *counts) {
+    const size_t at = (size_t)y * c->width + x;
+    const struct hit_pixel *d = &c->device[at], *r = &c->reference[at];
+    const struct surroundings around = look_around(c, x, y);
+    const bool wrong = d->body != r->body || d->triangle != r->triangle;
+    counts->band += around.band;
+    counts->wrong_inside += wrong && around.band;
+    counts->wrong_outside += wrong && !around.band;
+    const bool closed = r->body < c->bodies && c->closed[r->body];
+    counts->holes += d->body == HIT_NONE && closed && !around.band;
+    if (wrong || r->body == HIT_NONE)
+        return;
+    counts->wrong_second += !around.band && is_second_wrong(d, r);
+    const uint32_t both = d->considered & r->considered;
+    const bool dark = both & r->lit & ~d->lit, light = both & d->lit & ~r->lit;
+    counts->acne += dark && !around.shadow_edge;
+    counts->leaks += light && !around.shadow_edge;
+    counts->shadow_edge += (dark || light) && around.shadow_edge;
+}
+
+void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *device,
+                  const struct hit_pixel *reference, const bool *closed, uint32_t bodies,
+                  struct hit_errors *out) {
+    const struct comparing comparing = {width, height, device, reference, closed, bodies};
+    struct hit_counts counts = {0};
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++)
+            compare_pixel(&comparing, x, y, &counts);
+    const double million = 1e6 / ((double)width * height);
+    *out = (struct hit_errors){.known = true,
+                               .band = million * (double)counts.band,
+                               .wrong_inside = million * (double)counts.wrong_inside,
+                               .wrong_outside = million * (double)counts.wrong_outside,
+                               .acne = million * (double)counts.acne,
+                               .leaks = million * (double)counts.leaks,
+                               .shadow_edge = million * (double)counts.shadow_edge,
+                               .holes = million * (double)counts.holes,
+                               .wrong_second = million * (double)counts.wrong_second};
+}
+
+bool *hits_closed_bodies(const struct ir_scene *scene, const struct assets *assets, uint32_t *count) {
+    const uint32_t first_model = scene->spheres.count + scene->rectangles.count;
+    *count = ir_body_count(scene);
+    bool *closed = calloc(*count ? *count : 1, sizeof *closed);
+    for (uint32_t i = 0; closed && i < *count; i++) {
+        const struct mesh *mesh = i < first_model ? NULL : assets->models[i - first_model].mesh;
+        closed[i] = i < scene->spheres.count || (mesh && mesh->closed);
+    }
+    return closed;
+}

@@ -1,0 +1,34 @@
+// What the first rays meet, against the reference: wrong hits, acne, leaks, holes.
+//
+// A pixel lies in the silhouettes' band where one of its eight neighbours meets another body in the
+// reference, or the same one more than a twentieth of the way nearer or further. It lies at a shadow's edge
+// where a neighbour of the same body is lit by other lights. Ownership: the caller's arrays. Thread safety:
+// pure.
+#ifndef GLINT_MEASURE_HIT_ERRORS_H
+#define GLINT_MEASURE_HIT_ERRORS_H
+
+#include "assets/assets.h"
+#include "grammar/ir.h"
+#include "scene/hits.h"
+
+// What the first rays met against what they meet in the reference, per million pixels.
+struct hit_errors {
+    bool known;
+    double wrong_inside, wrong_outside; // of the silhouettes' band, one pixel wide
+    double band;                        // pixels that lie in it
+    double acne;         // dark although nothing is between hit and light, away from shadows' edges
+    double leaks;        // lit although something is between
+    double shadow_edge;  // lit differently in the band around shadows' edges
+    double holes;        // the background seen where the reference meets a closed body, outside the band
+    double wrong_second; // another body met by the mirrored or the refracted ray, outside the band
+};
+
+// `closed` tells of each body whether nothing can be seen through it.
+void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *device,
+                  const struct hit_pixel *reference, const bool *closed, uint32_t bodies,
+                  struct hit_errors *out);
+// Spheres, and models whose mesh is closed: a value for each of the scene's bodies, to be freed. NULL: no
+// memory.
+bool *hits_closed_bodies(const struct ir_scene *scene, const struct assets *assets, uint32_t *count);
+
+#endif

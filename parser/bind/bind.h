@@ -1,0 +1,219 @@
+// Binding: a neutral tree to the IR of one file, by walking the schema table. Private to parser/.
+//
+// bind.c knows kinds of rows and never an element's name. Every mistake is reported once; a row whose
+// value fails keeps its default and is marked in ir_head.poisoned. Nodes that the reader has reported
+// (TREE_BAD) poison their row without a word.
+// Ownership: IR, texts and places go into `arena`; `scratch` lives until the file is bound.
+// Thread safety: one context belongs to one thread.
+#ifndef GLINT_PARSER_BIND_BIND_H
+#define GLINT_PARSER_BIND_BIND_H
+
+#include "diag/diag.h"
+#include "grammar/ir.h"
+#include "grammar/ir_origin.h"
+#include "grammar/schema_index.h"
+#include "parser/tree/tree.h"
+
+// Texts that were copied lately: entries that follow each other name the same meshes and materials.
+enum {
+    BIND_TEXTS = 256
+};
+struct bind_texts {
+    str items[BIND_TEXTS];
+};
+
+struct bind_context {
+    struct diag_sink *sink;
+    const struct source_set *sources;
+    struct ir_origin *origin;
+    struct arena *arena;
+    struct arena *scratch;
+    struct ir_scene *scene; // takes the anonymous elements of references; NULL before bind_file, or where
+                            // entries were taken beforehand
+    const struct schema_index *index;
+    struct bind_texts *texts; // in `arena`
+    const struct tree *tree;
+    bool other_version; // the file says that it is written in a version that this program does not know
+};
+
+// One element while it is bound, and how it is reached.
+struct bind_frame {
+    const struct bind_frame *parent; // NULL: the scene
+    const struct schema_element *schema;
+    const struct schema_row *via; // the parent's row that holds it; NULL: the scene
+    void *memory;                 // the element's struct, with its defaults before anything is bound
+    str name;                     // as written; empty: none
+    span label;                   // what a diagnostic about the element points at
+    span comments;                // before an entry of a list
+    bool bare;                    // its value stands without the name of the short row
+    uint64_t seen;                // rows that were given, right or wrong
+    uint64_t guessed;             // rows that an unknown name was probably meant to be
+};
+
+// Where a row's value comes from.
+struct bind_given {
+    tree_index key; // 0: none (an option); XML lists are gathered from here
+    span key_span;
+    span comments;
+    tree_index value;
+};
+
+// A value's place in the language, for messages: 'colors[1].r' of ...
+struct bind_subject {
+    const struct bind_frame *frame;
+    const struct schema_row *row; // NULL: the element itself
+    int index;                    // SCHEMA_FIXED: which; -1: none
+    const char *component;        // "x"; NULL: the whole
+};
+
+static inline struct ir_head *bind_head(const struct bind_frame *frame) {
+    return frame->memory;
+}
+static inline uint64_t bind_bit(uint32_t row) {
+    return (uint64_t)1 << row;
+}
+static inline void bind_poison(struct bind_frame *frame, uint32_t row) {
+    bind_head(frame)->poisoned |= bind_bit(row);
+}
+// A row of an element, or the element itself where `row` is NULL.
+static inline struct bind_subject bind_subject(const struct bind_frame *frame, const struct schema_row *row) {
+    return (struct bind_subject){.frame = frame, .row = row, .index = -1};
+}
+static inline bool bind_is_bad(const struct bind_context *context, tree_index node) {
+    return (tree_node(context->tree, node)->flags & TREE_BAD) != 0;
+}
+// What the reader has reported, or broke off in: its value cannot be judged.
+static inline bool bind_is_known(const struct bind_context *context, tree_index node) {
+    return (tree_node(context->tree, node)->flags & (TREE_BAD | TREE_CUT)) != 0;
+}
+// Whether a pair of `map` cannot be judged: the reader has reported it, or the file broke off inside it.
+static inline bool bind_is_bad_pair(const struct bind_context *context, tree_index map, tree_index key) {
+    const struct tree *tree = context->tree;
+    bool cut = (tree_node(tree, map)->flags & TREE_CUT) && !tree_next_key(tree, key) &&
+               tree_node(tree, tree_value(tree, key))->kind == TREE_NULL;
+    return cut || bind_is_bad(context, key);
+}
+static inline enum tree_kind bind_kind(const struct bind_context *context, tree_index node) {
+    return tree_node(context->tree, node)->kind;
+}
+
+// bind.c
+// A scene at its defaults.
+struct ir_scene *bind_new_scene(struct bind_context *context);
+// The scene of a tree, alone; NULL where the tree is no scene, or one of another version (reported).
+struct ir_scene *bind_file(struct bind_context *context);
+// Binds all rows that `node` gives into frame->memory, and checks that what is required is there.
+// false: the node has not the shape of the element (reported, or known to the reader).
+bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node);
+// Binds all pairs of a map as rows of the element: names first, so that messages can use them.
+void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_index node);
+// Binds one row; `single` as schema_find_yaml gives it.
+void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
+              struct bind_given given);
+// The row that a key names at its place, or -1. The key of a named map's entry is none.
+int bind_find_row(const struct bind_context *context, const struct schema_element *schema, tree_index key,
+                  bool *is_single);
+// Where a key's value comes from.
+struct bind_given bind_given_by(const struct bind_context *context, tree_index key);
+// Records the places of a row that was given.
+void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                   struct bind_given given);
+void bind_report_twice(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                       struct bind_given given);
+// A copy in the scene's arena, the same one for many that are equal.
+str bind_copy_once(struct bind_context *context, str text);
+// A frame for values that cannot be kept, yet may have mistakes of their own.
+struct bind_frame bind_aside(struct bind_context *context, const struct bind_frame *frame);
+
+// bind_missing.c
+// Reports required rows and choices that are not there; `silent`: only marks them.
+void bind_missing(struct bind_context *context, struct bind_frame *frame, bool silent);
+void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
+                         const struct schema_row *row);
+
+// bind_many.c
+// Lists, named maps and fixed numbers of values.
+void bind_many(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
+               struct bind_given given);
+
+// bind_loose.c: what is recognised in spite of a mistake that was reported is read on, so that its own
+// mistakes show in the same run and names in it are known. Rows touched are poisoned by the caller.
+// The entries that a value of the wrong shape holds; replaces the last diagnostic's help where there is a
+// better one than an example (`reported`).
+void bind_loose_entries(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                        struct bind_given given, bool reported);
+// Keys behind `key` that belong into its value, one column further right: `outer` (NULL: none) does not know
+// them, the elements of `row` do. Reports and marks them, and what they are missed by.
+void bind_loose_columns(struct bind_context *context, const struct bind_frame *outer,
+                        const struct schema_row *row, tree_index key);
+// The value of a key that names a row in another style.
+void bind_loose_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index key);
+
+// bind_entry.c
+// An entry of a list, bound into memory of its own and appended to the parent's row; `name`: its key.
+// false: no entry was added.
+bool bind_entry(struct bind_context *context, struct bind_frame *parent, const struct schema_row *row,
+                str name, struct bind_given given);
+// Binds an entry into memory that it has already (an override of a whole entry).
+bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given);
+// Gives an element that has no key the standard one of its list, where that has one.
+void bind_default_key(struct bind_context *context, struct bind_frame *child);
+
+// bind_list.c
+// Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; gives its
+// index.
+uint32_t bind_list_push(struct arena *arena, void *field, const void *item, uint32_t size);
+void *bind_list_item(void *field, uint32_t index, uint32_t size);
+uint32_t bind_list_count(const void *field);
+// Forgets all items; a large list's memory is free again.
+void bind_list_give_back(struct arena *arena, void *field, uint32_t size);
+void bind_list_remove(void *field, uint32_t index, uint32_t size);
+// Puts a row back to its default and forgets that it was written.
+void bind_clear_row(struct arena *scratch, struct ir_origin *origin, const struct schema_element *schema,
+                    void *memory, uint32_t row);
+// The scene's row whose list holds elements of this schema; never -1 for the child of a reference.
+uint32_t bind_home_row(const struct schema_element *schema);
+
+// bind_value.c: one value of a row that holds neither elements nor lists. false: reported or known.
+bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
+bool bind_number(struct bind_context *context, struct bind_subject subject, tree_index node, double *out);
+bool bind_name_text(struct bind_context *context, struct bind_subject subject, str text, span at);
+// Reports a value of the wrong shape, unless the reader has reported the node. Always false.
+bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
+// Adds an example of the value to the diagnostic that was reported last.
+void bind_help_example(struct bind_context *context, struct bind_subject subject);
+// Adds how the value must be written: with the author's own numbers, where these are told apart, else an
+// example.
+void bind_help_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
+// The same, and nothing where they are not told apart. Of a list the text is taken. false: nothing.
+bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node);
+bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node);
+
+// bind_composite.c: vectors, colours, weights.
+bool bind_composite(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
+
+// bind_color.c
+// A colour from a text: #rrggbb, or one number.
+bool bind_color_text(struct bind_context *context, struct bind_subject subject, tree_index node,
+                     struct ir_color *out);
+// Reports a text that is no colour, with the colour that other programs would take it for. Always false.
+bool bind_bad_color(struct bind_context *context, struct bind_subject subject, tree_index node);
+// Asks whether three numbers are bytes.
+void bind_check_bytes(struct bind_context *context, struct bind_subject subject, tree_index node,
+                      const double rgb[3]);
+
+// bind_child.c
+// Proposes `child`, an element, in the place of the attribute with this value.
+void bind_fix_as_child(struct bind_context *context, tree_index value, str child);
+
+// bind_names.c
+// The row that a key names in another style ('LookAt', 'lookAt', 'look-at'), or in the plural where one is
+// meant; -1: none.
+int bind_find_style(struct bind_context *context, const struct bind_frame *frame, tree_index key);
+// Proposes another name for an element of XML, in its end tag too.
+void bind_fix_tag(struct bind_context *context, span at, tree_index element, bool safe, str right);
+// Reports a name that the element does not have, with what may have been meant, and reads what it holds where
+// that is clear.
+void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key);
+
+#endif

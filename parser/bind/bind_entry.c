@@ -1,0 +1,92 @@
+// Entries of lists and named maps.
+#include "parser/bind/bind.h"
+#include "parser/bind/say.h"
+
+#include <string.h>
+
+// What to show for an entry without a name: all of it where it fits a line, else its first key.
+static span label_of(const struct bind_context *context, struct bind_given given) {
+    if (given.key)
+        return given.key_span;
+    span all = tree_span(context->tree, given.value);
+    str text = source_text(context->sources, all);
+    bool one_line = text.len == 0 || !memchr(text.ptr, '\n', text.len);
+    tree_index first = tree_first(context->tree, given.value);
+    return one_line || !first ? all : tree_span(context->tree, first);
+}
+
+static str *key_field(const struct bind_frame *child, uint32_t row) {
+    return schema_field(&child->schema->rows[row], child->memory);
+}
+
+static void set_key(struct bind_context *context, struct bind_frame *child, uint32_t row, span at) {
+    const struct schema_row *r = &child->schema->rows[row];
+    bool good = bind_name_text(context, bind_subject(child, r), child->name, at);
+    *key_field(child, row) = arena_copy(context->arena, child->name);
+    child->name = *key_field(child, row);
+    child->seen |= bind_bit(row);
+    bind_head(child)->written |= bind_bit(row);
+    if (!good)
+        bind_poison(child, row);
+}
+
+void bind_default_key(struct bind_context *context, struct bind_frame *child) {
+    int row = schema_key_row(child->schema);
+    if (row < 0 || (child->seen & bind_bit((uint32_t)row)) || !child->via->single)
+        return;
+    child->name = arena_copy(context->arena, str_from(child->via->single));
+    child->seen |= bind_bit((uint32_t)row);
+    *key_field(child, (uint32_t)row) = child->name;
+    bind_head(child)->written |= bind_bit((uint32_t)row);
+}
+
+// Whether the list has an entry of this key already; reports it. (Names of the scene's own things are
+// compared over all files, later.)
+static bool is_second(struct bind_context *context, struct bind_frame *parent, struct bind_frame *child) {
+    int row = child->via->many == SCHEMA_NAMED_MAP ? schema_key_row(child->schema) : -1;
+    if (row < 0 || child->schema->rows[row].text == SCHEMA_TEXT_NAME ||
+        key_field(child, (uint32_t)row)->len == 0)
+        return false;
+    str key = *key_field(child, (uint32_t)row);
+    void *list = schema_field(child->via, parent->memory);
+    for (uint32_t i = 0; i < bind_list_count(list); i++) {
+        char *item = bind_list_item(list, i, child->schema->size);
+        if (!str_equal(*(const str *)schema_field_const(&child->schema->rows[row], item), key))
+            continue;
+        diag_add(context->sink, DIAG_GIVEN_TWICE, child->label, "%.*s is given twice",
+                 STR_ARG(say_owner(context->scratch, child)));
+        diag_note(context->sink, ir_place_label(context->origin, (const struct ir_head *)item),
+                  "first given here");
+        diag_help(context->sink, "remove one of the two");
+        return true;
+    }
+    return false;
+}
+
+bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given) {
+    int key_row = child->via->many == SCHEMA_NAMED_MAP ? schema_key_row(child->schema) : -1;
+    if (key_row >= 0 && !context->tree->is_xml && (child->name.len || given.key))
+        set_key(context, child, (uint32_t)key_row, given.key_span);
+    bool good = bind_element(context, child, given.value);
+    // An entry that could not be read stays where it has a name: others may refer to it.
+    if (!good)
+        bind_head(child)->poisoned = ~(uint64_t)0;
+    return good || child->name.len;
+}
+
+bool bind_entry(struct bind_context *context, struct bind_frame *parent, const struct schema_row *row,
+                str name, struct bind_given given) {
+    void *memory = arena_alloc(context->scratch, row->child->size);
+    schema_index_defaults(context->index, row->child, memory);
+    struct bind_frame child = {.parent = parent,
+                               .schema = row->child,
+                               .via = row,
+                               .memory = memory,
+                               .name = name,
+                               .label = label_of(context, given),
+                               .comments = given.comments};
+    if (!bind_entry_into(context, &child, given) || is_second(context, parent, &child))
+        return false;
+    bind_list_push(context->arena, schema_field(row, parent->memory), memory, row->child->size);
+    return true;
+}

@@ -1,0 +1,188 @@
+// What is recognised in spite of a mistake that has been reported: it is read on, so that its own mistakes
+// show in the same run, and names in it are known.
+#include "parser/bind/bind.h"
+#include "parser/bind/say.h"
+#include "parser/tree/mend.h"
+
+// Whether a map is an entry of the row and not a map of entries: it has a key of an entry.
+static bool is_entry(struct bind_context *context, const struct schema_row *row, tree_index map) {
+    struct bind_frame entry = {.schema = row->child, .via = row};
+    bool single;
+    for (tree_index key = tree_first(context->tree, map); key; key = tree_next_key(context->tree, key))
+        if (bind_find_row(context, row->child, key, &single) >= 0 ||
+            bind_find_style(context, &entry, key) >= 0)
+            return true;
+    return false;
+}
+
+static void add_entry(struct bind_context *context, struct bind_frame *frame, const struct schema_row *row,
+                      str name, struct bind_given given) {
+    if (bind_is_known(context, given.value))
+        return;
+    if (bind_entry(context, frame, row, name, given))
+        bind_head(frame)->written |= bind_bit((uint32_t)(row - frame->schema->rows));
+}
+
+// A map where a list belongs: one entry, or entries by name.
+static void map_for_list(struct bind_context *context, struct bind_frame *frame, const struct schema_row *row,
+                         tree_index map, bool reported) {
+    struct diag_sink *sink = context->sink;
+    const struct tree *tree = context->tree;
+    tree_index first = tree_first(tree, map);
+    if (!first) {
+        if (reported)
+            diag_help(sink, "an empty list is written []");
+        return;
+    }
+    str name = tree_text(tree, first);
+    if (name.len > 1 && name.ptr[0] == '-') {
+        if (reported)
+            diag_help(sink, "a blank is missing behind the '-': write '- %.*s'",
+                      STR_ARG(say_text(context->scratch, str_slice(name, 1, name.len))));
+        return;
+    }
+    if (is_entry(context, row, map)) {
+        if (reported && tree_node(tree, map)->style == TREE_FLOW)
+            diag_help(sink, "put it into a list: [{...}]");
+        else if (reported)
+            diag_help(sink, "begin each entry with '- ', also where there is only one");
+        add_entry(context, frame, row, STR(""), (struct bind_given){.value = map});
+        return;
+    }
+    if (bind_kind(context, tree_value(tree, first)) != TREE_MAP)
+        return;
+    if (reported)
+        diag_help(sink, "begin each entry with '- ' and write its name inside: - {name: %.*s, ...}",
+                  STR_ARG(say_text(context->scratch, tree_text(tree, first))));
+    for (tree_index key = first; key; key = tree_next_key(tree, key))
+        if (bind_kind(context, tree_value(tree, key)) == TREE_MAP && !bind_is_bad_pair(context, map, key))
+            add_entry(context, frame, row, STR(""), bind_given_by(context, key));
+}
+
+// The name that an item of a list gives itself, for a map that has names as keys; its pair is then taken.
+static str take_name(const struct bind_context *context, const struct schema_row *row, tree_index item,
+                     struct bind_given *given) {
+    const struct tree *tree = context->tree;
+    int key_row = schema_key_row(row->child);
+    for (tree_index key = tree_first(tree, item); key && key_row >= 0; key = tree_next_key(tree, key)) {
+        tree_index value = tree_value(tree, key);
+        if (!str_equal_cstr(tree_text(tree, key), row->child->rows[key_row].name) ||
+            bind_kind(context, value) != TREE_SCALAR || bind_is_bad(context, value))
+            continue;
+        tree_node(tree, key)->flags |= TREE_BAD;
+        given->key = key;
+        given->key_span = tree_span(tree, value);
+        return tree_text(tree, value);
+    }
+    return STR("");
+}
+
+// A list where a map by name belongs.
+static void list_for_map(struct bind_context *context, struct bind_frame *frame, const struct schema_row *row,
+                         tree_index list, bool reported) {
+    for (tree_index item = tree_first(context->tree, list); item; item = tree_next(context->tree, item)) {
+        if (bind_kind(context, item) != TREE_MAP)
+            continue;
+        struct bind_given given = {.value = item};
+        str name = take_name(context, row, item, &given);
+        if (reported && name.len)
+            diag_help(context->sink, "write each entry behind its name, without '- ' and 'name': %.*s: {...}",
+                      STR_ARG(say_text(context->scratch, name)));
+        reported = false;
+        add_entry(context, frame, row, name, given);
+    }
+}
+
+// One value where a list of values belongs that need no more than that.
+static void value_for_list(struct bind_context *context, struct bind_frame *frame,
+                           const struct schema_row *row, tree_index value, bool reported) {
+    str written = source_text(context->sources, tree_span(context->tree, value));
+    if (schema_short_row(row->child) < 0 || row->many != SCHEMA_SEQUENCE)
+        return;
+    if (reported) {
+        str mended = arena_format(context->scratch, "[%.*s]", STR_ARG(written));
+        diag_help(context->sink, "write %.*s", STR_ARG(say_text(context->scratch, mended)));
+        diag_fix(context->sink, true, tree_span(context->tree, value), mended);
+    }
+    add_entry(context, frame, row, STR(""), (struct bind_given){.value = value});
+}
+
+void bind_loose_entries(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                        struct bind_given given, bool reported) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    enum tree_kind kind = bind_kind(context, given.value);
+    if (r->many == SCHEMA_FIXED || bind_is_known(context, given.value))
+        return;
+    if (kind == TREE_MAP)
+        map_for_list(context, frame, r, given.value, reported);
+    else if (kind == TREE_LIST)
+        list_for_map(context, frame, r, given.value, reported);
+    else if (kind == TREE_SCALAR)
+        value_for_list(context, frame, r, given.value, reported);
+}
+
+// Whether a value has the shape of the row: what has not would be reported for the same mistake.
+static bool fits(const struct bind_context *context, const struct schema_row *row, bool single,
+                 tree_index value) {
+    enum tree_kind kind = bind_kind(context, value);
+    if (row->many == SCHEMA_SEQUENCE)
+        return kind == TREE_LIST;
+    if (row->many == SCHEMA_NAMED_MAP || single)
+        return kind == TREE_MAP;
+    if (row->kind == SCHEMA_ELEMENT && schema_short_row(row->child) < 0)
+        return kind == TREE_MAP;
+    return kind != TREE_NULL;
+}
+
+void bind_loose_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index key) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    const struct tree *tree = context->tree;
+    struct bind_given given = bind_given_by(context, key);
+    bool child = tree_node(tree, key)->key == TREE_KEY_CHILD;
+    if ((frame->seen & bind_bit(row)) || bind_is_known(context, given.value))
+        return;
+    if (child && r->many != SCHEMA_ONE) {
+        if (r->many != SCHEMA_FIXED)
+            add_entry(context, frame, r, STR(""), given);
+        return;
+    }
+    str snake = mend_snake(context->scratch, tree_text(tree, key));
+    bool single = r->single && !child && str_equal_cstr(snake, r->name);
+    if (fits(context, r, single, given.value))
+        bind_row(context, frame, row, single, given);
+    else if (r->many != SCHEMA_ONE)
+        bind_loose_entries(context, frame, row, given, false);
+    bind_poison(frame, row);
+}
+
+// Whether a key belongs to the elements of `row`, and to nothing where it stands.
+static bool is_out_of_column(const struct bind_context *context, const struct bind_frame *outer,
+                             const struct schema_row *row, tree_index key) {
+    bool single;
+    return key && !bind_is_bad(context, key) && bind_find_row(context, row->child, key, &single) >= 0 &&
+           (!outer || bind_find_row(context, outer->schema, key, &single) < 0);
+}
+
+void bind_loose_columns(struct bind_context *context, const struct bind_frame *outer,
+                        const struct schema_row *row, tree_index key) {
+    const struct tree *tree = context->tree;
+    tree_index value = tree_value(tree, key);
+    const struct tree_node *n = tree_node(tree, value);
+    bool open = n->kind == TREE_NULL || ((n->kind == TREE_MAP || n->kind == TREE_LIST) && outer);
+    if (tree->is_xml || !row->child || !open || n->style == TREE_FLOW || bind_is_known(context, value) ||
+        !is_out_of_column(context, outer, row, tree_next_key(tree, key)))
+        return;
+    tree_index last = value;
+    if (n->kind == TREE_LIST)
+        for (tree_index item = tree_first(tree, value); item; item = tree_next(tree, item))
+            last = item;
+    tree_node(tree, last)->flags |= n->kind == TREE_NULL ? TREE_BAD : TREE_CUT;
+    tree_index next = tree_next_key(tree, key);
+    str name = say_text(context->scratch, tree_text(tree, next));
+    str above = say_text(context->scratch, tree_text(tree, key));
+    diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(tree, next), "'%.*s' does not belong in this column",
+             STR_ARG(name));
+    diag_help(context->sink, "what belongs to '%.*s' above it is indented further than that", STR_ARG(above));
+    for (; is_out_of_column(context, outer, row, next); next = tree_next_key(tree, next))
+        tree_node(tree, next)->flags |= TREE_BAD;
+}

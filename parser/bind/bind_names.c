@@ -1,0 +1,431 @@
+// Names that an element does not have: what may have been meant, and where the name does exist.
+#include "core/nearest.h"
+#include "parser/bind/bind.h"
+#include "parser/bind/say.h"
+#include "parser/tree/mend.h"
+#include "parser/tree/xml_scan.h"
+
+#include <string.h>
+
+// How a row is spelled at the place of a key of this kind; NULL: not at all, the row has another form there.
+static const char *spelling(const struct schema_row *row, enum tree_key kind, bool singular) {
+    if (kind == TREE_KEY_CHILD)
+        return row->element;
+    if (kind == TREE_KEY_ATTRIBUTE)
+        return schema_is_attribute(row) ? row->name : NULL;
+    if (row->key)
+        return NULL;
+    return singular && row->single ? row->name : schema_yaml_key(row);
+}
+
+static void offer_row(struct mend_search *search, const struct schema_row *row, int id) {
+    mend_offer(search, row->name, id);
+    if (row->plural)
+        mend_offer(search, row->plural, id);
+    if (row->element)
+        mend_offer(search, row->element, id);
+}
+
+// Of rows that are as near, one that is not given yet was probably meant.
+static struct mend_search search_rows(struct bind_context *context, const struct bind_frame *frame,
+                                      str text) {
+    struct mend_search search = mend_begin(context->scratch, text);
+    for (int given = 0; given < 2; given++)
+        for (uint32_t i = 0; i < frame->schema->row_count; i++)
+            if (((frame->seen >> i) & 1) == (uint64_t)given)
+                offer_row(&search, &frame->schema->rows[i], (int)i);
+    return search;
+}
+
+int bind_find_style(struct bind_context *context, const struct bind_frame *frame, tree_index key) {
+    enum tree_key kind = tree_node(context->tree, key)->key;
+    struct mend_search search = search_rows(context, frame, tree_text(context->tree, key));
+    bool found = search.best && search.distance == 0;
+    return found && spelling(&frame->schema->rows[search.best_id], kind, false) ? search.best_id : -1;
+}
+
+void bind_fix_tag(struct bind_context *context, span at, tree_index element, bool safe, str right) {
+    str text = context->sources->items[at.source].text;
+    str name = source_text(context->sources, at);
+    span whole = tree_span(context->tree, element);
+    uint32_t closing = xml_end_name(text, whole.begin, whole.end);
+    if (closing && str_starts_with(str_slice(text, closing, whole.end), name)) {
+        str between = str_slice(text, at.end, closing);
+        at.end = closing + (uint32_t)name.len;
+        diag_fix(
+            context->sink, safe, at,
+            arena_format(context->scratch, "%.*s%.*s%.*s", STR_ARG(right), STR_ARG(between), STR_ARG(right)));
+    } else if (whole.end >= at.end + 2 && text.ptr[whole.end - 2] == '/') {
+        diag_fix(context->sink, safe, at, right);
+    }
+}
+
+// Proposes another name for a key; for an XML element with an end tag in both tags.
+static void fix_key(struct bind_context *context, tree_index key, bool safe, str right) {
+    if (tree_node(context->tree, key)->key == TREE_KEY_CHILD)
+        bind_fix_tag(context, tree_span(context->tree, key), tree_value(context->tree, key), safe, right);
+    else
+        diag_fix(context->sink, safe, tree_span(context->tree, key), right);
+}
+
+static void add_unknown(struct bind_context *context, const struct bind_frame *frame, tree_index key) {
+    diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(context->tree, key), "%.*s has no '%.*s'",
+             STR_ARG(say_kind(context->scratch, frame)),
+             STR_ARG(say_text(context->scratch, tree_text(context->tree, key))));
+}
+
+// The name exists, and has another form in this spelling: a vector as an attribute, a number as an element.
+static void wrong_form(struct bind_context *context, struct bind_frame *frame, tree_index key, int id) {
+    const struct schema_row *row = &frame->schema->rows[id];
+    struct bind_subject subject = {.frame = frame, .row = row, .index = -1};
+    tree_index value = tree_value(context->tree, key);
+    const struct tree_node *n = tree_node(context->tree, value);
+    frame->guessed |= bind_bit((uint32_t)id);
+    if ((n->flags | tree_node(context->tree, key)->flags) & TREE_BAD)
+        return;
+    str found = n->kind == TREE_SCALAR
+                    ? arena_format(context->scratch, "'%.*s'",
+                                   STR_ARG(say_text(context->scratch, tree_text(context->tree, value))))
+                : n->count ? STR("a group of attributes")
+                           : STR("an empty group");
+    diag_add(context->sink, DIAG_WRONG_SHAPE, tree_span(context->tree, n->kind == TREE_SCALAR ? value : key),
+             "%.*s must be %.*s, not %.*s", STR_ARG(say_subject(context->scratch, subject)),
+             STR_ARG(say_expected(context->scratch, row)), STR_ARG(found));
+    bind_help_shape(context, subject, value);
+}
+
+// Of 'camera' and 'cameras' the nearer one was meant; of equally near ones the one whose value looks like it.
+static bool is_singular(struct bind_context *context, const struct schema_row *row,
+                        const struct mend_search *search, tree_index value) {
+    unsigned one = nearest_distance(search->snake, str_from(row->name));
+    unsigned many = nearest_distance(search->snake, str_from(schema_yaml_key(row)));
+    if (one != many || tree_node(context->tree, value)->kind != TREE_MAP)
+        return one <= many;
+    tree_index first = tree_first(context->tree, value);
+    return !first || bind_kind(context, tree_value(context->tree, first)) != TREE_MAP;
+}
+
+static void did_you_mean(struct bind_context *context, struct bind_frame *frame, tree_index key,
+                         const struct mend_search *search) {
+    const struct schema_row *row = &frame->schema->rows[search->best_id];
+    enum tree_key kind = tree_node(context->tree, key)->key;
+    bool singular = is_singular(context, row, search, tree_value(context->tree, key));
+    const char *right = spelling(row, kind, singular);
+    frame->guessed |= bind_bit((uint32_t)search->best_id);
+    tree_index value = tree_value(context->tree, key);
+    bool near = search->distance == 0 || mend_is_safe(search);
+    if (!right && near && kind == TREE_KEY_ATTRIBUTE &&
+        bind_help_numbers(context, bind_subject(frame, row), value))
+        return;
+    if (!right) {
+        diag_help(context->sink, "did you mean %.*s?",
+                  STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+        return;
+    }
+    str snake = mend_snake(context->scratch, str_from(right));
+    bool style_only = str_equal(snake, search->snake);
+    if (style_only && mend_quotes(search->word).len < search->word.len)
+        diag_help(context->sink, "write '%s' without these quotes", right);
+    else if (style_only)
+        diag_help(context->sink, "did you mean '%s'? Names are %s here", right,
+                  kind == TREE_KEY_CHILD ? "PascalCase" : "snake_case");
+    else if (search->distance == 0)
+        diag_help(context->sink, "did you mean '%s'? For example %.*s", right,
+                  STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+    else
+        diag_help(context->sink, "did you mean '%s'?", right);
+    fix_key(context, key, style_only || (search->distance > 0 && mend_is_safe(search)), str_from(right));
+}
+
+// The row of another element that has this name, or one a letter off where `near`.
+static const struct schema_row *row_elsewhere(struct bind_context *context,
+                                              const struct schema_element *element, str snake, bool near) {
+    for (uint32_t i = 0; i < element->row_count; i++) {
+        struct mend_search search = mend_begin(context->scratch, snake);
+        if (!element->rows[i].key)
+            offer_row(&search, &element->rows[i], 0);
+        if (search.best && search.distance <= (near ? 1 : 0))
+            return &element->rows[i];
+    }
+    return NULL;
+}
+
+// What the author knows the element by: its own name, or that of the row where it stands.
+static str element_in_words(struct bind_context *context, const struct schema_element *element) {
+    if (element == &SCHEMA_SCENE)
+        return STR("the scene itself");
+    for (const struct schema_element *const *e = schema_elements; *e; e++)
+        for (uint32_t i = 0; i < (*e)->row_count; i++) {
+            const struct schema_row *row = &(*e)->rows[i];
+            if (row->child == element && row->kind == SCHEMA_ELEMENT && strcmp(row->name, element->name) != 0)
+                return arena_format(context->scratch, "'%s' of %.*s", row->name,
+                                    STR_ARG(say_article(context->scratch, (*e)->name)));
+        }
+    return say_article(context->scratch, element->name);
+}
+
+// Where else the name exists: "'color' belongs to a background or a light"; empty: nowhere, or in many
+// places.
+static str elsewhere(struct bind_context *context, const struct bind_frame *frame, str snake, bool near) {
+    str list = STR("");
+    const char *name = NULL;
+    unsigned count = 0;
+    for (const struct schema_element *const *e = schema_elements; *e; e++) {
+        const struct schema_row *row = *e == frame->schema ? NULL : row_elsewhere(context, *e, snake, near);
+        if (!row || ++count > 2)
+            continue;
+        str kind = element_in_words(context, *e);
+        list = arena_format(context->scratch, "%.*s%s%.*s", STR_ARG(list), list.len ? " or " : "",
+                            STR_ARG(kind));
+        name = name ? name : row->name;
+    }
+    if (count == 0)
+        return STR("");
+    return arena_format(context->scratch, "'%s' belongs to %.*s%s", name, STR_ARG(list),
+                        count > 2 ? " or others" : "");
+}
+
+static void list_what_there_is(struct bind_context *context, const struct bind_frame *frame,
+                               enum tree_key kind) {
+    str list = STR("");
+    for (uint32_t i = 0; i < frame->schema->row_count; i++) {
+        const struct schema_row *row = &frame->schema->rows[i];
+        const char *name = spelling(row, kind, false);
+        if (!name)
+            name = kind == TREE_KEY_PLAIN ? NULL : row->element ? row->element : row->name;
+        if (name)
+            list = arena_format(context->scratch, "%.*s%s%s", STR_ARG(list), list.len ? ", " : "", name);
+    }
+    diag_help(context->sink, "it can have: %.*s", STR_ARG(list));
+}
+
+// A row under the name that other programs give it.
+static void other_word(struct bind_context *context, struct bind_frame *frame, tree_index key, int id) {
+    const struct schema_row *row = &frame->schema->rows[id];
+    const char *right = spelling(row, tree_node(context->tree, key)->key, false);
+    frame->guessed |= bind_bit((uint32_t)id);
+    if (right) {
+        diag_help(context->sink, "did you mean '%s'?", right);
+        fix_key(context, key, false, str_from(right));
+    } else {
+        diag_help(context->sink, "did you mean %.*s?",
+                  STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+    }
+}
+
+// "radius:1", which YAML takes for one word.
+static bool is_glued(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    str text = tree_text(context->tree, key);
+    bool plain = !context->tree->is_xml && tree_node(context->tree, key)->style == TREE_PLAIN;
+    const char *colon = plain && text.len ? memchr(text.ptr, ':', text.len) : NULL;
+    if (!colon)
+        return false;
+    str name = str_slice(text, 0, (size_t)(colon - text.ptr));
+    struct mend_search search = search_rows(context, frame, name);
+    int id = search.best ? search.best_id : schema_find_also(frame->schema, search.snake);
+    if (id < 0)
+        return false;
+    frame->guessed |= bind_bit((uint32_t)id);
+    add_unknown(context, frame, key);
+    str value = str_slice(text, name.len + 1, text.len);
+    str mended = arena_format(context->scratch, "%.*s: %.*s", STR_ARG(name), STR_ARG(value));
+    diag_help(context->sink, "a blank is missing behind the ':'; write '%.*s'",
+              STR_ARG(say_text(context->scratch, mended)));
+    diag_fix(context->sink, true, tree_span(context->tree, key), mended);
+    return true;
+}
+
+// A key around what belongs in its own place: '- sphere: {...}', 'scene: {...}', <Spheres> around spheres.
+static bool is_wrapper(struct bind_context *context, struct bind_frame *frame, tree_index key, str snake) {
+    tree_index value = tree_value(context->tree, key);
+    enum tree_key kind = tree_node(context->tree, key)->key;
+    if (bind_kind(context, value) != TREE_MAP || bind_is_bad(context, value) || kind == TREE_KEY_ATTRIBUTE)
+        return false;
+    const struct schema_row *row = NULL;
+    for (uint32_t i = 0; i < frame->schema->row_count && kind == TREE_KEY_CHILD; i++)
+        if (frame->schema->rows[i].plural && str_equal_cstr(snake, frame->schema->rows[i].plural))
+            row = &frame->schema->rows[i];
+    bool own = str_equal_cstr(snake, frame->schema->name) && schema_find_row(frame->schema, snake) < 0;
+    if (!row && !own)
+        return false;
+    add_unknown(context, frame, key);
+    if (row)
+        diag_help(context->sink, "write each <%s> without <%.*s> around it", row->element,
+                  STR_ARG(say_text(context->scratch, tree_text(context->tree, key))));
+    else if (!frame->parent)
+        diag_help(context->sink, "the file itself is the %s: write what this holds in its place",
+                  frame->schema->name);
+    else
+        diag_help(context->sink, "this is %.*s already: write what it holds in its place",
+                  STR_ARG(say_article(context->scratch, frame->schema->name)));
+    uint64_t seen = frame->seen;
+    if (row)
+        frame->seen = 0; // <Sphere> may stand inside and outside
+    bind_pairs(context, frame, value);
+    frame->seen = row ? seen : frame->seen | seen;
+    return true;
+}
+
+// The key of the map that gives another row of the short row's choice: the one given before, or one behind
+// `key`. SPAN_NONE: none.
+static span excluding_key(const struct bind_context *context, const struct bind_frame *frame, uint32_t bare,
+                          tree_index key, const char **name) {
+    const struct schema_row *rows = frame->schema->rows;
+    for (uint32_t i = 0; i < frame->schema->row_count; i++) {
+        const struct ir_row_origin *there = ir_origin_row(context->origin, bind_head(frame), i);
+        *name = rows[i].name;
+        if (i != bare && rows[i].choice == rows[bare].choice && there)
+            return there->key;
+    }
+    for (; key; key = tree_next_key(context->tree, key)) {
+        bool single;
+        int row = bind_find_row(context, frame->schema, key, &single);
+        *name = row >= 0 ? rows[row].name : NULL;
+        if (row >= 0 && row != (int)bare && rows[row].choice == rows[bare].choice)
+            return tree_span(context->tree, key);
+    }
+    return SPAN_NONE;
+}
+
+// A component of the value that may stand alone, beside a row that excludes it: r, g, b beside a checker.
+static bool is_mixed(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    int bare = schema_short_row(frame->schema);
+    if (bare < 0 || frame->schema->rows[bare].choice == 0)
+        return false;
+    const struct schema_row *row = &frame->schema->rows[bare];
+    const char *const *names = schema_components(row->kind);
+    while (*names && !str_equal_cstr(tree_text(context->tree, key), *names))
+        names++;
+    if (!*names)
+        return false;
+    if (frame->guessed & bind_bit((uint32_t)bare))
+        return true;
+    const char *name = NULL;
+    span other = excluding_key(context, frame, (uint32_t)bare, key, &name);
+    if (span_is_none(other))
+        return false;
+    span here = tree_span(context->tree, key);
+    bool before = here.begin < other.begin;
+    frame->guessed |= bind_bit((uint32_t)bare);
+    diag_add(context->sink, DIAG_EXCLUSIVE, before ? other : here,
+             "%.*s has both '%s' and '%s'; only one can hold",
+             STR_ARG(say_subject(context->scratch, bind_subject(frame, NULL))), before ? row->name : name,
+             before ? name : row->name);
+    diag_note(context->sink, before ? here : other, "'%s' is here", before ? row->name : name);
+    diag_help(context->sink, "remove one of the two");
+    return true;
+}
+
+// "x" beside what has components of its own: <Light x="1" y="2" z="3"/>. Told once.
+static bool is_component(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    str text = tree_text(context->tree, key);
+    for (uint32_t i = 0; i < frame->schema->row_count; i++) {
+        const struct schema_row *row = &frame->schema->rows[i];
+        const char *const *names =
+            row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR ? schema_components(row->kind) : NULL;
+        while (names && *names && !str_equal_cstr(text, *names))
+            names++;
+        if (!names || !*names || (frame->seen & bind_bit(i)))
+            continue;
+        if (frame->guessed & bind_bit(i))
+            return true;
+        frame->guessed |= bind_bit(i);
+        add_unknown(context, frame, key);
+        diag_help(context->sink, "components stand together: %.*s",
+                  STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+        return true;
+    }
+    return false;
+}
+
+// <Material ref="red"/> where the name of a material belongs.
+static bool is_reference(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    static const char *const words[] = {"ref", "id", "idref", "href", "use", "link"};
+    tree_index value = tree_value(context->tree, key);
+    if (tree_node(context->tree, key)->key != TREE_KEY_ATTRIBUTE || !frame->via ||
+        frame->via->kind != SCHEMA_REFERENCE || !str_is_name(tree_text(context->tree, value)))
+        return false;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (!str_equal_cstr(tree_text(context->tree, key), words[i]))
+            continue;
+        add_unknown(context, frame, key);
+        diag_help(context->sink, "to use a %s of the scene write %s=\"%.*s\"", frame->schema->name,
+                  frame->via->name, STR_ARG(tree_text(context->tree, value)));
+        return true;
+    }
+    return false;
+}
+
+// A number that YAML takes for a key without a value: what follows a decimal comma ("radius: 1,5"), or a
+// comma in parentheses.
+static bool is_rest(struct bind_context *context, tree_index key) {
+    const struct tree *tree = context->tree;
+    const struct tree_node *n = tree_node(tree, key);
+    span at = tree_span(tree, key);
+    str all = context->sources->items[at.source].text;
+    if (tree->is_xml || n->style != TREE_PLAIN || bind_kind(context, tree_value(tree, key)) != TREE_NULL)
+        return false;
+    uint32_t begin = at.begin;
+    while (begin > 0 && memchr("0123456789.,+- (", all.ptr[begin - 1], 16))
+        begin--;
+    while (begin < at.begin && all.ptr[begin] == ' ')
+        begin++;
+    str before = str_slice(all, begin, at.begin);
+    if (before.len && before.ptr[0] == '(')
+        return true; // told with the first
+    int64_t whole;
+    bool digits = number_parse_integer(tree_text(tree, key), &whole) == NUMBER_OK;
+    bool comma = before.len > 1 && before.ptr[before.len - 1] == ',';
+    if (!digits || !comma || number_parse_integer(str_slice(before, 0, before.len - 1), &whole) != NUMBER_OK)
+        return false;
+    span both = {at.source, begin, at.end};
+    str written = source_text(context->sources, both);
+    diag_add(context->sink, DIAG_BAD_NUMBER, both, "'%.*s' has a decimal comma; write a point",
+             STR_ARG(written));
+    str mended = mend_number(context->scratch, NUMBER_COMMA, written);
+    diag_help(context->sink, "write %.*s", STR_ARG(mended));
+    diag_fix(context->sink, false, both, mended);
+    return true;
+}
+
+void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    enum tree_key kind = tree_node(context->tree, key)->key;
+    str text = tree_text(context->tree, key);
+    if (diag_is_full(context->sink)) {
+        diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(context->tree, key), "unknown name");
+        return;
+    }
+    struct mend_search search = search_rows(context, frame, text);
+    if (is_mixed(context, frame, key) || is_glued(context, frame, key) ||
+        is_wrapper(context, frame, key, search.snake) || is_reference(context, frame, key) ||
+        is_rest(context, key))
+        return;
+    const struct schema_row *near = search.best ? &frame->schema->rows[search.best_id] : NULL;
+    bool exact = near && search.distance == 0;
+    bool style_is_right = near && (str_equal_cstr(text, near->name) || kind == TREE_KEY_CHILD);
+    if (exact && !near->key && !spelling(near, kind, false) && style_is_right) {
+        wrong_form(context, frame, key, search.best_id);
+        return;
+    }
+    int also = exact ? -1 : schema_find_also(frame->schema, search.snake);
+    if (!exact && also < 0 && is_component(context, frame, key))
+        return;
+    str other = exact || also >= 0 ? STR("") : elsewhere(context, frame, search.snake, false);
+    if (!near && also < 0 && other.len == 0 && search.snake.len > 3)
+        other = elsewhere(context, frame, search.snake, true);
+    add_unknown(context, frame, key);
+    bool is_key = (exact && near->key) || (also >= 0 && frame->schema->rows[also].key);
+    if (is_key && kind == TREE_KEY_PLAIN)
+        diag_help(context->sink, frame->via->kind == SCHEMA_REFERENCE ? "written in place it needs no name"
+                                                                      : "the key above it is its name");
+    else if (also >= 0)
+        other_word(context, frame, key, also);
+    else if (near && (search.distance <= 1 || !other.len))
+        did_you_mean(context, frame, key, &search);
+    else if (other.len)
+        diag_help(context->sink, "%.*s", STR_ARG(other));
+    else
+        list_what_there_is(context, frame, kind);
+    if (exact && !near->key && spelling(near, kind, false))
+        bind_loose_row(context, frame, (uint32_t)search.best_id, key);
+}

@@ -1,0 +1,26 @@
+// The canonical layout of a scene file, in both spellings: text in, text out. docs/format.md says what it is.
+//
+// Nothing but white space changes: comments, quoting, numbers, anchors, aliases, merge keys and the order of
+// keys stay, as do the byte order mark, the kind of line ends and whether the last line has one. What was
+// made is read again and compared with what was read; a text that would mean another thing is never given.
+// Ownership: the result is appended to the caller's strbuf. Errors: diagnostics in the context's sink.
+// Thread safety: one call belongs to one thread; the context's arena needs a guard.
+#ifndef GLINT_PARSER_FORMAT_FORMAT_H
+#define GLINT_PARSER_FORMAT_FORMAT_H
+
+#include "core/strbuf.h"
+#include "parser/stages/upgrade.h"
+#include "parser/tree/reader.h"
+
+enum format_status {
+    FORMAT_DONE,    // also where the file holds mistakes of meaning, which stay as they are
+    FORMAT_REFUSED, // the text cannot be read to its end, or in part: the sink says why
+    FORMAT_UNSAFE,  // the layout would have changed what the file means: a mistake of this program
+};
+
+// `upgrade` NULL: versions stay. The sink is given what the reader says of the text, warnings and mistakes of
+// meaning included: callers show it where the status is not FORMAT_DONE.
+enum format_status format_source(const struct reader_context *context, uint32_t source,
+                                 const struct upgrade_table *upgrade, struct strbuf *out);
+
+#endif

@@ -1,0 +1,54 @@
+// The lines that the formatter writes, each with the comment behind it: comments that stood in one column do
+// so again. Private to parser/format*.c.
+//
+// Ownership: lists in the arena (its guard must be set), texts in the strbuf; both the caller's.
+// Thread safety: one thread.
+#ifndef GLINT_PARSER_FORMAT_FORMAT_LINES_H
+#define GLINT_PARSER_FORMAT_FORMAT_LINES_H
+
+#include "core/arena.h"
+#include "core/strbuf.h"
+
+struct format_line {
+    size_t begin, end; // in `body`
+    str comment;       // behind the text on this line; may hold line ends; empty: none
+    uint32_t column;   // where the comment stood in the source, in characters
+};
+
+struct format_lines {
+    struct arena *arena;
+    struct strbuf body;
+    struct {
+        struct format_line *items;
+        uint32_t count, capacity;
+    } lines;
+    uint32_t comment_gap; // spaces before a comment behind a line
+    uint32_t column;      // of what comes next, in characters
+    bool begun;           // something was written
+    bool is_open;         // the source ends within the last line, which a line end would change
+};
+
+void format_lines_init(struct format_lines *lines, struct arena *arena, uint32_t comment_gap);
+void format_lines_finish(struct format_lines *lines);
+// Begins a line, `blank` empty ones before it; the first line of all begins at once.
+void format_lines_next(struct format_lines *lines, uint32_t blank, uint32_t indent);
+void format_lines_text(struct format_lines *lines, str text);
+// A comment behind the line that was begun last. One of several lines is moved as a whole. A further comment
+// there must follow the first in the same text, with nothing but blanks between.
+void format_lines_comment(struct format_lines *lines, str comment, uint32_t column);
+// A comment of one or several lines that stood at `column` and now begins where the line stands.
+void format_lines_moved(struct format_lines *lines, str comment, uint32_t column);
+// All lines, each ended by `line_end`, the last one only where `last_end` says so.
+void format_lines_write(const struct format_lines *lines, str line_end, bool last_end, struct strbuf *out);
+
+// The part of `text` from *at to its line's end, blanks included; *at moves behind the line end (LF, CRLF or
+// CR).
+str format_take_line(str text, size_t *at);
+// A place in a text and its column, from which the next one is counted.
+struct format_place {
+    uint32_t at, column;
+};
+// Characters between the line's beginning and `at`, which is not before *last; that moves to it.
+uint32_t format_column(str text, struct format_place *last, uint32_t at);
+
+#endif

@@ -1,0 +1,70 @@
+// The stages behind parser_load: files and their includes, merging, overrides, names, rules. Private to
+// parser/. Thread safety: one loader belongs to one thread.
+#ifndef GLINT_PARSER_STAGES_LOADER_H
+#define GLINT_PARSER_STAGES_LOADER_H
+
+#include "grammar/schema_index.h"
+#include "parser/bind/bind_stream.h"
+#include "parser/parser.h"
+#include "parser/tree/tree.h"
+
+struct loader_file {
+    str path; // canonical
+    uint32_t source;
+    struct ir_scene *scene; // alone; NULL: could not be read
+    uint32_t parent;        // the file that includes it; its own index for the main scene
+    span include;           // the path in the parent
+    bool open;              // its includes are being read
+};
+
+struct loader {
+    const struct parser_input *input;
+    struct parser_output *output;
+    struct arena scratch; // emptied between files
+    struct arena steady;  // not emptied
+    struct schema_index index;
+    struct bind_texts texts; // see bind_context
+    struct bind_stream stream;
+    struct diag_sink trial; // of the attempt to bind what is read entry by entry
+    struct {
+        struct loader_file *items;
+        uint32_t count, capacity;
+    } files; // [0] is the main scene
+    struct {
+        uint32_t *items;
+        uint32_t count, capacity;
+    } order;         // files whose includes are complete: each before the one that includes it
+    bool incomplete; // something that may define names was not read: unknown names may follow from it
+};
+
+// parser.c
+// Reads and binds a source; gives its place in loader->files. The main scene has itself as its parent.
+uint32_t loader_add_file(struct loader *loader, uint32_t source, uint32_t parent, span include);
+
+// resolve.c
+// Reads all that loader->files[file] includes.
+void resolve_includes(struct loader *loader, uint32_t file);
+// Tells for each file that is included, at its first diagnostic, from where.
+void resolve_note_includes(struct loader *loader);
+
+// merge.c
+// All files in loader->order, as one scene.
+struct ir_scene *merge_files(struct loader *loader);
+// Gives `into` places of its own: those of `from`, with the rows of `into`.
+void merge_own_places(struct ir_origin *origin, struct ir_head *into, const struct ir_head *from);
+// Removes anonymous elements that nothing uses any more.
+void merge_compact(struct loader *loader, struct ir_scene *scene);
+
+// override.c
+// Applies the --set options, in order.
+void override_apply(struct loader *loader, struct ir_scene *scene);
+
+// names.c
+// Names are unique; references get their index.
+void names_resolve(struct loader *loader, struct ir_scene *scene);
+
+// validate.c
+// The rules that a table cannot say.
+void validate_scene(struct loader *loader, const struct ir_scene *scene);
+
+#endif

@@ -1,0 +1,209 @@
+// Names: each is used once, and references find what they name.
+#include "parser/bind/bind.h"
+#include "parser/bind/say.h"
+#include "parser/bind/visit.h"
+#include "parser/stages/loader.h"
+#include "parser/tree/mend.h"
+#include "parser/tree/reader_text.h"
+
+#include <stdlib.h>
+
+struct named {
+    str name;
+    uint64_t order; // of appearance: files in the order of their entries
+    const struct schema_element *schema;
+    const struct ir_head *head;
+    uint32_t index; // in its list
+};
+
+struct named_list {
+    struct named *items;
+    uint32_t count;
+    struct reader_names by_name; // 1 + the place of the first item of a name
+};
+
+static int compare(const void *left, const void *right) {
+    const struct named *a = left;
+    const struct named *b = right;
+    int names = str_compare(a->name, b->name);
+    return names ? names : a->order < b->order ? -1 : a->order > b->order;
+}
+
+static span place_of(const struct loader *loader, const struct named *named) {
+    const char *row = named->schema->rows[visit_name_row(named->schema)].name;
+    return ir_place_value(&loader->output->origin, named->head, named->schema, row);
+}
+
+static uint64_t order_of(const struct loader *loader, const struct named *named) {
+    span at = place_of(loader, named);
+    uint64_t rank = 0;
+    while (rank < loader->order.count && loader->files.items[loader->order.items[rank]].source != at.source)
+        rank++;
+    return rank << 32 | at.begin;
+}
+
+static uint32_t count_names(const struct schema_row *row, void *scene) {
+    void *field = schema_field(row, scene);
+    int name_row = visit_name_row(row->child);
+    uint32_t count = 0;
+    for (uint32_t i = 0; name_row >= 0 && i < bind_list_count(field); i++) {
+        const void *item = bind_list_item(field, i, row->child->size);
+        count += ((const str *)schema_field_const(&row->child->rows[name_row], item))->len > 0;
+    }
+    return count;
+}
+
+static void add_names(const struct loader *loader, struct named_list *list, const struct schema_row *row,
+                      void *scene) {
+    void *field = schema_field(row, scene);
+    int name_row = visit_name_row(row->child);
+    for (uint32_t i = 0; name_row >= 0 && i < bind_list_count(field); i++) {
+        const void *item = bind_list_item(field, i, row->child->size);
+        // With the quotes of typesetting around it a name is none, and was reported: what it means is clear.
+        str name = mend_quotes(*(const str *)schema_field_const(&row->child->rows[name_row], item));
+        if (name.len == 0)
+            continue;
+        struct named *named = &list->items[list->count++];
+        *named = (struct named){.name = name, .schema = row->child, .head = item, .index = i};
+        named->order = order_of(loader, named);
+    }
+}
+
+// The names of one row, or of all rows that are lists without keys: bodies and lights share their names.
+static struct named_list collect(struct loader *loader, struct ir_scene *scene,
+                                 const struct schema_row *only) {
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
+        if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST)
+            most += count_names(&SCHEMA_SCENE.rows[i], scene);
+    struct named_list list = {.items = ARENA_ARRAY(&loader->scratch, struct named, most)};
+    reader_names_init(&list.by_name, &loader->scratch);
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        if (only ? row == only : row->kind == SCHEMA_LIST && row->many == SCHEMA_SEQUENCE)
+            add_names(loader, &list, row, scene);
+    }
+    if (list.count)
+        qsort(list.items, list.count, sizeof *list.items, compare);
+    return list;
+}
+
+static const struct schema_row *home_of(const struct schema_element *schema) {
+    return &SCHEMA_SCENE.rows[bind_home_row(schema)];
+}
+
+static void report_duplicates(struct loader *loader, const struct named_list *list) {
+    struct diag_sink *sink = loader->input->sink;
+    const struct named *first = NULL;
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct named *named = &list->items[i];
+        if (!first || !str_equal(first->name, named->name)) {
+            first = named;
+            continue;
+        }
+        str name = say_text(&loader->scratch, named->name);
+        if (first->schema == named->schema)
+            diag_add(sink, DIAG_DUPLICATE_NAME, place_of(loader, named), "two %ss have the name '%.*s'",
+                     named->schema->name, STR_ARG(name));
+        else
+            diag_add(sink, DIAG_DUPLICATE_NAME, place_of(loader, named), "%.*s and %.*s have the name '%.*s'",
+                     STR_ARG(say_article(&loader->scratch, first->schema->name)),
+                     STR_ARG(say_article(&loader->scratch, named->schema->name)), STR_ARG(name));
+        diag_note(sink, place_of(loader, first), "the first one is here");
+        const struct schema_row *home = home_of(named->schema);
+        if (home->single && str_equal_cstr(named->name, home->single))
+            diag_help(sink, "a %s without a name is called '%s'; name one of the two", named->schema->name,
+                      home->single);
+        else
+            diag_help(sink, "rename one of the two");
+    }
+}
+
+// References.
+
+struct resolving {
+    struct loader *loader;
+    const struct ir_scene *scene;
+    struct named_list *by_row; // sorted names of the scene's rows that references can mean
+};
+
+static const struct named *find(const struct named_list *list, str name) {
+    uint32_t found = reader_names_find(&list->by_name, name);
+    return found ? &list->items[found - 1] : NULL;
+}
+
+static void number_names(struct named_list *list) {
+    for (uint32_t i = 0; i < list->count; i++)
+        if (i == 0 || !str_equal(list->items[i].name, list->items[i - 1].name))
+            reader_names_at(&list->by_name, list->items[i].name)->value = i + 1;
+}
+
+static void list_names(struct loader *loader, const struct named_list *list, const char *what) {
+    enum {
+        SHOWN = 8
+    };
+    str names = STR("");
+    for (uint32_t i = 0; i < list->count && i < SHOWN; i++)
+        names = arena_format(&loader->scratch, "%.*s%s%.*s", STR_ARG(names), i ? ", " : "",
+                             STR_ARG(say_text(&loader->scratch, list->items[i].name)));
+    if (list->count == 0)
+        diag_help(loader->input->sink, "the scene defines no %s", what);
+    else
+        diag_help(loader->input->sink, "there %s: %.*s%s", list->count == 1 ? "is" : "are", STR_ARG(names),
+                  list->count > SHOWN ? ", ..." : "");
+}
+
+static void report_unknown(struct loader *loader, const struct named_list *list, struct visit_place place,
+                           str name) {
+    struct diag_sink *sink = loader->input->sink;
+    const struct schema_row *row = &place.schema->rows[place.row];
+    span at = ir_place_value(&loader->output->origin, place.memory, place.schema, row->name);
+    diag_add(sink, DIAG_UNKNOWN_MATERIAL, at, "there is no %s '%.*s'", row->child->name,
+             STR_ARG(say_text(&loader->scratch, name)));
+    if (diag_is_full(sink))
+        return;
+    struct mend_search search = mend_begin(&loader->scratch, name);
+    for (uint32_t i = 0; i < list->count; i++)
+        mend_offer_str(&search, list->items[i].name, (int)i);
+    if (!search.best) {
+        list_names(loader, list, row->child->name);
+        return;
+    }
+    diag_help(sink, "did you mean '%s'?", search.best);
+    str written = source_text(loader->input->sources, at);
+    diag_fix(sink, mend_is_safe(&search), at, mend_like(&loader->scratch, written, str_from(search.best)));
+}
+
+static void resolve(void *context, struct visit_place place, struct ir_material_ref *reference) {
+    const struct resolving *resolving = context;
+    const struct ir_head *head = place.memory;
+    if (reference->name.len == 0 || (head->poisoned & bind_bit(place.row)))
+        return;
+    uint32_t home = bind_home_row(place.schema->rows[place.row].child);
+    const struct named_list *list = &resolving->by_row[home];
+    const struct named *named = find(list, reference->name);
+    reference->index = named ? named->index : IR_NO_INDEX;
+    // What could not be read may hold the name.
+    bool incomplete = resolving->loader->incomplete || (resolving->scene->head.poisoned & bind_bit(home));
+    if (!named && !incomplete)
+        report_unknown(resolving->loader, list, place, reference->name);
+}
+
+void names_resolve(struct loader *loader, struct ir_scene *scene) {
+    struct resolving resolving = {
+        .loader = loader,
+        .scene = scene,
+        .by_row = ARENA_ARRAY(&loader->scratch, struct named_list, SCHEMA_SCENE.row_count)};
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        if (row->kind != SCHEMA_LIST || row->many != SCHEMA_NAMED_MAP)
+            continue;
+        resolving.by_row[i] = collect(loader, scene, row);
+        report_duplicates(loader, &resolving.by_row[i]);
+        number_names(&resolving.by_row[i]);
+    }
+    struct named_list things = collect(loader, scene, NULL);
+    report_duplicates(loader, &things);
+    visit_references(&SCHEMA_SCENE, scene, resolve, &resolving);
+    arena_finish(&loader->scratch);
+}

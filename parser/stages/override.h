@@ -1,0 +1,66 @@
+// `--set PATH=VALUE`: one option's path as steps, and where it leads in the merged scene. Private to parser/.
+// Thread safety: one thread.
+#ifndef GLINT_PARSER_STAGES_OVERRIDE_H
+#define GLINT_PARSER_STAGES_OVERRIDE_H
+
+#include "parser/bind/bind.h"
+#include "parser/stages/loader.h"
+
+enum override_step_kind {
+    OVERRIDE_KEY,   // a key behind a point, or the first
+    OVERRIDE_INDEX, // [0]
+    OVERRIDE_NAME,  // [name]
+};
+
+struct override_step {
+    enum override_step_kind kind;
+    str text;
+    uint32_t index;
+    span at;
+};
+
+enum {
+    OVERRIDE_STEPS_MAX = 16
+};
+
+struct override {
+    struct loader *loader;
+    struct ir_scene *scene;
+    struct bind_context context;
+    uint32_t source; // the option's text
+    str text;
+    uint32_t value_begin; // behind '='
+    span path;            // all of it
+    struct override_step steps[OVERRIDE_STEPS_MAX];
+    uint32_t step_count;
+};
+
+// What a path leads to.
+enum override_target_kind {
+    OVERRIDE_ROW,       // a row of an element
+    OVERRIDE_ENTRY,     // an entry of a list or named map
+    OVERRIDE_COMPONENT, // of a vector, colour or weights
+};
+
+struct override_target {
+    enum override_target_kind kind;
+    struct bind_frame *frame; // the element that holds the row
+    uint32_t row;
+    uint32_t entry;     // OVERRIDE_ENTRY: its index; the list's length for a new entry of a named map
+    str name;           // OVERRIDE_ENTRY in a named map: its key
+    int slot;           // OVERRIDE_COMPONENT in one of a fixed number of values; -1: none
+    uint32_t component; // OVERRIDE_COMPONENT: 3 and less; COMPONENT_ALL: the whole slot
+};
+enum {
+    OVERRIDE_WHOLE_SLOT = UINT32_MAX
+};
+
+// override_path.c
+// Splits the option; false: reported (E219).
+bool override_parse(struct override *o);
+
+// override_walk.c
+// Follows the steps; false: reported (E220, E221).
+bool override_walk(struct override *o, struct override_target *target);
+
+#endif

@@ -1,0 +1,108 @@
+#include "parser/bind/say.h"
+#include "parser/stages/override.h"
+
+#include "core/number.h"
+
+#include <string.h>
+
+static span at(const struct override *o, size_t begin, size_t end) {
+    return (span){o->source, (uint32_t)begin, (uint32_t)end};
+}
+
+static bool syntax(struct override *o, span where, const char *what) {
+    struct diag_sink *sink = o->loader->input->sink;
+    diag_add(sink, DIAG_SET_SYNTAX, where, "%s", what);
+    diag_help(sink, "the form is PATH=VALUE, for example image.width=640 or lights[0].intensity=2");
+    return false;
+}
+
+// The first '=' outside brackets; the length of the text if there is none. *open: a bracket is not closed.
+static size_t find_equals(str text, bool *open) {
+    bool inside = false;
+    for (size_t i = 0; i < text.len; i++) {
+        if (text.ptr[i] == '[')
+            inside = true;
+        else if (text.ptr[i] == ']')
+            inside = false;
+        else if (text.ptr[i] == '=' && !inside)
+            return i;
+    }
+    *open = inside;
+    return text.len;
+}
+
+static bool add_step(struct override *o, struct override_step step) {
+    if (o->step_count == OVERRIDE_STEPS_MAX)
+        return syntax(o, step.at, "the path has more steps than any scene");
+    o->steps[o->step_count++] = step;
+    return true;
+}
+
+static bool add_key(struct override *o, size_t begin, size_t end) {
+    if (begin == end)
+        return syntax(o, at(o, begin, end + 1), "a key is missing here");
+    return add_step(o, (struct override_step){.kind = OVERRIDE_KEY,
+                                              .text = str_slice(o->text, begin, end),
+                                              .at = at(o, begin, end)});
+}
+
+static bool add_bracket(struct override *o, size_t begin, size_t end) {
+    struct override_step step = {
+        .kind = OVERRIDE_NAME, .text = str_slice(o->text, begin, end), .at = at(o, begin - 1, end + 1)};
+    int64_t index;
+    if (begin == end)
+        return syntax(o, step.at, "a number or name is missing here");
+    bool digits = number_parse_integer(step.text, &index) == NUMBER_OK;
+    if (digits && index >= 0 && index < UINT32_MAX) {
+        step.kind = OVERRIDE_INDEX;
+        step.index = (uint32_t)index;
+    } else if (digits) {
+        return syntax(o, step.at, "entries are counted from 0");
+    }
+    return add_step(o, step);
+}
+
+static bool parse_steps(struct override *o, size_t end) {
+    size_t i = 0;
+    bool first = true;
+    while (i < end || first) {
+        if (i < end && o->text.ptr[i] == '[' && !first) {
+            const char *close = memchr(o->text.ptr + i, ']', end - i);
+            if (!close)
+                return syntax(o, at(o, i, end), "']' is missing");
+            size_t stop = (size_t)(close - o->text.ptr);
+            if (!add_bracket(o, i + 1, stop))
+                return false;
+            i = stop + 1;
+            continue;
+        }
+        if (!first && o->text.ptr[i] != '.')
+            return syntax(o, at(o, i, end), "a '.' or '[' is missing here");
+        size_t begin = first ? i : i + 1;
+        size_t stop = begin;
+        while (stop < end && o->text.ptr[stop] != '.' && o->text.ptr[stop] != '[')
+            stop++;
+        if (!add_key(o, begin, stop))
+            return false;
+        i = stop;
+        first = false;
+    }
+    return true;
+}
+
+bool override_parse(struct override *o) {
+    bool open = false;
+    size_t end = find_equals(o->text, &open);
+    o->path = at(o, 0, end);
+    if (open)
+        return syntax(o, o->path, "']' is missing");
+    if (end == o->text.len)
+        return syntax(o, at(o, 0, end), "'=' is missing behind the path");
+    if (end == 0)
+        return syntax(o, at(o, 0, 1), "the path is missing before '='");
+    o->value_begin = (uint32_t)end + 1;
+    while (end > 1 && o->text.ptr[end - 1] == ' ')
+        end--; // "radius = 2"
+    o->path = at(o, 0, end);
+    return parse_steps(o, end);
+}

@@ -1,0 +1,227 @@
+// The rules that a table cannot say, on the merged scene. Each one looks only at rows that are not poisoned.
+#include "parser/bind/bind.h"
+#include "parser/bind/say.h"
+#include "parser/stages/loader.h"
+
+#include "core/number.h"
+
+#include <string.h>
+
+// Below this sine two directions count as parallel (LANGUAGE: Camera).
+static const double PARALLEL_SINE = 1e-9;
+static const double COORDINATE_MAX = 1e18;
+static const int64_t PIXELS_MAX = 67108864;
+
+struct rules {
+    struct diag_sink *sink;
+    const struct ir_origin *origin;
+    struct arena *scratch;
+};
+
+static uint64_t bit(const struct schema_element *schema, const char *row) {
+    return bind_bit((uint32_t)schema_find_row(schema, str_from(row)));
+}
+
+static bool is_written(const struct schema_element *schema, const void *memory, const char *row) {
+    return (((const struct ir_head *)memory)->written & bit(schema, row)) != 0;
+}
+
+static bool is_poisoned(const struct schema_element *schema, const void *memory, const char *row) {
+    return (((const struct ir_head *)memory)->poisoned & bit(schema, row)) != 0;
+}
+
+static span value_place(const struct rules *rules, const struct schema_element *schema, const void *memory,
+                        const char *row) {
+    return ir_place_value(rules->origin, memory, schema, row);
+}
+
+static str owner(const struct rules *rules, const struct schema_element *schema, str name) {
+    if (name.len)
+        return arena_format(rules->scratch, "%s '%.*s'", schema->name,
+                            STR_ARG(say_text(rules->scratch, name)));
+    return arena_format(rules->scratch, "this %s", schema->name);
+}
+
+// Directions.
+
+static bool is_parallel(vec3 a, vec3 b) {
+    return vec3_length(vec3_cross(vec3_unit(a), vec3_unit(b))) < PARALLEL_SINE;
+}
+
+// true: there is a direction, and it is not zero.
+static bool check_direction(const struct rules *rules, const struct schema_element *schema,
+                            const void *memory, str name, const char *row, vec3 value) {
+    if (is_poisoned(schema, memory, row))
+        return false;
+    if (!is_written(schema, memory, row) || !vec3_is_zero(value))
+        return true;
+    diag_add(rules->sink, DIAG_ZERO_DIRECTION, value_place(rules, schema, memory, row),
+             "'%s' of %.*s is 0 0 0, which points nowhere", row, STR_ARG(owner(rules, schema, name)));
+    return false;
+}
+
+// Cameras.
+
+// The direction of view; false where it cannot be told.
+static bool view_direction(const struct rules *rules, const struct ir_camera *camera, vec3 *view,
+                           const char **row) {
+    const struct schema_element *schema = &SCHEMA_CAMERA;
+    *view = camera->direction;
+    *row = "direction";
+    if (camera->view != IR_VIEW_LOOK_AT)
+        return check_direction(rules, schema, camera, camera->name, "direction", camera->direction);
+    *row = "look_at";
+    *view = vec3_sub(camera->look_at, camera->position);
+    if (is_poisoned(schema, camera, "look_at") || is_poisoned(schema, camera, "position"))
+        return false;
+    if (!vec3_is_zero(*view))
+        return true;
+    diag_add(rules->sink, DIAG_LOOK_AT_POSITION, value_place(rules, schema, camera, "look_at"),
+             "%.*s looks at the point where it stands", STR_ARG(owner(rules, schema, camera->name)));
+    if (is_written(schema, camera, "position"))
+        diag_note(rules->sink, value_place(rules, schema, camera, "position"), "'position' is here");
+    else
+        diag_note(rules->sink, SPAN_NONE, "'position' is not written; it is 0 0 0");
+    return false;
+}
+
+static void check_camera(const struct rules *rules, const struct ir_camera *camera) {
+    const struct schema_element *schema = &SCHEMA_CAMERA;
+    str name = owner(rules, schema, camera->name);
+    if (camera->view == IR_VIEW_ROTATION) {
+        if (!is_written(schema, camera, "up"))
+            return;
+        diag_add(rules->sink, DIAG_UP_WITH_ROTATION, ir_place_key(rules->origin, &camera->head, schema, "up"),
+                 "%.*s has 'up' beside 'rotation', which turns it too", STR_ARG(name));
+        diag_note(rules->sink, ir_place_key(rules->origin, &camera->head, schema, "rotation"),
+                  "'rotation' is here");
+        diag_help(rules->sink, "remove 'up'; a rotation about z tilts the camera");
+        return;
+    }
+    vec3 view;
+    const char *row;
+    bool has_view = view_direction(rules, camera, &view, &row);
+    bool has_up = is_written(schema, camera, "up") &&
+                  check_direction(rules, schema, camera, camera->name, "up", camera->up);
+    if (!has_view || !has_up || !is_parallel(view, camera->up))
+        return;
+    diag_add(rules->sink, DIAG_UP_PARALLEL, value_place(rules, schema, camera, "up"),
+             "'up' of %.*s points along the direction of view", STR_ARG(name));
+    if (is_written(schema, camera, row))
+        diag_note(rules->sink, value_place(rules, schema, camera, row), "the view follows from '%s'", row);
+    else
+        diag_note(rules->sink, SPAN_NONE, "without 'look_at' and 'direction' the view is along 0 0 -1");
+    diag_help(rules->sink, "choose another 'up', or leave it out: the default one adapts");
+}
+
+// Lights.
+
+static void check_light(const struct rules *rules, const struct ir_light *light) {
+    const struct schema_element *schema = &SCHEMA_LIGHT;
+    if (light->kind != IR_LIGHT_DIRECTION)
+        return;
+    check_direction(rules, schema, light, light->name, "direction", light->direction);
+    if (light->falloff == IR_FALLOFF_NONE || is_poisoned(schema, light, "falloff"))
+        return;
+    diag_add(rules->sink, DIAG_FALLOFF_DIRECTIONAL, value_place(rules, schema, light, "falloff"),
+             "%.*s has a direction, so that its light cannot fall off with the distance",
+             STR_ARG(owner(rules, schema, light->name)));
+    diag_note(rules->sink, ir_place_key(rules->origin, &light->head, schema, "direction"),
+              "'direction' is here");
+    diag_help(rules->sink, "give the light a 'position', or remove 'falloff'");
+}
+
+// Bodies.
+
+static bool leaves_world(vec3 v) {
+    return !(vec3_max_abs(v) <= COORDINATE_MAX);
+}
+
+static void report_leaving(const struct rules *rules, const struct schema_element *schema, const void *memory,
+                           str name, const char *row) {
+    diag_add(rules->sink, DIAG_TRANSFORM_OVERFLOW, value_place(rules, schema, memory, row),
+             "%.*s reaches beyond 1e18 in a coordinate", STR_ARG(owner(rules, schema, name)));
+}
+
+static void check_sphere(const struct rules *rules, const struct ir_sphere *sphere) {
+    const struct schema_element *schema = &SCHEMA_SPHERE;
+    if (is_poisoned(schema, sphere, "center") || is_poisoned(schema, sphere, "radius"))
+        return;
+    if (!(vec3_max_abs(sphere->center) + sphere->radius <= COORDINATE_MAX))
+        report_leaving(rules, schema, sphere, sphere->name, "radius");
+}
+
+static bool check_edge(const struct rules *rules, const struct ir_rectangle *rectangle, const char *row,
+                       vec3 edge) {
+    if (is_poisoned(&SCHEMA_RECTANGLE, rectangle, row))
+        return false;
+    if (!vec3_is_zero(edge))
+        return true;
+    diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, &SCHEMA_RECTANGLE, rectangle, row),
+             "'%s' of %.*s is 0 0 0, which leaves no area", row,
+             STR_ARG(owner(rules, &SCHEMA_RECTANGLE, rectangle->name)));
+    return false;
+}
+
+static void check_rectangle(const struct rules *rules, const struct ir_rectangle *rectangle) {
+    const struct schema_element *schema = &SCHEMA_RECTANGLE;
+    bool has_u = check_edge(rules, rectangle, "edge_u", rectangle->edge_u);
+    bool has_v = check_edge(rules, rectangle, "edge_v", rectangle->edge_v);
+    if (has_u && has_v && is_parallel(rectangle->edge_u, rectangle->edge_v)) {
+        diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, schema, rectangle, "edge_v"),
+                 "the edges of %.*s are parallel, which leaves no area",
+                 STR_ARG(owner(rules, schema, rectangle->name)));
+        diag_note(rules->sink, value_place(rules, schema, rectangle, "edge_u"), "'edge_u' is here");
+        return;
+    }
+    if (!has_u || !has_v || is_poisoned(schema, rectangle, "corner"))
+        return;
+    vec3 u = vec3_add(rectangle->corner, rectangle->edge_u);
+    vec3 v = vec3_add(rectangle->corner, rectangle->edge_v);
+    bool by_u = leaves_world(u);
+    bool by_v = leaves_world(v) || leaves_world(vec3_add(u, rectangle->edge_v));
+    if (by_u || by_v)
+        report_leaving(rules, schema, rectangle, rectangle->name, by_u ? "edge_u" : "edge_v");
+}
+
+static void check_model(const struct rules *rules, const struct ir_model *model) {
+    const struct schema_element *schema = &SCHEMA_MODEL;
+    bool zero = model->scale.x == 0 || model->scale.y == 0 || model->scale.z == 0;
+    if (!zero || is_poisoned(schema, model, "scale"))
+        return;
+    diag_add(rules->sink, DIAG_ZERO_SCALE, value_place(rules, schema, model, "scale"),
+             "'scale' of %.*s is 0, which leaves nothing of it", STR_ARG(owner(rules, schema, model->name)));
+    diag_help(rules->sink, "1 keeps the size; a negative value mirrors");
+}
+
+// The picture.
+
+static void check_image(const struct rules *rules, const struct ir_image *image) {
+    const struct schema_element *schema = &SCHEMA_IMAGE;
+    int64_t pixels = (int64_t)image->width * image->height;
+    if (pixels <= PIXELS_MAX || is_poisoned(schema, image, "width") || is_poisoned(schema, image, "height"))
+        return;
+    const char *later = is_written(schema, image, "height") ? "height" : "width";
+    const char *other = strcmp(later, "height") == 0 ? "width" : "height";
+    diag_add(rules->sink, DIAG_TOO_MANY_PIXELS, value_place(rules, schema, image, later),
+             "the image has %d times %d, that is %lld pixels; at most %lld are possible", image->width,
+             image->height, (long long)pixels, (long long)PIXELS_MAX);
+    if (is_written(schema, image, other))
+        diag_note(rules->sink, value_place(rules, schema, image, other), "'%s' is here", other);
+}
+
+void validate_scene(struct loader *loader, const struct ir_scene *scene) {
+    struct rules rules = {loader->input->sink, &loader->output->origin, &loader->scratch};
+    check_image(&rules, &scene->image);
+    for (uint32_t i = 0; i < scene->cameras.count; i++)
+        check_camera(&rules, &scene->cameras.items[i]);
+    for (uint32_t i = 0; i < scene->lights.count; i++)
+        check_light(&rules, &scene->lights.items[i]);
+    for (uint32_t i = 0; i < scene->spheres.count; i++)
+        check_sphere(&rules, &scene->spheres.items[i]);
+    for (uint32_t i = 0; i < scene->rectangles.count; i++)
+        check_rectangle(&rules, &scene->rectangles.items[i]);
+    for (uint32_t i = 0; i < scene->models.count; i++)
+        check_model(&rules, &scene->models.items[i]);
+    arena_finish(&loader->scratch);
+}

@@ -1,0 +1,49 @@
+// What was probably meant: mended numbers, booleans and names, and the nearest of several words.
+// Thread safety: pure but for the arena.
+#ifndef GLINT_PARSER_TREE_MEND_H
+#define GLINT_PARSER_TREE_MEND_H
+
+#include "core/arena.h"
+#include "core/number.h"
+
+// The number that a wrong spelling means, or the empty string.
+str mend_number(struct arena *arena, enum number_status status, str text);
+// Whether the text is several numbers with blanks or commas between them.
+bool mend_is_numbers(str text);
+// Exactly `count` such numbers as "1, 2, 3"; the empty string where it is not that.
+str mend_numbers(struct arena *arena, str text, uint32_t count);
+// The text without the blanks and typographic quotes around it.
+str mend_quotes(str text);
+// "true" or "false" for yes, On, TRUE, 1 ...; the empty string where it is neither.
+str mend_boolean(str text);
+// The colour as "#rrggbb" that a text means elsewhere: #rgb, 0xrrggbb, rgb(...), "red"; the empty string
+// where it is none. *safe: nothing else can be meant.
+str mend_color(struct arena *arena, str text, bool *safe);
+// false: not hexadecimal digits alone.
+bool mend_hex_digits(str digits, uint32_t *value);
+// Letters that a name must not have become '_'; a digit in front gets one before it.
+str mend_name(struct arena *arena, str text);
+// `replacement` in the quotes that `written`, the text of the file, has.
+str mend_like(struct arena *arena, str written, str replacement);
+// "DiffuseColor", "diffuseColor", "diffuse-color" as diffuse_color.
+str mend_snake(struct arena *arena, str text);
+
+// The nearest of several candidates, compared in snake_case; ties are counted. The beginning of a candidate,
+// of three letters and more, is near too.
+struct mend_search {
+    struct arena *arena;
+    str word; // as written
+    str snake;
+    const char *best; // NULL: none is near enough
+    int best_id;
+    unsigned distance; // 0: only case or style differ
+    unsigned ties;     // other candidates that are as near
+};
+struct mend_search mend_begin(struct arena *arena, str word);
+void mend_offer(struct mend_search *search, const char *candidate, int id);
+void mend_offer_str(struct mend_search *search, str candidate, int id);
+// Whether the best candidate is surely what was meant: only the style differs, or a letter or two does
+// and no other candidate is as near.
+bool mend_is_safe(const struct mend_search *search);
+
+#endif

@@ -1,0 +1,34 @@
+// The report of `glint compare`: what was compared, each metric, and whether it keeps its bound.
+//
+// Ownership: text points to the caller's. Thread safety: pure.
+#ifndef GLINT_PICTURE_METRICS_COMPARE_REPORT_H
+#define GLINT_PICTURE_METRICS_COMPARE_REPORT_H
+
+#include "core/strbuf.h"
+#include "picture/metrics/metrics.h"
+
+// A bound a metric: the most it may be, or the least where higher is better.
+struct measure_bounds {
+    bool has[METRIC_COUNT];
+    double bound[METRIC_COUNT];
+    uint64_t not_finite; // pixels that may be no number; 0 where no bound was given
+};
+
+struct compare_report {
+    const char *path[2]; // picture, reference
+    const char *kind[2]; // "PNG"
+    uint32_t width, height;
+    const struct measure_options *options;
+    const struct measure_result *result;
+    const struct measure_bounds *bounds;
+};
+
+// Whether a metric keeps its bound; true where it has none. A value that is no number keeps none.
+bool measure_keeps(const struct measure_bounds *bounds, const struct measure_result *result,
+                   enum metric metric);
+// All bounds together: with any of them, pixels that are no number are bounded too.
+bool compare_keeps_bounds(const struct compare_report *report);
+void compare_text(const struct compare_report *report, struct strbuf *out);
+void compare_json(const struct compare_report *report, struct strbuf *out);
+
+#endif

@@ -1,0 +1,75 @@
+// How far one picture is from another: the metrics of `glint compare` and `glint tradeoff`.
+//
+// Two pictures of one size, three floats a pixel, rows from the top, in one space: displayed values (0..1, as
+// written to an 8-bit file, before rounding) or linear ones (as in the float formats). The second picture is
+// the reference; only relMSE is not symmetric. MAE, RMSE, relMSE, the largest difference, PSNR (peak 1) and
+// the share over the threshold are taken in the space given; SSIM and FLIP are defined on displayed values:
+// linear ones are clamped and encoded for them. Means are over pixels that are finite in both pictures, and
+// the others are counted; for SSIM and FLIP what is no number is 0.
+// Ownership: the caller's arrays. Errors: false where memory lacks. Thread safety: pure; uses all processors,
+// and the result does not depend on how many there are.
+#ifndef GLINT_PICTURE_METRICS_METRICS_H
+#define GLINT_PICTURE_METRICS_METRICS_H
+
+#include "core/str.h"
+#include "picture/write/image.h"
+
+enum metric {
+    METRIC_MAE,     // mean |a - b| over pixels and channels
+    METRIC_RMSE,    // root of the mean of (a - b)^2
+    METRIC_RELMSE,  // mean of (a - b)^2 / (b^2 + 0.01), b the reference (Rousselle et al. 2011)
+    METRIC_LARGEST, // largest |a - b| of a channel
+    METRIC_PSNR,    // 10 log10(1 / MSE) dB, peak 1; infinite where equal
+    METRIC_SSIM,    // Wang et al. 2004, of the luma; 1 where equal
+    METRIC_FLIP,    // LDR-FLIP's mean, Andersson et al. 2020; 0 where equal, 1 at most
+    METRIC_SHARE,   // of pixels with a channel further than the threshold from the reference's
+    METRIC_COUNT,
+};
+
+struct metric_info {
+    const char *name; // "mae"
+    const char *title;
+    bool higher_is_better;
+    bool of_displayed; // always of displayed values; the others of those compared
+};
+
+enum measure_space {
+    MEASURE_DISPLAYED,
+    MEASURE_LINEAR,
+};
+
+struct measure_options {
+    enum measure_space space;
+    double threshold;             // of METRIC_SHARE, usually 1/255
+    double pixels_per_degree;     // of METRIC_FLIP, usually 67
+    struct image_display display; // for linear values
+    uint32_t metrics;             // bit 1 << METRIC_...: those that are wanted; 0: all
+};
+
+struct measure_place {
+    uint32_t x, y, channel;
+    double value, reference;
+};
+
+struct measure_result {
+    double value[METRIC_COUNT]; // NaN where not asked for, or where no pixel is finite
+    struct measure_place largest;
+    uint64_t pixels;
+    uint64_t over;          // pixels over the threshold
+    uint64_t not_finite[2]; // pixels with a channel that is infinite or not a number: picture, reference
+    uint64_t not_finite_together; // in either
+};
+
+extern const struct metric_info metric_infos[METRIC_COUNT];
+// METRIC_COUNT where there is none.
+enum metric metric_find(str name);
+
+struct measure_options measure_options_default(void);
+
+// `difference` and `flip`, where not NULL, take a value a pixel: the largest |a - b| of its channels
+// (infinite where not finite), and FLIP's error.
+bool measure_pictures(uint32_t width, uint32_t height, const float *picture, const float *reference,
+                      const struct measure_options *options, struct measure_result *result, float *difference,
+                      float *flip);
+
+#endif

@@ -1,0 +1,62 @@
+#include "picture/metrics/picture_file.h"
+
+#include "picture/read/picture_read.h"
+
+#include <stdlib.h>
+
+void picture_file_finish(struct picture_file *picture) {
+    if (!picture)
+        return;
+    free(picture->rgb);
+    *picture = (struct picture_file){0};
+}
+
+static float channel(const struct picture *picture, size_t at) {
+    if (picture->depth == PICTURE_8)
+        return (float)(((const uint8_t *)picture->pixels)[at] / 255.0);
+    if (picture->depth == PICTURE_16)
+        return (float)(((const uint16_t *)picture->pixels)[at] / 65535.0);
+    return ((const float *)picture->pixels)[at];
+}
+
+static const char *decode(str bytes, const struct picture_header *header, struct picture_file *out) {
+    struct picture picture;
+    const char *fault = picture_decode(bytes, header, &picture);
+    if (fault)
+        return fault;
+    const size_t pixels = (size_t)picture.width * picture.height;
+    out->width = picture.width;
+    out->height = picture.height;
+    out->space = picture.depth == PICTURE_FLOAT ? MEASURE_LINEAR : MEASURE_DISPLAYED;
+    out->rgb = malloc(3 * pixels * sizeof *out->rgb);
+    for (size_t i = 0; out->rgb && i < pixels; i++)
+        for (size_t k = 0; k < 3; k++)
+            out->rgb[3 * i + k] = channel(&picture, 4 * i + k);
+    picture_finish(&picture);
+    return out->rgb ? NULL : "there is not enough memory";
+}
+
+const char *picture_file_decode(str bytes, uint64_t most_pixels, struct picture_file *out, bool *unknown) {
+    static const char *const kinds[] = {[PICTURE_KIND_NONE] = "",
+                                        [PICTURE_KIND_PNG] = "PNG",
+                                        [PICTURE_KIND_JPEG] = "JPEG",
+                                        [PICTURE_KIND_HDR] = "HDR"};
+    *out = (struct picture_file){0};
+    *unknown = false;
+    if (str_starts_with(bytes, STR("PF")) || str_starts_with(bytes, STR("Pf"))) {
+        out->kind = "PFM";
+        return pfm_decode(bytes, most_pixels, out);
+    }
+    struct picture_header header;
+    const char *fault = picture_read_header(bytes, &header);
+    out->kind = kinds[header.kind];
+    if (fault)
+        return fault;
+    if (header.kind == PICTURE_KIND_NONE) {
+        *unknown = true;
+        return "it is no picture that is read: PNG, JPEG, PFM or Radiance HDR";
+    }
+    if ((uint64_t)header.width * header.height > most_pixels)
+        return "it has more pixels than the limit image-pixels";
+    return decode(bytes, &header, out);
+}

@@ -1,0 +1,15 @@
+// Radiance HDR images (Ward 1991, "Real Pixels"; the run lengths of Radiance's color.c): RGBE, rows from
+// the top, columns from the left.
+//
+// Thread safety: pure functions.
+#ifndef GLINT_PICTURE_READ_READ_HDR_H
+#define GLINT_PICTURE_READ_READ_HDR_H
+
+#include "picture/read/picture_read.h"
+
+// Fills width, height, data_at and ignored. NULL, or what is wrong.
+const char *hdr_read_header(str bytes, struct picture_header *out);
+// RGBA floats, finite and not negative, alpha 1. NULL, or what is wrong.
+const char *hdr_read_pixels(str bytes, const struct picture_header *header, float *pixels);
+
+#endif

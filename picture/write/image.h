@@ -1,0 +1,58 @@
+// A finished picture: linear floats, from there to displayed bytes and files in memory.
+//
+// tone.c is the one place where tone, transfer and rounding to 8 bits happen (LANGUAGE "Output"):
+// mean -> tone -> transfer -> floor(255 * clamp(c) + 1/2). The float formats hold the mean before them.
+// A pixel with a channel that is no number is a fault of the renderer, and marked: magenta in bytes (whatever
+// tone and transfer) and in HDR; PFM keeps it.
+// Ownership: image_finish frees the pixels. Errors: writers set out->failed when memory ends.
+// Thread safety: an image is plain data; writers work on as many threads as there are processors.
+#ifndef GLINT_PICTURE_WRITE_IMAGE_H
+#define GLINT_PICTURE_WRITE_IMAGE_H
+
+#include "core/strbuf.h"
+#include "grammar/ir.h"
+
+#include <math.h>
+
+struct image {
+    uint32_t width, height;
+    float *rgb; // three a pixel, row 0 on top
+};
+
+enum image_format {
+    IMAGE_PNG, // 8 bits a channel, tone and transfer applied
+    IMAGE_PFM, // floats, little endian
+    IMAGE_HDR, // Radiance, shared exponents
+};
+
+// How linear values are displayed: the words of the scene's image element.
+struct image_display {
+    unsigned tone;     // ir_tone
+    unsigned transfer; // ir_transfer
+};
+
+// Black; false: no memory. width and height are at least 1.
+bool image_init(struct image *image, uint32_t width, uint32_t height);
+void image_finish(struct image *image);
+
+// Whether a pixel's three channels mark a fault: one of them is no number.
+static inline bool image_is_marked(const float rgb[3]) {
+    return isnan(rgb[0]) || isnan(rgb[1]) || isnan(rgb[2]);
+}
+
+// `bytes` has room for 3 * width * height.
+void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes);
+// The same before rounding: 0..1, what is no number 0. `displayed` may be `linear`.
+void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
+// 0..1 to 0..1.
+double image_srgb_encode(double linear);
+
+// By the ending of a path; false: none that is written.
+bool image_format_of_path(str path, enum image_format *format);
+// ".png, .pfm or .hdr", for messages.
+const char *image_format_endings(void);
+// Appends the whole file to `out`. `display` is for PNG alone.
+void image_encode(const struct image *image, enum image_format format, struct image_display display,
+                  struct strbuf *out);
+
+#endif

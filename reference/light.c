@@ -1,0 +1,140 @@
+// Where light comes from: lights with their shadows, and the background (LANGUAGE "Hit", "Background").
+#include "reference/parts.h"
+
+#define PI 3.14159265358979323846
+// Less than the smallest normal float adds nothing that a picture could hold: tails of highlights.
+#define LEAST_LIGHT 0x1p-126
+
+// ---- lights
+
+// max(0, r·v)^e by loss = 1 - r·v, which has the digits that large exponents need; 0^0 = 1.
+static double highlight(double loss, double exponent) {
+    if (exponent == 0)
+        return 1;
+    return loss < 1 ? exp(exponent * log1p(-loss)) : 0;
+}
+
+static vec3 scaled(vec3 a, vec3 b) {
+    return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+// What the light adds where nothing stands before it.
+static vec3 unshadowed(const struct reference *r, const struct view_light *light, const struct surface *s,
+                       vec3 direction) {
+    vec3 way = vec3_sub(vec3_sub(light->position, r->origin), s->point);
+    double distance = vec3_length(way);
+    vec3 l = light->directional ? light->to_light : vec3_unit(way);
+    double facing = vec3_dot(s->shading, l);
+    if (!(facing > 0) || !(vec3_dot(s->geometric, l) > 0))
+        return (vec3){0, 0, 0};
+    vec3 value = vec3_mul(s->diffuse, facing);
+    if (!vec3_is_zero(s->specular)) {
+        // r·v = 1 - |r - v|² / 2 with v = -direction
+        vec3 gap = vec3_add(vec3_sub(vec3_mul(s->shading, 2 * facing), l), direction);
+        value = vec3_add(value, vec3_mul(s->specular, highlight(0.5 * vec3_dot(gap, gap), s->exponent)));
+    }
+    vec3 emission = light->emission;
+    if (light->inverse_square)
+        emission = vec3_mul(emission, 1 / (distance * distance));
+    return scaled(emission, value);
+}
+
+void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
+                     struct lighting *out) {
+    const struct view *view = r->input.view;
+    bool shadows = r->input.scene->trace.shadows;
+    vec3 start = reference_start(s, s->geometric);
+    *out = (struct lighting){0};
+    for (uint32_t i = 0; i < view->light_count; i++) {
+        const struct view_light *light = &view->lights[i];
+        vec3 value = unshadowed(r, light, s, direction);
+        if (vec3_max_abs(value) < LEAST_LIGHT)
+            continue;
+        uint32_t bit = i < 32 ? UINT32_C(1) << i : 0;
+        out->considered |= bit;
+        vec3 way = vec3_sub(vec3_sub(light->position, r->origin), start);
+        struct ray ray = {start, light->directional ? light->to_light : way,
+                          light->directional ? INFINITY : 1};
+        out->shadow_rays += shadows;
+        if (shadows && reference_blocks(r, &ray))
+            continue;
+        out->lit |= bit;
+        out->sum = vec3_add(out->sum, value);
+    }
+}
+
+// ---- background
+
+static double channel(const struct reference *r, const struct picture *picture, size_t at) {
+    if (picture->depth == PICTURE_FLOAT)
+        return (double)((const float *)picture->pixels)[at];
+    return r->decoded[picture->depth == PICTURE_8 ? ((const uint8_t *)picture->pixels)[at]
+                                                  : ((const uint16_t *)picture->pixels)[at]];
+}
+
+static vec3 texel(const struct reference *r, size_t column, size_t row) {
+    const struct picture *picture = r->input.assets->background;
+    size_t at = 4 * (row * picture->width + column);
+    return (vec3){channel(r, picture, at), channel(r, picture, at + 1), channel(r, picture, at + 2)};
+}
+
+static vec3 mixed(vec3 a, vec3 b, double part) {
+    return vec3_add(vec3_mul(a, 1 - part), vec3_mul(b, part));
+}
+
+static vec3 background_image(const struct reference *r, vec3 d) {
+    const struct picture *picture = r->input.assets->background;
+    // Turned by the negative rotation about +y.
+    double x = d.x * r->background_cosine - d.z * r->background_sine;
+    double z = d.x * r->background_sine + d.z * r->background_cosine;
+    double u = (0.5 + atan2(z, x) / (2 * PI)) * picture->width - 0.5;
+    double v = atan2(hypot(x, z), d.y) / PI * picture->height - 0.5;
+    double u_floor = floor(u);
+    double v_floor = floor(v);
+    size_t width = picture->width;
+    size_t height = picture->height;
+    size_t left = u_floor < 0 ? width - 1 : (size_t)u_floor % width;
+    size_t right = (left + 1) % width;
+    size_t top = v_floor < 0 ? 0 : (size_t)v_floor < height ? (size_t)v_floor : height - 1;
+    size_t bottom = v_floor + 1 < (double)height ? (size_t)(v_floor + 1) : height - 1;
+    vec3 upper = mixed(texel(r, left, top), texel(r, right, top), u - u_floor);
+    vec3 lower = mixed(texel(r, left, bottom), texel(r, right, bottom), u - u_floor);
+    return vec3_mul(mixed(upper, lower, v - v_floor), r->input.scene->background.intensity);
+}
+
+vec3 reference_background(const struct reference *r, vec3 direction) {
+    return r->input.assets->background ? background_image(r, direction) : r->background_color;
+}
+
+static double image_brightest(const struct reference *r) {
+    const struct picture *picture = r->input.assets->background;
+    double most = 0;
+    for (size_t row = 0; row < picture->height; row++)
+        for (size_t column = 0; column < picture->width; column++)
+            most = fmax(most, reference_brightest(texel(r, column, row)));
+    return most;
+}
+
+void reference_make_background(struct reference *r) {
+    const struct ir_background *background = &r->input.scene->background;
+    const struct picture *picture = r->input.assets->background;
+    bool srgb = r->input.scene->image.transfer == IR_TRANSFER_SRGB;
+    if (background->kind == IR_BACKDROP_COLOR)
+        r->background_color = vec3_mul(view_linear_color(background->color, r->input.scene->image.transfer),
+                                       background->intensity);
+    mat3 turn = view_rotation((vec3){0, background->rotation, 0});
+    r->background_cosine = turn.m[0][0];
+    r->background_sine = turn.m[0][2];
+    r->background_brightest = reference_brightest(r->background_color);
+    if (!picture)
+        return;
+    if (picture->depth != PICTURE_FLOAT) {
+        size_t greatest = picture->depth == PICTURE_8 ? UINT8_MAX : UINT16_MAX;
+        r->decoded = ARENA_ARRAY(&r->arena, double, greatest + 1);
+        for (size_t i = 0; i <= greatest; i++) {
+            double value = (double)i / (double)greatest;
+            r->decoded[i] = srgb ? view_srgb_decode(value) : value;
+        }
+    }
+    r->background_brightest = image_brightest(r) * background->intensity;
+}

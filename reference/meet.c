@@ -1,0 +1,275 @@
+// What a ray meets: boxes, triangles, spheres.
+#include "reference/parts.h"
+
+#include <assert.h>
+
+// A box is entered a little earlier and left a little later than its planes say: more than the rounding of
+// (plane - origin) / direction, as Ize 2013, "Robust BVH Ray Traversal", but wider, because it costs nothing.
+#define BOX_SLACK 0x1p-48
+
+// ---- triangles
+
+struct sheared {
+    int kx, ky, kz; // kz: the largest component of the direction
+    double sx, sy, sz;
+    double origin[3];
+    double direction[3];
+};
+
+static struct sheared shear(const struct ray *ray) {
+    struct sheared s = {.origin = {ray->origin.x, ray->origin.y, ray->origin.z},
+                        .direction = {ray->direction.x, ray->direction.y, ray->direction.z}};
+    const double *d = s.direction;
+    s.kz = fabs(d[0]) > fabs(d[1]) ? (fabs(d[0]) > fabs(d[2]) ? 0 : 2) : (fabs(d[1]) > fabs(d[2]) ? 1 : 2);
+    s.kx = (s.kz + 1) % 3;
+    s.ky = (s.kz + 2) % 3;
+    s.sz = 1 / d[s.kz];
+    s.sx = d[s.kx] * s.sz;
+    s.sy = d[s.ky] * s.sz;
+    return s;
+}
+
+static double largest_of(double a, double b, double c) {
+    return reference_larger(fabs(a), reference_larger(fabs(b), fabs(c)));
+}
+
+// Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"; the bound of t: Pharr, Jakob, Humphreys
+// 2023, section 6.8.7, without its factor for the ray's length, which double does not need.
+static bool meet_watertight(const struct sheared *s, const struct primitive *p, struct meeting *out) {
+    double x[3], y[3], z[3];
+    for (int k = 0; k < 3; k++) {
+        double depth = p->v[k][s->kz] - s->origin[s->kz];
+        x[k] = p->v[k][s->kx] - s->origin[s->kx] - s->sx * depth;
+        y[k] = p->v[k][s->ky] - s->origin[s->ky] - s->sy * depth;
+        z[k] = depth * s->sz;
+    }
+    double u = x[2] * y[1] - y[2] * x[1];
+    double v = x[0] * y[2] - y[0] * x[2];
+    double w = x[1] * y[0] - y[1] * x[0];
+    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0))
+        return false;
+    double det = u + v + w;
+    if (det == 0)
+        return false;
+    double x_most = largest_of(x[0], x[1], x[2]);
+    double y_most = largest_of(y[0], y[1], y[2]);
+    double z_most = largest_of(z[0], z[1], z[2]) * fabs(s->direction[s->kz]);
+    double x_error = REFERENCE_GAMMA(5) * (x_most + z_most);
+    double y_error = REFERENCE_GAMMA(5) * (y_most + z_most);
+    double edge_error = 2 * (REFERENCE_GAMMA(2) * x_most * y_most + y_error * x_most + x_error * y_most);
+    // An error of the weights moves t by the spread of the corners at most.
+    double spread = reference_larger(z[0], reference_larger(z[1], z[2])) -
+                    reference_smaller(z[0], reference_smaller(z[1], z[2]));
+    double weight_error = reference_smaller(3 * edge_error / fabs(det), 1);
+    out->t = (u * z[0] + v * z[1] + w * z[2]) / det;
+    out->b1 = v / det;
+    out->b2 = w / det;
+    out->t_error = 6 * REFERENCE_GAMMA(3) * z_most * fabs(s->sz) + spread * weight_error;
+    return out->t > out->t_error;
+}
+
+// Möller, Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection".
+static bool meet_moeller_trumbore(const struct ray *ray, const struct primitive *p, struct meeting *out) {
+    vec3 v0 = {p->v[0][0], p->v[0][1], p->v[0][2]};
+    vec3 e1 = vec3_sub((vec3){p->v[1][0], p->v[1][1], p->v[1][2]}, v0);
+    vec3 e2 = vec3_sub((vec3){p->v[2][0], p->v[2][1], p->v[2][2]}, v0);
+    vec3 h = vec3_cross(ray->direction, e2);
+    double det = vec3_dot(e1, h);
+    if (det == 0)
+        return false;
+    vec3 s = vec3_sub(ray->origin, v0);
+    vec3 q = vec3_cross(s, e1);
+    out->b1 = vec3_dot(s, h) / det;
+    out->b2 = vec3_dot(ray->direction, q) / det;
+    out->t = vec3_dot(e2, q) / det;
+    out->t_error = 0;
+    return out->b1 >= 0 && out->b2 >= 0 && out->b1 + out->b2 <= 1 && out->t > 0;
+}
+
+// ---- spheres
+
+// Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
+// Gems, chapter 7). A root that its own error reaches down to 0 is where the ray left the sphere.
+static bool meet_sphere(const struct ray *ray, const struct primitive *p, struct meeting *out) {
+    vec3 f = vec3_sub(ray->origin, (vec3){p->v[0][0], p->v[0][1], p->v[0][2]});
+    vec3 d = ray->direction;
+    double radius = p->v[1][0];
+    double a = vec3_dot(d, d);
+    double b = -vec3_dot(f, d);
+    vec3 nearest = vec3_add(f, vec3_mul(d, b / a));
+    double distance2 = vec3_dot(nearest, nearest);
+    double discriminant = (radius - sqrt(distance2)) * (radius + sqrt(distance2));
+    if (discriminant < 0)
+        return false;
+    double root = sqrt(a * discriminant);
+    double q = b < 0 ? b - root : b + root;
+    if (q == 0)
+        return false;
+    double length2 = vec3_dot(f, f);
+    double c = length2 - radius * radius;
+    double c_error = REFERENCE_GAMMA(6) * length2 + REFERENCE_GAMMA(2) * radius * radius;
+    double b_error = REFERENCE_GAMMA(4) * (fabs(f.x * d.x) + fabs(f.y * d.y) + fabs(f.z * d.z));
+    double t[2] = {c / q, q / a};
+    double error[2] = {c_error / fabs(q), b_error / a};
+    int order = t[0] <= t[1] ? 0 : 1;
+    for (int i = 0; i < 2; i++, order = 1 - order) {
+        if (!(t[order] > error[order]))
+            continue;
+        *out = (struct meeting){.t = t[order], .t_error = error[order]};
+        return true;
+    }
+    return false;
+}
+
+// ---- the tree
+
+enum {
+    TIES_MOST = 8
+};
+
+struct search {
+    const struct reference *r;
+    const struct ray *ray;
+    struct sheared sheared;
+    double inverse[3];
+    bool any;
+    struct meeting nearest;
+    double end; // nothing behind this matters any more
+    // Meetings that rounding cannot tell from the nearest: faces in one plane, edges that meet.
+    struct meeting ties[TIES_MOST];
+    int tie_count;
+};
+
+static bool is_lower(const struct search *s, uint32_t x, uint32_t y) {
+    const struct primitive *a = &s->r->primitives[x];
+    const struct primitive *b = &s->r->primitives[y];
+    return a->body != b->body ? a->body < b->body : a->triangle < b->triangle;
+}
+
+static bool is_tie(const struct search *s, const struct meeting *met) {
+    return met->t - met->t_error <= s->nearest.t + s->nearest.t_error;
+}
+
+// Takes a meeting into the ties, in order of (body, triangle); those that are none any more go.
+static void take(struct search *s, const struct meeting *met) {
+    if (s->nearest.primitive == NO_PRIMITIVE || met->t < s->nearest.t) {
+        s->nearest = *met;
+        s->end = met->t + met->t_error;
+    } else if (!is_tie(s, met)) {
+        return;
+    }
+    struct meeting kept[TIES_MOST + 1];
+    int count = 0;
+    bool placed = false;
+    for (int i = 0; i < s->tie_count; i++) {
+        if (!is_tie(s, &s->ties[i]))
+            continue;
+        if (!placed && is_lower(s, met->primitive, s->ties[i].primitive)) {
+            kept[count++] = *met;
+            placed = true;
+        }
+        kept[count++] = s->ties[i];
+    }
+    if (!placed)
+        kept[count++] = *met;
+    s->tie_count = count < TIES_MOST ? count : TIES_MOST;
+    for (int i = 0; i < s->tie_count; i++)
+        s->ties[i] = kept[i];
+}
+
+static void test_primitive(struct search *s, uint32_t index) {
+    const struct primitive *p = &s->r->primitives[index];
+    struct meeting met = {0};
+    bool is_met = p->body < s->r->sphere_count                     ? meet_sphere(s->ray, p, &met)
+                  : s->r->input.test == REFERENCE_MOELLER_TRUMBORE ? meet_moeller_trumbore(s->ray, p, &met)
+                                                                   : meet_watertight(&s->sheared, p, &met);
+    // What could be at t_max itself is not strictly before it.
+    if (!is_met || met.t + met.t_error >= s->ray->t_max)
+        return;
+    met.primitive = index;
+    take(s, &met);
+}
+
+// Comparisons let NaN pass: 0 times infinity, where the ray lies in a face of the box.
+static bool enters(const struct search *s, const struct tree_node *node, double *near) {
+    const double *o = s->sheared.origin;
+    double first = 0;
+    double last = s->end;
+    for (int a = 0; a < 3; a++) {
+        bool backwards = s->inverse[a] < 0;
+        double in = ((backwards ? node->upper[a] : node->lower[a]) - o[a]) * s->inverse[a];
+        double out = ((backwards ? node->lower[a] : node->upper[a]) - o[a]) * s->inverse[a];
+        if (in > first)
+            first = in;
+        if (out < last)
+            last = out;
+    }
+    *near = first;
+    return first <= last + fabs(last) * BOX_SLACK;
+}
+
+static void search_tree(struct search *s) {
+    struct {
+        uint32_t node;
+        double near;
+    } stack[TREE_STACK];
+    int count = 0;
+    uint32_t at = 0;
+    double near;
+    if (!enters(s, &s->r->nodes[0], &near))
+        return;
+    for (;;) {
+        const struct tree_node *node = &s->r->nodes[at];
+        bool goes_on = false;
+        if (node->count) {
+            for (uint32_t i = 0; i < node->count; i++)
+                test_primitive(s, node->second + i);
+            if (s->any && s->tie_count)
+                return;
+        } else {
+            uint32_t children[2] = {at + 1, node->second};
+            double nears[2];
+            bool hits[2];
+            for (int i = 0; i < 2; i++)
+                hits[i] = enters(s, &s->r->nodes[children[i]], &nears[i]);
+            int nearer = hits[0] && (!hits[1] || nears[0] <= nears[1]) ? 0 : 1;
+            goes_on = hits[nearer];
+            at = children[nearer];
+            if (hits[0] && hits[1]) {
+                assert(count < TREE_STACK);
+                stack[count].node = children[1 - nearer];
+                stack[count++].near = nears[1 - nearer];
+            }
+        }
+        while (!goes_on) {
+            if (count == 0)
+                return;
+            at = stack[--count].node;
+            goes_on = stack[count].near <= s->end + s->end * BOX_SLACK;
+        }
+    }
+}
+
+// At equal distance the lower (body, triangle): the first of the ties.
+static void search(const struct reference *r, const struct ray *ray, bool any, struct meeting *out) {
+    struct search s = {.r = r, .ray = ray, .sheared = shear(ray), .any = any, .end = ray->t_max};
+    s.nearest.primitive = NO_PRIMITIVE;
+    for (int a = 0; a < 3; a++)
+        s.inverse[a] = 1 / s.sheared.direction[a];
+    if (r->input.no_tree)
+        for (uint32_t i = 0; i < r->primitive_count && !(any && s.tie_count); i++)
+            test_primitive(&s, i);
+    else if (r->primitive_count)
+        search_tree(&s);
+    *out = s.tie_count ? s.ties[0] : (struct meeting){.t = ray->t_max, .primitive = NO_PRIMITIVE};
+}
+
+void reference_meet(const struct reference *r, const struct ray *ray, struct meeting *out) {
+    search(r, ray, false, out);
+}
+
+bool reference_blocks(const struct reference *r, const struct ray *ray) {
+    struct meeting met;
+    search(r, ray, true, &met);
+    return met.primitive != NO_PRIMITIVE;
+}

@@ -1,0 +1,195 @@
+// The parts of the reference. Private to runtime/reference.
+//
+// All positions here are relative to the reference's origin (the camera's position), in scene units.
+#ifndef GLINT_REFERENCE_PARTS_H
+#define GLINT_REFERENCE_PARTS_H
+
+#include "core/arena.h"
+#include "reference/reference.h"
+
+// gamma(n) = n u / (1 - n u), u = 2^-53: bounds the relative error of n roundings (Higham 2002, section 3.1).
+#define REFERENCE_UNIT     0x1p-53
+#define REFERENCE_GAMMA(n) ((n)*REFERENCE_UNIT / (1 - (n)*REFERENCE_UNIT))
+
+#define NO_PRIMITIVE UINT32_MAX
+
+// Where NaN does not come, or may pass: fmin and fmax are calls.
+static inline double reference_smaller(double a, double b) {
+    return a < b ? a : b;
+}
+static inline double reference_larger(double a, double b) {
+    return a > b ? a : b;
+}
+static inline double reference_brightest(vec3 color) {
+    return fmax(color.x, fmax(color.y, color.z));
+}
+
+// A triangle, or a sphere: then its centre is v[0] and its radius v[1][0].
+struct primitive {
+    double v[3][3];
+    uint32_t body, triangle;
+};
+
+enum body_kind {
+    BODY_SPHERE,
+    BODY_RECTANGLE,
+    BODY_MODEL,
+};
+
+struct body {
+    enum body_kind kind;
+    uint32_t first_primitive; // numbered in IR order, before the tree sorts them
+    uint32_t primitive_count;
+    uint32_t material; // of spheres and rectangles
+    bool solid;        // refraction bends; else a thin pane
+    bool mirrors;      // a model's transform has a negative determinant
+    affine3 place;     // of a model
+    mat3 normal_map;   // of a model: the inverse transpose, times a positive number
+    const struct mesh *mesh;
+    const uint32_t *group_material;
+    const vec3 *normals;         // mesh_smooth_normals; NULL: flat
+    vec3 corner, edge_u, edge_v; // of a rectangle
+};
+
+// A material, its colours decoded and multiplied by their weights.
+struct finish {
+    vec3 diffuse[2];
+    bool checker;
+    double cell;
+    vec3 specular;
+    double exponent, reflection, refraction, index;
+};
+
+// A node's first child is the next node. `count` is 0 for inner nodes.
+struct tree_node {
+    double lower[3], upper[3];
+    uint32_t second; // inner: the other child; leaf: the first primitive
+    uint32_t count;
+};
+
+enum {
+    TREE_STACK = 160
+};
+
+struct reference {
+    struct reference_input input;
+    vec3 origin;
+    struct arena arena; // bodies, finishes, lights, normals
+    struct body *bodies;
+    uint32_t body_count, sphere_count;
+    struct finish *finishes;
+    double *decoded; // a background's channel by stored value; NULL for floats
+    double background_brightest;
+    vec3 background_color;
+    double background_sine, background_cosine;
+    struct primitive *primitives; // in the tree's order
+    uint32_t primitive_count;
+    struct tree_node *nodes;
+};
+
+// ---- bodies.c
+
+// Fills bodies and finishes; jumps to the arena's guard where memory ends.
+void reference_make_bodies(struct reference *r);
+// The primitive of a number in IR order; false: a triangle without area, which nothing can meet.
+bool reference_make_primitive(const struct reference *r, const struct body *body, uint32_t triangle,
+                              struct primitive *out);
+
+// ---- tree.c
+
+// Fills primitives and nodes. false: no memory.
+bool reference_make_tree(struct reference *r);
+
+// ---- meet.c
+
+struct ray {
+    vec3 origin, direction; // any length
+    double t_max;
+};
+
+struct meeting {
+    double t;
+    double b1, b2;
+    double t_error;
+    uint32_t primitive; // NO_PRIMITIVE: nothing
+};
+
+void reference_meet(const struct reference *r, const struct ray *ray, struct meeting *out);
+// Whether anything lies strictly between the ray's start and t_max.
+bool reference_blocks(const struct reference *r, const struct ray *ray);
+
+// ---- surface.c
+
+struct surface {
+    uint32_t body, triangle, material;
+    double distance; // in lengths of the ray's direction
+    double b1, b2;
+    vec3 point, error;
+    vec3 geometric, shading;
+    bool enters, solid;
+    vec3 diffuse, specular; // times their weights
+    double exponent, reflection, refraction, index;
+};
+
+void reference_surface(const struct reference *r, const struct ray *ray, const struct meeting *met,
+                       struct surface *out);
+// Where rays begin that leave on the side of `side`, a unit vector along the geometric normal.
+vec3 reference_start(const struct surface *s, vec3 side);
+vec3 reference_mirrored(const struct surface *s, vec3 direction);
+// false: total reflection.
+bool reference_bent(const struct surface *s, vec3 direction, vec3 *out);
+
+// ---- light.c
+
+// Decodes what a background image needs. Jumps to the arena's guard.
+void reference_make_background(struct reference *r);
+vec3 reference_background(const struct reference *r, vec3 direction);
+
+struct lighting {
+    vec3 sum;
+    uint32_t considered, lit; // bits of lights 0..31
+    uint32_t shadow_rays;
+};
+void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
+                     struct lighting *out);
+
+// ---- path.c
+
+struct branch {
+    vec3 origin, direction;
+    double weight;
+    uint32_t depth;
+    uint32_t parent; // in a log
+    enum reference_kind kind;
+};
+
+// Rays that wait.
+struct queue {
+    struct branch *items;
+    uint32_t count, capacity;
+    bool heaviest_first; // else last in, first out
+    bool failed;         // no memory
+};
+void reference_queue_finish(struct queue *queue);
+
+// What one sample brought.
+struct sample {
+    vec3 radiance;
+    uint64_t rays[3]; // by kind
+    uint64_t shadow, total_reflections, cut_by_depth, cut_by_weight, cut_by_segments;
+    uint32_t deepest;
+    double left_weight, brightest;
+    bool over_segments;
+    uint32_t body, triangle; // last met
+};
+
+struct log {
+    struct reference_segment *segments;
+    uint32_t capacity, count;
+};
+
+// Follows a sample's paths to their ends. `log` may be NULL.
+void reference_follow(const struct reference *r, const struct reference_settings *settings, vec3 direction,
+                      struct queue *queue, struct log *log, struct sample *out);
+
+#endif

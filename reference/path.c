@@ -1,0 +1,200 @@
+// One sample: its paths, ray by ray (LANGUAGE "Hit", "Depth and weight").
+#include "core/heap.h"
+#include "reference/parts.h"
+
+#include <stdlib.h>
+
+// ---- rays that wait
+
+void reference_queue_finish(struct queue *queue) {
+    free(queue->items);
+    *queue = (struct queue){0};
+}
+
+// A heap by weight, or a stack.
+static void push(struct queue *q, const struct branch *branch) {
+    struct branch *items = heap_grow(q->items, q->count, &q->capacity, sizeof *items);
+    if (!items) {
+        q->failed = true;
+        return;
+    }
+    q->items = items;
+    size_t at = q->count++;
+    while (q->heaviest_first && at > 0 && q->items[(at - 1) / 2].weight < branch->weight) {
+        q->items[at] = q->items[(at - 1) / 2];
+        at = (at - 1) / 2;
+    }
+    q->items[at] = *branch;
+}
+
+static struct branch pop(struct queue *q) {
+    if (!q->heaviest_first)
+        return q->items[--q->count];
+    struct branch top = q->items[0];
+    struct branch last = q->items[--q->count];
+    size_t at = 0;
+    for (size_t child = 1; child < q->count; child = 2 * at + 1) {
+        if (child + 1 < q->count && q->items[child + 1].weight > q->items[child].weight)
+            child++;
+        if (q->items[child].weight <= last.weight)
+            break;
+        q->items[at] = q->items[child];
+        at = child;
+    }
+    q->items[at] = last;
+    return top;
+}
+
+// ---- following
+
+struct following {
+    const struct reference *r;
+    const struct reference_settings *settings;
+    struct queue *queue;
+    struct log *log;
+    struct sample *sample;
+};
+
+static void add(struct following *f, vec3 value, double weight) {
+    f->sample->radiance = vec3_add(f->sample->radiance, vec3_mul(value, weight));
+}
+
+static void see(struct following *f, vec3 value) {
+    f->sample->brightest = fmax(f->sample->brightest, reference_brightest(value));
+}
+
+// A ray that leaves a surface: it waits, or is cut. Gives the weight cut.
+static double send(struct following *f, const struct branch *child) {
+    const struct reference_settings *settings = f->settings;
+    if (!(child->weight > 0))
+        return 0;
+    if (child->weight < settings->min_weight) {
+        f->sample->cut_by_weight++;
+    } else if (child->depth > settings->max_depth) {
+        f->sample->cut_by_depth++;
+        if (settings->cut_sees_background)
+            add(f, reference_background(f->r, child->direction), child->weight);
+    } else {
+        push(f->queue, child);
+        return 0;
+    }
+    f->sample->left_weight += child->weight;
+    return child->weight;
+}
+
+static double send_rays(struct following *f, const struct branch *from, const struct surface *s,
+                        uint32_t segment, bool *total) {
+    struct branch back = {.depth = from->depth + 1, .parent = segment, .kind = REFERENCE_REFLECTED};
+    struct branch through = {.depth = from->depth + 1, .parent = segment, .kind = REFERENCE_REFRACTED};
+    double reflection = s->reflection;
+    *total = s->refraction > 0 && !reference_bent(s, from->direction, &through.direction);
+    if (*total) {
+        reflection += s->refraction;
+        f->sample->total_reflections++;
+    } else {
+        through.weight = from->weight * s->refraction;
+    }
+    double cut = 0;
+    if (through.weight > 0) {
+        through.origin = reference_start(s, vec3_neg(s->geometric));
+        cut += send(f, &through);
+    }
+    back.weight = from->weight * reflection;
+    if (back.weight > 0) {
+        back.origin = reference_start(s, s->geometric);
+        back.direction = reference_mirrored(s, from->direction);
+        cut += send(f, &back);
+    }
+    return cut;
+}
+
+static struct reference_segment *log_segment(struct following *f, const struct branch *b) {
+    struct log *log = f->log;
+    if (!log || log->count++ >= log->capacity)
+        return NULL;
+    struct reference_segment *segment = &log->segments[log->count - 1];
+    *segment = (struct reference_segment){.kind = b->kind,
+                                          .parent = b->parent,
+                                          .depth = b->depth,
+                                          .weight = b->weight,
+                                          .origin = vec3_add(b->origin, f->r->origin),
+                                          .direction = b->direction,
+                                          .body = HIT_NONE,
+                                          .material = IR_NO_INDEX};
+    return segment;
+}
+
+static void log_surface(const struct following *f, struct reference_segment *segment, const struct surface *s,
+                        const struct lighting *lighting) {
+    if (!segment)
+        return;
+    segment->body = s->body;
+    segment->triangle = s->triangle;
+    segment->material = s->material;
+    segment->enters = s->enters;
+    segment->distance = s->distance;
+    segment->point = vec3_add(s->point, f->r->origin);
+    segment->geometric = s->geometric;
+    segment->shading = s->shading;
+    segment->considered = lighting->considered;
+    segment->lit = lighting->lit;
+    segment->radiance = lighting->sum;
+}
+
+static void follow_ray(struct following *f, const struct branch *b) {
+    struct ray ray = {b->origin, b->direction, INFINITY};
+    struct meeting met;
+    struct reference_segment *segment = log_segment(f, b);
+    f->sample->rays[b->kind]++;
+    if (b->depth > f->sample->deepest)
+        f->sample->deepest = b->depth;
+    reference_meet(f->r, &ray, &met);
+    if (met.primitive == NO_PRIMITIVE) {
+        vec3 seen = reference_background(f->r, b->direction);
+        add(f, seen, b->weight);
+        if (segment)
+            segment->radiance = seen;
+        return;
+    }
+    struct surface s;
+    struct lighting lighting;
+    reference_surface(f->r, &ray, &met, &s);
+    reference_light(f->r, &s, b->direction, &lighting);
+    f->sample->body = s.body;
+    f->sample->triangle = s.triangle;
+    f->sample->shadow += lighting.shadow_rays;
+    see(f, lighting.sum);
+    add(f, lighting.sum, b->weight);
+    log_surface(f, segment, &s, &lighting);
+    bool total;
+    double cut = send_rays(f, b, &s, f->log ? f->log->count - 1 : 0, &total);
+    if (segment) {
+        segment->total_reflection = total;
+        segment->cut_weight = cut;
+    }
+}
+
+static uint64_t rays_of(const struct sample *s) {
+    return s->rays[0] + s->rays[1] + s->rays[2] + s->shadow;
+}
+
+void reference_follow(const struct reference *r, const struct reference_settings *settings, vec3 direction,
+                      struct queue *queue, struct log *log, struct sample *out) {
+    struct following f = {r, settings, queue, log, out};
+    struct branch first = {.direction = direction, .weight = 1, .parent = REFERENCE_NO_SEGMENT};
+    *out = (struct sample){.body = HIT_NONE};
+    queue->count = 0;
+    queue->heaviest_first = !settings->as_file;
+    push(queue, &first);
+    while (queue->count && !queue->failed) {
+        struct branch next = pop(queue);
+        if (rays_of(out) < settings->segments) {
+            follow_ray(&f, &next);
+            continue;
+        }
+        out->cut_by_segments++;
+        out->left_weight += next.weight;
+    }
+    out->over_segments = settings->as_file && (out->cut_by_segments > 0 || rays_of(out) > settings->segments);
+    see(&f, out->radiance);
+}

@@ -1,0 +1,342 @@
+#include "reference/reference.h"
+
+#include "core/clock.h"
+#include "core/parallel.h"
+#include "reference/parts.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+
+enum {
+    TILE = 16 // pixels a side
+};
+
+// ---- making
+
+static bool fill(struct reference *r) {
+    struct arena_guard guard;
+    arena_set_guard(&r->arena, &guard);
+    bool made = setjmp(guard.jump) == 0;
+    if (made) {
+        reference_make_bodies(r);
+        reference_make_background(r);
+    }
+    arena_set_guard(&r->arena, NULL);
+    return made && reference_make_tree(r);
+}
+
+struct reference *reference_create(const struct reference_input *input) {
+    struct reference *r = malloc(sizeof *r);
+    if (!r)
+        return NULL;
+    *r = (struct reference){.input = *input, .origin = input->view->camera.position};
+    arena_init(&r->arena, SIZE_MAX);
+    if (fill(r))
+        return r;
+    reference_destroy(r);
+    return NULL;
+}
+
+void reference_destroy(struct reference *r) {
+    if (!r)
+        return;
+    arena_finish(&r->arena);
+    free(r->primitives);
+    free(r->nodes);
+    free(r);
+}
+
+struct reference_settings reference_settings_of(const struct ir_scene *scene, const struct ir_image *image,
+                                                const struct limits *limits, bool as_file) {
+    const struct ir_trace *trace = &scene->trace;
+    return (struct reference_settings){
+        .width = (uint32_t)image->width,
+        .height = (uint32_t)image->height,
+        .samples = (uint32_t)image->samples,
+        .max_depth = as_file ? (uint32_t)trace->max_depth : REFERENCE_MAX_DEPTH,
+        .min_weight = as_file ? trace->min_weight : REFERENCE_MIN_WEIGHT,
+        .cut_sees_background = as_file && trace->depth_limit == IR_DEPTH_BACKGROUND,
+        .segments = limits->value[as_file ? LIMIT_PATH_SEGMENTS : LIMIT_REFERENCE_SEGMENTS],
+        .as_file = as_file};
+}
+
+// ---- single rays
+
+vec3 reference_camera_ray(const struct reference *r, const struct reference_settings *settings, uint32_t x,
+                          uint32_t y, uint32_t sample) {
+    const struct view_camera *camera = &r->input.view->camera;
+    double a, b;
+    view_sample_offset(sample, &a, &b);
+    double right = (2 * (x + a) / settings->width - 1) * ((double)settings->width / settings->height);
+    double up = 1 - 2 * (y + b) / settings->height;
+    vec3 across = vec3_add(vec3_mul(camera->right, right), vec3_mul(camera->up, up));
+    return vec3_unit(vec3_add(camera->forward, vec3_mul(across, camera->tan_half_fov)));
+}
+
+void reference_closest(const struct reference *r, vec3 origin, vec3 direction, double t_max,
+                       struct reference_hit *hit) {
+    struct ray ray = {vec3_sub(origin, r->origin), direction, t_max};
+    struct meeting met;
+    struct surface s;
+    *hit = (struct reference_hit){.body = HIT_NONE, .material = IR_NO_INDEX};
+    reference_meet(r, &ray, &met);
+    if (met.primitive == NO_PRIMITIVE)
+        return;
+    reference_surface(r, &ray, &met, &s);
+    vec3 behind = reference_start(&s, vec3_neg(s.geometric));
+    *hit = (struct reference_hit){.body = s.body,
+                                  .triangle = s.triangle,
+                                  .t = s.distance,
+                                  .b1 = s.b1,
+                                  .b2 = s.b2,
+                                  .point = vec3_add(s.point, r->origin),
+                                  .geometric = s.geometric,
+                                  .shading = s.shading,
+                                  .enters = s.enters,
+                                  .material = s.material,
+                                  .start_back = vec3_add(reference_start(&s, s.geometric), r->origin),
+                                  .start_through = vec3_add(behind, r->origin)};
+}
+
+bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, double t_max) {
+    struct ray ray = {vec3_sub(origin, r->origin), direction, t_max};
+    return reference_blocks(r, &ray);
+}
+
+uint32_t reference_log(const struct reference *r, const struct reference_settings *settings, uint32_t x,
+                       uint32_t y, uint32_t sample, struct reference_segment *segments, uint32_t capacity,
+                       vec3 *radiance) {
+    struct queue queue = {0};
+    struct log log = {segments, capacity, 0};
+    struct sample out;
+    reference_follow(r, settings, reference_camera_ray(r, settings, x, y, sample), &queue, &log, &out);
+    bool failed = queue.failed;
+    reference_queue_finish(&queue);
+    if (radiance)
+        *radiance = out.radiance;
+    return failed ? 0 : log.count;
+}
+
+// ---- pictures
+
+// What a tile adds to the statistics.
+struct tile_sum {
+    struct sample sum; // of the counts; largest of `deepest` and `brightest`
+    double left_weight_most, left_weight;
+    struct reference_fault not_finite, over_segments;
+};
+
+struct work {
+    const struct reference *r;
+    const struct reference_settings *settings;
+    double *rgb;            // a picture, or
+    struct hit_pixel *hits; // what first rays meet
+    struct tile_sum *tiles;
+    uint32_t tiles_x;
+    const struct reference_progress *progress;
+    size_t pixels;
+    atomic_size_t done;
+    atomic_bool cancelled, failed;
+    atomic_flag reporting;
+};
+
+// One thread at a time tells how far the work is; the others go on.
+static void tell(struct work *w, size_t pixels) {
+    atomic_fetch_add(&w->done, pixels);
+    if (!w->progress || atomic_flag_test_and_set(&w->reporting))
+        return;
+    // Read here, so that what is told never goes back.
+    size_t done = atomic_load(&w->done);
+    if (!w->progress->report(w->progress->context, (double)done / (double)w->pixels))
+        atomic_store(&w->cancelled, true);
+    atomic_flag_clear(&w->reporting);
+}
+
+static void note_fault(struct reference_fault *fault, uint32_t x, uint32_t y, const struct sample *s) {
+    if (fault->pixels++ == 0)
+        *fault = (struct reference_fault){1, x, y, s->body, s->triangle};
+}
+
+static bool is_finite(vec3 v) {
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+static void add_sample(struct tile_sum *t, const struct sample *s) {
+    for (int k = 0; k < 3; k++)
+        t->sum.rays[k] += s->rays[k];
+    t->sum.shadow += s->shadow;
+    t->sum.total_reflections += s->total_reflections;
+    t->sum.cut_by_depth += s->cut_by_depth;
+    t->sum.cut_by_weight += s->cut_by_weight;
+    t->sum.cut_by_segments += s->cut_by_segments;
+    if (s->deepest > t->sum.deepest)
+        t->sum.deepest = s->deepest;
+    t->sum.brightest = fmax(t->sum.brightest, s->brightest);
+}
+
+static void draw_pixel(const struct work *w, uint32_t x, uint32_t y, struct queue *queue,
+                       struct tile_sum *tile) {
+    const struct reference_settings *settings = w->settings;
+    vec3 sum = {0, 0, 0};
+    double left = 0;
+    bool not_finite = false;
+    bool over_segments = false;
+    struct sample sample;
+    for (uint32_t n = 0; n < settings->samples && !queue->failed; n++) {
+        vec3 direction = reference_camera_ray(w->r, settings, x, y, n);
+        reference_follow(w->r, settings, direction, queue, NULL, &sample);
+        bool bad = !is_finite(sample.radiance);
+        sum = bad ? (vec3){NAN, NAN, NAN} : vec3_add(sum, sample.radiance);
+        if (bad && !not_finite)
+            note_fault(&tile->not_finite, x, y, &sample);
+        if (sample.over_segments && !over_segments)
+            note_fault(&tile->over_segments, x, y, &sample);
+        not_finite |= bad;
+        over_segments |= sample.over_segments;
+        left += sample.left_weight;
+        add_sample(tile, &sample);
+    }
+    left /= settings->samples;
+    tile->left_weight_most = fmax(tile->left_weight_most, left);
+    tile->left_weight += left;
+    double *rgb = w->rgb + 3 * ((size_t)y * settings->width + x);
+    rgb[0] = sum.x / settings->samples;
+    rgb[1] = sum.y / settings->samples;
+    rgb[2] = sum.z / settings->samples;
+}
+
+// The body that a ray from a surface meets.
+static uint32_t body_ahead(const struct reference *r, vec3 origin, vec3 direction) {
+    struct ray ray = {origin, direction, INFINITY};
+    struct meeting met;
+    reference_meet(r, &ray, &met);
+    return met.primitive == NO_PRIMITIVE ? HIT_NONE : r->primitives[met.primitive].body;
+}
+
+static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
+    struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
+    struct ray ray = {{0, 0, 0}, direction, INFINITY};
+    struct meeting met;
+    struct surface s;
+    struct lighting lighting;
+    reference_meet(r, &ray, &met);
+    if (met.primitive == NO_PRIMITIVE)
+        return hit;
+    reference_surface(r, &ray, &met, &s);
+    reference_light(r, &s, direction, &lighting);
+    hit.body = s.body;
+    hit.triangle = s.triangle;
+    hit.considered = lighting.considered;
+    hit.lit = lighting.lit;
+    hit.distance = s.distance;
+    hit.normal = s.shading;
+    vec3 bent;
+    bool comes_through = s.refraction > 0 && reference_bent(&s, direction, &bent);
+    if (comes_through)
+        hit.refracted = body_ahead(r, reference_start(&s, vec3_neg(s.geometric)), bent);
+    // Total reflection gives the mirrored ray what the refracted one would have had.
+    if (s.reflection > 0 || (s.refraction > 0 && !comes_through))
+        hit.reflected = body_ahead(r, reference_start(&s, s.geometric), reference_mirrored(&s, direction));
+    return hit;
+}
+
+static void do_tile(struct work *w, size_t index) {
+    uint32_t width = w->settings->width;
+    uint32_t height = w->settings->height;
+    uint32_t left = (uint32_t)(index % w->tiles_x) * TILE;
+    uint32_t top = (uint32_t)(index / w->tiles_x) * TILE;
+    uint32_t right = width - left < TILE ? width : left + TILE;
+    uint32_t bottom = height - top < TILE ? height : top + TILE;
+    struct queue queue = {0};
+    for (uint32_t y = top; y < bottom; y++) {
+        for (uint32_t x = left; x < right; x++) {
+            if (atomic_load_explicit(&w->cancelled, memory_order_relaxed) || queue.failed)
+                break;
+            if (w->hits)
+                w->hits[(size_t)y * width + x] =
+                    first_hit(w->r, reference_camera_ray(w->r, w->settings, x, y, 0));
+            else
+                draw_pixel(w, x, y, &queue, &w->tiles[index]);
+        }
+        tell(w, right - left);
+    }
+    if (queue.failed)
+        atomic_store(&w->failed, true);
+    reference_queue_finish(&queue);
+}
+
+static void do_tiles(void *context, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; i++)
+        do_tile(context, i);
+}
+
+static void join_fault(struct reference_fault *all, const struct reference_fault *part) {
+    if (part->pixels == 0)
+        return;
+    uint32_t pixels = all->pixels + part->pixels;
+    if (all->pixels == 0 || part->y < all->y || (part->y == all->y && part->x < all->x))
+        *all = *part;
+    all->pixels = pixels;
+}
+
+static struct reference_statistics join_tiles(const struct work *w, size_t count) {
+    struct tile_sum all = {0};
+    for (size_t i = 0; i < count; i++) {
+        const struct tile_sum *t = &w->tiles[i];
+        add_sample(&all, &t->sum);
+        all.left_weight_most = fmax(all.left_weight_most, t->left_weight_most);
+        all.left_weight += t->left_weight;
+        join_fault(&all.not_finite, &t->not_finite);
+        join_fault(&all.over_segments, &t->over_segments);
+    }
+    const struct sample *s = &all.sum;
+    double brightest = fmax(s->brightest, w->r->background_brightest);
+    return (struct reference_statistics){.primary = s->rays[REFERENCE_PRIMARY],
+                                         .reflected = s->rays[REFERENCE_REFLECTED],
+                                         .refracted = s->rays[REFERENCE_REFRACTED],
+                                         .shadow = s->shadow,
+                                         .total_reflections = s->total_reflections,
+                                         .cut_by_depth = s->cut_by_depth,
+                                         .cut_by_weight = s->cut_by_weight,
+                                         .cut_by_segments = s->cut_by_segments,
+                                         .deepest = s->deepest,
+                                         .left_weight_most = all.left_weight_most,
+                                         .left_weight_mean = all.left_weight / (double)w->pixels,
+                                         .brightest = brightest,
+                                         .bound = all.left_weight_most * brightest,
+                                         .not_finite = all.not_finite,
+                                         .over_segments = all.over_segments};
+}
+
+static enum reference_result run(struct work *w, struct reference_statistics *statistics) {
+    double start = clock_seconds();
+    w->tiles_x = (w->settings->width + TILE - 1) / TILE;
+    size_t count = (size_t)w->tiles_x * ((w->settings->height + TILE - 1) / TILE);
+    w->pixels = (size_t)w->settings->width * w->settings->height;
+    w->tiles = calloc(count, sizeof *w->tiles);
+    if (!w->tiles)
+        return REFERENCE_NO_MEMORY;
+    atomic_flag_clear(&w->reporting);
+    parallel_for(count, 1, do_tiles, w);
+    if (statistics) {
+        *statistics = join_tiles(w, count);
+        statistics->seconds = clock_seconds() - start;
+    }
+    free(w->tiles);
+    return atomic_load(&w->failed)      ? REFERENCE_NO_MEMORY
+           : atomic_load(&w->cancelled) ? REFERENCE_CANCELLED
+                                        : REFERENCE_DONE;
+}
+
+enum reference_result reference_render(const struct reference *r, const struct reference_settings *settings,
+                                       double *rgb, const struct reference_progress *progress,
+                                       struct reference_statistics *statistics) {
+    struct work work = {.r = r, .settings = settings, .rgb = rgb, .progress = progress};
+    return run(&work, statistics);
+}
+
+enum reference_result reference_hits(const struct reference *r, const struct reference_settings *settings,
+                                     struct hit_pixel *hits, const struct reference_progress *progress) {
+    struct work work = {.r = r, .settings = settings, .hits = hits, .progress = progress};
+    return run(&work, NULL);
+}

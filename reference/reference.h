@@ -1,0 +1,163 @@
+// The reference: an independent tracer in double precision on the processor, by which the other is measured.
+//
+// Input: a scene's IR, its assets (the double meshes) and the view; never anything flattened. It has its own
+// tree, its own intersections and its own shading, written from the language alone. Results do not depend on
+// the number of threads. Geometry is kept relative to the camera's position, so that a scene far from 0 loses
+// nothing. Positions that come in or go out are in scene units, relative to the scene's own origin.
+// Ownership: scene, assets and view must outlive the reference. Errors: NULL or REFERENCE_NO_MEMORY where
+// memory ends; values that are not finite are counted and are no error here.
+// Thread safety: immutable once made; all calls may run at the same time.
+#ifndef GLINT_REFERENCE_REFERENCE_H
+#define GLINT_REFERENCE_REFERENCE_H
+
+#include "assets/assets.h"
+#include "core/limits.h"
+#include "scene/hits.h"
+#include "scene/view.h"
+
+// Changes with every change of what the reference computes: cached pictures of other versions are not used.
+#define REFERENCE_VERSION 3
+
+// How far paths are followed where the file is not to be obeyed.
+#define REFERENCE_MIN_WEIGHT 1e-6
+#define REFERENCE_MAX_DEPTH  200
+#define REFERENCE_NO_SEGMENT UINT32_MAX
+
+enum reference_test {
+    REFERENCE_WATERTIGHT,       // Woop, Benthin, Wald 2013
+    REFERENCE_MOELLER_TRUMBORE, // 1997; to test the other against
+};
+
+struct reference_input {
+    const struct ir_scene *scene;
+    const struct assets *assets;
+    const struct view *view;
+    enum reference_test test;
+    bool no_tree; // every primitive is tested; to test the tree against
+};
+
+struct reference_settings {
+    uint32_t width, height;   // pixels
+    uint32_t samples;         // per pixel, at least 1
+    uint32_t max_depth;       // a surface this deep sends no ray
+    double min_weight;        // rays of less are not followed
+    bool cut_sees_background; // what a ray sees that max_depth cut; else nothing
+    // Rays, shadow rays counted, that one sample may take. Where they end, as_file reports a fault; else the
+    // rays not followed count among the weight left.
+    uint64_t segments;
+    bool as_file; // depth-first; else the heaviest ray first, so that little is left when segments end
+};
+
+// as_file: max_depth, min_weight and depth_limit of the file, LIMIT_PATH_SEGMENTS. Else weight 1e-6, depth
+// 200 and LIMIT_REFERENCE_SEGMENTS. Size and samples are those of `image`.
+struct reference_settings reference_settings_of(const struct ir_scene *scene, const struct ir_image *image,
+                                                const struct limits *limits, bool as_file);
+
+struct reference_fault {
+    uint32_t pixels; // how many; the rest is about the first of them, by rows
+    uint32_t x, y;
+    uint32_t body; // last met in IR order; HIT_NONE: none
+    uint32_t triangle;
+};
+
+struct reference_statistics {
+    uint64_t primary, reflected, refracted, shadow; // rays traced
+    uint64_t total_reflections;
+    uint64_t cut_by_depth, cut_by_weight, cut_by_segments; // rays not followed
+    uint32_t deepest;
+    // Weight of the rays not followed, summed over a pixel and divided by its samples: of the worst pixel,
+    // and the mean over all.
+    double left_weight_most, left_weight_mean;
+    double brightest; // of anything in view: background, direct light of a surface, pixel; one channel
+    // left_weight_most * brightest: what following all rays could add to a pixel, unless they meet something
+    // brighter than all that was met.
+    double bound;
+    struct reference_fault not_finite;    // the pixel is NaN
+    struct reference_fault over_segments; // as_file: part of the pixel's light is missing
+    double seconds;
+};
+
+// `report` is called from any thread, one call at a time, with what is done, 0..1; false ends the work.
+struct reference_progress {
+    bool (*report)(void *context, double fraction);
+    void *context;
+};
+
+enum reference_result {
+    REFERENCE_DONE,
+    REFERENCE_CANCELLED,
+    REFERENCE_NO_MEMORY,
+};
+
+struct reference;
+
+// NULL: no memory.
+struct reference *reference_create(const struct reference_input *input);
+void reference_destroy(struct reference *reference); // NULL does nothing
+
+// width * height * 3 linear values, rows from the top: the mean of the samples, before tone and transfer; NaN
+// in all three where a sample is not finite.
+// `progress` and `statistics` may be NULL.
+enum reference_result reference_render(const struct reference *reference,
+                                       const struct reference_settings *settings, double *rgb,
+                                       const struct reference_progress *progress,
+                                       struct reference_statistics *statistics);
+// width * height records: what sample 0 of each pixel meets.
+enum reference_result reference_hits(const struct reference *reference,
+                                     const struct reference_settings *settings, struct hit_pixel *hits,
+                                     const struct reference_progress *progress);
+
+// ---- single rays
+
+struct reference_hit {
+    uint32_t body, triangle; // body HIT_NONE: nothing was hit
+    double t;                // in lengths of the direction
+    double b1, b2;           // weights of the triangle's second and third corner, as the file has them
+    vec3 point;
+    vec3 geometric;                 // unit, turned towards the ray
+    vec3 shading;                   // unit, on the same side
+    bool enters;                    // the ray comes from outside
+    uint32_t material;              // in assets.materials
+    vec3 start_back, start_through; // where a ray begins that leaves on the ray's side, on the other side
+};
+
+// The direction need not be unit; a hit has 0 < t < t_max.
+void reference_closest(const struct reference *reference, vec3 origin, vec3 direction, double t_max,
+                       struct reference_hit *hit);
+bool reference_occluded(const struct reference *reference, vec3 origin, vec3 direction, double t_max);
+// The ray of a pixel's sample, unit.
+vec3 reference_camera_ray(const struct reference *reference, const struct reference_settings *settings,
+                          uint32_t x, uint32_t y, uint32_t sample);
+
+// ---- one sample, ray by ray
+
+enum reference_kind {
+    REFERENCE_PRIMARY,
+    REFERENCE_REFLECTED,
+    REFERENCE_REFRACTED,
+};
+
+struct reference_segment {
+    enum reference_kind kind;
+    uint32_t parent; // index in the log; REFERENCE_NO_SEGMENT for the camera's ray
+    uint32_t depth;
+    double weight;
+    vec3 origin, direction;         // scene units; unit
+    uint32_t body, triangle;        // body HIT_NONE: the background
+    uint32_t material;              // in assets.materials; IR_NO_INDEX where nothing was hit
+    bool enters;                    // the ray comes from outside the body
+    bool total_reflection;          // the refracted ray was turned back
+    double distance;                // scene units; 0 where nothing was hit
+    vec3 point, geometric, shading; // as in reference_hit; 0 where nothing was hit
+    uint32_t considered, lit;       // as in struct hit_pixel
+    vec3 radiance; // direct light of the surface, or the background; times weight it is what the pixel gets
+    double cut_weight; // of the rays that this surface would have sent and that were not followed
+};
+
+// Follows sample `sample` of pixel x, y; gives the number of rays, of which the first `capacity` are written.
+// *radiance (may be NULL) is the sample's value. 0: no memory.
+uint32_t reference_log(const struct reference *reference, const struct reference_settings *settings,
+                       uint32_t x, uint32_t y, uint32_t sample, struct reference_segment *segments,
+                       uint32_t capacity, vec3 *radiance);
+
+#endif

@@ -1,0 +1,175 @@
+// What a ray met, and where light comes from that leaves it (LANGUAGE "Hit", "Checker").
+#include "reference/parts.h"
+
+static vec3 vertex(const struct primitive *p, int k) {
+    return (vec3){p->v[k][0], p->v[k][1], p->v[k][2]};
+}
+
+static vec3 absolute(vec3 v) {
+    return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)};
+}
+
+static vec3 weighted(const vec3 corners[3], const double b[3]) {
+    return vec3_add(vec3_add(vec3_mul(corners[0], b[0]), vec3_mul(corners[1], b[1])),
+                    vec3_mul(corners[2], b[2]));
+}
+
+// ---- materials
+
+// Parity of a sum of whole numbers too large for any integer type.
+static bool is_odd(double cells) {
+    return fmod(cells, 2) != 0;
+}
+
+static double cell_of(double place, double size) {
+    return floor(place / size);
+}
+
+// The place in the body's own coordinates, before its transform.
+static vec3 own_place(const struct body *body, const struct surface *s, const double b[3], vec3 arm) {
+    if (body->kind == BODY_SPHERE)
+        return arm;
+    if (body->kind == BODY_RECTANGLE) {
+        double along_u = s->triangle ? b[1] : b[1] + b[2];
+        double along_v = s->triangle ? b[1] + b[2] : b[2];
+        return (vec3){along_u * vec3_length(body->edge_u), along_v * vec3_length(body->edge_v), 0};
+    }
+    vec3 corners[3];
+    for (int k = 0; k < 3; k++)
+        corners[k] = body->mesh->positions[body->mesh->triangles[s->triangle].corners[k]];
+    return weighted(corners, b);
+}
+
+static void take_material(const struct reference *r, const struct body *body, const double b[3], vec3 arm,
+                          struct surface *s) {
+    s->material = body->kind == BODY_MODEL ? body->group_material[body->mesh->triangles[s->triangle].group]
+                                           : body->material;
+    const struct finish *f = &r->finishes[s->material];
+    bool odd = false;
+    if (f->checker) {
+        vec3 own = own_place(body, s, b, arm);
+        odd = is_odd(cell_of(own.x, f->cell) + cell_of(own.y, f->cell) + cell_of(own.z, f->cell));
+    }
+    s->diffuse = f->diffuse[odd];
+    s->specular = f->specular;
+    s->exponent = f->exponent;
+    s->reflection = f->reflection;
+    s->refraction = f->refraction;
+    s->index = f->index;
+    s->solid = body->solid;
+}
+
+// ---- normals
+
+// The interpolated unit normal on the side of the geometric one; that one where they cancel.
+static vec3 smooth_normal(const struct body *body, const struct surface *s, const double b[3]) {
+    vec3 normals[3];
+    for (int k = 0; k < 3; k++)
+        normals[k] =
+            vec3_unit(mat3_apply(body->normal_map, body->normals[3 * (size_t)s->triangle + (size_t)k]));
+    vec3 n = vec3_unit(weighted(normals, b));
+    if (vec3_is_zero(n))
+        return s->geometric;
+    return vec3_dot(n, s->geometric) < 0 ? vec3_neg(n) : n;
+}
+
+static void turn_to_ray(struct surface *s, vec3 outward, vec3 direction) {
+    s->enters = vec3_dot(outward, direction) <= 0;
+    s->geometric = s->enters ? outward : vec3_neg(outward);
+    s->shading = s->geometric;
+}
+
+// ---- surfaces
+
+static void sphere_surface(const struct ray *ray, const struct primitive *p, struct surface *s, vec3 *arm) {
+    vec3 centre = vertex(p, 0);
+    vec3 at = vec3_add(ray->origin, vec3_mul(ray->direction, s->distance));
+    vec3 outward = vec3_unit(vec3_sub(at, centre));
+    // Back onto the sphere: the error is then that of the radius, whatever the ray's length.
+    *arm = vec3_mul(outward, p->v[1][0]);
+    s->point = vec3_add(centre, *arm);
+    s->error = vec3_add(vec3_mul(absolute(*arm), REFERENCE_GAMMA(5)),
+                        vec3_mul(absolute(s->point), REFERENCE_GAMMA(1)));
+    turn_to_ray(s, outward, ray->direction);
+}
+
+static void triangle_surface(const struct body *body, const struct ray *ray, const struct primitive *p,
+                             const double b[3], struct surface *s) {
+    vec3 corners[3] = {vertex(p, 0), vertex(p, 1), vertex(p, 2)};
+    vec3 sizes[3];
+    for (int k = 0; k < 3; k++)
+        sizes[k] = absolute(corners[k]);
+    const double positive[3] = {fabs(b[0]), fabs(b[1]), fabs(b[2])};
+    s->point = weighted(corners, b);
+    s->error = vec3_mul(weighted(sizes, positive), REFERENCE_GAMMA(7));
+    vec3 outward = vec3_unit(vec3_cross(vec3_sub(corners[1], corners[0]), vec3_sub(corners[2], corners[0])));
+    turn_to_ray(s, body->mirrors ? vec3_neg(outward) : outward, ray->direction);
+    if (body->normals)
+        s->shading = smooth_normal(body, s, b);
+}
+
+void reference_surface(const struct reference *r, const struct ray *ray, const struct meeting *met,
+                       struct surface *out) {
+    const struct primitive *p = &r->primitives[met->primitive];
+    const struct body *body = &r->bodies[p->body];
+    const double b[3] = {1 - met->b1 - met->b2, met->b1, met->b2};
+    vec3 arm = {0, 0, 0};
+    *out = (struct surface){
+        .body = p->body, .triangle = p->triangle, .distance = met->t, .b1 = met->b1, .b2 = met->b2};
+    if (body->kind == BODY_SPHERE)
+        sphere_surface(ray, p, out, &arm);
+    else
+        triangle_surface(body, ray, p, b, out);
+    take_material(r, body, b, arm, out);
+}
+
+// ---- rays that leave
+
+// Displaced by the point's error, then one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not
+// only by the error along the normal: that along the surface can carry the point across an edge.
+vec3 reference_start(const struct surface *s, vec3 side) {
+    vec3 size = absolute(side);
+    double distance = fmax(vec3_dot(size, s->error), vec3_max_abs(s->error));
+    vec3 shift = vec3_mul(side, distance);
+    vec3 at = vec3_add(s->point, shift);
+    if (shift.x != 0)
+        at.x = nextafter(at.x, shift.x > 0 ? INFINITY : -INFINITY);
+    if (shift.y != 0)
+        at.y = nextafter(at.y, shift.y > 0 ? INFINITY : -INFINITY);
+    if (shift.z != 0)
+        at.z = nextafter(at.z, shift.z > 0 ? INFINITY : -INFINITY);
+    return at;
+}
+
+static vec3 mirror(vec3 d, vec3 n) {
+    return vec3_sub(d, vec3_mul(n, 2 * vec3_dot(d, n)));
+}
+
+vec3 reference_mirrored(const struct surface *s, vec3 direction) {
+    vec3 out = mirror(direction, s->shading);
+    if (vec3_dot(out, s->geometric) <= 0)
+        out = mirror(direction, s->geometric);
+    return vec3_unit(out);
+}
+
+// k < 0: nothing comes through.
+static double bend(vec3 d, vec3 n, double eta, vec3 *out) {
+    double c = -vec3_dot(d, n);
+    double k = 1 - eta * eta * (1 - c * c);
+    if (k >= 0)
+        *out = vec3_add(vec3_mul(d, eta), vec3_mul(n, eta * c - sqrt(k)));
+    return k;
+}
+
+bool reference_bent(const struct surface *s, vec3 direction, vec3 *out) {
+    double eta = s->enters ? 1 / s->index : s->index;
+    *out = direction;
+    if (!s->solid || eta == 1)
+        return true;
+    bool flat = vec3_dot(direction, s->shading) >= 0;
+    double k = bend(direction, flat ? s->geometric : s->shading, eta, out);
+    if (k >= 0 && vec3_dot(*out, s->geometric) >= 0)
+        k = bend(direction, s->geometric, eta, out);
+    *out = vec3_unit(*out);
+    return k >= 0;
+}

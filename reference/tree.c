@@ -1,0 +1,328 @@
+// The reference's own tree: binary, boxes in double, split by the surface area heuristic in bins (Wald 2007,
+// "On fast Construction of SAH-based Bounding Volume Hierarchies").
+//
+// A range of n items has 2n - 1 nodes at most, its first child's behind its own node, then its second's: so
+// every node's place is known before its children are built, and the tree does not depend on threads.
+#include "core/heap.h"
+#include "core/parallel.h"
+#include "reference/parts.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+enum {
+    PIECE = 4096,
+    BINS = 16,
+    LEAF_MOST = 4,
+    DEPTH_MOST = 64,   // below, ranges are halved: 32 levels more at most
+    TASK_ITEMS = 8192, // ranges of less are built by one thread
+};
+
+// Boxes grow by this part of their largest coordinate: the triangle test's rounding must not see what the
+// box test does not.
+#define BOX_PAD 0x1p-49
+
+struct box {
+    double lower[3], upper[3];
+};
+
+struct item {
+    struct box box;
+    uint32_t number; // in IR order
+    bool is_empty;   // no area
+};
+
+struct range {
+    size_t begin, end; // items
+    size_t node;
+    uint32_t depth;
+};
+
+struct building {
+    struct reference *r;
+    struct item *items;
+    struct tree_node *nodes;
+    struct range *tasks;
+    uint32_t task_count, task_capacity;
+};
+
+// ---- items
+
+static void put_box(struct item *item, const struct primitive *p, bool is_sphere) {
+    double most = 0;
+    for (int a = 0; a < 3; a++) {
+        double radius = is_sphere ? p->v[1][0] : 0;
+        double least = p->v[0][a];
+        double greatest = p->v[0][a];
+        for (int k = 1; k < 3 && !is_sphere; k++) {
+            least = fmin(least, p->v[k][a]);
+            greatest = fmax(greatest, p->v[k][a]);
+        }
+        item->box.lower[a] = least - radius;
+        item->box.upper[a] = greatest + radius;
+        most = fmax(most, fmax(fabs(item->box.lower[a]), fabs(item->box.upper[a])));
+    }
+    for (int a = 0; a < 3; a++) {
+        item->box.lower[a] -= most * BOX_PAD;
+        item->box.upper[a] += most * BOX_PAD;
+    }
+}
+
+// The last body that begins no later: those without primitives end before the one whose number they share.
+static const struct body *body_of(const struct reference *r, uint32_t number) {
+    uint32_t low = 0;
+    uint32_t high = r->body_count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (r->bodies[middle].first_primitive <= number)
+            low = middle;
+        else
+            high = middle;
+    }
+    return &r->bodies[low];
+}
+
+static void make_items(void *context, size_t begin, size_t end) {
+    struct building *b = context;
+    const struct body *body = body_of(b->r, (uint32_t)begin);
+    for (size_t i = begin; i < end; i++) {
+        struct primitive p;
+        while (i - body->first_primitive >= body->primitive_count)
+            body++;
+        b->items[i].number = (uint32_t)i;
+        b->items[i].is_empty = !reference_make_primitive(b->r, body, (uint32_t)i - body->first_primitive, &p);
+        put_box(&b->items[i], &p, body->kind == BODY_SPHERE);
+    }
+}
+
+static void gather(void *context, size_t begin, size_t end) {
+    const struct building *b = context;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t number = b->items[i].number;
+        const struct body *body = body_of(b->r, number);
+        reference_make_primitive(b->r, body, number - body->first_primitive, &b->r->primitives[i]);
+    }
+}
+
+// ---- splitting
+
+static struct box no_box(void) {
+    return (struct box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+}
+
+static void join(struct box *box, const struct box *other) {
+    for (int a = 0; a < 3; a++) {
+        box->lower[a] = reference_smaller(box->lower[a], other->lower[a]);
+        box->upper[a] = reference_larger(box->upper[a], other->upper[a]);
+    }
+}
+
+static double centre(const struct item *item, int axis) {
+    return 0.5 * item->box.lower[axis] + 0.5 * item->box.upper[axis];
+}
+
+// Half the area, as a part of a box of this size: no overflow.
+static double area(const struct box *box, double size) {
+    double d[3];
+    for (int a = 0; a < 3; a++)
+        d[a] = (box->upper[a] - box->lower[a]) / size;
+    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+}
+
+struct cut {
+    int axis;
+    double from, scale; // bin = (centre - from) * scale
+    int bin;            // the first of the right side
+};
+
+static int bin_of(const struct cut *cut, const struct item *item) {
+    double place = (centre(item, cut->axis) - cut->from) * cut->scale;
+    return place >= BINS - 1 ? BINS - 1 : place > 0 ? (int)place : 0;
+}
+
+// The best bin to begin the right side with, and its cost; no split where all lie in one bin.
+static double best_bin(const struct building *b, struct range range, double size, struct cut *cut) {
+    struct box boxes[BINS];
+    size_t counts[BINS] = {0};
+    for (int i = 0; i < BINS; i++)
+        boxes[i] = no_box();
+    for (size_t i = range.begin; i < range.end; i++) {
+        int bin = bin_of(cut, &b->items[i]);
+        counts[bin]++;
+        join(&boxes[bin], &b->items[i].box);
+    }
+    double right_cost[BINS];
+    struct box box = no_box();
+    size_t count = 0;
+    for (int i = BINS - 1; i > 0; i--) {
+        join(&box, &boxes[i]);
+        count += counts[i];
+        right_cost[i] = count ? area(&box, size) * (double)count : INFINITY;
+    }
+    double best = INFINITY;
+    box = no_box();
+    count = 0;
+    for (int i = 1; i < BINS; i++) {
+        join(&box, &boxes[i - 1]);
+        count += counts[i - 1];
+        double cost = count ? area(&box, size) * (double)count + right_cost[i] : INFINITY;
+        if (cost < best) {
+            best = cost;
+            cut->bin = i;
+        }
+    }
+    return best;
+}
+
+static size_t partition(const struct building *b, struct range range, const struct cut *cut) {
+    size_t left = range.begin;
+    for (size_t i = range.begin; i < range.end; i++) {
+        if (bin_of(cut, &b->items[i]) >= cut->bin)
+            continue;
+        struct item swapped = b->items[left];
+        b->items[left++] = b->items[i];
+        b->items[i] = swapped;
+    }
+    return left;
+}
+
+// Fills the node's box and gives where the range is split.
+static size_t split(const struct building *b, struct range range) {
+    struct tree_node *node = &b->nodes[range.node];
+    struct box box = no_box();
+    struct box centres = no_box();
+    for (size_t i = range.begin; i < range.end; i++) {
+        const struct item *item = &b->items[i];
+        join(&box, &item->box);
+        for (int a = 0; a < 3; a++) {
+            double at = centre(item, a);
+            centres.lower[a] = reference_smaller(centres.lower[a], at);
+            centres.upper[a] = reference_larger(centres.upper[a], at);
+        }
+    }
+    double size = 0;
+    for (int a = 0; a < 3; a++) {
+        node->lower[a] = box.lower[a];
+        node->upper[a] = box.upper[a];
+        size = fmax(size, box.upper[a] - box.lower[a]);
+    }
+    size_t half = range.begin + (range.end - range.begin) / 2;
+    if (range.depth >= DEPTH_MOST || range.end - range.begin <= LEAF_MOST)
+        return half;
+    struct cut best = {.axis = -1};
+    double least = INFINITY;
+    for (int a = 0; a < 3; a++) {
+        double spread = centres.upper[a] - centres.lower[a];
+        struct cut cut = {.axis = a, .from = centres.lower[a], .scale = BINS / spread};
+        if (!(spread > 0) || !isfinite(cut.scale))
+            continue;
+        double cost = best_bin(b, range, size, &cut);
+        if (cost < least) {
+            least = cost;
+            best = cut;
+        }
+    }
+    return best.axis < 0 ? half : partition(b, range, &best);
+}
+
+// Makes the node of a range; false: it is a leaf.
+static bool open_node(const struct building *b, struct range range, struct range children[2]) {
+    struct tree_node *node = &b->nodes[range.node];
+    size_t count = range.end - range.begin;
+    size_t middle = split(b, range);
+    if (count <= LEAF_MOST) {
+        node->second = (uint32_t)range.begin;
+        node->count = (uint32_t)count;
+        return false;
+    }
+    size_t second = range.node + 2 * (middle - range.begin);
+    children[0] = (struct range){range.begin, middle, range.node + 1, range.depth + 1};
+    children[1] = (struct range){middle, range.end, second, range.depth + 1};
+    node->second = (uint32_t)second;
+    node->count = 0;
+    return true;
+}
+
+// ---- the whole
+
+static void build_range(const struct building *b, struct range range) {
+    struct range stack[TREE_STACK];
+    int count = 0;
+    stack[count++] = range;
+    while (count) {
+        struct range children[2];
+        struct range top = stack[--count];
+        if (!open_node(b, top, children))
+            continue;
+        assert(count + 2 <= TREE_STACK);
+        stack[count++] = children[1];
+        stack[count++] = children[0];
+    }
+}
+
+static void build_tasks(void *context, size_t begin, size_t end) {
+    const struct building *b = context;
+    for (size_t i = begin; i < end; i++)
+        build_range(b, b->tasks[i]);
+}
+
+static bool add_task(struct building *b, struct range range) {
+    struct range *tasks = heap_grow(b->tasks, b->task_count, &b->task_capacity, sizeof *tasks);
+    if (!tasks)
+        return false;
+    b->tasks = tasks;
+    b->tasks[b->task_count++] = range;
+    return true;
+}
+
+// Large ranges are split here, the rest by all threads.
+static bool build(struct building *b, size_t count) {
+    struct range stack[TREE_STACK];
+    int height = 0;
+    stack[height++] = (struct range){.end = count};
+    while (height) {
+        struct range children[2];
+        struct range top = stack[--height];
+        if (top.end - top.begin <= TASK_ITEMS) {
+            if (!add_task(b, top))
+                return false;
+        } else if (open_node(b, top, children)) {
+            assert(height + 2 <= TREE_STACK);
+            stack[height++] = children[1];
+            stack[height++] = children[0];
+        }
+    }
+    parallel_for(b->task_count, 1, build_tasks, b);
+    return true;
+}
+
+static bool make(struct building *b) {
+    struct reference *r = b->r;
+    uint32_t total = r->primitive_count;
+    b->items = malloc(total * sizeof *b->items);
+    if (!b->items)
+        return false;
+    parallel_for(total, PIECE, make_items, b);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < total; i++)
+        if (!b->items[i].is_empty)
+            b->items[count++] = b->items[i];
+    r->primitive_count = count;
+    if (count == 0)
+        return true;
+    r->nodes = b->nodes = malloc(2 * (size_t)count * sizeof *b->nodes);
+    if (!b->nodes || !build(b, count))
+        return false;
+    r->primitives = malloc((size_t)count * sizeof *r->primitives);
+    if (r->primitives)
+        parallel_for(count, PIECE, gather, b);
+    return r->primitives != NULL;
+}
+
+bool reference_make_tree(struct reference *r) {
+    struct building b = {.r = r};
+    bool made = r->primitive_count == 0 || make(&b);
+    free(b.items);
+    free(b.tasks);
+    return made;
+}

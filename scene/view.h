@@ -1,0 +1,55 @@
+// Camera and lights in double precision, automatic ones included: the same for GPU and reference.
+//
+// What the IR and the loaded meshes together say about where one looks from and what shines.
+// Ownership: names point into the IR; lights in the caller's arena.
+#ifndef GLINT_SCENE_VIEW_H
+#define GLINT_SCENE_VIEW_H
+
+#include "assets/assets.h"
+
+struct view_camera {
+    str name;
+    vec3 position;           // scene units
+    vec3 right, up, forward; // orthonormal
+    double tan_half_fov;     // of the vertical field
+    bool automatic;
+};
+
+struct view_light {
+    bool directional;
+    vec3 position; // scene units; zero where directional
+    vec3 to_light; // unit; zero where positional
+    vec3 emission; // intensity times colour, linear
+    bool inverse_square;
+    bool automatic;
+    uint32_t index; // in scene.lights; IR_NO_INDEX where automatic
+};
+
+struct view {
+    struct view_camera camera;
+    struct view_light *lights;
+    uint32_t light_count;
+};
+
+// #rrggbb is a displayed colour: /255 with transfer none, decoded from sRGB with srgb (IEC 61966-2-1).
+vec3 view_linear_color(struct ir_color color, unsigned transfer);
+// sRGB decoding of one value in 0..1.
+double view_srgb_decode(double value);
+
+// The affine map of a model, T·Rz·Ry·Rx·S, in double.
+affine3 view_model_transform(const struct ir_model *model);
+// Rz·Ry·Rx of angles in degrees; exact for multiples of 90.
+mat3 view_rotation(vec3 degrees);
+// Box around all bodies in scene units; false where there are none.
+bool view_bounds(const struct ir_scene *scene, const struct assets *assets, vec3 *lower, vec3 *upper);
+
+// The view through camera `camera_index` of the scene (0 where it has none: the automatic camera for an
+// image of width x height pixels). Notes N401 and N402 tell about automatic ones where `sink` is not NULL.
+void view_build(const struct ir_scene *scene, const struct assets *assets, uint32_t camera_index,
+                int32_t width, int32_t height, struct arena *arena, struct diag_sink *sink, struct view *out);
+
+// "A ray whose path ... offset of sample n": frac(1/2 + n/φ), frac(1/2 + n/φ²), φ = 1.32471795724474602596
+// (Roberts 2018, R2 sequence).
+void view_sample_offset(uint32_t n, double *a, double *b);
+
+#endif

@@ -1,0 +1,67 @@
+// The 8-wide compressed tree of shaders/gpu_scene.h over boxes: triangles, or spheres.
+//
+// A binary tree is built by binned surface area heuristic (Wald 2007) down to single items, collapsed to
+// eight children and leaves of at most three items at least expected cost (Ylitie, Karras, Laine 2017,
+// section 3), its children set into slots by octant for front-to-back order (section 3.2), and its boxes
+// quantised so that the decoding t = (p - o)/d + q * (2^e/d) in single precision never loses a hit.
+// The result depends on the items and their order alone, never on threads.
+//
+// Input: finite coordinates of magnitude up to BVH_COORDINATE_MAX. Item boxes must already be padded for
+// the error of the primitive's own test. Errors: false when memory ends; nothing else can fail.
+// Ownership: bvh_finish frees. Thread safety: a finished tree is immutable.
+#ifndef GLINT_TRACER_BVH_BVH_H
+#define GLINT_TRACER_BVH_BVH_H
+
+#include "tracer/gpu_word.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define BVH_COORDINATE_MAX 0x1p120f
+
+enum {
+    BVH_WIDTH = 8,
+    BVH_LEAF_ITEMS = 3,
+    BVH_DEPTH_MAX = 80, // levels that no input exceeds
+};
+
+struct bvh_item {
+    float lower[3];
+    uint32_t index; // the caller's; never looked at
+    float upper[3];
+    uint32_t spare;
+};
+
+enum bvh_method {
+    BVH_SAH,
+    BVH_MEDIAN, // halves along the longest axis: the baseline of bench/
+    // As BVH_SAH with leaves of at most two items, and of one: no tree shows in a picture, and tests prove
+    // it.
+    BVH_SAH_PAIRS,
+    BVH_SAH_SINGLES,
+};
+
+struct bvh {
+    struct gpu_word *nodes; // NODE_WORDS each; at least one node, which may be without children
+    uint32_t node_count;
+    uint32_t *order; // the items' `index` in the order of the leaves: what leaf item i of the nodes holds
+    uint32_t item_count;
+    uint32_t depth; // levels of nodes, at least 1: a traversal stack of this many entries suffices
+};
+
+// Builds the tree; `items` is working memory afterwards. count 0 gives a node without children.
+bool bvh_build(struct bvh_item *items, uint32_t count, enum bvh_method method, struct bvh *out);
+void bvh_finish(struct bvh *bvh);
+
+// What a tree is like: the cost is the expected number of nodes opened and items tested by a random ray
+// that hits the root's box, weighted BVH_COST_NODE and BVH_COST_ITEM, over the boxes as quantised.
+#define BVH_COST_NODE 1.0
+#define BVH_COST_ITEM 0.3
+struct bvh_quality {
+    double cost;
+    uint32_t nodes, leaves, items;
+    double children_per_node, items_per_leaf;
+};
+struct bvh_quality bvh_measure(const struct bvh *bvh);
+
+#endif

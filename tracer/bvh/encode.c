@@ -1,0 +1,163 @@
+#include "tracer/bvh/encode.h"
+
+#include "shaders/gpu_scene.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+static_assert(NODE_WORDS == 5, "the words below");
+
+enum {
+    EXPONENT_BIAS = 127,
+    EXPONENT_LEAST = -100, // smaller quanta would let 2^e / d leave the normal numbers
+    QUANTUM_LEAST = 32,    // and below 2^-32 of a coordinate the widening would be lost in double
+};
+
+// One axis of a node: planes lie at origin + q * 2^exponent, q in 0..255.
+struct axis_grid {
+    float origin;
+    int exponent;
+};
+
+static float float_below(double value) {
+    float rounded = (float)value;
+    return rounded > value ? nextafterf(rounded, -INFINITY) : rounded;
+}
+
+// The decoding (p - o)/d + q * (2^e/d) rounds p - o, the two products and the sum. What does not scale
+// with the whole term is below 3 * 255 * 2^-24 quanta; widening by 2^-12 of a quantum covers it, and the
+// scaled far distance covers the rest.
+static double widening(int exponent) {
+    return ldexp(1, exponent - 12);
+}
+
+static struct axis_grid axis_grid_make(double lower, double upper) {
+    double quantum = fmax((upper - lower) / 254, ldexp(fmax(fabs(lower), fabs(upper)), -QUANTUM_LEAST));
+    int exponent = EXPONENT_LEAST;
+    if (quantum > ldexp(1, EXPONENT_LEAST)) {
+        exponent = ilogb(quantum);
+        if (ldexp(1, exponent) < quantum)
+            exponent++;
+    }
+    for (;; exponent++) {
+        float origin = float_below(lower - widening(exponent));
+        if (ceil(ldexp(upper + widening(exponent) - origin, -exponent)) <= 255)
+            return (struct axis_grid){origin, exponent};
+    }
+}
+
+static uint32_t float_bits(float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static void put_byte(uint32_t pair[2], int slot, uint32_t byte) {
+    pair[slot / 4] |= byte << (slot % 4 * 8);
+}
+
+// Planes of an empty slot are turned inside out, so that no ray meets it.
+static void encode_axis(const struct wide_child slots[BVH_WIDTH], int axis, const struct axis_grid *grid,
+                        uint32_t low[2], uint32_t high[2]) {
+    double wide = widening(grid->exponent);
+    double per_quantum = ldexp(1, -grid->exponent);
+    for (int slot = 0; slot < BVH_WIDTH; slot++) {
+        uint32_t below = 255;
+        uint32_t above = 0;
+        if (slots[slot].count) {
+            const struct bvh_box *box = &slots[slot].box;
+            below = (uint32_t)floor((box->lower[axis] - wide - grid->origin) * per_quantum);
+            above = (uint32_t)ceil((box->upper[axis] + wide - grid->origin) * per_quantum);
+            assert(below <= above && above <= 255);
+        }
+        put_byte(low, slot, below);
+        put_byte(high, slot, above);
+    }
+}
+
+// Gives the mask of children that are nodes.
+static uint32_t encode_meta(const struct wide_child slots[BVH_WIDTH], uint32_t meta[2]) {
+    static const uint32_t unary[BVH_LEAF_ITEMS + 1] = {0, 1, 3, 7};
+    uint32_t mask = 0;
+    uint32_t offset = 0;
+    for (int slot = 0; slot < BVH_WIDTH; slot++) {
+        const struct wide_child *child = &slots[slot];
+        if (child->is_node) {
+            mask |= 1u << slot;
+            put_byte(meta, slot, 1u << 5 | (24u + (uint32_t)slot));
+        } else if (child->count) {
+            put_byte(meta, slot, unary[child->count] << 5 | offset);
+            offset += child->count;
+        }
+    }
+    return mask;
+}
+
+void encode_node(const struct wide_child slots[BVH_WIDTH], uint32_t first_node, uint32_t first_item,
+                 struct gpu_word words[NODE_WORDS]) {
+    struct axis_grid grid[3];
+    uint32_t low[3][2] = {{0}};
+    uint32_t high[3][2] = {{0}};
+    uint32_t meta[2] = {0};
+    struct bvh_box box = box_empty();
+    bool is_empty = true;
+    for (int slot = 0; slot < BVH_WIDTH; slot++)
+        if (slots[slot].count) {
+            box_grow(&box, slots[slot].box.lower, slots[slot].box.upper);
+            is_empty = false;
+        }
+    for (int axis = 0; axis < 3; axis++) {
+        grid[axis] = is_empty ? (struct axis_grid){0, 0} : axis_grid_make(box.lower[axis], box.upper[axis]);
+        encode_axis(slots, axis, &grid[axis], low[axis], high[axis]);
+    }
+    uint32_t mask = encode_meta(slots, meta);
+    uint32_t exponents = 0;
+    for (int axis = 0; axis < 3; axis++)
+        exponents |= (uint32_t)(grid[axis].exponent + EXPONENT_BIAS) << (8 * axis);
+    words[0] = (struct gpu_word){float_bits(grid[0].origin), float_bits(grid[1].origin),
+                                 float_bits(grid[2].origin), exponents | mask << 24};
+    words[1] = (struct gpu_word){first_node, first_item, meta[0], meta[1]};
+    words[2] = (struct gpu_word){low[0][0], low[0][1], low[1][0], low[1][1]};
+    words[3] = (struct gpu_word){low[2][0], low[2][1], high[0][0], high[0][1]};
+    words[4] = (struct gpu_word){high[1][0], high[1][1], high[2][0], high[2][1]};
+}
+
+static uint32_t get_byte(uint32_t first, uint32_t second, int slot) {
+    return (slot < 4 ? first : second) >> (slot % 4 * 8) & 255;
+}
+
+static double float_of(uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+bool decode_child(const struct gpu_word words[NODE_WORDS], int slot, struct decoded_child *child) {
+    uint32_t meta = get_byte(words[1].z, words[1].w, slot);
+    if (!meta)
+        return false;
+    uint32_t mask = words[0].w >> 24;
+    child->is_node = mask >> slot & 1;
+    if (child->is_node) {
+        child->first = words[1].x;
+        for (int before = 0; before < slot; before++)
+            child->first += mask >> before & 1;
+        child->count = 0;
+    } else {
+        child->first = words[1].y + (meta & 31);
+        child->count = (meta >> 5 & 1) + (meta >> 6 & 1) + (meta >> 7 & 1);
+    }
+    const uint32_t origin[3] = {words[0].x, words[0].y, words[0].z};
+    const uint32_t low[3][2] = {{words[2].x, words[2].y}, {words[2].z, words[2].w}, {words[3].x, words[3].y}};
+    const uint32_t high[3][2] = {
+        {words[3].z, words[3].w}, {words[4].x, words[4].y}, {words[4].z, words[4].w}};
+    for (int axis = 0; axis < 3; axis++) {
+        int exponent = (int)(words[0].w >> (8 * axis) & 255) - EXPONENT_BIAS;
+        child->lower[axis] =
+            float_of(origin[axis]) + ldexp(get_byte(low[axis][0], low[axis][1], slot), exponent);
+        child->upper[axis] =
+            float_of(origin[axis]) + ldexp(get_byte(high[axis][0], high[axis][1], slot), exponent);
+    }
+    return true;
+}

@@ -1,0 +1,186 @@
+#include "tracer/flatten/flatten.h"
+
+#include "core/clock.h"
+#include "core/parallel.h"
+#include "shaders/gpu_scene.h"
+#include "tracer/bvh/items.h"
+#include "tracer/flatten/flatten_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PIECE_ITEMS = 16384,
+    SCALE_EXPONENT_MAX = 200, // for scenes smaller than any number that the language accepts
+};
+
+uint32_t flat_bits(double value) {
+    float rounded = (float)value;
+    uint32_t bits;
+    memcpy(&bits, &rounded, sizeof bits);
+    return bits;
+}
+
+struct flat_pair flat_double(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (struct flat_pair){(uint32_t)bits, (uint32_t)(bits >> 32)};
+}
+
+bool flat_array_make(struct flat_array *array, uint64_t words) {
+    array->count = words;
+    array->words =
+        words > SIZE_MAX / sizeof *array->words ? NULL : calloc(words ? words : 1, sizeof *array->words);
+    return array->words != NULL;
+}
+
+// ---- trees
+
+struct gather {
+    const uint32_t *order;
+    const struct gpu_word *from;
+    struct gpu_word *to;
+    uint32_t words;
+};
+
+static void gather_items(void *context, size_t begin, size_t end) {
+    const struct gather *g = context;
+    for (size_t i = begin; i < end; i++)
+        memcpy(g->to + i * g->words, g->from + (size_t)g->order[i] * g->words, g->words * sizeof *g->to);
+}
+
+// Builds a tree over `items` and takes the `records` that they name into the order of its leaves.
+static bool make_tree(enum bvh_method method, struct bvh_item *items, uint32_t count,
+                      const struct gpu_word *records, uint32_t words, struct flat_array *nodes,
+                      struct flat_array *leaves, uint32_t *depth) {
+    struct bvh bvh;
+    if (!bvh_build(items, count, method, &bvh))
+        return false;
+    *nodes = (struct flat_array){bvh.nodes, (uint64_t)bvh.node_count * NODE_WORDS};
+    *depth = bvh.depth;
+    bvh.nodes = NULL;
+    bool done = flat_array_make(leaves, (uint64_t)count * words);
+    if (done) {
+        struct gather gather = {bvh.order, records, leaves->words, words};
+        parallel_for(count, PIECE_ITEMS, gather_items, &gather);
+    }
+    bvh_finish(&bvh);
+    return done;
+}
+
+static enum flatten_fault make_triangles(struct flattening *f) {
+    struct flat_scene *out = f->out;
+    size_t total = f->triangle_total;
+    f->records = malloc((total ? total : 1) * out->strides.triangle * sizeof *f->records);
+    f->items = malloc((total ? total : 1) * sizeof *f->items);
+    if (!f->records || !f->items)
+        return FLATTEN_NO_MEMORY;
+    enum flatten_fault fault = flatten_triangles(f);
+    if (fault != FLATTEN_DONE)
+        return fault;
+    out->triangle_count = f->item_count;
+    out->dropped_triangles = f->triangle_total - f->item_count;
+    double start = clock_seconds();
+    bool done = make_tree(f->input->method, f->items, f->item_count, f->records, out->strides.triangle,
+                          &out->triangle_nodes, &out->triangles, &out->triangle_depth);
+    out->build_seconds += clock_seconds() - start;
+    return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
+}
+
+static enum flatten_fault make_spheres(struct flattening *f) {
+    struct flat_scene *out = f->out;
+    uint32_t count = f->input->scene->spheres.count;
+    struct gpu_word *words = malloc(((size_t)count + 1) * out->strides.sphere * sizeof *words);
+    struct bvh_item *items = malloc(((size_t)count + 1) * sizeof *items);
+    bool done = words && items;
+    if (done) {
+        flatten_spheres(f, words, items);
+        double start = clock_seconds();
+        done = make_tree(f->input->method, items, count, words, out->strides.sphere, &out->sphere_nodes,
+                         &out->spheres, &out->sphere_depth);
+        out->build_seconds += clock_seconds() - start;
+        out->sphere_count = count;
+    }
+    free(items);
+    free(words);
+    return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
+}
+
+// ---- the whole
+
+static enum flatten_fault choose_scale(struct flattening *f) {
+    double extent;
+    enum flatten_fault fault = flatten_extent(f, &extent);
+    if (fault == FLATTEN_DONE && extent > 0) {
+        int exponent = -ilogb(extent);
+        f->out->scale_exponent = exponent < SCALE_EXPONENT_MAX ? exponent : SCALE_EXPONENT_MAX;
+    }
+    f->factor = ldexp(1, f->out->scale_exponent);
+    return fault;
+}
+
+static enum flatten_fault run(struct flattening *f) {
+    typedef enum flatten_fault step(struct flattening *);
+    static step *const steps[] = {
+        flatten_count,   choose_scale,      make_triangles, make_spheres,       flatten_body_records,
+        flatten_normals, flatten_materials, flatten_lights, flatten_background,
+    };
+    size_t bodies = ir_body_count(f->input->scene);
+    f->out->body_count = (uint32_t)bodies;
+    f->first_triangle = calloc(bodies + 1, sizeof *f->first_triangle);
+    f->material_used = calloc((size_t)f->input->assets->material_count + 1, sizeof *f->material_used);
+    if (!f->first_triangle || !f->material_used)
+        return FLATTEN_NO_MEMORY;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        enum flatten_fault fault = steps[i](f);
+        if (fault != FLATTEN_DONE)
+            return fault;
+    }
+    flatten_features(f);
+    return FLATTEN_DONE;
+}
+
+// In double precision the camera may stand so far from all bodies that the float boxes of the trees, as
+// coarse as a float at their distance, would hold many triangles at once: then the place of the bodies' box
+// that is nearest to it. All numbers move with the scene.
+static vec3 origin_of(const struct flat_input *input) {
+    vec3 lower, upper;
+    if (!input->is_double || !view_bounds(input->scene, input->assets, &lower, &upper))
+        return input->origin;
+    return vec3_max(lower, vec3_min(upper, input->origin));
+}
+
+bool flatten(const struct flat_input *input, struct flat_scene *out) {
+    static const struct flat_strides strides[2] = {
+        {TRIANGLE_WORDS, SPHERE_WORDS, 1, BODY_WORDS, MATERIAL_WORDS, LIGHT_WORDS},
+        {TRIANGLE64_WORDS, SPHERE64_WORDS, NORMAL64_WORDS, BODY64_WORDS, MATERIAL64_WORDS, LIGHT64_WORDS}};
+    *out = (struct flat_scene){.is_double = input->is_double,
+                               .strides = strides[input->is_double],
+                               .origin = origin_of(input),
+                               .background = input->assets->background};
+    struct flattening f = {.input = input, .out = out};
+    enum flatten_fault fault = run(&f);
+    free(f.material_used);
+    free(f.first_triangle);
+    free(f.items);
+    free(f.records);
+    if (fault == FLATTEN_NO_MEMORY)
+        diag_add(input->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
+                 "there is not enough memory for the scene's triangles");
+    if (fault != FLATTEN_DONE)
+        flat_finish(out);
+    return fault == FLATTEN_DONE;
+}
+
+void flat_finish(struct flat_scene *flat) {
+    if (!flat)
+        return;
+    const struct flat_array arrays[] = {flat->triangle_nodes, flat->triangles, flat->normals,
+                                        flat->sphere_nodes,   flat->spheres,   flat->bodies,
+                                        flat->materials,      flat->lights};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        free(arrays[i].words);
+    free(flat->background_texels.owned);
+    *flat = (struct flat_scene){0};
+}

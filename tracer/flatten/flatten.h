@@ -1,0 +1,68 @@
+// From IR and assets to the buffers of shaders/gpu_scene.h: origin, scale, float rounding, trees.
+//
+// The origin (the camera's position, or the first of several; in double precision the place of the bodies'
+// box that is nearest to it) is subtracted from the transforms in double before any vertex is touched; the
+// scale is 2^-ilogb(largest |coordinate - origin| of bodies), lights excluded; then values are rounded to
+// float, or stay double for the kernels in double precision, whose boxes alone are float. A point light
+// further than 2^40 after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double. Ownership:
+// flat_finish frees everything. Thread safety: immutable once made.
+#ifndef GLINT_TRACER_FLATTEN_FLATTEN_H
+#define GLINT_TRACER_FLATTEN_FLATTEN_H
+
+#include "assets/assets.h"
+#include "scene/view.h"
+#include "tracer/bvh/bvh.h"
+#include "tracer/gpu_word.h"
+
+struct flat_array {
+    struct gpu_word *words;
+    uint64_t count; // words
+};
+
+// Words of a record of each kind, and of an entry of `normals`.
+struct flat_strides {
+    uint32_t triangle, sphere, normal, body, material, light;
+};
+
+struct flat_scene {
+    bool is_double; // for the kernels in double precision: records with 64 in their names
+    struct flat_strides strides;
+    vec3 origin;
+    int scale_exponent; // flat = (scene - origin) * 2^scale_exponent
+    struct flat_array triangle_nodes, triangles, normals, sphere_nodes, spheres, bodies, materials, lights;
+    const struct picture *background; // not owned
+    struct {
+        const void *texels;
+        uint64_t bytes;
+        bool is_float;
+        void *owned;
+    } background_texels;
+    uint32_t body_count, light_count, triangle_count, sphere_count;
+    uint32_t dropped_triangles;            // without area after rounding
+    uint32_t features;                     // FEATURE_ bits that the scene needs
+    uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
+    double build_seconds;                  // tree building
+};
+
+struct flat_input {
+    const struct ir_scene *scene;
+    const struct ir_origin *origin_places;
+    const struct assets *assets;
+    const struct view *view;
+    vec3 origin; // of single precision; scene units
+    bool is_double;
+    enum bvh_method method; // of the trees; none shows in a picture
+    const struct limits *limits;
+    struct diag_sink *sink;
+};
+
+// false: too large or no memory (the sink says which).
+bool flatten(const struct flat_input *input, struct flat_scene *out);
+void flat_finish(struct flat_scene *flat);
+
+// The number of a body's first triangle.
+static inline uint32_t flat_first_triangle(const struct flat_scene *flat, uint32_t body) {
+    return flat->bodies.words[(size_t)body * flat->strides.body].x;
+}
+
+#endif

@@ -1,0 +1,118 @@
+// The graphics processor: device, buffers, program, dispatch, times. The only folder that sees Vulkan.
+//
+// Compute only and headless. The Vulkan loader is opened at run time: a program that never calls
+// gpu_create or gpu_list runs where no Vulkan is installed. CPU drivers (lavapipe) are devices like others.
+// Errors: functions give false, or a status; gpu_error then has one line of text. After GPU_LOST nothing
+// but destroying works. Ownership: *_create gives a heap object, *_destroy takes NULL; buffers and
+// programs must be destroyed before their gpu. Sizes in bytes, times in seconds.
+// Thread safety: one thread at a time for a gpu and all that belongs to it, and one in the whole process
+// for gpu_list, gpu_create and gpu_destroy.
+#ifndef GLINT_TRACER_GPU_GPU_H
+#define GLINT_TRACER_GPU_GPU_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum gpu_status {
+    GPU_OK,
+    GPU_NO_LOADER, // libvulkan is not installed
+    GPU_NO_DRIVER, // the loader is there, a driver with a device that can compute is not
+    GPU_NO_DEVICE, // no device of the name or number asked for
+    GPU_NO_MEMORY, // the device, or this process, has too little
+    GPU_FAILED,    // another Vulkan call failed
+    GPU_LOST,      // the device stopped answering
+};
+
+enum gpu_kind {
+    GPU_DISCRETE,
+    GPU_INTEGRATED,
+    GPU_VIRTUAL,
+    GPU_CPU,
+};
+
+enum {
+    GPU_ERROR_BYTES = 512,
+    GPU_BINDINGS = 16
+};
+
+struct gpu_device_info {
+    char name[256];
+    char driver[520]; // name and version as the driver tells them; may be empty
+    uint32_t number;  // what `device` may name
+    enum gpu_kind kind;
+    uint64_t memory_bytes;  // of the largest heap that is the device's own
+    uint64_t storage_bytes; // most that a GPU_STORAGE buffer may have
+    bool has_double;        // kernels may compute in double precision
+    bool preferred;         // what an empty choice takes
+};
+
+struct gpu_options {
+    // A number, or part of a device's name (case ignored). NULL or empty: discrete before integrated
+    // before virtual before CPU, then the lower number.
+    const char *device;
+    bool validate; // core validation, where the layer is installed; its messages are counted
+    // Where validation messages are counted, leaks found by gpu_destroy included; may be NULL. Must
+    // outlive the gpu.
+    uint32_t *validation_messages;
+};
+
+struct gpu;
+struct gpu_buffer;
+struct gpu_program;
+
+// Fills at most `capacity` devices, *count tells how many there are. `error` gets text unless GPU_OK.
+enum gpu_status gpu_list(struct gpu_device_info *items, uint32_t capacity, uint32_t *count,
+                         char error[GPU_ERROR_BYTES]);
+// On GPU_OK *out is a gpu; else NULL, with text in `error`.
+enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, char error[GPU_ERROR_BYTES]);
+void gpu_destroy(struct gpu *gpu);
+const struct gpu_device_info *gpu_info(const struct gpu *gpu);
+// What failed last; the text lives until the next failure. Never NULL.
+const char *gpu_error(const struct gpu *gpu);
+enum gpu_status gpu_last_status(const struct gpu *gpu);
+
+enum gpu_use {
+    GPU_WORDS,      // read-only array of 16-byte words: texels on CPU devices, storage elsewhere
+    GPU_TEXELS_U8,  // uniform texels, RGBA8 normalised
+    GPU_TEXELS_F32, // uniform texels, RGBA32F
+    GPU_STORAGE,    // read and written by kernels
+    GPU_UNIFORM,    // small, rewritten often
+};
+
+// A buffer of at least one word, of undefined content. NULL on failure.
+struct gpu_buffer *gpu_buffer_create(struct gpu *gpu, enum gpu_use use, uint64_t bytes);
+void gpu_buffer_destroy(struct gpu *gpu, struct gpu_buffer *buffer);
+uint64_t gpu_buffer_bytes(const struct gpu_buffer *buffer);
+// Copies between this process and a buffer; the range must lie inside. They wait for the device.
+bool gpu_write(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, const void *data, uint64_t bytes);
+bool gpu_read(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, void *data, uint64_t bytes);
+// True where GPU_WORDS are texels: which variant of a kernel fits.
+bool gpu_fetches_texels(const struct gpu *gpu);
+
+struct gpu_program_source {
+    const uint32_t *spirv; // entry point `main`
+    size_t spirv_words;
+    const uint32_t *constants; // specialization constants with the ids 0, 1, 2 ...
+    uint32_t constant_count;
+    uint32_t push_bytes;                      // of push constants, at most 128
+    struct gpu_buffer *buffers[GPU_BINDINGS]; // by binding; NULL: the kernel has no such binding
+};
+
+// Compiles a kernel and ties it to its buffers, which must outlive it. NULL on failure.
+struct gpu_program *gpu_program_create(struct gpu *gpu, const struct gpu_program_source *source);
+void gpu_program_destroy(struct gpu *gpu, struct gpu_program *program);
+// Ties a kernel to other buffers, of the same uses and at the same bindings. Nothing may be under way.
+void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
+                      struct gpu_buffer *const buffers[GPU_BINDINGS]);
+
+// Records a dispatch of groups_x times groups_y workgroups behind those recorded before; each sees what
+// the ones before it wrote. `push` holds the program's push constants.
+bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
+                  const void *push);
+// Sends what was recorded to the device. gpu_wait waits for it; *seconds, where not NULL, gets the time
+// between the first dispatch's start and the last one's end on the device's own clock.
+bool gpu_submit(struct gpu *gpu);
+bool gpu_wait(struct gpu *gpu, double *seconds);
+
+#endif

@@ -1,0 +1,77 @@
+// Inside of runtime/gpu: what its files share. Thread safety: as gpu.h.
+#ifndef GLINT_TRACER_GPU_GPU_PRIVATE_H
+#define GLINT_TRACER_GPU_GPU_PRIVATE_H
+
+#include "tracer/gpu/gpu.h"
+
+#include <volk.h>
+
+// A Vulkan instance with what belongs to it; on the way to a device or for the list of devices alone.
+struct gpu_instance {
+    VkInstance handle;
+    VkDebugUtilsMessengerEXT messenger;
+    PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger; // volk's may be that of another instance
+    uint32_t *messages;                                    // not owned, may be NULL
+};
+
+struct gpu {
+    struct gpu_instance instance;
+    struct gpu_device_info info;
+    VkPhysicalDevice physical;
+    VkPhysicalDeviceProperties properties;
+    VkPhysicalDeviceMemoryProperties memory;
+    bool texels;          // GPU_WORDS are uniform texel buffers
+    bool preserves_nan;   // SignedZeroInfNanPreserve for 32-bit floats
+    bool preserves_nan64; // and for 64-bit ones
+    uint32_t queue_family;
+    VkDevice device;
+    struct VolkDeviceTable vk;
+    VkQueue queue;
+    VkCommandPool pool;
+    VkCommandBuffer commands;
+    VkFence fence;
+    VkQueryPool queries; // 0: first start, 1: last end
+    VkPipelineCache cache;
+    bool recording, submitted, timed;
+    uint32_t recorded;          // dispatches since the recording began
+    struct gpu_buffer *staging; // grown as needed; NULL at first
+    enum gpu_status status;
+    char error[GPU_ERROR_BYTES];
+};
+
+struct gpu_buffer {
+    VkBuffer buffer;
+    VkDeviceMemory memory;
+    VkBufferView view; // texels only
+    VkDescriptorType type;
+    uint64_t bytes; // as asked for
+    uint64_t size;  // rounded up
+    void *mapped;   // NULL: reached through the staging buffer
+};
+
+struct gpu_program {
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+    VkPipeline pipeline;
+    uint32_t push_bytes;
+};
+
+enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gpu_instance *out, char *error);
+void gpu_instance_finish(struct gpu_instance *instance);
+// Devices that can compute, in the loader's order, and their descriptions; the caller frees both.
+// Gives how many there are.
+uint32_t gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
+                              struct gpu_device_info **infos);
+// Family of a queue that computes; UINT32_MAX where there is none.
+uint32_t gpu_compute_family(VkPhysicalDevice physical);
+
+// Notes a failed call; gives true where `result` is a success.
+bool gpu_check(struct gpu *gpu, VkResult result, const char *call);
+void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+// Begins a recording unless one is under way.
+bool gpu_record(struct gpu *gpu);
+
+#endif

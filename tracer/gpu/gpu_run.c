@@ -1,0 +1,83 @@
+#include "tracer/gpu/gpu_private.h"
+
+bool gpu_record(struct gpu *gpu) {
+    if (gpu->recording)
+        return true;
+    if (!gpu_wait(gpu, NULL))
+        return false;
+    VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                      .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    if (!gpu_check(gpu, gpu->vk.vkBeginCommandBuffer(gpu->commands, &begin), "vkBeginCommandBuffer"))
+        return false;
+    gpu->recording = true;
+    gpu->recorded = 0;
+    return true;
+}
+
+bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
+                  const void *push) {
+    if (!gpu_record(gpu))
+        return false;
+    if (gpu->recorded++ == 0) {
+        gpu->vk.vkCmdResetQueryPool(gpu->commands, gpu->queries, 0, 2);
+        gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, gpu->queries, 0);
+    }
+    gpu->vk.vkCmdBindPipeline(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->pipeline);
+    gpu->vk.vkCmdBindDescriptorSets(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout, 0, 1,
+                                    &program->set, 0, NULL);
+    if (program->push_bytes)
+        gpu->vk.vkCmdPushConstants(gpu->commands, program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                   program->push_bytes, push);
+    gpu->vk.vkCmdDispatch(gpu->commands, groups_x, groups_y, 1);
+    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                               .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
+                               .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                                                VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_HOST_READ_BIT};
+    gpu->vk.vkCmdPipelineBarrier(gpu->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                                     VK_PIPELINE_STAGE_HOST_BIT,
+                                 0, 1, &barrier, 0, NULL, 0, NULL);
+    return true;
+}
+
+bool gpu_submit(struct gpu *gpu) {
+    if (!gpu->recording)
+        return true;
+    gpu->recording = false;
+    gpu->timed = gpu->recorded != 0;
+    if (gpu->timed)
+        gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, gpu->queries, 1);
+    if (!gpu_check(gpu, gpu->vk.vkEndCommandBuffer(gpu->commands), "vkEndCommandBuffer"))
+        return false;
+    VkSubmitInfo submit = {
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &gpu->commands};
+    if (!gpu_check(gpu, gpu->vk.vkQueueSubmit(gpu->queue, 1, &submit, gpu->fence), "vkQueueSubmit"))
+        return false;
+    gpu->submitted = true;
+    return true;
+}
+
+static bool read_times(struct gpu *gpu, double *seconds) {
+    uint64_t times[2];
+    if (!gpu_check(gpu,
+                   gpu->vk.vkGetQueryPoolResults(gpu->device, gpu->queries, 0, 2, sizeof times, times,
+                                                 sizeof times[0],
+                                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                   "vkGetQueryPoolResults"))
+        return false;
+    *seconds = (double)(times[1] - times[0]) * gpu->properties.limits.timestampPeriod * 1e-9;
+    return true;
+}
+
+bool gpu_wait(struct gpu *gpu, double *seconds) {
+    if (seconds)
+        *seconds = 0;
+    if (!gpu->submitted)
+        return true;
+    gpu->submitted = false;
+    if (!gpu_check(gpu, gpu->vk.vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, UINT64_MAX),
+                   "vkWaitForFences") ||
+        !gpu_check(gpu, gpu->vk.vkResetFences(gpu->device, 1, &gpu->fence), "vkResetFences"))
+        return false;
+    return !seconds || !gpu->timed || read_times(gpu, seconds);
+}

@@ -1,0 +1,165 @@
+// From a flat scene, a camera and a device to a picture of linear floats.
+//
+// A renderer holds the scene on the device and the compiled kernel, for as many frames as wanted. Pictures
+// are made in bands and slices (docs/architecture.md, "Tracing"), one sample a dispatch; neither shows in
+// the result. Input: the flat scene is copied to the device; it must outlive the renderer all the same.
+// Errors: RENDER_FAILED, with the text in gpu_error. Ownership: renderer_destroy takes NULL.
+// Thread safety: a renderer belongs to its gpu's thread.
+#ifndef GLINT_TRACER_RENDER_RENDER_H
+#define GLINT_TRACER_RENDER_RENDER_H
+
+#include "scene/hits.h"
+#include "tracer/flatten/flatten.h"
+#include "tracer/gpu/gpu.h"
+
+// Ways of other tracers, to be measured beside glint's own (shaders/study.glsl); none is for pictures. An
+// offset moves a ray's start along the normal by so many scene units, and takes hits from t > 0 on.
+enum render_study {
+    RENDER_STUDY_NONE,
+    RENDER_STUDY_OFFSET_3,        // by 1e-3
+    RENDER_STUDY_OFFSET_4,        // by 1e-4
+    RENDER_STUDY_OFFSET_7,        // by 1e-7
+    RENDER_STUDY_OFFSET_DISTANCE, // by 1e-4 of the way that the ray came, at least 1e-4
+    RENDER_STUDY_MOELLER,         // triangles by Moeller and Trumbore, none of a determinant below 1e-7
+    RENDER_STUDY_ORIGINAL,        // that, and the offset 1e-3
+    RENDER_STUDY_FUSED,           // glint's own, but the device's compiler may fuse operations
+    RENDER_STUDIES,
+};
+// "offset 1e-3", for reports.
+const char *render_study_name(enum render_study study);
+
+struct render_settings {
+    uint32_t width, height; // pixels
+    uint32_t samples;       // per pixel, at least 1
+    uint32_t max_depth;
+    double min_weight;
+    vec3 background; // linear, times intensity
+    double background_intensity;
+    double background_rotation; // degrees about +y
+    // FEATURE_ bits to compile in: at least those of the flat scene. Those of the renderer (slices,
+    // counters) are added where needed.
+    uint32_t features;
+    uint64_t path_segments;    // LIMIT_PATH_SEGMENTS
+    uint32_t slice_iterations; // SLICE_ITERATIONS of shaders/frame.h; 0 gives slices of one ray
+    enum render_study study;   // in single precision only
+    uint32_t workgroup;        // invocations of a workgroup, at most 128; 0: a tile's
+    uint32_t band_tiles;       // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
+};
+
+// What scene, flat scene and limits ask for.
+struct render_settings render_settings_of(const struct ir_scene *scene, const struct flat_scene *flat,
+                                          const struct limits *limits);
+
+enum render_fault_kind {
+    RENDER_NOT_FINITE = 1, // a value on the way was infinite or no number; the pixel is NaN
+    RENDER_SEGMENTS,       // more rays than path_segments; the rest of the sample is missing
+    RENDER_ITERATIONS,     // one ray did not end; the rest of the sample is missing
+    RENDER_FAULT_KINDS,
+};
+
+struct render_fault {
+    uint32_t pixels; // how many have this fault; the rest is about the first of them, by rows
+    uint32_t x, y;
+    bool has_body;     // something was hit before the fault
+    uint32_t body;     // in IR order
+    uint32_t triangle; // of the body, in file order; 0 for spheres
+};
+
+struct render_rays {
+    uint64_t primary, reflected, refracted, shadow;
+    uint64_t cut_by_depth, cut_by_weight; // not sent
+    uint64_t total_reflections;
+    uint64_t nodes, items; // of the trees that were tested; items are triangles and spheres
+    uint32_t deepest;      // level of a ray that was traced; the camera's is 0
+    double lost_by_depth;  // largest weight of a ray cut at max_depth
+    double lost_by_weight; // and below min_weight
+};
+
+struct render_statistics {
+    double device_seconds; // on the device's clock, dispatches alone
+    double wall_seconds;
+    uint32_t bands, dispatches, slices;             // slices: dispatches that resumed paths
+    struct render_fault faults[RENDER_FAULT_KINDS]; // by kind
+};
+
+// Called between dispatches with what is done, 0..1; false ends the frame.
+struct render_progress {
+    bool (*report)(void *context, double fraction);
+    void *context;
+};
+
+enum render_result {
+    RENDER_DONE,
+    RENDER_CANCELLED,
+    RENDER_FAILED,
+};
+
+struct renderer;
+
+// NULL on failure: see gpu_error.
+struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
+                                 const struct render_settings *settings);
+void renderer_destroy(struct renderer *renderer);
+// Other settings, or other features of the flat scene, for what lies on the device already: `flat` is the
+// renderer's own or a copy of it. Compiles anew where that is needed. false: see gpu_error; then the renderer
+// is of no use but to be destroyed.
+bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
+                     const struct render_settings *settings);
+// Renders a frame into width * height * 3 floats, rows from the top: the mean of the samples, before tone
+// and transfer; NaN in all three where a sample has the fault RENDER_NOT_FINITE. `progress` may be NULL.
+enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
+                                   const struct render_progress *progress,
+                                   struct render_statistics *statistics);
+// Renders the frame once more with a kernel that counts, and throws the picture away.
+enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
+                                  const struct render_progress *progress, struct render_rays *rays);
+// What each pixel's first ray meets (scene/hits.h), by the tracer's own code: width * height entries, rows
+// from the top. Sends, for each pixel, the camera's ray, one to each of the first 32 lights that would add
+// something, and the mirrored and refracted one where they have a weight (total reflection mirrors), whatever
+// max_depth and min_weight say. Numbers are those of the picture that renderer_render makes.
+enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
+                                 struct hit_pixel *out, const struct render_progress *progress);
+// Rays of the last renderer_hits that did not end; what they would have met is told as nothing.
+uint64_t renderer_hits_unfinished(const struct renderer *renderer);
+
+enum render_ray {
+    RENDER_RAY_CAMERA,
+    RENDER_RAY_REFLECTED,
+    RENDER_RAY_REFRACTED,
+};
+
+// A ray of a sample's path. Numbers are the kernel's own, told in double and scene units.
+struct render_segment {
+    enum render_ray kind;
+    uint32_t parent; // index in the log; UINT32_MAX for the camera's ray
+    uint32_t depth;  // max_depth + 1: not traced, sees what depth_limit says
+    double weight;
+    vec3 origin, direction;         // scene units; unit
+    uint32_t body, triangle;        // as in struct hit_pixel
+    uint32_t material;              // in assets.materials; UINT32_MAX where nothing was hit
+    bool enters;                    // the ray comes from outside the body
+    bool total_reflection;          // the refracted ray was turned back
+    bool unfinished;                // a ray to it or to a light did not end
+    double distance;                // scene units; 0 where nothing was hit
+    vec3 point, geometric, shading; // scene units; unit, towards the ray; 0 where nothing was hit
+    uint32_t considered, lit;       // as in struct hit_pixel
+    vec3 radiance; // direct light of the surface, or the background; times weight it is what the pixel gets
+    double cut_weight; // of the rays that this surface would have sent and that were not followed
+};
+
+struct render_log {
+    struct render_segment *segments; // the caller's, in the order in which the tracer adds them
+    uint32_t capacity, count;
+    bool whole;   // false: `capacity` ended the path
+    float rgb[3]; // of the sample, bit for bit the picture's where it is whole and its only sample
+};
+
+// Follows one sample of one pixel and tells of each ray.
+enum render_result renderer_log(struct renderer *renderer, const struct view_camera *camera, uint32_t x,
+                                uint32_t y, uint32_t sample, struct render_log *log);
+
+// Bytes on the device: scene, and band.
+uint64_t renderer_scene_bytes(const struct renderer *renderer);
+uint64_t renderer_band_bytes(const struct renderer *renderer);
+
+#endif

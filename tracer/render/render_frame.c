@@ -1,0 +1,300 @@
+// One frame: bands, samples, slices, and the way back from slots to pixels.
+#include "tracer/render/render_private.h"
+
+#include "core/clock.h"
+#include "core/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double RADIANS = 3.14159265358979323846 / 180;
+
+enum {
+    TILES_A_PIECE = 256,
+    GRID_WIDTH_MAX = 65535, // what every device allows; more workgroups go to further rows
+};
+
+bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+                    uint32_t *y) {
+    const uint32_t tile = tile_begin + slot / TILE_PIXELS, i = slot % TILE_PIXELS;
+    const uint32_t run = tile / renderer->run_tiles * renderer->run_step % renderer->runs;
+    const uint32_t place = run * renderer->run_tiles + tile % renderer->run_tiles;
+    *x = place % renderer->tiles_x * TILE_SIDE + ((i & 1) | (i >> 1 & 2) | (i >> 2 & 4));
+    *y = place / renderer->tiles_x * TILE_SIDE + ((i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4));
+    return *x < renderer->settings.width && *y < renderer->settings.height;
+}
+
+static void put(float out[3], vec3 v) {
+    out[0] = (float)v.x;
+    out[1] = (float)v.y;
+    out[2] = (float)v.z;
+}
+
+#define PUT_DOUBLES(frame, name, v)                                                                          \
+    do {                                                                                                     \
+        const vec3 put_vector = v;                                                                           \
+        (frame).double_##name##_x = put_vector.x;                                                            \
+        (frame).double_##name##_y = put_vector.y;                                                            \
+        (frame).double_##name##_z = put_vector.z;                                                            \
+    } while (false)
+
+// Exact at multiples of 90 degrees.
+static double cos_degrees(double degrees) {
+    const double turn = remainder(degrees, 360);
+    if (fmod(turn, 90) == 0)
+        return turn == 0 ? 1 : fabs(turn) == 180 ? -1 : 0;
+    return cos(turn * RADIANS);
+}
+
+bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera) {
+    const struct render_settings *settings = &renderer->settings;
+    const struct flat_scene *flat = renderer->flat;
+    const double scale = ldexp(1, flat->scale_exponent);
+    const double aspect = (double)settings->width / settings->height;
+    struct frame_block frame = {
+        .light_count = flat->light_count,
+        .min_weight = (float)settings->min_weight,
+        .max_depth = settings->max_depth,
+        .path_segments =
+            settings->path_segments < UINT32_MAX ? (uint32_t)settings->path_segments : UINT32_MAX,
+        .background_intensity = (float)settings->background_intensity,
+        .background_width = flat->background ? flat->background->width : 1,
+        .background_height = flat->background ? flat->background->height : 1,
+        .background_cos = (float)cos_degrees(settings->background_rotation),
+        .background_sin = (float)cos_degrees(settings->background_rotation - 90),
+        .width = settings->width,
+        .height = settings->height,
+        .tiles_x = renderer->tiles_x,
+        .run_tiles = renderer->run_tiles,
+        .runs = renderer->runs,
+        .run_step = renderer->run_step,
+        .sphere_count = flat->sphere_count,
+        .slice_iterations = settings->slice_iterations,
+        .features = flat->features,
+    };
+    const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
+    const vec3 right = vec3_mul(camera->right, camera->tan_half_fov * aspect);
+    const vec3 up = vec3_mul(camera->up, camera->tan_half_fov);
+    put(frame.camera_position, position);
+    put(frame.camera_forward, camera->forward);
+    put(frame.camera_right, right);
+    put(frame.camera_up, up);
+    put(frame.background, settings->background);
+    PUT_DOUBLES(frame, position, position);
+    PUT_DOUBLES(frame, forward, camera->forward);
+    PUT_DOUBLES(frame, right, right);
+    PUT_DOUBLES(frame, up, up);
+    return gpu_write(renderer->gpu, renderer->buffers[BINDING_FRAME], 0, &frame, sizeof frame);
+}
+
+// What one call of draw_frame works on.
+struct frame_run {
+    struct renderer *renderer;
+    struct gpu_program *program;
+    const struct render_progress *progress;
+    struct render_statistics *statistics;
+    uint64_t steps_done, steps; // a band's sample is a step
+};
+
+static bool run_once(struct frame_run *run, const struct dispatch_block *block, uint32_t groups) {
+    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
+    double seconds;
+    if (!gpu_dispatch(run->renderer->gpu, run->program, block->grid_width, height, block) ||
+        !gpu_submit(run->renderer->gpu) || !gpu_wait(run->renderer->gpu, &seconds))
+        return false;
+    run->statistics->device_seconds += seconds;
+    run->statistics->dispatches++;
+    return true;
+}
+
+// Rows of one length: empty workgroups at the end would all fall to one of a CPU's threads.
+uint32_t renderer_grid_width(uint32_t groups) {
+    const uint32_t rows = (groups + GRID_WIDTH_MAX - 1) / GRID_WIDTH_MAX;
+    return (groups + rows - 1) / rows;
+}
+
+static bool is_wanted(const struct frame_run *run, double part) {
+    const struct render_progress *progress = run->progress;
+    return !progress || !progress->report ||
+           progress->report(progress->context, ((double)run->steps_done + part) / (double)run->steps);
+}
+
+// One sample of one band: all its paths to their ends.
+static enum render_result draw_sample(struct frame_run *run, struct dispatch_block block) {
+    struct renderer *renderer = run->renderer;
+    const bool slices = renderer->features & FEATURE_SLICES;
+    const uint32_t workgroup = renderer->settings.workgroup;
+    uint32_t groups = (block.tile_count * TILE_PIXELS + workgroup - 1) / workgroup;
+    for (;;) {
+        block.grid_width = renderer_grid_width(groups);
+        block.pending_base = renderer->pending;
+        if (!run_once(run, &block, groups))
+            return RENDER_FAILED;
+        if (!slices)
+            break;
+        if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], COUNTER_PENDING * sizeof(uint32_t),
+                      &renderer->pending, sizeof renderer->pending))
+            return RENDER_FAILED;
+        block.resume = renderer->pending - block.pending_base;
+        if (block.resume == 0)
+            break;
+        block.read_list = 1 - block.read_list;
+        groups = (block.resume + workgroup - 1) / workgroup;
+        run->statistics->slices++;
+        if (!is_wanted(run, 1 - (double)block.resume / ((double)block.tile_count * TILE_PIXELS)))
+            return RENDER_CANCELLED;
+    }
+    run->steps_done++;
+    return is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;
+}
+
+struct unpacking {
+    const struct renderer *renderer;
+    uint32_t tile_begin;
+    float *rgb;
+};
+
+static void unpack_tiles(void *context, size_t begin, size_t end) {
+    const struct unpacking *u = context;
+    const struct render_settings *settings = &u->renderer->settings;
+    const float samples = (float)settings->samples;
+    for (size_t slot = begin * TILE_PIXELS; slot < end * TILE_PIXELS; slot++) {
+        uint32_t x, y;
+        if (!renderer_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y))
+            continue;
+        float sum[3];
+        memcpy(sum, u->renderer->band + 4 * slot, sizeof sum);
+        float *out = u->rgb + ((size_t)y * settings->width + x) * 3;
+        const bool sound = u->renderer->band[4 * slot + 3] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
+        for (int i = 0; i < 3; i++)
+            out[i] = sound ? sum[i] / samples : NAN;
+    }
+}
+
+void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle) {
+    const struct flat_scene *flat = renderer->flat;
+    *triangle = 0;
+    *body = number;
+    if (number < flat->sphere_count)
+        return;
+    // The last body whose first triangle is not behind this one.
+    const uint32_t wanted = number - flat->sphere_count;
+    uint32_t low = flat->sphere_count, high = flat->body_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (flat_first_triangle(flat, middle) <= wanted)
+            low = middle;
+        else
+            high = middle;
+    }
+    *body = low;
+    *triangle = wanted - flat_first_triangle(flat, low);
+}
+
+static void note_fault(const struct renderer *renderer, uint32_t word, uint32_t x, uint32_t y,
+                       struct render_fault *fault) {
+    const bool first = fault->pixels++ == 0 || y < fault->y || (y == fault->y && x < fault->x);
+    if (!first)
+        return;
+    const uint32_t number = word & FAULT_NUMBER;
+    fault->x = x;
+    fault->y = y;
+    fault->has_body = number != FAULT_NUMBER;
+    fault->body = fault->triangle = 0;
+    if (fault->has_body)
+        renderer_number(renderer, number, &fault->body, &fault->triangle);
+}
+
+static void note_faults(const struct renderer *renderer, uint32_t tile_begin, uint32_t slots,
+                        struct render_statistics *statistics) {
+    for (uint32_t slot = 0; slot < slots; slot++) {
+        const uint32_t word = renderer->band[4 * (size_t)slot + 3];
+        if (word == 0)
+            continue;
+        uint32_t x, y;
+        if (renderer_pixel(renderer, tile_begin, slot, &x, &y))
+            note_fault(renderer, word, x, y, &statistics->faults[word >> FAULT_KIND_SHIFT]);
+    }
+}
+
+static enum render_result draw_band(struct frame_run *run, uint32_t tile_begin, uint32_t tile_count,
+                                    float *rgb) {
+    struct renderer *renderer = run->renderer;
+    for (uint32_t sample = 0; sample < renderer->settings.samples; sample++) {
+        double a, b;
+        view_sample_offset(sample, &a, &b);
+        enum render_result result = draw_sample(run, (struct dispatch_block){.tile_begin = tile_begin,
+                                                                             .tile_count = tile_count,
+                                                                             .sample_index = sample,
+                                                                             .offset_x = (float)a,
+                                                                             .offset_y = (float)b});
+        if (result != RENDER_DONE)
+            return result;
+    }
+    const uint32_t slots = tile_count * TILE_PIXELS;
+    if (!rgb)
+        return RENDER_DONE;
+    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_OUTPUT], 0, renderer->band,
+                  (uint64_t)slots * sizeof(struct gpu_word)))
+        return RENDER_FAILED;
+    struct unpacking unpacking = {renderer, tile_begin, rgb};
+    parallel_for(tile_count, TILES_A_PIECE, unpack_tiles, &unpacking);
+    note_faults(renderer, tile_begin, slots, run->statistics);
+    return RENDER_DONE;
+}
+
+static enum render_result draw_frame(struct frame_run *run, const struct view_camera *camera, float *rgb) {
+    struct renderer *renderer = run->renderer;
+    const uint32_t tiles = renderer->tiles;
+    const double start = clock_seconds();
+    *run->statistics = (struct render_statistics){0};
+    run->statistics->bands = (tiles + renderer->band_tiles - 1) / renderer->band_tiles;
+    run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
+    enum render_result result = renderer_write_frame(renderer, camera) ? RENDER_DONE : RENDER_FAILED;
+    for (uint32_t begin = 0; result == RENDER_DONE && begin < tiles; begin += renderer->band_tiles) {
+        const uint32_t left = tiles - begin;
+        result = draw_band(run, begin, left < renderer->band_tiles ? left : renderer->band_tiles, rgb);
+    }
+    run->statistics->wall_seconds = clock_seconds() - start;
+    return result;
+}
+
+enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
+                                   const struct render_progress *progress,
+                                   struct render_statistics *statistics) {
+    struct frame_run run = {renderer, renderer->program, progress, statistics, 0, 0};
+    return draw_frame(&run, camera, rgb);
+}
+
+static uint64_t wide(const uint32_t words[2]) {
+    return (uint64_t)words[1] << 32 | words[0];
+}
+
+enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
+                                  const struct render_progress *progress, struct render_rays *rays) {
+    struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
+    uint32_t values[COUNTER_COUNT] = {0};
+    if (!renderer->counting)
+        renderer->counting = renderer_keep_program(renderer, renderer->features | FEATURE_COUNTERS);
+    if (!renderer->counting || !gpu_write(renderer->gpu, counters, 0, values, sizeof values))
+        return RENDER_FAILED;
+    renderer->pending = 0;
+    struct render_statistics statistics;
+    struct frame_run run = {renderer, renderer->counting, progress, &statistics, 0, 0};
+    enum render_result result = draw_frame(&run, camera, NULL);
+    if (result == RENDER_DONE && !gpu_read(renderer->gpu, counters, 0, values, sizeof values))
+        result = RENDER_FAILED;
+    *rays = (struct render_rays){.primary = values[COUNTER_PRIMARY],
+                                 .reflected = values[COUNTER_REFLECTED],
+                                 .refracted = values[COUNTER_REFRACTED],
+                                 .shadow = values[COUNTER_SHADOW],
+                                 .cut_by_depth = values[COUNTER_CUT_DEPTH],
+                                 .cut_by_weight = values[COUNTER_CUT_WEIGHT],
+                                 .total_reflections = values[COUNTER_TOTAL_REFLECT],
+                                 .nodes = wide(values + COUNTER_NODES),
+                                 .items = wide(values + COUNTER_ITEMS),
+                                 .deepest = values[COUNTER_DEEPEST],
+                                 .lost_by_depth = renderer_float(values[COUNTER_LOST_DEPTH]),
+                                 .lost_by_weight = renderer_float(values[COUNTER_LOST_WEIGHT])};
+    return result;
+}

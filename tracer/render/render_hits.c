@@ -1,0 +1,166 @@
+// What every pixel's first ray meets: a dispatch a band and kind of ray, and the way to bodies and pixels.
+#include "tracer/render/render_private.h"
+
+#include "core/parallel.h"
+#include "shaders/hits.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BAND_TILES_MAX = 8192, // 32 MiB of output
+    TILES_A_PIECE = 256,
+};
+
+struct renderer_hits {
+    struct gpu_buffer *output;
+    struct gpu_program *program;
+    struct gpu_word *words; // the band's output, read back
+    uint32_t band_tiles;
+    uint64_t unfinished;
+};
+
+static bool make(struct renderer *renderer) {
+    struct renderer_hits *hits = calloc(1, sizeof *hits);
+    if (!hits)
+        return false;
+    renderer->hits = hits;
+    hits->band_tiles = renderer->tiles < BAND_TILES_MAX ? renderer->tiles : BAND_TILES_MAX;
+    const size_t words = (size_t)hits->band_tiles * TILE_PIXELS * HITS_WORDS;
+    hits->words = malloc(words * sizeof *hits->words);
+    hits->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, words * sizeof *hits->words);
+    const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
+    if (hits->words && hits->output)
+        hits->program =
+            renderer_compile_kernel(renderer, RENDERER_HITS, renderer->features & ~own, hits->output, NULL);
+    if (!hits->program)
+        renderer_hits_destroy(renderer);
+    return renderer->hits != NULL;
+}
+
+void renderer_hits_destroy(struct renderer *renderer) {
+    struct renderer_hits *hits = renderer->hits;
+    if (!hits)
+        return;
+    gpu_program_destroy(renderer->gpu, hits->program);
+    gpu_buffer_destroy(renderer->gpu, hits->output);
+    free(hits->words);
+    free(hits);
+    renderer->hits = NULL;
+}
+
+uint64_t renderer_hits_unfinished(const struct renderer *renderer) {
+    return renderer->hits ? renderer->hits->unfinished : 0;
+}
+
+static bool is_kind_needed(const struct renderer *renderer, uint32_t kind) {
+    const uint32_t features = renderer->flat->features;
+    switch (kind) {
+    case HITS_FIRST:
+        return true;
+    case HITS_MIRRORED:
+        return features & (FEATURE_REFLECTION | FEATURE_REFRACTION);
+    case HITS_REFRACTED:
+        return features & FEATURE_REFRACTION;
+    default:
+        return features & (FEATURE_DIFFUSE | FEATURE_SPECULAR);
+    }
+}
+
+static uint32_t kind_count(const struct renderer *renderer) {
+    const uint32_t lights = renderer->flat->light_count;
+    return HITS_LIGHTS + (lights < HITS_LIGHTS_MAX ? lights : HITS_LIGHTS_MAX);
+}
+
+static enum render_result draw_band(struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
+                                    const struct render_progress *progress) {
+    const uint32_t kinds = kind_count(renderer);
+    double offset_x, offset_y;
+    view_sample_offset(0, &offset_x, &offset_y);
+    struct dispatch_block block = {.tile_begin = tile_begin,
+                                   .tile_count = tile_count,
+                                   .grid_width = renderer_grid_width(tile_count),
+                                   .offset_x = (float)offset_x,
+                                   .offset_y = (float)offset_y};
+    const uint32_t height = (tile_count + block.grid_width - 1) / block.grid_width;
+    for (uint32_t kind = 0; kind < kinds; kind++) {
+        if (!is_kind_needed(renderer, kind))
+            continue;
+        block.resume = kind;
+        if (!gpu_dispatch(renderer->gpu, renderer->hits->program, block.grid_width, height, &block) ||
+            !gpu_submit(renderer->gpu) || !gpu_wait(renderer->gpu, NULL))
+            return RENDER_FAILED;
+        const double done = (tile_begin + tile_count * (kind + 1.0) / kinds) / renderer->tiles;
+        if (progress && progress->report && !progress->report(progress->context, done))
+            return RENDER_CANCELLED;
+    }
+    return RENDER_DONE;
+}
+
+static uint32_t body_of(const struct renderer *renderer, uint32_t number) {
+    uint32_t body = HIT_NONE, triangle;
+    if (number != HITS_NOTHING)
+        renderer_number(renderer, number, &body, &triangle);
+    return body;
+}
+
+static struct hit_pixel read_hit(const struct renderer *renderer, const struct gpu_word words[HITS_WORDS]) {
+    struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
+    if (words[1].w == HITS_NOTHING)
+        return hit;
+    renderer_number(renderer, words[1].w, &hit.body, &hit.triangle);
+    hit.considered = words[2].x;
+    hit.lit = words[2].y;
+    hit.reflected = body_of(renderer, words[2].z);
+    hit.refracted = body_of(renderer, words[2].w);
+    hit.distance = ldexp(renderer_real(renderer, words[0].x, words[0].y), -renderer->flat->scale_exponent);
+    hit.normal = (vec3){renderer_float(words[3].x), renderer_float(words[3].y), renderer_float(words[3].z)};
+    return hit;
+}
+
+struct unpacking {
+    const struct renderer *renderer;
+    uint32_t tile_begin;
+    struct hit_pixel *out;
+};
+
+static void unpack_tiles(void *context, size_t begin, size_t end) {
+    const struct unpacking *u = context;
+    for (size_t slot = begin * TILE_PIXELS; slot < end * TILE_PIXELS; slot++) {
+        uint32_t x, y;
+        if (renderer_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y))
+            u->out[(size_t)y * u->renderer->settings.width + x] =
+                read_hit(u->renderer, u->renderer->hits->words + slot * HITS_WORDS);
+    }
+}
+
+static void count_unfinished(struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count) {
+    for (uint32_t slot = 0; slot < tile_count * TILE_PIXELS; slot++) {
+        uint32_t x, y;
+        if (renderer_pixel(renderer, tile_begin, slot, &x, &y))
+            renderer->hits->unfinished += renderer->hits->words[(size_t)slot * HITS_WORDS + 3].w;
+    }
+}
+
+enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
+                                 struct hit_pixel *out, const struct render_progress *progress) {
+    if ((!renderer->hits && !make(renderer)) || !renderer_write_frame(renderer, camera))
+        return RENDER_FAILED;
+    struct renderer_hits *hits = renderer->hits;
+    hits->unfinished = 0;
+    for (uint32_t begin = 0; begin < renderer->tiles; begin += hits->band_tiles) {
+        const uint32_t left = renderer->tiles - begin;
+        const uint32_t count = left < hits->band_tiles ? left : hits->band_tiles;
+        enum render_result result = draw_band(renderer, begin, count, progress);
+        if (result != RENDER_DONE)
+            return result;
+        const uint64_t words = (uint64_t)count * TILE_PIXELS * HITS_WORDS;
+        if (!gpu_read(renderer->gpu, hits->output, 0, hits->words, words * sizeof *hits->words))
+            return RENDER_FAILED;
+        struct unpacking unpacking = {renderer, begin, out};
+        parallel_for(count, TILES_A_PIECE, unpack_tiles, &unpacking);
+        count_unfinished(renderer, begin, count);
+    }
+    return RENDER_DONE;
+}

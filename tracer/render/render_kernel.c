@@ -1,0 +1,145 @@
+// Which compiled kernel a renderer's settings want, and its specialization constants.
+#include "tracer/render/render_private.h"
+
+#include "shaders/kernels.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+struct kernel_code {
+    const uint32_t *texels, *storage; // by what the device fetches
+    const size_t *texels_words, *storage_words;
+};
+#define KERNEL(name)                                                                                         \
+    {                                                                                                        \
+        kernel_##name##_texels, kernel_##name##_storage, &kernel_##name##_texels_words,                      \
+            &kernel_##name##_storage_words                                                                   \
+    }
+
+// Those of one way, which ends their names.
+#define KERNELS(way)                                                                                         \
+    {                                                                                                        \
+        [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
+        [RENDERER_LOG] = KERNEL(log##way)                                                                    \
+    }
+static const struct kernel_code exact_code[RENDERER_KERNELS] = KERNELS();
+static const struct kernel_code double_code[RENDERER_KERNELS] = KERNELS(64);
+static const struct kernel_code study_code[RENDERER_KERNELS] = KERNELS(_study);
+static const struct kernel_code fused_code[RENDERER_KERNELS] = KERNELS(_fused);
+
+static const struct study {
+    const char *name;
+    double offset, distance, cut; // scene units; of the way; squared scene units
+} studies[RENDER_STUDIES] = {
+    [RENDER_STUDY_NONE] = {"none", 0, 0, 0},
+    [RENDER_STUDY_OFFSET_3] = {"offset 1e-3", 1e-3, 0, 0},
+    [RENDER_STUDY_OFFSET_4] = {"offset 1e-4", 1e-4, 0, 0},
+    [RENDER_STUDY_OFFSET_7] = {"offset 1e-7", 1e-7, 0, 0},
+    [RENDER_STUDY_OFFSET_DISTANCE] = {"offset by distance", 1e-4, 1e-4, 0},
+    [RENDER_STUDY_MOELLER] = {"moeller-trumbore", 0, 0, 1e-7},
+    [RENDER_STUDY_ORIGINAL] = {"moeller-trumbore, offset 1e-3", 1e-3, 0, 1e-7},
+    [RENDER_STUDY_FUSED] = {"fused", 0, 0, 0},
+};
+
+const char *render_study_name(enum render_study study) {
+    return study < RENDER_STUDIES ? studies[study].name : "unknown";
+}
+
+static const struct kernel_code *code_of(const struct renderer *renderer, enum renderer_kernel kernel) {
+    if (renderer->flat->is_double)
+        return &double_code[kernel];
+    switch (renderer->settings.study) {
+    case RENDER_STUDY_NONE:
+        return &exact_code[kernel];
+    case RENDER_STUDY_FUSED:
+        return &fused_code[kernel];
+    default:
+        return &study_code[kernel];
+    }
+}
+
+// The root has no siblings that could wait, and nodes without inner children leave nothing to come back from.
+static uint32_t stack_levels(uint32_t depth) {
+    return depth > 3 ? depth - 2 : 1;
+}
+
+static uint32_t bits_of(double value) {
+    const float rounded = value > 0 ? fmaxf((float)value, FLT_MIN) : 0;
+    uint32_t bits;
+    memcpy(&bits, &rounded, sizeof bits);
+    return bits;
+}
+
+float renderer_float(uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high) {
+    if (!renderer->flat->is_double)
+        return (double)renderer_float(low);
+    const uint64_t bits = (uint64_t)high << 32 | low;
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {
+    return kept->program && kept->features == features && kept->study == renderer->settings.study &&
+           kept->workgroup == renderer->settings.workgroup;
+}
+
+struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t features) {
+    for (uint32_t i = 0; i < RENDERER_KEPT; i++)
+        if (is_for(&renderer->kept[i], renderer, features)) {
+            gpu_program_bind(renderer->gpu, renderer->kept[i].program, renderer->buffers);
+            return renderer->kept[i].program;
+        }
+    struct gpu_program *program = renderer_compile_kernel(renderer, RENDERER_TRACE, features, NULL, NULL);
+    if (!program)
+        return NULL;
+    // The one in use stays.
+    while (renderer->kept[renderer->kept_next].program &&
+           renderer->kept[renderer->kept_next].program == renderer->program)
+        renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
+    struct renderer_kept *kept = &renderer->kept[renderer->kept_next];
+    gpu_program_destroy(renderer->gpu, kept->program);
+    *kept = (struct renderer_kept){features, renderer->settings.workgroup, renderer->settings.study, program};
+    renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
+    return program;
+}
+
+struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
+                                            uint32_t features, struct gpu_buffer *output,
+                                            struct gpu_buffer *state) {
+    const struct flat_scene *flat = renderer->flat;
+    const bool texels = gpu_fetches_texels(renderer->gpu);
+    const uint64_t most = (uint64_t)NODE_WORDS << 16;
+    const struct study *study = &studies[renderer->settings.study];
+    const struct kernel_code *code = code_of(renderer, kernel);
+    const uint32_t constants[CONSTANT_COUNT] = {
+        [CONSTANT_FEATURES] = features,
+        [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
+        [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
+        [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
+        [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
+        [CONSTANT_STUDY_OFFSET] = bits_of(ldexp(study->offset, flat->scale_exponent)),
+        [CONSTANT_STUDY_DISTANCE] = bits_of(study->distance),
+        [CONSTANT_STUDY_CUT] = bits_of(ldexp(study->cut, 2 * flat->scale_exponent)),
+    };
+    struct gpu_program_source source = {
+        .spirv = texels ? code->texels : code->storage,
+        .spirv_words = texels ? *code->texels_words : *code->storage_words,
+        .constants = constants,
+        .constant_count = CONSTANT_COUNT,
+        .push_bytes = sizeof(struct dispatch_block),
+    };
+    memcpy(source.buffers, renderer->buffers, sizeof source.buffers);
+    if (output)
+        source.buffers[BINDING_OUTPUT] = output;
+    if (state)
+        source.buffers[BINDING_STATE] = state;
+    return gpu_program_create(renderer->gpu, &source);
+}

@@ -1,0 +1,238 @@
+// One sample's path, told ray by ray: the host decides which rays go on, as the tracer does, and the log
+// kernel follows all of a level at a time. Weights and sums are floats in the tracer's order.
+#include "tracer/render/render_private.h"
+
+#include "shaders/log.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BATCH_RAYS = 256,
+    NO_NODE = UINT32_MAX,
+};
+
+struct renderer_log {
+    struct gpu_buffer *state, *output;
+    struct gpu_program *program;
+    struct gpu_word rays[BATCH_RAYS * LOG_RAY_WORDS];
+    struct gpu_word told[BATCH_RAYS * LOG_WORDS];
+};
+
+// A ray while the path is walked: by levels, so that children lie behind their parents.
+struct node {
+    struct render_segment segment;
+    struct gpu_word ray[LOG_RAY_WORDS];
+    float weight, radiance[3];
+    uint32_t children[2]; // mirrored, refracted; NO_NODE: none
+};
+
+struct walk {
+    struct renderer *renderer;
+    struct node *nodes;
+    uint32_t count, capacity;
+    bool whole;
+};
+
+static bool make(struct renderer *renderer) {
+    struct renderer_log *log = calloc(1, sizeof *log);
+    if (!log)
+        return false;
+    renderer->log = log;
+    log->state = gpu_buffer_create(renderer->gpu, GPU_STORAGE, sizeof log->rays);
+    log->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, sizeof log->told);
+    const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
+    if (log->state && log->output)
+        log->program = renderer_compile_kernel(renderer, RENDERER_LOG, renderer->features & ~own, log->output,
+                                               log->state);
+    if (!log->program)
+        renderer_log_destroy(renderer);
+    return renderer->log != NULL;
+}
+
+void renderer_log_destroy(struct renderer *renderer) {
+    struct renderer_log *log = renderer->log;
+    if (!log)
+        return;
+    gpu_program_destroy(renderer->gpu, log->program);
+    gpu_buffer_destroy(renderer->gpu, log->output);
+    gpu_buffer_destroy(renderer->gpu, log->state);
+    free(log);
+    renderer->log = NULL;
+}
+
+static bool dispatch(struct renderer *renderer, struct dispatch_block block, uint32_t kind) {
+    block.resume = kind;
+    return gpu_dispatch(renderer->gpu, renderer->log->program,
+                        (block.tile_count + TILE_PIXELS - 1) / TILE_PIXELS, 1, &block) &&
+           gpu_submit(renderer->gpu) && gpu_wait(renderer->gpu, NULL);
+}
+
+static bool make_camera_ray(struct renderer *renderer, uint32_t x, uint32_t y, uint32_t sample,
+                            struct gpu_word ray[LOG_RAY_WORDS]) {
+    double offset_x, offset_y;
+    view_sample_offset(sample, &offset_x, &offset_y);
+    const struct dispatch_block block = {.tile_count = 1,
+                                         .grid_width = 1,
+                                         .read_list = x,
+                                         .pending_base = y,
+                                         .offset_x = (float)offset_x,
+                                         .offset_y = (float)offset_y};
+    return dispatch(renderer, block, LOG_CAMERA) &&
+           gpu_read(renderer->gpu, renderer->log->state, 0, ray, LOG_RAY_WORDS * sizeof *ray);
+}
+
+// Follows nodes begin .. end - 1, at most BATCH_RAYS of them, into log->told.
+static bool follow(struct walk *walk, uint32_t begin, uint32_t end) {
+    struct renderer *renderer = walk->renderer;
+    struct renderer_log *log = renderer->log;
+    const struct dispatch_block block = {.tile_count = end - begin, .grid_width = 1};
+    for (uint32_t i = begin; i < end; i++)
+        memcpy(log->rays + (size_t)(i - begin) * LOG_RAY_WORDS, walk->nodes[i].ray,
+               sizeof walk->nodes[i].ray);
+    if (!gpu_write(renderer->gpu, log->state, 0, log->rays, sizeof log->rays) ||
+        !dispatch(renderer, block, LOG_FOLLOW))
+        return false;
+    for (uint32_t light = 0; light < renderer->flat->light_count; light++)
+        if (!dispatch(renderer, block, LOG_LIGHTS + light))
+            return false;
+    return gpu_read(renderer->gpu, log->output, 0, log->told, sizeof log->told);
+}
+
+// Three numbers in two words.
+static vec3 vector_at(const struct renderer *renderer, const struct gpu_word *words) {
+    return (vec3){renderer_real(renderer, words[0].x, words[0].y),
+                  renderer_real(renderer, words[0].z, words[0].w),
+                  renderer_real(renderer, words[1].x, words[1].y)};
+}
+
+static vec3 point_at(const struct renderer *renderer, const struct gpu_word *words) {
+    const vec3 flat = vector_at(renderer, words);
+    const int exponent = -renderer->flat->scale_exponent;
+    const vec3 scaled = {ldexp(flat.x, exponent), ldexp(flat.y, exponent), ldexp(flat.z, exponent)};
+    return vec3_add(scaled, renderer->flat->origin);
+}
+
+// The rays that leave a surface, as is_followed and send_rays of the tracer decide.
+static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, float share,
+                      const struct gpu_word *ray) {
+    const struct render_settings *settings = &walk->renderer->settings;
+    const struct node *from = &walk->nodes[parent];
+    const float weight = from->weight * share;
+    const bool heavy = weight > 0 && weight >= (float)settings->min_weight;
+    const bool last = from->segment.depth == settings->max_depth;
+    if (weight > 0 && (!heavy || last))
+        walk->nodes[parent].segment.cut_weight += (double)weight;
+    if (!heavy || (last && (walk->renderer->flat->features & FEATURE_DEPTH_BLACK)))
+        return;
+    if (walk->count == walk->capacity) {
+        walk->whole = false;
+        return;
+    }
+    struct node *child = &walk->nodes[walk->count];
+    *child = (struct node){.weight = weight, .children = {NO_NODE, NO_NODE}};
+    child->segment.kind = kind;
+    child->segment.parent = parent;
+    child->segment.depth = from->segment.depth + 1;
+    memcpy(child->ray, ray, sizeof child->ray);
+    child->ray[1].z = last ? LOG_BLIND : 0;
+    walk->nodes[parent].children[kind == RENDER_RAY_REFRACTED] = walk->count++;
+}
+
+static void take_surface(struct walk *walk, uint32_t index, const struct gpu_word *told) {
+    const struct renderer *renderer = walk->renderer;
+    struct render_segment *s = &walk->nodes[index].segment;
+    renderer_number(renderer, told[1].w, &s->body, &s->triangle);
+    s->distance = ldexp(renderer_real(renderer, told[0].x, told[0].y), -renderer->flat->scale_exponent);
+    s->considered = told[2].x;
+    s->lit = told[2].y;
+    s->enters = told[2].z & LOG_ENTERS;
+    s->total_reflection = told[2].z & LOG_TOTAL;
+    s->material = told[3].w;
+    s->point = point_at(renderer, told + 4);
+    s->geometric = vector_at(renderer, told + 6);
+    s->shading = vector_at(renderer, told + 8);
+    add_child(walk, index, RENDER_RAY_REFLECTED, renderer_float(told[5].z), told + 10);
+    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + 14);
+}
+
+static void take(struct walk *walk, uint32_t index, const struct gpu_word *told) {
+    const struct renderer *renderer = walk->renderer;
+    struct node *node = &walk->nodes[index];
+    struct render_segment *s = &node->segment;
+    s->weight = (double)node->weight;
+    s->origin = point_at(renderer, node->ray);
+    s->direction = vector_at(renderer, node->ray + 2);
+    s->radiance = (vec3){renderer_float(told[3].x), renderer_float(told[3].y), renderer_float(told[3].z)};
+    node->radiance[0] = (float)s->radiance.x;
+    node->radiance[1] = (float)s->radiance.y;
+    node->radiance[2] = (float)s->radiance.z;
+    s->unfinished = told[2].w != 0;
+    s->body = HIT_NONE;
+    s->material = UINT32_MAX;
+    if (told[1].z != LOG_NOTHING)
+        take_surface(walk, index, told);
+}
+
+// Depth-first, mirrored rays before refracted ones: the order in which the tracer adds.
+static bool tell(const struct walk *walk, struct render_log *log) {
+    uint32_t *place = malloc(2 * (size_t)walk->count * sizeof *place);
+    walk->nodes[0].segment.parent = UINT32_MAX;
+    if (!place)
+        return false;
+    uint32_t *stack = place + walk->count, size = 0;
+    stack[size++] = 0;
+    while (size) {
+        const uint32_t index = stack[--size];
+        const struct node *node = &walk->nodes[index];
+        struct render_segment *s = &log->segments[log->count];
+        *s = node->segment;
+        s->parent = index ? place[s->parent] : UINT32_MAX;
+        place[index] = log->count++;
+        for (int i = 0; i < 3; i++)
+            log->rgb[i] += node->radiance[i] * node->weight;
+        for (int i = 1; i >= 0; i--)
+            if (node->children[i] != NO_NODE)
+                stack[size++] = node->children[i];
+    }
+    free(place);
+    return true;
+}
+
+static enum render_result walk_path(struct walk *walk) {
+    uint32_t begin = 0;
+    while (begin < walk->count) {
+        const uint32_t left = walk->count - begin;
+        const uint32_t end = begin + (left < BATCH_RAYS ? left : BATCH_RAYS);
+        if (!follow(walk, begin, end))
+            return RENDER_FAILED;
+        for (uint32_t i = begin; i < end; i++)
+            take(walk, i, walk->renderer->log->told + (size_t)(i - begin) * LOG_WORDS);
+        begin = end;
+    }
+    return RENDER_DONE;
+}
+
+enum render_result renderer_log(struct renderer *renderer, const struct view_camera *camera, uint32_t x,
+                                uint32_t y, uint32_t sample, struct render_log *log) {
+    log->count = 0;
+    log->whole = true;
+    memset(log->rgb, 0, sizeof log->rgb);
+    struct walk walk = {.renderer = renderer, .capacity = log->capacity, .whole = true};
+    walk.nodes = malloc((size_t)log->capacity * sizeof *walk.nodes);
+    if (!walk.nodes || (!renderer->log && !make(renderer)) || !renderer_write_frame(renderer, camera)) {
+        free(walk.nodes);
+        return RENDER_FAILED;
+    }
+    walk.nodes[0] = (struct node){.weight = 1, .children = {NO_NODE, NO_NODE}};
+    walk.count = 1;
+    enum render_result result = RENDER_FAILED;
+    if (make_camera_ray(renderer, x, y, sample, walk.nodes[0].ray))
+        result = walk_path(&walk);
+    log->whole = walk.whole;
+    if (result == RENDER_DONE && !tell(&walk, log))
+        result = RENDER_FAILED;
+    free(walk.nodes);
+    return result;
+}

@@ -1,0 +1,87 @@
+// Inside of the renderer: what the files render*.c share. Thread safety: as render.h.
+#ifndef GLINT_TRACER_RENDER_RENDER_PRIVATE_H
+#define GLINT_TRACER_RENDER_RENDER_PRIVATE_H
+
+#include "shaders/features.h"
+#include "shaders/frame.h"
+#include "shaders/gpu_scene.h"
+#include "tracer/render/render.h"
+
+#define VECTOR_FIELD(name) float name[3];
+#define FLOAT_FIELD(name)  float name;
+#define UINT_FIELD(name)   uint32_t name;
+#define DOUBLE_FIELD(name) double name;
+struct frame_block {
+    FRAME_FIELDS(VECTOR_FIELD, FLOAT_FIELD, UINT_FIELD)
+    FRAME_DOUBLE_FIELDS(DOUBLE_FIELD)
+};
+struct dispatch_block {
+    DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
+};
+#undef VECTOR_FIELD
+#undef FLOAT_FIELD
+#undef UINT_FIELD
+#undef DOUBLE_FIELD
+
+struct renderer_hits;
+struct renderer_log;
+
+// A kernel that was compiled, for the settings that it depends on.
+struct renderer_kept {
+    uint32_t features, workgroup;
+    enum render_study study;
+    struct gpu_program *program; // NULL: none
+};
+enum {
+    RENDERER_KEPT = 16
+};
+
+struct renderer {
+    struct gpu *gpu;
+    const struct flat_scene *flat; // not owned
+    struct render_settings settings;
+    uint32_t features;       // of the scene, and FEATURE_SLICES
+    uint32_t path_stack;     // entries
+    uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
+    uint32_t run_tiles, runs, run_step;
+    uint32_t band_tiles; // of a band; the last may have fewer
+    struct gpu_buffer *buffers[GPU_BINDINGS];
+    struct gpu_program *program;  // of those kept
+    struct gpu_program *counting; // the same; made by the first renderer_count
+    struct renderer_kept kept[RENDERER_KEPT];
+    uint32_t kept_next;         // which one gives way
+    uint32_t *band;             // the band's output, read back: 4 words a slot
+    struct renderer_hits *hits; // made by the first renderer_hits
+    struct renderer_log *log;   // made by the first renderer_log
+    uint32_t pending;           // value of COUNTER_PENDING after the last dispatch
+};
+
+// A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` take the place
+// of the band's where not NULL.
+enum renderer_kernel {
+    RENDERER_TRACE,
+    RENDERER_HITS,
+    RENDERER_LOG,
+    RENDERER_KERNELS,
+};
+struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
+                                            uint32_t features, struct gpu_buffer *output,
+                                            struct gpu_buffer *state);
+// The tracing kernel with these features, compiled now or before, over the band's buffers.
+struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t features);
+float renderer_float(uint32_t bits);
+// A number that a kernel wrote in its own precision (shaders/bits.glsl).
+double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
+// The frame's uniforms for a camera.
+bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera);
+// Width of a grid of so many workgroups, which rows of one length hold.
+uint32_t renderer_grid_width(uint32_t groups);
+// Body in IR order, and its triangle in file order, of a number as in FAULT_NUMBER.
+void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);
+void renderer_hits_destroy(struct renderer *renderer); // what renderer_hits made
+void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made
+// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture.
+bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+                    uint32_t *y);
+
+#endif
