@@ -11,8 +11,7 @@ enum shot_status exact_open(struct exact *exact, struct session *session, uint32
     *exact = (struct exact){.session = session};
     if (!session_view(session, camera, &exact->view))
         return shot_no_memory(session, "the reference");
-    struct reference_input input = {
-        .scene = session->scene, .assets = &session->assets, .view = &exact->view};
+    struct reference_input input = {.scene = &session->resolved, .view = &exact->view};
     exact->settings =
         reference_settings_of(session->scene, &session->image, &session->options.limits, options.as_file);
     exact->store_path = options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);

@@ -86,8 +86,8 @@ void precision_check(struct session *session) {
     if (trace->precision != IR_PRECISION_SINGLE)
         return;
     struct view view;
-    view_build(session->scene, &session->assets, 0, session->image.width, session->image.height,
-               &session->arena, NULL, &view);
+    view_build(&session->resolved, 0, session->image.width, session->image.height, &session->arena, NULL,
+               &view);
     struct flat_input input = precision_input(session, &view);
     struct precision_report report;
     if (!precision_measure(&input, &report) || report.suffices)
@@ -102,9 +102,7 @@ void precision_check(struct session *session) {
 }
 
 struct flat_input precision_input(struct session *session, const struct view *view) {
-    return (struct flat_input){.scene = session->scene,
-                               .origin_places = &session->origin,
-                               .assets = &session->assets,
+    return (struct flat_input){.scene = &session->resolved,
                                .view = view,
                                .origin = session_origin(session, view),
                                .limits = &session->options.limits,

@@ -5,7 +5,6 @@
 #include "core/strbuf.h"
 #include "grammar/ir_print_text.h"
 #include "parser/parser.h"
-#include "scene/reach.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -125,7 +124,8 @@ static void load_assets(struct session *session, struct asset_store *store) {
     double start = clock_seconds();
     struct assets_input input = session_assets_input(session);
     assets_load(store, &input, session->options.skip_pixels, &session->assets);
-    scene_check_reach(session->scene, &session->assets, &session->sink);
+    scene_build(session->scene, &session->assets, &session->arena, &session->resolved);
+    scene_check_reach(&session->resolved, &session->sink);
     session->assets_seconds = clock_seconds() - start;
 }
 

@@ -16,6 +16,7 @@
 #include "grammar/ir.h"
 #include "grammar/ir_origin.h"
 #include "lint/lint.h"
+#include "scene/scene.h"
 #include "scene/view.h"
 
 struct session_options {
@@ -59,6 +60,7 @@ struct session {
     struct ir_origin origin;
     struct ir_image image; // the scene's, with the options' size and samples
     struct assets assets;
+    struct scene resolved; // what scene and assets mean together; without assets: nothing
     enum session_state state;
     double read_seconds, assets_seconds, lint_seconds;
 };

@@ -7,8 +7,8 @@ void session_lint(struct session *session) {
     if (session->options.lint == LINT_NONE || session->sink.errors > 0)
         return;
     double start = clock_seconds();
-    struct assets_input scene = session_assets_input(session);
-    struct lint_input input = {.scene = &scene, .assets = &session->assets, .image = &session->image};
+    struct assets_input files = session_assets_input(session);
+    struct lint_input input = {.scene = &session->resolved, .files = &files, .image = &session->image};
     lint_run(&input, session->options.lint);
     if (session->options.lint == LINT_ALL)
         precision_check(session);

@@ -37,8 +37,8 @@ bool session_view(struct session *session, uint32_t camera, struct view *view) {
     arena_set_guard(&session->arena, &guard);
     bool made = false;
     if (setjmp(guard.jump) == 0) {
-        view_build(session->scene, &session->assets, camera, session->image.width, session->image.height,
-                   &session->arena, &session->sink, view);
+        view_build(&session->resolved, camera, session->image.width, session->image.height, &session->arena,
+                   &session->sink, view);
         made = true;
     }
     arena_set_guard(&session->arena, NULL);

@@ -25,7 +25,7 @@ enum shot_status shot_open(struct shot *shot, struct session *session, struct gp
         return shot_no_memory(session, "the view");
     if (!flatten_shot(shot))
         return SHOT_SCENE;
-    shot->settings = render_settings_of(session->scene, &shot->flat, &session->options.limits);
+    shot->settings = render_settings_of(&session->resolved, &shot->flat, &session->options.limits);
     shot->settings.width = (uint32_t)session->image.width;
     shot->settings.height = (uint32_t)session->image.height;
     shot->settings.samples = (uint32_t)session->image.samples;

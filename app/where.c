@@ -1,30 +1,7 @@
 #include "app/where.h"
 
+#include "grammar/schema.h"
 #include "scene/hits.h"
-
-static const struct ir_material_ref *find_body(const struct session *session, uint32_t body,
-                                               struct where *out) {
-    const struct ir_scene *scene = session->scene;
-    const struct ir_head *head;
-    const struct ir_material_ref *ref = NULL;
-    if (body < scene->spheres.count) {
-        const struct ir_sphere *sphere = &scene->spheres.items[body];
-        *out = (struct where){.kind = "sphere", .index = body, .name = sphere->name};
-        head = &sphere->head;
-        ref = &sphere->material;
-    } else if ((body -= scene->spheres.count) < scene->rectangles.count) {
-        const struct ir_rectangle *rectangle = &scene->rectangles.items[body];
-        *out = (struct where){.kind = "rectangle", .index = body, .name = rectangle->name};
-        head = &rectangle->head;
-        ref = &rectangle->material;
-    } else {
-        body -= scene->rectangles.count;
-        *out = (struct where){.kind = "model", .index = body, .name = scene->models.items[body].name};
-        head = &scene->models.items[body].head;
-    }
-    out->at = ir_place_label(&session->origin, head);
-    return ref;
-}
 
 static void find_material(const struct session *session, struct where *out) {
     const struct ir_materials *of_scene = &session->scene->materials;
@@ -40,20 +17,21 @@ static void find_material(const struct session *session, struct where *out) {
         out->material_at = ir_place_label(&session->origin, &of_scene->items[out->material].head);
 }
 
-bool where_find(const struct session *session, uint32_t body, uint32_t triangle, struct where *out) {
-    if (body >= ir_body_count(session->scene))
+bool where_find(const struct session *session, uint32_t number, uint32_t triangle, struct where *out) {
+    if (number >= session->resolved.body_count)
         return false;
-    const struct ir_material_ref *ref = find_body(session, body, out);
-    out->material = session->scene->materials.count;
-    if (ref) {
-        out->material = assets_material(session->scene, ref);
-    } else if (out->index < session->assets.model_count) {
-        const struct assets_model *model = &session->assets.models[out->index];
-        if (model->mesh && triangle < model->mesh->triangle_count) {
-            out->mesh = model->mesh->path;
-            out->mesh_line = model->mesh->triangles[triangle].line;
-            out->material = model->group_material[model->mesh->triangles[triangle].group];
-        }
+    const struct scene_body *body = &session->resolved.bodies[number];
+    *out = (struct where){.kind = body->element->name,
+                          .index = body->index,
+                          .name = body->name,
+                          .at = ir_place_label(&session->origin, body->head),
+                          .material = session->scene->materials.count};
+    if (!body->mesh && body->group_count) {
+        out->material = scene_body_material(body, 0);
+    } else if (body->mesh && triangle < body->mesh->triangle_count) {
+        out->mesh = body->mesh->path;
+        out->mesh_line = body->mesh->triangles[triangle].line;
+        out->material = scene_body_material(body, triangle);
     }
     find_material(session, out);
     return true;

@@ -53,7 +53,7 @@ bool bench_scene_open(struct bench_scene *scene, const char *path, const char *a
     input.is_double = true;
     if (!flatten(&input, &scene->flat_double))
         return report(session);
-    scene->settings = render_settings_of(session->scene, &scene->flat, &session->options.limits);
+    scene->settings = render_settings_of(&session->resolved, &scene->flat, &session->options.limits);
     return true;
 }
 

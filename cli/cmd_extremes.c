@@ -171,8 +171,7 @@ static int run_scene(struct job *job, enum kind kind) {
     if (status != CLI_OK)
         return status;
     job->input =
-        (struct extremes_input){.scene = job->session.scene,
-                                .assets = &job->session.assets,
+        (struct extremes_input){.scene = &job->session.resolved,
                                 .camera = camera,
                                 .width = cli->options.width ? (uint32_t)cli->options.width : WIDTH,
                                 .height = cli->options.height ? (uint32_t)cli->options.height : HEIGHT,

@@ -38,7 +38,7 @@ static void counts(struct strbuf *out, const struct session *s) {
 static void bounds(struct strbuf *out, const struct session *s) {
     vec3 lower;
     vec3 upper;
-    if (!view_bounds(s->scene, &s->assets, &lower, &upper)) {
+    if (!scene_bounds(&s->resolved, &lower, &upper)) {
         strbuf_cstr(out, "bounds      none: the scene has no body\n");
         return;
     }

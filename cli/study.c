@@ -87,9 +87,7 @@ static int run(struct cli *cli, struct session *session, struct gpu *gpu, uint32
     if (!precision_choose(session, &flat, gpu_info(gpu)->has_double))
         return failed(cli, session, gpu, TRADEOFF_SCENE);
     char *store = cli->options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);
-    const struct tradeoff_input input = {.scene = session->scene,
-                                         .origin_places = &session->origin,
-                                         .assets = &session->assets,
+    const struct tradeoff_input input = {.scene = &session->resolved,
                                          .view = &view,
                                          .image = &session->image,
                                          .origin = flat.origin,

@@ -132,3 +132,21 @@ static void walk_paths(const struct schema_element *schema, void *element, ir_wa
 void ir_walk_paths(struct ir_scene *scene, ir_walk_visit_path *visit, void *context) {
     walk_paths(&SCHEMA_SCENE, scene, visit, context);
 }
+
+static void walk_references(const struct schema_element *schema, const void *element,
+                            ir_walk_visit_reference *visit, void *context) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        struct ir_any_list list = ir_walk_list(row, element);
+        if (row->kind == SCHEMA_REFERENCE)
+            visit(context, row, schema_field_const(row, element));
+        if (row->kind == SCHEMA_ELEMENT)
+            walk_references(row->child, schema_field_const(row, element), visit, context);
+        for (uint32_t k = 0; k < list.count; k++)
+            walk_references(row->child, ir_walk_item(row, list, k), visit, context);
+    }
+}
+
+void ir_walk_references(const struct ir_scene *scene, ir_walk_visit_reference *visit, void *context) {
+    walk_references(&SCHEMA_SCENE, scene, visit, context);
+}

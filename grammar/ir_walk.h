@@ -49,6 +49,11 @@ typedef void ir_walk_visit_path(void *context, const struct schema_element *sche
                                 const struct schema_row *row, str *path);
 void ir_walk_paths(struct ir_scene *scene, ir_walk_visit_path *visit, void *context);
 
+// Calls `visit` for each reference that the scene holds, found or not.
+typedef void ir_walk_visit_reference(void *context, const struct schema_row *row,
+                                     const struct ir_material_ref *reference);
+void ir_walk_references(const struct ir_scene *scene, ir_walk_visit_reference *visit, void *context);
+
 static inline const struct ir_head *ir_walk_head(const void *element) {
     return element;
 }

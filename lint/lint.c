@@ -57,23 +57,23 @@ void lint_run(const struct lint_input *input, enum lint_level level) {
         return;
     struct arena arena;
     struct arena_guard guard;
-    struct arena_guard *outer = input->scene->arena->guard;
-    arena_init(&arena, (size_t)input->scene->limits->value[LIMIT_MESH_MEMORY]);
+    struct arena_guard *outer = input->files->arena->guard;
+    arena_init(&arena, (size_t)input->files->limits->value[LIMIT_MESH_MEMORY]);
     arena_set_guard(&arena, &guard);
     // Sources that notes need lie in the scene's arena.
-    arena_set_guard(input->scene->arena, &guard);
+    arena_set_guard(input->files->arena, &guard);
     if (setjmp(guard.jump) == 0) {
         struct lint lint = {.input = input,
-                            .scene = input->scene->scene,
-                            .origin = input->scene->origin,
-                            .assets = input->assets,
-                            .sink = input->scene->sink,
+                            .scene = input->scene,
+                            .ir = input->scene->ir,
+                            .origin = input->files->origin,
+                            .sink = input->files->sink,
                             .arena = &arena};
         run_rules(&lint, level);
     } else {
-        diag_add(input->scene->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
+        diag_add(input->files->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory for the rules that look at meshes");
     }
-    arena_set_guard(input->scene->arena, outer);
+    arena_set_guard(input->files->arena, outer);
     arena_finish(&arena);
 }

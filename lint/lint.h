@@ -9,7 +9,7 @@
 #ifndef GLINT_LINT_LINT_H
 #define GLINT_LINT_LINT_H
 
-#include "assets/assets.h"
+#include "scene/scene.h"
 
 enum lint_level {
     LINT_NONE,
@@ -18,9 +18,9 @@ enum lint_level {
 };
 
 struct lint_input {
-    const struct assets_input *scene; // as the assets were loaded; sink and sources are added to
-    const struct assets *assets;
-    const struct ir_image *image; // the size and samples that will be rendered
+    const struct scene *scene;
+    const struct assets_input *files; // as they were loaded; sink and sources are added to
+    const struct ir_image *image;     // the size and samples that will be rendered
 };
 
 void lint_run(const struct lint_input *input, enum lint_level level);

@@ -8,17 +8,12 @@
 #include "grammar/schema.h"
 #include "lint/lint.h"
 #include "lint/tree.h"
+#include "scene/transform.h"
 #include "scene/view.h"
 
 // 2^-20: a vertex in a file of six digits, and a coordinate after a few operations in single precision, are
 // known no better than this part of their size.
 #define LINT_RESOLUTION 0x1p-20
-
-enum lint_body_kind {
-    LINT_SPHERE,
-    LINT_RECTANGLE,
-    LINT_MODEL,
-};
 
 // Triangles of one mesh that get in each other's way, in file order.
 struct lint_pairs {
@@ -30,11 +25,11 @@ struct lint_pairs {
 struct lint_mesh {
     const struct mesh *mesh;
     uint32_t model_count;
-    uint32_t first_model;      // in the scene
-    uint32_t first_smooth;     // IR_NO_INDEX: none
-    uint32_t first_refracting; // IR_NO_INDEX: none
-    uint32_t source;           // of its text; SOURCE_DEFAULT until a note needed it
-    double tolerance;          // LINT_RESOLUTION of its largest coordinate
+    const struct lint_body *first;            // that shows it
+    const struct lint_body *first_smooth;     // NULL: none
+    const struct lint_body *first_refracting; // NULL: none
+    uint32_t source;                          // of its text; SOURCE_DEFAULT until a note needed it
+    double tolerance;                         // LINT_RESOLUTION of its largest coordinate
     bool has_tree;
     struct lint_tree tree; // lint_tree_of
     bool has_pairs;
@@ -43,24 +38,19 @@ struct lint_mesh {
 
 // In IR order. Scenes may have a million of them: what is rarely needed is computed when it is.
 struct lint_body {
-    enum lint_body_kind kind;
-    uint32_t index; // in the scene's list of its kind
-    const struct ir_head *head;
-    str name;
+    const struct scene_body *is;
     struct lint_box box;    // around it, in scene units
-    struct lint_mesh *mesh; // models; NULL: a sphere, a rectangle, or not loaded
+    struct lint_mesh *mesh; // NULL: another shape, or not loaded
     // The largest of its materials' weights.
     double reflection, refraction, gain; // gain: reflection and refraction of one material together
-    bool is_mirrored;                    // a model whose scale turns the mesh inside out
     bool is_opaque;                      // no material of it refracts
-    bool is_solid;                       // a sphere or a closed mesh: it has an inside
 };
 
 struct lint {
     const struct lint_input *input;
-    const struct ir_scene *scene;
+    const struct scene *scene;
+    const struct ir_scene *ir; // of the scene
     const struct ir_origin *origin;
-    const struct assets *assets;
     struct diag_sink *sink;
     struct arena *arena;
     struct lint_body *bodies;
@@ -81,17 +71,20 @@ void lint_find_pairs(struct lint *lint, struct lint_mesh *mesh);
 // How often a solid surrounds the point (negative where its faces point inwards); 0: outside.
 int lint_winding(struct lint *lint, const struct lint_body *body, vec3 point);
 static inline bool lint_is_inside(struct lint *lint, const struct lint_body *body, vec3 point) {
-    return body->is_solid && lint_box_holds(&body->box, point) && lint_winding(lint, body, point) != 0;
+    return body->is->closed && lint_box_holds(&body->box, point) && lint_winding(lint, body, point) != 0;
 }
-// The material of a sphere, a rectangle, or of one group of a model.
+// The material of one of a body's groups.
 const struct ir_material *lint_material(const struct lint *lint, const struct lint_body *body,
                                         uint32_t group);
-uint32_t lint_group_count(const struct lint_body *body);
-// Of a model with a mesh: from mesh space to scene units, and back.
-affine3 lint_placing(const struct lint *lint, const struct lint_body *body);
-affine3 lint_inverse(affine3 placing);
-// The two triangles of a rectangle.
-void lint_rectangle(const struct lint_body *body, const struct lint *lint, struct lint_triangle out[2]);
+// The triangles of a body that has some without a mesh; their number, 0 of other bodies.
+enum {
+    LINT_FLAT_TRIANGLES = 2
+};
+uint32_t lint_flat_triangles(const struct lint_body *body, struct lint_triangle out[LINT_FLAT_TRIANGLES]);
+// Whether there is anything of the body: not where its mesh could not be loaded.
+static inline bool lint_is_there(const struct lint_body *body) {
+    return body->is->shape != SCENE_MESH || body->mesh;
+}
 
 // Places and words. In lint_places.c.
 // "sphere 'ball'", or "this sphere".
@@ -99,7 +92,7 @@ str lint_words(struct lint *lint, const struct lint_body *body);
 // "sphere 'ball'", or "a sphere".
 str lint_words_other(struct lint *lint, const struct lint_body *body);
 span lint_place(const struct lint *lint, const struct lint_body *body);
-span lint_place_mesh(const struct lint *lint, uint32_t model);
+span lint_place_mesh(const struct lint *lint, const struct lint_body *body);
 // A note at a line of a mesh file.
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

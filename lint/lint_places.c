@@ -10,29 +10,24 @@ enum {
     NOTE_MAX = 512
 };
 
-static const char *kind_of(const struct lint_body *body) {
-    static const char *const kinds[] = {"sphere", "rectangle", "model"};
-    return kinds[body->kind];
-}
-
 str lint_words(struct lint *lint, const struct lint_body *body) {
-    if (body->name.len)
-        return arena_format(lint->arena, "%s '%.*s'", kind_of(body), STR_ARG(body->name));
-    return arena_format(lint->arena, "this %s", kind_of(body));
+    if (body->is->name.len)
+        return arena_format(lint->arena, "%s '%.*s'", body->is->element->name, STR_ARG(body->is->name));
+    return arena_format(lint->arena, "this %s", body->is->element->name);
 }
 
 str lint_words_other(struct lint *lint, const struct lint_body *body) {
-    if (body->name.len)
+    if (body->is->name.len)
         return lint_words(lint, body);
-    return arena_format(lint->arena, "a %s", kind_of(body));
+    return arena_format(lint->arena, "a %s", body->is->element->name);
 }
 
 span lint_place(const struct lint *lint, const struct lint_body *body) {
-    return ir_place_label(lint->origin, body->head);
+    return ir_place_label(lint->origin, body->is->head);
 }
 
-span lint_place_mesh(const struct lint *lint, uint32_t model) {
-    return ir_place_value(lint->origin, &lint->scene->models.items[model].head, &SCHEMA_MODEL, "mesh");
+span lint_place_mesh(const struct lint *lint, const struct lint_body *body) {
+    return ir_place_value(lint->origin, body->is->head, body->is->element, "mesh");
 }
 
 // The source with the mesh's text that an earlier message made, if there is one.
@@ -51,7 +46,7 @@ void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, co
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    const struct assets_input *input = lint->input->scene;
+    const struct assets_input *input = lint->input->files;
     if (mesh->source == SOURCE_DEFAULT)
         mesh->source = known_source(input->sources, mesh->mesh->path);
     struct asset_file file = {.input = input,

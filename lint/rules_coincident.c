@@ -23,7 +23,7 @@ static void check_mesh(struct lint *lint, struct lint_mesh *mesh) {
     const struct lint_pairs *pairs = &mesh->overlaps;
     if (pairs->count == 0)
         return;
-    diag_add(lint->sink, DIAG_COINCIDENT, lint_place_mesh(lint, mesh->first_model),
+    diag_add(lint->sink, DIAG_COINCIDENT, lint_place_mesh(lint, mesh->first),
              "%u of the mesh's %u triangles lie in one plane with others and cover a part of them",
              pairs->count, mesh->mesh->triangle_count);
     lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->first].line, "the first is in this face");
@@ -33,10 +33,12 @@ static void check_mesh(struct lint *lint, struct lint_mesh *mesh) {
 
 // ---- bodies at equal places
 
-// What a body's place depends on.
+// What a body's place and shape depend on.
 struct place {
-    double numbers[12];
+    affine3 object_to_world;
+    double radius;
     const struct mesh *mesh;
+    uint64_t shape; // as wide as the others: no padding, whose bytes would count
 };
 
 struct place_key {
@@ -45,36 +47,19 @@ struct place_key {
 };
 
 static struct place place_of(const struct lint *lint, uint32_t index) {
-    const struct lint_body *body = &lint->bodies[index];
-    struct place place = {.numbers[11] = body->kind};
-    if (body->kind == LINT_SPHERE) {
-        const struct ir_sphere *sphere = &lint->scene->spheres.items[body->index];
-        memcpy(place.numbers, &sphere->center, sizeof sphere->center);
-        place.numbers[3] = sphere->radius;
-    } else if (body->kind == LINT_RECTANGLE) {
-        const struct ir_rectangle *r = &lint->scene->rectangles.items[body->index];
-        memcpy(place.numbers, &r->corner, sizeof(vec3));
-        memcpy(place.numbers + 3, &r->edge_u, sizeof(vec3));
-        memcpy(place.numbers + 6, &r->edge_v, sizeof(vec3));
-    } else {
-        const struct ir_model *model = &lint->scene->models.items[body->index];
-        memcpy(place.numbers, &model->scale, sizeof(vec3));
-        memcpy(place.numbers + 3, &model->rotation, sizeof(vec3));
-        memcpy(place.numbers + 6, &model->translation, sizeof(vec3));
-        place.mesh = body->mesh->mesh;
-    }
-    return place;
+    const struct scene_body *body = lint->bodies[index].is;
+    return (struct place){body->object_to_world, body->radius, body->mesh, body->shape};
 }
 
 static bool is_same_place(const struct lint *lint, uint32_t a, uint32_t b) {
     struct place x = place_of(lint, a);
     struct place y = place_of(lint, b);
-    return x.mesh == y.mesh && memcmp(x.numbers, y.numbers, sizeof x.numbers) == 0;
+    return memcmp(&x, &y, sizeof x) == 0;
 }
 
 static struct place_key key_of(const struct lint *lint, uint32_t body) {
     struct place place = place_of(lint, body);
-    return (struct place_key){str_hash((str){(const char *)place.numbers, sizeof place.numbers}), body};
+    return (struct place_key){str_hash((str){(const char *)&place, sizeof place}), body};
 }
 
 static int compare_keys(const void *a, const void *b) {
@@ -90,7 +75,7 @@ static bool *find_repeats(struct lint *lint) {
     bool *repeats = ARENA_ARRAY(lint->arena, bool, lint->body_count);
     uint32_t count = 0;
     for (uint32_t i = 0; i < lint->body_count; i++)
-        if (lint->bodies[i].kind != LINT_MODEL || lint->bodies[i].mesh)
+        if (lint_is_there(&lint->bodies[i]))
             keys[count++] = key_of(lint, i);
     qsort(keys, count, sizeof *keys, compare_keys);
     for (uint32_t i = 1, first = 0; i < count; i++) {
@@ -112,10 +97,10 @@ static bool *find_repeats(struct lint *lint) {
 
 struct search {
     struct lint *lint;
-    const struct lint_body *a, *b;        // faces of `a` against those of `b`
-    affine3 placing_a, placing_b, back_b; // of models
-    struct lint_face face;                // of `a`, in scene units
-    uint32_t triangle;                    // of `a`
+    const struct lint_body *a, *b; // faces of `a` against those of `b`
+    affine3 back_b;                // into the object space of its mesh
+    struct lint_face face;         // of `a`, in scene units
+    uint32_t triangle;             // of `a`
     double near;
     uint64_t *work_left;
     uint32_t count;
@@ -123,10 +108,10 @@ struct search {
 };
 
 static bool shows(const struct lint_body *body, const struct lint_face *face, vec3 eye) {
-    if (!body->is_solid || !body->is_opaque)
+    if (!body->is->closed || !body->is_opaque)
         return true;
     double facing = vec3_dot(face->normal, vec3_sub(eye, face->t.p[0]));
-    return body->is_mirrored ? facing < 0 : facing > 0;
+    return body->is->mirrored ? facing < 0 : facing > 0;
 }
 
 static bool both_show(const struct search *s, const struct lint_face *other) {
@@ -154,7 +139,7 @@ static bool visit_other(void *context, uint32_t first, uint32_t count) {
     const struct lint_tree *tree = &s->b->mesh->tree;
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
-        compare_faces(s, lint_triangle_place(t, &s->placing_b), tree->order[i]);
+        compare_faces(s, lint_triangle_place(t, &s->b->is->object_to_world), tree->order[i]);
     }
     *s->work_left -= *s->work_left < count ? *s->work_left : count;
     return *s->work_left > 0;
@@ -163,13 +148,12 @@ static bool visit_other(void *context, uint32_t first, uint32_t count) {
 static void search_face(struct search *s, struct lint_triangle triangle, uint32_t index) {
     s->face = lint_face_of(triangle);
     s->triangle = index;
-    if (s->b->kind == LINT_RECTANGLE) {
-        struct lint_triangle halves[2];
-        lint_rectangle(s->b, s->lint, halves);
-        compare_faces(s, halves[0], 0);
-        compare_faces(s, halves[1], 1);
+    struct lint_triangle flat[LINT_FLAT_TRIANGLES];
+    uint32_t count = lint_flat_triangles(s->b, flat);
+    for (uint32_t i = 0; i < count; i++)
+        compare_faces(s, flat[i], i);
+    if (count)
         return;
-    }
     struct lint_box box = lint_box_grow(lint_box_of(&triangle), s->near);
     box = lint_box_place(box, &s->back_b);
     lint_tree_in_box(lint_tree_of(s->lint, s->b->mesh), &box, visit_other, s);
@@ -180,7 +164,7 @@ static bool visit_own(void *context, uint32_t first, uint32_t count) {
     const struct lint_tree *tree = &s->a->mesh->tree;
     for (uint32_t i = first; i<first + count && * s->work_left> 0; i++) {
         struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
-        search_face(s, lint_triangle_place(t, &s->placing_a), tree->order[i]);
+        search_face(s, lint_triangle_place(t, &s->a->is->object_to_world), tree->order[i]);
         *s->work_left -= *s->work_left > 0;
     }
     return *s->work_left > 0;
@@ -210,33 +194,24 @@ static double farthest(const struct lint *lint, const struct lint_box *box) {
     return fmax(vec3_max_abs(vec3_sub(box->lower, eye)), vec3_max_abs(vec3_sub(box->upper, eye)));
 }
 
-static uint32_t face_count(const struct lint_body *body) {
-    return body->mesh ? body->mesh->mesh->triangle_count : 2;
-}
-
 static void check_pair(struct lint *lint, const struct lint_body *a, const struct lint_body *b,
                        uint64_t *work_left) {
     struct search s = {.lint = lint, .a = a, .b = b, .work_left = work_left};
-    if (face_count(b) < face_count(a)) {
+    if (b->is->triangle_count < a->is->triangle_count) {
         s.a = b;
         s.b = a;
     }
-    if (s.a->mesh)
-        s.placing_a = lint_placing(lint, s.a);
-    if (s.b->mesh) {
-        s.placing_b = lint_placing(lint, s.b);
-        s.back_b = lint_inverse(s.placing_b);
-    }
+    if (s.b->mesh)
+        s.back_b = transform_inverse(s.b->is->object_to_world);
     struct lint_box common = {vec3_max(a->box.lower, b->box.lower), vec3_min(a->box.upper, b->box.upper)};
     s.near = NEAR * farthest(lint, &common);
     common = lint_box_grow(common, s.near);
-    if (s.a->kind == LINT_RECTANGLE) {
-        struct lint_triangle halves[2];
-        lint_rectangle(s.a, lint, halves);
-        search_face(&s, halves[0], 0);
-        search_face(&s, halves[1], 1);
-    } else {
-        affine3 back = lint_inverse(s.placing_a);
+    struct lint_triangle flat[LINT_FLAT_TRIANGLES];
+    uint32_t count = lint_flat_triangles(s.a, flat);
+    for (uint32_t i = 0; i < count; i++)
+        search_face(&s, flat[i], i);
+    if (s.a->mesh) {
+        affine3 back = transform_inverse(s.a->is->object_to_world);
         struct lint_box own = lint_box_place(common, &back);
         lint_tree_in_box(lint_tree_of(lint, s.a->mesh), &own, visit_own, &s);
     }
@@ -260,7 +235,7 @@ void lint_coincident(struct lint *lint) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < lint->body_count; i++) {
         const struct lint_body *body = &lint->bodies[i];
-        if (!repeats[i] && (body->kind == LINT_RECTANGLE || body->mesh))
+        if (!repeats[i] && body->is->triangle_count)
             flat[count++] = body;
     }
     qsort(flat, count, sizeof *flat, compare_bodies);

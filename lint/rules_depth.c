@@ -59,8 +59,8 @@ static bool meet(void *context, uint32_t first, uint32_t count) {
     return hits->tried < RAY_WORK_MAX;
 }
 
-static void meet_sphere(struct ray_hits *hits, const struct ir_sphere *sphere, vec3 origin, vec3 direction) {
-    vec3 to_center = vec3_sub(sphere->center, origin);
+static void meet_sphere(struct ray_hits *hits, const struct scene_body *sphere, vec3 origin, vec3 direction) {
+    vec3 to_center = vec3_sub(sphere->object_to_world.offset, origin);
     double along = vec3_dot(to_center, direction);
     double square =
         sphere->radius * sphere->radius - vec3_dot(vec3_sub(to_center, vec3_mul(direction, along)),
@@ -75,19 +75,19 @@ static void meet_body(const struct lint *lint, uint32_t index, vec3 origin, vec3
                       struct ray_hits *hits) {
     const struct lint_body *body = &lint->bodies[index];
     hits->body = index;
-    if (body->kind == LINT_SPHERE) {
-        meet_sphere(hits, &lint->scene->spheres.items[body->index], origin, direction);
-    } else if (body->kind == LINT_RECTANGLE) {
-        struct lint_triangle halves[2];
-        double t;
-        int side;
-        lint_rectangle(body, lint, halves);
-        if (lint_triangle_ray(&halves[0], origin, direction, &t, &side) ||
-            lint_triangle_ray(&halves[1], origin, direction, &t, &side))
+    struct lint_triangle flat[LINT_FLAT_TRIANGLES];
+    double t;
+    int side;
+    for (uint32_t i = 0, count = lint_flat_triangles(body, flat); i < count; i++)
+        if (lint_triangle_ray(&flat[i], origin, direction, &t, &side)) {
             add_hit(hits, t);
+            break; // the other one shares the edge that the ray may go through
+        }
+    if (body->is->shape == SCENE_SPHERE) {
+        meet_sphere(hits, body->is, origin, direction);
     } else if (body->mesh) {
         hits->tree = &body->mesh->tree;
-        affine3 back = lint_inverse(lint_placing(lint, body));
+        affine3 back = transform_inverse(body->is->object_to_world);
         hits->origin = affine3_apply(back, origin);
         hits->direction = mat3_apply(back.linear, direction);
         lint_tree_on_ray(hits->tree, hits->origin, hits->direction, meet, hits);
@@ -122,7 +122,7 @@ static uint32_t count_layers(const struct lint *lint, const struct ray_hits *hit
     uint32_t layers = 0;
     while (layers < hits->count && hits->items[layers].t < end) {
         weight *= lint->bodies[hits->items[layers].body].refraction;
-        if (weight < lint->scene->trace.min_weight)
+        if (weight < lint->ir->trace.min_weight)
             break;
         layers++;
     }
@@ -141,7 +141,7 @@ static void trace_ray(const struct glass *glass, uint32_t index) {
     for (uint32_t i = 0; i < glass->refracting_count; i++)
         if (lint_box_on_ray(&lint->bodies[glass->refracting[i]].box, camera->position, direction))
             meet_body(lint, glass->refracting[i], camera->position, direction, &hits);
-    uint32_t most = (uint32_t)lint->scene->trace.max_depth;
+    uint32_t most = (uint32_t)lint->ir->trace.max_depth;
     if (hits.count <= most || hits.tried >= RAY_WORK_MAX)
         return;
     qsort(hits.items, hits.count, sizeof *hits.items, compare_crossings);
@@ -157,7 +157,7 @@ static void trace_piece(void *context, size_t begin, size_t end) {
 }
 
 static span depth_place(const struct lint *lint, const struct lint_body *body) {
-    span at = ir_place_value(lint->origin, &lint->scene->trace.head, &SCHEMA_TRACE, "max_depth");
+    span at = ir_place_value(lint->origin, &lint->ir->trace.head, &SCHEMA_TRACE, "max_depth");
     return span_is_none(at) ? lint_place(lint, body) : at;
 }
 
@@ -171,14 +171,14 @@ static void report(const struct glass *glass, uint32_t at, uint32_t rays) {
     diag_add(lint->sink, DIAG_DEPTH_SHORT, depth_place(lint, body),
              "max_depth is %d, and a ray through pixel %u,%u crosses %u surfaces of glass: it ends before it "
              "has passed them",
-             lint->scene->trace.max_depth, x, y, needed);
+             lint->ir->trace.max_depth, x, y, needed);
     diag_note(lint->sink, lint_place(lint, body),
               "the first is that of %.*s; in %.3g %% of the picture rays end in glass",
               STR_ARG(lint_words_other(lint, body)), 100.0 * rays / (glass->columns * glass->rows));
     if (needed <= 64)
         diag_help(lint->sink, "write max_depth: %u", needed);
     int row = schema_find_row(&SCHEMA_TRACE, STR("max_depth"));
-    const struct ir_row_origin *place = ir_origin_row(lint->origin, &lint->scene->trace.head, (uint32_t)row);
+    const struct ir_row_origin *place = ir_origin_row(lint->origin, &lint->ir->trace.head, (uint32_t)row);
     if (needed <= 64 && place)
         diag_fix(lint->sink, false, place->value, arena_format(lint->arena, "%u", needed));
 }
@@ -191,7 +191,7 @@ static void look(struct glass *glass) {
     uint32_t worst = 0;
     uint32_t cut = 0;
     for (uint32_t i = 0; i < rays; i++) {
-        cut += glass->layers[i] > (uint32_t)glass->lint->scene->trace.max_depth;
+        cut += glass->layers[i] > (uint32_t)glass->lint->ir->trace.max_depth;
         if (glass->layers[i] > glass->layers[worst])
             worst = i;
     }
@@ -210,7 +210,7 @@ void lint_depth_short(struct lint *lint) {
         glass.refracting[glass.refracting_count++] = i;
         surfaces += body->mesh ? body->mesh->mesh->triangle_count : 2;
     }
-    if (surfaces <= (uint32_t)lint->scene->trace.max_depth)
+    if (surfaces <= (uint32_t)lint->ir->trace.max_depth)
         return;
     for (uint32_t i = 0; i < lint->body_count; i++)
         if (lint->bodies[i].mesh)

@@ -16,8 +16,8 @@ static double samples_per_radian(const struct lint *lint, const struct view_came
 }
 
 void lint_oversized_image(struct lint *lint) {
-    const struct ir_background *background = &lint->scene->background;
-    uint32_t width = lint->assets->background_width;
+    const struct ir_background *background = &lint->ir->background;
+    uint32_t width = lint->scene->assets->background_width;
     if (background->kind != IR_BACKDROP_IMAGE || width == 0)
         return;
     double finest = 0;
@@ -31,7 +31,7 @@ void lint_oversized_image(struct lint *lint) {
         lint->sink, DIAG_OVERSIZED_IMAGE,
         ir_place_value(lint->origin, &background->head, &SCHEMA_BACKGROUND, "image"),
         "the background of %u x %u pixels is at least %.3g times finer than a picture of %d x %d can show",
-        width, lint->assets->background_height, texels / finest, image->width, image->height);
+        width, lint->scene->assets->background_height, texels / finest, image->width, image->height);
     double enough = exp2(ceil(log2(TURN * finest)));
     diag_help(lint->sink, "an image %.0f pixels wide shows all that this picture can", enough);
 }

@@ -33,13 +33,13 @@ static void report_camera(struct lint *lint, const struct ir_camera *camera, con
 
 void lint_camera_inside(struct lint *lint) {
     uint64_t work = 0;
-    for (uint32_t i = 0; i < lint->scene->cameras.count && work < WORK_MAX; i++, work += lint->body_count) {
+    for (uint32_t i = 0; i < lint->ir->cameras.count && work < WORK_MAX; i++, work += lint->body_count) {
         vec3 position = lint->views[i].camera.position;
         for (uint32_t k = 0; k < lint->body_count; k++) {
             const struct lint_body *body = &lint->bodies[k];
             if (!lint_is_inside(lint, body, position) || (body->is_opaque && holds_light(lint, body)))
                 continue;
-            report_camera(lint, &lint->scene->cameras.items[i], body);
+            report_camera(lint, &lint->ir->cameras.items[i], body);
             break;
         }
     }
@@ -72,21 +72,17 @@ static bool measure(void *context, uint32_t first, uint32_t count) {
 // How far the point is from the body's surface, where that is at most `near`; *triangle of a mesh.
 static bool is_on(struct lint *lint, const struct lint_body *body, vec3 point, double near,
                   uint32_t *triangle) {
-    if (body->kind == LINT_SPHERE) {
-        const struct ir_sphere *sphere = &lint->scene->spheres.items[body->index];
-        return fabs(vec3_length(vec3_sub(point, sphere->center)) - sphere->radius) <= near;
-    }
-    if (body->kind == LINT_RECTANGLE) {
-        struct lint_triangle halves[2];
-        lint_rectangle(body, lint, halves);
-        return fmin(lint_triangle_distance(&halves[0], point), lint_triangle_distance(&halves[1], point)) <=
-               near;
-    }
+    const affine3 *map = &body->is->object_to_world;
+    if (body->is->shape == SCENE_SPHERE)
+        return fabs(vec3_length(vec3_sub(point, map->offset)) - body->is->radius) <= near;
+    struct lint_triangle flat[LINT_FLAT_TRIANGLES];
+    for (uint32_t i = 0, count = lint_flat_triangles(body, flat); i < count; i++)
+        if (lint_triangle_distance(&flat[i], point) <= near)
+            return true;
     if (!body->mesh)
         return false;
-    struct nearest_face nearest = {lint_tree_of(lint, body->mesh), lint_placing(lint, body), point, INFINITY,
-                                   0};
-    affine3 back = lint_inverse(nearest.placing);
+    struct nearest_face nearest = {lint_tree_of(lint, body->mesh), *map, point, INFINITY, 0};
+    affine3 back = transform_inverse(*map);
     struct lint_box around = lint_box_grow((struct lint_box){point, point}, near);
     around = lint_box_place(around, &back);
     lint_tree_in_box(nearest.tree, &around, measure, &nearest);
@@ -133,11 +129,11 @@ static bool check_light(struct lint *lint, const struct ir_light *light, const s
 }
 
 void lint_light_inside(struct lint *lint) {
-    if (!lint->scene->trace.shadows)
+    if (!lint->ir->trace.shadows)
         return;
     uint64_t work = 0;
-    for (uint32_t i = 0; i < lint->scene->lights.count && work < WORK_MAX; i++, work += lint->body_count) {
-        const struct ir_light *light = &lint->scene->lights.items[i];
+    for (uint32_t i = 0; i < lint->ir->lights.count && work < WORK_MAX; i++, work += lint->body_count) {
+        const struct ir_light *light = &lint->ir->lights.items[i];
         if (light->kind != IR_LIGHT_POSITION)
             continue;
         for (uint32_t k = 0; k < lint->body_count; k++)

@@ -39,15 +39,15 @@ static void report_index(struct lint *lint, const struct lint_body *body,
 }
 
 void lint_index_one(struct lint *lint) {
-    bool *told = ARENA_ARRAY(lint->arena, bool, lint->assets->material_count);
+    bool *told = ARENA_ARRAY(lint->arena, bool, lint->scene->assets->material_count);
     for (uint32_t i = 0; i < lint->body_count; i++) {
         const struct lint_body *body = &lint->bodies[i];
         // Open surfaces are thin panes, which need no index.
-        if (!body->is_solid || body->is_opaque)
+        if (!body->is->closed || body->is_opaque)
             continue;
-        for (uint32_t g = 0; g < lint_group_count(body); g++) {
+        for (uint32_t g = 0; g < body->is->group_count; g++) {
             const struct ir_material *material = lint_material(lint, body, g);
-            bool *here = &told[material - lint->assets->materials];
+            bool *here = &told[material - lint->scene->assets->materials];
             if (*here || !(material->albedo.refraction > 0) || material->refractive_index != 1)
                 continue;
             *here = true;
@@ -65,7 +65,7 @@ struct cycle {
 
 static const struct ir_material *strongest(const struct lint *lint, const struct lint_body *body) {
     const struct ir_material *found = NULL;
-    for (uint32_t g = 0; g < lint_group_count(body); g++) {
+    for (uint32_t g = 0; g < body->is->group_count; g++) {
         const struct ir_material *material = lint_material(lint, body, g);
         if (!found || material->albedo.reflection + material->albedo.refraction >
                           found->albedo.reflection + found->albedo.refraction)
@@ -83,7 +83,7 @@ static struct cycle worst_cycle(const struct lint *lint) {
     const struct lint_body *second = NULL;
     for (uint32_t i = 0; i < lint->body_count; i++) {
         const struct lint_body *body = &lint->bodies[i];
-        bool alone = body->kind == LINT_MODEL || (body->is_solid && body->refraction > 0);
+        bool alone = body->is->shape == SCENE_MESH || (body->is->closed && body->refraction > 0);
         if (alone && body->gain * body->gain > worst.gain)
             worst = (struct cycle){body, body, body->gain * body->gain};
         if (!first || body->gain > first->gain) {
@@ -102,7 +102,7 @@ void lint_amplifying(struct lint *lint) {
     struct cycle worst = worst_cycle(lint);
     if (!(worst.gain > 1))
         return;
-    int32_t depth = lint->scene->trace.max_depth;
+    int32_t depth = lint->ir->trace.max_depth;
     double growth = pow(worst.gain, depth / 2.0);
     if (growth < GROWTH_MIN)
         return;

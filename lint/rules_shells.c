@@ -8,7 +8,7 @@
 void lint_self_overlap(struct lint *lint) {
     for (uint32_t i = 0; i < lint->meshes.count; i++) {
         struct lint_mesh *mesh = lint->meshes.items[i];
-        if (mesh->first_refracting == IR_NO_INDEX)
+        if (!mesh->first_refracting)
             continue;
         lint_find_pairs(lint, mesh);
         const struct lint_pairs *pairs = &mesh->crossings;
@@ -260,7 +260,7 @@ static void check_turned(struct lint *lint, struct lint_mesh *mesh) {
 void lint_inside_out(struct lint *lint) {
     for (uint32_t i = 0; i < lint->meshes.count; i++) {
         struct lint_mesh *mesh = lint->meshes.items[i];
-        if (mesh->first_refracting == IR_NO_INDEX)
+        if (!mesh->first_refracting)
             continue;
         // Parts that cross have no order; the rule above told about them.
         if (!mesh->mesh->closed)

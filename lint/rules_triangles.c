@@ -19,7 +19,7 @@ static void check_area(struct lint *lint, struct lint_mesh *mesh) {
             line = triangle->line;
     }
     uint32_t n = mesh->mesh->zero_area;
-    diag_add(lint->sink, DIAG_ZERO_AREA, lint_place_mesh(lint, mesh->first_model),
+    diag_add(lint->sink, DIAG_ZERO_AREA, lint_place_mesh(lint, mesh->first),
              "%u of the mesh's %u triangles %s no area%.*s", n, mesh->mesh->triangle_count,
              n == 1 ? "has" : "have", STR_ARG(others(lint, mesh)));
     lint_note_mesh(lint, mesh, line, n == 1 ? "in this face" : "the first is in this face");
@@ -98,7 +98,7 @@ void lint_duplicates(struct lint *lint) {
         struct twins twins = find_twins(lint, mesh->mesh);
         if (twins.count == 0)
             continue;
-        diag_add(lint->sink, DIAG_DUPLICATE_TRIANGLES, lint_place_mesh(lint, mesh->first_model),
+        diag_add(lint->sink, DIAG_DUPLICATE_TRIANGLES, lint_place_mesh(lint, mesh->first),
                  "%u of the mesh's %u triangles %s the corners of an earlier one%.*s", twins.count,
                  mesh->mesh->triangle_count, twins.count == 1 ? "has" : "have", STR_ARG(others(lint, mesh)));
         lint_note_mesh(lint, mesh, twins.line, "%s in this face",
@@ -160,7 +160,7 @@ static void report_torn(struct lint *lint, struct lint_mesh *mesh, const struct 
 void lint_opposing_normals(struct lint *lint) {
     for (uint32_t i = 0; i < lint->meshes.count; i++) {
         struct lint_mesh *mesh = lint->meshes.items[i];
-        if (mesh->first_smooth == IR_NO_INDEX || mesh->mesh->normal_count == 0)
+        if (!mesh->first_smooth || mesh->mesh->normal_count == 0)
             continue;
         struct torn torn = {0};
         for (uint32_t t = 0; t < mesh->mesh->triangle_count; t++)

@@ -49,7 +49,7 @@ static bool is_outside(const struct lint *lint, const struct lint_box *box, cons
         if (!(greatest(box, normal, field->at) < 0))
             continue;
         bool stays = true;
-        for (uint32_t i = 0; lint->scene->trace.shadows && stays && i < view->light_count; i++)
+        for (uint32_t i = 0; lint->ir->trace.shadows && stays && i < view->light_count; i++)
             stays = shadow_stays(box, normal, &view->lights[i]);
         if (stays)
             return true;
@@ -66,7 +66,7 @@ static bool anything_mirrors(const struct lint *lint) {
 
 // Cameras that see nothing at all are what is wrong, not the bodies.
 static void report_cameras(struct lint *lint) {
-    const struct ir_camera *camera = &lint->scene->cameras.items[0];
+    const struct ir_camera *camera = &lint->ir->cameras.items[0];
     span at = ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position");
     if (lint->view_count == 1)
         diag_add(lint->sink, DIAG_UNSEEN, at,
@@ -91,9 +91,9 @@ static void report_body(struct lint *lint, const struct lint_body *body) {
 }
 
 void lint_unseen(struct lint *lint) {
-    if (lint->scene->cameras.count == 0 || anything_mirrors(lint))
+    if (lint->ir->cameras.count == 0 || anything_mirrors(lint))
         return;
-    if ((uint64_t)lint->body_count * lint->view_count * (lint->scene->lights.count + 1) > WORK_MAX)
+    if ((uint64_t)lint->body_count * lint->view_count * (lint->ir->lights.count + 1) > WORK_MAX)
         return;
     struct field *fields = ARENA_ARRAY(lint->arena, struct field, lint->view_count);
     uint32_t *unseen = ARENA_ARRAY(lint->arena, uint32_t, lint->body_count);
@@ -102,7 +102,7 @@ void lint_unseen(struct lint *lint) {
         fields[i] = field_of(lint, &lint->views[i].camera);
     for (uint32_t k = 0; k < lint->body_count; k++) {
         const struct lint_body *body = &lint->bodies[k];
-        bool outside = body->kind != LINT_MODEL || body->mesh;
+        bool outside = lint_is_there(body);
         for (uint32_t i = 0; outside && i < lint->view_count; i++)
             outside = is_outside(lint, &body->box, &fields[i], &lint->views[i]);
         if (outside)

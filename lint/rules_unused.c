@@ -1,25 +1,23 @@
 // What the scene holds and nothing uses.
+#include "grammar/ir_walk.h"
 #include "lint/lint_parts.h"
 
-static void use(bool *used, const struct ir_material_ref *ref) {
-    if (ref->index != IR_NO_INDEX)
-        used[ref->index] = true;
+struct use {
+    const struct schema_row *materials; // the scene's list of them
+    bool *used;
+};
+
+static void use(void *context, const struct schema_row *row, const struct ir_material_ref *ref) {
+    const struct use *use = context;
+    if (ref->index != IR_NO_INDEX && ir_walk_pool(row->child) == use->materials)
+        use->used[ref->index] = true;
 }
 
 static bool *used_materials(struct lint *lint) {
-    const struct ir_scene *scene = lint->scene;
-    bool *used = ARENA_ARRAY(lint->arena, bool, scene->materials.count);
-    for (uint32_t i = 0; i < scene->spheres.count; i++)
-        use(used, &scene->spheres.items[i].material);
-    for (uint32_t i = 0; i < scene->rectangles.count; i++)
-        use(used, &scene->rectangles.items[i].material);
-    for (uint32_t i = 0; i < scene->models.count; i++) {
-        const struct ir_model *model = &scene->models.items[i];
-        use(used, &model->material);
-        for (uint32_t k = 0; k < model->material_map.count; k++)
-            use(used, &model->material_map.items[k].to);
-    }
-    return used;
+    struct use found = {ir_walk_pool(&SCHEMA_MATERIAL),
+                        ARENA_ARRAY(lint->arena, bool, lint->ir->materials.count)};
+    ir_walk_references(lint->ir, use, &found);
+    return found.used;
 }
 
 // Files that are libraries for others are made of what one of them uses and another does not.
@@ -32,8 +30,8 @@ void lint_unused_material(struct lint *lint) {
     if (lint->body_count == 0)
         return;
     bool *used = used_materials(lint);
-    for (uint32_t i = 0; i < lint->scene->materials.count; i++) {
-        const struct ir_material *material = &lint->scene->materials.items[i];
+    for (uint32_t i = 0; i < lint->ir->materials.count; i++) {
+        const struct ir_material *material = &lint->ir->materials.items[i];
         span at = ir_place_label(lint->origin, &material->head);
         if (used[i] || material->name.len == 0 || !is_of_main_file(lint, at))
             continue;
@@ -51,8 +49,8 @@ static bool adds_anything(const struct lint *lint, const struct ir_file_origin *
     if (ir_body_count(own) || own->cameras.count || own->lights.count || own->includes.count ||
         own->image.head.written || own->trace.head.written || own->background.head.written)
         return true;
-    for (uint32_t i = 0; i < lint->scene->materials.count; i++) {
-        const struct ir_material *material = &lint->scene->materials.items[i];
+    for (uint32_t i = 0; i < lint->ir->materials.count; i++) {
+        const struct ir_material *material = &lint->ir->materials.items[i];
         if (used[i] && ir_place_label(lint->origin, &material->head).source == file->source)
             return true;
     }

@@ -141,7 +141,7 @@ void lint_find_pairs(struct lint *lint, struct lint_mesh *mesh) {
     struct self self = {.tree = lint_tree_of(lint, mesh),
                         .arena = lint->arena,
                         .tolerance = mesh->tolerance,
-                        .refracts = mesh->first_refracting != IR_NO_INDEX};
+                        .refracts = mesh->first_refracting != NULL};
     if (self.tree->count == 0)
         return;
     self.faces = ARENA_ARRAY(lint->arena, struct lint_face, self.tree->count);

@@ -1,7 +1,6 @@
 #include "measure/hit_errors.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 struct hit_counts {
     uint64_t band, wrong_inside, wrong_outside, acne, leaks, shadow_edge, holes, wrong_second;
@@ -10,8 +9,7 @@ struct hit_counts {
 struct comparing {
     uint32_t width, height;
     const struct hit_pixel *device, *reference;
-    const bool *closed;
-    uint32_t bodies;
+    const struct scene *scene;
 };
 
 struct surroundings {
@@ -43,7 +41,7 @@ static void compare_pixel(const struct comparing *c, uint32_t x, uint32_t y, str
     counts->band += around.band;
     counts->wrong_inside += wrong && around.band;
     counts->wrong_outside += wrong && !around.band;
-    const bool closed = r->body < c->bodies && c->closed[r->body];
+    const bool closed = r->body < c->scene->body_count && c->scene->bodies[r->body].closed;
     counts->holes += d->body == HIT_NONE && closed && !around.band;
     if (wrong || r->body == HIT_NONE)
         return;
@@ -56,9 +54,8 @@ static void compare_pixel(const struct comparing *c, uint32_t x, uint32_t y, str
 }
 
 void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *device,
-                  const struct hit_pixel *reference, const bool *closed, uint32_t bodies,
-                  struct hit_errors *out) {
-    const struct comparing comparing = {width, height, device, reference, closed, bodies};
+                  const struct hit_pixel *reference, const struct scene *scene, struct hit_errors *out) {
+    const struct comparing comparing = {width, height, device, reference, scene};
     struct hit_counts counts = {0};
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++)
@@ -73,15 +70,4 @@ void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *devic
                                .shadow_edge = million * (double)counts.shadow_edge,
                                .holes = million * (double)counts.holes,
                                .wrong_second = million * (double)counts.wrong_second};
-}
-
-bool *hits_closed_bodies(const struct ir_scene *scene, const struct assets *assets, uint32_t *count) {
-    const uint32_t first_model = scene->spheres.count + scene->rectangles.count;
-    *count = ir_body_count(scene);
-    bool *closed = calloc(*count ? *count : 1, sizeof *closed);
-    for (uint32_t i = 0; closed && i < *count; i++) {
-        const struct mesh *mesh = i < first_model ? NULL : assets->models[i - first_model].mesh;
-        closed[i] = i < scene->spheres.count || (mesh && mesh->closed);
-    }
-    return closed;
 }

@@ -7,9 +7,8 @@
 #ifndef GLINT_MEASURE_HIT_ERRORS_H
 #define GLINT_MEASURE_HIT_ERRORS_H
 
-#include "assets/assets.h"
-#include "grammar/ir.h"
 #include "scene/hits.h"
+#include "scene/scene.h"
 
 // What the first rays met against what they meet in the reference, per million pixels.
 struct hit_errors {
@@ -23,12 +22,8 @@ struct hit_errors {
     double wrong_second; // another body met by the mirrored or the refracted ray, outside the band
 };
 
-// `closed` tells of each body whether nothing can be seen through it.
+// `scene`: whose bodies the hits name; nothing can be seen through those that are closed.
 void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *device,
-                  const struct hit_pixel *reference, const bool *closed, uint32_t bodies,
-                  struct hit_errors *out);
-// Spheres, and models whose mesh is closed: a value for each of the scene's bodies, to be freed. NULL: no
-// memory.
-bool *hits_closed_bodies(const struct ir_scene *scene, const struct assets *assets, uint32_t *count);
+                  const struct hit_pixel *reference, const struct scene *scene, struct hit_errors *out);
 
 #endif

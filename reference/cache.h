@@ -1,10 +1,11 @@
 // The reference asked through a cache: pictures and hits that were computed before are read back.
 //
-// The key is a hash of what the reference reads (camera, lights, bodies, materials, the contents of meshes
-// and background), of the settings and of REFERENCE_VERSION: not of how the scene is written, and not of
-// paths. Entries that are damaged, or of another version, are ignored and replaced. The tree is built only
-// where something is not in the cache. Ownership: scene, assets, view and the store's path must outlive the
-// source. Thread safety: a source belongs to one thread; several processes may share a store.
+// The key is a hash of all that the scene means, row by row of the table, of the contents of meshes and
+// images, of the view, the settings and REFERENCE_VERSION: not of how the scene is written. A name counts
+// too: a picture computed twice costs time, another scene's picture would be a lie. Entries that are damaged,
+// or of another version, are ignored and replaced. The tree is built only where something is not in the
+// cache. Ownership: scene, assets, view and the store's path must outlive the source. Thread safety: a source
+// belongs to one thread; several processes may share a store.
 #ifndef GLINT_REFERENCE_CACHE_H
 #define GLINT_REFERENCE_CACHE_H
 

@@ -1,180 +1,104 @@
 #include "reference/key.h"
 
-#include "core/xxh64.h"
+#include "core/hash128.h"
+#include "grammar/ir_hash.h"
 
-// Two seeds make 128 bits.
-struct hash {
-    struct xxh64 states[2];
-};
+#include <assert.h>
 
-static void begin(struct hash *h) {
-    xxh64_begin(&h->states[0], 0);
-    xxh64_begin(&h->states[1], 1);
-}
+// What is hashed by name here is not in the table: the view, which is made from the scene and may be moved
+// afterwards, meshes and images. A field that one of these gains changes its size: hash the field, then count
+// it.
+static_assert(sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 8 + 8, "hash the new field of a camera");
+static_assert(sizeof(struct view_light) == 8 + 3 * sizeof(vec3) + 8, "hash the new field of a light");
+static_assert(sizeof(struct mesh_triangle) == 8 * sizeof(uint32_t), "triangles are hashed as bytes");
 
-static void add(struct hash *h, const void *bytes, size_t count) {
-    xxh64_add(&h->states[0], bytes, count);
-    xxh64_add(&h->states[1], bytes, count);
-}
-
-static void end(const struct hash *h, uint64_t key[2]) {
-    key[0] = xxh64_end(&h->states[0]);
-    key[1] = xxh64_end(&h->states[1]);
-}
-
-// Value by value: structs have padding.
-static void whole(struct hash *h, uint64_t value) {
-    add(h, &value, sizeof value);
-}
-static void number(struct hash *h, double value) {
-    add(h, &value, sizeof value);
-}
-static void vector(struct hash *h, vec3 v) {
-    number(h, v.x);
-    number(h, v.y);
-    number(h, v.z);
-}
-
-// ---- the scene
-
-static void add_view(struct hash *h, const struct view *view) {
+static void add_view(struct hash128 *h, const struct view *view) {
     const struct view_camera *c = &view->camera;
-    const vec3 camera[4] = {c->position, c->right, c->up, c->forward};
-    for (int i = 0; i < 4; i++)
-        vector(h, camera[i]);
-    number(h, c->tan_half_fov);
-    whole(h, view->light_count);
+    hash128_text(h, c->name);
+    hash128_vector(h, c->position);
+    hash128_vector(h, c->right);
+    hash128_vector(h, c->up);
+    hash128_vector(h, c->forward);
+    hash128_number(h, c->tan_half_fov);
+    hash128_whole(h, view->light_count);
     for (uint32_t i = 0; i < view->light_count; i++) {
         const struct view_light *light = &view->lights[i];
-        whole(h, light->directional);
-        whole(h, light->inverse_square);
-        vector(h, light->position);
-        vector(h, light->to_light);
-        vector(h, light->emission);
+        hash128_whole(h, light->directional);
+        hash128_whole(h, light->inverse_square);
+        hash128_vector(h, light->position);
+        hash128_vector(h, light->to_light);
+        hash128_vector(h, light->emission);
     }
 }
 
-static void add_material(struct hash *h, const struct ir_material *m, unsigned transfer) {
-    const struct ir_paint *paint = &m->diffuse_color;
-    bool checker = paint->kind == IR_PAINT_CHECKER;
-    whole(h, checker);
-    for (int i = 0; i < 2; i++)
-        vector(h, view_linear_color(checker ? paint->checker.colors[i] : paint->color, transfer));
-    number(h, checker ? paint->checker.size : 0);
-    vector(h, view_linear_color(m->specular_color, transfer));
-    const double numbers[] = {m->albedo.diffuse,    m->albedo.specular,   m->albedo.reflection,
-                              m->albedo.refraction, m->specular_exponent, m->refractive_index};
-    add(h, numbers, sizeof numbers);
+static void add_mesh(struct hash128 *h, const struct mesh *mesh) {
+    hash128_whole(h, mesh->closed);
+    hash128_whole(h, mesh->turned);
+    hash128_array(h, mesh->positions, mesh->position_count, sizeof *mesh->positions);
+    hash128_array(h, mesh->normals, mesh->normal_count, sizeof *mesh->normals);
+    hash128_array(h, mesh->triangles, mesh->triangle_count, sizeof *mesh->triangles);
 }
 
-static void add_mesh(struct hash *h, const struct mesh *mesh) {
-    whole(h, mesh->closed);
-    whole(h, mesh->position_count);
-    add(h, mesh->positions, mesh->position_count * sizeof *mesh->positions);
-    whole(h, mesh->normal_count);
-    if (mesh->normal_count)
-        add(h, mesh->normals, mesh->normal_count * sizeof *mesh->normals);
-    whole(h, mesh->triangle_count);
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        const struct mesh_triangle *t = &mesh->triangles[i];
-        const uint32_t words[7] = {t->corners[0], t->corners[1], t->corners[2], t->normals[0],
-                                   t->normals[1], t->normals[2], t->group};
-        add(h, words, sizeof words);
+// Meshes, and which material each of their groups has. A mesh is read once; bodies that show it again name
+// one that did.
+static void add_bodies(struct hash128 *h, const struct scene *scene) {
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        const struct scene_body *body = &scene->bodies[i];
+        uint32_t same = i; // one more than an earlier body that shows the mesh; 0: none
+        hash128_array(h, body->materials, body->group_count, sizeof *body->materials);
+        while (same > 0 && scene->bodies[same - 1].mesh != body->mesh)
+            same--;
+        hash128_whole(h, body->mesh ? same : 0);
+        if (body->mesh && same == 0)
+            add_mesh(h, body->mesh);
     }
 }
 
-// A mesh is read once; models that show it again name the first that did.
-static void add_models(struct hash *h, const struct reference_input *input) {
-    const struct ir_models *models = &input->scene->models;
-    whole(h, models->count);
-    for (uint32_t i = 0; i < models->count; i++) {
-        const struct assets_model *asset = &input->assets->models[i];
-        affine3 place = view_model_transform(&models->items[i]);
-        uint32_t first = 0;
-        while (input->assets->models[first].mesh != asset->mesh)
-            first++;
-        whole(h, first);
-        if (!asset->mesh)
-            continue;
-        add(h, place.linear.m, sizeof place.linear.m);
-        vector(h, place.offset);
-        whole(h, models->items[i].smooth);
-        if (first == i)
-            add_mesh(h, asset->mesh);
-        add(h, asset->group_material, asset->mesh->group_count * sizeof *asset->group_material);
-    }
-}
-
-static void add_simple_bodies(struct hash *h, const struct ir_scene *scene) {
-    whole(h, scene->spheres.count);
-    for (uint32_t i = 0; i < scene->spheres.count; i++) {
-        const struct ir_sphere *sphere = &scene->spheres.items[i];
-        vector(h, sphere->center);
-        number(h, sphere->radius);
-        whole(h, assets_material(scene, &sphere->material));
-    }
-    whole(h, scene->rectangles.count);
-    for (uint32_t i = 0; i < scene->rectangles.count; i++) {
-        const struct ir_rectangle *r = &scene->rectangles.items[i];
-        vector(h, r->corner);
-        vector(h, r->edge_u);
-        vector(h, r->edge_v);
-        whole(h, assets_material(scene, &r->material));
-    }
-}
-
-static void add_background(struct hash *h, const struct reference_input *input) {
-    const struct ir_background *b = &input->scene->background;
-    const struct picture *picture = input->assets->background;
-    whole(h, b->kind);
-    number(h, b->intensity);
-    number(h, b->rotation);
-    vector(h, b->kind == IR_BACKDROP_COLOR ? view_linear_color(b->color, input->scene->image.transfer)
-                                           : (vec3){0, 0, 0});
-    whole(h, picture != NULL);
+static void add_picture(struct hash128 *h, const struct picture *picture) {
+    hash128_whole(h, picture != NULL);
     if (!picture)
         return;
-    whole(h, input->scene->image.transfer);
-    whole(h, picture->depth);
-    whole(h, picture->width);
-    whole(h, picture->height);
-    add(h, picture->pixels, picture->size_bytes);
+    hash128_whole(h, picture->depth);
+    hash128_whole(h, picture->width);
+    hash128_whole(h, picture->height);
+    hash128_array(h, picture->pixels, picture->size_bytes, 1);
 }
 
 void reference_scene_key(const struct reference_input *input, uint64_t key[2]) {
-    struct hash h;
-    begin(&h);
-    whole(&h, REFERENCE_VERSION);
-    whole(&h, input->test);
-    whole(&h, input->scene->trace.shadows);
+    const struct scene *scene = input->scene;
+    struct hash128 h;
+    hash128_begin(&h);
+    hash128_whole(&h, REFERENCE_VERSION);
+    hash128_whole(&h, input->test);
+    ir_hash(&h, &SCHEMA_SCENE, scene->ir);
+    // The scene's once more, as they are in use, and those that material files of meshes add.
+    hash128_whole(&h, scene->material_count);
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        ir_hash(&h, &SCHEMA_MATERIAL, &scene->assets->materials[i]);
     add_view(&h, input->view);
-    whole(&h, input->assets->material_count);
-    for (uint32_t i = 0; i < input->assets->material_count; i++)
-        add_material(&h, &input->assets->materials[i], input->scene->image.transfer);
-    add_simple_bodies(&h, input->scene);
-    add_models(&h, input);
-    add_background(&h, input);
-    end(&h, key);
+    add_bodies(&h, scene);
+    add_picture(&h, scene->background.picture);
+    hash128_end(&h, key);
 }
 
 // ---- one call
 
 void reference_call_key(const uint64_t scene_key[2], const struct reference_settings *settings, bool hits,
                         uint64_t key[2]) {
-    struct hash h;
-    begin(&h);
-    whole(&h, scene_key[0]);
-    whole(&h, scene_key[1]);
-    whole(&h, hits);
-    whole(&h, settings->width);
-    whole(&h, settings->height);
+    struct hash128 h;
+    hash128_begin(&h);
+    hash128_whole(&h, scene_key[0]);
+    hash128_whole(&h, scene_key[1]);
+    hash128_whole(&h, hits);
+    hash128_whole(&h, settings->width);
+    hash128_whole(&h, settings->height);
     if (!hits) {
-        whole(&h, settings->samples);
-        whole(&h, settings->max_depth);
-        number(&h, settings->min_weight);
-        whole(&h, settings->cut_sees_background);
-        whole(&h, settings->segments);
-        whole(&h, settings->as_file);
+        hash128_whole(&h, settings->samples);
+        hash128_whole(&h, settings->max_depth);
+        hash128_number(&h, settings->min_weight);
+        hash128_whole(&h, settings->cut_sees_background);
+        hash128_whole(&h, settings->segments);
+        hash128_whole(&h, settings->as_file);
     }
-    end(&h, key);
+    hash128_end(&h, key);
 }

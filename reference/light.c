@@ -42,7 +42,7 @@ static vec3 unshadowed(const struct reference *r, const struct view_light *light
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
                      struct lighting *out) {
     const struct view *view = r->input.view;
-    bool shadows = r->input.scene->trace.shadows;
+    bool shadows = r->input.scene->ir->trace.shadows;
     vec3 start = reference_start(s, s->geometric);
     *out = (struct lighting){0};
     for (uint32_t i = 0; i < view->light_count; i++) {
@@ -73,7 +73,7 @@ static double channel(const struct reference *r, const struct picture *picture, 
 }
 
 static vec3 texel(const struct reference *r, size_t column, size_t row) {
-    const struct picture *picture = r->input.assets->background;
+    const struct picture *picture = r->input.scene->background.picture;
     size_t at = 4 * (row * picture->width + column);
     return (vec3){channel(r, picture, at), channel(r, picture, at + 1), channel(r, picture, at + 2)};
 }
@@ -83,10 +83,11 @@ static vec3 mixed(vec3 a, vec3 b, double part) {
 }
 
 static vec3 background_image(const struct reference *r, vec3 d) {
-    const struct picture *picture = r->input.assets->background;
+    const struct scene_background *background = &r->input.scene->background;
+    const struct picture *picture = background->picture;
     // Turned by the negative rotation about +y.
-    double x = d.x * r->background_cosine - d.z * r->background_sine;
-    double z = d.x * r->background_sine + d.z * r->background_cosine;
+    double x = d.x * background->cosine - d.z * background->sine;
+    double z = d.x * background->sine + d.z * background->cosine;
     double u = (0.5 + atan2(z, x) / (2 * PI)) * picture->width - 0.5;
     double v = atan2(hypot(x, z), d.y) / PI * picture->height - 0.5;
     double u_floor = floor(u);
@@ -99,15 +100,16 @@ static vec3 background_image(const struct reference *r, vec3 d) {
     size_t bottom = v_floor + 1 < (double)height ? (size_t)(v_floor + 1) : height - 1;
     vec3 upper = mixed(texel(r, left, top), texel(r, right, top), u - u_floor);
     vec3 lower = mixed(texel(r, left, bottom), texel(r, right, bottom), u - u_floor);
-    return vec3_mul(mixed(upper, lower, v - v_floor), r->input.scene->background.intensity);
+    return vec3_mul(mixed(upper, lower, v - v_floor), background->intensity);
 }
 
 vec3 reference_background(const struct reference *r, vec3 direction) {
-    return r->input.assets->background ? background_image(r, direction) : r->background_color;
+    return r->input.scene->background.picture ? background_image(r, direction)
+                                              : r->input.scene->background.color;
 }
 
 static double image_brightest(const struct reference *r) {
-    const struct picture *picture = r->input.assets->background;
+    const struct picture *picture = r->input.scene->background.picture;
     double most = 0;
     for (size_t row = 0; row < picture->height; row++)
         for (size_t column = 0; column < picture->width; column++)
@@ -116,16 +118,10 @@ static double image_brightest(const struct reference *r) {
 }
 
 void reference_make_background(struct reference *r) {
-    const struct ir_background *background = &r->input.scene->background;
-    const struct picture *picture = r->input.assets->background;
-    bool srgb = r->input.scene->image.transfer == IR_TRANSFER_SRGB;
-    if (background->kind == IR_BACKDROP_COLOR)
-        r->background_color = vec3_mul(view_linear_color(background->color, r->input.scene->image.transfer),
-                                       background->intensity);
-    mat3 turn = view_rotation((vec3){0, background->rotation, 0});
-    r->background_cosine = turn.m[0][0];
-    r->background_sine = turn.m[0][2];
-    r->background_brightest = reference_brightest(r->background_color);
+    const struct scene_background *background = &r->input.scene->background;
+    const struct picture *picture = background->picture;
+    bool srgb = r->input.scene->ir->image.transfer == IR_TRANSFER_SRGB;
+    r->background_brightest = reference_brightest(background->color);
     if (!picture)
         return;
     if (picture->depth != PICTURE_FLOAT) {
@@ -133,7 +129,7 @@ void reference_make_background(struct reference *r) {
         r->decoded = ARENA_ARRAY(&r->arena, double, greatest + 1);
         for (size_t i = 0; i <= greatest; i++) {
             double value = (double)i / (double)greatest;
-            r->decoded[i] = srgb ? view_srgb_decode(value) : value;
+            r->decoded[i] = srgb ? scene_srgb_decode(value) : value;
         }
     }
     r->background_brightest = image_brightest(r) * background->intensity;

@@ -180,7 +180,7 @@ static void take(struct search *s, const struct meeting *met) {
 static void test_primitive(struct search *s, uint32_t index) {
     const struct primitive *p = &s->r->primitives[index];
     struct meeting met = {0};
-    bool is_met = p->body < s->r->sphere_count                     ? meet_sphere(s->ray, p, &met)
+    bool is_met = p->is_sphere                                     ? meet_sphere(s->ray, p, &met)
                   : s->r->input.test == REFERENCE_MOELLER_TRUMBORE ? meet_moeller_trumbore(s->ray, p, &met)
                                                                    : meet_watertight(&s->sheared, p, &met);
     // What could be at t_max itself is not strictly before it.

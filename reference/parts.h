@@ -28,31 +28,20 @@ static inline double reference_brightest(vec3 color) {
 struct primitive {
     double v[3][3];
     uint32_t body, triangle;
-};
-
-enum body_kind {
-    BODY_SPHERE,
-    BODY_RECTANGLE,
-    BODY_MODEL,
+    bool is_sphere;
 };
 
 struct body {
-    enum body_kind kind;
+    const struct scene_body *is;
+    affine3 object_to_world;  // relative to the reference's origin
+    mat3 normal_map;          // of a mesh
+    const vec3 *normals;      // mesh_smooth_normals; NULL: flat
     uint32_t first_primitive; // numbered in IR order, before the tree sorts them
     uint32_t primitive_count;
-    uint32_t material; // of spheres and rectangles
-    bool solid;        // refraction bends; else a thin pane
-    bool mirrors;      // a model's transform has a negative determinant
-    affine3 place;     // of a model
-    mat3 normal_map;   // of a model: the inverse transpose, times a positive number
-    const struct mesh *mesh;
-    const uint32_t *group_material;
-    const vec3 *normals;         // mesh_smooth_normals; NULL: flat
-    vec3 corner, edge_u, edge_v; // of a rectangle
 };
 
-// A material, its colours decoded and multiplied by their weights.
-struct finish {
+// A material whose colours are multiplied by their weights.
+struct material {
     vec3 diffuse[2];
     bool checker;
     double cell;
@@ -74,14 +63,11 @@ enum {
 struct reference {
     struct reference_input input;
     vec3 origin;
-    struct arena arena; // bodies, finishes, lights, normals
+    struct arena arena; // bodies, materials, lights, normals
     struct body *bodies;
-    uint32_t body_count, sphere_count;
-    struct finish *finishes;
+    struct material *materials;
     double *decoded; // a background's channel by stored value; NULL for floats
     double background_brightest;
-    vec3 background_color;
-    double background_sine, background_cosine;
     struct primitive *primitives; // in the tree's order
     uint32_t primitive_count;
     struct tree_node *nodes;
@@ -89,7 +75,7 @@ struct reference {
 
 // ---- bodies.c
 
-// Fills bodies and finishes; jumps to the arena's guard where memory ends.
+// Fills bodies and materials; jumps to the arena's guard where memory ends.
 void reference_make_bodies(struct reference *r);
 // The primitive of a number in IR order; false: a triangle without area, which nothing can meet.
 bool reference_make_primitive(const struct reference *r, const struct body *body, uint32_t triangle,

@@ -46,9 +46,9 @@ void reference_destroy(struct reference *r) {
     free(r);
 }
 
-struct reference_settings reference_settings_of(const struct ir_scene *scene, const struct ir_image *image,
+struct reference_settings reference_settings_of(const struct ir_scene *ir, const struct ir_image *image,
                                                 const struct limits *limits, bool as_file) {
-    const struct ir_trace *trace = &scene->trace;
+    const struct ir_trace *trace = &ir->trace;
     return (struct reference_settings){
         .width = (uint32_t)image->width,
         .height = (uint32_t)image->height,

@@ -1,16 +1,15 @@
 // The reference: an independent tracer in double precision on the processor, by which the other is measured.
 //
-// Input: a scene's IR, its assets (the double meshes) and the view; never anything flattened. It has its own
+// Input: a scene (scene/scene.h) and the view; never anything flattened. It has its own
 // tree, its own intersections and its own shading, written from the language alone. Results do not depend on
 // the number of threads. Geometry is kept relative to the camera's position, so that a scene far from 0 loses
 // nothing. Positions that come in or go out are in scene units, relative to the scene's own origin.
-// Ownership: scene, assets and view must outlive the reference. Errors: NULL or REFERENCE_NO_MEMORY where
+// Ownership: scene and view must outlive the reference. Errors: NULL or REFERENCE_NO_MEMORY where
 // memory ends; values that are not finite are counted and are no error here.
 // Thread safety: immutable once made; all calls may run at the same time.
 #ifndef GLINT_REFERENCE_REFERENCE_H
 #define GLINT_REFERENCE_REFERENCE_H
 
-#include "assets/assets.h"
 #include "core/limits.h"
 #include "scene/hits.h"
 #include "scene/view.h"
@@ -29,8 +28,7 @@ enum reference_test {
 };
 
 struct reference_input {
-    const struct ir_scene *scene;
-    const struct assets *assets;
+    const struct scene *scene;
     const struct view *view;
     enum reference_test test;
     bool no_tree; // every primitive is tested; to test the tree against
@@ -50,7 +48,7 @@ struct reference_settings {
 
 // as_file: max_depth, min_weight and depth_limit of the file, LIMIT_PATH_SEGMENTS. Else weight 1e-6, depth
 // 200 and LIMIT_REFERENCE_SEGMENTS. Size and samples are those of `image`.
-struct reference_settings reference_settings_of(const struct ir_scene *scene, const struct ir_image *image,
+struct reference_settings reference_settings_of(const struct ir_scene *ir, const struct ir_image *image,
                                                 const struct limits *limits, bool as_file);
 
 struct reference_fault {

@@ -25,14 +25,18 @@ static double cell_of(double place, double size) {
     return floor(place / size);
 }
 
-// The place in the body's own coordinates, before its transform.
-static vec3 own_place(const struct body *body, const struct surface *s, const double b[3], vec3 arm) {
-    if (body->kind == BODY_SPHERE)
+// Where the checker's cells are counted: from a sphere's centre, along the edges of a parallelogram, and in a
+// mesh's own coordinates.
+static vec3 checker_place(const struct scene_body *body, const struct surface *s, const double b[3],
+                          vec3 arm) {
+    if (body->shape == SCENE_SPHERE)
         return arm;
-    if (body->kind == BODY_RECTANGLE) {
+    if (body->shape == SCENE_PARALLELOGRAM) {
+        const double(*m)[3] = body->object_to_world.linear.m;
         double along_u = s->triangle ? b[1] : b[1] + b[2];
         double along_v = s->triangle ? b[1] + b[2] : b[2];
-        return (vec3){along_u * vec3_length(body->edge_u), along_v * vec3_length(body->edge_v), 0};
+        return (vec3){along_u * vec3_length((vec3){m[0][0], m[1][0], m[2][0]}),
+                      along_v * vec3_length((vec3){m[0][1], m[1][1], m[2][1]}), 0};
     }
     vec3 corners[3];
     for (int k = 0; k < 3; k++)
@@ -40,23 +44,22 @@ static vec3 own_place(const struct body *body, const struct surface *s, const do
     return weighted(corners, b);
 }
 
-static void take_material(const struct reference *r, const struct body *body, const double b[3], vec3 arm,
-                          struct surface *s) {
-    s->material = body->kind == BODY_MODEL ? body->group_material[body->mesh->triangles[s->triangle].group]
-                                           : body->material;
-    const struct finish *f = &r->finishes[s->material];
+static void take_material(const struct reference *r, const struct scene_body *body, const double b[3],
+                          vec3 arm, struct surface *s) {
+    s->material = scene_body_material(body, s->triangle);
+    const struct material *m = &r->materials[s->material];
     bool odd = false;
-    if (f->checker) {
-        vec3 own = own_place(body, s, b, arm);
-        odd = is_odd(cell_of(own.x, f->cell) + cell_of(own.y, f->cell) + cell_of(own.z, f->cell));
+    if (m->checker) {
+        vec3 at = checker_place(body, s, b, arm);
+        odd = is_odd(cell_of(at.x, m->cell) + cell_of(at.y, m->cell) + cell_of(at.z, m->cell));
     }
-    s->diffuse = f->diffuse[odd];
-    s->specular = f->specular;
-    s->exponent = f->exponent;
-    s->reflection = f->reflection;
-    s->refraction = f->refraction;
-    s->index = f->index;
-    s->solid = body->solid;
+    s->diffuse = m->diffuse[odd];
+    s->specular = m->specular;
+    s->exponent = m->exponent;
+    s->reflection = m->reflection;
+    s->refraction = m->refraction;
+    s->index = m->index;
+    s->solid = body->closed;
 }
 
 // ---- normals
@@ -103,7 +106,7 @@ static void triangle_surface(const struct body *body, const struct ray *ray, con
     s->point = weighted(corners, b);
     s->error = vec3_mul(weighted(sizes, positive), REFERENCE_GAMMA(7));
     vec3 outward = vec3_unit(vec3_cross(vec3_sub(corners[1], corners[0]), vec3_sub(corners[2], corners[0])));
-    turn_to_ray(s, body->mirrors ? vec3_neg(outward) : outward, ray->direction);
+    turn_to_ray(s, body->is->mirrored ? vec3_neg(outward) : outward, ray->direction);
     if (body->normals)
         s->shading = smooth_normal(body, s, b);
 }
@@ -116,11 +119,11 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
     vec3 arm = {0, 0, 0};
     *out = (struct surface){
         .body = p->body, .triangle = p->triangle, .distance = met->t, .b1 = met->b1, .b2 = met->b2};
-    if (body->kind == BODY_SPHERE)
+    if (p->is_sphere)
         sphere_surface(ray, p, out, &arm);
     else
         triangle_surface(body, ray, p, b, out);
-    take_material(r, body, b, arm, out);
+    take_material(r, body->is, b, arm, out);
 }
 
 // ---- rays that leave

@@ -71,7 +71,7 @@ static void put_box(struct item *item, const struct primitive *p, bool is_sphere
 // The last body that begins no later: those without primitives end before the one whose number they share.
 static const struct body *body_of(const struct reference *r, uint32_t number) {
     uint32_t low = 0;
-    uint32_t high = r->body_count;
+    uint32_t high = r->input.scene->body_count;
     while (high - low > 1) {
         uint32_t middle = low + (high - low) / 2;
         if (r->bodies[middle].first_primitive <= number)
@@ -91,7 +91,7 @@ static void make_items(void *context, size_t begin, size_t end) {
             body++;
         b->items[i].number = (uint32_t)i;
         b->items[i].is_empty = !reference_make_primitive(b->r, body, (uint32_t)i - body->first_primitive, &p);
-        put_box(&b->items[i], &p, body->kind == BODY_SPHERE);
+        put_box(&b->items[i], &p, p.is_sphere);
     }
 }
 

@@ -5,7 +5,7 @@
 #ifndef GLINT_SCENE_VIEW_H
 #define GLINT_SCENE_VIEW_H
 
-#include "assets/assets.h"
+#include "scene/scene.h"
 
 struct view_camera {
     str name;
@@ -31,22 +31,10 @@ struct view {
     uint32_t light_count;
 };
 
-// #rrggbb is a displayed colour: /255 with transfer none, decoded from sRGB with srgb (IEC 61966-2-1).
-vec3 view_linear_color(struct ir_color color, unsigned transfer);
-// sRGB decoding of one value in 0..1.
-double view_srgb_decode(double value);
-
-// The affine map of a model, T·Rz·Ry·Rx·S, in double.
-affine3 view_model_transform(const struct ir_model *model);
-// Rz·Ry·Rx of angles in degrees; exact for multiples of 90.
-mat3 view_rotation(vec3 degrees);
-// Box around all bodies in scene units; false where there are none.
-bool view_bounds(const struct ir_scene *scene, const struct assets *assets, vec3 *lower, vec3 *upper);
-
 // The view through camera `camera_index` of the scene (0 where it has none: the automatic camera for an
 // image of width x height pixels). Notes N401 and N402 tell about automatic ones where `sink` is not NULL.
-void view_build(const struct ir_scene *scene, const struct assets *assets, uint32_t camera_index,
-                int32_t width, int32_t height, struct arena *arena, struct diag_sink *sink, struct view *out);
+void view_build(const struct scene *scene, uint32_t camera_index, int32_t width, int32_t height,
+                struct arena *arena, struct diag_sink *sink, struct view *out);
 
 // "A ray whose path ... offset of sample n": frac(1/2 + n/φ), frac(1/2 + n/φ²), φ = 1.32471795724474602596
 // (Roberts 2018, R2 sequence).

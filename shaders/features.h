@@ -4,7 +4,7 @@
 #ifndef GLINT_SHADERS_FEATURES_H
 #define GLINT_SHADERS_FEATURES_H
 
-#define FEATURE_TRIANGLES        (1u << 0) /* rectangles or models */
+#define FEATURE_TRIANGLES        (1u << 0)
 #define FEATURE_SPHERES          (1u << 1)
 #define FEATURE_DIFFUSE          (1u << 2) /* a diffuse weight that is not 0 */
 #define FEATURE_SPECULAR         (1u << 3) /* a specular weight that is not 0 */

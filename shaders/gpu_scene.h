@@ -1,8 +1,8 @@
 /* The layout of the buffers that host and kernels share; compiled by C and by GLSL.
 
    Every array consists of 16-byte words (C: struct gpu_word, GLSL: uvec4). A record is a fixed number of
-   words; the tables below name its fields: the C side fills structs, the GLSL side reads words through
-   one FETCH macro (texel fetch on CPU devices, storage buffer on GPUs). Floats are stored by their bits.
+   words; records.h lists its fields: the C side fills structs, the GLSL side reads words through one FETCH
+   macro (texel fetch on CPU devices, storage buffer on GPUs). Floats are stored by their bits.
    All lengths are in flat units: scene units, minus the origin, times the flat scene's scale. */
 #ifndef GLINT_SHADERS_GPU_SCENE_H
 #define GLINT_SHADERS_GPU_SCENE_H
@@ -22,7 +22,7 @@
 #define BINDING_COUNTERS       11
 #define BINDING_FRAME          12 /* uniform buffer: camera and frame parameters */
 
-/* Node of the 8-wide compressed tree, 5 words (Ylitie, Karras, Laine 2017, section 4.1):
+/* Node of the 8-wide compressed tree (Ylitie, Karras, Laine 2017, section 4.1):
    word 0: x,y,z the corner p of the node's box (float); w: byte 0..2 exponents ex,ey,ez (biased by 127),
            byte 3 the mask of children that are inner nodes
    word 1: x index of the first child node; y index of the first leaf item; z,w eight bytes `meta`:
@@ -38,57 +38,34 @@
    Child boxes are decoded conservatively as t = (p - o)/d + q * (2^e/d), and the far distance is multiplied
    by BOX_FAR_SCALE: 2 gamma(4) for the rounding of the near and far distance (Ize 2013) and as much again
    for that of a watertight hit, whose vertices are rounded after the origin is subtracted, u = 2^-24. */
-#define NODE_WORDS    5
 #define BOX_FAR_SCALE 1.00000095367431640625 /* 1 + 16 u */
 
-/* Leaf item of the triangle tree, 3 words: vertices v0 v1 v2 in x,y,z and in w
-   v0.w: triangle number (bodies in order, triangles in file order; spheres come before and are not counted)
-   v1.w: body number
-   v2.w: material (low 24 bits) and TRIANGLE_ flags */
-#define TRIANGLE_WORDS    3
-#define TRIANGLE_SMOOTH   0x01000000u
-#define TRIANGLE_SOLID    0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
-#define TRIANGLE_RECT     0x04000000u /* half of a rectangle */
-#define TRIANGLE_RECT_TOP 0x08000000u /* its second half: corner, corner+u+v, corner+v */
-#define TRIANGLE_CHECKER  0x10000000u
-#define TRIANGLE_TURNED   0x20000000u /* v1 and v2 are exchanged against the file's order */
-#define TRIANGLE_MATERIAL 0x00ffffffu
+/* Leaf items of the triangle tree: `number` counts triangles (bodies in order, triangles in file order;
+   spheres come before and are not counted); `shade` holds the material in its low 24 bits, and flags. Leaf
+   items of the sphere tree have TRIANGLE_SOLID always. */
+#define TRIANGLE_SMOOTH      0x01000000u
+#define TRIANGLE_SOLID       0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
+#define TRIANGLE_HALF        0x04000000u /* half of a parallelogram */
+#define TRIANGLE_SECOND_HALF 0x08000000u /* and its second: corner, corner + u + v, corner + v */
+#define TRIANGLE_CHECKER     0x10000000u
+#define TRIANGLE_TURNED      0x20000000u /* v1 and v2 are exchanged against the file's order */
+#define TRIANGLE_MATERIAL    0x00ffffffu
 
-/* Leaf item of the sphere tree, 2 words: center x,y,z, radius; then body number, material and flags
-   (TRIANGLE_SOLID always, TRIANGLE_CHECKER), two spare. */
-#define SPHERE_WORDS 2
+/* Normals of smooth triangles: 3 records each, in object order of v0 v1 v2 as stored in the leaf, from
+   3 * (triangle number - body.first_triangle) + body.normal_base on.
+   Rows of a body are those of the affine map from flat space to the coordinates of its checker; of a
+   parallelogram the first one alone, with the lengths of its edges in scene units. Zero where unused. */
 
-/* Normals of smooth triangles: 3 words each, unit x,y,z in object order of v0 v1 v2 as stored in the leaf.
-   Index: 3 * (triangle number - body.first_triangle) + body.normal_base, in words. */
-
-/* Body, 4 words:
-   word 0: first triangle number; normal base; spare; spare
-   words 1..3: rows of the affine map from flat space to the body's own coordinates (checker), each
-   x,y,z,offset; for a rectangle word 1 holds |edge_u|, |edge_v| in scene units in x, y. Zero where unused. */
-#define BODY_WORDS 4
-
-/* Material, 4 words: weights diffuse specular reflection refraction; diffuse r g b and specular exponent;
-   specular r g b and refractive index; checker's second r g b and cell size (0: no checker). */
-#define MATERIAL_WORDS 4
-
-/* Light, 2 words: position, or unit vector to the light, in x,y,z and LIGHT_ flags in w; emission r g b (over
-   inverse square: already times scale squared) and spare. */
-#define LIGHT_WORDS          2
+/* The place of a light is its position, or a unit vector to it; emission over inverse square is already times
+   scale squared. */
 #define LIGHT_DIRECTIONAL    1u
 #define LIGHT_INVERSE_SQUARE 2u
 
-/* A scene in double precision: nodes as above; the records of triangles, spheres, normals, bodies, materials
-   and lights are those of records.h with 64 in their names, of so many words. Boxes hold the doubles, rounded
-   outward. A kernel subtracts in double precision the t at which a ray enters a node from all t of it; what
-   is left is rounded to single precision, with errors below 2^-13 of a cell of the node, and child boxes are
-   widened by 2^-12 (bvh/encode.c). BOX_SLACK times the subtracted t covers the rounding of t itself and of a
-   watertight hit, 64 units of 2^-53. */
-#define TRIANGLE64_WORDS 6
-#define SPHERE64_WORDS   3
-#define NORMAL64_WORDS   2
-#define BODY64_WORDS     7
-#define MATERIAL64_WORDS 5
-#define LIGHT64_WORDS    3
-#define BOX_SLACK        7.105427357601002e-15 /* 2^-47 */
+/* A scene in double precision: nodes as above; the other records lie as records.h says. Boxes hold the
+   doubles, rounded outward. A kernel subtracts in double precision the t at which a ray enters a node from
+   all t of it; what is left is rounded to single precision, with errors below 2^-13 of a cell of the node,
+   and child boxes are widened by 2^-12 (bvh/encode.c). BOX_SLACK times the subtracted t covers the rounding
+   of t itself and of a watertight hit, 64 units of 2^-53. */
+#define BOX_SLACK 7.105427357601002e-15 /* 2^-47 */
 
 #endif

@@ -2,45 +2,53 @@
 // fetched.
 #include "records.h"
 
-#define MEMBER_REAL3(name, word)            dvec3 name;
-#define MEMBER_REAL(name, word, half)       double name;
-#define MEMBER_VECTOR(name, word)           vec3 name;
-#define MEMBER_FLOAT(name, word, component) float name;
-#define MEMBER_UINT(name, word, component)  uint name;
-#define MEMBERS(FIELDS) FIELDS(MEMBER_REAL3, MEMBER_REAL, MEMBER_VECTOR, MEMBER_FLOAT, MEMBER_UINT)
+#define MEMBER_REAL3(name, word, word64)                              REAL3 name;
+#define MEMBER_REAL(name, word, component, word64, half64)            REAL name;
+#define MEMBER_FLOAT3(name, word, word64)                             vec3 name;
+#define MEMBER_FLOAT(name, word, component, word64, component64)      float name;
+#define MEMBER_UINT(name, word, component, word64, component64)       uint name;
+#define MEMBERS(FIELDS) FIELDS(MEMBER_REAL3, MEMBER_REAL, MEMBER_FLOAT3, MEMBER_FLOAT, MEMBER_UINT)
 
-#define LOAD_REAL3(name, word)                                                                               \
-    record.name = double3_of(FETCH(SOURCE, at + word), FETCH(SOURCE, at + word + 1u).xy);
-#define LOAD_REAL(name, word, half)       record.name = packDouble2x32(FETCH(SOURCE, at + word).half);
-#define LOAD_VECTOR(name, word)           record.name = uintBitsToFloat(FETCH(SOURCE, at + word).xyz);
-#define LOAD_FLOAT(name, word, component) record.name = uintBitsToFloat(FETCH(SOURCE, at + word).component);
-#define LOAD_UINT(name, word, component)  record.name = FETCH(SOURCE, at + word).component;
-#define DEFINE_LOADER(type, loader, words, FIELDS)                                                           \
-    type loader(uint index) {                                                                                \
-        uint at = index * words;                                                                             \
-        type record;                                                                                         \
-        FIELDS(LOAD_REAL3, LOAD_REAL, LOAD_VECTOR, LOAD_FLOAT, LOAD_UINT)                                    \
-        return record;                                                                                       \
-    }
-
-// The list and the size of a record that has one of each precision.
 #ifdef DOUBLE_PRECISION
 dvec3 double3_of(uvec4 a, uvec2 b) {
     return dvec3(packDouble2x32(a.xy), packDouble2x32(a.zw), packDouble2x32(b));
 }
-#define FIELDS_OF(record) record##64_FIELDS
-#define WORDS_OF(record)  record##64_WORDS
+#define LOAD_REAL3(name, word, word64)                                                                       \
+    record.name = double3_of(FETCH(SOURCE, at + word64), FETCH(SOURCE, at + word64 + 1u).xy);
+#define LOAD_REAL(name, word, component, word64, half64)                                                     \
+    record.name = packDouble2x32(FETCH(SOURCE, at + word64).half64);
+#define WORD_OF(word, word64)       word64
+#define PART_OF(component, part64)  part64
+#define WORDS_OF(record)            record##64_WORDS
 #else
-#define FIELDS_OF(record) record##_FIELDS
-#define WORDS_OF(record)  record##_WORDS
+#define LOAD_REAL3(name, word, word64) record.name = uintBitsToFloat(FETCH(SOURCE, at + word).xyz);
+#define LOAD_REAL(name, word, component, word64, half64)                                                     \
+    record.name = uintBitsToFloat(FETCH(SOURCE, at + word).component);
+#define WORD_OF(word, word64)       word
+#define PART_OF(component, part64)  component
+#define WORDS_OF(record)            record##_WORDS
 #endif
+#define LOAD_FLOAT3(name, word, word64)                                                                      \
+    record.name = uintBitsToFloat(FETCH(SOURCE, at + WORD_OF(word, word64)).xyz);
+#define LOAD_FLOAT(name, word, component, word64, component64)                                               \
+    record.name = uintBitsToFloat(FETCH(SOURCE, at + WORD_OF(word, word64)).PART_OF(component, component64));
+#define LOAD_UINT(name, word, component, word64, component64)                                                \
+    record.name = FETCH(SOURCE, at + WORD_OF(word, word64)).PART_OF(component, component64);
+#define DEFINE_LOADER(type, loader, words, FIELDS)                                                           \
+    type loader(uint index) {                                                                                \
+        uint at = index * words;                                                                             \
+        type record;                                                                                         \
+        FIELDS(LOAD_REAL3, LOAD_REAL, LOAD_FLOAT3, LOAD_FLOAT, LOAD_UINT)                                     \
+        return record;                                                                                       \
+    }
 
 struct node_record { MEMBERS(NODE_FIELDS) };
-struct triangle_record { MEMBERS(FIELDS_OF(TRIANGLE)) };
-struct sphere_record { MEMBERS(FIELDS_OF(SPHERE)) };
-struct body_record { MEMBERS(FIELDS_OF(BODY)) };
-struct material_record { MEMBERS(FIELDS_OF(MATERIAL)) };
-struct light_record { MEMBERS(FIELDS_OF(LIGHT)) };
+struct triangle_record { MEMBERS(TRIANGLE_FIELDS) };
+struct sphere_record { MEMBERS(SPHERE_FIELDS) };
+struct body_record { MEMBERS(BODY_FIELDS) };
+struct material_record { MEMBERS(MATERIAL_FIELDS) };
+struct light_record { MEMBERS(LIGHT_FIELDS) };
+struct normal_record { MEMBERS(NORMAL_FIELDS) };
 #define SOURCE triangle_nodes
 DEFINE_LOADER(node_record, load_triangle_node, NODE_WORDS, NODE_FIELDS)
 #undef SOURCE
@@ -48,28 +56,22 @@ DEFINE_LOADER(node_record, load_triangle_node, NODE_WORDS, NODE_FIELDS)
 DEFINE_LOADER(node_record, load_sphere_node, NODE_WORDS, NODE_FIELDS)
 #undef SOURCE
 #define SOURCE triangles
-DEFINE_LOADER(triangle_record, load_triangle, WORDS_OF(TRIANGLE), FIELDS_OF(TRIANGLE))
+DEFINE_LOADER(triangle_record, load_triangle, WORDS_OF(TRIANGLE), TRIANGLE_FIELDS)
 #undef SOURCE
 #define SOURCE spheres
-DEFINE_LOADER(sphere_record, load_sphere, WORDS_OF(SPHERE), FIELDS_OF(SPHERE))
+DEFINE_LOADER(sphere_record, load_sphere, WORDS_OF(SPHERE), SPHERE_FIELDS)
 #undef SOURCE
 #define SOURCE bodies
-DEFINE_LOADER(body_record, load_body, WORDS_OF(BODY), FIELDS_OF(BODY))
+DEFINE_LOADER(body_record, load_body, WORDS_OF(BODY), BODY_FIELDS)
 #undef SOURCE
 #define SOURCE materials
-DEFINE_LOADER(material_record, load_material, WORDS_OF(MATERIAL), FIELDS_OF(MATERIAL))
+DEFINE_LOADER(material_record, load_material, WORDS_OF(MATERIAL), MATERIAL_FIELDS)
 #undef SOURCE
 #define SOURCE lights
-DEFINE_LOADER(light_record, load_light, WORDS_OF(LIGHT), FIELDS_OF(LIGHT))
+DEFINE_LOADER(light_record, load_light, WORDS_OF(LIGHT), LIGHT_FIELDS)
 #undef SOURCE
 
-// Normals in single precision are no records, but words.
-#ifdef DOUBLE_PRECISION
-struct normal_record { MEMBERS(NORMAL64_FIELDS) };
 #define SOURCE normals
-DEFINE_LOADER(normal_record, load_normal_record, NORMAL64_WORDS, NORMAL64_FIELDS)
+DEFINE_LOADER(normal_record, load_normal_record, WORDS_OF(NORMAL), NORMAL_FIELDS)
 #undef SOURCE
-dvec3 load_normal(uint index) { return load_normal_record(index).unit; }
-#else
-vec3 load_normal(uint index) { return uintBitsToFloat(FETCH(normals, index).xyz); }
-#endif
+REAL3 load_normal(uint index) { return load_normal_record(index).unit; }

@@ -1,132 +1,90 @@
-/* The fields of the records of gpu_scene.h, word by word: one list expands to the C struct and its asserts
-   (tracer/gpu_records.h) and to the GLSL struct and its loader (records.glsl). VECTOR(name, word) takes
-   x, y, z of a word; FLOAT and UINT(name, word, component) one component. In the order of memory.
-   Lists with 64 in their names are of scenes in double precision, and they alone have doubles: REAL3(name,
-   word) takes a word and half of the next, REAL(name, word, half) the xy or zw of a word. */
+/* The records of gpu_scene.h, each field once: its type, and its place in single and in double precision. One
+   list expands to the C struct that flattening fills and its packing (tracer/gpu_records.h), and to the GLSL
+   struct and its loader (records.glsl). A field added here alone is 0 in every kernel.
+
+   REAL3(name, word, word64): a point, direction or row: floats in x, y, z of a word; in double precision
+       doubles in word64 and in half of the next.
+   REAL(name, word, component, word64, half): one number; in double precision in xy or zw of word64.
+   FLOAT3(name, word, word64), FLOAT(name, word, component, word64, component64): floats in both.
+   UINT(name, word, component, word64, component64): a whole number. */
 #ifndef GLINT_SHADERS_RECORDS_H
 #define GLINT_SHADERS_RECORDS_H
 
-#define NODE_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                        \
-    VECTOR(corner, 0)                                                                                        \
-    UINT(exponents, 0, w) /* and the mask of inner children */                                               \
-    UINT(first_node, 1, x)                                                                                   \
-    UINT(first_item, 1, y)                                                                                   \
-    UINT(meta_a, 1, z) /* _a: children 0..3, _b: children 4..7 */                                            \
-    UINT(meta_b, 1, w)                                                                                       \
-    UINT(low_x_a, 2, x)                                                                                      \
-    UINT(low_x_b, 2, y)                                                                                      \
-    UINT(low_y_a, 2, z)                                                                                      \
-    UINT(low_y_b, 2, w)                                                                                      \
-    UINT(low_z_a, 3, x)                                                                                      \
-    UINT(low_z_b, 3, y)                                                                                      \
-    UINT(high_x_a, 3, z)                                                                                     \
-    UINT(high_x_b, 3, w)                                                                                     \
-    UINT(high_y_a, 4, x)                                                                                     \
-    UINT(high_y_b, 4, y)                                                                                     \
-    UINT(high_z_a, 4, z)                                                                                     \
-    UINT(high_z_b, 4, w)
+#define NODE_WORDS   5
+#define NODE64_WORDS 5
+#define NODE_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                        \
+    FLOAT3(corner, 0, 0)                                                                                     \
+    UINT(exponents, 0, w, 0, w) /* and the mask of inner children */                                         \
+    UINT(first_node, 1, x, 1, x)                                                                             \
+    UINT(first_item, 1, y, 1, y)                                                                             \
+    UINT(meta_a, 1, z, 1, z) /* _a: children 0..3, _b: children 4..7 */                                      \
+    UINT(meta_b, 1, w, 1, w)                                                                                 \
+    UINT(low_x_a, 2, x, 2, x)                                                                                \
+    UINT(low_x_b, 2, y, 2, y)                                                                                \
+    UINT(low_y_a, 2, z, 2, z)                                                                                \
+    UINT(low_y_b, 2, w, 2, w)                                                                                \
+    UINT(low_z_a, 3, x, 3, x)                                                                                \
+    UINT(low_z_b, 3, y, 3, y)                                                                                \
+    UINT(high_x_a, 3, z, 3, z)                                                                               \
+    UINT(high_x_b, 3, w, 3, w)                                                                               \
+    UINT(high_y_a, 4, x, 4, x)                                                                               \
+    UINT(high_y_b, 4, y, 4, y)                                                                               \
+    UINT(high_z_a, 4, z, 4, z)                                                                               \
+    UINT(high_z_b, 4, w, 4, w)
 
-#define TRIANGLE_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                    \
-    VECTOR(v0, 0)                                                                                            \
-    UINT(number, 0, w)                                                                                       \
-    VECTOR(v1, 1)                                                                                            \
-    UINT(body, 1, w)                                                                                         \
-    VECTOR(v2, 2)                                                                                            \
-    UINT(shade, 2, w) /* material and flags */
+#define TRIANGLE_WORDS   3
+#define TRIANGLE64_WORDS 6
+#define TRIANGLE_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                    \
+    REAL3(v0, 0, 0)                                                                                          \
+    REAL3(v1, 1, 2)                                                                                          \
+    REAL3(v2, 2, 4)                                                                                          \
+    UINT(number, 0, w, 1, z)                                                                                 \
+    UINT(body, 1, w, 1, w)                                                                                   \
+    UINT(shade, 2, w, 3, z) /* material and flags */
 
-#define SPHERE_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                      \
-    VECTOR(center, 0)                                                                                        \
-    FLOAT(radius, 0, w)                                                                                      \
-    UINT(body, 1, x)                                                                                         \
-    UINT(shade, 1, y)                                                                                        \
-    UINT(spare_z, 1, z)                                                                                      \
-    UINT(spare_w, 1, w)
+#define SPHERE_WORDS   2
+#define SPHERE64_WORDS 3
+#define SPHERE_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                      \
+    REAL3(center, 0, 0)                                                                                      \
+    REAL(radius, 0, w, 1, zw)                                                                                \
+    UINT(body, 1, x, 2, x)                                                                                   \
+    UINT(shade, 1, y, 2, y) /* material and flags */
 
-#define BODY_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                        \
-    UINT(first_triangle, 0, x)                                                                               \
-    UINT(normal_base, 0, y)                                                                                  \
-    UINT(spare_z, 0, z)                                                                                      \
-    UINT(spare_w, 0, w)                                                                                      \
-    VECTOR(row_x, 1) /* of a rectangle: |edge_u|, |edge_v| */                                                \
-    FLOAT(offset_x, 1, w)                                                                                    \
-    VECTOR(row_y, 2)                                                                                         \
-    FLOAT(offset_y, 2, w)                                                                                    \
-    VECTOR(row_z, 3)                                                                                         \
-    FLOAT(offset_z, 3, w)
+#define NORMAL_WORDS                                    1
+#define NORMAL64_WORDS                                  2
+#define NORMAL_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT) REAL3(unit, 0, 0)
 
-#define MATERIAL_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                    \
-    FLOAT(weight_diffuse, 0, x)                                                                              \
-    FLOAT(weight_specular, 0, y)                                                                             \
-    FLOAT(weight_reflection, 0, z)                                                                           \
-    FLOAT(weight_refraction, 0, w)                                                                           \
-    VECTOR(diffuse, 1)                                                                                       \
-    FLOAT(exponent, 1, w)                                                                                    \
-    VECTOR(specular, 2)                                                                                      \
-    FLOAT(index, 2, w)                                                                                       \
-    VECTOR(second, 3) /* colour of the checker */                                                            \
-    FLOAT(cell, 3, w)
+#define BODY_WORDS   4
+#define BODY64_WORDS 7
+#define BODY_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                        \
+    UINT(first_triangle, 0, x, 0, x)                                                                         \
+    UINT(normal_base, 0, y, 0, y)                                                                            \
+    REAL3(row_x, 1, 1) /* of a parallelogram: the lengths of its edges */                                    \
+    REAL(offset_x, 1, w, 2, zw)                                                                              \
+    REAL3(row_y, 2, 3)                                                                                       \
+    REAL(offset_y, 2, w, 4, zw)                                                                              \
+    REAL3(row_z, 3, 5)                                                                                       \
+    REAL(offset_z, 3, w, 6, zw)
 
-#define LIGHT_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                       \
-    VECTOR(place, 0)                                                                                         \
-    UINT(flags, 0, w)                                                                                        \
-    VECTOR(emission, 1)                                                                                      \
-    UINT(spare, 1, w)
+#define MATERIAL_WORDS   4
+#define MATERIAL64_WORDS 5
+#define MATERIAL_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                    \
+    FLOAT(weight_diffuse, 0, x, 0, x)                                                                        \
+    FLOAT(weight_specular, 0, y, 0, y)                                                                       \
+    FLOAT(weight_reflection, 0, z, 0, z)                                                                     \
+    FLOAT(weight_refraction, 0, w, 0, w)                                                                     \
+    FLOAT3(diffuse, 1, 1)                                                                                    \
+    FLOAT(exponent, 1, w, 1, w)                                                                              \
+    FLOAT3(specular, 2, 2)                                                                                   \
+    REAL(index, 2, w, 4, xy)                                                                                 \
+    FLOAT3(second, 3, 3)    /* colour of the checker's odd cells */                                          \
+    REAL(cell, 3, w, 4, zw) /* 0: no checker */
 
-#define TRIANGLE64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                  \
-    REAL3(v0, 0)                                                                                             \
-    UINT(number, 1, z)                                                                                       \
-    UINT(body, 1, w)                                                                                         \
-    REAL3(v1, 2)                                                                                             \
-    UINT(shade, 3, z)                                                                                        \
-    UINT(spare_3w, 3, w)                                                                                     \
-    REAL3(v2, 4)                                                                                             \
-    UINT(spare_5z, 5, z)                                                                                     \
-    UINT(spare_5w, 5, w)
-
-#define SPHERE64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                    \
-    REAL3(center, 0)                                                                                         \
-    REAL(radius, 1, zw)                                                                                      \
-    UINT(body, 2, x)                                                                                         \
-    UINT(shade, 2, y)                                                                                        \
-    UINT(spare_z, 2, z)                                                                                      \
-    UINT(spare_w, 2, w)
-
-#define NORMAL64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                    \
-    REAL3(unit, 0)                                                                                           \
-    UINT(spare_z, 1, z)                                                                                      \
-    UINT(spare_w, 1, w)
-
-#define BODY64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                      \
-    UINT(first_triangle, 0, x)                                                                               \
-    UINT(normal_base, 0, y)                                                                                  \
-    UINT(spare_z, 0, z)                                                                                      \
-    UINT(spare_w, 0, w)                                                                                      \
-    REAL3(row_x, 1)                                                                                          \
-    REAL(offset_x, 2, zw)                                                                                    \
-    REAL3(row_y, 3)                                                                                          \
-    REAL(offset_y, 4, zw)                                                                                    \
-    REAL3(row_z, 5)                                                                                          \
-    REAL(offset_z, 6, zw)
-
-#define MATERIAL64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                  \
-    FLOAT(weight_diffuse, 0, x)                                                                              \
-    FLOAT(weight_specular, 0, y)                                                                             \
-    FLOAT(weight_reflection, 0, z)                                                                           \
-    FLOAT(weight_refraction, 0, w)                                                                           \
-    VECTOR(diffuse, 1)                                                                                       \
-    FLOAT(exponent, 1, w)                                                                                    \
-    VECTOR(specular, 2)                                                                                      \
-    UINT(spare_2w, 2, w)                                                                                     \
-    VECTOR(second, 3)                                                                                        \
-    UINT(spare_3w, 3, w)                                                                                     \
-    REAL(index, 4, xy)                                                                                       \
-    REAL(cell, 4, zw)
-
-#define LIGHT64_FIELDS(REAL3, REAL, VECTOR, FLOAT, UINT)                                                     \
-    REAL3(place, 0)                                                                                          \
-    UINT(flags, 1, z)                                                                                        \
-    UINT(spare_1w, 1, w)                                                                                     \
-    VECTOR(emission, 2)                                                                                      \
-    UINT(spare_2w, 2, w)
+#define LIGHT_WORDS   2
+#define LIGHT64_WORDS 3
+#define LIGHT_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                       \
+    REAL3(place, 0, 0)                                                                                       \
+    UINT(flags, 0, w, 1, z)                                                                                  \
+    FLOAT3(emission, 1, 2)
 
 #endif

@@ -17,7 +17,7 @@ struct surface {
 
 bool is_odd(REAL cells) { return cells - 2.0 * floor(cells * 0.5) != 0.0; }
 
-// `shade`: material and flags; `along`: the place on a rectangle, 0..1 along its edges.
+// `shade`: material and flags; `along`: the place on a parallelogram, 0..1 along its edges.
 void read_material(uint shade, uint body, REAL2 along, inout surface s) {
     material_record material = load_material(shade & TRIANGLE_MATERIAL);
     if (HAS_DIFFUSE) {
@@ -26,8 +26,8 @@ void read_material(uint shade, uint body, REAL2 along, inout surface s) {
             body_record map = load_body(body);
             REAL3 own = REAL3(dot3(map.row_x, s.point) + map.offset_x, dot3(map.row_y, s.point) + map.offset_y,
                               dot3(map.row_z, s.point) + map.offset_z);
-            bool rectangle = (shade & TRIANGLE_RECT) != 0u;
-            own = (rectangle ? REAL3(along * map.row_x.xy, 0.0) : own) / material.cell;
+            bool is_half = (shade & TRIANGLE_HALF) != 0u;
+            own = (is_half ? REAL3(along * map.row_x.xy, 0.0) : own) / material.cell;
             bool odd = is_odd(floor(own.x) + floor(own.y) + floor(own.z));
             color = (shade & TRIANGLE_CHECKER) != 0u && odd ? material.second : color;
         }
@@ -70,7 +70,7 @@ void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
         n = dot3(n, s.geometric) < 0.0 ? -n : n;
         s.shading = smooth_shaded && length2 > 0.0 ? n : s.geometric;
     }
-    bool second_half = (triangle.shade & TRIANGLE_RECT_TOP) != 0u;
+    bool second_half = (triangle.shade & TRIANGLE_SECOND_HALF) != 0u;
     REAL sum = hit.b1 + hit.b2;
     read_material(triangle.shade, triangle.body, second_half ? REAL2(hit.b1, sum) : REAL2(sum, hit.b2), s);
 }

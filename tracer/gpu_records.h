@@ -1,91 +1,94 @@
-// The records of shaders/records.h as C structs, word for word as kernels read them.
+// The records of shaders/records.h as C structs that flattening fills, and their packing into words as
+// kernels read them.
+//
+// Numbers and colours are double here, whatever a kernel has: packing rounds those that are float. A record
+// begins as zeros, so that a field that nobody fills is 0 in both precisions. Thread safety: pure functions.
 #ifndef GLINT_TRACER_GPU_RECORDS_H
 #define GLINT_TRACER_GPU_RECORDS_H
 
+#include "core/vec3.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
 #include "tracer/gpu_word.h"
 
-#include <assert.h>
-#include <stddef.h>
+#include <string.h>
 
-#define GPU_MEMBER_REAL3(name, word)            double name[3];
-#define GPU_MEMBER_REAL(name, word, half)       double name;
-#define GPU_MEMBER_VECTOR(name, word)           float name[3];
-#define GPU_MEMBER_FLOAT(name, word, component) float name;
-#define GPU_MEMBER_UINT(name, word, component)  uint32_t name;
-#define GPU_MEMBERS(RECORD)                                                                                  \
-    RECORD##_FIELDS(GPU_MEMBER_REAL3, GPU_MEMBER_REAL, GPU_MEMBER_VECTOR, GPU_MEMBER_FLOAT, GPU_MEMBER_UINT)
+#define GPU_MEMBER_REAL3(name, word, word64)                         vec3 name;
+#define GPU_MEMBER_REAL(name, word, component, word64, half64)       double name;
+#define GPU_MEMBER_FLOAT3(name, word, word64)                        vec3 name;
+#define GPU_MEMBER_FLOAT(name, word, component, word64, component64) double name;
+#define GPU_MEMBER_UINT(name, word, component, word64, component64)  uint32_t name;
 
-struct gpu_node {
-    GPU_MEMBERS(NODE)
-};
-struct gpu_triangle {
-    GPU_MEMBERS(TRIANGLE)
-};
-struct gpu_sphere {
-    GPU_MEMBERS(SPHERE)
-};
-struct gpu_body {
-    GPU_MEMBERS(BODY)
-};
-struct gpu_material {
-    GPU_MEMBERS(MATERIAL)
-};
-struct gpu_light {
-    GPU_MEMBERS(LIGHT)
+// Where a part of a word lies in it: components, and halves, which are named by two.
+enum {
+    GPU_PART_x = 0,
+    GPU_PART_y = 1,
+    GPU_PART_z = 2,
+    GPU_PART_w = 3,
+    GPU_PART_xy = 0,
+    GPU_PART_zw = 2,
 };
 
-// Of scenes in double precision.
-struct gpu_triangle64 {
-    GPU_MEMBERS(TRIANGLE64)
-};
-struct gpu_sphere64 {
-    GPU_MEMBERS(SPHERE64)
-};
-struct gpu_normal64 {
-    GPU_MEMBERS(NORMAL64)
-};
-struct gpu_body64 {
-    GPU_MEMBERS(BODY64)
-};
-struct gpu_material64 {
-    GPU_MEMBERS(MATERIAL64)
-};
-struct gpu_light64 {
-    GPU_MEMBERS(LIGHT64)
-};
+static inline void gpu_pack_uint(struct gpu_word *words, uint32_t word, uint32_t part, uint32_t value) {
+    memcpy((unsigned char *)(words + word) + part * sizeof value, &value, sizeof value);
+}
+static inline void gpu_pack_float(struct gpu_word *words, uint32_t word, uint32_t part, double value) {
+    float rounded = (float)value;
+    memcpy((unsigned char *)(words + word) + part * sizeof rounded, &rounded, sizeof rounded);
+}
+static inline void gpu_pack_float3(struct gpu_word *words, uint32_t word, vec3 value) {
+    const float rounded[3] = {(float)value.x, (float)value.y, (float)value.z};
+    memcpy(words + word, rounded, sizeof rounded);
+}
+static inline void gpu_pack_double(struct gpu_word *words, uint32_t word, uint32_t part, double value) {
+    memcpy((unsigned char *)(words + word) + part * sizeof(uint32_t), &value, sizeof value);
+}
+static inline void gpu_pack_double3(struct gpu_word *words, uint32_t word, vec3 value) {
+    const double numbers[3] = {value.x, value.y, value.z};
+    memcpy(words + word, numbers, sizeof numbers);
+}
 
-// Half a word is named by its components.
-#define GPU_HALF_xy x
-#define GPU_HALF_zw z
-#define GPU_PLACE(name, word, component)                                                                     \
-    static_assert(offsetof(record, name) ==                                                                  \
-                      (word) * sizeof(struct gpu_word) + offsetof(struct gpu_word, component),               \
-                  "the C struct and records.h disagree about " #name);
-#define GPU_PLACE_HALF(name, word, half) GPU_PLACE(name, word, GPU_HALF_##half)
-#define GPU_PLACE_START(name, word)      GPU_PLACE(name, word, x)
-#define GPU_CHECK(type, RECORD)                                                                              \
-    {                                                                                                        \
-        typedef struct type record;                                                                          \
-        static_assert(sizeof(record) == RECORD##_WORDS * sizeof(struct gpu_word), "another size");           \
-        RECORD##_FIELDS(GPU_PLACE_START, GPU_PLACE_HALF, GPU_PLACE_START, GPU_PLACE, GPU_PLACE)              \
+#define GPU_PACK_REAL3(name, word, word64) gpu_pack_float3(words, word, record->name);
+#define GPU_PACK_REAL(name, word, component, word64, half64)                                                 \
+    gpu_pack_float(words, word, GPU_PART_##component, record->name);
+#define GPU_PACK_FLOAT3(name, word, word64) gpu_pack_float3(words, word, record->name);
+#define GPU_PACK_FLOAT(name, word, component, word64, component64)                                           \
+    gpu_pack_float(words, word, GPU_PART_##component, record->name);
+#define GPU_PACK_UINT(name, word, component, word64, component64)                                            \
+    gpu_pack_uint(words, word, GPU_PART_##component, record->name);
+
+#define GPU_PACK64_REAL3(name, word, word64) gpu_pack_double3(words, word64, record->name);
+#define GPU_PACK64_REAL(name, word, component, word64, half64)                                               \
+    gpu_pack_double(words, word64, GPU_PART_##half64, record->name);
+#define GPU_PACK64_FLOAT3(name, word, word64) gpu_pack_float3(words, word64, record->name);
+#define GPU_PACK64_FLOAT(name, word, component, word64, component64)                                         \
+    gpu_pack_float(words, word64, GPU_PART_##component64, record->name);
+#define GPU_PACK64_UINT(name, word, component, word64, component64)                                          \
+    gpu_pack_uint(words, word64, GPU_PART_##component64, record->name);
+
+// `struct gpu_x`, and gpu_pack_x, which writes a record's words: X_WORDS, in double precision X64_WORDS.
+#define GPU_RECORD(name, NAME)                                                                               \
+    struct gpu_##name {                                                                                      \
+        NAME##_FIELDS(GPU_MEMBER_REAL3, GPU_MEMBER_REAL, GPU_MEMBER_FLOAT3, GPU_MEMBER_FLOAT,                \
+                      GPU_MEMBER_UINT)                                                                       \
+    };                                                                                                       \
+    static inline void gpu_pack_##name(const struct gpu_##name *record, bool is_double,                      \
+                                       struct gpu_word *words) {                                             \
+        memset(words, 0, (is_double ? NAME##64_WORDS : NAME##_WORDS) * sizeof *words);                       \
+        if (is_double) {                                                                                     \
+            NAME##_FIELDS(GPU_PACK64_REAL3, GPU_PACK64_REAL, GPU_PACK64_FLOAT3, GPU_PACK64_FLOAT,            \
+                          GPU_PACK64_UINT)                                                                   \
+        } else {                                                                                             \
+            NAME##_FIELDS(GPU_PACK_REAL3, GPU_PACK_REAL, GPU_PACK_FLOAT3, GPU_PACK_FLOAT, GPU_PACK_UINT)     \
+        }                                                                                                    \
     }
 
-// Asserts alone.
-static inline void gpu_check_records(void) {
-    GPU_CHECK(gpu_node, NODE)
-    GPU_CHECK(gpu_triangle, TRIANGLE)
-    GPU_CHECK(gpu_sphere, SPHERE)
-    GPU_CHECK(gpu_body, BODY)
-    GPU_CHECK(gpu_material, MATERIAL)
-    GPU_CHECK(gpu_light, LIGHT)
-    GPU_CHECK(gpu_triangle64, TRIANGLE64)
-    GPU_CHECK(gpu_sphere64, SPHERE64)
-    GPU_CHECK(gpu_normal64, NORMAL64)
-    GPU_CHECK(gpu_body64, BODY64)
-    GPU_CHECK(gpu_material64, MATERIAL64)
-    GPU_CHECK(gpu_light64, LIGHT64)
-}
+GPU_RECORD(node, NODE)
+GPU_RECORD(triangle, TRIANGLE)
+GPU_RECORD(sphere, SPHERE)
+GPU_RECORD(normal, NORMAL)
+GPU_RECORD(body, BODY)
+GPU_RECORD(material, MATERIAL)
+GPU_RECORD(light, LIGHT)
 
 #endif

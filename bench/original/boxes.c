@@ -3,6 +3,7 @@
 #include "bench/original/layout.h"
 #include "shaders/features.h"
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static uint32_t bits_of(float value) {
 }
 
 static bool is_rectangle(const struct gpu_word *triangle) {
-    return triangle[2].w & TRIANGLE_RECT;
+    return triangle[2].w & TRIANGLE_HALF;
 }
 
 const char *original_lacks(const struct flat_scene *flat) {
@@ -85,7 +86,7 @@ static void sort_bodies(const struct flat_scene *flat, struct original_boxes *ou
             memcpy(out->triangles.words + out->triangles.count, triangle, TRIANGLE_WORDS * sizeof *triangle);
             out->triangles.count += TRIANGLE_WORDS;
             out->triangle_count++;
-        } else if (!(triangle[2].w & TRIANGLE_RECT_TOP)) {
+        } else if (!(triangle[2].w & TRIANGLE_SECOND_HALF)) {
             add_rectangle(out, flat, triangle);
         }
     }

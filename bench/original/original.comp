@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "../../shaders/scene.glsl"
+#include "../../shaders/records.h"
 #include "../../shaders/math.glsl"
 #include "../../shaders/camera.glsl"
 #include "../../shaders/background.glsl"

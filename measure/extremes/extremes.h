@@ -77,8 +77,7 @@ struct extreme_bound {
 };
 
 struct extremes_input {
-    const struct ir_scene *scene;
-    const struct assets *assets;
+    const struct scene *scene;
     uint32_t camera;        // index in the scene; 0 where it has none
     uint32_t width, height; // pixels
     const struct limits *limits;

@@ -74,19 +74,19 @@ static struct mesh *make_disc(struct arena *arena, const struct pose *pose, doub
 
 void probe_slivers(struct variant *v, const struct extreme_base *base, double aspect) {
     const struct pose pose = before_camera(v, base);
-    const uint32_t i = v->scene.models.count++;
-    v->scene.models.items[i] = (struct ir_model){.scale = {1, 1, 1}, .material.index = IR_NO_INDEX};
+    const uint32_t i = v->ir.models.count++;
+    v->ir.models.items[i] = (struct ir_model){.scale = {1, 1, 1}, .material.index = IR_NO_INDEX};
     v->assets.models[i].mesh = make_disc(v->arena, &pose, aspect);
     v->assets.models[i].group_material = ARENA_ARRAY(v->arena, uint32_t, 1);
-    v->assets.models[i].group_material[0] = v->scene.materials.count;
-    v->assets.model_count = v->scene.models.count;
+    v->assets.models[i].group_material[0] = v->ir.materials.count;
+    v->assets.model_count = v->ir.models.count;
     v->assets.triangle_count += v->assets.models[i].mesh->triangle_count;
 }
 
 // ---- plates
 
 static void add_plate(struct variant *v, vec3 corner, vec3 edge_u, vec3 edge_v) {
-    v->scene.rectangles.items[v->scene.rectangles.count++] = (struct ir_rectangle){
+    v->ir.rectangles.items[v->ir.rectangles.count++] = (struct ir_rectangle){
         .corner = corner, .edge_u = edge_u, .edge_v = edge_v, .material.index = IR_NO_INDEX};
 }
 
@@ -104,7 +104,7 @@ void probe_coplanar(struct variant *v, const struct extreme_base *base, double s
 void probe_gap(struct variant *v, const struct extreme_base *base, double gap) {
     struct view_camera *camera = &v->view.camera;
     const double size = 2 * base->radius;
-    v->scene.spheres.count = v->scene.models.count = v->scene.rectangles.count = 0;
+    v->ir.spheres.count = v->ir.models.count = v->ir.rectangles.count = 0;
     v->assets.model_count = 0;
     v->assets.triangle_count = 0;
     struct pose pose = {.center = base->center, .size = base->radius};

@@ -41,9 +41,9 @@ static void *copied(struct arena *arena, const void *items, size_t count, size_t
     return copy;
 }
 #define COPY(v, list, room)                                                                                  \
-    (v)->scene.list.items = copied((v)->arena, (v)->scene.list.items, (v)->scene.list.count,                 \
-                                   sizeof *(v)->scene.list.items, room);                                     \
-    (v)->scene.list.capacity = (v)->scene.list.count + (room)
+    (v)->ir.list.items =                                                                                     \
+        copied((v)->arena, (v)->ir.list.items, (v)->ir.list.count, sizeof *(v)->ir.list.items, room);        \
+    (v)->ir.list.capacity = (v)->ir.list.count + (room)
 
 enum {
     ROOM_BODIES = 2 // that a probe may add
@@ -64,15 +64,15 @@ static void turn_a_little(struct view_camera *camera) {
 }
 
 static void make_view(struct variant *v) {
-    view_build(&v->scene, &v->assets, v->camera, (int32_t)v->width, (int32_t)v->height, v->arena, NULL,
-               &v->view);
+    scene_build(&v->ir, &v->assets, v->arena, &v->scene);
+    view_build(&v->scene, v->camera, (int32_t)v->width, (int32_t)v->height, v->arena, NULL, &v->view);
     turn_a_little(&v->view.camera);
 }
 
 void variant_copy(struct variant *v, struct arena *arena, const struct extremes_input *input) {
     *v = (struct variant){.arena = arena,
-                          .scene = *input->scene,
-                          .assets = *input->assets,
+                          .ir = *input->scene->ir,
+                          .assets = *input->scene->assets,
                           .camera = input->camera,
                           .width = input->width,
                           .height = input->height};
@@ -112,19 +112,19 @@ static vec3 changed(const struct change *c, vec3 p) {
 }
 
 static void change_bodies(struct variant *v, const struct change *c) {
-    for (uint32_t i = 0; i < v->scene.spheres.count; i++) {
-        struct ir_sphere *sphere = &v->scene.spheres.items[i];
+    for (uint32_t i = 0; i < v->ir.spheres.count; i++) {
+        struct ir_sphere *sphere = &v->ir.spheres.items[i];
         sphere->center = changed(c, sphere->center);
         sphere->radius *= c->factor;
     }
-    for (uint32_t i = 0; i < v->scene.rectangles.count; i++) {
-        struct ir_rectangle *r = &v->scene.rectangles.items[i];
+    for (uint32_t i = 0; i < v->ir.rectangles.count; i++) {
+        struct ir_rectangle *r = &v->ir.rectangles.items[i];
         r->corner = changed(c, r->corner);
         r->edge_u = vec3_mul(r->edge_u, c->factor);
         r->edge_v = vec3_mul(r->edge_v, c->factor);
     }
-    for (uint32_t i = 0; i < v->scene.models.count; i++) {
-        struct ir_model *model = &v->scene.models.items[i];
+    for (uint32_t i = 0; i < v->ir.models.count; i++) {
+        struct ir_model *model = &v->ir.models.items[i];
         model->scale = vec3_mul(model->scale, c->factor);
         model->translation = changed(c, model->translation);
     }
@@ -132,13 +132,13 @@ static void change_bodies(struct variant *v, const struct change *c) {
 
 static void change_all(struct variant *v, const struct change *c) {
     change_bodies(v, c);
-    for (uint32_t i = 0; i < v->scene.cameras.count; i++) {
-        struct ir_camera *camera = &v->scene.cameras.items[i];
+    for (uint32_t i = 0; i < v->ir.cameras.count; i++) {
+        struct ir_camera *camera = &v->ir.cameras.items[i];
         camera->position = changed(c, camera->position);
         camera->look_at = changed(c, camera->look_at);
     }
-    for (uint32_t i = 0; i < v->scene.lights.count; i++) {
-        struct ir_light *light = &v->scene.lights.items[i];
+    for (uint32_t i = 0; i < v->ir.lights.count; i++) {
+        struct ir_light *light = &v->ir.lights.items[i];
         light->position = changed(c, light->position);
         if (light->falloff == IR_FALLOFF_INVERSE_SQUARE)
             light->intensity *= c->factor * c->factor;
@@ -207,12 +207,8 @@ static bool set_exponents(struct variant *v, double exponent) {
 
 // ---- all
 
-const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,
-                         enum extreme_axis axis, double value) {
-    const bool on_surface = axis == EXTREME_LIGHT || axis == EXTREME_CAMERA;
-    if (on_surface && !base->has_surface)
-        return "the camera sees no surface that does not refract";
-    variant_copy(v, arena, base->input);
+static const char *change(struct variant *v, const struct extreme_base *base, enum extreme_axis axis,
+                          double value) {
     switch (axis) {
     case EXTREME_MOVE:
         change_all(v, &(struct change){1, {value, -0.5 * value, 0.75 * value}});
@@ -246,4 +242,15 @@ const char *variant_make(struct variant *v, struct arena *arena, const struct ex
         break;
     }
     return NULL;
+}
+
+const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,
+                         enum extreme_axis axis, double value) {
+    const bool on_surface = axis == EXTREME_LIGHT || axis == EXTREME_CAMERA;
+    if (on_surface && !base->has_surface)
+        return "the camera sees no surface that does not refract";
+    variant_copy(v, arena, base->input);
+    const char *left_out = change(v, base, axis, value);
+    scene_build(&v->ir, &v->assets, arena, &v->scene);
+    return left_out;
 }

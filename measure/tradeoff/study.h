@@ -38,7 +38,8 @@ struct study {
     struct renderer *renderer[2];
     struct setting current[2]; // what the renderer is set to
     // The reference, and the same without shadows.
-    struct ir_scene scene_shadowless;
+    struct ir_scene ir_shadowless;
+    struct scene scene_shadowless; // over that IR
     struct reference_source source[2];
     struct reference_settings full; // of the file's size, truth's samples and rays
     double truth_rays;              // that a sample of the truth took, on average

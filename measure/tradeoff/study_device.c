@@ -30,8 +30,6 @@ static struct render_settings settings_of(const struct study *s, const struct se
 static enum tradeoff_status open_precision(struct study *s, bool is_double) {
     const struct tradeoff_input *in = s->input;
     const struct flat_input input = {.scene = in->scene,
-                                     .origin_places = in->origin_places,
-                                     .assets = in->assets,
                                      .view = in->view,
                                      .origin = in->origin,
                                      .is_double = is_double,

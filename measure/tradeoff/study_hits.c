@@ -21,7 +21,6 @@ static enum tradeoff_status make_reference_hits(struct study *s) {
 }
 
 enum tradeoff_status hits_measure(struct study *s, struct row *row) {
-    uint32_t bodies;
     if (!s->hits[1] && !s->no_hits)
         s->no_hits = s->out->hits_out =
             !truth_affords(s, RAYS_A_HIT * (double)s->base.width * s->base.height);
@@ -32,10 +31,6 @@ enum tradeoff_status hits_measure(struct study *s, struct row *row) {
         status = device_hits(s, &row->setting, s->hits[0]);
     if (status != TRADEOFF_DONE)
         return status;
-    bool *closed = hits_closed_bodies(s->input->scene, s->input->assets, &bodies);
-    if (!closed)
-        return TRADEOFF_MEMORY;
-    hits_compare(s->base.width, s->base.height, s->hits[0], s->hits[1], closed, bodies, &row->hits);
-    free(closed);
+    hits_compare(s->base.width, s->base.height, s->hits[0], s->hits[1], s->input->scene, &row->hits);
     return TRADEOFF_DONE;
 }

@@ -112,7 +112,8 @@ static const float *probe(struct study *s, struct probe_set wanted) {
     image.height = (int32_t)wanted.height;
     image.samples = (int32_t)wanted.samples;
     struct probing context = {
-        s, reference, reference_settings_of(s->input->scene, &image, s->input->limits, !wanted.full), values};
+        s, reference, reference_settings_of(s->input->scene->ir, &image, s->input->limits, !wanted.full),
+        values};
     if (!wanted.full) {
         context.settings.max_depth = wanted.max_depth;
         context.settings.min_weight = wanted.min_weight;
@@ -141,7 +142,7 @@ static enum tradeoff_status whole_numeric(struct study *s, double *numeric) {
         return TRADEOFF_DONE;
     if (!s->as_file) {
         const struct reference_settings settings =
-            reference_settings_of(s->input->scene, s->input->image, s->input->limits, true);
+            reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, true);
         float *shown = malloc(3 * pixels * sizeof *shown);
         const enum tradeoff_status status =
             shown ? truth_picture(s, &settings, shown, NULL) : TRADEOFF_MEMORY;

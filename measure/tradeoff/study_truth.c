@@ -111,7 +111,7 @@ enum tradeoff_status truth_make(struct study *s, const struct work *own, bool bo
     struct reference_statistics taken;
     struct plan_truth planned;
     const double start = clock_seconds();
-    s->full = reference_settings_of(s->input->scene, s->input->image, s->input->limits, false);
+    s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
     enum tradeoff_status status = plan(s, own, bounces, &planned);
     if (status != TRADEOFF_DONE)
         return status;

@@ -131,7 +131,7 @@ static enum tradeoff_status try_row(struct study *s, const struct row *planned) 
 // ---- before the rows
 
 static struct setting file_setting(const struct tradeoff_input *in) {
-    const struct ir_trace *trace = &in->scene->trace;
+    const struct ir_trace *trace = &in->scene->ir->trace;
     return (struct setting){.width = (uint32_t)in->image->width,
                             .height = (uint32_t)in->image->height,
                             .samples = (uint32_t)in->image->samples,
@@ -144,10 +144,12 @@ static struct setting file_setting(const struct tradeoff_input *in) {
 static void open_reference(struct study *s) {
     const struct tradeoff_input *in = s->input;
     const struct folder_store none = {0};
-    struct reference_input input = {.scene = in->scene, .assets = in->assets, .view = in->view};
+    struct reference_input input = {.scene = in->scene, .view = in->view};
     reference_source_init(&s->source[0], &input, in->store);
+    s->ir_shadowless = *in->scene->ir;
+    s->ir_shadowless.trace.shadows = false;
     s->scene_shadowless = *in->scene;
-    s->scene_shadowless.trace.shadows = false;
+    s->scene_shadowless.ir = &s->ir_shadowless;
     input.scene = &s->scene_shadowless;
     reference_source_init(&s->source[1], &input, none);
 }

@@ -83,9 +83,7 @@ struct tradeoff_options {
 };
 
 struct tradeoff_input {
-    const struct ir_scene *scene;
-    const struct ir_origin *origin_places;
-    const struct assets *assets;
+    const struct scene *scene;
     const struct view *view;
     const struct ir_image *image; // size and samples to start from
     vec3 origin;

@@ -39,7 +39,7 @@ static void check_mesh(const struct mesh *mesh, struct arena *arena) {
                 "normals are finite");
 }
 
-struct scene {
+struct loaded {
     struct arena arena;
     struct source_set sources;
     struct files files;
@@ -50,7 +50,7 @@ struct scene {
     struct assets assets;
 };
 
-static void load(struct scene *s, struct asset_store *store, str mesh, str materials) {
+static void load(struct loaded *s, struct asset_store *store, str mesh, str materials) {
     source_set_init(&s->sources, &s->arena);
     files_init(&s->files, &s->arena);
     files_add_overlay(&s->files, STR("/mesh.obj"), mesh);
@@ -71,6 +71,9 @@ static void load(struct scene *s, struct asset_store *store, str mesh, str mater
     require(loaded || s->sink.errors > 0, "a mesh, or an error");
     if (loaded)
         check_mesh(loaded, &s->arena);
+    struct scene scene;
+    scene_build(&s->scene, &s->assets, &s->arena, &scene);
+    scene_check_reach(&scene, &s->sink);
     if (!fuzz_is_chosen(mesh, 0, 4))
         return;
     struct strbuf text;
@@ -83,7 +86,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     str all = {(const char *)data, size};
     const char *nul = memchr(all.ptr ? all.ptr : "", 0, size);
     size_t cut = nul ? (size_t)(nul - all.ptr) : size;
-    struct scene *s = calloc(1, sizeof *s);
+    struct loaded *s = calloc(1, sizeof *s);
     struct asset_store *store = asset_store_create();
     if (!s || !store)
         abort();

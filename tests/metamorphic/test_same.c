@@ -53,7 +53,7 @@ static bool render(struct bench *b, const struct variant *variant, bool is_doubl
     input.method = variant->method;
     if (!flatten(&input, &flat))
         return false;
-    struct render_settings settings = render_settings_of(b->session.scene, &flat, input.limits);
+    struct render_settings settings = render_settings_of(&b->session.resolved, &flat, input.limits);
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.samples = 1;

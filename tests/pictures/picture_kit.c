@@ -82,6 +82,7 @@ static void edit_scene(struct session *session, const struct picture_options *op
     options->edit(session->scene, options->context);
     if (materials->count)
         memcpy(session->assets.materials, materials->items, materials->count * sizeof *materials->items);
+    scene_build(session->scene, &session->assets, &session->arena, &session->resolved);
 }
 
 bool picture_take(struct picture_kit *kit, const char *path, const struct picture_options *options,

@@ -14,7 +14,7 @@ void reference_kit_camera(struct kit *kit, vec3 position) {
 struct reference *reference_kit_make(struct kit *kit, enum reference_test test, bool no_tree) {
     kit_resolve(kit);
     struct reference_input input = {
-        .scene = &kit->scene, .assets = &kit->assets, .view = &kit->view, .test = test, .no_tree = no_tree};
+        .scene = &kit->resolved, .view = &kit->view, .test = test, .no_tree = no_tree};
     struct reference *reference = reference_create(&input);
     assert_non_null(reference);
     return reference;

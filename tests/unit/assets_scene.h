@@ -5,7 +5,7 @@
 #include "assets/assets.h"
 #include "diag/diag_text.h"
 #include "grammar/schema.h"
-#include "scene/reach.h"
+#include "scene/scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,6 +26,7 @@ struct assets_scene {
     struct ir_scene scene;
     struct asset_store *store;
     bool owns_store;
+    struct scene resolved;
     struct assets assets;
 };
 
@@ -112,7 +113,8 @@ static inline void assets_scene_load(struct assets_scene *s) {
     struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
                                  &s->limits, &s->sink,   &s->arena,   NULL};
     assets_load(s->store, &input, false, &s->assets);
-    scene_check_reach(&s->scene, &s->assets, &s->sink);
+    scene_build(&s->scene, &s->assets, &s->arena, &s->resolved);
+    scene_check_reach(&s->resolved, &s->sink);
     diag_sort(&s->sink);
 }
 

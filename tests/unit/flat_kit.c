@@ -2,6 +2,7 @@
 
 #include "grammar/schema.h"
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -164,12 +165,16 @@ void kit_resolve(struct kit *kit) {
     for (uint32_t i = 0; i < kit->scene.models.count; i++)
         if (kit->scene.models.items[i].material.index == IR_NO_INDEX)
             kit->assets.models[i].group_material[0] = count;
+    scene_build(&kit->scene, &kit->assets, &kit->arena, &kit->resolved);
 }
 
 bool kit_flatten(struct kit *kit, struct flat_scene *flat) {
     kit_resolve(kit);
-    struct flat_input input = {.scene = &kit->scene,
-                               .assets = &kit->assets,
+    return kit_flatten_resolved(kit, flat);
+}
+
+bool kit_flatten_resolved(struct kit *kit, struct flat_scene *flat) {
+    struct flat_input input = {.scene = &kit->resolved,
                                .view = &kit->view,
                                .origin = kit->origin,
                                .is_double = kit->is_double,

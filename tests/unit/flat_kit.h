@@ -16,6 +16,7 @@ struct kit {
     struct arena_guard guard;
     struct ir_scene scene;
     struct assets assets;
+    struct scene resolved; // of both, by kit_resolve
     struct view view;
     struct limits limits;
     struct diag_sink sink;
@@ -42,9 +43,11 @@ struct mesh *kit_mesh(struct kit *kit, const vec3 *positions, uint32_t position_
 // multiples of `grid`; closed, outward.
 struct mesh *kit_icosphere(struct kit *kit, int levels, double grid);
 
-// The materials of the assets, as loading the scene as it now is would leave them.
+// The materials of the assets, as loading the scene as it now is would leave them, and the resolved scene.
 void kit_resolve(struct kit *kit);
 bool kit_flatten(struct kit *kit, struct flat_scene *flat);
+// The scene as kit_resolve left it.
+bool kit_flatten_resolved(struct kit *kit, struct flat_scene *flat);
 
 // Fields of the buffers.
 float kit_float(uint32_t bits);

@@ -1,7 +1,9 @@
 // Scenes to buffers: what LANGUAGE "Numbers that must hold" promises, at the level of bits.
 #include "flat_kit.h"
+#include "scene/transform.h"
 #include "shaders/features.h"
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -73,8 +75,8 @@ static void test_rectangle(void **state) {
     assert_vec3(kit_vertex(&flat, top, 2), -0.125, 0.25, -0.875);
     const struct gpu_word *words = flat.triangles.words + (size_t)TRIANGLE_WORDS * top;
     assert_int_equal(words[1].w, 1);
-    assert_int_equal(words[2].w, TRIANGLE_RECT | TRIANGLE_RECT_TOP);
-    assert_int_equal(flat.triangles.words[(size_t)TRIANGLE_WORDS * low + 2].w, TRIANGLE_RECT);
+    assert_int_equal(words[2].w, TRIANGLE_HALF | TRIANGLE_SECOND_HALF);
+    assert_int_equal(flat.triangles.words[(size_t)TRIANGLE_WORDS * low + 2].w, TRIANGLE_HALF);
     const struct gpu_word *sphere = flat.spheres.words;
     assert_vec3(word_vec3(sphere), 0, 0, -0.25);
     assert_true(kit_float(sphere->w) == 0.125f);
@@ -301,7 +303,7 @@ static void test_normals(void **state) {
                 assert_true(fabs(vec3_length(normal) - 1) < 1e-6);
                 assert_true(vec3_dot(normal, vec3_unit(face)) > 0.8);
                 // The inverse transpose of R S is R S^-1, and R S is at hand.
-                affine3 map = view_model_transform(&kit.scene.models.items[body]);
+                affine3 map = transform_of_model(&kit.scene.models.items[body]);
                 vec3 scale = kit.scene.models.items[body].scale;
                 vec3 m = of_mesh[3 * i + (body && k ? 3 - k : k)];
                 vec3 expected = {m.x / (scale.x * scale.x), m.y / (scale.y * scale.y),

@@ -53,13 +53,14 @@ static void test_each_fails(void **state) {
     uint16_t pixels[4] = {1, 2, 3, 4};
     struct picture picture = {1, 1, PICTURE_16, pixels, sizeof pixels, NULL};
     build(&kit, &picture);
+    kit_resolve(&kit);
     int failed = 0;
     for (int nth = 1;; nth++) {
         struct flat_scene flat;
         diag_sink_finish(&kit.sink);
         diag_sink_init(&kit.sink);
         atomic_store(&until_failure, nth);
-        bool done = kit_flatten(&kit, &flat);
+        bool done = kit_flatten_resolved(&kit, &flat);
         bool was_reached = atomic_exchange(&until_failure, 0) == 0;
         if (done) {
             flat_finish(&flat);

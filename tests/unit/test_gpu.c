@@ -142,14 +142,7 @@ static void test_too_large(void **state) {
 
 // ---- records
 
-// Every component of every record gets a number of its own, as a small float or as its bits.
-static void fill(uint32_t *words, size_t count, uint32_t from) {
-    for (size_t i = 0; i < count; i++) {
-        const float value = (float)(from + i);
-        memcpy(words + i, &value, sizeof value);
-    }
-}
-
+// One record of each kind, as flattening fills them, and their words.
 struct all_records {
     struct gpu_node triangle_node, sphere_node;
     struct gpu_triangle triangle;
@@ -157,69 +150,88 @@ struct all_records {
     struct gpu_body body;
     struct gpu_material material;
     struct gpu_light light;
-    struct gpu_word normal;
+    struct gpu_normal normal;
 };
 
-struct all_records64 {
-    struct gpu_node triangle_node, sphere_node;
-    struct gpu_triangle64 triangle;
-    struct gpu_sphere64 sphere;
-    struct gpu_body64 body;
-    struct gpu_material64 material;
-    struct gpu_light64 light;
-    struct gpu_normal64 normal;
+enum {
+    MOST_WORDS = 8 // of a record
 };
 
-// The fields of the structs in order, each filled up to four components, as shaders/layout.comp writes them.
+struct all_words {
+    struct gpu_word triangle_node[MOST_WORDS], sphere_node[MOST_WORDS], triangle[MOST_WORDS],
+        sphere[MOST_WORDS], body[MOST_WORDS], material[MOST_WORDS], light[MOST_WORDS], normal[MOST_WORDS];
+};
+
+// Every number gets a value of its own that a float holds.
+static double next_number(double *last) {
+    return *last += 1;
+}
+#define FILL_REAL3(name, ...)  record->name = (vec3){next_number(last), next_number(last), next_number(last)};
+#define FILL_NUMBER(name, ...) record->name = next_number(last);
+#define FILL_UINT(name, ...)   record->name = (uint32_t)next_number(last);
+
+// The fields in order, each filled up to words, as the kernel writes them: a number in double precision in
+// two components, three of them in two words.
 struct listing {
-    uint32_t words[512];
-    size_t place;
+    struct gpu_word words[128];
+    uint32_t place;
 };
 
-static void list_field(struct listing *listing, const void *field, size_t bytes) {
-    assert_true(4 * listing->place + 4 <= sizeof listing->words / sizeof *listing->words);
-    memcpy(listing->words + 4 * listing->place, field, bytes);
-    listing->place += (bytes + sizeof(struct gpu_word) - 1) / sizeof(struct gpu_word);
+static void list_real3(struct listing *l, bool is_double, vec3 v) {
+    if (is_double)
+        gpu_pack_double3(l->words, l->place, v);
+    else
+        gpu_pack_float3(l->words, l->place, v);
+    l->place += is_double ? 2 : 1;
 }
+static void list_real(struct listing *l, bool is_double, double value) {
+    if (is_double)
+        gpu_pack_double(l->words, l->place++, 0, value);
+    else
+        gpu_pack_float(l->words, l->place++, 0, value);
+}
+#define LIST_REAL3(name, ...)  list_real3(l, is_double, record->name);
+#define LIST_REAL(name, ...)   list_real(l, is_double, record->name);
+#define LIST_FLOAT3(name, ...) list_real3(l, false, record->name);
+#define LIST_FLOAT(name, ...)  list_real(l, false, record->name);
+#define LIST_UINT(name, ...)   gpu_pack_uint(l->words, l->place++, 0, record->name);
 
-#define LIST(name, ...) list_field(listing, &record->name, sizeof record->name);
-#define LISTER(function, type, FIELDS)                                                                       \
-    static void function(struct listing *listing, const struct type *record) {                               \
-        FIELDS(LIST, LIST, LIST, LIST, LIST)                                                                 \
+#define RECORD_TEST(name, NAME)                                                                              \
+    static void fill_##name(struct gpu_##name *record, double *last) {                                       \
+        NAME##_FIELDS(FILL_REAL3, FILL_NUMBER, FILL_REAL3, FILL_NUMBER, FILL_UINT)                           \
+    }                                                                                                        \
+    static void list_##name(struct listing *l, bool is_double, const struct gpu_##name *record) {            \
+        NAME##_FIELDS(LIST_REAL3, LIST_REAL, LIST_FLOAT3, LIST_FLOAT, LIST_UINT)(void) is_double;            \
     }
-LISTER(list_node, gpu_node, NODE_FIELDS)
-LISTER(list_triangle, gpu_triangle, TRIANGLE_FIELDS)
-LISTER(list_sphere, gpu_sphere, SPHERE_FIELDS)
-LISTER(list_body, gpu_body, BODY_FIELDS)
-LISTER(list_material, gpu_material, MATERIAL_FIELDS)
-LISTER(list_light, gpu_light, LIGHT_FIELDS)
-LISTER(list_triangle64, gpu_triangle64, TRIANGLE64_FIELDS)
-LISTER(list_sphere64, gpu_sphere64, SPHERE64_FIELDS)
-LISTER(list_normal64, gpu_normal64, NORMAL64_FIELDS)
-LISTER(list_body64, gpu_body64, BODY64_FIELDS)
-LISTER(list_material64, gpu_material64, MATERIAL64_FIELDS)
-LISTER(list_light64, gpu_light64, LIGHT64_FIELDS)
+RECORD_TEST(node, NODE)
+RECORD_TEST(triangle, TRIANGLE)
+RECORD_TEST(sphere, SPHERE)
+RECORD_TEST(body, BODY)
+RECORD_TEST(material, MATERIAL)
+RECORD_TEST(light, LIGHT)
+RECORD_TEST(normal, NORMAL)
 
-static void list_all64(struct listing *listing, const struct all_records64 *all) {
-    list_node(listing, &all->triangle_node);
-    list_node(listing, &all->sphere_node);
-    list_triangle64(listing, &all->triangle);
-    list_sphere64(listing, &all->sphere);
-    list_body64(listing, &all->body);
-    list_material64(listing, &all->material);
-    list_light64(listing, &all->light);
-    list_normal64(listing, &all->normal);
-}
+// In the kernel's order.
+#define ALL_RECORDS(DO)                                                                                      \
+    DO(triangle_node, node)                                                                                  \
+    DO(sphere_node, node)                                                                                    \
+    DO(triangle, triangle)                                                                                   \
+    DO(sphere, sphere)                                                                                       \
+    DO(body, body)                                                                                           \
+    DO(material, material)                                                                                   \
+    DO(light, light)                                                                                         \
+    DO(normal, normal)
 
-static void list_all(struct listing *listing, const struct all_records *all) {
-    list_node(listing, &all->triangle_node);
-    list_node(listing, &all->sphere_node);
-    list_triangle(listing, &all->triangle);
-    list_sphere(listing, &all->sphere);
-    list_body(listing, &all->body);
-    list_material(listing, &all->material);
-    list_light(listing, &all->light);
-    list_field(listing, &all->normal, 3 * sizeof(uint32_t));
+static void make_records(bool is_double, struct all_words *words, struct listing *l) {
+    struct all_records all;
+    double last = 1000;
+    memset(words, 0, sizeof *words);
+    memset(l, 0, sizeof *l);
+#define MAKE(member, name)                                                                                   \
+    fill_##name(&all.member, &last);                                                                         \
+    gpu_pack_##name(&all.member, is_double, words->member);                                                  \
+    list_##name(l, is_double, &all.member);
+    ALL_RECORDS(MAKE)
 }
 
 static void bind(struct gpu *gpu, struct gpu_program_source *source, uint32_t binding, const void *data,
@@ -230,32 +242,26 @@ static void bind(struct gpu *gpu, struct gpu_program_source *source, uint32_t bi
     source->buffers[binding] = buffer;
 }
 
-// The kernel over the records of an all_records or an all_records64.
-#define LAYOUT_SOURCE(gpu, kernel, all, source)                                                              \
-    do {                                                                                                     \
-        const bool texels = gpu_fetches_texels(gpu);                                                         \
-        (source)->spirv = texels ? kernel##_texels : kernel##_storage;                                       \
-        (source)->spirv_words = texels ? kernel##_texels_words : kernel##_storage_words;                     \
-        bind(gpu, source, BINDING_TRIANGLE_NODES, &(all)->triangle_node, sizeof(all)->triangle_node);        \
-        bind(gpu, source, BINDING_SPHERE_NODES, &(all)->sphere_node, sizeof(all)->sphere_node);              \
-        bind(gpu, source, BINDING_TRIANGLES, &(all)->triangle, sizeof(all)->triangle);                       \
-        bind(gpu, source, BINDING_SPHERES, &(all)->sphere, sizeof(all)->sphere);                             \
-        bind(gpu, source, BINDING_BODIES, &(all)->body, sizeof(all)->body);                                  \
-        bind(gpu, source, BINDING_MATERIALS, &(all)->material, sizeof(all)->material);                       \
-        bind(gpu, source, BINDING_LIGHTS, &(all)->light, sizeof(all)->light);                                \
-        bind(gpu, source, BINDING_NORMALS, &(all)->normal, sizeof(all)->normal);                             \
-        bind(gpu, source, BINDING_OUTPUT, NULL, sizeof(struct listing));                                     \
-    } while (false)
-
-static struct gpu_program_source layout_source(struct gpu *gpu, const struct all_records *all) {
+// The kernel over the records.
+static struct gpu_program_source layout_source(struct gpu *gpu, bool is_double, const struct all_words *all) {
+    const bool texels = gpu_fetches_texels(gpu);
     struct gpu_program_source source = {.spirv = NULL};
-    LAYOUT_SOURCE(gpu, kernel_layout, all, &source);
-    return source;
-}
-
-static struct gpu_program_source layout64_source(struct gpu *gpu, const struct all_records64 *all) {
-    struct gpu_program_source source = {.spirv = NULL};
-    LAYOUT_SOURCE(gpu, kernel_layout64, all, &source);
+    if (is_double) {
+        source.spirv = texels ? kernel_layout64_texels : kernel_layout64_storage;
+        source.spirv_words = texels ? kernel_layout64_texels_words : kernel_layout64_storage_words;
+    } else {
+        source.spirv = texels ? kernel_layout_texels : kernel_layout_storage;
+        source.spirv_words = texels ? kernel_layout_texels_words : kernel_layout_storage_words;
+    }
+    bind(gpu, &source, BINDING_TRIANGLE_NODES, all->triangle_node, sizeof all->triangle_node);
+    bind(gpu, &source, BINDING_SPHERE_NODES, all->sphere_node, sizeof all->sphere_node);
+    bind(gpu, &source, BINDING_TRIANGLES, all->triangle, sizeof all->triangle);
+    bind(gpu, &source, BINDING_SPHERES, all->sphere, sizeof all->sphere);
+    bind(gpu, &source, BINDING_BODIES, all->body, sizeof all->body);
+    bind(gpu, &source, BINDING_MATERIALS, all->material, sizeof all->material);
+    bind(gpu, &source, BINDING_LIGHTS, all->light, sizeof all->light);
+    bind(gpu, &source, BINDING_NORMALS, all->normal, sizeof all->normal);
+    bind(gpu, &source, BINDING_OUTPUT, NULL, sizeof(struct listing));
     return source;
 }
 
@@ -277,28 +283,21 @@ static void expect_listing(struct gpu *gpu, const struct gpu_program_source *sou
         gpu_buffer_destroy(gpu, source->buffers[i]);
 }
 
-static void test_layout(void **state) {
-    struct gpu *gpu = device_kit_need(state, false);
-    struct all_records all;
-    uint32_t numbers[sizeof all / sizeof(uint32_t)];
-    fill(numbers, sizeof all / sizeof(uint32_t), 1000);
-    memcpy(&all, numbers, sizeof all);
-    struct listing listing = {.place = 0};
-    list_all(&listing, &all);
-    struct gpu_program_source source = layout_source(gpu, &all);
+static void expect_layout(void **state, bool is_double) {
+    struct gpu *gpu = device_kit_need(state, is_double);
+    struct all_words words;
+    struct listing listing;
+    make_records(is_double, &words, &listing);
+    struct gpu_program_source source = layout_source(gpu, is_double, &words);
     expect_listing(gpu, &source, &listing);
 }
 
+static void test_layout(void **state) {
+    expect_layout(state, false);
+}
+
 static void test_layout64(void **state) {
-    struct gpu *gpu = device_kit_need(state, true);
-    struct all_records64 all;
-    uint32_t numbers[sizeof all / sizeof(uint32_t)];
-    fill(numbers, sizeof all / sizeof(uint32_t), 1000);
-    memcpy(&all, numbers, sizeof all);
-    struct listing listing = {.place = 0};
-    list_all64(&listing, &all);
-    struct gpu_program_source source = layout64_source(gpu, &all);
-    expect_listing(gpu, &source, &listing);
+    expect_layout(state, true);
 }
 
 // What the silence of the layer in all other tests is worth: more workgroups than allowed, never submitted,
@@ -311,9 +310,9 @@ static void test_messages_are_counted(void **state) {
     const struct gpu_options options = {
         .device = getenv("GLINT_DEVICE"), .validate = true, .validation_messages = &messages};
     assert_int_equal(gpu_create(&options, &gpu, error), GPU_OK);
-    struct all_records all;
+    struct all_words all;
     memset(&all, 0, sizeof all);
-    struct gpu_program_source source = layout_source(gpu, &all);
+    struct gpu_program_source source = layout_source(gpu, false, &all);
     struct gpu_program *program = gpu_program_create(gpu, &source);
     assert_non_null(program);
     assert_int_equal(messages, 0);

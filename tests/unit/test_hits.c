@@ -38,7 +38,7 @@ static vec3 pixel_direction(double x, double y) {
 // The hits of the kit's scene; the caller frees. *unfinished may be NULL where there must be none.
 static struct hit_pixel *take(void **state, struct kit *kit, const struct flat_scene *flat, vec3 position,
                               enum render_study study, uint64_t *unfinished) {
-    struct render_settings settings = render_settings_of(&kit->scene, flat, &kit->limits);
+    struct render_settings settings = render_settings_of(&kit->resolved, flat, &kit->limits);
     settings.study = study;
     settings.width = WIDTH;
     settings.height = HEIGHT;
@@ -289,7 +289,7 @@ static void check_log(void **state, bool is_double) {
     kit.scene.trace.max_depth = 5;
     kit.is_double = is_double;
     assert_true(kit_flatten(&kit, &flat));
-    struct render_settings settings = render_settings_of(&kit.scene, &flat, &kit.limits);
+    struct render_settings settings = render_settings_of(&kit.resolved, &flat, &kit.limits);
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.background = (vec3){0.2, 0.7, 0.8};

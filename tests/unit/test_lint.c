@@ -120,7 +120,8 @@ static void add_ball(struct fixture *f, vec3 center, double radius) {
 
 static struct lint_mesh pairs_of(struct fixture *f, bool refracts) {
     struct lint lint = {.arena = &f->arena};
-    struct lint_mesh mesh = {.mesh = &f->mesh, .first_refracting = refracts ? 0 : IR_NO_INDEX};
+    static const struct lint_body glass;
+    struct lint_mesh mesh = {.mesh = &f->mesh, .first_refracting = refracts ? &glass : NULL};
     mesh.tolerance = LINT_RESOLUTION * fmax(vec3_max_abs(f->mesh.lower), vec3_max_abs(f->mesh.upper));
     lint_find_pairs(&lint, &mesh);
     return mesh;

@@ -11,8 +11,8 @@
 #include <cmocka.h>
 
 static void measure(struct kit *kit, struct precision_report *report) {
-    const struct flat_input input = {.scene = &kit->scene,
-                                     .assets = &kit->assets,
+    kit_resolve(kit);
+    const struct flat_input input = {.scene = &kit->resolved,
                                      .view = &kit->view,
                                      .origin = kit->origin,
                                      .limits = &kit->limits,

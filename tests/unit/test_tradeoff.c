@@ -424,7 +424,8 @@ static void near(double value, double expected) {
 static void test_hits(void **state) {
     (void)state;
     struct hit_pixel reference[HITS], device[HITS];
-    const bool closed[2] = {true, false};
+    struct scene_body bodies[2] = {{.closed = true}, {.closed = false}};
+    const struct scene scene = {.bodies = bodies, .body_count = 2};
     struct hit_errors errors;
     const double one = 1e6 / HITS;
     for (size_t i = 0; i < HITS; i++) {
@@ -438,7 +439,7 @@ static void test_hits(void **state) {
                                           .distance = 3};
     }
     memcpy(device, reference, sizeof device);
-    hits_compare(SIDE, SIDE, device, reference, closed, 2, &errors);
+    hits_compare(SIDE, SIDE, device, reference, &scene, &errors);
     assert_true(errors.known);
     near(errors.band, 20 * one); // the two columns at the border of the bodies
     assert_true(errors.wrong_inside + errors.wrong_outside + errors.acne + errors.leaks == 0);
@@ -453,7 +454,7 @@ static void test_hits(void **state) {
     device[81].considered = 0;         // not lit by anything: neither acne nor leak
     device[24].reflected = 5;          // in the band: silhouettes only
     reference[82].distance = 3 * 1.04; // a slope, no silhouette
-    hits_compare(SIDE, SIDE, device, reference, closed, 2, &errors);
+    hits_compare(SIDE, SIDE, device, reference, &scene, &errors);
     near(errors.band, 20 * one);
     near(errors.wrong_inside, one);
     near(errors.wrong_outside, 3 * one);
@@ -463,7 +464,7 @@ static void test_hits(void **state) {
     near(errors.shadow_edge, one);
     near(errors.wrong_second, one);
     reference[82].distance = 4; // a step: the pixel and its eight neighbours
-    hits_compare(SIDE, SIDE, device, reference, closed, 2, &errors);
+    hits_compare(SIDE, SIDE, device, reference, &scene, &errors);
     near(errors.band, 29 * one);
 }
 

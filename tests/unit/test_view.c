@@ -1,4 +1,5 @@
 // Cameras, lights, rotations and colours, against values worked out by hand.
+#include "scene/transform.h"
 #include "scene/view.h"
 
 #include "assets_scene.h"
@@ -27,7 +28,7 @@ static struct ir_camera *add_camera(struct assets_scene *s) {
 static struct view build(struct assets_scene *s, int32_t width, int32_t height) {
     struct view view;
     assets_scene_load(s);
-    view_build(&s->scene, &s->assets, 0, width, height, &s->arena, &s->sink, &view);
+    view_build(&s->resolved, 0, width, height, &s->arena, &s->sink, &view);
     return view;
 }
 
@@ -49,7 +50,7 @@ static void quarter_turns_are_exact(void **state) {
         {{90, 90, 90}, {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        mat3 m = view_rotation(cases[i].degrees);
+        mat3 m = transform_rotation(cases[i].degrees);
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 3; c++)
                 if (m.m[r][c] != cases[i].m[r][c] || signbit(m.m[r][c]) != signbit(cases[i].m[r][c]))
@@ -59,7 +60,7 @@ static void quarter_turns_are_exact(void **state) {
 
 static void the_order_is_x_then_y_then_z(void **state) {
     (void)state;
-    mat3 m = view_rotation((vec3){30, 45, 60});
+    mat3 m = transform_rotation((vec3){30, 45, 60});
     double sx = 0.5, cx = sqrt(3) / 2, sy = sqrt(0.5), cy = sqrt(0.5), sz = sqrt(3) / 2, cz = 0.5;
     assert_near((vec3){m.m[0][0], m.m[1][0], m.m[2][0]}, cz * cy, sz * cy, -sy);
     assert_near((vec3){m.m[0][1], m.m[1][1], m.m[2][1]}, cz * sy * sx - sz * cx, sz * sy * sx + cz * cx,
@@ -70,15 +71,15 @@ static void the_order_is_x_then_y_then_z(void **state) {
 
 static void angles_are_exact_to_an_ulp(void **state) {
     (void)state;
-    assert_true(view_rotation((vec3){0, 0, 30}).m[1][0] == 0.49999999999999994 ||
-                view_rotation((vec3){0, 0, 30}).m[1][0] == 0.5);
-    assert_true(fabs(view_rotation((vec3){0, 0, 1e6}).m[1][0] - sin(fmod(1e6, 360) * PI / 180)) < 1e-15);
+    assert_true(transform_rotation((vec3){0, 0, 30}).m[1][0] == 0.49999999999999994 ||
+                transform_rotation((vec3){0, 0, 30}).m[1][0] == 0.5);
+    assert_true(fabs(transform_rotation((vec3){0, 0, 1e6}).m[1][0] - sin(fmod(1e6, 360) * PI / 180)) < 1e-15);
 }
 
 static void a_model_is_scaled_then_turned_then_moved(void **state) {
     (void)state;
     struct ir_model model = {.scale = {2, 3, -4}, .rotation = {0, 0, 90}, .translation = {10, 20, 30}};
-    affine3 place = view_model_transform(&model);
+    affine3 place = transform_of_model(&model);
     assert_exact(affine3_apply(place, (vec3){1, 0, 0}), 10, 22, 30);
     assert_exact(affine3_apply(place, (vec3){0, 1, 0}), 7, 20, 30);
     assert_exact(affine3_apply(place, (vec3){0, 0, 1}), 10, 20, 26);
@@ -145,7 +146,7 @@ static void bounds_hold_all_bodies(void **state) {
     struct assets_scene *s = assets_scene_begin();
     vec3 lower, upper;
     assets_scene_load(s);
-    assert_false(view_bounds(&s->scene, &s->assets, &lower, &upper));
+    assert_false(scene_bounds(&s->resolved, &lower, &upper));
     assets_scene_end(s);
 
     s = assets_scene_begin();
@@ -161,7 +162,7 @@ static void bounds_hold_all_bodies(void **state) {
     model->rotation = (vec3){0, 90, 0}; // x goes to -z
     model->translation = (vec3){0, 10, 0};
     assets_scene_load(s);
-    assert_true(view_bounds(&s->scene, &s->assets, &lower, &upper));
+    assert_true(scene_bounds(&s->resolved, &lower, &upper));
     assert_exact(lower, -3, -3, -4);
     assert_exact(upper, 3, 14, 5);
     assets_scene_end(s);
@@ -232,11 +233,11 @@ static void lights_are_as_written(void **state) {
 static void hex_colours_are_displayed_ones(void **state) {
     (void)state;
     struct ir_color hex = {.is_hex = true, .hex = 0x0A80FF};
-    assert_near(view_linear_color(hex, IR_TRANSFER_NONE), 10.0 / 255, 128.0 / 255, 1);
-    assert_near(view_linear_color(hex, IR_TRANSFER_SRGB), 0.0030352698354883752, 0.21586050011389926, 1);
+    assert_near(scene_linear_color(hex, IR_TRANSFER_NONE), 10.0 / 255, 128.0 / 255, 1);
+    assert_near(scene_linear_color(hex, IR_TRANSFER_SRGB), 0.0030352698354883752, 0.21586050011389926, 1);
     struct ir_color numbers = {.r = 0.25, .g = 3, .b = 0};
-    assert_exact(view_linear_color(numbers, IR_TRANSFER_SRGB), 0.25, 3, 0);
-    assert_true(view_srgb_decode(0) == 0 && view_srgb_decode(1) == 1);
+    assert_exact(scene_linear_color(numbers, IR_TRANSFER_SRGB), 0.25, 3, 0);
+    assert_true(scene_srgb_decode(0) == 0 && scene_srgb_decode(1) == 1);
 }
 
 static void samples_follow_the_sequence(void **state) {

@@ -8,6 +8,7 @@
 #include "flat_kit.h"
 #include "random.h"
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 #include "tracer/bvh/traverse.h"
 
 #include <setjmp.h>

@@ -1,6 +1,7 @@
 #include "tracer/bvh/bvh.h"
 
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 #include "tracer/bvh/encode.h"
 #include "tracer/bvh/wide.h"
 

@@ -1,6 +1,7 @@
 #include "tracer/bvh/encode.h"
 
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 
 #include <assert.h>
 #include <math.h>

@@ -6,13 +6,12 @@
 #ifndef GLINT_TRACER_BVH_ITEMS_H
 #define GLINT_TRACER_BVH_ITEMS_H
 
+#include "core/vec3.h"
 #include "tracer/bvh/bvh.h"
 
-// `words`: TRIANGLE_WORDS of a triangle, SPHERE_WORDS of a sphere, finite.
-struct bvh_item bvh_triangle_item(const struct gpu_word *words, uint32_t index);
-struct bvh_item bvh_sphere_item(const struct gpu_word *words, uint32_t index);
-// The same of records in double precision: the pad is by their ulp, the box rounded outward to float.
-struct bvh_item bvh_triangle64_item(const struct gpu_word *words, uint32_t index);
-struct bvh_item bvh_sphere64_item(const struct gpu_word *words, uint32_t index);
+// As kernels see the numbers: rounded to float unless is_double. The pad is by the unit in the last place of
+// that precision, and the box rounded outward to float.
+struct bvh_item bvh_triangle_item(const vec3 corners[3], bool is_double, uint32_t index);
+struct bvh_item bvh_sphere_item(vec3 center, double radius, bool is_double, uint32_t index);
 
 #endif

@@ -1,6 +1,7 @@
 #include "tracer/bvh/traverse.h"
 
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 #include "tracer/bvh/bvh.h"
 
 #include <math.h>

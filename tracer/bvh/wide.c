@@ -3,6 +3,7 @@
 #include "tracer/bvh/wide.h"
 #include "core/parallel.h"
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 #include "tracer/bvh/encode.h"
 
 #include <math.h>

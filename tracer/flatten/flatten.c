@@ -2,7 +2,6 @@
 
 #include "core/clock.h"
 #include "core/parallel.h"
-#include "shaders/gpu_scene.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
 
@@ -14,19 +13,6 @@ enum {
     PIECE_ITEMS = 16384,
     SCALE_EXPONENT_MAX = 200, // for scenes smaller than any number that the language accepts
 };
-
-uint32_t flat_bits(double value) {
-    float rounded = (float)value;
-    uint32_t bits;
-    memcpy(&bits, &rounded, sizeof bits);
-    return bits;
-}
-
-struct flat_pair flat_double(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return (struct flat_pair){(uint32_t)bits, (uint32_t)(bits >> 32)};
-}
 
 bool flat_array_make(struct flat_array *array, uint64_t words) {
     array->count = words;
@@ -90,7 +76,7 @@ static enum flatten_fault make_triangles(struct flattening *f) {
 
 static enum flatten_fault make_spheres(struct flattening *f) {
     struct flat_scene *out = f->out;
-    uint32_t count = f->input->scene->spheres.count;
+    uint32_t count = f->out->sphere_count;
     struct gpu_word *words = malloc(((size_t)count + 1) * out->strides.sphere * sizeof *words);
     struct bvh_item *items = malloc(((size_t)count + 1) * sizeof *items);
     bool done = words && items;
@@ -100,7 +86,6 @@ static enum flatten_fault make_spheres(struct flattening *f) {
         done = make_tree(f->input->method, items, count, words, out->strides.sphere, &out->sphere_nodes,
                          &out->spheres, &out->sphere_depth);
         out->build_seconds += clock_seconds() - start;
-        out->sphere_count = count;
     }
     free(items);
     free(words);
@@ -123,14 +108,15 @@ static enum flatten_fault choose_scale(struct flattening *f) {
 static enum flatten_fault run(struct flattening *f) {
     typedef enum flatten_fault step(struct flattening *);
     static step *const steps[] = {
-        flatten_count,   choose_scale,      make_triangles, make_spheres,       flatten_body_records,
-        flatten_normals, flatten_materials, flatten_lights, flatten_background,
+        flatten_count,        choose_scale,      make_triangles, make_spheres,       flatten_normals,
+        flatten_body_records, flatten_materials, flatten_lights, flatten_background,
     };
-    size_t bodies = ir_body_count(f->input->scene);
+    size_t bodies = f->scene->body_count;
     f->out->body_count = (uint32_t)bodies;
-    f->first_triangle = calloc(bodies + 1, sizeof *f->first_triangle);
-    f->material_used = calloc((size_t)f->input->assets->material_count + 1, sizeof *f->material_used);
-    if (!f->first_triangle || !f->material_used)
+    f->out->first_triangle = calloc(bodies + 1, sizeof *f->out->first_triangle);
+    f->normal_base = calloc(bodies + 1, sizeof *f->normal_base);
+    f->material_used = calloc((size_t)f->scene->material_count + 1, sizeof *f->material_used);
+    if (!f->out->first_triangle || !f->normal_base || !f->material_used)
         return FLATTEN_NO_MEMORY;
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         enum flatten_fault fault = steps[i](f);
@@ -146,23 +132,23 @@ static enum flatten_fault run(struct flattening *f) {
 // that is nearest to it. All numbers move with the scene.
 static vec3 origin_of(const struct flat_input *input) {
     vec3 lower, upper;
-    if (!input->is_double || !view_bounds(input->scene, input->assets, &lower, &upper))
+    if (!input->is_double || !scene_bounds(input->scene, &lower, &upper))
         return input->origin;
     return vec3_max(lower, vec3_min(upper, input->origin));
 }
 
 bool flatten(const struct flat_input *input, struct flat_scene *out) {
     static const struct flat_strides strides[2] = {
-        {TRIANGLE_WORDS, SPHERE_WORDS, 1, BODY_WORDS, MATERIAL_WORDS, LIGHT_WORDS},
+        {TRIANGLE_WORDS, SPHERE_WORDS, NORMAL_WORDS, BODY_WORDS, MATERIAL_WORDS, LIGHT_WORDS},
         {TRIANGLE64_WORDS, SPHERE64_WORDS, NORMAL64_WORDS, BODY64_WORDS, MATERIAL64_WORDS, LIGHT64_WORDS}};
     *out = (struct flat_scene){.is_double = input->is_double,
                                .strides = strides[input->is_double],
                                .origin = origin_of(input),
-                               .background = input->assets->background};
-    struct flattening f = {.input = input, .out = out};
+                               .background = input->scene->background.picture};
+    struct flattening f = {.input = input, .scene = input->scene, .out = out};
     enum flatten_fault fault = run(&f);
     free(f.material_used);
-    free(f.first_triangle);
+    free(f.normal_base);
     free(f.items);
     free(f.records);
     if (fault == FLATTEN_NO_MEMORY)
@@ -181,6 +167,7 @@ void flat_finish(struct flat_scene *flat) {
                                         flat->materials,      flat->lights};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i].words);
+    free(flat->first_triangle);
     free(flat->background_texels.owned);
     *flat = (struct flat_scene){0};
 }

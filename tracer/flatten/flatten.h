@@ -9,7 +9,6 @@
 #ifndef GLINT_TRACER_FLATTEN_FLATTEN_H
 #define GLINT_TRACER_FLATTEN_FLATTEN_H
 
-#include "assets/assets.h"
 #include "scene/view.h"
 #include "tracer/bvh/bvh.h"
 #include "tracer/gpu_word.h"
@@ -38,6 +37,7 @@ struct flat_scene {
         void *owned;
     } background_texels;
     uint32_t body_count, light_count, triangle_count, sphere_count;
+    uint32_t *first_triangle;              // by body: the number of its first triangle
     uint32_t dropped_triangles;            // without area after rounding
     uint32_t features;                     // FEATURE_ bits that the scene needs
     uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
@@ -45,9 +45,7 @@ struct flat_scene {
 };
 
 struct flat_input {
-    const struct ir_scene *scene;
-    const struct ir_origin *origin_places;
-    const struct assets *assets;
+    const struct scene *scene;
     const struct view *view;
     vec3 origin; // of single precision; scene units
     bool is_double;
@@ -59,10 +57,5 @@ struct flat_input {
 // false: too large or no memory (the sink says which).
 bool flatten(const struct flat_input *input, struct flat_scene *out);
 void flat_finish(struct flat_scene *flat);
-
-// The number of a body's first triangle.
-static inline uint32_t flat_first_triangle(const struct flat_scene *flat, uint32_t body) {
-    return flat->bodies.words[(size_t)body * flat->strides.body].x;
-}
 
 #endif

@@ -1,6 +1,7 @@
 #include "tracer/flatten/precision.h"
 
 #include "core/parallel.h"
+#include "scene/transform.h"
 #include "tracer/flatten/precision_parts.h"
 
 #include <float.h>
@@ -72,10 +73,10 @@ static void measure_triangle(const struct flat_input *input, const vec3 corners[
 }
 
 struct measuring {
-    const struct mesh *mesh;
+    const struct scene_body *body;
     affine3 map; // relative to the origin
     const struct flat_input *input;
-    uint32_t body;
+    uint32_t number;
     struct triangle_least *pieces;
 };
 
@@ -84,9 +85,8 @@ static void measure_piece(void *context, size_t begin, size_t end) {
     struct triangle_least *least = &m->pieces[begin / PIECE];
     for (size_t i = begin; i < end; i++) {
         vec3 corners[3];
-        for (int k = 0; k < 3; k++)
-            corners[k] = affine3_apply(m->map, m->mesh->positions[m->mesh->triangles[i].corners[k]]);
-        measure_triangle(m->input, corners, m->body, (uint32_t)i, least);
+        scene_corners(m->body, &m->map, (uint32_t)i, corners);
+        measure_triangle(m->input, corners, m->number, (uint32_t)i, least);
     }
 }
 
@@ -95,96 +95,66 @@ static void keep_triangles(struct precision_report *out, const struct triangle_l
     precision_keep(&out->least[PRECISION_HEIGHT], &least->height);
 }
 
-// ---- bodies
-
-static void grow(struct precision_body *body, vec3 point) {
-    body->lower = vec3_min(body->lower, point);
-    body->upper = vec3_max(body->upper, point);
-    body->reach = fmax(body->reach, vec3_max_abs(point));
-}
-
-static struct precision_body empty_body(uint32_t number) {
-    return (struct precision_body){{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}, 0, number};
-}
-
-static struct precision_body measure_sphere(const struct flat_input *input, uint32_t i,
-                                            struct precision_report *out) {
-    const struct ir_sphere *sphere = &input->scene->spheres.items[i];
-    struct precision_body body = empty_body(i);
-    vec3 center = vec3_sub(sphere->center, input->origin);
-    vec3 radius = {sphere->radius, sphere->radius, sphere->radius};
-    grow(&body, vec3_sub(center, radius));
-    grow(&body, vec3_add(center, radius));
-    precision_note(&out->least[PRECISION_SIZE], (struct precision_measure){.length = sphere->radius,
-                                                                           .part = PRECISION_SPHERE_PART,
-                                                                           .distance = body.reach,
-                                                                           .body = i});
-    return body;
-}
-
-static struct precision_body measure_rectangle(const struct flat_input *input, uint32_t i,
-                                               struct precision_report *out) {
-    const struct ir_rectangle *r = &input->scene->rectangles.items[i];
-    struct precision_body body = empty_body(input->scene->spheres.count + i);
-    vec3 corner = vec3_sub(r->corner, input->origin);
-    vec3 along_u = vec3_add(corner, r->edge_u);
-    const vec3 halves[2][3] = {{corner, along_u, vec3_add(along_u, r->edge_v)},
-                               {corner, vec3_add(along_u, r->edge_v), vec3_add(corner, r->edge_v)}};
-    for (uint32_t half = 0; half < 2; half++) {
-        struct triangle_least least = {0};
-        measure_triangle(input, halves[half], body.body, half, &least);
-        keep_triangles(out, &least);
-        for (int k = 0; k < 3; k++)
-            grow(&body, halves[half][k]);
-    }
-    return body;
-}
-
 // false: no memory.
-static bool measure_model(const struct flat_input *input, uint32_t i, struct precision_report *out,
-                          struct precision_body *body) {
-    const struct mesh *mesh = input->assets->models[i].mesh;
-    *body = empty_body(input->scene->spheres.count + input->scene->rectangles.count + i);
-    if (!mesh || !mesh->triangle_count)
-        return true;
-    size_t pieces = ((size_t)mesh->triangle_count + PIECE - 1) / PIECE;
-    struct measuring m = {.mesh = mesh,
-                          .map = view_model_transform(&input->scene->models.items[i]),
-                          .input = input,
-                          .body = body->body,
-                          .pieces = calloc(pieces, sizeof *m.pieces)};
+static bool measure_triangles(const struct flat_input *input, const struct scene_body *body, uint32_t number,
+                              const affine3 *map, struct precision_report *out) {
+    size_t pieces = ((size_t)body->triangle_count + PIECE - 1) / PIECE;
+    struct measuring m = {body, *map, input, number, calloc(pieces, sizeof *m.pieces)};
     if (!m.pieces)
         return false;
-    m.map.offset = vec3_sub(m.map.offset, input->origin);
-    parallel_for(mesh->triangle_count, PIECE, measure_piece, &m);
+    parallel_for(body->triangle_count, PIECE, measure_piece, &m);
     for (size_t k = 0; k < pieces; k++)
         keep_triangles(out, &m.pieces[k]);
     free(m.pieces);
-    for (uint32_t k = 0; k < mesh->position_count; k++)
-        grow(body, affine3_apply(m.map, mesh->positions[k]));
-    precision_note(&out->least[PRECISION_SIZE],
-                   (struct precision_measure){.length = vec3_length(vec3_sub(body->upper, body->lower)),
-                                              .part = PRECISION_MODEL_PART,
-                                              .distance = body->reach,
-                                              .body = body->body});
+    return true;
+}
+
+// ---- bodies
+
+// How large a body is, as far as its size stands for details that nothing else measures.
+static void note_size(const struct scene_body *body, const struct precision_body *measured,
+                      struct precision_report *out) {
+    struct precision_measure size = {.length = body->radius,
+                                     .part = PRECISION_SPHERE_PART,
+                                     .distance = measured->reach,
+                                     .body = measured->body};
+    if (body->mesh) {
+        size.length = vec3_length(vec3_sub(measured->upper, measured->lower));
+        size.part = PRECISION_MODEL_PART;
+    }
+    if (body->mesh || body->shape == SCENE_SPHERE)
+        precision_note(&out->least[PRECISION_SIZE], size);
+}
+
+// false: no memory. *any: there is something of the body.
+static bool measure_body(const struct flat_input *input, uint32_t number, struct precision_report *out,
+                         struct precision_body *measured, bool *any) {
+    const struct scene_body *body = &input->scene->bodies[number];
+    const affine3 map = transform_relative(body->object_to_world, input->origin);
+    *any = (body->triangle_count || body->shape == SCENE_SPHERE) &&
+           scene_body_bounds(body, &map, &measured->lower, &measured->upper);
+    if (!*any)
+        return true;
+    measured->body = number;
+    measured->reach = fmax(vec3_max_abs(measured->lower), vec3_max_abs(measured->upper));
+    if (body->triangle_count && !measure_triangles(input, body, number, &map, out))
+        return false;
+    note_size(body, measured, out);
     return true;
 }
 
 bool precision_measure(const struct flat_input *input, struct precision_report *out) {
-    const struct ir_scene *scene = input->scene;
+    const uint32_t all = input->scene->body_count;
     *out = (struct precision_report){.suffices = true, .all_pairs = true};
-    struct precision_body *bodies = malloc(((size_t)ir_body_count(scene) + 1) * sizeof *bodies);
+    struct precision_body *bodies = malloc(((size_t)all + 1) * sizeof *bodies);
     if (!bodies)
         return false;
     uint32_t count = 0;
     bool good = true;
-    for (uint32_t i = 0; i < scene->spheres.count; i++)
-        bodies[count++] = measure_sphere(input, i, out);
-    for (uint32_t i = 0; i < scene->rectangles.count; i++)
-        bodies[count++] = measure_rectangle(input, i, out);
-    for (uint32_t i = 0; good && i < scene->models.count; i++) {
-        good = measure_model(input, i, out, &bodies[count]);
-        count += bodies[count].reach > 0; // a model without its mesh has no box
+    for (uint32_t i = 0; good && i < all; i++) {
+        bool any;
+        good = measure_body(input, i, out, &bodies[count], &any);
+        count += any;
     }
     good = good && precision_gaps(input, bodies, count, out);
     free(bodies);

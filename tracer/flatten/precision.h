@@ -3,10 +3,10 @@
 // A coordinate at distance D from the flat scene's origin is rounded to steps of D * 2^-24, and what is about
 // as small as a step is lost: so each feature is told in steps at its place, and needs PRECISION_STEPS of
 // them. Measured: the shortest edge of every triangle; the size of every model and sphere; the gaps between
-// bodies, by their boxes, exact among spheres and rectangles; the camera's height above large triangles. Not
-// measured: gaps inside a model other than along an edge (its size stands for them: gaps down to 1e-4 of it),
-// and gaps between bodies whose boxes overlap, one of which is a model. All in double precision, in scene
-// units. Input: as flatten. Errors: false when memory ends. Thread safety: pure.
+// bodies, by their boxes, exact among spheres and parallelograms; the camera's height above large triangles.
+// Not measured: gaps inside a model other than along an edge (its size stands for them: gaps down to 1e-4 of
+// it), and gaps between bodies whose boxes overlap, one of which is a model. All in double precision, in
+// scene units. Input: as flatten. Errors: false when memory ends. Thread safety: pure.
 #ifndef GLINT_TRACER_FLATTEN_PRECISION_H
 #define GLINT_TRACER_FLATTEN_PRECISION_H
 
@@ -47,9 +47,9 @@ struct precision_report {
 bool precision_measure(const struct flat_input *input, struct precision_report *out);
 
 // What a scene is traced in: its own setting, or what the report says.
-static inline bool precision_is_double(const struct ir_scene *scene, const struct precision_report *report) {
-    return scene->trace.precision == IR_PRECISION_DOUBLE ||
-           (scene->trace.precision == IR_PRECISION_AUTO && !report->suffices);
+static inline bool precision_is_double(const struct ir_scene *ir, const struct precision_report *report) {
+    return ir->trace.precision == IR_PRECISION_DOUBLE ||
+           (ir->trace.precision == IR_PRECISION_AUTO && !report->suffices);
 }
 
 #endif

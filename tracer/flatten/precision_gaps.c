@@ -24,8 +24,8 @@ static double between_boxes(const struct precision_body *a, const struct precisi
     return length > 0 ? length : NAN;
 }
 
-static double between_spheres(const struct ir_sphere *a, const struct ir_sphere *b) {
-    double distance = vec3_length(vec3_sub(a->center, b->center));
+static double between_spheres(const struct scene_body *a, const struct scene_body *b) {
+    double distance = vec3_length(vec3_sub(a->object_to_world.offset, b->object_to_world.offset));
     double inside = fabs(a->radius - b->radius) - distance; // of the smaller one in the larger
     double outside = distance - a->radius - b->radius;
     return outside > 0 ? outside : inside > 0 ? inside : NAN;
@@ -35,8 +35,15 @@ struct plane {
     vec3 corner, u, v, normal; // unit normal
 };
 
-static struct plane plane_of(const struct ir_rectangle *r) {
-    return (struct plane){r->corner, r->edge_u, r->edge_v, vec3_unit(vec3_cross(r->edge_u, r->edge_v))};
+static vec3 column(const affine3 *map, int i) {
+    return (vec3){map->linear.m[0][i], map->linear.m[1][i], map->linear.m[2][i]};
+}
+
+static struct plane plane_of(const struct scene_body *body) {
+    const affine3 *map = &body->object_to_world;
+    struct plane p = {.corner = map->offset, .u = column(map, 0), .v = column(map, 1)};
+    p.normal = vec3_unit(vec3_cross(p.u, p.v));
+    return p;
 }
 
 // Coordinates s, t of a point's foot along the edges from the corner.
@@ -48,18 +55,19 @@ static void foot(const struct plane *p, vec3 point, double *s, double *t) {
     *t = vec3_dot(vec3_cross(p->u, w), n) / n2;
 }
 
-static double sphere_to_rectangle(const struct ir_sphere *sphere, const struct ir_rectangle *r) {
-    struct plane p = plane_of(r);
+static double sphere_to_parallelogram(const struct scene_body *sphere, const struct scene_body *other) {
+    const vec3 center = sphere->object_to_world.offset;
+    struct plane p = plane_of(other);
     double s, t;
-    foot(&p, sphere->center, &s, &t);
+    foot(&p, center, &s, &t);
     if (s < 0 || s > 1 || t < 0 || t > 1)
         return NAN;
-    double gap = fabs(vec3_dot(p.normal, vec3_sub(sphere->center, p.corner))) - sphere->radius;
+    double gap = fabs(vec3_dot(p.normal, vec3_sub(center, p.corner))) - sphere->radius;
     return gap > 0 ? gap : NAN;
 }
 
 // Of parallel ones that face each other.
-static double between_rectangles(const struct ir_rectangle *a, const struct ir_rectangle *b) {
+static double between_parallelograms(const struct scene_body *a, const struct scene_body *b) {
     struct plane p = plane_of(a), q = plane_of(b);
     if (vec3_length(vec3_cross(p.normal, q.normal)) > 1e-6)
         return NAN;
@@ -79,36 +87,33 @@ static double between_rectangles(const struct ir_rectangle *a, const struct ir_r
     return fabs(vec3_dot(p.normal, vec3_sub(q.corner, p.corner)));
 }
 
-static double gap_of(const struct ir_scene *scene, const struct precision_body *a,
+static double gap_of(const struct scene *scene, const struct precision_body *a,
                      const struct precision_body *b) {
-    const uint32_t spheres = scene->spheres.count, flats = spheres + scene->rectangles.count;
     if (a->body > b->body)
         return gap_of(scene, b, a);
+    const struct scene_body *x = &scene->bodies[a->body], *y = &scene->bodies[b->body];
     double exact = NAN;
-    if (b->body < spheres)
-        return between_spheres(&scene->spheres.items[a->body], &scene->spheres.items[b->body]);
-    if (b->body < flats && a->body < spheres)
-        exact =
-            sphere_to_rectangle(&scene->spheres.items[a->body], &scene->rectangles.items[b->body - spheres]);
-    else if (b->body < flats)
-        exact = between_rectangles(&scene->rectangles.items[a->body - spheres],
-                                   &scene->rectangles.items[b->body - spheres]);
+    if (x->shape == SCENE_SPHERE && y->shape == SCENE_SPHERE)
+        return between_spheres(x, y);
+    if (x->shape == SCENE_SPHERE && y->shape == SCENE_PARALLELOGRAM)
+        exact = sphere_to_parallelogram(x, y);
+    else if (x->shape == SCENE_PARALLELOGRAM && y->shape == SCENE_PARALLELOGRAM)
+        exact = between_parallelograms(x, y);
     return isnan(exact) ? between_boxes(a, b) : exact;
 }
 
-// Of a rectangle: the error in t of a hit grows with its triangles. 0 for other bodies, which come close to a
-// rectangle around a point alone.
-static double longest_edge(const struct ir_scene *scene, uint32_t body) {
-    const uint32_t spheres = scene->spheres.count;
-    if (body < spheres || body - spheres >= scene->rectangles.count)
+// Of a parallelogram: the error in t of a hit grows with its triangles. 0 for other bodies, which come close
+// to one around a point alone.
+static double longest_diagonal(const struct scene_body *body) {
+    if (body->shape != SCENE_PARALLELOGRAM)
         return 0;
-    const struct ir_rectangle *r = &scene->rectangles.items[body - spheres];
-    return fmax(vec3_length(vec3_add(r->edge_u, r->edge_v)), vec3_length(vec3_sub(r->edge_u, r->edge_v)));
+    vec3 u = column(&body->object_to_world, 0), v = column(&body->object_to_world, 1);
+    return fmax(vec3_length(vec3_add(u, v)), vec3_length(vec3_sub(u, v)));
 }
 
 static void measure_pair(const struct flat_input *input, const struct precision_body *a,
                          const struct precision_body *b, struct precision_report *out) {
-    const struct ir_scene *scene = input->scene;
+    const struct scene *scene = input->scene;
     double gap = gap_of(scene, a, b);
     double distance = fmin(a->reach, b->reach);
     if (!(gap > precision_contact(input, distance)))
@@ -119,7 +124,7 @@ static void measure_pair(const struct flat_input *input, const struct precision_
                                       .body = a->body < b->body ? a->body : b->body,
                                       .other = a->body < b->body ? b->body : a->body};
     precision_note(&out->least[PRECISION_GAP], found);
-    double edges[2] = {longest_edge(scene, a->body), longest_edge(scene, b->body)};
+    double edges[2] = {longest_diagonal(&scene->bodies[a->body]), longest_diagonal(&scene->bodies[b->body])};
     double edge = fmax(edges[0], edges[1]);
     if (edges[0] > 0 && edges[1] > 0) {
         found.part = PRECISION_HEIGHT_PART;

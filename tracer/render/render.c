@@ -12,19 +12,18 @@ enum {
     WORD_BYTES = 16,
 };
 
-struct render_settings render_settings_of(const struct ir_scene *scene, const struct flat_scene *flat,
+struct render_settings render_settings_of(const struct scene *scene, const struct flat_scene *flat,
                                           const struct limits *limits) {
-    const struct ir_background *background = &scene->background;
+    const struct ir_scene *ir = scene->ir;
     return (struct render_settings){
-        .width = (uint32_t)scene->image.width,
-        .height = (uint32_t)scene->image.height,
-        .samples = (uint32_t)scene->image.samples,
-        .max_depth = (uint32_t)scene->trace.max_depth,
-        .min_weight = scene->trace.min_weight,
-        .background =
-            vec3_mul(view_linear_color(background->color, scene->image.transfer), background->intensity),
-        .background_intensity = background->intensity,
-        .background_rotation = background->rotation,
+        .width = (uint32_t)ir->image.width,
+        .height = (uint32_t)ir->image.height,
+        .samples = (uint32_t)ir->image.samples,
+        .max_depth = (uint32_t)ir->trace.max_depth,
+        .min_weight = ir->trace.min_weight,
+        .background = scene->background.color,
+        .background_intensity = scene->background.intensity,
+        .background_rotation = ir->background.rotation,
         .features = flat->features,
         .path_segments = limits->value[LIMIT_PATH_SEGMENTS],
         .slice_iterations = SLICE_ITERATIONS,

@@ -47,7 +47,7 @@ struct render_settings {
 };
 
 // What scene, flat scene and limits ask for.
-struct render_settings render_settings_of(const struct ir_scene *scene, const struct flat_scene *flat,
+struct render_settings render_settings_of(const struct scene *scene, const struct flat_scene *flat,
                                           const struct limits *limits);
 
 enum render_fault_kind {

@@ -182,13 +182,13 @@ void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t 
     uint32_t low = flat->sphere_count, high = flat->body_count;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
-        if (flat_first_triangle(flat, middle) <= wanted)
+        if (flat->first_triangle[middle] <= wanted)
             low = middle;
         else
             high = middle;
     }
     *body = low;
-    *triangle = wanted - flat_first_triangle(flat, low);
+    *triangle = wanted - flat->first_triangle[low];
 }
 
 static void note_fault(const struct renderer *renderer, uint32_t word, uint32_t x, uint32_t y,

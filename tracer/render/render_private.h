@@ -5,6 +5,7 @@
 #include "shaders/features.h"
 #include "shaders/frame.h"
 #include "shaders/gpu_scene.h"
+#include "shaders/records.h"
 #include "tracer/render/render.h"
 
 #define VECTOR_FIELD(name) float name[3];

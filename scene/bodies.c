@@ -1,0 +1,216 @@
+// The bodies of a scene, from the IR's lists and the loaded meshes.
+#include "grammar/schema.h"
+#include "scene/scene_parts.h"
+#include "scene/transform.h"
+
+#include <math.h>
+
+enum {
+    PARALLELOGRAM_TRIANGLES = 2
+};
+
+// ---- boxes
+
+// Coordinates are never NaN here, so that plain comparisons do (fmin and fmax are calls).
+static vec3 least(vec3 a, vec3 b) {
+    return (vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
+}
+static vec3 greatest(vec3 a, vec3 b) {
+    return (vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
+}
+
+struct box {
+    vec3 lower, upper;
+};
+
+static const struct box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void include(struct box *box, vec3 point) {
+    box->lower = least(box->lower, point);
+    box->upper = greatest(box->upper, point);
+}
+
+static struct box sphere_box(vec3 center, double radius) {
+    vec3 arm = {radius, radius, radius};
+    return (struct box){vec3_sub(center, arm), vec3_add(center, arm)};
+}
+
+static struct box triangles_box(const struct scene_body *body, const affine3 *map) {
+    struct box box = EMPTY;
+    for (uint32_t i = 0; i < body->triangle_count; i++) {
+        vec3 corners[3];
+        scene_corners(body, map, i, corners);
+        for (int k = 0; k < 3; k++)
+            include(&box, corners[k]);
+    }
+    return box;
+}
+
+static struct box positions_box(const struct mesh *mesh, const affine3 *map) {
+    struct box box = EMPTY;
+    for (uint32_t i = 0; i < mesh->position_count; i++)
+        include(&box, affine3_apply(*map, mesh->positions[i]));
+    return box;
+}
+
+// Around the transformed corners of the mesh's own box.
+static struct box transformed_box(const struct mesh *mesh, const affine3 *map) {
+    struct box box = EMPTY;
+    for (int i = 0; i < 8; i++)
+        include(&box, affine3_apply(*map, (vec3){i & 1 ? mesh->upper.x : mesh->lower.x,
+                                                 i & 2 ? mesh->upper.y : mesh->lower.y,
+                                                 i & 4 ? mesh->upper.z : mesh->lower.z}));
+    return box;
+}
+
+// ---- bodies
+
+struct building {
+    struct scene *scene;
+    uint32_t *material; // the next place for a body's one material
+};
+
+static struct scene_body *add(struct building *b, const struct schema_element *element, uint32_t index,
+                              const struct ir_head *head, str name) {
+    struct scene_body *body = &b->scene->bodies[b->scene->body_count++];
+    *body = (struct scene_body){.element = element, .index = index, .head = head, .name = name};
+    return body;
+}
+
+static void take_material(struct building *b, struct scene_body *body, const struct ir_material_ref *ref) {
+    *b->material = assets_material(b->scene->ir, ref);
+    body->materials = b->material++;
+    body->group_count = 1;
+}
+
+static void take_box(struct scene_body *body, struct box box) {
+    body->lower = box.lower;
+    body->upper = box.upper;
+}
+
+static affine3 with_columns(vec3 u, vec3 v, vec3 offset) {
+    return (affine3){{{{u.x, v.x, 0}, {u.y, v.y, 0}, {u.z, v.z, 0}}}, offset};
+}
+
+static vec3 column(const mat3 *m, int i) {
+    return (vec3){m->m[0][i], m->m[1][i], m->m[2][i]};
+}
+
+static void add_sphere(struct building *b, uint32_t i) {
+    static const mat3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const struct ir_sphere *ir = &b->scene->ir->spheres.items[i];
+    struct scene_body *body = add(b, &SCHEMA_SPHERE, i, &ir->head, ir->name);
+    body->shape = SCENE_SPHERE;
+    body->object_to_world = (affine3){identity, ir->center};
+    body->radius = ir->radius;
+    body->closed = true;
+    take_material(b, body, &ir->material);
+    take_box(body, sphere_box(ir->center, ir->radius));
+}
+
+static void add_rectangle(struct building *b, uint32_t i) {
+    const struct ir_rectangle *ir = &b->scene->ir->rectangles.items[i];
+    struct scene_body *body = add(b, &SCHEMA_RECTANGLE, i, &ir->head, ir->name);
+    body->shape = SCENE_PARALLELOGRAM;
+    body->object_to_world = with_columns(ir->edge_u, ir->edge_v, ir->corner);
+    body->triangle_count = PARALLELOGRAM_TRIANGLES;
+    take_material(b, body, &ir->material);
+    take_box(body, triangles_box(body, &body->object_to_world));
+}
+
+static void add_model(struct building *b, uint32_t i) {
+    const struct ir_model *ir = &b->scene->ir->models.items[i];
+    const struct assets *assets = b->scene->assets;
+    struct scene_body *body = add(b, &SCHEMA_MODEL, i, &ir->head, ir->name);
+    body->shape = SCENE_MESH;
+    body->object_to_world = transform_of_model(ir);
+    body->mirrored = mat3_determinant(body->object_to_world.linear) < 0;
+    body->smooth = ir->smooth;
+    body->mesh = i < assets->model_count ? assets->models[i].mesh : NULL;
+    take_box(body, body->mesh ? transformed_box(body->mesh, &body->object_to_world) : EMPTY);
+    if (!body->mesh)
+        return;
+    body->materials = assets->models[i].group_material;
+    body->group_count = body->mesh->group_count;
+    body->triangle_count = body->mesh->triangle_count;
+    body->closed = body->mesh->closed;
+}
+
+void scene_build_bodies(struct scene *scene, struct arena *arena) {
+    const struct ir_scene *ir = scene->ir;
+    struct building b = {scene, ARENA_ARRAY(arena, uint32_t, ir->spheres.count + ir->rectangles.count)};
+    scene->bodies = ARENA_ARRAY(arena, struct scene_body, ir_body_count(ir));
+    for (uint32_t i = 0; i < ir->spheres.count; i++)
+        add_sphere(&b, i);
+    for (uint32_t i = 0; i < ir->rectangles.count; i++)
+        add_rectangle(&b, i);
+    for (uint32_t i = 0; i < ir->models.count; i++)
+        add_model(&b, i);
+}
+
+// ---- what is asked of bodies
+
+uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle) {
+    return body->materials[body->mesh ? body->mesh->triangles[triangle].group : 0];
+}
+
+// Shared corners are computed in one way, so that both triangles hold the same bits.
+static void parallelogram_corners(const affine3 *map, uint32_t triangle, vec3 corners[3]) {
+    vec3 v = column(&map->linear, 1);
+    vec3 along_u = vec3_add(map->offset, column(&map->linear, 0));
+    vec3 opposite = vec3_add(along_u, v);
+    corners[0] = map->offset;
+    corners[1] = triangle ? opposite : along_u;
+    corners[2] = triangle ? vec3_add(map->offset, v) : opposite;
+}
+
+void scene_corners(const struct scene_body *body, const affine3 *map, uint32_t triangle, vec3 corners[3]) {
+    if (body->shape == SCENE_PARALLELOGRAM) {
+        parallelogram_corners(map, triangle, corners);
+        return;
+    }
+    const uint32_t *indices = body->mesh->triangles[triangle].corners;
+    for (int k = 0; k < 3; k++)
+        corners[k] = affine3_apply(*map, body->mesh->positions[indices[k]]);
+}
+
+bool scene_body_bounds(const struct scene_body *body, const affine3 *map, vec3 *lower, vec3 *upper) {
+    struct box box = body->shape == SCENE_SPHERE ? sphere_box(map->offset, body->radius)
+                     : body->mesh                ? positions_box(body->mesh, map)
+                                                 : triangles_box(body, map);
+    *lower = box.lower;
+    *upper = box.upper;
+    return box.lower.x <= box.upper.x;
+}
+
+bool scene_bounds(const struct scene *scene, vec3 *lower, vec3 *upper) {
+    struct box all = EMPTY;
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        struct box own;
+        const struct scene_body *body = &scene->bodies[i];
+        if (!scene_body_bounds(body, &body->object_to_world, &own.lower, &own.upper))
+            continue;
+        include(&all, own.lower);
+        include(&all, own.upper);
+    }
+    bool any = all.lower.x <= all.upper.x;
+    *lower = any ? all.lower : (vec3){0, 0, 0};
+    *upper = any ? all.upper : (vec3){0, 0, 0};
+    return any;
+}
+
+void scene_check_reach(const struct scene *scene, struct diag_sink *sink) {
+    const double most = schema_range_info(SCHEMA_RANGE_COORDINATE)->greatest;
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        const struct scene_body *body = &scene->bodies[i];
+        if (!body->mesh)
+            continue;
+        double largest = fmax(vec3_max_abs(body->lower), vec3_max_abs(body->upper));
+        if (largest > most)
+            diag_add(
+                sink, DIAG_TRANSFORM_OVERFLOW, ir_place_label(scene->assets->origin, body->head),
+                "placed by its scale, rotation and translation, the model reaches coordinates of %.3g; the "
+                "largest allowed is 1e18",
+                largest);
+    }
+}

@@ -1,0 +1,56 @@
+// Colours, materials and the background.
+#include "scene/scene_parts.h"
+#include "scene/transform.h"
+
+double scene_srgb_decode(double value) {
+    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+}
+
+vec3 scene_linear_color(struct ir_color color, unsigned transfer) {
+    if (!color.is_hex)
+        return (vec3){color.r, color.g, color.b};
+    vec3 shown = {(double)(color.hex >> 16 & 0xFF) / 255, (double)(color.hex >> 8 & 0xFF) / 255,
+                  (double)(color.hex & 0xFF) / 255};
+    if (transfer != IR_TRANSFER_SRGB)
+        return shown;
+    return (vec3){scene_srgb_decode(shown.x), scene_srgb_decode(shown.y), scene_srgb_decode(shown.z)};
+}
+
+static struct scene_material material_of(const struct ir_material *ir, unsigned transfer) {
+    const struct ir_paint *paint = &ir->diffuse_color;
+    bool checker = paint->kind == IR_PAINT_CHECKER;
+    struct scene_material m = {.albedo = ir->albedo,
+                               .checker = checker,
+                               .cell = checker ? paint->checker.size : 1,
+                               .specular = scene_linear_color(ir->specular_color, transfer),
+                               .specular_exponent = ir->specular_exponent,
+                               .refractive_index = ir->refractive_index};
+    for (int i = 0; i < 2; i++)
+        m.diffuse[i] = scene_linear_color(checker ? paint->checker.colors[i] : paint->color, transfer);
+    return m;
+}
+
+static struct scene_background background_of(const struct ir_background *ir, const struct assets *assets,
+                                             unsigned transfer) {
+    mat3 turn = transform_rotation((vec3){0, ir->rotation, 0});
+    struct scene_background b = {.picture = assets->background,
+                                 .intensity = ir->intensity,
+                                 .sine = turn.m[0][2],
+                                 .cosine = turn.m[0][0]};
+    if (ir->kind == IR_BACKDROP_COLOR)
+        b.color = vec3_mul(scene_linear_color(ir->color, transfer), ir->intensity);
+    return b;
+}
+
+void scene_build(const struct ir_scene *ir, const struct assets *assets, struct arena *arena,
+                 struct scene *out) {
+    const unsigned transfer = ir->image.transfer;
+    *out = (struct scene){.ir = ir,
+                          .assets = assets,
+                          .material_count = assets->material_count,
+                          .background = background_of(&ir->background, assets, transfer)};
+    out->materials = ARENA_ARRAY(arena, struct scene_material, assets->material_count);
+    for (uint32_t i = 0; i < assets->material_count; i++)
+        out->materials[i] = material_of(&assets->materials[i], transfer);
+    scene_build_bodies(out, arena);
+}

@@ -1,0 +1,96 @@
+// What a scene means: IR and loaded files together, once, in double precision and scene units.
+//
+// The one list of bodies, the materials in linear colours, and the background. Flattening, the choice of
+// precision, the reference and its cache, the rules about light, measuring and reports all read these;
+// nothing else looks into the IR's lists of bodies for their meaning. A new kind of body is a row here and an
+// element of the table. Ownership: the arena given to scene_build; IR, assets and what they point to must
+// outlive the scene. Errors: where the arena ends, its guard is jumped to. Thread safety: immutable once
+// made.
+#ifndef GLINT_SCENE_SCENE_H
+#define GLINT_SCENE_SCENE_H
+
+#include "assets/assets.h"
+#include "core/arena.h"
+#include "core/vec3.h"
+
+struct schema_element;
+
+// How a body is intersected.
+enum scene_shape {
+    SCENE_SPHERE,
+    SCENE_PARALLELOGRAM, // two triangles: corner, corner + u, corner + u + v; corner, corner + u + v, corner
+                         // + v
+    SCENE_MESH,
+};
+
+// In IR order (ir.h). Models whose mesh could not be loaded are bodies without triangles.
+struct scene_body {
+    const struct schema_element *element; // of the language: its name is what people call the body
+    uint32_t index;                       // among the bodies of this element
+    const struct ir_head *head;
+    str name; // empty: none
+    enum scene_shape shape;
+    // A sphere: its centre. A parallelogram: columns u, v and 0, and the corner as offset, so that its object
+    // space is the unit square. A mesh: T·R·S.
+    affine3 object_to_world;
+    double radius;             // of a sphere
+    const struct mesh *mesh;   // NULL: another shape, or not loaded
+    const uint32_t *materials; // by group: indices into scene.materials
+    uint32_t group_count;      // 1 of all but meshes
+    uint32_t triangle_count;
+    bool closed;       // it has an inside: refraction enters and leaves, else it is a thin pane
+    bool mirrored;     // the determinant is negative: the mesh is turned inside out
+    bool smooth;       // normals are interpolated
+    vec3 lower, upper; // a box around it: of a mesh, around its transformed box; lower > upper: no mesh
+};
+
+// A material as light meets it. Colours are linear and not yet multiplied by their weights.
+struct scene_material {
+    struct ir_weights albedo;
+    vec3 diffuse[2]; // of the odd cells too, where it is a checker; else equal
+    bool checker;
+    double cell; // edge of a checker's cells, scene units; 1 without
+    vec3 specular;
+    double specular_exponent, refractive_index;
+};
+
+struct scene_background {
+    vec3 color;                    // linear, times intensity: without an image
+    const struct picture *picture; // NULL: none, or not loaded
+    double intensity;
+    double sine, cosine; // of the image's rotation about +y
+};
+
+struct scene {
+    const struct ir_scene *ir;
+    const struct assets *assets;
+    struct scene_body *bodies;
+    uint32_t body_count;
+    struct scene_material *materials; // in the order of assets.materials
+    uint32_t material_count;
+    struct scene_background background;
+};
+
+void scene_build(const struct ir_scene *ir, const struct assets *assets, struct arena *arena,
+                 struct scene *out);
+
+// The material of a body's triangle (0 of a sphere): an index into scene.materials.
+uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle);
+// The corners of a triangle in file order, through a map that stands for object_to_world: often the same
+// relative to an origin (transform_relative), which is then taken off before anything is rounded.
+void scene_corners(const struct scene_body *body, const affine3 *map, uint32_t triangle, vec3 corners[3]);
+// The least box around a body, through such a map; false: there is nothing of it.
+bool scene_body_bounds(const struct scene_body *body, const affine3 *map, vec3 *lower, vec3 *upper);
+// The least box around all bodies in scene units; false: there is nothing.
+bool scene_bounds(const struct scene *scene, vec3 *lower, vec3 *upper);
+// Adds an error (E409) for each model whose box reaches beyond the coordinates that the language allows.
+void scene_check_reach(const struct scene *scene, struct diag_sink *sink);
+
+// ---- colours
+
+// #rrggbb is a displayed colour: /255 with transfer none, decoded from sRGB with srgb (IEC 61966-2-1).
+vec3 scene_linear_color(struct ir_color color, unsigned transfer);
+// sRGB decoding of one value in 0..1.
+double scene_srgb_decode(double value);
+
+#endif

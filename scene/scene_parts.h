@@ -1,0 +1,10 @@
+// What the files of this room share.
+#ifndef GLINT_SCENE_SCENE_PARTS_H
+#define GLINT_SCENE_SCENE_PARTS_H
+
+#include "scene/scene.h"
+
+// Fills the bodies; the rest of the scene is there.
+void scene_build_bodies(struct scene *scene, struct arena *arena);
+
+#endif

@@ -1,0 +1,23 @@
+// Transforms in double precision: rotations in degrees, a model's transform, inverses and what normals need.
+//
+// Thread safety: pure functions.
+#ifndef GLINT_SCENE_TRANSFORM_H
+#define GLINT_SCENE_TRANSFORM_H
+
+#include "core/vec3.h"
+#include "grammar/ir.h"
+
+// Rz·Ry·Rx of angles in degrees; exact for multiples of 90.
+mat3 transform_rotation(vec3 degrees);
+// The affine map of a model, T·Rz·Ry·Rx·S.
+affine3 transform_of_model(const struct ir_model *model);
+// The inverse of any map whose determinant is not 0; its offset, too.
+affine3 transform_inverse(affine3 map);
+// What turns normals: the inverse transpose times a positive number.
+mat3 transform_for_normals(mat3 linear);
+// The same map into coordinates whose origin is `origin`.
+static inline affine3 transform_relative(affine3 map, vec3 origin) {
+    return (affine3){map.linear, vec3_sub(map.offset, origin)};
+}
+
+#endif
