@@ -1,5 +1,7 @@
 #include "app/check.h"
 
+#include "grammar/ir_walk.h"
+
 #include <stdlib.h>
 
 // ---- judging
@@ -74,15 +76,22 @@ bool check_failed(const struct session *session) {
 
 // ---- the record
 
+// Of the whole scene: what it includes has been merged into it.
+static void count_lists(struct report_scene *out, const struct ir_scene *scene) {
+    struct report_assets *a = &out->assets;
+    a->counts = ARENA_ARRAY(&out->arena, struct report_count, SCHEMA_SCENE.row_count);
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        if (row->kind == SCHEMA_LIST && row->child != &SCHEMA_INCLUDE)
+            a->counts[a->count_count++] =
+                (struct report_count){schema_yaml_key(row), ir_walk_list(row, scene).count};
+    }
+}
+
 static void fill_assets(struct report_scene *out, const struct session *session, const char *root) {
     const struct ir_scene *scene = session->scene;
     struct report_assets *a = &out->assets;
-    a->cameras = scene->cameras.count;
-    a->lights = scene->lights.count;
-    a->materials = scene->materials.count;
-    a->spheres = scene->spheres.count;
-    a->rectangles = scene->rectangles.count;
-    a->models = scene->models.count;
+    count_lists(out, scene);
     a->triangles = session->assets.triangle_count;
     if (session->assets.background) {
         a->image_width = session->assets.background->width;

@@ -9,7 +9,7 @@
 #include "core/strbuf.h"
 
 struct where {
-    const char *kind;          // "sphere", "rectangle" or "model": the list of the scene
+    const char *kind;          // as the language calls it: "sphere"
     uint32_t index;            // in that list
     str name;                  // empty: it has none
     span at;                   // in the scene
@@ -23,7 +23,7 @@ struct where {
 
 // `body` in IR order, `triangle` in file order. false: there is no such body.
 bool where_find(const struct session *session, uint32_t body, uint32_t triangle, struct where *out);
-// "model 'dragon'", "rectangles[2]"; "the background" where `where` is NULL.
+// "model 'dragon'", "spheres[2]"; "the background" where `where` is NULL.
 void where_body_words(const struct where *where, struct strbuf *out);
 // "material 'jade'", "the default material".
 void where_material_words(const struct where *where, struct strbuf *out);

@@ -4,6 +4,7 @@
 
 #include "core/number.h"
 #include "grammar/ir_features.h"
+#include "grammar/ir_walk.h"
 #include "grammar/print/ir_print.h"
 #include "tracer/flatten/flatten.h"
 
@@ -31,8 +32,11 @@ static void counts(struct strbuf *out, const struct session *s) {
     strbuf_format(out, "cameras     %u\nlights      %u\n", scene->cameras.count, scene->lights.count);
     strbuf_format(out, "materials   %u named, %u inline, %u used in all with those of meshes\n", named,
                   scene->materials.count - named, s->assets.material_count);
-    strbuf_format(out, "spheres     %u\nrectangles  %u\nmodels      %u\n", scene->spheres.count,
-                  scene->rectangles.count, scene->models.count);
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        if (scene_is_body(row->child))
+            strbuf_format(out, "%-12s%u\n", schema_yaml_key(row), ir_walk_list(row, scene).count);
+    }
 }
 
 static void bounds(struct strbuf *out, const struct session *s) {

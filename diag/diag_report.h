@@ -45,8 +45,15 @@ struct report_file {
     uint64_t size_bytes;
 };
 
+// How many entries a list of the scene has.
+struct report_count {
+    const char *name; // of the list: "spheres"
+    uint32_t count;
+};
+
 struct report_assets {
-    uint32_t spheres, rectangles, models, materials, lights, cameras;
+    struct report_count *counts; // in the table's order
+    uint32_t count_count;
     uint64_t triangles;
     uint32_t image_width, image_height; // of the background; 0: none
     struct report_file *files;          // every file that was read, the scene first

@@ -60,12 +60,8 @@ static void counts(struct json_writer *w, uint64_t errors, uint64_t warnings, ui
 
 static void statistics(struct json_writer *w, const struct report_assets *a) {
     json_open_object(w, "statistics");
-    json_write_integer(w, "cameras", a->cameras);
-    json_write_integer(w, "lights", a->lights);
-    json_write_integer(w, "materials", a->materials);
-    json_write_integer(w, "spheres", a->spheres);
-    json_write_integer(w, "rectangles", a->rectangles);
-    json_write_integer(w, "models", a->models);
+    for (uint32_t i = 0; i < a->count_count; i++)
+        json_write_integer(w, a->counts[i].name, a->counts[i].count);
     json_write_integer(w, "triangles", a->triangles);
     if (a->image_width) {
         json_write_integer(w, "background_width", a->image_width);

@@ -72,8 +72,8 @@ void reference_scene_key(const struct reference_input *input, uint64_t key[2]) {
     hash128_whole(&h, input->test);
     ir_hash(&h, &SCHEMA_SCENE, scene->ir);
     // The scene's once more, as they are in use, and those that material files of meshes add.
-    hash128_whole(&h, scene->material_count);
-    for (uint32_t i = 0; i < scene->material_count; i++)
+    hash128_whole(&h, scene->assets->material_count);
+    for (uint32_t i = 0; i < scene->assets->material_count; i++)
         ir_hash(&h, &SCHEMA_MATERIAL, &scene->assets->materials[i]);
     add_view(&h, input->view);
     add_bodies(&h, scene);

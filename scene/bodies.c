@@ -1,4 +1,5 @@
 // The bodies of a scene, from the IR's lists and the loaded meshes.
+#include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "scene/scene_parts.h"
 #include "scene/transform.h"
@@ -63,6 +64,22 @@ static struct box transformed_box(const struct mesh *mesh, const affine3 *map) {
     return box;
 }
 
+static struct box box_of(const struct scene_body *body) {
+    if (body->shape == SCENE_SPHERE)
+        return sphere_box(body->object_to_world.offset, body->radius);
+    return body->mesh ? transformed_box(body->mesh, &body->object_to_world)
+                      : triangles_box(body, &body->object_to_world);
+}
+
+void scene_body_place(struct scene_body *body, affine3 object_to_world, double radius) {
+    body->object_to_world = object_to_world;
+    body->radius = radius;
+    body->mirrored = mat3_determinant(object_to_world.linear) < 0;
+    struct box box = box_of(body);
+    body->lower = box.lower;
+    body->upper = box.upper;
+}
+
 // ---- bodies
 
 struct building {
@@ -83,13 +100,8 @@ static void take_material(struct building *b, struct scene_body *body, const str
     body->group_count = 1;
 }
 
-static void take_box(struct scene_body *body, struct box box) {
-    body->lower = box.lower;
-    body->upper = box.upper;
-}
-
-static affine3 with_columns(vec3 u, vec3 v, vec3 offset) {
-    return (affine3){{{{u.x, v.x, 0}, {u.y, v.y, 0}, {u.z, v.z, 0}}}, offset};
+affine3 scene_parallelogram(vec3 corner, vec3 u, vec3 v) {
+    return (affine3){{{{u.x, v.x, 0}, {u.y, v.y, 0}, {u.z, v.z, 0}}}, corner};
 }
 
 static vec3 column(const mat3 *m, int i) {
@@ -101,21 +113,18 @@ static void add_sphere(struct building *b, uint32_t i) {
     const struct ir_sphere *ir = &b->scene->ir->spheres.items[i];
     struct scene_body *body = add(b, &SCHEMA_SPHERE, i, &ir->head, ir->name);
     body->shape = SCENE_SPHERE;
-    body->object_to_world = (affine3){identity, ir->center};
-    body->radius = ir->radius;
     body->closed = true;
     take_material(b, body, &ir->material);
-    take_box(body, sphere_box(ir->center, ir->radius));
+    scene_body_place(body, (affine3){identity, ir->center}, ir->radius);
 }
 
 static void add_rectangle(struct building *b, uint32_t i) {
     const struct ir_rectangle *ir = &b->scene->ir->rectangles.items[i];
     struct scene_body *body = add(b, &SCHEMA_RECTANGLE, i, &ir->head, ir->name);
     body->shape = SCENE_PARALLELOGRAM;
-    body->object_to_world = with_columns(ir->edge_u, ir->edge_v, ir->corner);
     body->triangle_count = PARALLELOGRAM_TRIANGLES;
     take_material(b, body, &ir->material);
-    take_box(body, triangles_box(body, &body->object_to_world));
+    scene_body_place(body, scene_parallelogram(ir->corner, ir->edge_u, ir->edge_v), 0);
 }
 
 static void add_model(struct building *b, uint32_t i) {
@@ -123,29 +132,47 @@ static void add_model(struct building *b, uint32_t i) {
     const struct assets *assets = b->scene->assets;
     struct scene_body *body = add(b, &SCHEMA_MODEL, i, &ir->head, ir->name);
     body->shape = SCENE_MESH;
-    body->object_to_world = transform_of_model(ir);
-    body->mirrored = mat3_determinant(body->object_to_world.linear) < 0;
     body->smooth = ir->smooth;
-    body->mesh = i < assets->model_count ? assets->models[i].mesh : NULL;
-    take_box(body, body->mesh ? transformed_box(body->mesh, &body->object_to_world) : EMPTY);
-    if (!body->mesh)
-        return;
-    body->materials = assets->models[i].group_material;
-    body->group_count = body->mesh->group_count;
-    body->triangle_count = body->mesh->triangle_count;
-    body->closed = body->mesh->closed;
+    if (i < assets->model_count && assets->models[i].mesh) {
+        body->mesh = assets->models[i].mesh;
+        body->materials = assets->models[i].group_material;
+        body->group_count = body->mesh->group_count;
+        body->triangle_count = body->mesh->triangle_count;
+        body->closed = body->mesh->closed;
+    }
+    scene_body_place(body, transform_of_model(ir), 0);
+}
+
+// The kinds of bodies, in the order in which bodies are numbered.
+static const struct kind {
+    const struct schema_element *element;
+    void (*add)(struct building *b, uint32_t i);
+} KINDS[] = {
+    {&SCHEMA_SPHERE, add_sphere},
+    {&SCHEMA_RECTANGLE, add_rectangle},
+    {&SCHEMA_MODEL, add_model},
+};
+
+enum {
+    KIND_COUNT = sizeof KINDS / sizeof *KINDS
+};
+
+bool scene_is_body(const struct schema_element *element) {
+    for (int i = 0; i < KIND_COUNT; i++)
+        if (KINDS[i].element == element)
+            return true;
+    return false;
 }
 
 void scene_build_bodies(struct scene *scene, struct arena *arena) {
-    const struct ir_scene *ir = scene->ir;
-    struct building b = {scene, ARENA_ARRAY(arena, uint32_t, ir->spheres.count + ir->rectangles.count)};
-    scene->bodies = ARENA_ARRAY(arena, struct scene_body, ir_body_count(ir));
-    for (uint32_t i = 0; i < ir->spheres.count; i++)
-        add_sphere(&b, i);
-    for (uint32_t i = 0; i < ir->rectangles.count; i++)
-        add_rectangle(&b, i);
-    for (uint32_t i = 0; i < ir->models.count; i++)
-        add_model(&b, i);
+    const uint32_t most = ir_body_count(scene->ir);
+    struct building b = {scene, ARENA_ARRAY(arena, uint32_t, most)};
+    scene->bodies = ARENA_ARRAY(arena, struct scene_body, most);
+    for (int i = 0; i < KIND_COUNT; i++) {
+        const uint32_t count = ir_walk_list(ir_walk_pool(KINDS[i].element), scene->ir).count;
+        for (uint32_t k = 0; k < count; k++)
+            KINDS[i].add(&b, k);
+    }
 }
 
 // ---- what is asked of bodies

@@ -1,4 +1,5 @@
 // Colours, materials and the background.
+#include "grammar/ir_features.h"
 #include "scene/scene_parts.h"
 #include "scene/transform.h"
 
@@ -24,7 +25,8 @@ static struct scene_material material_of(const struct ir_material *ir, unsigned 
                                .cell = checker ? paint->checker.size : 1,
                                .specular = scene_linear_color(ir->specular_color, transfer),
                                .specular_exponent = ir->specular_exponent,
-                               .refractive_index = ir->refractive_index};
+                               .refractive_index = ir->refractive_index,
+                               .features = ir_material_features(ir)};
     for (int i = 0; i < 2; i++)
         m.diffuse[i] = scene_linear_color(checker ? paint->checker.colors[i] : paint->color, transfer);
     return m;

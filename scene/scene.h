@@ -25,8 +25,10 @@ enum scene_shape {
 
 // In IR order (ir.h). Models whose mesh could not be loaded are bodies without triangles.
 struct scene_body {
-    const struct schema_element *element; // of the language: its name is what people call the body
-    uint32_t index;                       // among the bodies of this element
+    // Of the language: its name is what people call the body. NULL: the program made it, it stands in no
+    // file.
+    const struct schema_element *element;
+    uint32_t index; // among the bodies of this element
     const struct ir_head *head;
     str name; // empty: none
     enum scene_shape shape;
@@ -52,6 +54,7 @@ struct scene_material {
     double cell; // edge of a checker's cells, scene units; 1 without
     vec3 specular;
     double specular_exponent, refractive_index;
+    uint32_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
 };
 
 struct scene_background {
@@ -74,8 +77,14 @@ struct scene {
 void scene_build(const struct ir_scene *ir, const struct assets *assets, struct arena *arena,
                  struct scene *out);
 
+// Whether the table's element is a kind of body.
+bool scene_is_body(const struct schema_element *element);
 // The material of a body's triangle (0 of a sphere): an index into scene.materials.
 uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle);
+// The object_to_world of a parallelogram.
+affine3 scene_parallelogram(vec3 corner, vec3 edge_u, vec3 edge_v);
+// Changes where a body stands: object_to_world and, of a sphere, the radius; its box follows.
+void scene_body_place(struct scene_body *body, affine3 object_to_world, double radius);
 // The corners of a triangle in file order, through a map that stands for object_to_world: often the same
 // relative to an origin (transform_relative), which is then taken off before anything is rounded.
 void scene_corners(const struct scene_body *body, const affine3 *map, uint32_t triangle, vec3 corners[3]);

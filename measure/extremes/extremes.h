@@ -24,7 +24,7 @@ enum extreme_axis {
     EXTREME_SLIVER,   // a disc of triangles of this aspect before the camera
     EXTREME_LIGHT,    // the first light this far off a surface, in parts of the scene's radius
     EXTREME_CAMERA,   // the camera likewise, looking away from it
-    EXTREME_COPLANAR, // two rectangles in one plane, one shifted by this part of its edges
+    EXTREME_COPLANAR, // two plates in one plane, one shifted by this part of its edges
     EXTREME_GAP,      // a camera between two plates this far apart, in parts of their size
     EXTREME_AXES,
 };

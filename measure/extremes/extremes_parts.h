@@ -8,14 +8,12 @@
 #include "measure/extremes/extremes.h"
 #include "scene/hits.h"
 
-// A scene that can be changed without changing its base; `scene` is made anew after each change, and points
-// into the variant, which must stay where it is. Materials are changed in assets.materials alone: bodies name
-// them by index, and all that traces reads them there.
+// A scene that can be changed without changing its base: its bodies and materials are copies, and so are the
+// cameras and lights of its IR. `scene` points into the variant, which must stay where it is.
 struct variant {
     struct arena *arena;
     struct ir_scene ir;
-    struct assets assets;
-    struct scene scene; // of both
+    struct scene scene;
     struct view view;
     uint32_t camera;
     uint32_t width, height;

@@ -72,22 +72,30 @@ static struct mesh *make_disc(struct arena *arena, const struct pose *pose, doub
     return mesh;
 }
 
+// With the default material. The room for it was made with the variant.
+static struct scene_body *add_body(struct variant *v, enum scene_shape shape) {
+    uint32_t *material = ARENA_ARRAY(v->arena, uint32_t, 1);
+    *material = v->ir.materials.count;
+    struct scene_body *body = &v->scene.bodies[v->scene.body_count++];
+    *body = (struct scene_body){.head = &v->ir.head, .shape = shape, .materials = material, .group_count = 1};
+    return body;
+}
+
 void probe_slivers(struct variant *v, const struct extreme_base *base, double aspect) {
+    static const affine3 in_place = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
     const struct pose pose = before_camera(v, base);
-    const uint32_t i = v->ir.models.count++;
-    v->ir.models.items[i] = (struct ir_model){.scale = {1, 1, 1}, .material.index = IR_NO_INDEX};
-    v->assets.models[i].mesh = make_disc(v->arena, &pose, aspect);
-    v->assets.models[i].group_material = ARENA_ARRAY(v->arena, uint32_t, 1);
-    v->assets.models[i].group_material[0] = v->ir.materials.count;
-    v->assets.model_count = v->ir.models.count;
-    v->assets.triangle_count += v->assets.models[i].mesh->triangle_count;
+    struct scene_body *body = add_body(v, SCENE_MESH);
+    body->mesh = make_disc(v->arena, &pose, aspect);
+    body->triangle_count = body->mesh->triangle_count;
+    scene_body_place(body, in_place, 0);
 }
 
 // ---- plates
 
 static void add_plate(struct variant *v, vec3 corner, vec3 edge_u, vec3 edge_v) {
-    v->ir.rectangles.items[v->ir.rectangles.count++] = (struct ir_rectangle){
-        .corner = corner, .edge_u = edge_u, .edge_v = edge_v, .material.index = IR_NO_INDEX};
+    struct scene_body *body = add_body(v, SCENE_PARALLELOGRAM);
+    body->triangle_count = 2;
+    scene_body_place(body, scene_parallelogram(corner, edge_u, edge_v), 0);
 }
 
 void probe_coplanar(struct variant *v, const struct extreme_base *base, double shift) {
@@ -104,9 +112,7 @@ void probe_coplanar(struct variant *v, const struct extreme_base *base, double s
 void probe_gap(struct variant *v, const struct extreme_base *base, double gap) {
     struct view_camera *camera = &v->view.camera;
     const double size = 2 * base->radius;
-    v->ir.spheres.count = v->ir.models.count = v->ir.rectangles.count = 0;
-    v->assets.model_count = 0;
-    v->assets.triangle_count = 0;
+    v->scene.body_count = 0;
     struct pose pose = {.center = base->center, .size = base->radius};
     pose.normal = vec3_unit((vec3){0.31, 0.87, 0.23});
     pose.right = vec3_unit(vec3_cross(pose.normal, (vec3){0.2, 0.1, 0.97}));

@@ -34,20 +34,16 @@ uint32_t extreme_values(enum extreme_axis axis, double *values) {
 
 // ---- copying
 
+enum {
+    ROOM_BODIES = 2 // that a probe may add
+};
+
 static void *copied(struct arena *arena, const void *items, size_t count, size_t size, size_t room) {
     void *copy = arena_alloc_array(arena, count + room, size);
     if (count)
         memcpy(copy, items, count * size);
     return copy;
 }
-#define COPY(v, list, room)                                                                                  \
-    (v)->ir.list.items =                                                                                     \
-        copied((v)->arena, (v)->ir.list.items, (v)->ir.list.count, sizeof *(v)->ir.list.items, room);        \
-    (v)->ir.list.capacity = (v)->ir.list.count + (room)
-
-enum {
-    ROOM_BODIES = 2 // that a probe may add
-};
 
 static void turn(vec3 *a, vec3 *b, double angle) {
     const vec3 before = *a;
@@ -64,39 +60,44 @@ static void turn_a_little(struct view_camera *camera) {
 }
 
 static void make_view(struct variant *v) {
-    scene_build(&v->ir, &v->assets, v->arena, &v->scene);
     view_build(&v->scene, v->camera, (int32_t)v->width, (int32_t)v->height, v->arena, NULL, &v->view);
     turn_a_little(&v->view.camera);
 }
 
+// After the materials stands a copy of each, for meshes: their checkers do not grow with the scene.
+static void copy_materials(struct variant *v) {
+    struct scene *scene = &v->scene;
+    const uint32_t count = scene->material_count;
+    const size_t size = sizeof *scene->materials;
+    scene->materials = copied(v->arena, scene->materials, count, size, count);
+    memcpy(scene->materials + count, scene->materials, count * size);
+    scene->material_count = 2 * count;
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        struct scene_body *body = &scene->bodies[i];
+        if (!body->mesh)
+            continue;
+        uint32_t *moved = copied(v->arena, body->materials, body->group_count, sizeof *moved, 0);
+        for (uint32_t k = 0; k < body->group_count; k++)
+            moved[k] += count;
+        body->materials = moved;
+    }
+}
+
 void variant_copy(struct variant *v, struct arena *arena, const struct extremes_input *input) {
+    const struct scene *from = input->scene;
+    const struct ir_cameras *cameras = &from->ir->cameras;
+    const struct ir_lights *lights = &from->ir->lights;
     *v = (struct variant){.arena = arena,
-                          .ir = *input->scene->ir,
-                          .assets = *input->scene->assets,
+                          .ir = *from->ir,
+                          .scene = *from,
                           .camera = input->camera,
                           .width = input->width,
                           .height = input->height};
-    COPY(v, cameras, 0);
-    COPY(v, lights, 0);
-    COPY(v, materials, 0);
-    COPY(v, spheres, ROOM_BODIES);
-    COPY(v, rectangles, ROOM_BODIES);
-    COPY(v, models, ROOM_BODIES);
-    // Behind the materials, a copy of each for models: their checkers do not grow with the scene.
-    const uint32_t count = v->assets.material_count;
-    v->assets.materials = copied(arena, v->assets.materials, count, sizeof *v->assets.materials, count);
-    memcpy(v->assets.materials + count, v->assets.materials, count * sizeof *v->assets.materials);
-    v->assets.material_count = 2 * count;
-    v->assets.models =
-        copied(arena, v->assets.models, v->assets.model_count, sizeof *v->assets.models, ROOM_BODIES);
-    for (uint32_t i = 0; i < v->assets.model_count; i++) {
-        struct assets_model *model = &v->assets.models[i];
-        const uint32_t groups = model->mesh ? model->mesh->group_count : 0;
-        model->group_material =
-            copied(arena, model->group_material, groups, sizeof *model->group_material, 0);
-        for (uint32_t k = 0; k < groups; k++)
-            model->group_material[k] += count;
-    }
+    v->ir.cameras.items = copied(arena, cameras->items, cameras->count, sizeof *cameras->items, 0);
+    v->ir.lights.items = copied(arena, lights->items, lights->count, sizeof *lights->items, 0);
+    v->scene.ir = &v->ir;
+    v->scene.bodies = copied(arena, from->bodies, from->body_count, sizeof *v->scene.bodies, ROOM_BODIES);
+    copy_materials(v);
     make_view(v);
 }
 
@@ -112,26 +113,18 @@ static vec3 changed(const struct change *c, vec3 p) {
 }
 
 static void change_bodies(struct variant *v, const struct change *c) {
-    for (uint32_t i = 0; i < v->ir.spheres.count; i++) {
-        struct ir_sphere *sphere = &v->ir.spheres.items[i];
-        sphere->center = changed(c, sphere->center);
-        sphere->radius *= c->factor;
-    }
-    for (uint32_t i = 0; i < v->ir.rectangles.count; i++) {
-        struct ir_rectangle *r = &v->ir.rectangles.items[i];
-        r->corner = changed(c, r->corner);
-        r->edge_u = vec3_mul(r->edge_u, c->factor);
-        r->edge_v = vec3_mul(r->edge_v, c->factor);
-    }
-    for (uint32_t i = 0; i < v->ir.models.count; i++) {
-        struct ir_model *model = &v->ir.models.items[i];
-        model->scale = vec3_mul(model->scale, c->factor);
-        model->translation = changed(c, model->translation);
+    for (uint32_t i = 0; i < v->scene.body_count; i++) {
+        struct scene_body *body = &v->scene.bodies[i];
+        affine3 map = body->object_to_world;
+        map.offset = changed(c, map.offset);
+        // A sphere is scaled by its radius: its object space is as large as the scene's.
+        for (int k = 0; k < 9 && body->shape != SCENE_SPHERE; k++)
+            map.linear.m[k / 3][k % 3] *= c->factor;
+        scene_body_place(body, map, body->radius * c->factor);
     }
 }
 
 static void change_all(struct variant *v, const struct change *c) {
-    change_bodies(v, c);
     for (uint32_t i = 0; i < v->ir.cameras.count; i++) {
         struct ir_camera *camera = &v->ir.cameras.items[i];
         camera->position = changed(c, camera->position);
@@ -143,8 +136,9 @@ static void change_all(struct variant *v, const struct change *c) {
         if (light->falloff == IR_FALLOFF_INVERSE_SQUARE)
             light->intensity *= c->factor * c->factor;
     }
-    for (uint32_t i = 0; i < v->assets.material_count / 2; i++)
-        v->assets.materials[i].diffuse_color.checker.size *= c->factor;
+    for (uint32_t i = 0; i < v->scene.material_count / 2; i++)
+        v->scene.materials[i].cell *= c->factor;
+    change_bodies(v, c);
     make_view(v);
 }
 
@@ -187,9 +181,9 @@ static void stand_on_surface(struct variant *v, const struct extreme_base *base,
 
 static bool set_indices(struct variant *v, double index) {
     bool any = false;
-    for (uint32_t i = 0; i < v->assets.material_count; i++)
-        if (v->assets.materials[i].albedo.refraction > 0) {
-            v->assets.materials[i].refractive_index = index;
+    for (uint32_t i = 0; i < v->scene.material_count; i++)
+        if (v->scene.materials[i].albedo.refraction > 0) {
+            v->scene.materials[i].refractive_index = index;
             any = true;
         }
     return any;
@@ -197,9 +191,9 @@ static bool set_indices(struct variant *v, double index) {
 
 static bool set_exponents(struct variant *v, double exponent) {
     bool any = false;
-    for (uint32_t i = 0; i < v->assets.material_count; i++)
-        if (v->assets.materials[i].albedo.specular > 0) {
-            v->assets.materials[i].specular_exponent = exponent;
+    for (uint32_t i = 0; i < v->scene.material_count; i++)
+        if (v->scene.materials[i].albedo.specular > 0) {
+            v->scene.materials[i].specular_exponent = exponent;
             any = true;
         }
     return any;
@@ -207,8 +201,12 @@ static bool set_exponents(struct variant *v, double exponent) {
 
 // ---- all
 
-static const char *change(struct variant *v, const struct extreme_base *base, enum extreme_axis axis,
-                          double value) {
+const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,
+                         enum extreme_axis axis, double value) {
+    const bool on_surface = axis == EXTREME_LIGHT || axis == EXTREME_CAMERA;
+    if (on_surface && !base->has_surface)
+        return "the camera sees no surface that does not refract";
+    variant_copy(v, arena, base->input);
     switch (axis) {
     case EXTREME_MOVE:
         change_all(v, &(struct change){1, {value, -0.5 * value, 0.75 * value}});
@@ -242,15 +240,4 @@ static const char *change(struct variant *v, const struct extreme_base *base, en
         break;
     }
     return NULL;
-}
-
-const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,
-                         enum extreme_axis axis, double value) {
-    const bool on_surface = axis == EXTREME_LIGHT || axis == EXTREME_CAMERA;
-    if (on_surface && !base->has_surface)
-        return "the camera sees no surface that does not refract";
-    variant_copy(v, arena, base->input);
-    const char *left_out = change(v, base, axis, value);
-    scene_build(&v->ir, &v->assets, arena, &v->scene);
-    return left_out;
 }

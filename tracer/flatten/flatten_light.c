@@ -144,7 +144,7 @@ static uint32_t used_material_features(const struct flattening *f) {
     for (uint32_t i = 0; i < f->scene->material_count; i++) {
         if (!f->material_used[i])
             continue;
-        uint32_t bits = ir_material_features(&f->scene->assets->materials[i]);
+        uint32_t bits = f->scene->materials[i].features;
         mask |= bits & FEATURE_DIFFUSE ? bits : bits & ~FEATURE_CHECKER;
     }
     return mask;
