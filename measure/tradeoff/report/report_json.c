@@ -1,5 +1,5 @@
 // The report of a study as JSON.
-#include "measure/tradeoff/tradeoff.h"
+#include "measure/tradeoff/report/report.h"
 
 #include "core/json_write.h"
 

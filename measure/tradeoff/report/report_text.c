@@ -1,5 +1,5 @@
 // The report of a study as text and as CSV.
-#include "measure/tradeoff/tradeoff.h"
+#include "measure/tradeoff/report/report.h"
 
 #include <inttypes.h>
 #include <math.h>

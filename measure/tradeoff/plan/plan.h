@@ -1,12 +1,12 @@
 // Which settings are tried: the ladders of each knob, and pairs of those that mattered; and how far the truth
-// goes that they are compared with. Private to runtime/measure.
+// goes that they are compared with. Private to measure/tradeoff.
 //
 // What is planned depends on the scene and on counted work and measured errors alone, never on a clock.
 // Thread safety: pure.
-#ifndef GLINT_MEASURE_TRADEOFF_PLAN_H
-#define GLINT_MEASURE_TRADEOFF_PLAN_H
+#ifndef GLINT_MEASURE_TRADEOFF_PLAN_PLAN_H
+#define GLINT_MEASURE_TRADEOFF_PLAN_PLAN_H
 
-#include "measure/tradeoff/tradeoff.h"
+#include "measure/tradeoff/study/study.h"
 
 enum {
     PLAN_ROWS_MAX = 96,

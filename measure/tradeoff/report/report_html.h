@@ -1,8 +1,8 @@
-// Pieces of the HTML reports. Private to runtime/measure. Thread safety: pure.
-#ifndef GLINT_MEASURE_TRADEOFF_TRADEOFF_HTML_H
-#define GLINT_MEASURE_TRADEOFF_TRADEOFF_HTML_H
+// Pieces of the HTML report. Private to this folder. Thread safety: pure.
+#ifndef GLINT_MEASURE_TRADEOFF_REPORT_REPORT_HTML_H
+#define GLINT_MEASURE_TRADEOFF_REPORT_REPORT_HTML_H
 
-#include "measure/tradeoff/tradeoff.h"
+#include "measure/tradeoff/study/study.h"
 
 // The colour class of a row by its knobs: the knob's name, "pair", "file" or "study".
 const char *html_kind(const struct row *row);

@@ -1,4 +1,4 @@
-#include "measure/tradeoff/plan.h"
+#include "measure/tradeoff/plan/plan.h"
 
 #include "core/number.h"
 
@@ -216,7 +216,7 @@ static bool is_single(const struct row *row, uint32_t *knob) {
 }
 
 static double error_of(const struct row *row, enum metric metric) {
-    return tradeoff_error(metric, row->value[metric]);
+    return metric_error(metric, row->value[metric]);
 }
 
 static bool matters(const struct row *row, const struct row *base, enum metric metric) {

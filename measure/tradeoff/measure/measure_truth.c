@@ -1,9 +1,9 @@
 // The truth of a study, and how much of the reference the budget allows.
-#include "measure/tradeoff/study.h"
+#include "measure/tradeoff/measure/measure.h"
 
 #include "core/clock.h"
 #include "core/parallel.h"
-#include "measure/tradeoff/plan.h"
+#include "measure/tradeoff/plan/plan.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,13 +23,13 @@ static uint64_t rays_of(const struct reference_statistics *r) {
     return r->primary + r->reflected + r->refracted + r->shadow;
 }
 
-enum tradeoff_status truth_picture(struct study *s, const struct reference_settings *settings, float *shown,
-                                   struct reference_statistics *statistics) {
+enum tradeoff_status truth_picture(struct measuring *s, const struct reference_settings *settings,
+                                   float *shown, struct reference_statistics *statistics) {
     const size_t pixels = (size_t)s->base.width * s->base.height;
     double *rgb = malloc(3 * pixels * sizeof *rgb);
     if (!rgb)
         return TRADEOFF_MEMORY;
-    const struct reference_progress progress = study_reference_progress(s);
+    const struct reference_progress progress = measuring_reference_progress(s);
     const enum reference_result result =
         reference_source_render(&s->source[0], settings, rgb, &progress, statistics);
     if (result == REFERENCE_DONE) {
@@ -38,13 +38,13 @@ enum tradeoff_status truth_picture(struct study *s, const struct reference_setti
         image_to_displayed(shown, pixels, s->display, shown);
     }
     free(rgb);
-    return study_reference_status(result);
+    return measuring_reference_status(result);
 }
 
 // ---- what it would take
 
 // The whole picture, smaller, one sample a pixel.
-static struct reference_settings pilot_settings(const struct study *s) {
+static struct reference_settings pilot_settings(const struct measuring *s) {
     const double pixels = (double)s->base.width * s->base.height;
     const double wanted = fmin(fmax(pixels / PILOT_PART, PILOT_PIXELS_LEAST), PILOT_PIXELS);
     const double scale = fmin(sqrt(wanted / pixels), 1);
@@ -55,7 +55,7 @@ static struct reference_settings pilot_settings(const struct study *s) {
     return settings;
 }
 
-static enum tradeoff_status run_pilots(struct study *s, struct plan_truth_input *in,
+static enum tradeoff_status run_pilots(struct measuring *s, struct plan_truth_input *in,
                                        struct plan_pilot pilots[PLAN_PILOTS_MAX]) {
     struct reference_settings settings = pilot_settings(s);
     struct reference_statistics taken;
@@ -64,7 +64,7 @@ static enum tradeoff_status run_pilots(struct study *s, struct plan_truth_input 
     double *rgb = malloc(3 * in->pilot_pixels * sizeof *rgb);
     if (!rgb)
         return TRADEOFF_MEMORY;
-    const struct reference_progress progress = study_reference_progress(s);
+    const struct reference_progress progress = measuring_reference_progress(s);
     while (result == REFERENCE_DONE && (settings.segments = plan_next_pilot(in)) > 0) {
         result = reference_source_render(&s->source[0], &settings, rgb, &progress, &taken);
         if (result == REFERENCE_DONE)
@@ -73,11 +73,11 @@ static enum tradeoff_status run_pilots(struct study *s, struct plan_truth_input 
                                     taken.cut_by_segments > 0};
     }
     free(rgb);
-    return study_reference_status(result);
+    return measuring_reference_status(result);
 }
 
 // Where nothing is reflected nor refracted, the file's own rays say what the truth's are.
-static enum tradeoff_status plan(struct study *s, const struct work *own, bool bounces,
+static enum tradeoff_status plan(struct measuring *s, const struct work *own, bool bounces,
                                  struct plan_truth *out) {
     const uint64_t pixels = (uint64_t)s->base.width * s->base.height;
     const double budget = s->out->options.budget_s;
@@ -105,7 +105,7 @@ static enum tradeoff_status plan(struct study *s, const struct work *own, bool b
 
 // ---- making
 
-enum tradeoff_status truth_make(struct study *s, const struct work *own, bool bounces) {
+enum tradeoff_status truth_make(struct measuring *s, const struct work *own, bool bounces) {
     const size_t values = (size_t)3 * s->base.width * s->base.height;
     struct tradeoff *t = s->out;
     struct reference_statistics taken;
@@ -134,8 +134,8 @@ enum tradeoff_status truth_make(struct study *s, const struct work *own, bool bo
     return status;
 }
 
-bool truth_affords(const struct study *s, double rays) {
+bool truth_affords(const struct measuring *s, double rays) {
     const double budget = s->out->options.budget_s;
     return !(budget > 0) ||
-           clock_seconds() - s->begun + rays / s->reference_rate <= STUDY_ROWS_SHARE * budget;
+           clock_seconds() - s->begun + rays / s->reference_rate <= MEASURE_ROWS_SHARE * budget;
 }

@@ -1,4 +1,4 @@
-#include "measure/tradeoff/study.h"
+#include "measure/tradeoff/measure/measure.h"
 
 #include "core/parallel.h"
 #include "picture/metrics/heatmap.h"
@@ -109,7 +109,7 @@ static void difference_thumbnail(const float *difference, uint32_t width, uint32
 
 // ---- a row
 
-static bool measure(struct study *s, struct row *row) {
+static bool measure(struct measuring *s, struct row *row) {
     const uint32_t width = s->base.width, height = s->base.height;
     struct measure_options options = measure_options_default();
     struct measure_result result;
@@ -133,7 +133,7 @@ static bool measure(struct study *s, struct row *row) {
     return good;
 }
 
-enum tradeoff_status errors_measure(struct study *s, struct row *row) {
+enum tradeoff_status errors_measure(struct measuring *s, struct row *row) {
     const struct setting *setting = &row->setting;
     enum tradeoff_status status = device_picture(s, row, s->picture);
     if (status != TRADEOFF_DONE)

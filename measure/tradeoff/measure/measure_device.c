@@ -1,8 +1,8 @@
-#include "measure/tradeoff/study.h"
+#include "measure/tradeoff/measure/measure.h"
 
 #include "core/clock.h"
 #include "core/quantile.h"
-#include "measure/tradeoff/plan.h"
+#include "measure/tradeoff/plan/plan.h"
 #include "shaders/features.h"
 
 enum {
@@ -12,7 +12,7 @@ enum {
 // before all, and a little where buffers were made or a kernel compiled in between.
 static const double TIMED_SECONDS = 0.04, WARM_SECONDS_GPU = 0.02, WAKE_SECONDS_GPU = 1;
 
-static struct render_settings settings_of(const struct study *s, const struct setting *setting,
+static struct render_settings settings_of(const struct measuring *s, const struct setting *setting,
                                           const struct flat_scene *flat) {
     struct render_settings r = render_settings_of(s->input->scene, flat, s->input->limits);
     r.width = setting->width;
@@ -27,7 +27,7 @@ static struct render_settings settings_of(const struct study *s, const struct se
     return r;
 }
 
-static enum tradeoff_status open_precision(struct study *s, bool is_double) {
+static enum tradeoff_status open_precision(struct measuring *s, bool is_double) {
     const struct tradeoff_input *in = s->input;
     const struct flat_input input = {.scene = in->scene,
                                      .origin_places = in->origin_places,
@@ -52,7 +52,7 @@ static bool is_equal(const struct setting *a, const struct setting *b) {
 }
 
 // The renderer of the setting's precision, set to it.
-static enum tradeoff_status set(struct study *s, const struct setting *setting, struct renderer **out) {
+static enum tradeoff_status set(struct measuring *s, const struct setting *setting, struct renderer **out) {
     const bool d = setting->is_double;
     enum tradeoff_status status = TRADEOFF_DONE;
     if (!s->flat[d].strides.triangle)
@@ -72,7 +72,7 @@ static enum tradeoff_status set(struct study *s, const struct setting *setting, 
     return *out ? TRADEOFF_DONE : TRADEOFF_DEVICE;
 }
 
-void device_close(struct study *s) {
+void device_close(struct measuring *s) {
     for (int d = 0; d < 2; d++) {
         renderer_destroy(s->renderer[d]);
         flat_finish(&s->flat[d]);
@@ -80,7 +80,7 @@ void device_close(struct study *s) {
 }
 
 static bool report_frame(void *context, double fraction) {
-    struct study *s = context;
+    struct measuring *s = context;
     (void)fraction;
     if (s->deadline > 0 && clock_seconds() > s->deadline) {
         s->late = true;
@@ -96,13 +96,13 @@ static enum tradeoff_status status_of(enum render_result result) {
                                         : TRADEOFF_DEVICE;
 }
 
-static enum tradeoff_status frame(struct study *s, struct renderer *renderer, float *rgb,
+static enum tradeoff_status frame(struct measuring *s, struct renderer *renderer, float *rgb,
                                   struct render_statistics *statistics) {
     const struct render_progress progress = {report_frame, s};
     return status_of(renderer_render(renderer, &s->input->view->camera, rgb, &progress, statistics));
 }
 
-enum tradeoff_status device_picture(struct study *s, struct row *row, float *rgb) {
+enum tradeoff_status device_picture(struct measuring *s, struct row *row, float *rgb) {
     struct render_statistics statistics;
     struct renderer *renderer;
     enum tradeoff_status status = set(s, &row->setting, &renderer);
@@ -118,7 +118,7 @@ enum tradeoff_status device_picture(struct study *s, struct row *row, float *rgb
 
 // Rays, nodes and items of one sample a pixel, times the samples: what counts the same for all samples needs
 // no further frames.
-enum tradeoff_status device_count(struct study *s, struct row *row) {
+enum tradeoff_status device_count(struct measuring *s, struct row *row) {
     struct setting one = row->setting;
     struct renderer *renderer;
     struct render_rays rays;
@@ -138,7 +138,7 @@ enum tradeoff_status device_count(struct study *s, struct row *row) {
     return TRADEOFF_DONE;
 }
 
-enum tradeoff_status device_time(struct study *s, const struct setting *setting, double *ms) {
+enum tradeoff_status device_time(struct measuring *s, const struct setting *setting, double *ms) {
     double times[FRAMES_MOST], warm = 0, timed = 0;
     struct render_statistics statistics;
     struct renderer *renderer;
@@ -165,7 +165,7 @@ enum tradeoff_status device_time(struct study *s, const struct setting *setting,
     return TRADEOFF_DONE;
 }
 
-enum tradeoff_status device_wake(struct study *s) {
+enum tradeoff_status device_wake(struct measuring *s) {
     const double start = clock_seconds();
     struct render_statistics statistics;
     struct renderer *renderer;
@@ -178,7 +178,7 @@ enum tradeoff_status device_wake(struct study *s) {
     return status;
 }
 
-enum tradeoff_status device_hits(struct study *s, const struct setting *setting, struct hit_pixel *hits) {
+enum tradeoff_status device_hits(struct measuring *s, const struct setting *setting, struct hit_pixel *hits) {
     const struct render_progress progress = {report_frame, s};
     struct renderer *renderer;
     enum tradeoff_status status = set(s, setting, &renderer);

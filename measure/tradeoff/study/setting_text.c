@@ -1,5 +1,5 @@
 // A setting as text to paste, and as options.
-#include "measure/tradeoff/tradeoff.h"
+#include "measure/tradeoff/study/study.h"
 
 #include "core/number.h"
 

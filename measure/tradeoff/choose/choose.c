@@ -1,4 +1,4 @@
-#include "measure/tradeoff/choose.h"
+#include "measure/tradeoff/choose/choose.h"
 
 #include "core/quantile.h"
 

@@ -1,5 +1,5 @@
 // How many samples and rays the truth may take.
-#include "measure/tradeoff/plan.h"
+#include "measure/tradeoff/plan/plan.h"
 
 #include <math.h>
 

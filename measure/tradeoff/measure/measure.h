@@ -1,19 +1,28 @@
-// The inside of a study: device, reference, pictures. Private to runtime/measure.
+// Measuring the rows of a study: on the device, by the reference, and one against the other. Private to
+// measure/tradeoff.
 //
-// Thread safety: as tradeoff.h.
-#ifndef GLINT_MEASURE_TRADEOFF_STUDY_H
-#define GLINT_MEASURE_TRADEOFF_STUDY_H
+// Input: a row's setting. Output: its work, times, errors, hits and pictures. Ownership: tradeoff_run makes
+// and frees struct measuring; device_close and parts_close free what those files made. Errors: TRADEOFF_DONE
+// or what went wrong. Thread safety: as tradeoff.h.
+#ifndef GLINT_MEASURE_TRADEOFF_MEASURE_MEASURE_H
+#define GLINT_MEASURE_TRADEOFF_MEASURE_MEASURE_H
 
-#include "measure/tradeoff/tradeoff.h"
+#include "measure/tradeoff/study/study.h"
+#include "picture/write/image.h"
+#include "reference/cache.h"
+#include "scene/hits.h"
+#include "tracer/flatten/flatten.h"
+#include "tracer/render/render.h"
 
 enum {
+    TIMES_ROUNDS_LEAST = 2,
     PROBE_PIXELS = 2048, // at which the parts of the errors are measured
     PROBE_SETS_MAX = 256,
     THUMBNAIL_WIDTH = 160,
 };
 
 // Share of the budget after which no further rows are begun.
-#define STUDY_ROWS_SHARE 0.7
+#define MEASURE_ROWS_SHARE 0.7
 
 // What the reference says at the probes, displayed.
 struct probe_set {
@@ -23,7 +32,7 @@ struct probe_set {
     float *values;      // three a probe
 };
 
-struct study {
+struct measuring {
     const struct tradeoff_input *input;
     const struct tradeoff_progress *progress;
     struct tradeoff *out;
@@ -55,57 +64,67 @@ struct study {
     uint32_t set_count;
 };
 
-// Tells of a further step; false: cancelled.
-bool study_step(struct study *s, const char *what);
-// Passes the reference's progress on.
-struct reference_progress study_reference_progress(struct study *s);
-enum tradeoff_status study_reference_status(enum reference_result result);
-// Whether the row asks for the file's own rays, and differs at most in how they are computed.
-bool study_traces_as_file(const struct row *row);
+// ---- measure.c
 
-// ---- study_device.c: all give TRADEOFF_DONE or what went wrong
+// Since the study began.
+double measuring_seconds(const struct measuring *s);
+// Tells of a further step; false: cancelled.
+bool measuring_step(struct measuring *s, const char *what);
+// Passes the reference's progress on.
+struct reference_progress measuring_reference_progress(struct measuring *s);
+enum tradeoff_status measuring_reference_status(enum reference_result result);
+// Whether the row asks for the file's own rays, and differs at most in how they are computed.
+bool measuring_traces_as_file(const struct row *row);
+
+// ---- measure_device.c
 
 // Fills not_finite.
-enum tradeoff_status device_picture(struct study *s, struct row *row, float *rgb);
+enum tradeoff_status device_picture(struct measuring *s, struct row *row, float *rgb);
 // Fills work.
-enum tradeoff_status device_count(struct study *s, struct row *row);
+enum tradeoff_status device_count(struct measuring *s, struct row *row);
 // Brings an idle GPU to its clock, before the first device_time.
-enum tradeoff_status device_wake(struct study *s);
+enum tradeoff_status device_wake(struct measuring *s);
 // Median of some frames, in milliseconds of the device's clock.
-enum tradeoff_status device_time(struct study *s, const struct setting *setting, double *ms);
-enum tradeoff_status device_hits(struct study *s, const struct setting *setting, struct hit_pixel *hits);
-void device_close(struct study *s);
+enum tradeoff_status device_time(struct measuring *s, const struct setting *setting, double *ms);
+enum tradeoff_status device_hits(struct measuring *s, const struct setting *setting, struct hit_pixel *hits);
+void device_close(struct measuring *s);
 
-// ---- study_truth.c
+// ---- measure_truth.c
 
 // The reference's picture of the file's size, displayed. `statistics` may be NULL.
-enum tradeoff_status truth_picture(struct study *s, const struct reference_settings *settings, float *shown,
-                                   struct reference_statistics *statistics);
+enum tradeoff_status truth_picture(struct measuring *s, const struct reference_settings *settings,
+                                   float *shown, struct reference_statistics *statistics);
 // Fills `full` and the truth, as far as the budget allows. `own`: of the file's settings; bounces: something
 // reflects or refracts.
-enum tradeoff_status truth_make(struct study *s, const struct work *own, bool bounces);
+enum tradeoff_status truth_make(struct measuring *s, const struct work *own, bool bounces);
 // Whether the reference may trace so many rays more before the time for rows is over.
-bool truth_affords(const struct study *s, double rays);
+bool truth_affords(const struct measuring *s, double rays);
 
-// ---- study_errors.c
+// ---- measure_errors.c
 
 // Fills value, not_finite and the thumbnails from the row's picture.
-enum tradeoff_status errors_measure(struct study *s, struct row *row);
+enum tradeoff_status errors_measure(struct measuring *s, struct row *row);
 // Of pixel `at` of `to`: the two of `from` around its middle, and how far it is from the first.
 double errors_around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]);
 // Displayed values at the file's size, bilinear.
 void errors_scale_up(const float *in, uint32_t width, uint32_t height, float *out, uint32_t to_width,
                      uint32_t to_height);
 
-// ---- study_parts.c
+// ---- measure_parts.c
 
 // Fills parts. For s->shown as errors_measure leaves it.
-enum tradeoff_status parts_measure(struct study *s, struct row *row);
-void parts_close(struct study *s);
+enum tradeoff_status parts_measure(struct measuring *s, struct row *row);
+void parts_close(struct measuring *s);
 
-// ---- study_hits.c
+// ---- measure_hits.c
 
 // Fills hits.
-enum tradeoff_status hits_measure(struct study *s, struct row *row);
+enum tradeoff_status hits_measure(struct measuring *s, struct row *row);
+
+// ---- measure_times.c
+
+uint32_t times_rounds_most(const struct measuring *s);
+// Fills the times of all rows: every round times every row once.
+enum tradeoff_status times_measure(struct measuring *s);
 
 #endif

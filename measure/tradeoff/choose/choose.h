@@ -5,8 +5,8 @@
 // decides, then the error, then the order of the table. That order is called rank. The front are the rows
 // that no row of lower rank equals or betters in error. Rows that are not to be chosen (studies) take no
 // part. Ownership: the caller's array. Thread safety: pure.
-#ifndef GLINT_MEASURE_TRADEOFF_CHOOSE_H
-#define GLINT_MEASURE_TRADEOFF_CHOOSE_H
+#ifndef GLINT_MEASURE_TRADEOFF_CHOOSE_CHOOSE_H
+#define GLINT_MEASURE_TRADEOFF_CHOOSE_CHOOSE_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,5 +1,7 @@
 // The report of a study as one HTML file: plot, answers, a table that can be sorted, pictures.
-#include "measure/tradeoff/tradeoff_html.h"
+#include "measure/tradeoff/report/report_html.h"
+
+#include "measure/tradeoff/report/report.h"
 
 #include <math.h>
 
@@ -47,20 +49,6 @@ static const char SCRIPT[] =
     "const o=typeof x==='number'&&typeof "
     "y==='number'?(isNaN(x)-isNaN(y))||(x-y):String(x).localeCompare(String(y));"
     "return up?o:-o}).forEach(r=>b.append(r))}))";
-
-static const char *const knob_names[KNOB_COUNT] = {"max_depth", "min_weight", "precision", "samples",
-                                                   "shadows",   "resolution", "features",  "study"};
-
-const char *html_kind(const struct row *row) {
-    if (!row->knobs)
-        return "file";
-    if (row->knobs & 1u << KNOB_STUDY)
-        return "study";
-    for (int i = 0; i < KNOB_COUNT; i++)
-        if (row->knobs == 1u << i)
-            return knob_names[i];
-    return "pair";
-}
 
 static void legend(struct strbuf *out) {
     static const char *const kinds[] = {"file",    "max_depth",  "min_weight", "precision", "samples",

@@ -1,5 +1,5 @@
-// The plot of the report: time and error of every row, the front as a line.
-#include "measure/tradeoff/tradeoff_html.h"
+// The plot of the report: time and error of every row, coloured by its kind, the front as a line.
+#include "measure/tradeoff/report/report_html.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -89,6 +89,20 @@ static struct plot plan(const struct tradeoff *t) {
     if (metric_infos[t->options.metric].higher_is_better && t->options.metric != METRIC_SSIM)
         p.y = axis_over(small, fmax(large, small), TOP, HEIGHT - BOTTOM);
     return p;
+}
+
+static const char *const knob_names[KNOB_COUNT] = {"max_depth", "min_weight", "precision", "samples",
+                                                   "shadows",   "resolution", "features",  "study"};
+
+const char *html_kind(const struct row *row) {
+    if (!row->knobs)
+        return "file";
+    if (row->knobs & 1u << KNOB_STUDY)
+        return "study";
+    for (int i = 0; i < KNOB_COUNT; i++)
+        if (row->knobs == 1u << i)
+            return knob_names[i];
+    return "pair";
 }
 
 static int by_rank(const void *a, const void *b) {

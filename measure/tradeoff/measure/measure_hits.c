@@ -1,5 +1,5 @@
 // A row's first hits, against the reference.
-#include "measure/tradeoff/study.h"
+#include "measure/tradeoff/measure/measure.h"
 
 #include <stdlib.h>
 
@@ -8,7 +8,7 @@ enum {
 };
 
 // The reference's hits at the file's size, once.
-static enum tradeoff_status make_reference_hits(struct study *s) {
+static enum tradeoff_status make_reference_hits(struct measuring *s) {
     const size_t pixels = (size_t)s->base.width * s->base.height;
     if (s->hits[1])
         return TRADEOFF_DONE;
@@ -16,11 +16,11 @@ static enum tradeoff_status make_reference_hits(struct study *s) {
         s->hits[i] = malloc(pixels * sizeof *s->hits[i]);
     if (!s->hits[0] || !s->hits[1])
         return TRADEOFF_MEMORY;
-    const struct reference_progress progress = study_reference_progress(s);
-    return study_reference_status(reference_source_hits(&s->source[0], &s->full, s->hits[1], &progress));
+    const struct reference_progress progress = measuring_reference_progress(s);
+    return measuring_reference_status(reference_source_hits(&s->source[0], &s->full, s->hits[1], &progress));
 }
 
-enum tradeoff_status hits_measure(struct study *s, struct row *row) {
+enum tradeoff_status hits_measure(struct measuring *s, struct row *row) {
     uint32_t bodies;
     if (!s->hits[1] && !s->no_hits)
         s->no_hits = s->out->hits_out =

@@ -3,7 +3,7 @@
 // Whitted pictures are deterministic: between the device's picture and the truth lie pictures that the
 // reference can make, each apart from the one before by one cause. They are made at some pixels only, spread
 // evenly.
-#include "measure/tradeoff/study.h"
+#include "measure/tradeoff/measure/measure.h"
 
 #include "core/parallel.h"
 
@@ -15,13 +15,13 @@ enum {
     CORNERS = 4,
 };
 
-static uint32_t probe_count(const struct study *s) {
+static uint32_t probe_count(const struct measuring *s) {
     const uint64_t pixels = (uint64_t)s->base.width * s->base.height;
     return pixels < PROBE_PIXELS ? (uint32_t)pixels : PROBE_PIXELS;
 }
 
 // Pixel of a probe: all of a small picture, else Roberts' R2 sequence.
-static void probe_place(const struct study *s, uint32_t probe, uint32_t *x, uint32_t *y) {
+static void probe_place(const struct measuring *s, uint32_t probe, uint32_t *x, uint32_t *y) {
     if ((uint64_t)s->base.width * s->base.height <= PROBE_PIXELS) {
         *x = probe % s->base.width;
         *y = probe / s->base.width;
@@ -34,7 +34,7 @@ static void probe_place(const struct study *s, uint32_t probe, uint32_t *x, uint
 }
 
 struct probing {
-    struct study *s;
+    struct measuring *s;
     const struct reference *reference;
     struct reference_settings settings;
     float *values;
@@ -96,7 +96,7 @@ static bool is_set(const struct probe_set *a, const struct probe_set *b) {
 }
 
 // NULL: no memory.
-static const float *probe(struct study *s, struct probe_set wanted) {
+static const float *probe(struct measuring *s, struct probe_set wanted) {
     for (uint32_t i = 0; i < s->set_count; i++)
         if (is_set(&s->sets[i], &wanted))
             return s->sets[i].values;
@@ -133,7 +133,7 @@ static double mean_difference(const float *a, const float *b, size_t count) {
 }
 
 // What differs only in how it is computed is rare and far apart: it is measured over the whole picture.
-static enum tradeoff_status whole_numeric(struct study *s, double *numeric) {
+static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) {
     const size_t pixels = (size_t)s->base.width * s->base.height;
     if (!s->as_file && !s->only_probes)
         s->only_probes = s->out->numeric_probed = !truth_affords(s, (double)s->out->rows[0].work.rays);
@@ -155,7 +155,7 @@ static enum tradeoff_status whole_numeric(struct study *s, double *numeric) {
     return TRADEOFF_DONE;
 }
 
-enum tradeoff_status parts_measure(struct study *s, struct row *row) {
+enum tradeoff_status parts_measure(struct measuring *s, struct row *row) {
     const struct setting *t = &row->setting;
     const uint32_t count = probe_count(s);
     if (!truth_affords(s, count * s->truth_rays * (s->out->truth_samples + t->samples))) {
@@ -190,10 +190,10 @@ enum tradeoff_status parts_measure(struct study *s, struct row *row) {
                                       .resolution = mean_difference(samples, truth, count)};
     s->out->part_pixels = count;
     free(own);
-    return study_traces_as_file(row) ? whole_numeric(s, &row->parts.numeric) : TRADEOFF_DONE;
+    return measuring_traces_as_file(row) ? whole_numeric(s, &row->parts.numeric) : TRADEOFF_DONE;
 }
 
-void parts_close(struct study *s) {
+void parts_close(struct measuring *s) {
     for (uint32_t i = 0; i < s->set_count; i++)
         free(s->sets[i].values);
     free(s->as_file);
