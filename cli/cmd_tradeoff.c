@@ -2,6 +2,7 @@
 #include "cli/device.h"
 #include "cli/progress.h"
 #include "cli/study.h"
+#include "measure/tradeoff/report/report.h"
 
 static int write_html(struct cli *cli, const struct tradeoff *study) {
     struct strbuf page;

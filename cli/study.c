@@ -5,6 +5,8 @@
 #include "cli/progress.h"
 #include "core/nearest.h"
 #include "core/number.h"
+#include "measure/tradeoff/report/report.h"
+#include "reference/cache.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -61,6 +61,11 @@ foreach(room ${ROOMS})
     file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${room} ${folder}/${room} SYMBOLIC)
     continue()
   endif()
+  # A build tree may be older than the rooms inside: through its link to the folder, links to the headers would
+  # take the place of the headers.
+  if(IS_SYMLINK ${folder}/${room})
+    file(REMOVE ${folder}/${room})
+  endif()
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/${room}/*.h)
   file(MAKE_DIRECTORY ${folder}/${room})
   foreach(header ${headers})

@@ -1,4 +1,4 @@
-// The inside of extremes: variants of a scene, and the values of the axes. Private to runtime/measure.
+// The inside of extremes: variants of a scene, and the values of the axes. Private to measure/extremes.
 //
 // Ownership: a variant's copies lie in the arena given; meshes and images stay the base's. Where the arena
 // ends, its guard is jumped to. Thread safety: one thread.

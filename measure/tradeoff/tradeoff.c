@@ -2,9 +2,9 @@
 
 #include "core/clock.h"
 #include "core/heap.h"
-#include "core/quantile.h"
-#include "measure/tradeoff/plan.h"
-#include "measure/tradeoff/study.h"
+#include "measure/tradeoff/choose/choose.h"
+#include "measure/tradeoff/measure/measure.h"
+#include "measure/tradeoff/plan/plan.h"
 #include "shaders/features.h"
 
 #include <math.h>
@@ -13,64 +13,21 @@
 #include <string.h>
 
 enum {
-    ROUNDS_LEAST = 2,
-    ROUNDS_QUICK = 3,
-    ROUNDS_QUIET = 4, // at least, where there is no noise
-    ROUNDS_MOST = 9,
     PAIRS_MOST = 24,
     PAIRS_MOST_QUICK = 12,
 };
 // Share of the budget after which no pairs are begun.
 static const double PAIRS_SHARE = 0.6;
 
-double tradeoff_error(enum metric metric, double value) {
-    return metric_infos[metric].higher_is_better ? -value : value;
-}
-
-static double seconds_since_begun(const struct study *s) {
-    return clock_seconds() - s->begun;
-}
-
-bool study_step(struct study *s, const char *what) {
-    s->step = what;
-    if (s->steps_done < s->steps)
-        s->steps_done++;
-    return !s->progress || s->progress->report(s->progress->context, (double)s->steps_done / s->steps, what);
-}
-
-static bool report_reference(void *context, double fraction) {
-    const struct study *s = context;
-    return !s->progress || s->progress->report(s->progress->context,
-                                               ((double)s->steps_done + fraction) / (s->steps + 1), s->step);
-}
-
-struct reference_progress study_reference_progress(struct study *s) {
-    return (struct reference_progress){report_reference, s};
-}
-
-bool study_traces_as_file(const struct row *row) {
-    return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY));
-}
-
-enum tradeoff_status study_reference_status(enum reference_result result) {
-    return result == REFERENCE_DONE        ? TRADEOFF_DONE
-           : result == REFERENCE_CANCELLED ? TRADEOFF_CANCELLED
-                                           : TRADEOFF_MEMORY;
-}
-
-static uint32_t pairs_most(const struct study *s) {
+static uint32_t pairs_most(const struct measuring *s) {
     return s->out->options.quick ? PAIRS_MOST_QUICK : PAIRS_MOST;
 }
 
-static uint32_t rounds_most(const struct study *s) {
-    return s->out->options.quick ? ROUNDS_QUICK : ROUNDS_MOST;
-}
-
-static bool is_over(const struct study *s, double share) {
+static bool is_over(const struct measuring *s, double share) {
     const double budget = s->out->options.budget_s;
-    const double now = seconds_since_begun(s);
+    const double now = measuring_seconds(s);
     // What has been begun must be timed, too.
-    return budget > 0 && (now > share * budget || now + ROUNDS_LEAST * s->round_seconds > budget);
+    return budget > 0 && (now > share * budget || now + TIMES_ROUNDS_LEAST * s->round_seconds > budget);
 }
 
 // ---- rows
@@ -97,11 +54,11 @@ static void drop_row(struct tradeoff *t) {
 
 // Work, picture and errors of a new row. A row that costs far too much, or that the budget's end comes upon
 // on the device, is taken out again.
-static enum tradeoff_status try_row(struct study *s, const struct row *planned) {
+static enum tradeoff_status try_row(struct measuring *s, const struct row *planned) {
     struct row *row = add_row(s->out, planned);
     if (!row)
         return TRADEOFF_MEMORY;
-    if (!study_step(s, row->name))
+    if (!measuring_step(s, row->name))
         return TRADEOFF_CANCELLED;
     // The file's own settings are waited for, whatever they take.
     const double budget = s->out->options.budget_s;
@@ -123,7 +80,7 @@ static enum tradeoff_status try_row(struct study *s, const struct row *planned) 
     if (status != TRADEOFF_DONE || s->out->options.quick)
         return status;
     status = parts_measure(s, row);
-    if (status == TRADEOFF_DONE && study_traces_as_file(row))
+    if (status == TRADEOFF_DONE && measuring_traces_as_file(row))
         status = hits_measure(s, row);
     return status;
 }
@@ -141,7 +98,7 @@ static struct setting file_setting(const struct tradeoff_input *in) {
                             .shadows = trace->shadows};
 }
 
-static void open_reference(struct study *s) {
+static void open_reference(struct measuring *s) {
     const struct tradeoff_input *in = s->input;
     const struct folder_store none = {0};
     struct reference_input input = {.scene = in->scene, .view = in->view};
@@ -154,13 +111,13 @@ static void open_reference(struct study *s) {
     reference_source_init(&s->source[1], &input, none);
 }
 
-static bool bounces(const struct study *s) {
+static bool bounces(const struct measuring *s) {
     return s->flat[s->base.is_double].features & (FEATURE_REFLECTION | FEATURE_REFRACTION);
 }
 
 // ---- the rows
 
-static enum tradeoff_status run_pairs(struct study *s) {
+static enum tradeoff_status run_pairs(struct measuring *s) {
     struct row *pairs = calloc(PLAN_ROWS_MAX, sizeof *pairs);
     if (!pairs)
         return TRADEOFF_MEMORY;
@@ -179,14 +136,14 @@ static enum tradeoff_status run_pairs(struct study *s) {
     return status;
 }
 
-static enum tradeoff_status run_rows(struct study *s) {
+static enum tradeoff_status run_rows(struct measuring *s) {
     struct row *planned = calloc(PLAN_ROWS_MAX, sizeof *planned);
     if (!planned)
         return TRADEOFF_MEMORY;
     // The file's own settings are counted first: how deep paths go decides the ladders.
     struct row own = {.setting = s->base};
     enum tradeoff_status status = device_count(s, &own);
-    if (status == TRADEOFF_DONE && !study_step(s, "the reference"))
+    if (status == TRADEOFF_DONE && !measuring_step(s, "the reference"))
         status = TRADEOFF_CANCELLED;
     if (status == TRADEOFF_DONE)
         status = truth_make(s, &own.work, bounces(s));
@@ -198,9 +155,9 @@ static enum tradeoff_status run_rows(struct study *s) {
                                      .quick = s->out->options.quick,
                                      .most_samples = s->out->truth_samples / 2};
     const uint32_t count = status == TRADEOFF_DONE ? plan_single(&input, planned) : 0;
-    s->steps = 1 + count + pairs_most(s) + rounds_most(s); // the reference is the first
+    s->steps = 1 + count + pairs_most(s) + times_rounds_most(s); // the reference is the first
     for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
-        if (i > 0 && is_over(s, STUDY_ROWS_SHARE)) {
+        if (i > 0 && is_over(s, MEASURE_ROWS_SHARE)) {
             s->out->rows_left_out += count - i;
             s->out->cut_short = true;
             break;
@@ -209,92 +166,6 @@ static enum tradeoff_status run_rows(struct study *s) {
     }
     free(planned);
     return status == TRADEOFF_DONE ? run_pairs(s) : status;
-}
-
-// ---- times
-
-// What a whole round was slower or faster than the others is the machine's, not the rows'.
-static void remove_drift(double *times, uint32_t rows, uint32_t rounds) {
-    double mean = 0;
-    for (uint32_t r = 0; r < rounds; r++)
-        for (uint32_t i = 0; i < rows; i++)
-            mean += log(fmax(times[r * rows + i], 1e-9)) / ((double)rows * rounds);
-    for (uint32_t r = 0; r < rounds; r++) {
-        double own = 0;
-        for (uint32_t i = 0; i < rows; i++)
-            own += log(fmax(times[r * rows + i], 1e-9)) / rows;
-        for (uint32_t i = 0; i < rows; i++)
-            times[r * rows + i] *= exp(mean - own);
-    }
-}
-
-static void fill_times(struct tradeoff *t, double *times) {
-    double own[ROUNDS_MOST];
-    remove_drift(times, t->count, t->rounds);
-    for (uint32_t i = 0; i < t->count; i++) {
-        struct row *row = &t->rows[i];
-        for (uint32_t r = 0; r < t->rounds; r++)
-            own[r] = times[r * t->count + i];
-        quantile_sort(own, t->rounds);
-        row->time_ms = quantile(own, t->rounds, 0.5);
-        row->time_low_ms = quantile(own, t->rounds, 0.25);
-        row->time_high_ms = quantile(own, t->rounds, 0.75);
-        // 1.4826 MAD is the deviation of a normal distribution, 1.2533 / sqrt(n) its median's share of it.
-        for (uint32_t r = 0; r < t->rounds; r++)
-            own[r] = fabs(own[r] - row->time_ms);
-        quantile_sort(own, t->rounds);
-        row->noise_ms = 1.2533 * 1.4826 * quantile(own, t->rounds, 0.5) / sqrt(t->rounds);
-    }
-}
-
-// Whether the noise has come down to the floor of the choice: further rounds would change nothing.
-static bool is_quiet(struct tradeoff *t, const double *times) {
-    const size_t count = (size_t)t->rounds * t->count;
-    double *copy = malloc(count * sizeof *copy), *shares = malloc(t->count * sizeof *shares);
-    bool quiet = false;
-    if (copy && shares) {
-        memcpy(copy, times, count * sizeof *copy);
-        fill_times(t, copy);
-        for (uint32_t i = 0; i < t->count; i++)
-            shares[i] = t->rows[i].noise_ms / fmax(t->rows[i].time_ms, 1e-9);
-        quantile_sort(shares, t->count);
-        quiet = 3 * sqrt(2) * quantile(shares, t->count, 0.5) <= CHOICE_NOISE_FLOOR;
-    }
-    free(copy);
-    free(shares);
-    return quiet;
-}
-
-// Every round times every row once, each time from another row on.
-static enum tradeoff_status run_times(struct study *s) {
-    struct tradeoff *t = s->out;
-    double *times = malloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
-    enum tradeoff_status status = times ? device_wake(s) : TRADEOFF_MEMORY;
-    const double begun = seconds_since_begun(s), budget = t->options.budget_s;
-    // A single row is compared with none: its noise, which would go with the drift, decides nothing.
-    const uint32_t least = t->count > 1 ? ROUNDS_LEAST : 1;
-    while (status == TRADEOFF_DONE && t->rounds < rounds_most(s)) {
-        const double now = seconds_since_begun(s);
-        if (t->rounds >= ROUNDS_QUIET && is_quiet(t, times))
-            break;
-        if (budget > 0 && t->rounds >= least && now + (now - begun) / t->rounds > budget) {
-            t->cut_short |= t->rounds < ROUNDS_QUICK;
-            break;
-        }
-        if (!study_step(s, "times"))
-            status = TRADEOFF_CANCELLED;
-        for (uint32_t i = 0; i < t->count && status == TRADEOFF_DONE; i++) {
-            const uint32_t row = (i + t->rounds * 7) % t->count;
-            status = device_time(s, &t->rows[row].setting, &times[t->rounds * t->count + row]);
-        }
-        t->rounds += status == TRADEOFF_DONE;
-    }
-    if (status == TRADEOFF_DONE) {
-        fill_times(t, times);
-        status = plan_order_times(t->rows, t->count) ? status : TRADEOFF_MEMORY;
-    }
-    free(times);
-    return status;
 }
 
 // ---- the choice
@@ -310,7 +181,7 @@ static enum tradeoff_status choose(struct tradeoff *t) {
         choices[i] = (struct choice_row){.time_ms = row->time_ms,
                                          .noise_ms = row->noise_ms,
                                          .work = row->work.cost,
-                                         .error = tradeoff_error(metric, row->value[metric]),
+                                         .error = metric_error(metric, row->value[metric]),
                                          .choosable = row->choosable && !row->not_finite};
     }
     t->noise = choice_classify(choices, t->count);
@@ -322,7 +193,7 @@ static enum tradeoff_status choose(struct tradeoff *t) {
     t->knee = choice_knee(choices, t->count);
     t->cheapest = t->best_within = t->both =
         (struct choice){CHOICE_NONE, CHOICE_NONE, false, CHOICE_NONE, (double)NAN};
-    const double bound = tradeoff_error(metric, t->options.max_error), limit = t->options.max_time_ms;
+    const double bound = metric_error(metric, t->options.max_error), limit = t->options.max_time_ms;
     if (!isnan(bound))
         t->cheapest = choice_cheapest(choices, t->count, t->noise, bound);
     if (!isnan(limit))
@@ -342,7 +213,7 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
                                   const struct tradeoff_options *options,
                                   const struct tradeoff_progress *progress) {
     *study = (struct tradeoff){.options = *options, .knee = CHOICE_NONE};
-    struct study *s = calloc(1, sizeof *s);
+    struct measuring *s = calloc(1, sizeof *s);
     if (!s)
         return TRADEOFF_MEMORY;
     s->input = input;
@@ -357,10 +228,10 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
     open_reference(s);
     enum tradeoff_status status = run_rows(s);
     if (status == TRADEOFF_DONE)
-        status = run_times(s);
+        status = times_measure(s);
     if (status == TRADEOFF_DONE)
         status = choose(study);
-    study->seconds = seconds_since_begun(s);
+    study->seconds = measuring_seconds(s);
     device_close(s);
     parts_close(s);
     for (int i = 0; i < 2; i++) {

@@ -25,6 +25,10 @@ enum metric metric_find(str name) {
     return (enum metric)metric;
 }
 
+double metric_error(enum metric metric, double value) {
+    return metric_infos[metric].higher_is_better ? -value : value;
+}
+
 struct measure_options measure_options_default(void) {
     return (struct measure_options){.threshold = 1.0 / 255, .pixels_per_degree = 67};
 }

@@ -63,6 +63,8 @@ struct measure_result {
 extern const struct metric_info metric_infos[METRIC_COUNT];
 // METRIC_COUNT where there is none.
 enum metric metric_find(str name);
+// The metric's value as an error: lower is better.
+double metric_error(enum metric metric, double value);
 
 struct measure_options measure_options_default(void);
 

@@ -1,7 +1,7 @@
 // Choosing from tables made up for it, planning, what to paste, and first hits counted by hand.
-#include "measure/tradeoff/choose.h"
-#include "measure/tradeoff/plan.h"
-#include "measure/tradeoff/study.h"
+#include "measure/tradeoff/choose/choose.h"
+#include "measure/tradeoff/measure/measure.h"
+#include "measure/tradeoff/plan/plan.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -14,13 +14,6 @@ enum {
     SCALE_EXPONENT_MAX = 200, // for scenes smaller than any number that the language accepts
 };
 
-bool flat_array_make(struct flat_array *array, uint64_t words) {
-    array->count = words;
-    array->words =
-        words > SIZE_MAX / sizeof *array->words ? NULL : calloc(words ? words : 1, sizeof *array->words);
-    return array->words != NULL;
-}
-
 // ---- trees
 
 struct gather {

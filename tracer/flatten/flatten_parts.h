@@ -55,7 +55,7 @@ enum flatten_fault flatten_background(struct flattening *f);
 // After all others: out->features.
 void flatten_features(struct flattening *f);
 
-// ---- shared
+// ---- flat_array.c, and what all share
 
 // How a body comes into flat space, but for the scale: relative to the origin, in scene units.
 static inline affine3 flatten_map(const struct flattening *f, const struct scene_body *body) {

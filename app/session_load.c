@@ -1,0 +1,226 @@
+// From path and options to a loaded session: the stages one after the other.
+#include "app/check_allow.h"
+#include "core/clock.h"
+#include "core/strbuf.h"
+#include "grammar/ir_print_text.h"
+#include "parser/parser.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    SAME_CODE_MAX = 50, // diagnostics of one code in one file that are told one by one
+};
+
+enum diag_code session_file_code(enum file_status status) {
+    switch (status) {
+    case FILE_MISSING:
+        return DIAG_FILE_MISSING;
+    case FILE_OUTSIDE:
+        return DIAG_FILE_OUTSIDE;
+    case FILE_NOT_REGULAR:
+        return DIAG_FILE_NOT_REGULAR;
+    case FILE_TOO_LARGE:
+        return DIAG_LIMIT;
+    case FILE_NO_MEMORY:
+        return DIAG_OUT_OF_MEMORY;
+    default:
+        return DIAG_FILE_UNREADABLE;
+    }
+}
+
+static enum session_state unreadable(struct session *session, str path, enum file_status status) {
+    uint32_t source = source_add(&session->sources, SOURCE_KIND_FILE, path, STR(""));
+    diag_add(&session->sink, session_file_code(status), (span){source, 0, 0}, "the scene file %s",
+             file_status_text(&session->files, status));
+    if (status == FILE_TOO_LARGE)
+        diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
+                  limit_info(LIMIT_SCENE_BYTES)->name);
+    return SESSION_UNREADABLE;
+}
+
+// A mesh stands for a scene with that one model, which no one wrote.
+static str scene_around_mesh(struct session *session, str path) {
+    struct strbuf text;
+    str name = path_base(path);
+    strbuf_init(&text);
+    strbuf_cstr(&text, "glint: 1\nmodels:\n  - mesh: ");
+    if (utf8_first_error(name) == name.len)
+        print_yaml_text(&text, name, false);
+    else
+        strbuf_str(&text, name); // the reader says what is wrong with it
+    strbuf_char(&text, '\n');
+    str copy = arena_copy(&session->arena, strbuf_view(&text));
+    strbuf_finish(&text);
+    return copy;
+}
+
+static struct config_input config_input(struct session *session) {
+    return (struct config_input){.files = &session->files,
+                                 .sources = &session->sources,
+                                 .sink = &session->sink,
+                                 .arena = &session->arena};
+}
+
+static void load_config(struct session *session) {
+    struct config_input input = config_input(session);
+    config_load(&input, session->options.path, &session->config);
+    session->config_failed = session->sink.errors > 0;
+    limits_fill(&session->options.limits, &session->config.limits);
+    session->arena.cap_bytes = (size_t)session->options.limits.value[LIMIT_SCENE_MEMORY];
+    session->policy = session->config.policy;
+    if (session->options.policy)
+        diag_policy_overlay(&session->policy, &session->arena, session->options.policy);
+}
+
+static enum session_state open_source(struct session *session, uint32_t *source) {
+    str path = session->options.path;
+    str text = STR("");
+    load_config(session);
+    if (session->options.judged &&
+        diag_policy_ignores(&session->policy, files_canonical(&session->files, path)))
+        return SESSION_IGNORED;
+    enum file_status status = files_add_scene_root(&session->files, path);
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
+    for (uint32_t i = 0; i < session->options.asset_path_count; i++) {
+        str folder = session->options.asset_paths[i];
+        if (files_add_root(&session->files, folder) == FILE_OK)
+            continue;
+        diag_add(&session->sink, DIAG_USAGE, SPAN_NONE, "--asset-path %.*s is not a folder", STR_ARG(folder));
+        return SESSION_UNREADABLE;
+    }
+    for (uint32_t i = 0; i < session->config.asset_paths.count; i++)
+        files_add_root(&session->files, session->config.asset_paths.items[i]);
+    if (assets_is_mesh_path(path)) {
+        struct file_read identity;
+        status = files_identify(&session->files, path, &identity);
+        if (status != FILE_OK)
+            return unreadable(session, path, status);
+        text = scene_around_mesh(session, path);
+        *source = source_add(&session->sources, SOURCE_KIND_GENERATED, path, text);
+        return SESSION_LOADED;
+    }
+    status = files_read(&session->files, path, session->options.limits.value[LIMIT_SCENE_BYTES],
+                        &session->arena, &text);
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
+    *source = source_add(&session->sources, SOURCE_KIND_FILE, path, text);
+    return SESSION_LOADED;
+}
+
+static void load_assets(struct session *session, struct asset_store *store) {
+    double start = clock_seconds();
+    struct assets_input input = session_assets_input(session);
+    assets_load(store, &input, session->options.skip_pixels, &session->assets);
+    scene_build(session->scene, &session->assets, &session->arena, &session->resolved);
+    scene_check_reach(&session->resolved, &session->sink);
+    session->assets_seconds = clock_seconds() - start;
+}
+
+static void take_image_options(struct session *session) {
+    session->image = session->scene->image;
+    if (session->options.width)
+        session->image.width = session->options.width;
+    if (session->options.height)
+        session->image.height = session->options.height;
+    if (session->options.samples)
+        session->image.samples = session->options.samples;
+}
+
+// What of the path is loaded.
+enum extent {
+    EXTENT_SCENE,
+    EXTENT_FILE,     // without includes and assets
+    EXTENT_SETTINGS, // it is a configuration
+};
+
+static enum session_state load_stages(struct session *session, struct asset_store *store,
+                                      enum extent extent) {
+    bool alone = extent == EXTENT_FILE;
+    uint32_t source = 0;
+    double start = clock_seconds();
+    if (extent == EXTENT_SETTINGS) {
+        struct config_input settings = config_input(session);
+        config_read_file(&settings, session->options.path, session->options.path, &session->config);
+        return SESSION_NO_SCENE;
+    }
+    enum session_state state = open_source(session, &source);
+    if (state != SESSION_LOADED)
+        return state;
+    struct parser_input input = {.sources = &session->sources,
+                                 .files = &session->files,
+                                 .sink = &session->sink,
+                                 .limits = &session->options.limits,
+                                 .arena = &session->arena,
+                                 .sets = session->options.sets,
+                                 .set_count = session->options.set_count};
+    struct parser_output output = {0};
+    bool found = alone ? parser_load_file(&input, source, &output) : parser_load(&input, source, &output);
+    session->read_seconds = clock_seconds() - start;
+    if (!found)
+        return SESSION_NO_SCENE;
+    session->scene = output.scene;
+    session->origin = output.origin;
+    take_image_options(session);
+    if (!alone && !session->options.text_only) {
+        load_assets(session, store);
+        session_lint(session);
+    }
+    return SESSION_LOADED;
+}
+
+static enum session_state guarded_load(struct session *session, const struct session_options *options,
+                                       struct asset_store *store, enum extent extent) {
+    struct arena_guard guard;
+    *session = (struct session){.options = *options};
+    diag_sink_init(&session->sink);
+    arena_init(&session->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
+    arena_set_guard(&session->arena, &guard);
+    if (setjmp(guard.jump) == 0) {
+        source_set_init(&session->sources, &session->arena);
+        files_init(&session->files, &session->arena);
+        for (uint32_t i = 0; i < options->overlay_count; i++)
+            files_add_overlay(&session->files, options->overlays[i].path, options->overlays[i].text);
+        session->state = load_stages(session, store, extent);
+    } else {
+        diag_add(&session->sink, guard.fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
+                 "the scene needs more memory than %s",
+                 guard.fault == ARENA_FAULT_CAP ? "the limit" : "there is");
+        diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
+                  limit_info(LIMIT_SCENE_MEMORY)->name);
+        session->state = SESSION_NO_SCENE;
+    }
+    arena_set_guard(&session->arena, NULL);
+    if (!options->judged) {
+        check_silence(session);
+        session_group(session);
+    }
+    return session->state;
+}
+
+void session_group(struct session *session) {
+    diag_sort(&session->sink);
+    diag_group(&session->sink, SAME_CODE_MAX);
+}
+
+enum session_state session_load(struct session *session, const struct session_options *options,
+                                struct asset_store *store) {
+    return guarded_load(session, options, store, EXTENT_SCENE);
+}
+
+enum session_state session_load_text(struct session *session, const struct session_options *options) {
+    return guarded_load(session, options, NULL, EXTENT_FILE);
+}
+
+enum session_state session_load_settings(struct session *session, const struct session_options *options) {
+    return guarded_load(session, options, NULL, EXTENT_SETTINGS);
+}
+
+void session_finish(struct session *session) {
+    if (!session)
+        return;
+    assets_finish(&session->assets);
+    diag_sink_finish(&session->sink);
+    arena_finish(&session->arena);
+}

@@ -1,0 +1,131 @@
+// Measuring the rows of a study: on the device, by the reference, and one against the other. Private to
+// measure/tradeoff.
+//
+// Input: a row's setting. Output: its work, times, errors, hits and pictures. Ownership: tradeoff_run makes
+// and frees struct measuring; device_close and parts_close free what those files made. Errors: TRADEOFF_DONE
+// or what went wrong. Thread safety: as tradeoff.h.
+#ifndef GLINT_MEASURE_TRADEOFF_MEASURE_MEASURE_H
+#define GLINT_MEASURE_TRADEOFF_MEASURE_MEASURE_H
+
+#include "measure/tradeoff/study/study.h"
+#include "picture/write/image.h"
+#include "reference/cache.h"
+#include "scene/hits.h"
+#include "tracer/flatten/flatten.h"
+#include "tracer/render/render.h"
+
+enum {
+    TIMES_ROUNDS_LEAST = 2,
+    PROBE_PIXELS = 2048, // at which the parts of the errors are measured
+    PROBE_SETS_MAX = 256,
+    THUMBNAIL_WIDTH = 160,
+};
+
+// Share of the budget after which no further rows are begun.
+#define MEASURE_ROWS_SHARE 0.7
+
+// What the reference says at the probes, displayed.
+struct probe_set {
+    uint32_t width, height, samples, max_depth;
+    double min_weight;
+    bool shadows, full; // full: paths to their ends, whatever depth and weight
+    float *values;      // three a probe
+};
+
+struct measuring {
+    const struct tradeoff_input *input;
+    const struct tradeoff_progress *progress;
+    struct tradeoff *out;
+    double begun;         // clock
+    double round_seconds; // that a round of timing the rows takes, as far as their pictures tell
+    double deadline;      // clock; rays of the device end there, and `late` is set. 0: none
+    bool late;
+    uint32_t steps_done, steps;
+    const char *step; // what is under way
+    // On the device: single and double precision.
+    struct flat_scene flat[2], shadowless[2]; // the latter share the former's memory
+    struct renderer *renderer[2];
+    struct setting current[2]; // what the renderer is set to
+    // The reference, and the same without shadows.
+    struct ir_scene ir_shadowless;
+    struct scene scene_shadowless; // over that IR
+    struct reference_source source[2];
+    struct reference_settings full; // of the file's size, truth's samples and rays
+    double truth_rays;              // that a sample of the truth took, on average
+    double reference_rate;          // rays a second of the truth
+    // Displayed values of the truth, three a pixel of the file's size.
+    float *truth, *shown, *picture; // the two others are a row's, shown at the file's size
+    struct image_display display;
+    struct setting base;
+    struct hit_pixel *hits[2]; // device's, reference's
+    float *as_file;            // the reference at the file's own settings, displayed; NULL until asked
+    bool only_probes;          // the budget does not allow as_file
+    bool no_hits;              // nor hits
+    struct probe_set sets[PROBE_SETS_MAX];
+    uint32_t set_count;
+};
+
+// ---- measure.c
+
+// Since the study began.
+double measuring_seconds(const struct measuring *s);
+// Tells of a further step; false: cancelled.
+bool measuring_step(struct measuring *s, const char *what);
+// Passes the reference's progress on.
+struct reference_progress measuring_reference_progress(struct measuring *s);
+enum tradeoff_status measuring_reference_status(enum reference_result result);
+// Whether the row asks for the file's own rays, and differs at most in how they are computed.
+bool measuring_traces_as_file(const struct row *row);
+
+// ---- measure_device.c
+
+// Fills not_finite.
+enum tradeoff_status device_picture(struct measuring *s, struct row *row, float *rgb);
+// Fills work.
+enum tradeoff_status device_count(struct measuring *s, struct row *row);
+// Brings an idle GPU to its clock, before the first device_time.
+enum tradeoff_status device_wake(struct measuring *s);
+// Median of some frames, in milliseconds of the device's clock.
+enum tradeoff_status device_time(struct measuring *s, const struct setting *setting, double *ms);
+enum tradeoff_status device_hits(struct measuring *s, const struct setting *setting, struct hit_pixel *hits);
+void device_close(struct measuring *s);
+
+// ---- measure_truth.c
+
+// The reference's picture of the file's size, displayed. `statistics` may be NULL.
+enum tradeoff_status truth_picture(struct measuring *s, const struct reference_settings *settings,
+                                   float *shown, struct reference_statistics *statistics);
+// Fills `full` and the truth, as far as the budget allows. `own`: of the file's settings; bounces: something
+// reflects or refracts.
+enum tradeoff_status truth_make(struct measuring *s, const struct work *own, bool bounces);
+// Whether the reference may trace so many rays more before the time for rows is over.
+bool truth_affords(const struct measuring *s, double rays);
+
+// ---- measure_errors.c
+
+// Fills value, not_finite and the thumbnails from the row's picture.
+enum tradeoff_status errors_measure(struct measuring *s, struct row *row);
+// Of pixel `at` of `to`: the two of `from` around its middle, and how far it is from the first.
+double errors_around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]);
+// Displayed values at the file's size, bilinear.
+void errors_scale_up(const float *in, uint32_t width, uint32_t height, float *out, uint32_t to_width,
+                     uint32_t to_height);
+
+// ---- measure_parts.c
+
+// Fills parts. For s->shown as errors_measure leaves it.
+enum tradeoff_status parts_measure(struct measuring *s, struct row *row);
+void parts_close(struct measuring *s);
+
+// ---- measure_hits.c
+
+// Fills hits.
+enum tradeoff_status hits_measure(struct measuring *s, struct row *row);
+
+// ---- measure_times.c
+
+uint32_t times_rounds_most(const struct measuring *s);
+// Fills the times of all rows: every round times every row once.
+enum tradeoff_status times_measure(struct measuring *s);
+
+#endif

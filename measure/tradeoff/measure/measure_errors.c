@@ -1,0 +1,145 @@
+#include "measure/tradeoff/measure/measure.h"
+
+#include "core/parallel.h"
+#include "picture/metrics/heatmap.h"
+#include "picture/write/encode_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// ---- pictures of other sizes
+
+struct scaling {
+    const float *in;
+    uint32_t width, height;
+    float *out;
+    uint32_t to_width, to_height;
+};
+
+double errors_around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]) {
+    const double x = fmin(fmax((at + 0.5) * from / to - 0.5, 0), from - 1);
+    places[0] = (uint32_t)x;
+    places[1] = places[0] + 1 < from ? places[0] + 1 : places[0];
+    return x - places[0];
+}
+
+static void scale_rows(void *context, size_t begin, size_t end) {
+    const struct scaling *j = context;
+    for (size_t y = begin; y < end; y++) {
+        uint32_t ys[2], xs[2];
+        const double v = errors_around((uint32_t)y, j->height, j->to_height, ys);
+        for (uint32_t x = 0; x < j->to_width; x++) {
+            const double u = errors_around(x, j->width, j->to_width, xs);
+            for (size_t k = 0; k < 3; k++) {
+                const float *a = j->in + 3 * (size_t)ys[0] * j->width + k;
+                const float *b = j->in + 3 * (size_t)ys[1] * j->width + k;
+                const double top = (1 - u) * (double)a[3 * xs[0]] + u * (double)a[3 * xs[1]];
+                const double bottom = (1 - u) * (double)b[3 * xs[0]] + u * (double)b[3 * xs[1]];
+                j->out[3 * (y * j->to_width + x) + k] = (float)((1 - v) * top + v * bottom);
+            }
+        }
+    }
+}
+
+void errors_scale_up(const float *in, uint32_t width, uint32_t height, float *out, uint32_t to_width,
+                     uint32_t to_height) {
+    enum {
+        ROWS = 8
+    };
+    struct scaling job = {in, width, height, out, to_width, to_height};
+    parallel_for(to_height, ROWS, scale_rows, &job);
+}
+
+// ---- thumbnails
+
+struct box {
+    uint32_t x0, x1, y0, y1;
+};
+
+static struct box box_of(uint32_t x, uint32_t y, uint32_t width, uint32_t height, uint32_t to_width,
+                         uint32_t to_height) {
+    return (struct box){x * width / to_width, (x + 1) * width / to_width, y * height / to_height,
+                        (y + 1) * height / to_height};
+}
+
+static uint32_t thumbnail_height(uint32_t width, uint32_t height, uint32_t to_width) {
+    const uint32_t wanted = (uint32_t)((uint64_t)height * to_width / width);
+    return wanted ? wanted : 1;
+}
+
+static void picture_thumbnail(const float *shown, uint32_t width, uint32_t height, struct strbuf *out) {
+    const uint32_t w = width < THUMBNAIL_WIDTH ? width : THUMBNAIL_WIDTH,
+                   h = thumbnail_height(width, height, w);
+    uint8_t *bytes = malloc((size_t)3 * w * h);
+    for (uint32_t i = 0; bytes && i < w * h; i++) {
+        const struct box b = box_of(i % w, i / w, width, height, w, h);
+        for (size_t k = 0; k < 3; k++) {
+            double sum = 0;
+            for (uint32_t y = b.y0; y < b.y1; y++)
+                for (uint32_t x = b.x0; x < b.x1; x++)
+                    sum += (double)shown[3 * ((size_t)y * width + x) + k];
+            const double mean = sum / fmax((double)(b.x1 - b.x0) * (b.y1 - b.y0), 1);
+            bytes[3 * (size_t)i + k] = (uint8_t)floor(255 * fmin(fmax(mean, 0), 1) + 0.5);
+        }
+    }
+    if (bytes)
+        encode_png(w, h, bytes, out);
+    out->failed |= !bytes;
+    free(bytes);
+}
+
+// The largest difference of each box: single wrong pixels stay to be seen.
+static void difference_thumbnail(const float *difference, uint32_t width, uint32_t height,
+                                 struct strbuf *out) {
+    const uint32_t w = width < THUMBNAIL_WIDTH ? width : THUMBNAIL_WIDTH,
+                   h = thumbnail_height(width, height, w);
+    float *values = malloc((size_t)w * h * sizeof *values);
+    for (uint32_t i = 0; values && i < w * h; i++) {
+        const struct box b = box_of(i % w, i / w, width, height, w, h);
+        values[i] = 0;
+        for (uint32_t y = b.y0; y < b.y1; y++)
+            for (uint32_t x = b.x0; x < b.x1; x++)
+                values[i] = fmaxf(values[i], difference[(size_t)y * width + x]);
+    }
+    if (values)
+        heatmap_png(w, h, values, HEATMAP_LOGARITHMIC, out);
+    out->failed |= !values;
+    free(values);
+}
+
+// ---- a row
+
+static bool measure(struct measuring *s, struct row *row) {
+    const uint32_t width = s->base.width, height = s->base.height;
+    struct measure_options options = measure_options_default();
+    struct measure_result result;
+    float *difference =
+        s->out->options.thumbnails ? malloc((size_t)width * height * sizeof *difference) : NULL;
+    options.threshold = s->out->options.threshold;
+    options.pixels_per_degree = s->out->options.ppd;
+    if (s->out->options.quick)
+        options.metrics = 1u << s->out->options.metric;
+    bool good = (difference || !s->out->options.thumbnails) &&
+                measure_pictures(width, height, s->shown, s->truth, &options, &result, difference, NULL);
+    if (good)
+        for (int i = 0; i < METRIC_COUNT; i++)
+            row->value[i] = result.value[i];
+    if (good && difference) {
+        picture_thumbnail(s->shown, width, height, &row->thumbnail);
+        difference_thumbnail(difference, width, height, &row->difference);
+        good = !row->thumbnail.failed && !row->difference.failed;
+    }
+    free(difference);
+    return good;
+}
+
+enum tradeoff_status errors_measure(struct measuring *s, struct row *row) {
+    const struct setting *setting = &row->setting;
+    enum tradeoff_status status = device_picture(s, row, s->picture);
+    if (status != TRADEOFF_DONE)
+        return status;
+    // NaN is what the device reports; it is shown as black, as the writers do.
+    image_to_displayed(s->picture, (size_t)setting->width * setting->height, s->display, s->picture);
+    errors_scale_up(s->picture, setting->width, setting->height, s->shown, s->base.width, s->base.height);
+    return measure(s, row) ? TRADEOFF_DONE : TRADEOFF_MEMORY;
+}

@@ -1,0 +1,202 @@
+// The error of a picture, split: numeric, truncation, sampling, resolution.
+//
+// Whitted pictures are deterministic: between the device's picture and the truth lie pictures that the
+// reference can make, each apart from the one before by one cause. They are made at some pixels only, spread
+// evenly.
+#include "measure/tradeoff/measure/measure.h"
+
+#include "core/parallel.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum {
+    PROBES_A_PIECE = 64,
+    CORNERS = 4,
+};
+
+static uint32_t probe_count(const struct measuring *s) {
+    const uint64_t pixels = (uint64_t)s->base.width * s->base.height;
+    return pixels < PROBE_PIXELS ? (uint32_t)pixels : PROBE_PIXELS;
+}
+
+// Pixel of a probe: all of a small picture, else Roberts' R2 sequence.
+static void probe_place(const struct measuring *s, uint32_t probe, uint32_t *x, uint32_t *y) {
+    if ((uint64_t)s->base.width * s->base.height <= PROBE_PIXELS) {
+        *x = probe % s->base.width;
+        *y = probe / s->base.width;
+        return;
+    }
+    double a, b;
+    view_sample_offset(probe + 1, &a, &b);
+    *x = (uint32_t)(a * s->base.width);
+    *y = (uint32_t)(b * s->base.height);
+}
+
+struct probing {
+    struct measuring *s;
+    const struct reference *reference;
+    struct reference_settings settings;
+    float *values;
+};
+
+// The mean of a pixel's samples, displayed.
+static void pixel_value(const struct probing *p, uint32_t x, uint32_t y, float out[3]) {
+    double sum[3] = {0};
+    for (uint32_t n = 0; n < p->settings.samples; n++) {
+        vec3 radiance = {0};
+        reference_log(p->reference, &p->settings, x, y, n, NULL, 0, &radiance);
+        sum[0] += radiance.x;
+        sum[1] += radiance.y;
+        sum[2] += radiance.z;
+    }
+    for (int k = 0; k < 3; k++)
+        out[k] = (float)(sum[k] / p->settings.samples);
+    image_to_displayed(out, 1, p->s->display, out);
+}
+
+// As errors_scale_up does it for whole pictures.
+static void probe_value(const struct probing *p, uint32_t x, uint32_t y, float out[3]) {
+    const struct setting *base = &p->s->base;
+    const uint32_t width = p->settings.width, height = p->settings.height;
+    uint32_t xs[2], ys[2];
+    if (width == base->width && height == base->height) {
+        pixel_value(p, x, y, out);
+        return;
+    }
+    const double u = errors_around(x, width, base->width, xs), v = errors_around(y, height, base->height, ys);
+    double sum[3] = {0};
+    for (int i = 0; i < CORNERS; i++) {
+        const double weight = (i & 1 ? u : 1 - u) * (i & 2 ? v : 1 - v);
+        float value[3];
+        if (weight <= 0)
+            continue;
+        pixel_value(p, xs[i & 1], ys[i >> 1], value);
+        for (int k = 0; k < 3; k++)
+            sum[k] += weight * (double)value[k];
+    }
+    for (int k = 0; k < 3; k++)
+        out[k] = (float)sum[k];
+}
+
+static void probe_piece(void *context, size_t begin, size_t end) {
+    const struct probing *p = context;
+    for (size_t i = begin; i < end; i++) {
+        uint32_t x, y;
+        probe_place(p->s, (uint32_t)i, &x, &y);
+        probe_value(p, x, y, p->values + 3 * i);
+    }
+}
+
+static bool is_set(const struct probe_set *a, const struct probe_set *b) {
+    const bool paths = a->full || (a->max_depth == b->max_depth &&
+                                   !(a->min_weight < b->min_weight || a->min_weight > b->min_weight));
+    return a->width == b->width && a->height == b->height && a->samples == b->samples &&
+           a->shadows == b->shadows && a->full == b->full && paths;
+}
+
+// NULL: no memory.
+static const float *probe(struct measuring *s, struct probe_set wanted) {
+    for (uint32_t i = 0; i < s->set_count; i++)
+        if (is_set(&s->sets[i], &wanted))
+            return s->sets[i].values;
+    const uint32_t count = probe_count(s);
+    const struct reference *reference = reference_source_get(&s->source[!wanted.shadows]);
+    float *values = malloc((size_t)3 * count * sizeof *values);
+    if (!values || !reference || s->set_count == PROBE_SETS_MAX) {
+        free(values);
+        return NULL;
+    }
+    struct ir_image image = *s->input->image;
+    image.width = (int32_t)wanted.width;
+    image.height = (int32_t)wanted.height;
+    image.samples = (int32_t)wanted.samples;
+    struct probing context = {
+        s, reference, reference_settings_of(s->input->scene->ir, &image, s->input->limits, !wanted.full),
+        values};
+    if (!wanted.full) {
+        context.settings.max_depth = wanted.max_depth;
+        context.settings.min_weight = wanted.min_weight;
+    } else {
+        context.settings.segments = s->full.segments;
+    }
+    parallel_for(count, PROBES_A_PIECE, probe_piece, &context);
+    wanted.values = values;
+    s->sets[s->set_count++] = wanted;
+    return values;
+}
+
+static double mean_difference(const float *a, const float *b, size_t count) {
+    double sum = 0;
+    for (size_t i = 0; i < 3 * count; i++)
+        sum += fabs((double)a[i] - (double)b[i]);
+    return sum / (3 * (double)count);
+}
+
+// What differs only in how it is computed is rare and far apart: it is measured over the whole picture.
+static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) {
+    const size_t pixels = (size_t)s->base.width * s->base.height;
+    if (!s->as_file && !s->only_probes)
+        s->only_probes = s->out->numeric_probed = !truth_affords(s, (double)s->out->rows[0].work.rays);
+    if (s->only_probes)
+        return TRADEOFF_DONE;
+    if (!s->as_file) {
+        const struct reference_settings settings =
+            reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, true);
+        float *shown = malloc(3 * pixels * sizeof *shown);
+        const enum tradeoff_status status =
+            shown ? truth_picture(s, &settings, shown, NULL) : TRADEOFF_MEMORY;
+        if (status != TRADEOFF_DONE) {
+            free(shown);
+            return status;
+        }
+        s->as_file = shown;
+    }
+    *numeric = mean_difference(s->shown, s->as_file, pixels);
+    return TRADEOFF_DONE;
+}
+
+enum tradeoff_status parts_measure(struct measuring *s, struct row *row) {
+    const struct setting *t = &row->setting;
+    const uint32_t count = probe_count(s);
+    if (!truth_affords(s, count * s->truth_rays * (s->out->truth_samples + t->samples))) {
+        s->out->parts_out++;
+        return TRADEOFF_DONE;
+    }
+    const struct probe_set as_file = {t->width,      t->height,  t->samples, t->max_depth,
+                                      t->min_weight, t->shadows, false,      NULL};
+    struct probe_set full = {t->width, t->height, t->samples, 0, 0, s->base.shadows, true, NULL};
+    const float *settings = probe(s, as_file), *paths = settings ? probe(s, full) : NULL;
+    full.samples = s->out->truth_samples;
+    const float *samples = paths ? probe(s, full) : NULL;
+    float *own = malloc((size_t)6 * count * sizeof *own);
+    if (!samples || !own) {
+        free(own);
+        return TRADEOFF_MEMORY;
+    }
+    float *truth = own + (size_t)3 * count;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t x, y;
+        probe_place(s, i, &x, &y);
+        const size_t at = 3 * ((size_t)y * s->base.width + x);
+        for (size_t k = 0; k < 3; k++) {
+            own[3 * (size_t)i + k] = s->shown[at + k];
+            truth[3 * (size_t)i + k] = s->truth[at + k];
+        }
+    }
+    row->parts = (struct error_parts){.known = true,
+                                      .numeric = mean_difference(own, settings, count),
+                                      .truncation = mean_difference(settings, paths, count),
+                                      .sampling = mean_difference(paths, samples, count),
+                                      .resolution = mean_difference(samples, truth, count)};
+    s->out->part_pixels = count;
+    free(own);
+    return measuring_traces_as_file(row) ? whole_numeric(s, &row->parts.numeric) : TRADEOFF_DONE;
+}
+
+void parts_close(struct measuring *s) {
+    for (uint32_t i = 0; i < s->set_count; i++)
+        free(s->sets[i].values);
+    free(s->as_file);
+    s->set_count = 0;
+}

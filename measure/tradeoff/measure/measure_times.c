@@ -1,0 +1,103 @@
+// What the rows take on the device's clock, in rounds, until the noise is low.
+#include "measure/tradeoff/measure/measure.h"
+
+#include "core/quantile.h"
+#include "measure/tradeoff/plan/plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    ROUNDS_QUICK = 3,
+    ROUNDS_QUIET = 4, // at least, where there is no noise
+    ROUNDS_MOST = 9,
+};
+
+uint32_t times_rounds_most(const struct measuring *s) {
+    return s->out->options.quick ? ROUNDS_QUICK : ROUNDS_MOST;
+}
+
+// What a whole round was slower or faster than the others is the machine's, not the rows'.
+static void remove_drift(double *times, uint32_t rows, uint32_t rounds) {
+    double mean = 0;
+    for (uint32_t r = 0; r < rounds; r++)
+        for (uint32_t i = 0; i < rows; i++)
+            mean += log(fmax(times[r * rows + i], 1e-9)) / ((double)rows * rounds);
+    for (uint32_t r = 0; r < rounds; r++) {
+        double own = 0;
+        for (uint32_t i = 0; i < rows; i++)
+            own += log(fmax(times[r * rows + i], 1e-9)) / rows;
+        for (uint32_t i = 0; i < rows; i++)
+            times[r * rows + i] *= exp(mean - own);
+    }
+}
+
+static void fill_times(struct tradeoff *t, double *times) {
+    double own[ROUNDS_MOST];
+    remove_drift(times, t->count, t->rounds);
+    for (uint32_t i = 0; i < t->count; i++) {
+        struct row *row = &t->rows[i];
+        for (uint32_t r = 0; r < t->rounds; r++)
+            own[r] = times[r * t->count + i];
+        quantile_sort(own, t->rounds);
+        row->time_ms = quantile(own, t->rounds, 0.5);
+        row->time_low_ms = quantile(own, t->rounds, 0.25);
+        row->time_high_ms = quantile(own, t->rounds, 0.75);
+        // 1.4826 MAD is the deviation of a normal distribution, 1.2533 / sqrt(n) its median's share of it.
+        for (uint32_t r = 0; r < t->rounds; r++)
+            own[r] = fabs(own[r] - row->time_ms);
+        quantile_sort(own, t->rounds);
+        row->noise_ms = 1.2533 * 1.4826 * quantile(own, t->rounds, 0.5) / sqrt(t->rounds);
+    }
+}
+
+// Whether the noise has come down to the floor of the choice: further rounds would change nothing.
+static bool is_quiet(struct tradeoff *t, const double *times) {
+    const size_t count = (size_t)t->rounds * t->count;
+    double *copy = malloc(count * sizeof *copy), *shares = malloc(t->count * sizeof *shares);
+    bool quiet = false;
+    if (copy && shares) {
+        memcpy(copy, times, count * sizeof *copy);
+        fill_times(t, copy);
+        for (uint32_t i = 0; i < t->count; i++)
+            shares[i] = t->rows[i].noise_ms / fmax(t->rows[i].time_ms, 1e-9);
+        quantile_sort(shares, t->count);
+        quiet = 3 * sqrt(2) * quantile(shares, t->count, 0.5) <= CHOICE_NOISE_FLOOR;
+    }
+    free(copy);
+    free(shares);
+    return quiet;
+}
+
+// Each round begins with another row.
+enum tradeoff_status times_measure(struct measuring *s) {
+    struct tradeoff *t = s->out;
+    double *times = malloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
+    enum tradeoff_status status = times ? device_wake(s) : TRADEOFF_MEMORY;
+    const double begun = measuring_seconds(s), budget = t->options.budget_s;
+    // A single row is compared with none: its noise, which would go with the drift, decides nothing.
+    const uint32_t least = t->count > 1 ? TIMES_ROUNDS_LEAST : 1;
+    while (status == TRADEOFF_DONE && t->rounds < times_rounds_most(s)) {
+        const double now = measuring_seconds(s);
+        if (t->rounds >= ROUNDS_QUIET && is_quiet(t, times))
+            break;
+        if (budget > 0 && t->rounds >= least && now + (now - begun) / t->rounds > budget) {
+            t->cut_short |= t->rounds < ROUNDS_QUICK;
+            break;
+        }
+        if (!measuring_step(s, "times"))
+            status = TRADEOFF_CANCELLED;
+        for (uint32_t i = 0; i < t->count && status == TRADEOFF_DONE; i++) {
+            const uint32_t row = (i + t->rounds * 7) % t->count;
+            status = device_time(s, &t->rows[row].setting, &times[t->rounds * t->count + row]);
+        }
+        t->rounds += status == TRADEOFF_DONE;
+    }
+    if (status == TRADEOFF_DONE) {
+        fill_times(t, times);
+        status = plan_order_times(t->rows, t->count) ? status : TRADEOFF_MEMORY;
+    }
+    free(times);
+    return status;
+}
