@@ -1,9 +1,9 @@
-# From GLSL to C arrays: compile, decorate (tools/spirv_exact), validate, embed.
+# From GLSL to C: compile, decorate and deflate (tools/spirv_exact), validate, embed.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
 # glint_kernel(OUT NAME SOURCE.comp DEFINE...): compiles SOURCE with the macros given, and appends the C
-# file that defines `kernel_NAME` and `kernel_NAME_words` to the list OUT. With the macro MAY_FUSE among them the
+# file that defines the struct kernel `kernel_NAME` to the list OUT. With the macro MAY_FUSE among them the
 # operations stay undecorated.
 function(glint_kernel out name source)
   set(base ${CMAKE_CURRENT_BINARY_DIR}/${name})

@@ -231,11 +231,10 @@ static void bind(struct gpu *gpu, struct gpu_program_source *source, uint32_t bi
 }
 
 // The kernel over the records of an all_records or an all_records64.
-#define LAYOUT_SOURCE(gpu, kernel, all, source)                                                              \
+#define LAYOUT_SOURCE(gpu, name, all, source)                                                                \
     do {                                                                                                     \
         const bool texels = gpu_fetches_texels(gpu);                                                         \
-        (source)->spirv = texels ? kernel##_texels : kernel##_storage;                                       \
-        (source)->spirv_words = texels ? kernel##_texels_words : kernel##_storage_words;                     \
+        (source)->kernel = texels ? &kernel_##name##_texels : &kernel_##name##_storage;                      \
         bind(gpu, source, BINDING_TRIANGLE_NODES, &(all)->triangle_node, sizeof(all)->triangle_node);        \
         bind(gpu, source, BINDING_SPHERE_NODES, &(all)->sphere_node, sizeof(all)->sphere_node);              \
         bind(gpu, source, BINDING_TRIANGLES, &(all)->triangle, sizeof(all)->triangle);                       \
@@ -248,14 +247,14 @@ static void bind(struct gpu *gpu, struct gpu_program_source *source, uint32_t bi
     } while (false)
 
 static struct gpu_program_source layout_source(struct gpu *gpu, const struct all_records *all) {
-    struct gpu_program_source source = {.spirv = NULL};
-    LAYOUT_SOURCE(gpu, kernel_layout, all, &source);
+    struct gpu_program_source source = {.kernel = NULL};
+    LAYOUT_SOURCE(gpu, layout, all, &source);
     return source;
 }
 
 static struct gpu_program_source layout64_source(struct gpu *gpu, const struct all_records64 *all) {
-    struct gpu_program_source source = {.spirv = NULL};
-    LAYOUT_SOURCE(gpu, kernel_layout64, all, &source);
+    struct gpu_program_source source = {.kernel = NULL};
+    LAYOUT_SOURCE(gpu, layout64, all, &source);
     return source;
 }
 

@@ -7,15 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-struct kernel_code {
-    const uint32_t *texels, *storage; // by what the device fetches
-    const size_t *texels_words, *storage_words;
+struct kernel_pair {
+    const struct kernel *texels, *storage; // by what the device fetches
 };
 #define KERNEL(name)                                                                                         \
-    {                                                                                                        \
-        kernel_##name##_texels, kernel_##name##_storage, &kernel_##name##_texels_words,                      \
-            &kernel_##name##_storage_words                                                                   \
-    }
+    { &kernel_##name##_texels, &kernel_##name##_storage }
 
 // Those of one way, which ends their names.
 #define KERNELS(way)                                                                                         \
@@ -23,10 +19,10 @@ struct kernel_code {
         [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
         [RENDERER_LOG] = KERNEL(log##way)                                                                    \
     }
-static const struct kernel_code exact_code[RENDERER_KERNELS] = KERNELS();
-static const struct kernel_code double_code[RENDERER_KERNELS] = KERNELS(64);
-static const struct kernel_code study_code[RENDERER_KERNELS] = KERNELS(_study);
-static const struct kernel_code fused_code[RENDERER_KERNELS] = KERNELS(_fused);
+static const struct kernel_pair exact_kernels[RENDERER_KERNELS] = KERNELS();
+static const struct kernel_pair double_kernels[RENDERER_KERNELS] = KERNELS(64);
+static const struct kernel_pair study_kernels[RENDERER_KERNELS] = KERNELS(_study);
+static const struct kernel_pair fused_kernels[RENDERER_KERNELS] = KERNELS(_fused);
 
 static const struct study {
     const char *name;
@@ -46,16 +42,16 @@ const char *render_study_name(enum render_study study) {
     return study < RENDER_STUDIES ? studies[study].name : "unknown";
 }
 
-static const struct kernel_code *code_of(const struct renderer *renderer, enum renderer_kernel kernel) {
+static const struct kernel_pair *pair_of(const struct renderer *renderer, enum renderer_kernel kernel) {
     if (renderer->flat->is_double)
-        return &double_code[kernel];
+        return &double_kernels[kernel];
     switch (renderer->settings.study) {
     case RENDER_STUDY_NONE:
-        return &exact_code[kernel];
+        return &exact_kernels[kernel];
     case RENDER_STUDY_FUSED:
-        return &fused_code[kernel];
+        return &fused_kernels[kernel];
     default:
-        return &study_code[kernel];
+        return &study_kernels[kernel];
     }
 }
 
@@ -118,7 +114,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
     const bool texels = gpu_fetches_texels(renderer->gpu);
     const uint64_t most = (uint64_t)NODE_WORDS << 16;
     const struct study *study = &studies[renderer->settings.study];
-    const struct kernel_code *code = code_of(renderer, kernel);
+    const struct kernel_pair *pair = pair_of(renderer, kernel);
     const uint32_t constants[CONSTANT_COUNT] = {
         [CONSTANT_FEATURES] = features,
         [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
@@ -130,8 +126,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_STUDY_CUT] = bits_of(ldexp(study->cut, 2 * flat->scale_exponent)),
     };
     struct gpu_program_source source = {
-        .spirv = texels ? code->texels : code->storage,
-        .spirv_words = texels ? *code->texels_words : *code->storage_words,
+        .kernel = texels ? pair->texels : pair->storage,
         .constants = constants,
         .constant_count = CONSTANT_COUNT,
         .push_bytes = sizeof(struct dispatch_block),
