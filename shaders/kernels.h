@@ -18,10 +18,10 @@ KERNEL(hits64)
 KERNEL(log64)
 KERNEL(layout64)
 KERNEL(probe64)
-// By other tracers' ways (study.glsl).
-KERNEL(trace_study)
-KERNEL(hits_study)
-KERNEL(log_study)
+// By other tracers' ways (alternatives.glsl).
+KERNEL(trace_alternative)
+KERNEL(hits_alternative)
+KERNEL(log_alternative)
 // With operations that may be fused.
 KERNEL(trace_fused)
 KERNEL(hits_fused)

@@ -49,7 +49,7 @@ struct reference_progress study_reference_progress(struct study *s) {
 }
 
 bool study_traces_as_file(const struct row *row) {
-    return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY));
+    return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_ALTERNATIVE));
 }
 
 enum tradeoff_status study_reference_status(enum reference_result result) {
