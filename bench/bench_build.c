@@ -7,9 +7,10 @@
 // expected cost, nodes, levels, and the work of rays from around the mesh through its middle.
 #include "core/clock.h"
 #include "shaders/gpu_scene.h"
+#include "tests/traverse/quality.h"
+#include "tests/traverse/traverse.h"
 #include "tracer/bvh/bvh.h"
 #include "tracer/bvh/items.h"
-#include "tracer/bvh/traverse.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,16 +8,12 @@
 #define KERNEL(name) extern const struct kernel kernel_##name##_texels, kernel_##name##_storage;
 
 KERNEL(trace)
-KERNEL(hits)   // what every pixel's first ray meets
-KERNEL(log)    // what single rays meet, in full
-KERNEL(layout) // writes the fields of each record back, for tests
-KERNEL(probe)  // traces single rays, for tests
+KERNEL(hits) // what every pixel's first ray meets
+KERNEL(log)  // what single rays meet, in full
 // In double precision.
 KERNEL(trace64)
 KERNEL(hits64)
 KERNEL(log64)
-KERNEL(layout64)
-KERNEL(probe64)
 // By other tracers' ways (alternatives.glsl).
 KERNEL(trace_alternative)
 KERNEL(hits_alternative)

@@ -1,6 +1,6 @@
 #include "probe_kit.h"
 
-#include "shaders/kernels.h"
+#include "tests/kernels/kernels.h"
 #include "tracer/render/render_private.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // The GPU layer: choosing devices, buffers, dispatches, the layout of records, and doing without Vulkan.
 #include "device_kit.h"
 #include "shaders/frame.h"
-#include "shaders/kernels.h"
+#include "tests/kernels/kernels.h"
 #include "tracer/gpu_records.h"
 
 #include <dlfcn.h>

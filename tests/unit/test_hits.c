@@ -2,7 +2,7 @@
 // traversal on the processor.
 #include "device_kit.h"
 #include "flat_kit.h"
-#include "tracer/bvh/traverse.h"
+#include "tests/traverse/traverse.h"
 #include "tracer/render/render.h"
 
 #include <setjmp.h>

@@ -1,6 +1,7 @@
 // The embedded SPIR-V: no operation that a driver may fuse, none whose order of rounding it may choose.
 // Reference: SPIR-V Specification 1.6, section 3; GLSL.std.450 extended instructions.
 #include "shaders/kernels.h"
+#include "tests/kernels/kernels.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -8,7 +8,7 @@
 #include "flat_kit.h"
 #include "random.h"
 #include "shaders/gpu_scene.h"
-#include "tracer/bvh/traverse.h"
+#include "tests/traverse/traverse.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
