@@ -8,9 +8,10 @@
 #include "core/clock.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
+#include "tests/traverse/quality.h"
+#include "tests/traverse/traverse.h"
 #include "tracer/bvh/bvh.h"
 #include "tracer/bvh/items.h"
-#include "tracer/bvh/traverse.h"
 
 #include <math.h>
 #include <stdio.h>

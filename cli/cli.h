@@ -42,8 +42,8 @@ struct cli_options {
     const char *thresholds; // NULL: not given
     const char *axes;       // NULL: not given
     int axes_arg;
-    const char *study; // NULL: not given
-    int study_arg;
+    const char *alternative; // NULL: not given
+    int alternative_arg;
     const char *schema; // NULL: not given
     int format_arg;
     struct cli_list sets, asset_paths;

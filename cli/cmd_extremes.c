@@ -27,7 +27,7 @@ struct job {
     struct extreme_bounds bounds;
     str bounds_path;
     uint32_t axes;
-    enum render_study study;
+    enum render_alternative alternative;
     struct extremes_input input;
     struct extremes extremes;
     struct progress progress;
@@ -95,25 +95,25 @@ static bool read_axes(struct cli *cli, uint32_t *axes) {
     return *axes;
 }
 
-static bool read_study(struct cli *cli, enum render_study *study) {
-    const char *text = cli->options.study;
-    *study = RENDER_STUDY_NONE;
+static bool read_alternative(struct cli *cli, enum render_alternative *alternative) {
+    const char *text = cli->options.alternative;
+    *alternative = RENDER_ALTERNATIVE_NONE;
     if (!text)
         return true;
     struct nearest search = nearest_begin(str_from(text));
-    for (int i = 0; i < RENDER_STUDIES; i++) {
-        const char *name = render_study_name((enum render_study)i);
+    for (int i = 0; i < RENDER_ALTERNATIVES; i++) {
+        const char *name = render_alternative_name((enum render_alternative)i);
         nearest_offer(&search, str_from(name));
         if (strcmp(text, name) == 0) {
-            *study = (enum render_study)i;
+            *alternative = (enum render_alternative)i;
             return true;
         }
     }
-    cli_usage(cli, cli->options.study_arg, "there is no study '%s'", text);
+    cli_usage(cli, cli->options.alternative_arg, "there is no study '%s'", text);
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     else
-        diag_help(&cli->sink, "docs/accuracy.md lists them, under 'Study variants'");
+        diag_help(&cli->sink, "docs/accuracy.md lists them, under 'Alternatives'");
     return false;
 }
 
@@ -180,7 +180,7 @@ static int run_scene(struct job *job, enum kind kind) {
                                 .bounds = job->bounds.items,
                                 .bound_count = job->bounds.count,
                                 .axes = job->axes,
-                                .study = job->study};
+                                .alternative = job->alternative};
     const struct extremes_progress progress = {tell_progress, job};
     progress_begin(&job->progress, cli->options.quiet);
     const enum extremes_status result = extremes_run(&job->extremes, &job->input, &progress);
@@ -192,7 +192,8 @@ int cmd_extremes(struct cli *cli) {
     static const char *const kinds[] = {[KIND_TEXT] = "text", [KIND_JSON] = "json", NULL};
     struct job job = {.cli = cli};
     int kind;
-    if (!cli_format(cli, kinds, &kind) || !read_axes(cli, &job.axes) || !read_study(cli, &job.study))
+    if (!cli_format(cli, kinds, &kind) || !read_axes(cli, &job.axes) ||
+        !read_alternative(cli, &job.alternative))
         return CLI_USAGE;
     const char *report = cli->options.output;
     if (cli_device_is_reference(cli))

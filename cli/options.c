@@ -37,7 +37,7 @@ enum option_id {
     OPTION_FORMAT,
     OPTION_THRESHOLDS,
     OPTION_AXIS,
-    OPTION_STUDY,
+    OPTION_ALTERNATIVE,
     OPTION_SCHEMA,
     OPTION_MAX_MESSAGES,
     OPTION_POLICY = 1500,  // and enum cli_policy_option behind it
@@ -61,7 +61,7 @@ static const struct option_row rows[] = {
     {OPTION_OUTPUT, "output", 'o', "FILE", "check",
      "write the report to FILE instead of standard error (text) or output (others)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "extremes", "write the report with its matrix to FILE (.html)"},
-    {OPTION_STUDY, "study", 0, "NAME", "extremes",
+    {OPTION_ALTERNATIVE, "study", 0, "NAME", "extremes",
      "trace by another tracer's way, to see it fail: 'offset 1e-3', docs/accuracy.md has the others"},
     {OPTION_AXIS, "axis", 0, "NAME,...", "extremes", "these axes alone: move, scale, distance ..."},
     {OPTION_THRESHOLDS, "thresholds", 0, "FILE", "extremes",
@@ -304,8 +304,8 @@ static const char **text_of(struct cli_options *options, int id) {
         return &options->schema;
     case OPTION_AXIS:
         return &options->axes;
-    case OPTION_STUDY:
-        return &options->study;
+    case OPTION_ALTERNATIVE:
+        return &options->alternative;
     case OPTION_THRESHOLDS:
         return &options->thresholds;
     case OPTION_FORMAT:
@@ -317,14 +317,14 @@ static const char **text_of(struct cli_options *options, int id) {
 
 // Where the option stands, for those whose mistakes are found later.
 static void keep_place(struct cli_options *options, int id, int arg) {
-    int *place = id == OPTION_OUTPUT    ? &options->output_arg
-                 : id == OPTION_AS_FILE ? &options->as_file_arg
-                 : id == OPTION_AXIS    ? &options->axes_arg
-                 : id == OPTION_STUDY   ? &options->study_arg
-                 : id == OPTION_FORMAT  ? &options->format_arg
-                 : id == OPTION_SAMPLE  ? &options->sample_arg
-                 : id == OPTION_FIX     ? &options->fix_arg
-                                        : NULL;
+    int *place = id == OPTION_OUTPUT        ? &options->output_arg
+                 : id == OPTION_AS_FILE     ? &options->as_file_arg
+                 : id == OPTION_AXIS        ? &options->axes_arg
+                 : id == OPTION_ALTERNATIVE ? &options->alternative_arg
+                 : id == OPTION_FORMAT      ? &options->format_arg
+                 : id == OPTION_SAMPLE      ? &options->sample_arg
+                 : id == OPTION_FIX         ? &options->fix_arg
+                                            : NULL;
     if (place)
         *place = arg;
 }

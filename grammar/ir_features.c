@@ -206,44 +206,32 @@ uint32_t ir_material_features(const struct ir_material *material) {
     return w.mask;
 }
 
-struct feature_text {
+static const struct feature_name {
     uint32_t bit;
     const char *name;
-    const char *doc;
+} feature_names[] = {
+    {FEATURE_TRIANGLES, "triangles"},
+    {FEATURE_SPHERES, "spheres"},
+    {FEATURE_DIFFUSE, "diffuse"},
+    {FEATURE_SPECULAR, "specular"},
+    {FEATURE_REFLECTION, "reflection"},
+    {FEATURE_REFRACTION, "refraction"},
+    {FEATURE_SHADOWS, "shadows"},
+    {FEATURE_SMOOTH, "smooth"},
+    {FEATURE_CHECKER, "checker"},
+    {FEATURE_POINT_LIGHT, "point_light"},
+    {FEATURE_DIRECTION_LIGHT, "direction_light"},
+    {FEATURE_INVERSE_SQUARE, "inverse_square"},
+    {FEATURE_BACKGROUND_IMAGE, "background_image"},
+    {FEATURE_DEPTH_BLACK, "depth_black"},
+    {FEATURE_SLICES, "slices"},
+    {FEATURE_COUNTERS, "counters"},
 };
-
-static const struct feature_text feature_texts[] = {
-    {FEATURE_TRIANGLES, "triangles", "Rays are tested against triangles (rectangles and models)."},
-    {FEATURE_SPHERES, "spheres", "Rays are tested against spheres."},
-    {FEATURE_DIFFUSE, "diffuse", "Some material has diffuse light."},
-    {FEATURE_SPECULAR, "specular", "Some material has highlights."},
-    {FEATURE_REFLECTION, "reflection", "Some material reflects: rays go on from its surface."},
-    {FEATURE_REFRACTION, "refraction", "Some material lets light through: rays split at its surface."},
-    {FEATURE_SHADOWS, "shadows", "A ray to each light asks whether a body is in between."},
-    {FEATURE_SMOOTH, "smooth", "Normals are interpolated between the vertices of some mesh."},
-    {FEATURE_CHECKER, "checker", "Some material has cells of two colours."},
-    {FEATURE_POINT_LIGHT, "point_light", "Some light has a position."},
-    {FEATURE_DIRECTION_LIGHT, "direction_light", "Some light comes from infinitely far away."},
-    {FEATURE_INVERSE_SQUARE, "inverse_square", "Some light weakens with the square of the distance."},
-    {FEATURE_BACKGROUND_IMAGE, "background_image", "Rays that hit nothing look up an image."},
-    {FEATURE_DEPTH_BLACK, "depth_black", "Rays beyond the greatest depth see nothing, not the background."},
-    {FEATURE_SLICES, "slices", "Long paths are saved and resumed in a later dispatch."},
-    {FEATURE_COUNTERS, "counters", "Rays are counted for --stats."},
-};
-static_assert(sizeof feature_texts / sizeof feature_texts[0] == FEATURE_COUNT, "every feature has a name");
-
-static const struct feature_text *find_text(uint32_t bit) {
-    static const struct feature_text unknown = {0, "unknown", "No feature of this tracer."};
-    for (size_t i = 0; i < FEATURE_COUNT; i++)
-        if (feature_texts[i].bit == bit)
-            return &feature_texts[i];
-    return &unknown;
-}
+static_assert(sizeof feature_names / sizeof feature_names[0] == FEATURE_COUNT, "every feature has a name");
 
 const char *feature_name(uint32_t bit) {
-    return find_text(bit)->name;
-}
-
-const char *feature_doc(uint32_t bit) {
-    return find_text(bit)->doc;
+    for (size_t i = 0; i < FEATURE_COUNT; i++)
+        if (feature_names[i].bit == bit)
+            return feature_names[i].name;
+    return "unknown";
 }

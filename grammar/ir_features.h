@@ -40,8 +40,7 @@ void ir_features_explain(const struct ir_scene *scene, const struct ir_origin *o
 // The bits of one material alone (NULL: the default material), for those that meshes bring along.
 uint32_t ir_material_features(const struct ir_material *material);
 
-// "refraction", and one sentence; "unknown" for anything but a single FEATURE_ bit.
+// "refraction"; "unknown" for anything but a single FEATURE_ bit.
 const char *feature_name(uint32_t bit);
-const char *feature_doc(uint32_t bit);
 
 #endif

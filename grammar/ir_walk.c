@@ -31,14 +31,6 @@ bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item)
     return schema_key_row(schema) >= 0 && ir_walk_key(schema, item).len == 0;
 }
 
-uint32_t ir_walk_visible_count(const struct schema_row *row, const void *element) {
-    struct ir_any_list list = ir_walk_list(row, element);
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < list.count; i++)
-        count += !ir_walk_is_anonymous(row->child, ir_walk_item(row, list, i));
-    return count;
-}
-
 const struct schema_row *ir_walk_pool(const struct schema_element *target) {
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST && SCHEMA_SCENE.rows[i].child == target)

@@ -19,9 +19,8 @@ struct ir_any_list ir_walk_list(const struct schema_row *row, const void *elemen
 void *ir_walk_item(const struct schema_row *row, struct ir_any_list list, uint32_t i);
 // Appends a copy of `item` to the list; gives its index. May move the list.
 uint32_t ir_walk_append(struct arena *arena, const struct schema_row *row, void *element, const void *item);
-// Items that stand in the list themselves: all but anonymous ones, which stand where they are used.
+// Whether an item of a list has no name: then it stands where it is used, not in the list.
 bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item);
-uint32_t ir_walk_visible_count(const struct schema_row *row, const void *element);
 
 // The text of the element's key row (a name); empty where it has none.
 str ir_walk_key(const struct schema_element *schema, const void *element);

@@ -157,8 +157,7 @@ int schema_find_row(const struct schema_element *element, str name);
 // Index of the row that a YAML key names: by plural where the row is many, by name otherwise, or by name
 // for a named map with `single` (then *is_single is true). -1: none.
 int schema_find_yaml(const struct schema_element *element, str key, bool *is_single);
-// Index of the row that an XML attribute or child element names, or -1.
-int schema_find_attribute(const struct schema_element *element, str name);
+// Index of the row that an XML child element names, or -1.
 int schema_find_child(const struct schema_element *element, str name);
 // Index of the row that other programs call `name` (snake_case), or -1.
 int schema_find_also(const struct schema_element *element, str name);

@@ -42,7 +42,8 @@ struct schema_index {
 };
 
 void schema_index_init(struct schema_index *index, struct arena *arena);
-// As schema_find_yaml, schema_find_attribute and schema_find_child.
+// As schema_find_yaml and schema_find_child; an XML attribute names the row that schema_find_row finds, where
+// that is one of attributes.
 int schema_index_find(const struct schema_index *index, const struct schema_element *element,
                       enum schema_name_kind kind, str name, bool *is_single);
 const struct schema_facts *schema_index_facts(const struct schema_index *index,

@@ -77,11 +77,6 @@ bool schema_is_attribute(const struct schema_row *row) {
     return true;
 }
 
-int schema_find_attribute(const struct schema_element *element, str name) {
-    int i = schema_find_row(element, name);
-    return i >= 0 && schema_is_attribute(&element->rows[i]) ? i : -1;
-}
-
 int schema_find_child(const struct schema_element *element, str name) {
     for (uint32_t i = 0; i < element->row_count; i++)
         if (element->rows[i].element && str_equal_cstr(name, element->rows[i].element))

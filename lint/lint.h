@@ -25,13 +25,4 @@ struct lint_input {
 
 void lint_run(const struct lint_input *input, enum lint_level level);
 
-// The table of rules, for documents and tests.
-struct lint_rule_info {
-    enum diag_code code;
-    const char *name;
-    enum lint_level level; // the least one that runs it
-};
-unsigned lint_rule_count(void);
-struct lint_rule_info lint_rule(unsigned index);
-
 #endif

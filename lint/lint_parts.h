@@ -97,6 +97,14 @@ span lint_place_mesh(const struct lint *lint, const struct lint_body *body);
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+struct lint_rule {
+    enum diag_code code;
+    void (*run)(struct lint *lint);
+    enum lint_level level; // the least one that runs it
+};
+// In lint.c, in the order of their codes; one without `run` ends them.
+extern const struct lint_rule lint_rules[];
+
 // The rules, a family a file.
 void lint_camera_inside(struct lint *lint); // rules_inside.c
 void lint_light_inside(struct lint *lint);

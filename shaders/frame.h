@@ -106,10 +106,10 @@
 #define CONSTANT_SPHERE_STACK   2
 #define CONSTANT_PACKED_GROUPS  3 /* 1: both trees have at most 65536 nodes */
 #define CONSTANT_WORKGROUP      7 /* invocations of a workgroup */
-/* Of study kernels alone, floats: study.glsl. */
-#define CONSTANT_STUDY_OFFSET   4
-#define CONSTANT_STUDY_DISTANCE 5
-#define CONSTANT_STUDY_CUT      6
-#define CONSTANT_COUNT          8
+/* Of alternative kernels alone, floats: alternatives.glsl. */
+#define CONSTANT_ALTERNATIVE_OFFSET   4
+#define CONSTANT_ALTERNATIVE_DISTANCE 5
+#define CONSTANT_ALTERNATIVE_CUT      6
+#define CONSTANT_COUNT                8
 
 #endif

@@ -1,8 +1,8 @@
 // Small arithmetic with a fixed order of operations: the module's own dot, cross and friends, because the
 // built-in ones may be reordered or fused by a driver. gamma(n) = n u / (1 - n u) with u = 2^-24, or 2^-53 in
 // double precision, bounds the relative error of n roundings (Higham 2002, section 3.1).
-#ifdef STUDY
-#include "study.glsl"
+#ifdef ALTERNATIVES
+#include "alternatives.glsl"
 #endif
 
 #ifdef DOUBLE_PRECISION
@@ -73,8 +73,8 @@ float next_real(float x, float outward) {
 // one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not only by the error along the normal: the
 // error along the surface can carry the point across an edge, where a neighbour bends away from it.
 REAL3 ray_start(REAL3 point, REAL3 error, REAL3 side) {
-#ifdef STUDY
-    if (study_moves())
+#ifdef ALTERNATIVES
+    if (alternative_moves())
         return point + side * error.x;
 #endif
     REAL distance = max(dot3(abs(side), error), largest3(error));

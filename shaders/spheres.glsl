@@ -19,8 +19,8 @@ void test_sphere(uint item, REAL3 origin, REAL3 direction, inout hit_record hit)
     REAL q = b < 0.0 ? b - root : b + root;
     REAL b_error = GAMMA_4 * dot3(abs(f), abs(direction));
     bool on_sphere = abs(c) <= c_error;
-#ifdef STUDY
-    on_sphere = on_sphere && !study_moves();
+#ifdef ALTERNATIVES
+    on_sphere = on_sphere && !alternative_moves();
 #endif
     REAL t0 = c / q, t1 = q / a;
     bool first = !on_sphere && t0 > 0.0;

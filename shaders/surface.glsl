@@ -95,10 +95,10 @@ void make_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface s
         triangle_surface(hit, direction, s);
     if (HAS_SPHERES && (!HAS_TRIANGLES || sphere))
         sphere_surface(hit, origin, direction, s);
-#ifdef STUDY
-    if (study_moves()) {
+#ifdef ALTERNATIVES
+    if (alternative_moves()) {
         s.point = origin + direction * hit.t;
-        s.error = vec3(study_offset(hit.t));
+        s.error = vec3(alternative_offset(hit.t));
     }
 #endif
 }

@@ -17,7 +17,7 @@ struct shear_ray {
     REAL3 origin;
     bool along_x, along_z; // the largest component of the direction; else along y
     REAL sx, sy, sz;
-#ifdef STUDY
+#ifdef ALTERNATIVES
     vec3 direction;
 #endif
 };
@@ -34,13 +34,13 @@ shear_ray make_shear_ray(REAL3 origin, REAL3 direction) {
     ray.sz = 1.0 / d.z;
     ray.sx = d.x * ray.sz;
     ray.sy = d.y * ray.sz;
-#ifdef STUDY
+#ifdef ALTERNATIVES
     ray.direction = direction;
 #endif
     return ray;
 }
 
-#ifdef STUDY
+#ifdef ALTERNATIVES
 // Barycentrics come times the determinant, which counts for a unit direction.
 bool test_moeller(triangle_record triangle, shear_ray ray, inout float v, inout float w, inout float det,
                   inout float t) {
@@ -51,7 +51,7 @@ bool test_moeller(triangle_record triangle, shear_ray ray, inout float v, inout 
     w = dot3(ray.direction, q);
     float inverse = 1.0 / det;
     t = dot3(ac, q) * inverse;
-    return abs(det) >= STUDY_CUT * sqrt(dot3(ray.direction, ray.direction)) && v * inverse >= 0.0 &&
+    return abs(det) >= ALTERNATIVE_CUT * sqrt(dot3(ray.direction, ray.direction)) && v * inverse >= 0.0 &&
            w * inverse >= 0.0 && (v + w) * inverse <= 1.0;
 }
 #endif
@@ -83,12 +83,12 @@ void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
     REAL spread = max(max(a.z, b.z), c.z) - min(min(a.z, b.z), c.z);
     REAL wrong = min(3.0 * delta_e * abs(inverse), 1.0);
     REAL delta_t = (6.0 * GAMMA_3 * z_most + spread * wrong) * abs(ray.sz);
-#ifdef STUDY
-    if (study_cuts()) {
+#ifdef ALTERNATIVES
+    if (alternative_cuts()) {
         inside = test_moeller(triangle, ray, v, w, det, t);
         inverse = 1.0 / det;
     }
-    delta_t = study_moves() ? 0.0 : delta_t;
+    delta_t = alternative_moves() ? 0.0 : delta_t;
 #endif
     uint number = triangle.number + frame.sphere_count;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);

@@ -2,6 +2,7 @@
 
 #include "bench/original/boxes.h"
 #include "bench/original/layout.h"
+#include "shaders/kernel.h"
 #include "tracer/render/render_private.h"
 
 #include <math.h>
@@ -9,10 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern const uint32_t kernel_original_storage[];
-extern const size_t kernel_original_storage_words;
-extern const uint32_t kernel_original_texels[];
-extern const size_t kernel_original_texels_words;
+extern const struct kernel kernel_original_storage, kernel_original_texels;
 
 enum {
     GRID_WIDTH = 1024, // workgroups in x; the rest go to y
@@ -72,8 +70,7 @@ static bool compile(struct original *o) {
     };
     memcpy(&constants[CONSTANT_EPSILON], &epsilon, sizeof epsilon);
     struct gpu_program_source source = {
-        .spirv = texels ? kernel_original_texels : kernel_original_storage,
-        .spirv_words = texels ? kernel_original_texels_words : kernel_original_storage_words,
+        .kernel = texels ? &kernel_original_texels : &kernel_original_storage,
         .constants = constants,
         .constant_count = ORIGINAL_CONSTANTS,
         .push_bytes = sizeof(struct dispatch_block),

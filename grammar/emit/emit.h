@@ -1,5 +1,5 @@
-// Files made from the table: for editors, readers and the fuzzer. The committed copies
-// (docs/schema/, docs/reference.md, tests/fuzz/glint.dict) are kept equal by a test.
+// Files made from the table: for editors and readers. The committed copies (docs/schema/, docs/reference.md)
+// are kept equal by a test.
 //
 // Errors: none but memory; ask `out->failed`. Thread safety: pure but for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EMIT_H
@@ -17,7 +17,5 @@ void emit_relaxng_compact(struct strbuf *out);
 void emit_xml_schema(struct strbuf *out);
 // The reference page, docs/reference.md.
 void emit_markdown(struct strbuf *out);
-// A dictionary for libFuzzer with the words of both spellings.
-void emit_fuzz_dictionary(struct strbuf *out);
 
 #endif

@@ -43,10 +43,3 @@ bool emit_is_integer(enum schema_range range) {
                 return (*e)->rows[i].kind == SCHEMA_INTEGER;
     return false;
 }
-
-bool emit_is_first_of_choice(const struct schema_element *schema, uint32_t i) {
-    for (uint32_t k = 0; k < i; k++)
-        if (schema->rows[k].choice == schema->rows[i].choice)
-            return false;
-    return true;
-}

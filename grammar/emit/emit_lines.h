@@ -26,7 +26,5 @@ void emit_close(struct emit_lines *w, const char *tag);
 
 // Whether the rows of this range are whole numbers.
 bool emit_is_integer(enum schema_range range);
-// Whether no row before `i` is of its choice.
-bool emit_is_first_of_choice(const struct schema_element *schema, uint32_t i);
 
 #endif

@@ -1,7 +1,7 @@
 // RELAX NG in its compact syntax: the same language as emit_relaxng.c, for Emacs and for people.
 #include "grammar/emit/emit.h"
 
-#include "grammar/emit/emit_lines.h"
+#include "grammar/emit/emit_pattern.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/schema.h"
 
@@ -57,154 +57,144 @@ static void text_definitions(struct emit_lines *w) {
     emit_line(w, "some_text = xsd:string { minLength = \"1\" }");
 }
 
-// ---- values of attributes
+// ---- on one line: values, and attributes without documentation
 
-static void attribute_data(struct emit_lines *w, const struct schema_row *row) {
-    switch (row->kind) {
-    case SCHEMA_BOOLEAN:
-        strbuf_cstr(w->out, "boolean");
+static bool fits_line(const struct pattern *p) {
+    if (p->kind == PATTERN_ELEMENT || p->kind == PATTERN_CONTENT || p->doc)
+        return false;
+    return p->kind == PATTERN_ATTRIBUTE || !p->first || fits_line(p->first);
+}
+
+static void print_inline(struct emit_lines *w, const struct pattern *p);
+
+static void join_inline(struct emit_lines *w, const struct pattern *parent, const char *separator) {
+    for (const struct pattern *p = parent->first; p; p = p->next) {
+        print_inline(w, p);
+        strbuf_cstr(w->out, p->next ? separator : "");
+    }
+}
+
+static void print_inline(struct emit_lines *w, const struct pattern *p) {
+    switch (p->kind) {
+    case PATTERN_ATTRIBUTE:
+        strbuf_format(w->out, "attribute %s { ", p->name);
+        print_inline(w, p->first);
+        strbuf_cstr(w->out, " }");
         break;
-    case SCHEMA_WORD:
-        for (uint32_t i = 0; row->words[i]; i++)
-            strbuf_format(w->out, "%sxsd:string \"%s\"", i ? " | " : "", row->words[i]);
+    case PATTERN_OPTIONAL:
+        print_inline(w, p->first);
+        strbuf_char(w->out, '?');
         break;
-    case SCHEMA_TEXT:
-        strbuf_cstr(w->out, row->text == SCHEMA_TEXT_NAME   ? "name"
-                            : row->text == SCHEMA_TEXT_FREE ? "xsd:string"
-                                                            : "some_text");
+    case PATTERN_GROUP:
+        strbuf_char(w->out, '(');
+        join_inline(w, p, ", ");
+        strbuf_char(w->out, ')');
         break;
-    case SCHEMA_COLOR:
-        strbuf_format(w->out, "number_%s | hex_color", schema_range_info(row->range)->name);
+    case PATTERN_CHOICE:
+        join_inline(w, p, " | ");
         break;
-    case SCHEMA_ELEMENT:
-        attribute_data(w, &row->child->rows[schema_short_row(row->child)]);
+    case PATTERN_NUMBER:
+        strbuf_format(w->out, "number_%s", p->name);
         break;
-    case SCHEMA_REFERENCE:
-        strbuf_cstr(w->out, "some_text");
+    case PATTERN_WORD:
+        strbuf_format(w->out, "xsd:string \"%s\"", p->name);
         break;
     default:
-        strbuf_format(w->out, "number_%s", schema_range_info(row->range)->name);
+        strbuf_cstr(w->out, p->kind == PATTERN_TEXT ? "xsd:string" : p->name);
         break;
     }
 }
 
-static void attribute(struct emit_lines *w, const struct schema_row *row) {
-    documentation(w, row->doc);
-    emit_indent(w);
-    strbuf_format(w->out, "attribute %s { ", row->name);
-    attribute_data(w, row);
-    strbuf_cstr(w->out, " }");
+// ---- on lines of their own; the last one is left open for what follows
+
+static void print(struct emit_lines *w, const struct pattern *p);
+
+static void join(struct emit_lines *w, const struct pattern *parent, const char *separator) {
+    for (uint32_t i = 0; i < parent->times; i++)
+        for (const struct pattern *p = parent->first; p; p = p->next) {
+            print(w, p);
+            strbuf_cstr(w->out, p->next || i + 1 < parent->times ? separator : "");
+        }
 }
 
-// ---- child elements
-
-static void component_attributes(struct emit_lines *w, const struct schema_row *row) {
-    const char *const *names = schema_components(row->kind);
-    const char *mark = row->kind == SCHEMA_WEIGHTS ? "?" : "";
-    emit_indent(w);
-    strbuf_cstr(w->out, "(");
-    for (uint32_t i = 0; names[i]; i++)
-        strbuf_format(w->out, "%sattribute %s { number_%s }%s", i ? ", " : "", names[i],
-                      schema_range_info(row->range)->name, mark);
-    strbuf_cstr(w->out, ")");
-    if (row->kind == SCHEMA_COLOR)
-        strbuf_cstr(w->out, " | attribute " SCHEMA_HEX_ATTRIBUTE " { hex_color }");
-}
-
-static void child_content(struct emit_lines *w, const struct schema_row *row) {
-    int only = schema_short_row(row->child);
-    int key = row->many == SCHEMA_NAMED_MAP ? schema_key_row(row->child) : -1;
-    bool has_components = only >= 0 && schema_components(row->child->rows[only].kind)[0];
-    emit_indent(w);
-    strbuf_cstr(w->out, has_components ? "(" : "");
-    definition_name(w, row->child->name);
-    if (has_components) {
-        strbuf_cstr(w->out, " |\n");
-        component_attributes(w, &row->child->rows[only]);
-        strbuf_cstr(w->out, ")");
-    }
-    if (key < 0)
-        return;
-    strbuf_cstr(w->out, ",\n");
-    if (row->single)
-        emit_line(w, "(");
-    attribute(w, &row->child->rows[key]);
-    if (row->single)
-        strbuf_cstr(w->out, ")?");
-}
-
-static void child_element(struct emit_lines *w, const struct schema_row *row) {
-    documentation(w, row->doc);
-    emit_open(w, "element %s {", row->element);
-    if (row->child)
-        child_content(w, row);
-    else
-        component_attributes(w, row);
+static void print_element(struct emit_lines *w, const struct pattern *p) {
+    documentation(w, p->doc);
+    emit_open(w, "element %s {", p->name);
+    join(w, p, ",\n");
     w->depth--;
     strbuf_char(w->out, '\n');
     emit_indent(w);
-    strbuf_cstr(w->out, "}");
+    strbuf_char(w->out, '}');
+}
+
+static void print(struct emit_lines *w, const struct pattern *p) {
+    if (p->kind == PATTERN_ATTRIBUTE || fits_line(p)) {
+        if (p->doc)
+            documentation(w, p->doc);
+        emit_indent(w);
+        print_inline(w, p);
+    } else if (p->kind == PATTERN_ELEMENT) {
+        print_element(w, p);
+    } else if (p->kind == PATTERN_CONTENT) {
+        emit_indent(w);
+        definition_name(w, p->name);
+    } else if (p->kind == PATTERN_GROUP) {
+        join(w, p, ",\n");
+    } else if (p->kind ==
+               PATTERN_CHOICE) { // what an element of the table holds, or its short row's components
+        emit_indent(w);
+        strbuf_char(w->out, '(');
+        definition_name(w, p->first->name);
+        strbuf_cstr(w->out, " |\n");
+        print(w, p->first->next);
+        strbuf_char(w->out, ')');
+    } else {
+        emit_line(w, "(");
+        print(w, p->first);
+        strbuf_cstr(w->out, p->kind == PATTERN_MANY ? ")*" : ")?");
+    }
 }
 
 // ---- rows and elements
 
-static void row_pattern(struct emit_lines *w, const struct schema_row *row) {
-    if (row->many == SCHEMA_FIXED) {
-        for (uint32_t i = 0; i < row->fixed_count; i++) {
-            strbuf_cstr(w->out, i ? ",\n" : "");
-            child_element(w, row);
+static void print_choice(struct emit_lines *w, const struct pattern *choice) {
+    for (const struct pattern *p = choice->first; p; p = p->next) {
+        if (p->kind == PATTERN_CHOICE) {
+            print_choice(w, p);
+        } else if (p->kind == PATTERN_GROUP) {
+            emit_line(w, "(");
+            print(w, p);
+            strbuf_char(w->out, ')');
+        } else {
+            print(w, p);
         }
-        return;
+        strbuf_cstr(w->out, p->next ? " |\n" : "");
     }
-    if (schema_is_attribute(row))
-        attribute(w, row);
-    if (schema_is_attribute(row) && row->element)
-        strbuf_cstr(w->out, " |\n");
-    if (row->element)
-        child_element(w, row);
 }
 
-// The patterns of a choice, or of a row outside of one, in parentheses with their mark.
-static void grouped(struct emit_lines *w, const struct schema_element *schema, uint32_t first) {
-    const struct schema_row *row = &schema->rows[first];
-    const char *mark = row->kind == SCHEMA_LIST ? "*" : row->required ? "" : "?";
-    if (row->choice)
-        mark = schema->choices[row->choice - 1].rule == SCHEMA_CHOICE_AT_MOST_ONE ? "?" : "";
-    emit_line(w, "(");
-    w->depth++;
-    bool any = false;
-    for (uint32_t i = first; i < schema->row_count; i++) {
-        if (i != first && (!row->choice || schema->rows[i].choice != row->choice))
-            continue;
-        strbuf_cstr(w->out, any ? " |\n" : "");
-        bool inner = row->choice && schema->rows[i].many == SCHEMA_FIXED;
-        if (inner)
-            emit_line(w, "(");
-        row_pattern(w, &schema->rows[i]);
-        if (inner)
-            strbuf_cstr(w->out, ")");
-        any = true;
-    }
+// A row, or the rows of a choice, in parentheses with their mark.
+static void print_row(struct emit_lines *w, const struct pattern *p) {
+    const char *mark = p->kind == PATTERN_OPTIONAL ? "?" : p->kind == PATTERN_MANY ? "*" : "";
+    const struct pattern *inside = *mark ? p->first : p;
+    emit_open(w, "(");
+    if (inside->kind == PATTERN_CHOICE)
+        print_choice(w, inside);
+    else
+        print(w, inside);
     w->depth--;
     strbuf_format(w->out, ")%s", mark);
 }
 
-static void element_definition(struct emit_lines *w, const struct schema_element *schema) {
+static void definition(struct emit_lines *w, const struct schema_element *schema,
+                       const struct pattern *holds) {
     strbuf_char(w->out, '\n');
     definition_name(w, schema->name);
     strbuf_cstr(w->out, " =\n");
     w->depth++;
-    bool any = false;
-    for (uint32_t i = 0; i < schema->row_count; i++) {
-        const struct schema_row *row = &schema->rows[i];
-        // A key stands where the element is one of a list; an element in place has none.
-        if (row->key || (row->choice && !emit_is_first_of_choice(schema, i)))
-            continue;
-        strbuf_cstr(w->out, any ? " &\n" : "");
-        grouped(w, schema, i);
-        any = true;
+    for (const struct pattern *p = holds->first; p; p = p->next) {
+        print_row(w, p);
+        strbuf_cstr(w->out, p->next ? " &\n" : "\n");
     }
-    strbuf_char(w->out, '\n');
     w->depth--;
 }
 
@@ -218,8 +208,7 @@ void emit_relaxng_compact(struct strbuf *out) {
     documentation(&w, SCHEMA_SCENE.doc);
     emit_line(&w, "element %s { attribute xsi:* { text }*, %s }", SCHEMA_SCENE.element, SCHEMA_SCENE.name);
     w.depth--;
-    for (const struct schema_element *const *e = schema_elements; *e; e++)
-        element_definition(&w, *e);
+    emit_patterns(&w, definition);
     strbuf_char(out, '\n');
     text_definitions(&w);
     number_definitions(&w);

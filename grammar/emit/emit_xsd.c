@@ -4,7 +4,7 @@
 // accepts every scene, and some files that are none. RELAX NG and `glint check` tell those.
 #include "grammar/emit/emit.h"
 
-#include "grammar/emit/emit_lines.h"
+#include "grammar/emit/emit_pattern.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/schema.h"
 
@@ -58,104 +58,106 @@ static void text_types(struct emit_lines *w) {
 
 // ---- attributes
 
-// The type of an attribute's value; the empty string: an enumeration in place.
-static void type_name(struct strbuf *out, const struct schema_row *row) {
-    if (row->kind == SCHEMA_ELEMENT) {
-        type_name(out, &row->child->rows[schema_short_row(row->child)]);
-    } else if (row->kind == SCHEMA_BOOLEAN) {
-        strbuf_cstr(out, "boolean");
-    } else if (row->kind == SCHEMA_TEXT || row->kind == SCHEMA_REFERENCE) {
-        bool is_free = row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_FREE;
-        strbuf_cstr(out, is_free ? "xs:string" : "some_text");
-    } else if (row->kind != SCHEMA_WORD) {
-        strbuf_format(out, "%snumber_%s", row->kind == SCHEMA_COLOR ? "color_" : "",
-                      schema_range_info(row->range)->name);
+static void words(struct emit_lines *w, const struct pattern *choice) {
+    emit_open(w, "<xs:simpleType>");
+    emit_open(w, "<xs:restriction base=\"xs:string\">");
+    for (const struct pattern *p = choice->first; p; p = p->next) {
+        emit_open(w, "<xs:enumeration value=\"%s\">", p->name);
+        documentation(w, p->doc);
+        emit_close(w, "xs:enumeration");
     }
+    emit_close(w, "xs:restriction");
+    emit_close(w, "xs:simpleType");
 }
 
-static void attribute(struct emit_lines *w, const struct schema_row *row, bool required) {
-    struct strbuf type;
-    strbuf_init(&type);
-    type_name(&type, row);
+// The type of an attribute's values, but for words, which are listed in place.
+static void type_of(struct emit_lines *w, const struct pattern *values) {
+    const bool is_color = values->kind == PATTERN_CHOICE;
+    const struct pattern *p = is_color ? values->first : values;
+    if (p->kind == PATTERN_NUMBER)
+        strbuf_format(w->out, " type=\"%snumber_%s\"", is_color ? "color_" : "", p->name);
+    else if (p->kind == PATTERN_TEXT)
+        strbuf_cstr(w->out, " type=\"xs:string\"");
+    else if (p->kind == PATTERN_TYPE)
+        strbuf_format(w->out, " type=\"%s\"", strcmp(p->name, "name") == 0 ? "some_text" : p->name);
+}
+
+static void attribute(struct emit_lines *w, const struct pattern *p, bool required) {
     emit_indent(w);
-    strbuf_format(w->out, "<xs:attribute name=\"%s\"", row->name);
-    if (type.len)
-        strbuf_format(w->out, " type=\"%.*s\"", STR_ARG(strbuf_view(&type)));
-    strbuf_format(w->out, "%s>\n", required ? " use=\"required\"" : "");
+    strbuf_format(w->out, "<xs:attribute name=\"%s\"", p->name);
+    type_of(w, p->first);
+    strbuf_format(w->out, "%s%s>\n", required ? " use=\"required\"" : "", p->doc ? "" : "/");
+    if (!p->doc)
+        return;
     w->depth++;
-    documentation(w, row->doc);
-    if (row->kind == SCHEMA_WORD) {
-        emit_open(w, "<xs:simpleType>");
-        emit_open(w, "<xs:restriction base=\"xs:string\">");
-        for (uint32_t i = 0; row->words[i]; i++) {
-            emit_open(w, "<xs:enumeration value=\"%s\">", row->words[i]);
-            documentation(w, row->word_docs[i]);
-            emit_close(w, "xs:enumeration");
-        }
-        emit_close(w, "xs:restriction");
-        emit_close(w, "xs:simpleType");
-    }
+    documentation(w, p->doc);
+    if (p->first->kind == PATTERN_CHOICE && p->first->first->kind == PATTERN_WORD)
+        words(w, p->first);
     emit_close(w, "xs:attribute");
-    strbuf_finish(&type);
 }
 
-static void component_attributes(struct emit_lines *w, const struct schema_row *row, bool required) {
-    const char *const *names = schema_components(row->kind);
-    for (uint32_t i = 0; names[i]; i++)
-        emit_line(w, "<xs:attribute name=\"%s\" type=\"number_%s\"%s/>", names[i],
-                  schema_range_info(row->range)->name,
-                  required && row->kind == SCHEMA_VECTOR ? " use=\"required\"" : "");
-    if (row->kind == SCHEMA_COLOR)
-        emit_line(w, "<xs:attribute name=\"" SCHEMA_HEX_ATTRIBUTE "\" type=\"hex_color\"/>");
+// Those of a pattern, but not of the elements inside. What is part of a choice may be absent.
+static void attributes(struct emit_lines *w, const struct pattern *parent, bool required) {
+    required = required && parent->kind != PATTERN_CHOICE && parent->kind != PATTERN_OPTIONAL;
+    for (const struct pattern *p = parent->first; p; p = p->next)
+        if (p->kind == PATTERN_ATTRIBUTE)
+            attribute(w, p, required);
+        else if (p->kind != PATTERN_ELEMENT)
+            attributes(w, p, required);
 }
 
 // ---- elements
 
-static void child_element(struct emit_lines *w, const struct schema_row *row) {
-    int only = row->child ? schema_short_row(row->child) : -1;
-    int key = row->child && row->many == SCHEMA_NAMED_MAP ? schema_key_row(row->child) : -1;
-    emit_open(w, "<xs:element name=\"%s\">", row->element);
-    documentation(w, row->doc);
+// What the elements of a pattern hold; NULL: nothing of the table.
+static const char *content_of(const struct pattern *element) {
+    const struct pattern *p = element->first;
+    p = p->kind == PATTERN_CHOICE ? p->first : p;
+    return p->kind == PATTERN_CONTENT ? p->name : NULL;
+}
+
+static void element(struct emit_lines *w, const struct pattern *p) {
+    const char *base = content_of(p);
+    emit_open(w, "<xs:element name=\"%s\">", p->name);
+    documentation(w, p->doc);
     emit_open(w, "<xs:complexType>");
-    if (row->child) {
+    if (base) {
         emit_open(w, "<xs:complexContent>");
-        emit_open(w, "<xs:extension base=\"%s\">", row->child->name);
-        if (only >= 0 && schema_components(row->child->rows[only].kind)[0])
-            component_attributes(w, &row->child->rows[only], false);
-        if (key >= 0)
-            attribute(w, &row->child->rows[key], !row->single);
+        emit_open(w, "<xs:extension base=\"%s\">", base);
+    }
+    attributes(w, p, true);
+    if (base) {
         emit_close(w, "xs:extension");
         emit_close(w, "xs:complexContent");
-    } else {
-        component_attributes(w, row, true);
     }
     emit_close(w, "xs:complexType");
     emit_close(w, "xs:element");
 }
 
-static bool has_children(const struct schema_element *schema) {
-    for (uint32_t i = 0; i < schema->row_count; i++)
-        if (schema->rows[i].element)
+static bool has_elements(const struct pattern *parent) {
+    for (const struct pattern *p = parent->first; p; p = p->next)
+        if (p->kind == PATTERN_ELEMENT || has_elements(p))
             return true;
     return false;
 }
 
-static void element_type(struct emit_lines *w, const struct schema_element *schema) {
+static void elements(struct emit_lines *w, const struct pattern *parent) {
+    for (const struct pattern *p = parent->first; p; p = p->next)
+        if (p->kind == PATTERN_ELEMENT)
+            element(w, p);
+        else
+            elements(w, p);
+}
+
+static void definition(struct emit_lines *w, const struct schema_element *schema,
+                       const struct pattern *holds) {
     emit_open(w, "<xs:complexType name=\"%s\">", schema->name);
     documentation(w, schema->doc);
-    if (has_children(schema)) {
+    if (has_elements(holds)) {
         emit_open(w, "<xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">");
-        for (uint32_t i = 0; i < schema->row_count; i++)
-            if (schema->rows[i].element)
-                child_element(w, &schema->rows[i]);
+        elements(w, holds);
         emit_close(w, "xs:choice");
     }
-    for (uint32_t i = 0; i < schema->row_count; i++) {
-        const struct schema_row *row = &schema->rows[i];
-        // A key stands where the element is one of a list.
-        if (!row->key && schema_is_attribute(row))
-            attribute(w, row, row->required && !row->element && !row->choice);
-    }
+    attributes(w, holds, true);
     emit_close(w, "xs:complexType");
 }
 
@@ -164,8 +166,7 @@ void emit_xml_schema(struct strbuf *out) {
     emit_line(&w, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
     emit_open(&w, "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">");
     emit_line(&w, "<xs:element name=\"%s\" type=\"%s\"/>", SCHEMA_SCENE.element, SCHEMA_SCENE.name);
-    for (const struct schema_element *const *e = schema_elements; *e; e++)
-        element_type(&w, *e);
+    emit_patterns(&w, definition);
     text_types(&w);
     number_types(&w);
     emit_close(&w, "xs:schema");

@@ -65,7 +65,7 @@ static struct image_display display_of(const struct ir_scene *scene) {
 
 static bool choose_precision(const struct run *run, const struct variant *v, struct flat_input *input) {
     struct precision_report report = {.suffices = true};
-    if (run->input->study != RENDER_STUDY_NONE)
+    if (run->input->alternative != RENDER_ALTERNATIVE_NONE)
         return true;
     if (v->ir.trace.precision == IR_PRECISION_AUTO && !precision_measure(input, &report))
         return false;
@@ -78,7 +78,7 @@ static enum extremes_status draw(struct run *run, const struct variant *v, const
     settings.width = v->width;
     settings.height = v->height;
     settings.samples = 1;
-    settings.study = run->input->study;
+    settings.alternative = run->input->alternative;
     struct render_statistics statistics;
     struct renderer *renderer = renderer_create(run->input->gpu, flat, &settings);
     bool good = renderer && renderer_hits(renderer, &v->view.camera, run->hits[0], NULL) == RENDER_DONE &&

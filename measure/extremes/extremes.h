@@ -84,8 +84,8 @@ struct extremes_input {
     struct gpu *gpu;
     const struct extreme_bound *bounds;
     uint32_t bound_count;
-    uint32_t axes;           // bit 1 << axis: those wanted
-    enum render_study study; // another tracer's ways in place of glint's own, in single precision
+    uint32_t axes;                       // bit 1 << axis: those wanted
+    enum render_alternative alternative; // another tracer's ways in place of glint's own, in single precision
 };
 
 // Called before each cell with what is done, 0..1, and the cell; false ends the run.

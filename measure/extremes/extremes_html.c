@@ -145,8 +145,9 @@ void extremes_html(const struct extremes_report *report, struct strbuf *out) {
                   " at its extremes</h1>\n<p>%u cells, %u left out, <b>%u broken</b>. %u x %u pixels on ",
                   e->count, e->left_out, e->broken, report->input->width, report->input->height);
     strbuf_markup(out, str_from(e->device));
-    if (report->input->study != RENDER_STUDY_NONE)
-        strbuf_format(out, ", traced by another way (%s)", render_study_name(report->input->study));
+    if (report->input->alternative != RENDER_ALTERNATIVE_NONE)
+        strbuf_format(out, ", traced by another way (%s)",
+                      render_alternative_name(report->input->alternative));
     strbuf_cstr(out, ", against the double-precision reference; bounds of ");
     strbuf_markup(out, report->thresholds);
     strbuf_cstr(out, ".</p>\n");

@@ -53,8 +53,9 @@ void extremes_text(const struct extremes_report *report, struct strbuf *out) {
     strbuf_format(out, "%.*s at its extremes, %u x %u pixels, on %s; bounds of %.*s\n",
                   STR_ARG(report->scene), report->input->width, report->input->height, e->device,
                   STR_ARG(report->thresholds));
-    if (report->input->study != RENDER_STUDY_NONE)
-        strbuf_format(out, "traced by another way: %s\n", render_study_name(report->input->study));
+    if (report->input->alternative != RENDER_ALTERNATIVE_NONE)
+        strbuf_format(out, "traced by another way: %s\n",
+                      render_alternative_name(report->input->alternative));
     for (int m = 0; m < EXTREME_METRICS; m++)
         strbuf_format(out, "  %-10s %s\n", extreme_metrics[m].name, extreme_metrics[m].title);
     for (uint32_t i = 0; i < e->count; i++) {
@@ -109,7 +110,7 @@ void extremes_json(const struct extremes_report *report, struct strbuf *out) {
     json_write_text(&w, "scene", report->scene);
     json_write_text(&w, "thresholds", report->thresholds);
     json_write_text(&w, "device", str_from(e->device));
-    json_write_text(&w, "study", str_from(render_study_name(report->input->study)));
+    json_write_text(&w, "study", str_from(render_alternative_name(report->input->alternative)));
     json_write_integer(&w, "width", report->input->width);
     json_write_integer(&w, "height", report->input->height);
     json_write_integer(&w, "broken", e->broken);

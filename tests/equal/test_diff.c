@@ -1,7 +1,7 @@
 // What ir_diff finds in generated scenes: nothing between spellings, and one thing after one change.
-#include "grammar/generate.h"
 #include "grammar/print/ir_diff.h"
 #include "tests/equal/equal_kit.h"
+#include "tests/generate/generate.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,9 +1,9 @@
 // The JSON Schema accepts what glint writes and the examples of the table, and refuses what glint refuses.
 #include "grammar/emit/emit.h"
 #include "grammar/emit/emit_words.h"
-#include "grammar/generate.h"
 #include "grammar/print/ir_print.h"
 #include "tests/equal/json_schema.h"
+#include "tests/generate/generate.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 // Generated scenes mean the same after any way through both spellings.
-#include "grammar/generate.h"
 #include "tests/equal/equal_kit.h"
+#include "tests/generate/generate.h"
 
 #include <jansson.h>
 

@@ -1,9 +1,9 @@
 // Generated scenes, laid out at random and with comments, through the formatter: the meaning stays, each
 // comment stays at its entry, and formatting twice is formatting once.
 //     format_generated [SCENES]
-#include "grammar/generate.h"
 #include "grammar/print/ir_print.h"
 #include "tests/format/format_kit.h"
+#include "tests/generate/generate.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

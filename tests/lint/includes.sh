@@ -32,6 +32,7 @@ function foreign(path, target) {
     if (target ~ /^(volk|vulkan)/) return path ~ /^tracer\/gpu\//
     if (target ~ /^stb/) return path ~ /^(picture|tools|tests)\//
     if (target ~ /^png\.h/) return path ~ /^(picture|tests)\//
+    if (target ~ /^zlib/) return path ~ /^(shaders|tools)\//
     if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
     if (target ~ /^minizip/) return path ~ /^app\/pack_zip/
     if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//

@@ -4,8 +4,8 @@
 #include "picture_kit.h"
 
 #include "files/output.h"
-#include "grammar/generate.h"
 #include "grammar/print/ir_print.h"
+#include "tests/generate/generate.h"
 
 #include <stdio.h>
 

@@ -7,8 +7,8 @@
 
 #include "app/exact.h"
 #include "files/output.h"
-#include "grammar/generate.h"
 #include "grammar/print/ir_print.h"
+#include "tests/generate/generate.h"
 
 #include <stdio.h>
 #include <stdlib.h>

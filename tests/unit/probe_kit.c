@@ -1,6 +1,6 @@
 #include "probe_kit.h"
 
-#include "shaders/kernels.h"
+#include "tests/kernels/kernels.h"
 #include "tracer/render/render_private.h"
 
 #include <math.h>
@@ -49,14 +49,11 @@ bool probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *f
         [CONSTANT_TRIANGLE_STACK] = levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = levels(flat->sphere_depth),
         [CONSTANT_PACKED_GROUPS] = packed};
-    const uint32_t *const code[2][2] = {{kernel_probe_storage, kernel_probe_texels},
-                                        {kernel_probe64_storage, kernel_probe64_texels}};
-    const size_t words[2][2] = {{kernel_probe_storage_words, kernel_probe_texels_words},
-                                {kernel_probe64_storage_words, kernel_probe64_texels_words}};
+    const struct kernel *const kernels[2][2] = {{&kernel_probe_storage, &kernel_probe_texels},
+                                                {&kernel_probe64_storage, &kernel_probe64_texels}};
     const bool texels = gpu_fetches_texels(gpu);
     *probe = (struct probe){.gpu = gpu, .is_double = flat->is_double};
-    probe->source = (struct gpu_program_source){.spirv = code[flat->is_double][texels],
-                                                .spirv_words = words[flat->is_double][texels],
+    probe->source = (struct gpu_program_source){.kernel = kernels[flat->is_double][texels],
                                                 .constants = constants,
                                                 .constant_count = CONSTANT_COUNT,
                                                 .push_bytes = sizeof(struct dispatch_block)};

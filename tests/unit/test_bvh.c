@@ -2,10 +2,11 @@
 #include "core/parallel.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
+#include "tests/traverse/quality.h"
+#include "tests/traverse/traverse.h"
+#include "tracer/bvh/binary.h"
 #include "tracer/bvh/bvh.h"
-#include "tracer/bvh/encode.h"
 #include "tracer/bvh/items.h"
-#include "tracer/bvh/traverse.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 // The GPU layer: choosing devices, buffers, dispatches, the layout of records, and doing without Vulkan.
 #include "device_kit.h"
 #include "shaders/frame.h"
-#include "shaders/kernels.h"
+#include "tests/kernels/kernels.h"
 #include "tracer/gpu_records.h"
 
 #include <dlfcn.h>
@@ -245,14 +245,11 @@ static void bind(struct gpu *gpu, struct gpu_program_source *source, uint32_t bi
 // The kernel over the records.
 static struct gpu_program_source layout_source(struct gpu *gpu, bool is_double, const struct all_words *all) {
     const bool texels = gpu_fetches_texels(gpu);
-    struct gpu_program_source source = {.spirv = NULL};
-    if (is_double) {
-        source.spirv = texels ? kernel_layout64_texels : kernel_layout64_storage;
-        source.spirv_words = texels ? kernel_layout64_texels_words : kernel_layout64_storage_words;
-    } else {
-        source.spirv = texels ? kernel_layout_texels : kernel_layout_storage;
-        source.spirv_words = texels ? kernel_layout_texels_words : kernel_layout_storage_words;
-    }
+    struct gpu_program_source source = {.kernel = NULL};
+    if (is_double)
+        source.kernel = texels ? &kernel_layout64_texels : &kernel_layout64_storage;
+    else
+        source.kernel = texels ? &kernel_layout_texels : &kernel_layout_storage;
     bind(gpu, &source, BINDING_TRIANGLE_NODES, all->triangle_node, sizeof all->triangle_node);
     bind(gpu, &source, BINDING_SPHERE_NODES, all->sphere_node, sizeof all->sphere_node);
     bind(gpu, &source, BINDING_TRIANGLES, all->triangle, sizeof all->triangle);

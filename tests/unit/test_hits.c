@@ -2,7 +2,7 @@
 // traversal on the processor.
 #include "device_kit.h"
 #include "flat_kit.h"
-#include "tracer/bvh/traverse.h"
+#include "tests/traverse/traverse.h"
 #include "tracer/render/render.h"
 
 #include <setjmp.h>
@@ -37,9 +37,9 @@ static vec3 pixel_direction(double x, double y) {
 
 // The hits of the kit's scene; the caller frees. *unfinished may be NULL where there must be none.
 static struct hit_pixel *take(void **state, struct kit *kit, const struct flat_scene *flat, vec3 position,
-                              enum render_study study, uint64_t *unfinished) {
+                              enum render_alternative alternative, uint64_t *unfinished) {
     struct render_settings settings = render_settings_of(&kit->resolved, flat, &kit->limits);
-    settings.study = study;
+    settings.alternative = alternative;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     struct renderer *renderer = renderer_create(device_kit_need(state, flat->is_double), flat, &settings);
@@ -195,7 +195,7 @@ static void check_closed_forms(void **state, bool is_double) {
     make_scene(&kit);
     kit.is_double = is_double;
     assert_true(kit_flatten(&kit, &flat));
-    struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, RENDER_STUDY_NONE, NULL);
+    struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, RENDER_ALTERNATIVE_NONE, NULL);
     int uncertain = 0, seen[BODIES] = {0}, shadows = 0, mirrored = 0, through = 0, nothing = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -254,7 +254,7 @@ static void test_mesh(void **state) {
     model->translation = (vec3){1e3 + 3, -2e3 + 2, 300 - 120};
     model->smooth = true;
     assert_true(kit_flatten(&kit, &flat));
-    struct hit_pixel *hits = take(state, &kit, &flat, kit.origin, RENDER_STUDY_NONE, NULL);
+    struct hit_pixel *hits = take(state, &kit, &flat, kit.origin, RENDER_ALTERNATIVE_NONE, NULL);
     int different = 0, met = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -361,7 +361,7 @@ static void test_unfinished(void **state) {
     kit_model(&kit, kit_mesh(&kit, corners, 3, (const uint32_t(*)[3])faces, LAYERS, false));
     assert_true(kit_flatten(&kit, &flat));
     uint64_t unfinished = 0;
-    struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, RENDER_STUDY_NONE, &unfinished);
+    struct hit_pixel *hits = take(state, &kit, &flat, (vec3){0, 0, 0}, RENDER_ALTERNATIVE_NONE, &unfinished);
     assert_int_equal(unfinished, PIXELS);
     free(hits);
     flat_finish(&flat);
@@ -375,11 +375,12 @@ struct counts {
     int met, dark, lit; // pixels with a body; lights that would add and do not; that do
 };
 
-static struct counts count(void **state, struct kit *kit, vec3 position, enum render_study study) {
+static struct counts count(void **state, struct kit *kit, vec3 position,
+                           enum render_alternative alternative) {
     struct flat_scene flat;
     struct counts counts = {0, 0, 0};
     assert_true(kit_flatten(kit, &flat));
-    struct hit_pixel *hits = take(state, kit, &flat, position, study, NULL);
+    struct hit_pixel *hits = take(state, kit, &flat, position, alternative, NULL);
     for (int i = 0; i < PIXELS; i++) {
         counts.met += hits[i].body != HIT_NONE;
         counts.dark += hits[i].considered != hits[i].lit;
@@ -390,7 +391,7 @@ static struct counts count(void **state, struct kit *kit, vec3 position, enum re
     return counts;
 }
 
-static void test_study_small_mesh(void **state) {
+static void test_alternative_small_mesh(void **state) {
     device_kit_need(state, false);
     struct kit kit;
     kit_init(&kit);
@@ -398,21 +399,21 @@ static void test_study_small_mesh(void **state) {
     model->scale = (vec3){1e-3, 1e-3, 1e-3};
     model->translation = (vec3){0, 0, -4e-3};
     const vec3 eye = {0, 0, 0};
-    const int own = count(state, &kit, eye, RENDER_STUDY_NONE).met;
+    const int own = count(state, &kit, eye, RENDER_ALTERNATIVE_NONE).met;
     assert_in_range(own, PIXELS / 10, PIXELS / 2);
-    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_FUSED).met, own);
-    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_OFFSET_3).met, own);
+    assert_int_equal(count(state, &kit, eye, RENDER_ALTERNATIVE_FUSED).met, own);
+    assert_int_equal(count(state, &kit, eye, RENDER_ALTERNATIVE_OFFSET_3).met, own);
     // Every triangle is smaller than the cut.
-    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_MOELLER).met, 0);
-    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_ORIGINAL).met, 0);
+    assert_int_equal(count(state, &kit, eye, RENDER_ALTERNATIVE_MOELLER).met, 0);
+    assert_int_equal(count(state, &kit, eye, RENDER_ALTERNATIVE_ORIGINAL).met, 0);
     model->scale = (vec3){1, 1, 1};
     model->translation = (vec3){0, 0, -4};
-    assert_in_range(count(state, &kit, eye, RENDER_STUDY_MOELLER).met, own - own / 50, own);
+    assert_in_range(count(state, &kit, eye, RENDER_ALTERNATIVE_MOELLER).met, own - own / 50, own);
     kit_finish(&kit);
 }
 
 // A wide sloping plane, lit from above: no point of it lies in shadow.
-static void test_study_self_hits(void **state) {
+static void test_alternative_self_hits(void **state) {
     device_kit_need(state, false);
     struct kit kit;
     kit_init(&kit);
@@ -422,16 +423,16 @@ static void test_study_self_hits(void **state) {
     r->edge_v = (vec3){-13, 701, -4001};
     kit_light(&kit, (vec3){100, 5000, 300});
     const vec3 eye = {0, 0, 0};
-    const struct counts own = count(state, &kit, eye, RENDER_STUDY_NONE);
+    const struct counts own = count(state, &kit, eye, RENDER_ALTERNATIVE_NONE);
     assert_in_range(own.lit, PIXELS / 10, PIXELS);
     assert_int_equal(own.dark, 0);
-    assert_in_range(count(state, &kit, eye, RENDER_STUDY_OFFSET_7).dark, PIXELS / 100, PIXELS);
-    assert_in_range(count(state, &kit, eye, RENDER_STUDY_OFFSET_DISTANCE).dark, 0, 0);
+    assert_in_range(count(state, &kit, eye, RENDER_ALTERNATIVE_OFFSET_7).dark, PIXELS / 100, PIXELS);
+    assert_in_range(count(state, &kit, eye, RENDER_ALTERNATIVE_OFFSET_DISTANCE).dark, 0, 0);
     kit_finish(&kit);
 }
 
 // Between two plates that are nearer to each other than a ray's start is moved: no light from above.
-static void test_study_leaks(void **state) {
+static void test_alternative_leaks(void **state) {
     device_kit_need(state, false);
     struct kit kit;
     kit_init(&kit);
@@ -443,11 +444,11 @@ static void test_study_leaks(void **state) {
     }
     kit_light(&kit, (vec3){0, 5, -2});
     const vec3 eye = {0, 0, 0};
-    const struct counts own = count(state, &kit, eye, RENDER_STUDY_NONE);
+    const struct counts own = count(state, &kit, eye, RENDER_ALTERNATIVE_NONE);
     assert_in_range(own.dark, PIXELS / 3, PIXELS);
     assert_int_equal(own.lit, 0);
-    assert_in_range(count(state, &kit, eye, RENDER_STUDY_OFFSET_3).lit, PIXELS / 3, PIXELS);
-    assert_int_equal(count(state, &kit, eye, RENDER_STUDY_OFFSET_7).lit, 0);
+    assert_in_range(count(state, &kit, eye, RENDER_ALTERNATIVE_OFFSET_3).lit, PIXELS / 3, PIXELS);
+    assert_int_equal(count(state, &kit, eye, RENDER_ALTERNATIVE_OFFSET_7).lit, 0);
     kit_finish(&kit);
 }
 
@@ -459,9 +460,9 @@ int main(void) {
         cmocka_unit_test(test_mesh),
         cmocka_unit_test(test_log),
         cmocka_unit_test(test_unfinished),
-        cmocka_unit_test(test_study_small_mesh),
-        cmocka_unit_test(test_study_self_hits),
-        cmocka_unit_test(test_study_leaks),
+        cmocka_unit_test(test_alternative_small_mesh),
+        cmocka_unit_test(test_alternative_self_hits),
+        cmocka_unit_test(test_alternative_leaks),
         cmocka_unit_test(device_kit_silent),
     };
     return cmocka_run_group_tests(tests, device_kit_setup, device_kit_teardown);

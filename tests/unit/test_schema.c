@@ -3,6 +3,7 @@
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
+#include "grammar/schema_index.h"
 
 #include <ctype.h>
 #include <setjmp.h>
@@ -229,14 +230,20 @@ static void test_docs(void **state) {
 // Each row can be spelled, and is found by its spellings.
 static void test_spellings_find_their_row(void **state) {
     (void)state;
+    struct arena arena;
+    struct schema_index index;
+    arena_init(&arena, SIZE_MAX);
+    schema_index_init(&index, &arena);
     EACH_ELEMENT(e) {
+        bool single;
         for (uint32_t i = 0; i < (*e)->row_count; i++) {
             const struct schema_row *row = &(*e)->rows[i];
-            bool single = false;
+            single = false;
             assert_int_equal(schema_find_row(*e, str_from(row->name)), i);
             assert_true(schema_is_attribute(row) || row->element);
-            if (schema_is_attribute(row))
-                assert_int_equal(schema_find_attribute(*e, str_from(row->name)), i);
+            assert_int_equal(
+                schema_index_find(&index, *e, SCHEMA_NAME_ATTRIBUTE, str_from(row->name), &single),
+                schema_is_attribute(row) ? (int)i : -1);
             if (row->element)
                 assert_int_equal(schema_find_child(*e, str_from(row->element)), i);
             if (row->key)
@@ -247,9 +254,11 @@ static void test_spellings_find_their_row(void **state) {
                 assert_int_equal(schema_find_yaml(*e, str_from(row->name), &single), i);
             assert_int_equal(single, row->single != NULL);
         }
-        assert_int_equal(schema_find_attribute(*e, STR("no_such_name")), -1);
+        assert_int_equal(schema_index_find(&index, *e, SCHEMA_NAME_ATTRIBUTE, STR("no_such_name"), &single),
+                         -1);
         assert_int_equal(schema_find_child(*e, STR("NoSuchName")), -1);
     }
+    arena_finish(&arena);
 }
 
 // ---- columns that belong together

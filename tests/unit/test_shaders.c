@@ -1,6 +1,7 @@
 // The embedded SPIR-V: no operation that a driver may fuse, none whose order of rounding it may choose.
 // Reference: SPIR-V Specification 1.6, section 3; GLSL.std.450 extended instructions.
 #include "shaders/kernels.h"
+#include "tests/kernels/kernels.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -97,30 +98,53 @@ static int count_doubles(const struct module *module) {
     return count;
 }
 
+static void check_module(const struct module *module) {
+    const bool is_double = strstr(module->name, "64"), may_fuse = strstr(module->name, "_fused_");
+    assert_int_equal(module->words[0], 0x07230203);
+    assert_int_equal(faults_of(module, !may_fuse) > 0, may_fuse);
+    assert_int_equal(preserves_nan(module, 32), 1);
+    assert_int_equal(preserves_nan(module, 64), is_double);
+    assert_int_equal(count_doubles(module) > 100, is_double && !strstr(module->name, "layout"));
+}
+
 // Each kernel that the build makes: BUILT_KERNELS is KERNEL(name) of all of them. Those whose operations may
 // be fused carry no decoration, and those for the layout of records compute nothing.
 static void test_kernels(void **state) {
     (void)state;
-#define KERNEL(name) {#name, kernel_##name, kernel_##name##_words},
-    const struct module modules[] = {BUILT_KERNELS};
+#define KERNEL(name) {#name, &kernel_##name},
+    static const struct {
+        const char *name;
+        const struct kernel *kernel;
+    } kernels[] = {BUILT_KERNELS};
 #undef KERNEL
-    for (size_t i = 0; i < sizeof modules / sizeof *modules; i++) {
-        const struct module *module = &modules[i];
-        const bool is_double = strstr(module->name, "64"), may_fuse = strstr(module->name, "_fused_");
-        assert_int_equal(module->words[0], 0x07230203);
-        assert_int_equal(faults_of(module, !may_fuse) > 0, may_fuse);
-        assert_int_equal(preserves_nan(module, 32), 1);
-        assert_int_equal(preserves_nan(module, 64), is_double);
-        assert_int_equal(count_doubles(module) > 100, is_double && !strstr(module->name, "layout"));
+    for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++) {
+        uint32_t *words = kernel_inflate(kernels[i].kernel);
+        assert_non_null(words);
+        const struct module module = {kernels[i].name, words, kernels[i].kernel->words};
+        check_module(&module);
+        free(words);
     }
+}
+
+// A module that is not whole is none.
+static void test_broken_kernel(void **state) {
+    (void)state;
+    struct kernel kernel = kernel_trace_texels;
+    kernel.deflated_bytes--;
+    assert_null(kernel_inflate(&kernel));
+    kernel = kernel_trace_texels;
+    kernel.words++;
+    assert_null(kernel_inflate(&kernel));
+    kernel.words -= 2;
+    assert_null(kernel_inflate(&kernel));
 }
 
 // The check above can fail: without one decoration, and with a dot product in place of an addition.
 static void test_faults_are_found(void **state) {
     (void)state;
-    const size_t count = kernel_trace_texels_words;
-    uint32_t *copy = malloc(count * sizeof *copy);
-    memcpy(copy, kernel_trace_texels, count * sizeof *copy);
+    const size_t count = kernel_trace_texels.words;
+    uint32_t *copy = kernel_inflate(&kernel_trace_texels);
+    assert_non_null(copy);
     const struct module module = {"copy", copy, count};
     size_t decoration = 0, addition = 0;
     for (size_t at = HEADER_WORDS; at < count; at += copy[at] >> 16) {
@@ -139,7 +163,7 @@ static void test_faults_are_found(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kernels),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kernels), cmocka_unit_test(test_broken_kernel),
                                        cmocka_unit_test(test_faults_are_found)};
     return cmocka_run_group_tests_name("shaders", tests, NULL, NULL);
 }

@@ -71,7 +71,7 @@ static void test_pooled_noise(void **state) {
     assert_int_equal(rows[2].time_class, 2);
 }
 
-static void test_studies_take_no_part(void **state) {
+static void test_alternatives_take_no_part(void **state) {
     (void)state;
     struct choice_row rows[] = {row(1, 0, 1, 0.001), row(10, 0, 2, 0.1)};
     rows[0].choosable = false;
@@ -236,9 +236,10 @@ static void test_plan_single(void **state) {
     assert_int_equal(count_of(rows, count, KNOB_SHADOWS), 1);
     assert_int_equal(count_of(rows, count, KNOB_RESOLUTION), 3);
     assert_int_equal(count_of(rows, count, KNOB_FEATURES), 1);
-    assert_int_equal(count_of(rows, count, KNOB_STUDY), RENDER_STUDIES - 1);
+    assert_int_equal(count_of(rows, count, KNOB_ALTERNATIVE), RENDER_ALTERNATIVES - 1);
     for (uint32_t i = 0; i < count; i++)
-        assert_int_equal(rows[i].choosable, !(rows[i].knobs & (1u << KNOB_FEATURES | 1u << KNOB_STUDY)));
+        assert_int_equal(rows[i].choosable,
+                         !(rows[i].knobs & (1u << KNOB_FEATURES | 1u << KNOB_ALTERNATIVE)));
     // The file's own limit is what ends paths: deeper ones are tried too.
     input.base.max_depth = input.deepest = 4;
     count = plan_single(&input, rows);
@@ -281,7 +282,7 @@ static void test_plan_pairs(void **state) {
             rows[i].work.cost = 8e6;
             rows[i].value[METRIC_MAE] = 0.003;
         }
-        if (rows[i].knobs == 1u << KNOB_STUDY)
+        if (rows[i].knobs == 1u << KNOB_ALTERNATIVE)
             rows[i].work.cost = 1; // never part of a pair
     }
     assert_int_equal(plan_pairs(rows, count, METRIC_MAE, 10, pairs, &left_out), 1);
@@ -485,7 +486,7 @@ int main(void) {
         cmocka_unit_test(test_noise_class),
         cmocka_unit_test(test_ties),
         cmocka_unit_test(test_pooled_noise),
-        cmocka_unit_test(test_studies_take_no_part),
+        cmocka_unit_test(test_alternatives_take_no_part),
         cmocka_unit_test(test_cheapest),
         cmocka_unit_test(test_best_within),
         cmocka_unit_test(test_both_bounds),

@@ -9,7 +9,7 @@
 #include "random.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
-#include "tracer/bvh/traverse.h"
+#include "tests/traverse/traverse.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

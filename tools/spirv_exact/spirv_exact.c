@@ -1,8 +1,9 @@
 // spirv_exact IN.spv OUT.spv OUT.c NAME [plain]: decorates every floating-point arithmetic operation of a
 // module with NoContraction, so that no compiler may fuse a multiplication and an addition, and writes the
-// module as SPIR-V and as a C array `NAME` of `NAME_words` words. With `plain` nothing is decorated: for
-// measuring what that saves and costs. A module that computes with doubles and asks for
-// SignedZeroInfNanPreserve of floats asks for it of doubles too: GLSL can say it of one width alone.
+// module as SPIR-V and, deflated, as a C file that defines the `struct kernel` NAME (shaders/kernel.h). With
+// `plain` nothing is decorated: for measuring what that saves and costs. A module that computes with doubles
+// and asks for SignedZeroInfNanPreserve of floats asks for it of doubles too: GLSL can say it of one width
+// alone.
 //
 // GLSL's `precise` stops at function calls and does nothing for dot and cross; watertight intersection
 // and conservative boxes need every operation rounded once. Exit codes: 0, or 1 with a line on stderr.
@@ -12,6 +13,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <zlib.h>
 
 enum {
     HEADER_WORDS = 5,
@@ -154,16 +157,25 @@ static bool write_module(const char *path, const uint32_t *module, size_t words)
     return fclose(file) == 0 && ok;
 }
 
-static bool write_array(const char *path, const char *name, const uint32_t *module, size_t words) {
+static bool write_bytes(FILE *file, const char *name, const unsigned char *bytes, size_t count,
+                        size_t words) {
+    fprintf(file, "#include \"shaders/kernel.h\"\n\nstatic const unsigned char deflated[] = {");
+    for (size_t i = 0; i < count; i++)
+        fprintf(file, "%s%u,", i % 24 ? "" : "\n    ", (unsigned)bytes[i]);
+    fprintf(file, "\n};\nconst struct kernel %s = {deflated, sizeof deflated, %zu};\n", name, words);
+    return !ferror(file);
+}
+
+static bool write_kernel(const char *path, const char *name, const uint32_t *module, size_t words) {
+    uLongf count = compressBound(words * 4);
+    unsigned char *bytes = malloc(count);
     FILE *file = fopen(path, "w");
-    if (!file)
-        return false;
-    fprintf(file, "#include \"shaders/kernels.h\"\n\nconst uint32_t %s[] = {", name);
-    for (size_t i = 0; i < words; i++)
-        fprintf(file, "%s0x%08xu,", i % 8 ? " " : "\n    ", (unsigned)module[i]);
-    fprintf(file, "\n};\nconst size_t %s_words = sizeof %s / sizeof %s[0];\n", name, name, name);
-    const bool ok = !ferror(file);
-    return fclose(file) == 0 && ok;
+    const bool ok =
+        bytes && file &&
+        compress2(bytes, &count, (const unsigned char *)module, words * 4, Z_BEST_COMPRESSION) == Z_OK &&
+        write_bytes(file, name, bytes, count, words);
+    free(bytes);
+    return file && fclose(file) == 0 && ok;
 }
 
 int main(int argc, char **argv) {
@@ -179,7 +191,7 @@ int main(int argc, char **argv) {
         fprintf(stderr, "%s:1:1: error: not a SPIR-V module\n", argv[1]);
     else if (!(exact = decorate(module, &words, plain)))
         fprintf(stderr, "%s:1:1: error: not enough memory\n", argv[1]);
-    else if (!write_module(argv[2], exact, words) || !write_array(argv[3], argv[4], exact, words))
+    else if (!write_module(argv[2], exact, words) || !write_kernel(argv[3], argv[4], exact, words))
         fprintf(stderr, "%s:1:1: error: cannot be written\n", argv[2]);
     else
         ok = true;

@@ -53,15 +53,9 @@ struct bvh {
 bool bvh_build(struct bvh_item *items, uint32_t count, enum bvh_method method, struct bvh *out);
 void bvh_finish(struct bvh *bvh);
 
-// What a tree is like: the cost is the expected number of nodes opened and items tested by a random ray
-// that hits the root's box, weighted BVH_COST_NODE and BVH_COST_ITEM, over the boxes as quantised.
+// What the builder minimises: the expected number of nodes opened and items tested by a random ray that hits
+// the root's box, weighted with these.
 #define BVH_COST_NODE 1.0
 #define BVH_COST_ITEM 0.3
-struct bvh_quality {
-    double cost;
-    uint32_t nodes, leaves, items;
-    double children_per_node, items_per_leaf;
-};
-struct bvh_quality bvh_measure(const struct bvh *bvh);
 
 #endif

@@ -1,4 +1,4 @@
-// One node of the wide tree as the words of shaders/gpu_scene.h, and back. Private to runtime/bvh.
+// One node of the wide tree as the words of shaders/gpu_scene.h. Private to runtime/bvh.
 #ifndef GLINT_TRACER_BVH_ENCODE_H
 #define GLINT_TRACER_BVH_ENCODE_H
 
@@ -13,14 +13,5 @@ struct wide_child {
 // Slots hold the children; `first_node` and `first_item` are where those of this node begin.
 void encode_node(const struct wide_child slots[BVH_WIDTH], uint32_t first_node, uint32_t first_item,
                  struct gpu_word words[5]);
-
-// What the traversal sees of a slot. Exact in double.
-struct decoded_child {
-    double lower[3], upper[3];
-    bool is_node;
-    uint32_t first, count; // the node's index, or the leaf's items
-};
-// false: the slot is empty.
-bool decode_child(const struct gpu_word words[5], int slot, struct decoded_child *child);
 
 #endif

@@ -90,10 +90,11 @@ bool gpu_read(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, void 
 // True where GPU_WORDS are texels: which variant of a kernel fits.
 bool gpu_fetches_texels(const struct gpu *gpu);
 
+struct kernel; // shaders/kernel.h
+
 struct gpu_program_source {
-    const uint32_t *spirv; // entry point `main`
-    size_t spirv_words;
-    const uint32_t *constants; // specialization constants with the ids 0, 1, 2 ...
+    const struct kernel *kernel; // entry point `main`
+    const uint32_t *constants;   // specialization constants with the ids 0, 1, 2 ...
     uint32_t constant_count;
     uint32_t push_bytes;                      // of push constants, at most 128
     struct gpu_buffer *buffers[GPU_BINDINGS]; // by binding; NULL: the kernel has no such binding

@@ -1,3 +1,4 @@
+#include "shaders/kernel.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <stdlib.h>
@@ -31,40 +32,32 @@ static bool is_unknown(const struct gpu *gpu, const uint32_t *instruction) {
     }
 }
 
-// A copy of the module without the requests that the device does not know; the caller frees it.
-static uint32_t *without_float_controls(const struct gpu *gpu, const uint32_t *spirv, size_t words,
-                                        size_t *out_words) {
-    uint32_t *copy = malloc(words * sizeof *copy);
-    if (!copy)
-        return NULL;
-    memcpy(copy, spirv, SPIRV_HEADER_WORDS * sizeof *copy);
+// Takes out of a module what it asks for and the device does not know; gives the words left.
+static size_t drop_unknown(const struct gpu *gpu, uint32_t *spirv, size_t words) {
     size_t count = SPIRV_HEADER_WORDS;
-    for (size_t at = SPIRV_HEADER_WORDS; at < words; at += spirv[at] >> 16) {
+    for (size_t at = SPIRV_HEADER_WORDS, length; at < words; at += length) {
+        length = spirv[at] >> 16;
         if (is_unknown(gpu, spirv + at))
             continue;
-        memcpy(copy + count, spirv + at, (spirv[at] >> 16) * sizeof *copy);
-        count += spirv[at] >> 16;
+        memmove(spirv + count, spirv + at, length * sizeof *spirv);
+        count += length;
     }
-    *out_words = count;
-    return copy;
+    return count;
 }
 
 static bool create_module(struct gpu *gpu, const struct gpu_program_source *source, VkShaderModule *out) {
-    size_t words = source->spirv_words;
-    uint32_t *copy = NULL;
-    if (!gpu->preserves_nan || !gpu->preserves_nan64) {
-        copy = without_float_controls(gpu, source->spirv, words, &words);
-        if (!copy) {
-            gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
-            return false;
-        }
+    uint32_t *spirv = kernel_inflate(source->kernel);
+    if (!spirv) {
+        gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
+        return false;
     }
+    const size_t words = drop_unknown(gpu, spirv, source->kernel->words);
     VkShaderModuleCreateInfo create = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                       .codeSize = words * sizeof(uint32_t),
-                                       .pCode = copy ? copy : source->spirv};
+                                       .codeSize = words * sizeof *spirv,
+                                       .pCode = spirv};
     const bool ok =
         gpu_check(gpu, gpu->vk.vkCreateShaderModule(gpu->device, &create, NULL, out), "vkCreateShaderModule");
-    free(copy);
+    free(spirv);
     return ok;
 }
 

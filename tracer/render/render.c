@@ -169,8 +169,8 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
     renderer->flat = flat;
     take_settings(renderer, settings);
     if (old.width == now->width && old.height == now->height && old.max_depth == now->max_depth &&
-        old.features == now->features && old.study == now->study && old.workgroup == now->workgroup &&
-        old.band_tiles == now->band_tiles)
+        old.features == now->features && old.alternative == now->alternative &&
+        old.workgroup == now->workgroup && old.band_tiles == now->band_tiles)
         return true;
     drop_frame(renderer);
     return make_frame(renderer);

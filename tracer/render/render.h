@@ -12,21 +12,21 @@
 #include "tracer/flatten/flatten.h"
 #include "tracer/gpu/gpu.h"
 
-// Ways of other tracers, to be measured beside glint's own (shaders/study.glsl); none is for pictures. An
-// offset moves a ray's start along the normal by so many scene units, and takes hits from t > 0 on.
-enum render_study {
-    RENDER_STUDY_NONE,
-    RENDER_STUDY_OFFSET_3,        // by 1e-3
-    RENDER_STUDY_OFFSET_4,        // by 1e-4
-    RENDER_STUDY_OFFSET_7,        // by 1e-7
-    RENDER_STUDY_OFFSET_DISTANCE, // by 1e-4 of the way that the ray came, at least 1e-4
-    RENDER_STUDY_MOELLER,         // triangles by Moeller and Trumbore, none of a determinant below 1e-7
-    RENDER_STUDY_ORIGINAL,        // that, and the offset 1e-3
-    RENDER_STUDY_FUSED,           // glint's own, but the device's compiler may fuse operations
-    RENDER_STUDIES,
+// Ways of other tracers, to be measured beside glint's own (shaders/alternatives.glsl); none is for pictures.
+// An offset moves a ray's start along the normal by so many scene units, and takes hits from t > 0 on.
+enum render_alternative {
+    RENDER_ALTERNATIVE_NONE,
+    RENDER_ALTERNATIVE_OFFSET_3,        // by 1e-3
+    RENDER_ALTERNATIVE_OFFSET_4,        // by 1e-4
+    RENDER_ALTERNATIVE_OFFSET_7,        // by 1e-7
+    RENDER_ALTERNATIVE_OFFSET_DISTANCE, // by 1e-4 of the way that the ray came, at least 1e-4
+    RENDER_ALTERNATIVE_MOELLER,         // triangles by Moeller and Trumbore, none of a determinant below 1e-7
+    RENDER_ALTERNATIVE_ORIGINAL,        // that, and the offset 1e-3
+    RENDER_ALTERNATIVE_FUSED,           // glint's own, but the device's compiler may fuse operations
+    RENDER_ALTERNATIVES,
 };
 // "offset 1e-3", for reports.
-const char *render_study_name(enum render_study study);
+const char *render_alternative_name(enum render_alternative alternative);
 
 struct render_settings {
     uint32_t width, height; // pixels
@@ -39,11 +39,11 @@ struct render_settings {
     // FEATURE_ bits to compile in: at least those of the flat scene. Those of the renderer (slices,
     // counters) are added where needed.
     uint32_t features;
-    uint64_t path_segments;    // LIMIT_PATH_SEGMENTS
-    uint32_t slice_iterations; // SLICE_ITERATIONS of shaders/frame.h; 0 gives slices of one ray
-    enum render_study study;   // in single precision only
-    uint32_t workgroup;        // invocations of a workgroup, at most 128; 0: a tile's
-    uint32_t band_tiles;       // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
+    uint64_t path_segments;              // LIMIT_PATH_SEGMENTS
+    uint32_t slice_iterations;           // SLICE_ITERATIONS of shaders/frame.h; 0 gives slices of one ray
+    enum render_alternative alternative; // in single precision only
+    uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
+    uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
 };
 
 // What scene, flat scene and limits ask for.

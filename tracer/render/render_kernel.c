@@ -7,15 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-struct kernel_code {
-    const uint32_t *texels, *storage; // by what the device fetches
-    const size_t *texels_words, *storage_words;
+struct kernel_pair {
+    const struct kernel *texels, *storage; // by what the device fetches
 };
 #define KERNEL(name)                                                                                         \
-    {                                                                                                        \
-        kernel_##name##_texels, kernel_##name##_storage, &kernel_##name##_texels_words,                      \
-            &kernel_##name##_storage_words                                                                   \
-    }
+    { &kernel_##name##_texels, &kernel_##name##_storage }
 
 // Those of one way, which ends their names.
 #define KERNELS(way)                                                                                         \
@@ -23,39 +19,39 @@ struct kernel_code {
         [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
         [RENDERER_LOG] = KERNEL(log##way)                                                                    \
     }
-static const struct kernel_code exact_code[RENDERER_KERNELS] = KERNELS();
-static const struct kernel_code double_code[RENDERER_KERNELS] = KERNELS(64);
-static const struct kernel_code study_code[RENDERER_KERNELS] = KERNELS(_study);
-static const struct kernel_code fused_code[RENDERER_KERNELS] = KERNELS(_fused);
+static const struct kernel_pair exact_kernels[RENDERER_KERNELS] = KERNELS();
+static const struct kernel_pair double_kernels[RENDERER_KERNELS] = KERNELS(64);
+static const struct kernel_pair alternative_kernels[RENDERER_KERNELS] = KERNELS(_alternative);
+static const struct kernel_pair fused_kernels[RENDERER_KERNELS] = KERNELS(_fused);
 
-static const struct study {
+static const struct alternative {
     const char *name;
     double offset, distance, cut; // scene units; of the way; squared scene units
-} studies[RENDER_STUDIES] = {
-    [RENDER_STUDY_NONE] = {"none", 0, 0, 0},
-    [RENDER_STUDY_OFFSET_3] = {"offset 1e-3", 1e-3, 0, 0},
-    [RENDER_STUDY_OFFSET_4] = {"offset 1e-4", 1e-4, 0, 0},
-    [RENDER_STUDY_OFFSET_7] = {"offset 1e-7", 1e-7, 0, 0},
-    [RENDER_STUDY_OFFSET_DISTANCE] = {"offset by distance", 1e-4, 1e-4, 0},
-    [RENDER_STUDY_MOELLER] = {"moeller-trumbore", 0, 0, 1e-7},
-    [RENDER_STUDY_ORIGINAL] = {"moeller-trumbore, offset 1e-3", 1e-3, 0, 1e-7},
-    [RENDER_STUDY_FUSED] = {"fused", 0, 0, 0},
+} alternatives[RENDER_ALTERNATIVES] = {
+    [RENDER_ALTERNATIVE_NONE] = {"none", 0, 0, 0},
+    [RENDER_ALTERNATIVE_OFFSET_3] = {"offset 1e-3", 1e-3, 0, 0},
+    [RENDER_ALTERNATIVE_OFFSET_4] = {"offset 1e-4", 1e-4, 0, 0},
+    [RENDER_ALTERNATIVE_OFFSET_7] = {"offset 1e-7", 1e-7, 0, 0},
+    [RENDER_ALTERNATIVE_OFFSET_DISTANCE] = {"offset by distance", 1e-4, 1e-4, 0},
+    [RENDER_ALTERNATIVE_MOELLER] = {"moeller-trumbore", 0, 0, 1e-7},
+    [RENDER_ALTERNATIVE_ORIGINAL] = {"moeller-trumbore, offset 1e-3", 1e-3, 0, 1e-7},
+    [RENDER_ALTERNATIVE_FUSED] = {"fused", 0, 0, 0},
 };
 
-const char *render_study_name(enum render_study study) {
-    return study < RENDER_STUDIES ? studies[study].name : "unknown";
+const char *render_alternative_name(enum render_alternative alternative) {
+    return alternative < RENDER_ALTERNATIVES ? alternatives[alternative].name : "unknown";
 }
 
-static const struct kernel_code *code_of(const struct renderer *renderer, enum renderer_kernel kernel) {
+static const struct kernel_pair *pair_of(const struct renderer *renderer, enum renderer_kernel kernel) {
     if (renderer->flat->is_double)
-        return &double_code[kernel];
-    switch (renderer->settings.study) {
-    case RENDER_STUDY_NONE:
-        return &exact_code[kernel];
-    case RENDER_STUDY_FUSED:
-        return &fused_code[kernel];
+        return &double_kernels[kernel];
+    switch (renderer->settings.alternative) {
+    case RENDER_ALTERNATIVE_NONE:
+        return &exact_kernels[kernel];
+    case RENDER_ALTERNATIVE_FUSED:
+        return &fused_kernels[kernel];
     default:
-        return &study_code[kernel];
+        return &alternative_kernels[kernel];
     }
 }
 
@@ -87,7 +83,8 @@ double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t hig
 }
 
 static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {
-    return kept->program && kept->features == features && kept->study == renderer->settings.study &&
+    return kept->program && kept->features == features &&
+           kept->alternative == renderer->settings.alternative &&
            kept->workgroup == renderer->settings.workgroup;
 }
 
@@ -106,7 +103,8 @@ struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t fe
         renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
     struct renderer_kept *kept = &renderer->kept[renderer->kept_next];
     gpu_program_destroy(renderer->gpu, kept->program);
-    *kept = (struct renderer_kept){features, renderer->settings.workgroup, renderer->settings.study, program};
+    *kept = (struct renderer_kept){features, renderer->settings.workgroup, renderer->settings.alternative,
+                                   program};
     renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
     return program;
 }
@@ -117,21 +115,20 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
     const struct flat_scene *flat = renderer->flat;
     const bool texels = gpu_fetches_texels(renderer->gpu);
     const uint64_t most = (uint64_t)NODE_WORDS << 16;
-    const struct study *study = &studies[renderer->settings.study];
-    const struct kernel_code *code = code_of(renderer, kernel);
+    const struct alternative *alternative = &alternatives[renderer->settings.alternative];
+    const struct kernel_pair *pair = pair_of(renderer, kernel);
     const uint32_t constants[CONSTANT_COUNT] = {
         [CONSTANT_FEATURES] = features,
         [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
         [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
-        [CONSTANT_STUDY_OFFSET] = bits_of(ldexp(study->offset, flat->scale_exponent)),
-        [CONSTANT_STUDY_DISTANCE] = bits_of(study->distance),
-        [CONSTANT_STUDY_CUT] = bits_of(ldexp(study->cut, 2 * flat->scale_exponent)),
+        [CONSTANT_ALTERNATIVE_OFFSET] = bits_of(ldexp(alternative->offset, flat->scale_exponent)),
+        [CONSTANT_ALTERNATIVE_DISTANCE] = bits_of(alternative->distance),
+        [CONSTANT_ALTERNATIVE_CUT] = bits_of(ldexp(alternative->cut, 2 * flat->scale_exponent)),
     };
     struct gpu_program_source source = {
-        .spirv = texels ? code->texels : code->storage,
-        .spirv_words = texels ? *code->texels_words : *code->storage_words,
+        .kernel = texels ? pair->texels : pair->storage,
         .constants = constants,
         .constant_count = CONSTANT_COUNT,
         .push_bytes = sizeof(struct dispatch_block),

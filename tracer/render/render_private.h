@@ -30,7 +30,7 @@ struct renderer_log;
 // A kernel that was compiled, for the settings that it depends on.
 struct renderer_kept {
     uint32_t features, workgroup;
-    enum render_study study;
+    enum render_alternative alternative;
     struct gpu_program *program; // NULL: none
 };
 enum {

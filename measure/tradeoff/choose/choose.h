@@ -3,7 +3,7 @@
 // A row has a measured time with its noise, the work that was counted (which does not vary from run to run)
 // and an error. Rows whose times differ by less than the noise are one class; within a class counted work
 // decides, then the error, then the order of the table. That order is called rank. The front are the rows
-// that no row of lower rank equals or betters in error. Rows that are not to be chosen (studies) take no
+// that no row of lower rank equals or betters in error. Rows that are not to be chosen (alternatives) take no
 // part. Ownership: the caller's array. Thread safety: pure.
 #ifndef GLINT_MEASURE_TRADEOFF_CHOOSE_CHOOSE_H
 #define GLINT_MEASURE_TRADEOFF_CHOOSE_CHOOSE_H

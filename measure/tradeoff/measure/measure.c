@@ -25,7 +25,7 @@ struct reference_progress measuring_reference_progress(struct measuring *s) {
 }
 
 bool measuring_traces_as_file(const struct row *row) {
-    return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_STUDY));
+    return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_ALTERNATIVE));
 }
 
 enum tradeoff_status measuring_reference_status(enum reference_result result) {

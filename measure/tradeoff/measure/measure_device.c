@@ -20,7 +20,7 @@ static struct render_settings settings_of(const struct measuring *s, const struc
     r.samples = setting->samples;
     r.max_depth = setting->max_depth;
     r.min_weight = setting->min_weight;
-    r.study = setting->study;
+    r.alternative = setting->alternative;
     r.features = flat->features;
     if (setting->general)
         r.features |= FEATURE_SCENE_MASK;

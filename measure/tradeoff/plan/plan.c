@@ -25,8 +25,8 @@ bool plan_differs(const struct setting *a, const struct setting *b, enum knob kn
         return a->width != b->width || a->height != b->height;
     case KNOB_FEATURES:
         return a->general != b->general;
-    case KNOB_STUDY:
-        return a->study != b->study;
+    case KNOB_ALTERNATIVE:
+        return a->alternative != b->alternative;
     default:
         return false;
     }
@@ -57,8 +57,8 @@ static void name_part(const struct setting *s, enum knob knob, char *out, size_t
     case KNOB_FEATURES:
         snprintf(out, capacity, "general shader");
         break;
-    case KNOB_STUDY:
-        snprintf(out, capacity, "study: %s", render_study_name(s->study));
+    case KNOB_ALTERNATIVE:
+        snprintf(out, capacity, "study: %s", render_alternative_name(s->alternative));
         break;
     default:
         snprintf(out, capacity, "?");
@@ -81,7 +81,7 @@ void plan_describe(struct row *row, const struct setting *base) {
     }
     if (!row->knobs)
         snprintf(row->name, sizeof row->name, "as the file says");
-    row->choosable = !(row->knobs & (1u << KNOB_FEATURES | 1u << KNOB_STUDY));
+    row->choosable = !(row->knobs & (1u << KNOB_FEATURES | 1u << KNOB_ALTERNATIVE));
 }
 
 // ---- one knob at a time
@@ -141,12 +141,12 @@ static void add_samples(struct planning *p) {
         add(p, s);
 }
 
-static void add_studies(struct planning *p) {
+static void add_alternatives(struct planning *p) {
     struct setting s = p->input->base;
     s.is_double = false;
-    for (int study = RENDER_STUDY_NONE + 1; study < RENDER_STUDIES; study++) {
-        s.study = (enum render_study)study;
-        if (p->input->has_triangles || (study != RENDER_STUDY_MOELLER && study != RENDER_STUDY_ORIGINAL))
+    for (int i = RENDER_ALTERNATIVE_NONE + 1; i < RENDER_ALTERNATIVES; i++) {
+        s.alternative = (enum render_alternative)i;
+        if (p->input->has_triangles || (i != RENDER_ALTERNATIVE_MOELLER && i != RENDER_ALTERNATIVE_ORIGINAL))
             add(p, s);
     }
 }
@@ -172,7 +172,7 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows) {
     s = input->base;
     s.general = true;
     add(&p, s);
-    add_studies(&p);
+    add_alternatives(&p);
     return p.count;
 }
 
@@ -182,7 +182,7 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows) {
 static bool is_part(const struct setting *a, const struct setting *b) {
     return a->max_depth <= b->max_depth && a->min_weight >= b->min_weight && a->samples <= b->samples &&
            a->width <= b->width && a->height <= b->height && a->shadows <= b->shadows &&
-           a->is_double == b->is_double && a->general == b->general && a->study == b->study;
+           a->is_double == b->is_double && a->general == b->general && a->alternative == b->alternative;
 }
 
 bool plan_order_times(struct row *rows, uint32_t count) {

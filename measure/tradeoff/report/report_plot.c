@@ -97,7 +97,7 @@ static const char *const knob_names[KNOB_COUNT] = {"max_depth", "min_weight", "p
 const char *html_kind(const struct row *row) {
     if (!row->knobs)
         return "file";
-    if (row->knobs & 1u << KNOB_STUDY)
+    if (row->knobs & 1u << KNOB_ALTERNATIVE)
         return "study";
     for (int i = 0; i < KNOB_COUNT; i++)
         if (row->knobs == 1u << i)

@@ -28,8 +28,8 @@ enum knob {
     KNOB_SAMPLES,
     KNOB_SHADOWS,
     KNOB_RESOLUTION,
-    KNOB_FEATURES, // what is compiled in: not a setting of the file, never chosen
-    KNOB_STUDY,    // other tracers' ways: never chosen
+    KNOB_FEATURES,    // what is compiled in: not a setting of the file, never chosen
+    KNOB_ALTERNATIVE, // other tracers' ways: never chosen
     KNOB_COUNT,
 };
 
@@ -38,7 +38,7 @@ struct setting {
     double min_weight;
     bool is_double, shadows;
     bool general; // every feature of the language is compiled in
-    enum render_study study;
+    enum render_alternative alternative;
 };
 
 // What was counted; it does not vary from run to run.
@@ -80,7 +80,7 @@ struct tradeoff_options {
     double max_time_ms;    // NaN: not asked
     double budget_s;       // wall time; 0: none
     bool thumbnails;       // for a report with pictures
-    bool quick;            // for choosing alone: no studies, no hits, no parts
+    bool quick;            // for choosing alone: no alternatives, no hits, no parts
     double threshold, ppd; // of the metrics
 };
 

@@ -6,8 +6,8 @@
 // numbers and booleans; texts hold line breaks, quotes and markup; numbers reach the ends of their ranges.
 // Ownership: scene and texts live in `arena`, the lists of paths stay the caller's.
 // Thread safety: one call belongs to one thread.
-#ifndef GLINT_GRAMMAR_GENERATE_H
-#define GLINT_GRAMMAR_GENERATE_H
+#ifndef GLINT_TESTS_GENERATE_GENERATE_H
+#define GLINT_TESTS_GENERATE_GENERATE_H
 
 #include "core/arena.h"
 #include "grammar/ir.h"

@@ -1,10 +1,10 @@
 // The tracer's traversal of triangle trees on the processor: the buffers of shaders/gpu_scene.h, the same
-// single-precision arithmetic, one ray at a time. For tests and benches; pictures are made by the kernels.
+// single-precision arithmetic, one ray at a time.
 //
 // Watertight triangle test: Woop, Benthin, Wald 2013, with all edges part of the triangle, so that it needs
 // no second try in double. Of hits at one distance the lowest triangle number wins. Thread safety: pure.
-#ifndef GLINT_TRACER_BVH_TRAVERSE_H
-#define GLINT_TRACER_BVH_TRAVERSE_H
+#ifndef GLINT_TESTS_TRAVERSE_TRAVERSE_H
+#define GLINT_TESTS_TRAVERSE_TRAVERSE_H
 
 #include "tracer/gpu_word.h"
 

@@ -1,11 +1,11 @@
-// Random numbers, names and texts for the generator (generate.h). Private to grammar/.
+// Random numbers, names and texts for the generator (generate.h). Private to this folder.
 //
 // Thread safety: one generator belongs to one thread.
-#ifndef GLINT_GRAMMAR_GENERATE_VALUES_H
-#define GLINT_GRAMMAR_GENERATE_VALUES_H
+#ifndef GLINT_TESTS_GENERATE_GENERATE_VALUES_H
+#define GLINT_TESTS_GENERATE_GENERATE_VALUES_H
 
-#include "grammar/generate.h"
 #include "grammar/schema.h"
+#include "tests/generate/generate.h"
 
 struct generator {
     uint64_t state;

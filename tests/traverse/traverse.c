@@ -1,4 +1,4 @@
-#include "tracer/bvh/traverse.h"
+#include "tests/traverse/traverse.h"
 
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"

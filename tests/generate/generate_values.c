@@ -1,4 +1,4 @@
-#include "grammar/generate_values.h"
+#include "tests/generate/generate_values.h"
 
 #include "core/strbuf.h"
 

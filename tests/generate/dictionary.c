@@ -1,5 +1,4 @@
-// A dictionary for libFuzzer: the words of both spellings.
-#include "grammar/emit/emit.h"
+#include "tests/generate/dictionary.h"
 
 #include "grammar/schema.h"
 
@@ -95,7 +94,7 @@ static const char *const others[] = {
     "xsi:noNamespaceSchemaLocation=\"",
 };
 
-void emit_fuzz_dictionary(struct strbuf *out) {
+void dictionary_write(struct strbuf *out) {
     struct word_list list = {.out = out};
     strbuf_init(&list.seen);
     strbuf_char(&list.seen, '\n');

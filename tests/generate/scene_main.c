@@ -1,8 +1,8 @@
 // Writes a generated scene to standard output, for tests that need files:
 //     generate_scene SEED yaml|xml [MESH...]
 // With meshes the scene is one to render, and may name these.
-#include "grammar/generate.h"
 #include "grammar/print/ir_print.h"
+#include "tests/generate/generate.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
-#include "grammar/generate.h"
+#include "tests/generate/generate.h"
 
-#include "grammar/generate_values.h"
 #include "grammar/ir_walk.h"
+#include "tests/generate/generate_values.h"
 
 #include <string.h>
 
@@ -21,10 +21,14 @@ static const struct generate_paths *paths_of(const struct generator *g, const st
     }
 }
 
-// Names that references to the row's child may use.
+// Names that references to the row's child may use: those of all that stands in the scene's own list.
 static uint32_t count_named(const struct generator *g, const struct schema_row *row) {
     const struct schema_row *pool = ir_walk_pool(row->child);
-    return pool ? ir_walk_visible_count(pool, g->scene) : 0;
+    const struct ir_any_list list = pool ? ir_walk_list(pool, g->scene) : (struct ir_any_list){0};
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < list.count; i++)
+        count += !ir_walk_is_anonymous(pool->child, ir_walk_item(pool, list, i));
+    return count;
 }
 
 // Whether the row can have a value at all: a file, a name to refer to.

@@ -1,0 +1,17 @@
+// What other tracers do, to be measured beside glint's own ways (docs/accuracy.md, "Alternatives"); compiled
+// only with ALTERNATIVES, never into the kernels that make pictures.
+//
+// Offset: a ray leaves a surface from o + t d, moved along the geometric normal by a length that is chosen, and
+// a hit counts from t > 0 on. Cut: the triangle test of Moeller and Trumbore 1997, which refuses triangles of a
+// small determinant.
+
+// Flat; 0: glint's own starts.
+layout(constant_id = CONSTANT_ALTERNATIVE_OFFSET) const float ALTERNATIVE_OFFSET = 0.0;
+// Of the way that the ray came.
+layout(constant_id = CONSTANT_ALTERNATIVE_DISTANCE) const float ALTERNATIVE_DISTANCE = 0.0;
+// Flat, squared; 0: glint's own test.
+layout(constant_id = CONSTANT_ALTERNATIVE_CUT) const float ALTERNATIVE_CUT = 0.0;
+
+bool alternative_moves() { return ALTERNATIVE_OFFSET > 0.0; }
+bool alternative_cuts() { return ALTERNATIVE_CUT > 0.0; }
+float alternative_offset(float t) { return max(ALTERNATIVE_OFFSET, ALTERNATIVE_DISTANCE * t); }

@@ -1,0 +1,17 @@
+// Compiled kernels that tests run beside the program's (shaders/kernels.h), by the same two names each.
+#ifndef GLINT_TESTS_KERNELS_KERNELS_H
+#define GLINT_TESTS_KERNELS_KERNELS_H
+
+#include "shaders/kernel.h"
+
+#define KERNEL(name) extern const struct kernel kernel_##name##_texels, kernel_##name##_storage;
+
+KERNEL(layout) // writes the fields of each record back
+KERNEL(probe)  // traces single rays
+// In double precision.
+KERNEL(layout64)
+KERNEL(probe64)
+
+#undef KERNEL
+
+#endif
