@@ -45,35 +45,35 @@ struct lint_rule_info lint_rule(unsigned index) {
     return (struct lint_rule_info){RULES[index].code, RULES[index].name, RULES[index].level};
 }
 
-static void run_rules(struct lint *lint, enum lint_level level) {
-    lint_collect(lint);
+struct run {
+    struct lint lint;
+    enum lint_level level;
+};
+
+static void run_rules(void *context) {
+    struct run *run = context;
+    lint_collect(&run->lint);
     for (unsigned i = 0; i < RULE_COUNT; i++)
-        if (RULES[i].level <= level)
-            RULES[i].run(lint);
+        if (RULES[i].level <= run->level)
+            RULES[i].run(&run->lint);
 }
 
 void lint_run(const struct lint_input *input, enum lint_level level) {
     if (level == LINT_NONE)
         return;
     struct arena arena;
-    struct arena_guard guard;
-    struct arena_guard *outer = input->scene->arena->guard;
     arena_init(&arena, (size_t)input->scene->limits->value[LIMIT_MESH_MEMORY]);
-    arena_set_guard(&arena, &guard);
+    struct run run = {{.input = input,
+                       .scene = input->scene->scene,
+                       .origin = input->scene->origin,
+                       .assets = input->assets,
+                       .sink = input->scene->sink,
+                       .arena = &arena},
+                      level};
     // Sources that notes need lie in the scene's arena.
-    arena_set_guard(input->scene->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        struct lint lint = {.input = input,
-                            .scene = input->scene->scene,
-                            .origin = input->scene->origin,
-                            .assets = input->assets,
-                            .sink = input->scene->sink,
-                            .arena = &arena};
-        run_rules(&lint, level);
-    } else {
+    struct arena *arenas[] = {&arena, input->scene->arena, NULL};
+    if (arena_guarded_all(arenas, run_rules, &run) != ARENA_FAULT_NONE)
         diag_add(input->scene->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory for the rules that look at meshes");
-    }
-    arena_set_guard(input->scene->arena, outer);
     arena_finish(&arena);
 }
