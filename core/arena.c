@@ -1,5 +1,6 @@
 #include "core/arena.h"
 
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -161,11 +162,10 @@ void *arena_try_alloc(struct arena *arena, size_t size) {
     return alloc_or_fault(arena, size, &fault);
 }
 
-void arena_set_guard(struct arena *arena, struct arena_guard *guard) {
-    arena->guard = guard;
-    if (guard)
-        guard->fault = ARENA_FAULT_NONE;
-}
+struct arena_guard {
+    jmp_buf jump;
+    enum arena_fault fault;
+};
 
 // The guard lies outside of the function that calls setjmp, so that the fault is whole after a jump.
 static void run(struct arena_guard *guard, arena_work *work, void *context) {

@@ -17,7 +17,6 @@
 
 #include "core/str.h"
 
-#include <setjmp.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -27,12 +26,8 @@ enum arena_fault {
     ARENA_FAULT_SYSTEM, // malloc gave NULL
 };
 
-struct arena_guard {
-    jmp_buf jump;
-    enum arena_fault fault;
-};
-
 struct arena_block;
+struct arena_guard;
 
 struct arena {
     struct arena_block *last;
@@ -55,10 +50,6 @@ enum arena_fault arena_guarded(struct arena *arena, arena_work *work, void *cont
 // names every arena that `work` allocates from: a fault of one that is guarded further out alone would pass
 // this call by, and leave the arenas named here with a guard that is over.
 enum arena_fault arena_guarded_all(struct arena *const *arenas, arena_work *work, void *context);
-
-// The guard stays until another one is set; it must be taken away (NULL) before the function that called
-// `setjmp` returns, where the arena lives on. New code calls arena_guarded.
-void arena_set_guard(struct arena *arena, struct arena_guard *guard);
 
 // `size` zeroed bytes, aligned to 16. A size of 0 gives a valid pointer.
 void *arena_alloc(struct arena *arena, size_t size);
