@@ -20,22 +20,17 @@ static bool keeps(void *context, struct diag *item) {
     return diag_policy_keeps(judge->policy, item, ignored);
 }
 
-static void apply_policy(struct session *session) {
-    struct arena_guard guard;
-    arena_set_guard(&session->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        uint32_t count = session->sources.count;
-        bool *ignored = ARENA_ARRAY(&session->arena, bool, count);
-        for (uint32_t i = 0; i < count && session->policy.ignored.count; i++) {
-            const struct source *source = &session->sources.items[i];
-            ignored[i] =
-                source->kind == SOURCE_KIND_FILE &&
-                diag_policy_ignores(&session->policy, files_canonical(&session->files, source->path));
-        }
-        struct judge judge = {&session->policy, ignored, count};
-        diag_filter(&session->sink, keeps, &judge);
+static void apply_policy(void *context) {
+    struct session *session = context;
+    uint32_t count = session->sources.count;
+    bool *ignored = ARENA_ARRAY(&session->arena, bool, count);
+    for (uint32_t i = 0; i < count && session->policy.ignored.count; i++) {
+        const struct source *source = &session->sources.items[i];
+        ignored[i] = source->kind == SOURCE_KIND_FILE &&
+                     diag_policy_ignores(&session->policy, files_canonical(&session->files, source->path));
     }
-    arena_set_guard(&session->arena, NULL);
+    struct judge judge = {&session->policy, ignored, count};
+    diag_filter(&session->sink, keeps, &judge);
 }
 
 // The notes about what stands in for a camera or a light that is not written.
@@ -54,7 +49,7 @@ enum session_state check_scene(struct session *session, const struct session_opt
     session_load(session, &judged, store);
     note_view(session);
     check_allow(session, !options->skip_lint);
-    apply_policy(session);
+    arena_guarded(&session->arena, apply_policy, session);
     session_group(session);
     return session->state;
 }
@@ -77,7 +72,16 @@ static void count_lists(struct report_scene *out, const struct ir_scene *scene) 
     }
 }
 
-static void fill_assets(struct report_scene *out, const struct session *session, const char *root) {
+struct filling {
+    struct report_scene *out;
+    const struct session *session;
+    const char *root;
+};
+
+static void fill_assets(void *context) {
+    const struct filling *filling = context;
+    struct report_scene *out = filling->out;
+    const struct session *session = filling->session;
     const struct ir_scene *scene = session->scene;
     struct report_assets *a = &out->assets;
     count_lists(out, scene);
@@ -89,7 +93,7 @@ static void fill_assets(struct report_scene *out, const struct session *session,
     a->files = ARENA_ARRAY(&out->arena, struct report_file, session->files.log.count);
     for (uint32_t i = 0; i < session->files.log.count; i++) {
         const struct file_read *read = &session->files.log.items[i];
-        str path = arena_copy(&out->arena, report_path(&out->arena, root, read->path));
+        str path = arena_copy(&out->arena, report_path(&out->arena, filling->root, read->path));
         a->files[a->file_count++] = (struct report_file){path, read->size_bytes};
     }
     out->has_assets = true;
@@ -114,13 +118,9 @@ bool check_report(struct report_scene *out, struct session *session, const char 
                                  .most = (uint32_t)session->options.limits.value[LIMIT_MESSAGES],
                                  .find_path = find_path,
                                  .context = session};
-    struct arena_guard guard = {.fault = ARENA_FAULT_NONE};
+    struct filling filling = {out, session, root};
     out->state = state_of(session);
     if (!report_scene_add(out, &input))
         return false;
-    arena_set_guard(&out->arena, &guard);
-    if (setjmp(guard.jump) == 0 && session->scene)
-        fill_assets(out, session, root);
-    arena_set_guard(&out->arena, NULL);
-    return guard.fault == ARENA_FAULT_NONE;
+    return !session->scene || arena_guarded(&out->arena, fill_assets, &filling) == ARENA_FAULT_NONE;
 }

@@ -225,21 +225,21 @@ static void report_unused(struct allows *allows) {
     }
 }
 
+static void apply(void *context) {
+    struct allows *allows = context;
+    struct session *session = allows->session;
+    for (uint32_t i = 0; i < session->origin.directives.count; i++)
+        read_comment(allows, session->origin.directives.items[i]);
+    if (allows->list.count)
+        diag_filter(&session->sink, keeps, allows);
+    if (allows->report)
+        report_unused(allows);
+}
+
 void check_allow(struct session *session, bool report) {
-    struct arena_guard guard;
     struct allows allows = {.session = session, .report = report};
-    if (session->origin.directives.count == 0)
-        return;
-    arena_set_guard(&session->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        for (uint32_t i = 0; i < session->origin.directives.count; i++)
-            read_comment(&allows, session->origin.directives.items[i]);
-        if (allows.list.count)
-            diag_filter(&session->sink, keeps, &allows);
-        if (report)
-            report_unused(&allows);
-    }
-    arena_set_guard(&session->arena, NULL);
+    if (session->origin.directives.count)
+        arena_guarded(&session->arena, apply, &allows);
 }
 
 static bool is_told(void *context, struct diag *item) {

@@ -276,35 +276,35 @@ static bool keep_for_config(void *context, struct diag *item) {
     return item->code != DIAG_EMPTY_FILE;
 }
 
-// The sink of the reading is on the heap: a jump out of the reader passes through here.
-static bool read_guarded(struct binder *b, const struct reader_context *context, uint32_t source,
-                         struct tree *tree) {
-    struct arena *arena = b->input->arena;
-    struct arena_guard *outer = arena->guard;
-    struct arena_guard guard;
-    arena_set_guard(arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        bool readable = read_yaml(context, source, tree);
-        arena_set_guard(arena, outer);
-        return readable;
-    }
-    arena_set_guard(arena, outer);
-    diag_sink_finish(context->sink);
-    arena_raise(arena, guard.fault);
+struct reading {
+    struct reader_context context;
+    uint32_t source;
+    struct tree tree;
+    bool readable;
+};
+
+static void run_reader(void *context) {
+    struct reading *r = context;
+    r->readable = read_yaml(&r->context, r->source, &r->tree);
 }
 
 static void read_and_bind(struct binder *b, uint32_t source, const struct limits *limits) {
     struct diag_sink sink;
-    struct tree tree;
+    struct arena *arena = b->input->arena;
+    struct reading reading = {
+        .context = {.sources = b->input->sources, .sink = &sink, .limits = limits, .arena = arena},
+        .source = source};
     diag_sink_init(&sink);
-    struct reader_context context = {
-        .sources = b->input->sources, .sink = &sink, .limits = limits, .arena = b->input->arena};
-    bool readable = read_guarded(b, &context, source, &tree);
+    enum arena_fault fault = arena_guarded(arena, run_reader, &reading);
+    if (fault) {
+        diag_sink_finish(&sink);
+        arena_raise(arena, fault);
+    }
     diag_filter(&sink, keep_for_config, NULL);
     diag_merge(b->input->sink, &sink);
     diag_sink_finish(&sink);
-    b->tree = &tree;
-    if (readable)
+    b->tree = &reading.tree;
+    if (reading.readable)
         bind(b);
     b->tree = NULL;
 }

@@ -9,7 +9,7 @@
 //     limits: {mesh-bytes: 1000000}
 //
 // An empty file is one that only marks its folder as the root. What is wrong in it is reported at its place,
-// and the rest counts. Ownership: everything lies in the arena given, whose guard the caller sets. Thread
+// and the rest counts. Ownership: everything lies in the arena given, which must be guarded. Thread
 // safety: one call belongs to one thread.
 #ifndef GLINT_APP_CONFIG_H
 #define GLINT_APP_CONFIG_H

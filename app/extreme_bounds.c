@@ -114,23 +114,28 @@ static bool keep_for_bounds(void *context, struct diag *item) {
     return item->code != DIAG_EMPTY_FILE;
 }
 
+struct reading {
+    struct binder binder;
+    uint32_t source;
+    struct tree tree;
+};
+
+static void read_and_bind(void *context) {
+    struct reading *r = context;
+    const struct extreme_bounds_input *input = r->binder.input;
+    const struct reader_context reader = {
+        .sources = input->sources, .sink = input->sink, .limits = input->limits, .arena = input->arena};
+    if (read_yaml(&reader, r->source, &r->tree))
+        for (tree_index key = tree_first(&r->tree, r->tree.root); key; key = tree_next_key(&r->tree, key))
+            take_axis(&r->binder, key);
+}
+
 bool extreme_bounds_read(const struct extreme_bounds_input *input, uint32_t source,
                          struct extreme_bounds *out) {
-    struct tree tree;
-    struct arena_guard guard, *outer = input->arena->guard;
-    struct binder binder = {.input = input, .tree = &tree, .out = out};
-    const struct reader_context context = {
-        .sources = input->sources, .sink = input->sink, .limits = input->limits, .arena = input->arena};
+    struct reading reading = {.binder = {input, &reading.tree, out}, .source = source};
     *out = (struct extreme_bounds){0};
-    arena_set_guard(input->arena, &guard);
-    if (setjmp(guard.jump) != 0) {
-        arena_set_guard(input->arena, outer);
+    if (arena_guarded(input->arena, read_and_bind, &reading) != ARENA_FAULT_NONE)
         return false;
-    }
-    if (read_yaml(&context, source, &tree))
-        for (tree_index key = tree_first(&tree, tree.root); key; key = tree_next_key(&tree, key))
-            take_axis(&binder, key);
-    arena_set_guard(input->arena, outer);
     diag_filter(input->sink, keep_for_bounds, NULL);
     // A run without bounds would pass whatever it measured.
     if (out->count == 0 && input->sink->errors == 0) {

@@ -10,6 +10,7 @@ enum {
 
 struct fixer {
     struct fixes *fixes;
+    const struct session_options *given;
     struct session_options options; // its overlays: the files as they are by now
     enum fix_level level;
     struct asset_store *store;
@@ -124,33 +125,35 @@ static uint32_t change_file(struct fixer *f, struct session *session, uint32_t s
     return changed ? kept : 0;
 }
 
-static bool round_of(struct fixer *f) {
+struct round {
+    struct fixer *fixer;
     struct session session;
-    volatile uint32_t made = 0;
-    check_scene(&session, &f->options, f->store);
-    struct arena_guard *outer = f->fixes->arena.guard;
-    struct arena_guard guard;
-    arena_set_guard(&f->fixes->arena, &guard);
-    arena_set_guard(&session.arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        refuse_what_failed(f, &session);
-        for (uint32_t source = 1; source < session.sources.count; source++)
-            if (is_scene(&session, source))
-                made += change_file(f, &session, source);
-    } else {
-        f->fixes->failed = true;
-        made = 0;
-    }
-    arena_set_guard(&session.arena, NULL);
-    arena_set_guard(&f->fixes->arena, outer);
-    session_finish(&session);
-    return made > 0;
+    uint32_t made;
+};
+
+static void change_files(void *context) {
+    struct round *round = context;
+    refuse_what_failed(round->fixer, &round->session);
+    for (uint32_t source = 1; source < round->session.sources.count; source++)
+        if (is_scene(&round->session, source))
+            round->made += change_file(round->fixer, &round->session, source);
+}
+
+static bool round_of(struct fixer *f) {
+    struct round round = {.fixer = f};
+    struct arena *arenas[] = {&f->fixes->arena, &round.session.arena, NULL};
+    check_scene(&round.session, &f->options, f->store);
+    bool whole = arena_guarded_all(arenas, change_files, &round) == ARENA_FAULT_NONE;
+    f->fixes->failed = f->fixes->failed || !whole;
+    session_finish(&round.session);
+    return whole && round.made > 0;
 }
 
 // ---- all rounds
 
-static void set_overlays(struct fixer *f, const struct session_options *given) {
+static void set_overlays(struct fixer *f) {
     struct fixes *fixes = f->fixes;
+    const struct session_options *given = f->given;
     uint32_t count = given->overlay_count + fixes->files.count;
     struct file_overlay *overlays = ARENA_ARRAY(&fixes->arena, struct file_overlay, count + 1);
     for (uint32_t i = 0; i < given->overlay_count; i++)
@@ -177,21 +180,20 @@ static void take_back_what_is_broken(struct fixer *f) {
     }
 }
 
+static void make_all(void *context) {
+    struct fixer *f = context;
+    for (unsigned round = 0; round < ROUNDS_MAX && !f->fixes->failed && round_of(f); round++)
+        set_overlays(f);
+    take_back_what_is_broken(f);
+}
+
 void fixes_make(struct fixes *fixes, const struct session_options *options, enum fix_level level,
                 struct asset_store *store) {
-    struct arena_guard guard;
     *fixes = (struct fixes){0};
     arena_init(&fixes->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
-    arena_set_guard(&fixes->arena, &guard);
-    struct fixer f = {.fixes = fixes, .options = *options, .level = level, .store = store};
-    if (setjmp(guard.jump) == 0) {
-        for (unsigned round = 0; round < ROUNDS_MAX && !fixes->failed && round_of(&f); round++)
-            set_overlays(&f, options);
-        take_back_what_is_broken(&f);
-    } else {
+    struct fixer f = {.fixes = fixes, .given = options, .options = *options, .level = level, .store = store};
+    if (arena_guarded(&fixes->arena, make_all, &f) != ARENA_FAULT_NONE)
         fixes->failed = true;
-    }
-    arena_set_guard(&fixes->arena, NULL);
 }
 
 void fixes_finish(struct fixes *fixes) {

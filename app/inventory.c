@@ -70,19 +70,22 @@ static void add_settings(struct session *session, struct inventory *out) {
     }
 }
 
+struct listing {
+    struct session *session;
+    struct inventory *out;
+};
+
+static void add_all(void *context) {
+    const struct listing *listing = context;
+    add_scene_files(listing->session, listing->out);
+    add_assets(listing->session, listing->out);
+    add_settings(listing->session, listing->out);
+}
+
 bool inventory_make(struct session *session, struct inventory *out) {
-    struct arena_guard guard;
-    volatile bool done = false;
+    struct listing listing = {session, out};
     *out = (struct inventory){0};
-    arena_set_guard(&session->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        add_scene_files(session, out);
-        add_assets(session, out);
-        add_settings(session, out);
-        done = true;
-    }
-    arena_set_guard(&session->arena, NULL);
-    return done;
+    return arena_guarded(&session->arena, add_all, &listing) == ARENA_FAULT_NONE;
 }
 
 bool inventory_is_repeat(const struct inventory *inventory, uint32_t use) {

@@ -51,24 +51,24 @@ static enum layout_status run(struct job *job) {
     return str_equal(layout->text, strbuf_view(&layout->result)) ? LAYOUT_SAME : LAYOUT_CHANGED;
 }
 
+static void run_job(void *context) {
+    struct job *job = context;
+    job->layout->status = run(job);
+}
+
 static enum layout_status guarded(struct job *job) {
     struct layout *layout = job->layout;
-    struct arena_guard guard;
     diag_sink_init(&layout->sink);
     strbuf_init(&layout->result);
     arena_init(&layout->arena, (size_t)job->limits->value[LIMIT_SCENE_MEMORY]);
-    arena_set_guard(&layout->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        layout->status = run(job);
-    } else {
-        diag_add(&layout->sink, guard.fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
-                 "the scene needs more memory than %s",
-                 guard.fault == ARENA_FAULT_CAP ? "the limit" : "there is");
+    enum arena_fault fault = arena_guarded(&layout->arena, run_job, job);
+    if (fault) {
+        diag_add(&layout->sink, fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
+                 "the scene needs more memory than %s", fault == ARENA_FAULT_CAP ? "the limit" : "there is");
         diag_help(&layout->sink, "raise the limit with --limit %s=BYTES",
                   limit_info(LIMIT_SCENE_MEMORY)->name);
         layout->status = LAYOUT_FAILED;
     }
-    arena_set_guard(&layout->arena, NULL);
     diag_sort(&layout->sink);
     return layout->status;
 }

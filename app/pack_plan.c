@@ -278,19 +278,18 @@ static void rewrite_all(struct planner *p) {
     }
 }
 
+static void plan_all(void *context) {
+    struct planner *planner = context;
+    place_all(planner);
+    rewrite_all(planner);
+    add_limits(planner);
+}
+
 enum pack_status pack_make_plan(struct session *session, const struct inventory *inventory,
                                 struct pack_plan *plan) {
     struct planner planner = {session, plan};
-    struct arena_guard guard;
     *plan = (struct pack_plan){.inventory = inventory};
-    arena_set_guard(&session->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        place_all(&planner);
-        rewrite_all(&planner);
-        add_limits(&planner);
-    } else {
+    if (arena_guarded(&session->arena, plan_all, &planner) != ARENA_FAULT_NONE)
         diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to pack this scene");
-    }
-    arena_set_guard(&session->arena, NULL);
     return session->sink.errors ? PACK_SCENE : PACK_OK;
 }

@@ -57,34 +57,43 @@ static bool make_folders(char *path, size_t from) {
     return true;
 }
 
+struct copying {
+    struct session *session;
+    const struct pack_file *file;
+    const char *path;
+    struct pack_error *error;
+    struct arena arena;
+    bool good;
+};
+
+static void copy(void *context) {
+    struct copying *c = context;
+    str bytes = c->file->text;
+    enum file_status status = FILE_OK;
+    if (c->file->path.len)
+        status = files_read(&c->session->files, c->file->path, UINT64_MAX / 4, &c->arena, &bytes);
+    int wrong = status == FILE_OK ? output_part(c->path, bytes.ptr, bytes.len) : 0;
+    c->good = status == FILE_OK && wrong == 0;
+    if (status != FILE_OK)
+        fail(c->error, "'%.*s' %s", STR_ARG(c->file->path), file_status_text(&c->session->files, status));
+    else if (wrong)
+        fail(c->error, "'%s' cannot be written: %s", c->path, strerror(wrong));
+}
+
 static bool write_file(struct session *session, const struct pack_file *file, const char *folder,
                        struct pack_error *error) {
     char path[PATH_BYTES];
-    struct arena arena;
-    struct arena_guard guard;
-    volatile bool good = false;
     if (snprintf(path, sizeof path, "%s/%.*s", folder, STR_ARG(file->target)) >= (int)sizeof path)
         return fail(error, "the path of '%.*s' is too long", STR_ARG(file->target));
     if (!make_folders(path, strlen(folder) + 1))
         return fail(error, "cannot make the folder of '%s': %s", path, strerror(errno));
-    arena_init(&arena, SIZE_MAX / 2);
-    arena_set_guard(&arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        str bytes = file->text;
-        enum file_status status = FILE_OK;
-        if (file->path.len)
-            status = files_read(&session->files, file->path, UINT64_MAX / 4, &arena, &bytes);
-        int wrong = status == FILE_OK ? output_part(path, bytes.ptr, bytes.len) : 0;
-        good = status == FILE_OK && wrong == 0;
-        if (status != FILE_OK)
-            fail(error, "'%.*s' %s", STR_ARG(file->path), file_status_text(&session->files, status));
-        else if (wrong)
-            fail(error, "'%s' cannot be written: %s", path, strerror(wrong));
-    } else {
+    struct copying copying = {.session = session, .file = file, .path = path, .error = error};
+    struct arena *arenas[] = {&copying.arena, &session->arena, NULL};
+    arena_init(&copying.arena, SIZE_MAX / 2);
+    if (arena_guarded_all(arenas, copy, &copying) != ARENA_FAULT_NONE)
         fail(error, "there is not enough memory for '%.*s'", STR_ARG(file->target));
-    }
-    arena_finish(&arena);
-    return good;
+    arena_finish(&copying.arena);
+    return copying.good;
 }
 
 // ---- comparing
@@ -131,24 +140,34 @@ static bool same_files(struct session *session, const struct inventory *after, c
     }
 }
 
+struct matching {
+    struct session *session;
+    const struct inventory *after;
+    const struct pack_plan *plan;
+    const char *folder;
+    bool same;
+};
+
+static void match_files(void *context) {
+    struct matching *m = context;
+    m->same = same_files(m->session, m->after, m->plan, m->folder);
+}
+
 static bool compare(struct session *session, struct session *packed, const struct pack_plan *plan,
                     const char *folder) {
     struct inventory after;
     if (packed->state != SESSION_LOADED || packed->sink.errors || !inventory_make(packed, &after))
         return false;
-    struct arena_guard guard;
-    volatile bool same = false;
-    arena_set_guard(&session->arena, &guard);
-    if (setjmp(guard.jump) == 0)
-        same = same_files(session, &after, plan, folder);
-    arena_set_guard(&session->arena, NULL);
-    if (!same)
+    struct matching matching = {session, &after, plan, folder, false};
+    arena_guarded(&session->arena, match_files, &matching);
+    if (!matching.same)
         return false;
     struct strbuf old_text;
     struct strbuf new_text;
     dump(session, &old_text);
     dump(packed, &new_text);
-    same = !old_text.failed && !new_text.failed && str_equal(strbuf_view(&old_text), strbuf_view(&new_text));
+    bool same =
+        !old_text.failed && !new_text.failed && str_equal(strbuf_view(&old_text), strbuf_view(&new_text));
     strbuf_finish(&old_text);
     strbuf_finish(&new_text);
     return same;
@@ -177,21 +196,28 @@ static bool verify(struct session *session, const struct pack_plan *plan, const 
 
 // ---- all
 
+struct look {
+    const char *path;
+    struct arena arena;
+    bool taken;
+};
+
+static void look_into(void *context) {
+    struct look *look = context;
+    struct files_names names = {0};
+    look->taken = !files_list_folder(&look->arena, str_from(look->path), &names) || names.count > 0;
+}
+
 // A folder that exists and holds nothing may be taken.
 static bool is_taken(const char *path) {
     struct stat info;
-    struct arena arena;
-    struct arena_guard guard;
-    struct files_names names = {0};
-    volatile bool taken = true;
+    struct look look = {.path = path, .taken = true};
     if (lstat(path, &info) != 0)
         return false;
-    arena_init(&arena, SIZE_MAX / 2);
-    arena_set_guard(&arena, &guard);
-    if (setjmp(guard.jump) == 0)
-        taken = !files_list_folder(&arena, str_from(path), &names) || names.count > 0;
-    arena_finish(&arena);
-    return taken;
+    arena_init(&look.arena, SIZE_MAX / 2);
+    arena_guarded(&look.arena, look_into, &look);
+    arena_finish(&look.arena);
+    return look.taken;
 }
 
 // A new folder beside `out`, so that it can be renamed. Its name does not grow with that of `out`.

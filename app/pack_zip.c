@@ -51,26 +51,34 @@ static bool put(zipFile zip, const char *name, str bytes) {
     return good && zipCloseFileInZip(zip) == ZIP_OK;
 }
 
-static bool add_file(zipFile zip, const char *folder, str target, struct pack_error *error) {
+struct packing {
+    zipFile zip;
+    const char *folder;
+    str target;
     struct arena arena;
-    struct arena_guard guard;
+    bool good;
+};
+
+static void read_and_put(void *context) {
+    struct packing *p = context;
     struct files files;
-    volatile bool good = false;
-    arena_init(&arena, SIZE_MAX / 2);
-    arena_set_guard(&arena, &guard);
+    str bytes;
+    str path = arena_format(&p->arena, "%s/%.*s", p->folder, STR_ARG(p->target));
+    files_init(&files, &p->arena);
+    errno = 0;
+    p->good = files_read(&files, path, UINT64_MAX / 4, &p->arena, &bytes) == FILE_OK &&
+              put(p->zip, arena_copy(&p->arena, p->target).ptr, bytes);
+}
+
+static bool add_file(zipFile zip, const char *folder, str target, struct pack_error *error) {
+    struct packing packing = {.zip = zip, .folder = folder, .target = target};
+    arena_init(&packing.arena, SIZE_MAX / 2);
     errno = ENOMEM;
-    if (setjmp(guard.jump) == 0) {
-        str bytes;
-        str path = arena_format(&arena, "%s/%.*s", folder, STR_ARG(target));
-        files_init(&files, &arena);
-        errno = 0;
-        good = files_read(&files, path, UINT64_MAX / 4, &arena, &bytes) == FILE_OK &&
-               put(zip, arena_copy(&arena, target).ptr, bytes);
-    }
-    if (!good)
+    arena_guarded(&packing.arena, read_and_put, &packing);
+    if (!packing.good)
         fail(error, "cannot pack", folder);
-    arena_finish(&arena);
-    return good;
+    arena_finish(&packing.arena);
+    return packing.good;
 }
 
 bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, pack_is_stopped *is_stopped,

@@ -14,8 +14,8 @@ struct flat_input precision_input(struct session *session, const struct view *vi
 // Sets input->is_double. The scene is measured where its setting is auto. `has_double`: the device can. Its
 // sink gets the error E707, or the warning W701. false: an error, or no memory.
 bool precision_choose(struct session *session, struct flat_input *input, bool has_double);
-// Warns (W417) where the scene asks for single precision and needs double. The guard of the session's arena
-// must be set.
+// Warns (W417) where the scene asks for single precision and needs double. The session's arena must be
+// guarded.
 void precision_check(struct session *session);
 // What was measured, what it means, and which body decides: lines of `glint inspect`.
 void precision_words(const struct session *session, const struct precision_report *report,

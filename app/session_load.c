@@ -170,28 +170,37 @@ static enum session_state load_stages(struct session *session, struct asset_stor
     return SESSION_LOADED;
 }
 
+struct loading {
+    struct session *session;
+    struct asset_store *store;
+    enum extent extent;
+};
+
+static void load(void *context) {
+    const struct loading *l = context;
+    struct session *session = l->session;
+    const struct session_options *options = &session->options;
+    source_set_init(&session->sources, &session->arena);
+    files_init(&session->files, &session->arena);
+    for (uint32_t i = 0; i < options->overlay_count; i++)
+        files_add_overlay(&session->files, options->overlays[i].path, options->overlays[i].text);
+    session->state = load_stages(session, l->store, l->extent);
+}
+
 static enum session_state guarded_load(struct session *session, const struct session_options *options,
                                        struct asset_store *store, enum extent extent) {
-    struct arena_guard guard;
+    struct loading loading = {session, store, extent};
     *session = (struct session){.options = *options};
     diag_sink_init(&session->sink);
     arena_init(&session->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
-    arena_set_guard(&session->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        source_set_init(&session->sources, &session->arena);
-        files_init(&session->files, &session->arena);
-        for (uint32_t i = 0; i < options->overlay_count; i++)
-            files_add_overlay(&session->files, options->overlays[i].path, options->overlays[i].text);
-        session->state = load_stages(session, store, extent);
-    } else {
-        diag_add(&session->sink, guard.fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
-                 "the scene needs more memory than %s",
-                 guard.fault == ARENA_FAULT_CAP ? "the limit" : "there is");
+    enum arena_fault fault = arena_guarded(&session->arena, load, &loading);
+    if (fault) {
+        diag_add(&session->sink, fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
+                 "the scene needs more memory than %s", fault == ARENA_FAULT_CAP ? "the limit" : "there is");
         diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
                   limit_info(LIMIT_SCENE_MEMORY)->name);
         session->state = SESSION_NO_SCENE;
     }
-    arena_set_guard(&session->arena, NULL);
     if (!options->judged) {
         check_silence(session);
         session_group(session);

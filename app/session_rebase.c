@@ -42,20 +42,18 @@ static void warn(struct rebase *rebase) {
     diag_sort(&session->sink);
 }
 
+static void rebase_all(void *context) {
+    struct rebase *rebase = context;
+    struct session *session = rebase->session;
+    files_init(&rebase->there, &session->arena);
+    files_add_scene_root(&rebase->there, rebase->out);
+    for (uint32_t i = 0; i < session->options.asset_path_count; i++)
+        files_add_root(&rebase->there, session->options.asset_paths[i]);
+    ir_walk_paths(session->scene, rebase_path, rebase);
+    warn(rebase);
+}
+
 bool session_rebase(struct session *session, str out) {
-    struct arena_guard guard;
-    arena_set_guard(&session->arena, &guard);
-    bool done = false;
-    if (setjmp(guard.jump) == 0) {
-        struct rebase rebase = {.session = session, .out = out};
-        files_init(&rebase.there, &session->arena);
-        files_add_scene_root(&rebase.there, out);
-        for (uint32_t i = 0; i < session->options.asset_path_count; i++)
-            files_add_root(&rebase.there, session->options.asset_paths[i]);
-        ir_walk_paths(session->scene, rebase_path, &rebase);
-        warn(&rebase);
-        done = true;
-    }
-    arena_set_guard(&session->arena, NULL);
-    return done;
+    struct rebase rebase = {.session = session, .out = out};
+    return arena_guarded(&session->arena, rebase_all, &rebase) == ARENA_FAULT_NONE;
 }

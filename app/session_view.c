@@ -42,17 +42,22 @@ uint32_t session_camera(struct session *session, str name) {
     return IR_NO_INDEX;
 }
 
+struct viewing {
+    struct session *session;
+    uint32_t camera;
+    struct view *view;
+};
+
+static void make_view(void *context) {
+    const struct viewing *v = context;
+    struct session *session = v->session;
+    view_build(&session->resolved, v->camera, session->image.width, session->image.height, &session->arena,
+               &session->sink, v->view);
+}
+
 bool session_view(struct session *session, uint32_t camera, struct view *view) {
-    struct arena_guard guard;
-    arena_set_guard(&session->arena, &guard);
-    bool made = false;
-    if (setjmp(guard.jump) == 0) {
-        view_build(&session->resolved, camera, session->image.width, session->image.height, &session->arena,
-                   &session->sink, view);
-        made = true;
-    }
-    arena_set_guard(&session->arena, NULL);
-    return made;
+    struct viewing viewing = {session, camera, view};
+    return arena_guarded(&session->arena, make_view, &viewing) == ARENA_FAULT_NONE;
 }
 
 vec3 session_origin(const struct session *session, const struct view *view) {

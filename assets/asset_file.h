@@ -3,8 +3,8 @@
 // A file that is missing, refused or too large is a diagnostic where it is named. A fault inside it is
 // placed in the file, with notes "named here" up to the scene; the file's text becomes a source when the
 // first such diagnostic needs it. Repeated faults of one code are grouped.
-// Ownership: texts that become sources are copied into the arena of the source set, whose guard the
-// caller of assets_load has set; other functions' results say so.
+// Ownership: texts that become sources are copied into the arena of the source set, which the
+// caller of assets_load has guarded; other functions' results say so.
 // Thread safety: one thread loads.
 #ifndef GLINT_ASSETS_ASSET_FILE_H
 #define GLINT_ASSETS_ASSET_FILE_H

@@ -53,25 +53,30 @@ static void report_mesh_kind(struct asset_file *file) {
                        : "this version reads Wavefront OBJ (.obj)");
 }
 
-// Everything that jumps where memory ends lies between the two guards.
-static void read_mesh(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
-    struct arena_guard guard;
-    arena_set_guard(scratch, &guard);
-    arena_set_guard(&mesh->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        struct obj obj;
-        if (asset_read(file, scratch)) {
-            read_obj(file, scratch, &obj);
-            // Together they take no more than the limit.
-            mesh->arena.cap_bytes -= scratch->used_bytes;
-            if (file->errors == 0)
-                mesh_build(&obj, file->path, scratch, mesh);
-        }
-    } else {
-        asset_report_memory(file, guard.fault);
-    }
-    arena_set_guard(scratch, NULL);
-    arena_set_guard(&mesh->arena, NULL);
+struct mesh_reading {
+    struct asset_file *file;
+    struct arena *scratch;
+    struct mesh *mesh;
+};
+
+static void read_mesh(void *context) {
+    const struct mesh_reading *r = context;
+    struct obj obj;
+    if (!asset_read(r->file, r->scratch))
+        return;
+    read_obj(r->file, r->scratch, &obj);
+    // Together they take no more than the limit.
+    r->mesh->arena.cap_bytes -= r->scratch->used_bytes;
+    if (r->file->errors == 0)
+        mesh_build(&obj, r->file->path, r->scratch, r->mesh);
+}
+
+static void read_mesh_guarded(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
+    struct mesh_reading reading = {file, scratch, mesh};
+    struct arena *arenas[] = {scratch, &mesh->arena, NULL};
+    enum arena_fault fault = arena_guarded_all(arenas, read_mesh, &reading);
+    if (fault)
+        asset_report_memory(file, fault);
 }
 
 // What is worth telling about a mesh, whether it was read now or for an earlier scene.
@@ -99,7 +104,7 @@ static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const s
         }
         arena_init(scratch, cap);
         arena_init(&entry->mesh.arena, cap);
-        read_mesh(file, scratch, &entry->mesh);
+        read_mesh_guarded(file, scratch, &entry->mesh);
         entry->is_whole = file->errors == 0;
         if (entry->is_whole)
             report_mesh(file, &entry->mesh);

@@ -67,7 +67,7 @@ struct assets_input {
     struct files *files;
     const struct limits *limits;
     struct diag_sink *sink;
-    struct arena *arena;     // for what belongs to this scene; its guard is set by the caller
+    struct arena *arena;     // for what belongs to this scene; guarded by the caller
     struct asset_uses *uses; // of the assets being loaded: set by assets_load
 };
 

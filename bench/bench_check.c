@@ -256,18 +256,27 @@ static bool load_scene(const char *path, struct arena *arena, struct diag_sink *
     return parser_load(&input, source, &output) && ir_body_count(output.scene) > 0;
 }
 
-// What `glint check` does before it opens meshes and images.
-static bool run_glint(const char *path) {
+struct job {
+    const char *path;
     struct arena arena;
     struct diag_sink sink;
-    struct arena_guard guard;
-    arena_init(&arena, SIZE_MAX / 2);
-    arena_set_guard(&arena, &guard);
-    diag_sink_init(&sink);
-    bool good = setjmp(guard.jump) == 0 && load_scene(path, &arena, &sink);
-    good = good && sink.errors == 0; // by chance a number or two look like radians
-    diag_sink_finish(&sink);
-    arena_finish(&arena);
+    bool loaded;
+};
+
+static void run_job(void *context) {
+    struct job *job = context;
+    job->loaded = load_scene(job->path, &job->arena, &job->sink);
+}
+
+// What `glint check` does before it opens meshes and images.
+static bool run_glint(const char *path) {
+    struct job job = {.path = path};
+    arena_init(&job.arena, SIZE_MAX / 2);
+    diag_sink_init(&job.sink);
+    arena_guarded(&job.arena, run_job, &job);
+    bool good = job.loaded && job.sink.errors == 0; // by chance a number or two look like radians
+    diag_sink_finish(&job.sink);
+    arena_finish(&job.arena);
     return good;
 }
 

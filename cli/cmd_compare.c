@@ -11,9 +11,9 @@
 
 struct comparison {
     struct cli *cli;
+    int format, status;
     struct files files;
     struct arena arena; // of the files' bytes
-    struct arena_guard guard;
     struct picture_file pictures[2];
     struct measure_options options;
     struct measure_result result;
@@ -137,7 +137,7 @@ static int write_heatmap(struct comparison *c) {
     return status;
 }
 
-static int report(struct comparison *c, int format) {
+static int report(struct comparison *c) {
     struct cli *cli = c->cli;
     const struct compare_report report = {.path = {cli->operands[0], cli->operands[1]},
                                           .kind = {c->pictures[0].kind, c->pictures[1].kind},
@@ -148,7 +148,7 @@ static int report(struct comparison *c, int format) {
                                           .bounds = &cli->options.measure.bounds};
     struct strbuf text;
     strbuf_init(&text);
-    if (format == 1)
+    if (c->format == 1)
         compare_json(&report, &text);
     else
         compare_text(&report, &text);
@@ -157,7 +157,7 @@ static int report(struct comparison *c, int format) {
     return status == CLI_OK && !compare_keeps_bounds(&report) ? CLI_SCENE : status;
 }
 
-static int compare(struct comparison *c, int format) {
+static int compare(struct comparison *c) {
     const struct cli_measure *m = &c->cli->options.measure;
     int status = CLI_OK;
     for (int i = 0; i < 2 && status == CLI_OK; i++)
@@ -177,8 +177,14 @@ static int compare(struct comparison *c, int format) {
         return no_memory(c);
     if (m->heatmap && (status = write_heatmap(c)) != CLI_OK)
         return status;
-    status = report(c, format);
+    status = report(c);
     return c->linear && !offer_display(c) ? no_memory(c) : status;
+}
+
+static void run(void *context) {
+    struct comparison *c = context;
+    files_init(&c->files, &c->arena);
+    c->status = compare(c);
 }
 
 int cmd_compare(struct cli *cli) {
@@ -187,24 +193,20 @@ int cmd_compare(struct cli *cli) {
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;
     struct comparison *c = calloc(1, sizeof *c);
-    int status = CLI_SCENE;
     if (!c) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory");
-        return status;
+        return CLI_SCENE;
     }
-    c->cli = cli;
+    *c = (struct comparison){.cli = cli, .format = format, .status = CLI_SCENE};
     arena_init(&c->arena, SIZE_MAX / 2);
-    arena_set_guard(&c->arena, &c->guard);
-    files_init(&c->files, &c->arena);
-    if (setjmp(c->guard.jump) == 0)
-        status = compare(c, format);
-    else
+    if (arena_guarded(&c->arena, run, c) != ARENA_FAULT_NONE)
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the pictures");
     for (int i = 0; i < 2; i++)
         picture_file_finish(&c->pictures[i]);
     free(c->map);
     free(c->linear);
     arena_finish(&c->arena);
+    int status = c->status;
     free(c);
     return status;
 }

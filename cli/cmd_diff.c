@@ -30,19 +30,15 @@ static struct ir_diff_side side(struct session *session) {
     return (struct ir_diff_side){session->scene, &session->origin, file_of, session};
 }
 
-static bool compare(struct comparison *c) {
-    struct arena_guard guard;
+static void compare(void *context) {
+    struct comparison *c = context;
     struct ir_diff_side before = side(&c->sessions[0]), after = side(&c->sessions[1]);
-    arena_set_guard(&c->arena, &guard);
-    arena_set_guard(&c->sessions[0].arena, &guard);
-    arena_set_guard(&c->sessions[1].arena, &guard);
-    bool whole = setjmp(guard.jump) == 0;
-    if (whole)
-        ir_diff(&before, &after, &c->arena, &c->changes);
-    for (int i = 0; i < 2; i++)
-        arena_set_guard(&c->sessions[i].arena, NULL);
-    arena_set_guard(&c->arena, NULL);
-    return whole;
+    ir_diff(&before, &after, &c->arena, &c->changes);
+}
+
+static bool compare_guarded(struct comparison *c) {
+    struct arena *arenas[] = {&c->arena, &c->sessions[0].arena, &c->sessions[1].arena, NULL};
+    return arena_guarded_all(arenas, compare, c) == ARENA_FAULT_NONE;
 }
 
 // ---- text
@@ -161,7 +157,7 @@ int cmd_diff(struct cli *cli) {
     arena_init(&c.arena, (size_t)cli->options.limits.value[LIMIT_SCENE_MEMORY]);
     int first = load(&c, 0), second = load(&c, 1);
     int status = first > second ? first : second;
-    if (status == CLI_OK && compare(&c)) {
+    if (status == CLI_OK && compare_guarded(&c)) {
         status = report(&c, format == 1);
     } else if (status == CLI_OK) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL,

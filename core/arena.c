@@ -1,5 +1,6 @@
 #include "core/arena.h"
 
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,12 +64,6 @@ void arena_reset(struct arena *arena) {
     kept->previous = NULL;
     kept->used = 0;
     arena->last = kept;
-}
-
-void arena_set_guard(struct arena *arena, struct arena_guard *guard) {
-    arena->guard = guard;
-    if (guard)
-        guard->fault = ARENA_FAULT_NONE;
 }
 
 // Whether an allocation of this size has a block of its own.
@@ -165,6 +160,41 @@ static void *alloc_or_fault(struct arena *arena, size_t size, enum arena_fault *
 void *arena_try_alloc(struct arena *arena, size_t size) {
     enum arena_fault fault;
     return alloc_or_fault(arena, size, &fault);
+}
+
+struct arena_guard {
+    jmp_buf jump;
+    enum arena_fault fault;
+};
+
+// The guard lies outside of the function that calls setjmp, so that the fault is whole after a jump.
+static void run(struct arena_guard *guard, arena_work *work, void *context) {
+    if (setjmp(guard->jump) == 0)
+        work(context);
+}
+
+// Each arena's guard of before waits in a frame of its own, and is put back in reverse order.
+static void guard_each(struct arena *const *arenas, struct arena_guard *guard, arena_work *work,
+                       void *context) {
+    struct arena *arena = *arenas;
+    if (!arena) {
+        run(guard, work, context);
+        return;
+    }
+    struct arena_guard *outer = arena->guard;
+    arena->guard = guard;
+    guard_each(arenas + 1, guard, work, context);
+    arena->guard = outer;
+}
+
+enum arena_fault arena_guarded_all(struct arena *const *arenas, arena_work *work, void *context) {
+    struct arena_guard guard = {.fault = ARENA_FAULT_NONE};
+    guard_each(arenas, &guard, work, context);
+    return guard.fault;
+}
+
+enum arena_fault arena_guarded(struct arena *arena, arena_work *work, void *context) {
+    return arena_guarded_all((struct arena *[]){arena, NULL}, work, context);
 }
 
 _Noreturn void arena_raise(struct arena *arena, enum arena_fault fault) {

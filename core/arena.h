@@ -1,21 +1,22 @@
 // Memory of one phase (source, tree, IR, flat): many allocations, freed together.
 //
-// `arena_alloc` gives zeroed memory or does not return: at the byte cap, or when malloc fails, it jumps
-// to the guard that the stage or the job has set. A guard is set like this:
+// `arena_alloc` gives zeroed memory or does not return: at the byte cap, or when malloc fails, it jumps out
+// of the work that `arena_guarded` runs, however deep it is, and `arena_guarded` says why:
 //
-//     struct arena_guard guard;
-//     arena_set_guard(&arena, &guard);
-//     if (setjmp(guard.jump) == 0) { ... the stage ... } else { ... report guard.fault ... }
+//     struct job job = {.arena = &arena, ...};
+//     enum arena_fault fault = arena_guarded(&arena, run, &job);
 //
-// Never jump through a library's frames: callbacks of expat and stb use `arena_try_alloc` and set a flag.
-// Without a guard a failed `arena_alloc` aborts: that is a programmer's mistake.
-// Thread safety: an arena belongs to one thread at a time.
+// The job holds what the work is given, what it makes, and what must be given back whether it ends or not (a
+// file, memory of malloc): the work's own locals are gone after a jump.
+// Never jump through a library's frames: callbacks of expat and stb use `arena_try_alloc` and set a flag, or
+// run what they do guarded.
+// An arena is guarded while such a work runs. Unguarded, a failed `arena_alloc` aborts: that is a
+// programmer's mistake. Thread safety: an arena belongs to one thread at a time.
 #ifndef GLINT_CORE_ARENA_H
 #define GLINT_CORE_ARENA_H
 
 #include "core/str.h"
 
-#include <setjmp.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -25,28 +26,30 @@ enum arena_fault {
     ARENA_FAULT_SYSTEM, // malloc gave NULL
 };
 
-struct arena_guard {
-    jmp_buf jump;
-    enum arena_fault fault;
-};
-
 struct arena_block;
+struct arena_guard;
 
 struct arena {
     struct arena_block *last;
-    struct arena_guard *guard; // not owned
+    struct arena_guard *guard; // of the innermost arena_guarded; NULL outside
     size_t used_bytes;         // handed out, padding included
     size_t cap_bytes;
 };
 
 void arena_init(struct arena *arena, size_t cap_bytes);
-// Frees all; the arena may be used again, with the same cap and guard. NULL does nothing.
+// Frees all; the arena may be used again, with the same cap. NULL does nothing.
 void arena_finish(struct arena *arena);
 // Frees all but a block that is kept for what comes next: for memory that is needed item by item.
 void arena_reset(struct arena *arena);
-// The guard stays until another one is set; it must be taken away (NULL) before the function that called
-// `setjmp` returns, where the arena lives on.
-void arena_set_guard(struct arena *arena, struct arena_guard *guard);
+
+typedef void arena_work(void *context);
+// Runs `work` with `context`; returns ARENA_FAULT_NONE, or why the arena ended it. Calls may be nested: a
+// fault ends the innermost one of its arena. What was allocated stays in the arena until that is finished.
+enum arena_fault arena_guarded(struct arena *arena, arena_work *work, void *context);
+// As `arena_guarded`, for all arenas of a list that ends with NULL; an arena may be in it twice. The list
+// names every arena that `work` allocates from: a fault of one that is guarded further out alone would pass
+// this call by, and leave the arenas named here with a guard that is over.
+enum arena_fault arena_guarded_all(struct arena *const *arenas, arena_work *work, void *context);
 
 // `size` zeroed bytes, aligned to 16. A size of 0 gives a valid pointer.
 void *arena_alloc(struct arena *arena, size_t size);
@@ -57,8 +60,8 @@ void *arena_alloc_array(struct arena *arena, size_t count, size_t size);
 #define ARENA_NEW(arena, type)          ((type *)arena_alloc((arena), sizeof(type)))
 #define ARENA_ARRAY(arena, type, count) ((type *)arena_alloc_array((arena), (count), sizeof(type)))
 
-// Jumps to the guard as a failed allocation does: for a stage that caught a fault with a guard of its own,
-// set the one before it again, and passes the fault on.
+// Jumps as a failed allocation does: for a caller that guarded a work so as to give something back, and
+// passes its fault on.
 _Noreturn void arena_raise(struct arena *arena, enum arena_fault fault);
 
 // A copy of `s` in the arena, with a NUL behind it (not counted).

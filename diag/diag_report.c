@@ -159,7 +159,8 @@ static void add_finding(struct adder *adder, const struct diag *d) {
     *ARENA_PUSH(arena, &scene->findings) = finding;
 }
 
-static void add_all(struct adder *adder) {
+static void add_all(void *context) {
+    struct adder *adder = context;
     const struct report_input *input = adder->input;
     for (uint32_t i = 0; i < input->sink->count; i++) {
         const struct diag *d = &input->sink->items[i];
@@ -176,17 +177,12 @@ static void add_all(struct adder *adder) {
 }
 
 bool report_scene_add(struct report_scene *scene, const struct report_input *input) {
-    struct arena_guard guard = {.fault = ARENA_FAULT_NONE};
     struct adder adder = {.scene = scene, .input = input};
     scene->errors = input->sink->errors;
     scene->warnings = input->sink->warnings;
     scene->notes = input->sink->notes;
     scene->left_out += input->sink->dropped;
-    arena_set_guard(&scene->arena, &guard);
-    if (setjmp(guard.jump) == 0)
-        add_all(&adder);
-    arena_set_guard(&scene->arena, NULL);
-    return guard.fault == ARENA_FAULT_NONE;
+    return arena_guarded(&scene->arena, add_all, &adder) == ARENA_FAULT_NONE;
 }
 
 // ---- one list

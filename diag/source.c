@@ -16,8 +16,8 @@ static bool ends_line(str text, size_t at) {
     return text.ptr[at] == '\n' || (text.ptr[at] == '\r' && !(at + 1 < text.len && text.ptr[at + 1] == '\n'));
 }
 
-// Text is made where no guard is set, perhaps because memory has ended: without room for the map, lines are
-// counted anew each time.
+// Text is made where the arena is not guarded, perhaps because memory has ended: without room for the map,
+// lines are counted anew each time.
 static void map_lines(struct source_set *set, struct source *source) {
     size_t count = 1;
     for (size_t i = 0; i < source->text.len; i++)

@@ -2,7 +2,7 @@
 // (roots), links followed, and only regular files. Files are read whole into memory, never mapped.
 //
 // Ownership: the caller owns `struct files`; contents go into the caller's arena. Paths go into the arena
-// given to `files_init`, which needs a guard while these functions run.
+// given to `files_init`, which must be guarded while these functions run.
 // Thread safety: resolving and reading may run in several threads as long as none adds roots or
 // overlays; the log of reads is guarded by the caller reading files from one thread at a time.
 #ifndef GLINT_FILES_FILES_H

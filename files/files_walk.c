@@ -28,23 +28,28 @@ static int compare(const void *a, const void *b) {
     return str_compare(*(const str *)a, *(const str *)b);
 }
 
-// The names in a folder are taken before anything is done with them: an arena that ends jumps past closedir.
+struct listing {
+    DIR *directory;
+    struct arena *arena;
+    struct files_names *names;
+};
+
+static void take_names(void *context) {
+    const struct listing *listing = context;
+    for (struct dirent *entry; (entry = readdir(listing->directory));)
+        if (entry->d_name[0] != '.')
+            *ARENA_PUSH(listing->arena, listing->names) = arena_copy(listing->arena, str_from(entry->d_name));
+}
+
+// The names in a folder are taken before anything is done with them, so that the folder is closed at once.
 bool files_list_folder(struct arena *arena, str folder, struct files_names *names) {
-    DIR *directory = opendir(folder.ptr);
-    struct arena_guard *before = arena->guard;
-    struct arena_guard guard = {.fault = ARENA_FAULT_NONE};
-    if (!directory)
+    struct listing listing = {opendir(folder.ptr), arena, names};
+    if (!listing.directory)
         return false;
-    arena_set_guard(arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        for (struct dirent *entry; (entry = readdir(directory));)
-            if (entry->d_name[0] != '.')
-                *ARENA_PUSH(arena, names) = arena_copy(arena, str_from(entry->d_name));
-    }
-    arena_set_guard(arena, before);
-    closedir(directory);
-    if (guard.fault != ARENA_FAULT_NONE)
-        arena_raise(arena, guard.fault);
+    enum arena_fault fault = arena_guarded(arena, take_names, &listing);
+    closedir(listing.directory);
+    if (fault)
+        arena_raise(arena, fault);
     if (names->count)
         qsort(names->items, names->count, sizeof *names->items, compare);
     return true;

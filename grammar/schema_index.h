@@ -1,6 +1,6 @@
 // The table's names hashed, and each element's defaults ready to copy: for those who bind many elements.
 //
-// Ownership: the arena given to schema_index_init, whose guard is set by the caller.
+// Ownership: the arena given to schema_index_init, which must be guarded.
 // Thread safety: immutable once made.
 #ifndef GLINT_GRAMMAR_SCHEMA_INDEX_H
 #define GLINT_GRAMMAR_SCHEMA_INDEX_H

@@ -29,35 +29,35 @@ const struct lint_rule lint_rules[] = {
     {.run = NULL},
 };
 
-static void run_rules(struct lint *lint, enum lint_level level) {
-    lint_collect(lint);
+struct run {
+    struct lint lint;
+    enum lint_level level;
+};
+
+static void run_rules(void *context) {
+    struct run *run = context;
+    lint_collect(&run->lint);
     for (const struct lint_rule *rule = lint_rules; rule->run; rule++)
-        if (rule->level <= level)
-            rule->run(lint);
+        if (rule->level <= run->level)
+            rule->run(&run->lint);
 }
 
 void lint_run(const struct lint_input *input, enum lint_level level) {
     if (level == LINT_NONE)
         return;
     struct arena arena;
-    struct arena_guard guard;
-    struct arena_guard *outer = input->files->arena->guard;
     arena_init(&arena, (size_t)input->files->limits->value[LIMIT_MESH_MEMORY]);
-    arena_set_guard(&arena, &guard);
+    struct run run = {{.input = input,
+                       .scene = input->scene,
+                       .ir = input->scene->ir,
+                       .origin = input->files->origin,
+                       .sink = input->files->sink,
+                       .arena = &arena},
+                      level};
     // Sources that notes need lie in the scene's arena.
-    arena_set_guard(input->files->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        struct lint lint = {.input = input,
-                            .scene = input->scene,
-                            .ir = input->scene->ir,
-                            .origin = input->files->origin,
-                            .sink = input->files->sink,
-                            .arena = &arena};
-        run_rules(&lint, level);
-    } else {
+    struct arena *arenas[] = {&arena, input->files->arena, NULL};
+    if (arena_guarded_all(arenas, run_rules, &run) != ARENA_FAULT_NONE)
         diag_add(input->files->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory for the rules that look at meshes");
-    }
-    arena_set_guard(input->files->arena, outer);
     arena_finish(&arena);
 }

@@ -46,28 +46,31 @@ static bool set_text(struct document *document, const char *text, size_t length)
     return true;
 }
 
+struct path_search {
+    struct arena *arena;
+    const char *uri;
+    str path;
+};
+
 // As the sessions know it.
-static str path_of(struct arena *arena, const char *uri) {
+static void find_path(void *context) {
+    struct path_search *search = context;
     struct files files;
-    str path = position_path(arena, uri);
-    files_init(&files, arena);
-    return path.len ? files_canonical(&files, path) : path;
+    str path = position_path(search->arena, search->uri);
+    files_init(&files, search->arena);
+    search->path = path.len ? files_canonical(&files, path) : path;
 }
 
 static struct document *add(struct documents *documents, const char *uri) {
-    struct arena_guard guard;
     struct document *items =
         heap_grow(documents->items, documents->count, &documents->capacity, sizeof *items);
     if (!items)
         return NULL;
     documents->items = items;
-    arena_set_guard(&documents->arena, &guard);
-    str path = STR("");
-    if (setjmp(guard.jump) == 0)
-        path = path_of(&documents->arena, uri);
-    arena_set_guard(&documents->arena, NULL);
-    struct document document = {.uri = strdup(uri), .path = path};
-    if (!document.uri || path.len == 0) {
+    struct path_search search = {&documents->arena, uri, STR("")};
+    arena_guarded(&documents->arena, find_path, &search);
+    struct document document = {.uri = strdup(uri), .path = search.path};
+    if (!document.uri || search.path.len == 0) {
         free(document.uri);
         return NULL;
     }

@@ -31,7 +31,7 @@ struct located_name {
     } uses;
 };
 // The name at a located place: the definition's own, or the one a reference has. Uses lie in `arena`, which
-// needs a guard. false: no name stands there, or nothing has it.
+// must be guarded. false: no name stands there, or nothing has it.
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out);
 

@@ -136,8 +136,19 @@ static void append_once(json_t *list, const char *uri, json_t *diagnostic, json_
     free(text);
 }
 
-static void collect(struct server *server, struct lsp_scene *scene, struct arena *arena, json_t *all,
-                    json_t *seen) {
+struct collecting {
+    struct server *server;
+    struct lsp_scene *scene;
+    struct arena arena;
+    json_t *all, *seen;
+};
+
+static void collect(void *context) {
+    struct collecting *c = context;
+    struct server *server = c->server;
+    struct lsp_scene *scene = c->scene;
+    struct arena *arena = &c->arena;
+    json_t *all = c->all;
     struct session *session = &scene->session;
     str main_uri = position_uri(arena, scene->path);
     const struct document *main_document = documents_find_path(&server->documents, scene->path);
@@ -158,7 +169,7 @@ static void collect(struct server *server, struct lsp_scene *scene, struct arena
             continue;
         json_t *diagnostic = server_diagnostic(server, session, arena, diag);
         uri = has_file(session, diag->at) ? client_uri(server, session, arena, diag->at.source) : main;
-        append_once(list, uri, diagnostic, seen);
+        append_once(list, uri, diagnostic, c->seen);
     }
 }
 
@@ -173,18 +184,14 @@ static void tell(struct server *server, const char *uri, json_t *list) {
 }
 
 static void collect_guarded(struct server *server, struct lsp_scene *scene, json_t *all, json_t *seen) {
-    struct arena arena;
-    struct arena_guard guard;
+    struct collecting collecting = {.server = server, .scene = scene, .all = all, .seen = seen};
+    struct arena *arenas[] = {&collecting.arena, &scene->session.arena, NULL};
     struct arena *paths = scene->session.files.arena;
-    arena_init(&arena, SIZE_MAX / 2);
-    arena_set_guard(&arena, &guard);
-    arena_set_guard(&scene->session.arena, &guard);
-    scene->session.files.arena = &arena;
-    if (setjmp(guard.jump) == 0)
-        collect(server, scene, &arena, all, seen);
+    arena_init(&collecting.arena, SIZE_MAX / 2);
+    scene->session.files.arena = &collecting.arena;
+    arena_guarded_all(arenas, collect, &collecting);
     scene->session.files.arena = paths;
-    arena_set_guard(&scene->session.arena, NULL);
-    arena_finish(&arena);
+    arena_finish(&collecting.arena);
 }
 
 void server_publish(struct server *server) {

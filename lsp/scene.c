@@ -58,27 +58,33 @@ bool lsp_scene_has_file(const struct lsp_scene *scene, str path) {
     return false;
 }
 
+struct noting {
+    struct session *session;
+    str *files;
+    uint32_t count;
+};
+
+static void note_paths(void *context) {
+    struct noting *n = context;
+    struct session *session = n->session;
+    for (; n->count < session->origin.files.count; n->count++) {
+        uint32_t source = session->origin.files.items[n->count].source;
+        str path = files_canonical(&session->files, session->sources.items[source].path);
+        char *copy = strndup(path.ptr, path.len);
+        n->files[n->count] = (str){copy, copy ? path.len : 0};
+    }
+}
+
 // What the scene consists of; kept where the new text could not be read that far.
 void lsp_scene_note_files(struct lsp_scene *scene, struct session *session) {
     uint32_t count = session->origin.files.count;
-    str *files = count ? calloc(count, sizeof *files) : NULL;
-    struct arena_guard guard;
-    if (!files)
+    struct noting noting = {session, count ? calloc(count, sizeof *noting.files) : NULL, 0};
+    if (!noting.files)
         return;
-    volatile uint32_t done = 0;
-    arena_set_guard(&session->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        for (; done < count; done++) {
-            uint32_t source = session->origin.files.items[done].source;
-            str path = files_canonical(&session->files, session->sources.items[source].path);
-            char *copy = strndup(path.ptr, path.len);
-            files[done] = (str){copy, copy ? path.len : 0};
-        }
-    }
-    arena_set_guard(&session->arena, NULL);
+    arena_guarded(&session->arena, note_paths, &noting);
     lsp_scene_forget_files(scene);
-    scene->files = files;
-    scene->file_count = done;
+    scene->files = noting.files;
+    scene->file_count = noting.count;
 }
 
 struct file_overlay *scenes_overlays(const struct scenes *scenes) {
@@ -98,6 +104,11 @@ struct lsp_scene *scenes_find(struct scenes *scenes, str path) {
     return NULL;
 }
 
+static void keep_path(void *context) {
+    struct lsp_scene *scene = context;
+    scene->path = arena_copy(&scene->arena, scene->path);
+}
+
 struct lsp_scene *scenes_add(struct scenes *scenes, str path) {
     struct lsp_scene *known = scenes_find(scenes, path);
     if (known)
@@ -106,19 +117,16 @@ struct lsp_scene *scenes_add(struct scenes *scenes, str path) {
     if (!items)
         return NULL;
     scenes->items = items;
-    struct lsp_scene *volatile scene = calloc(1, sizeof *scene);
-    struct arena_guard guard;
+    struct lsp_scene *scene = calloc(1, sizeof *scene);
     if (!scene)
         return NULL;
     arena_init(&scene->arena, SIZE_MAX / 2);
-    arena_set_guard(&scene->arena, &guard);
-    if (setjmp(guard.jump) != 0) {
+    scene->path = path;
+    scene->is_stale = true;
+    if (arena_guarded(&scene->arena, keep_path, scene) != ARENA_FAULT_NONE) {
         destroy(scene);
         return NULL;
     }
-    scene->path = arena_copy(&scene->arena, path);
-    scene->is_stale = true;
-    arena_set_guard(&scene->arena, NULL);
     scenes->items[scenes->count++] = scene;
     return scene;
 }

@@ -88,28 +88,34 @@ static void try_folder(struct scenes *scenes, struct files *files, struct arena 
     }
 }
 
-void scenes_place(struct scenes *scenes, struct document *document) {
+struct placing {
+    struct scenes *scenes;
+    str path;
     struct arena arena;
-    struct arena_guard guard;
+};
+
+static void try_folders(void *context) {
+    struct placing *p = context;
     struct files files;
-    str path = document->path;
+    files_init(&files, &p->arena);
+    if (files_add_scene_root(&files, p->path) != FILE_OK)
+        return;
+    str root = files.roots.items[0];
+    str folder = path_folder(p->path);
+    for (int i = 0; i < FOLDERS_MOST && str_starts_with(folder, root); i++) {
+        try_folder(p->scenes, &files, &p->arena, folder, p->path);
+        if (str_equal(folder, root))
+            break;
+        folder = path_folder(folder);
+    }
+}
+
+void scenes_place(struct scenes *scenes, struct document *document) {
+    struct placing placing = {.scenes = scenes, .path = document->path};
     if (document->is_placed)
         return;
     document->is_placed = true;
-    arena_init(&arena, (size_t)1 << 28);
-    arena_set_guard(&arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        files_init(&files, &arena);
-        if (files_add_scene_root(&files, path) == FILE_OK) {
-            str root = files.roots.items[0];
-            str folder = path_folder(path);
-            for (int i = 0; i < FOLDERS_MOST && str_starts_with(folder, root); i++) {
-                try_folder(scenes, &files, &arena, folder, path);
-                if (str_equal(folder, root))
-                    break;
-                folder = path_folder(folder);
-            }
-        }
-    }
-    arena_finish(&arena);
+    arena_init(&placing.arena, (size_t)1 << 28);
+    arena_guarded(&placing.arena, try_folders, &placing);
+    arena_finish(&placing.arena);
 }

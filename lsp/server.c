@@ -152,14 +152,23 @@ static void refresh(struct server *server, enum scenes_effort effort) {
         server_publish(server);
 }
 
+struct answering {
+    server_answer *answer;
+    struct request request;
+    json_t *result;
+};
+
+static void run_answer(void *context) {
+    struct answering *a = context;
+    a->result = a->answer(&a->request);
+}
+
 // What a request allocates in a session's arena, and in its own, ends the request alone where memory does.
 static json_t *answer(struct server *server, const struct method *method, const json_t *params, bool *good) {
     struct arena arena;
-    struct arena_guard guard;
     struct document *document = documents_find(&server->documents, uri_of(params));
     struct lsp_scene *scene = document ? scenes_of(&server->scenes, document->path) : NULL;
     struct session *session = scene ? &scene->session : NULL;
-    json_t *volatile result = NULL;
     server->refusal = NULL;
     *good = true;
     if (!session && (!document || method->without_scene != ANSWER_STILL))
@@ -172,21 +181,16 @@ static json_t *answer(struct server *server, const struct method *method, const 
                               .session = session,
                               .offset = position_read(document_text(document), server->encoding,
                                                       json_object_get(params, "position"), NULL)};
+    struct answering answering = {method->answer, request, NULL};
+    struct arena *arenas[] = {&arena, session ? &session->arena : NULL, NULL};
     arena_init(&arena, SIZE_MAX / 2);
-    arena_set_guard(&arena, &guard);
-    if (session) {
-        arena_set_guard(&session->arena, &guard);
+    if (session)
         session->files.arena = &arena; // or the session would grow with every request
-    }
-    *good = setjmp(guard.jump) == 0;
-    if (*good)
-        result = method->answer(&request);
-    if (session) {
-        arena_set_guard(&session->arena, NULL);
+    *good = arena_guarded_all(arenas, run_answer, &answering) == ARENA_FAULT_NONE;
+    if (session)
         session->files.arena = &session->arena;
-    }
     arena_finish(&arena);
-    return result;
+    return answering.result;
 }
 
 static void take_request(struct server *server, const char *method, json_t *id, const json_t *params) {

@@ -17,7 +17,7 @@ struct parser_input {
     struct files *files;
     struct diag_sink *sink;
     const struct limits *limits;
-    struct arena *arena; // its guard is set and reset inside parser_load
+    struct arena *arena; // guarded inside parser_load
     const str *sets;     // --set options, "PATH=VALUE", in order
     uint32_t set_count;
     bool whole; // nothing is bound before its file is read: slower, and the same result

@@ -13,16 +13,10 @@ enum {
 
 // ---- making
 
-static bool fill(struct reference *r) {
-    struct arena_guard guard;
-    arena_set_guard(&r->arena, &guard);
-    bool made = setjmp(guard.jump) == 0;
-    if (made) {
-        reference_make_bodies(r);
-        reference_make_background(r);
-    }
-    arena_set_guard(&r->arena, NULL);
-    return made && reference_make_tree(r);
+static void fill(void *context) {
+    struct reference *r = context;
+    reference_make_bodies(r);
+    reference_make_background(r);
 }
 
 struct reference *reference_create(const struct reference_input *input) {
@@ -31,7 +25,7 @@ struct reference *reference_create(const struct reference_input *input) {
         return NULL;
     *r = (struct reference){.input = *input, .origin = input->view->camera.position};
     arena_init(&r->arena, SIZE_MAX);
-    if (fill(r))
+    if (arena_guarded(&r->arena, fill, r) == ARENA_FAULT_NONE && reference_make_tree(r))
         return r;
     reference_destroy(r);
     return NULL;

@@ -4,7 +4,7 @@
 // spelling, order of keys and of named things are no meaning. Entries of lists are matched by name, else by
 // equal content, else by the most equal attributes; entries that stand elsewhere in the list are told as
 // moved (of two surfaces at one place the earlier one is seen). Ownership: everything is made in the arena
-// given, whose guard the caller sets; spans point into the sources of their side. Errors: none but memory.
+// given, which must be guarded; spans point into the sources of their side. Errors: none but memory.
 // Thread safety: pure but for the arena and the callbacks.
 #ifndef GLINT_GRAMMAR_PRINT_IR_DIFF_H
 #define GLINT_GRAMMAR_PRINT_IR_DIFF_H

@@ -42,6 +42,9 @@ enum {
 
 struct run {
     const struct extremes_input *input;
+    const struct extremes_progress *progress;
+    struct extremes *out;
+    enum extremes_status status;
     struct arena arena; // of the variant under way
     struct extreme_base base;
     struct arena base_arena;
@@ -290,8 +293,11 @@ static bool make_pictures(struct run *run) {
     return run->hits[0] && run->hits[1] && run->shown[0] && run->shown[1] && run->exact && run->rgb;
 }
 
-static enum extremes_status measure_cells(struct run *run, struct extremes *out,
-                                          const struct extremes_progress *progress) {
+static enum extremes_status measure_cells(struct run *run) {
+    struct extremes *out = run->out;
+    const struct extremes_progress *progress = run->progress;
+    if (!make_pictures(run) || !list_cells(out, run->input->axes))
+        return EXTREMES_MEMORY;
     enum extremes_status status = make_base(run);
     if (status == EXTREMES_DONE && (run->input->axes & MOVES_AND_SCALES))
         status = make_rest(run);
@@ -322,14 +328,9 @@ static void finish(struct run *run) {
     arena_finish(&run->base_arena);
 }
 
-static enum extremes_status run_guarded(struct run *run, struct extremes *out,
-                                        const struct extremes_progress *progress) {
-    struct arena_guard guard;
-    arena_set_guard(&run->arena, &guard);
-    arena_set_guard(&run->base_arena, &guard);
-    if (setjmp(guard.jump) != 0 || !make_pictures(run) || !list_cells(out, run->input->axes))
-        return EXTREMES_MEMORY;
-    return measure_cells(run, out, progress);
+static void measure_all(void *context) {
+    struct run *run = context;
+    run->status = measure_cells(run);
 }
 
 enum extremes_status extremes_run(struct extremes *out, const struct extremes_input *input,
@@ -339,12 +340,14 @@ enum extremes_status extremes_run(struct extremes *out, const struct extremes_in
     struct run *run = calloc(1, sizeof *run);
     if (!run)
         return EXTREMES_MEMORY;
-    run->input = input;
+    *run = (struct run){.input = input, .out = out, .progress = progress};
     diag_sink_init(&run->sink);
     arena_init(&run->arena, SIZE_MAX);
     arena_init(&run->base_arena, SIZE_MAX);
     snprintf(out->device, sizeof out->device, "%s", gpu_info(input->gpu)->name);
-    enum extremes_status status = run_guarded(run, out, progress);
+    struct arena *arenas[] = {&run->arena, &run->base_arena, NULL};
+    enum arena_fault fault = arena_guarded_all(arenas, measure_all, run);
+    enum extremes_status status = fault ? EXTREMES_MEMORY : run->status;
     out->seconds = clock_seconds() - start;
     finish(run);
     free(run);

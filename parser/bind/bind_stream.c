@@ -30,6 +30,17 @@ static void bind_taken(struct bind_stream *stream, tree_index list_key, tree_ind
                named ? tree_text(context->tree, entry) : STR(""), given);
 }
 
+struct taken {
+    struct bind_stream *stream;
+    tree_index list_key, entry;
+};
+
+static void run_taken(void *context) {
+    const struct taken *taken = context;
+    bind_taken(taken->stream, taken->list_key, taken->entry);
+    arena_reset(&taken->stream->entry);
+}
+
 static bool take(struct reader_taker *taker, const struct tree *tree, tree_index list_key, tree_index entry) {
     // What a name without a value lacks may stand behind it, in the wrong column.
     if (tree_node(tree, entry)->key == TREE_KEY_PLAIN &&
@@ -39,22 +50,15 @@ static bool take(struct reader_taker *taker, const struct tree *tree, tree_index
     struct bind_context *context = stream->context;
     struct arena *scratch = context->scratch;
     struct diag_sink *sink = context->sink;
-    struct arena_guard *outer = context->arena->guard;
-    struct arena_guard guard;
-    arena_set_guard(context->arena, &guard);
-    arena_set_guard(&stream->entry, &guard);
+    struct arena *arenas[] = {context->arena, &stream->entry, NULL};
+    struct taken taken = {stream, list_key, entry};
     context->tree = tree;
     context->scratch = &stream->entry;
     context->sink = &stream->sink;
-    bool bound = setjmp(guard.jump) == 0;
-    if (bound) {
-        bind_taken(stream, list_key, entry);
-        arena_reset(&stream->entry);
-    }
-    context->arena->guard = outer;
+    enum arena_fault fault = arena_guarded_all(arenas, run_taken, &taken);
     context->scratch = scratch;
     context->sink = sink;
-    return bound;
+    return fault == ARENA_FAULT_NONE;
 }
 
 void bind_stream_begin(struct bind_stream *stream, struct bind_context *context, size_t memory_bytes) {

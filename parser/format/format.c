@@ -9,47 +9,31 @@ static bool ends_line(str text) {
     return end > 0 && char_is_break(text.ptr[end - 1]);
 }
 
-// Calls `work`, and whatever the arena does, comes back; then the jump goes to the guard of before.
-static bool guarded(struct arena *arena, bool (*work)(void *), void *context, enum arena_fault *fault) {
-    struct arena_guard *outer = arena->guard;
-    struct arena_guard guard;
-    volatile bool result = false;
-    *fault = ARENA_FAULT_NONE;
-    arena_set_guard(arena, &guard);
-    if (setjmp(guard.jump) == 0)
-        result = work(context);
-    else
-        *fault = guard.fault;
-    arena->guard = outer;
-    return result;
-}
-
 struct layout {
     str text;
     uint32_t begin; // behind a byte order mark
-    bool is_xml;
+    bool is_xml, found;
     struct format_lines lines;
 };
 
-static bool find_lines(void *context) {
+static void find_lines(void *context) {
     struct layout *l = context;
-    return (l->is_xml ? format_xml : format_yaml)(l->lines.arena, l->text, l->begin, &l->lines);
+    l->found = (l->is_xml ? format_xml : format_yaml)(l->lines.arena, l->text, l->begin, &l->lines);
 }
 
 static bool lay_out(struct arena *arena, str text, bool is_xml, struct strbuf *out) {
     struct layout layout = {.text = text, .is_xml = is_xml};
-    enum arena_fault fault;
     layout.begin = (uint32_t)str_skip_mark(text);
     format_lines_init(&layout.lines, arena, is_xml ? 1 : 2);
-    bool done = guarded(arena, find_lines, &layout, &fault);
-    if (done) {
+    enum arena_fault fault = arena_guarded(arena, find_lines, &layout);
+    if (layout.found) {
         strbuf_str(out, str_slice(text, 0, layout.begin));
         format_lines_write(&layout.lines, str_line_end(text), ends_line(text) && !layout.lines.is_open, out);
     }
     format_lines_finish(&layout.lines);
     if (fault)
         arena_raise(arena, fault);
-    return done && !out->failed;
+    return layout.found && !out->failed;
 }
 
 static bool read_tree(const struct reader_context *context, uint32_t source, bool is_xml, struct tree *tree) {
@@ -61,14 +45,15 @@ struct second_reading {
     struct reader_context context;
     const struct tree *tree;
     str text, written;
+    bool same;
 };
 
-static bool read_again(void *context) {
+static void read_again(void *context) {
     struct second_reading *r = context;
     struct tree again;
     uint32_t source = source_add(r->context.sources, SOURCE_KIND_OVERLAY, STR(""), r->written);
-    return read_tree(&r->context, source, r->tree->is_xml, &again) &&
-           format_same(r->tree, r->text, &again, r->written);
+    r->same = read_tree(&r->context, source, r->tree->is_xml, &again) &&
+              format_same(r->tree, r->text, &again, r->written);
 }
 
 // Reads what was written once more, and compares.
@@ -76,16 +61,15 @@ static bool is_safe(const struct reader_context *context, const struct tree *tre
     struct source_set sources;
     struct diag_sink sink;
     struct second_reading reading = {.context = *context, .tree = tree, .text = text, .written = written};
-    enum arena_fault fault;
     source_set_init(&sources, context->arena);
     diag_sink_init(&sink);
     reading.context.sources = &sources;
     reading.context.sink = &sink;
-    bool same = guarded(context->arena, read_again, &reading, &fault);
+    enum arena_fault fault = arena_guarded(context->arena, read_again, &reading);
     diag_sink_finish(&sink);
     if (fault)
         arena_raise(context->arena, fault);
-    return same;
+    return reading.same;
 }
 
 enum format_status format_source(const struct reader_context *context, uint32_t source,

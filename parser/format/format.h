@@ -4,7 +4,7 @@
 // keys stay, as do the byte order mark, the kind of line ends and whether the last line has one. What was
 // made is read again and compared with what was read; a text that would mean another thing is never given.
 // Ownership: the result is appended to the caller's strbuf. Errors: diagnostics in the context's sink.
-// Thread safety: one call belongs to one thread; the context's arena needs a guard.
+// Thread safety: one call belongs to one thread; the context's arena must be guarded.
 #ifndef GLINT_PARSER_FORMAT_FORMAT_H
 #define GLINT_PARSER_FORMAT_FORMAT_H
 

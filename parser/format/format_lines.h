@@ -1,7 +1,7 @@
 // The lines that the formatter writes, each with the comment behind it: comments that stood in one column do
 // so again. Private to parser/format*.c.
 //
-// Ownership: lists in the arena (its guard must be set), texts in the strbuf; both the caller's.
+// Ownership: lists in the arena (which must be guarded), texts in the strbuf; both the caller's.
 // Thread safety: one thread.
 #ifndef GLINT_PARSER_FORMAT_FORMAT_LINES_H
 #define GLINT_PARSER_FORMAT_FORMAT_LINES_H

@@ -30,41 +30,26 @@ static void report_fault(const struct parser_input *input, uint32_t source, enum
         diag_add(input->sink, DIAG_OUT_OF_MEMORY, at, "the system gave no more memory for the scene");
 }
 
-// The arenas that the stages allocate from, and the guards that they had before.
-enum {
-    ARENAS = 5
-};
-struct guards {
-    struct arena *arena[ARENAS];
-    struct arena_guard *before[ARENAS];
+struct job {
+    struct loader *loader;
+    uint32_t main_source;
+    bool alone, done;
 };
 
-static struct guards take_guards(struct loader *loader, struct arena_guard *guard) {
-    const struct parser_input *input = loader->input;
-    struct guards guards = {.arena = {input->arena, input->sources->arena, input->files->arena,
-                                      &loader->scratch, &loader->steady}};
-    for (int i = 0; i < ARENAS; i++)
-        guards.before[i] = guards.arena[i]->guard;
-    for (int i = 0; i < ARENAS; i++)
-        arena_set_guard(guards.arena[i], guard);
-    return guards;
-}
-
-static void give_guards_back(const struct guards *guards) {
-    for (int i = 0; i < ARENAS; i++)
-        guards->arena[i]->guard = guards->before[i];
+static void run_job(void *context) {
+    struct job *job = context;
+    job->done = run(job->loader, job->main_source, job->alone);
 }
 
 static bool guarded(struct loader *loader, uint32_t main_source, bool alone) {
-    struct arena_guard guard;
-    struct guards guards = take_guards(loader, &guard);
-    if (setjmp(guard.jump) == 0) {
-        bool done = run(loader, main_source, alone);
-        give_guards_back(&guards);
-        return done;
-    }
-    give_guards_back(&guards);
-    report_fault(loader->input, main_source, guard.fault);
+    const struct parser_input *input = loader->input;
+    struct arena *arenas[] = {input->arena,     input->sources->arena, input->files->arena,
+                              &loader->scratch, &loader->steady,       NULL};
+    struct job job = {loader, main_source, alone, false};
+    enum arena_fault fault = arena_guarded_all(arenas, run_job, &job);
+    if (fault == ARENA_FAULT_NONE)
+        return job.done;
+    report_fault(input, main_source, fault);
     *loader->output = (struct parser_output){.scene = NULL};
     return false;
 }

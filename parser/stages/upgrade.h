@@ -2,7 +2,7 @@
 //
 // A table of rules, each for one key or word of one element. A file that says the table's version, or none,
 // is not touched; of an older one only the names that rules tell and the version are replaced. Ownership: the
-// new text lies in the context's arena, whose guard must be set. Thread safety: one call belongs to one
+// new text lies in the context's arena, which must be guarded. Thread safety: one call belongs to one
 // thread; tables are constant data.
 #ifndef GLINT_PARSER_STAGES_UPGRADE_H
 #define GLINT_PARSER_STAGES_UPGRADE_H

@@ -4,8 +4,8 @@
 // sink. What libyaml or expat refuses ends the file, and what stands before it is in the tree
 // (tree.broken is set); what glint itself finds (tags, duplicate keys, tabs, text between elements ...)
 // does not: it is overwritten in a copy of equal length, and what it touches is marked TREE_BAD.
-// Memory: where the arena ends, the library is put away first; then the jump goes to the caller's guard,
-// which must be set. Never is there a jump through a library's frames.
+// Memory: where the arena ends, the library is put away first; then the jump goes on to the caller,
+// who must have guarded it. Never is there a jump through a library's frames.
 #ifndef GLINT_PARSER_TREE_READER_H
 #define GLINT_PARSER_TREE_READER_H
 
@@ -29,7 +29,7 @@ struct reader_context {
     struct source_set *sources;
     struct diag_sink *sink;
     const struct limits *limits;
-    struct arena *arena;        // for the tree; its guard is set by the caller
+    struct arena *arena;        // for the tree; guarded by the caller
     struct reader_taker *taker; // NULL: the tree keeps everything. Else the file is not repaired, the reading
                                 // ends (false) at the first diagnostic, and the file is to be read again.
 };

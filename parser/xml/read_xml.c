@@ -8,10 +8,17 @@ enum {
 
 // What a callback has to work on.
 struct xml_event {
+    struct xml_reader *reader;
+    void (*body)(struct xml_reader *, const struct xml_event *);
     const char *name;
     const char **attributes;
     uint32_t begin, end; // bytes of the source
 };
+
+static void run_body(void *context) {
+    const struct xml_event *event = context;
+    event->body(event->reader, event);
+}
 
 // Runs the body of a callback. A jump of the arena must not cross expat's frames: it is caught here, within
 // the callback, and handed on when expat has returned.
@@ -20,18 +27,11 @@ static void guarded(struct xml_reader *r, void (*body)(struct xml_reader *, cons
     if (r->stopped)
         return;
     uint32_t begin = r->text->begin + (uint32_t)XML_GetCurrentByteIndex(r->parser);
-    struct xml_event event = {name, attributes, begin, begin + (uint32_t)XML_GetCurrentByteCount(r->parser)};
-    struct arena *arena = r->context->arena;
-    struct arena_guard *outer = arena->guard;
-    struct arena_guard guard;
-    arena_set_guard(arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        body(r, &event);
-    } else {
-        r->fault = guard.fault;
+    uint32_t end = begin + (uint32_t)XML_GetCurrentByteCount(r->parser);
+    struct xml_event event = {r, body, name, attributes, begin, end};
+    r->fault = arena_guarded(r->context->arena, run_body, &event);
+    if (r->fault)
         xml_stop(r);
-    }
-    arena->guard = outer;
 }
 
 static void on_text(struct xml_reader *r, const struct xml_event *event) {

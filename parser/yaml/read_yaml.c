@@ -366,7 +366,8 @@ static bool may_read_again(const struct yaml_reader *r, unsigned attempt) {
     return attempt < ATTEMPTS_FREE || (attempt < ATTEMPTS_MAX && reread < REREAD_BYTES_MAX);
 }
 
-static void run_attempts(struct yaml_reader *r) {
+static void run_attempts(void *context) {
+    struct yaml_reader *r = context;
     struct arena *arena = r->context->arena;
     r->frames = ARENA_ARRAY(arena, struct yaml_frame, r->context->limits->value[LIMIT_SCENE_DEPTH] + 1);
     reader_names_init(&r->anchor_names, arena);
@@ -402,22 +403,16 @@ static void run_attempts(struct yaml_reader *r) {
     }
 }
 
-// The reader lies outside of the function that holds the guard, so that it is whole after a jump.
+// What libyaml and the sink hold is given back, whether memory lasts or not.
 static void run_guarded(struct yaml_reader *r) {
     struct arena *arena = r->context->arena;
-    struct arena_guard *outer = arena->guard;
-    struct arena_guard guard;
-    arena_set_guard(arena, &guard);
-    bool jumped = setjmp(guard.jump) != 0;
-    if (!jumped)
-        run_attempts(r);
-    arena->guard = outer;
+    enum arena_fault fault = arena_guarded(arena, run_attempts, r);
     yaml_event_delete(&r->event);
     yaml_parser_delete(&r->parser);
     diag_merge(r->context->sink, &r->sink);
     diag_sink_finish(&r->sink);
-    if (jumped)
-        arena_raise(arena, guard.fault);
+    if (fault)
+        arena_raise(arena, fault);
 }
 
 static void read_text(const struct reader_context *context, struct reader_text *text, bool is_option,

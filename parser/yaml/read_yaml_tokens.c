@@ -8,6 +8,7 @@ struct scanner {
     uint32_t begin;
     uint32_t characters, bytes; // one place in both measures: libyaml counts characters
     struct yaml_tokens *tokens;
+    struct yaml_token token; // the one to be added
 };
 
 static bool is_continuation(char c) {
@@ -74,6 +75,11 @@ static enum yaml_token_kind kind_of(const yaml_token_t *token) {
     }
 }
 
+static void push(void *context) {
+    struct scanner *s = context;
+    *ARENA_PUSH(s->arena, s->tokens) = s->token;
+}
+
 static bool add(struct scanner *s, const yaml_token_t *token) {
     if (token->type == YAML_STREAM_START_TOKEN)
         return true;
@@ -85,14 +91,8 @@ static bool add(struct scanner *s, const yaml_token_t *token) {
         added.begin = added.end = (uint32_t)s->text.len;
     s->tokens->documents +=
         added.kind == YAML_TOKEN_DOCUMENT || (s->tokens->count == 0 && added.kind > YAML_TOKEN_DOCUMENT_END);
-    struct arena_guard *outer = s->arena->guard;
-    struct arena_guard guard;
-    arena_set_guard(s->arena, &guard);
-    bool kept = setjmp(guard.jump) == 0;
-    if (kept)
-        *ARENA_PUSH(s->arena, s->tokens) = added;
-    s->arena->guard = outer;
-    return kept;
+    s->token = added;
+    return arena_guarded(s->arena, push, s) == ARENA_FAULT_NONE;
 }
 
 static void open_parser(yaml_parser_t *parser, str text, uint32_t begin) {

@@ -2,7 +2,7 @@
 // which the tree (parser/tree/tree.h) has resolved. For the formatter, which moves white space and nothing
 // else.
 //
-// Ownership: the list lies in the caller's arena, whose guard must be set. Errors: false where libyaml
+// Ownership: the list lies in the caller's arena, which must be guarded. Errors: false where libyaml
 // refuses the text; what is wrong with it is the reader's to say. Thread safety: one call belongs to one
 // thread.
 #ifndef GLINT_PARSER_YAML_YAML_TOKENS_H

@@ -39,23 +39,28 @@ static void check_places(const struct diag_sink *sink, uint32_t source, size_t s
     }
 }
 
-static void read_all(struct arena *arena, struct diag_sink *sink, const char *text, size_t size) {
+struct job {
+    str text;
+    struct arena arena;
+    struct diag_sink sink;
+};
+
+static void run(void *context) {
+    struct job *job = context;
     struct source_set sources;
     struct files files;
     struct config config;
-    source_set_init(&sources, arena);
-    files_init(&files, arena);
-    uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, STR(".glintrc.yaml"), (str){text, size});
-    struct config_input input = {.files = &files, .sources = &sources, .sink = sink, .arena = arena};
+    source_set_init(&sources, &job->arena);
+    files_init(&files, &job->arena);
+    uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, STR(".glintrc.yaml"), job->text);
+    struct config_input input = {
+        .files = &files, .sources = &sources, .sink = &job->sink, .arena = &job->arena};
     config_read(&input, source, STR("/none/.glintrc.yaml"), &config);
-    check_places(sink, source, size);
+    check_places(&job->sink, source, job->text.len);
     judge(&config);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    struct arena arena;
-    struct arena_guard guard;
-    struct diag_sink sink;
     char *text = malloc(size + 1);
     if (!text || size > UINT32_MAX / 2) {
         free(text);
@@ -63,13 +68,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
     memcpy(text, data, size);
     text[size] = '\0';
-    arena_init(&arena, MEMORY_BYTES);
-    diag_sink_init(&sink);
-    arena_set_guard(&arena, &guard);
-    if (setjmp(guard.jump) == 0)
-        read_all(&arena, &sink, text, size);
-    diag_sink_finish(&sink);
-    arena_finish(&arena);
+    struct job job = {.text = {text, size}};
+    arena_init(&job.arena, MEMORY_BYTES);
+    diag_sink_init(&job.sink);
+    arena_guarded(&job.arena, run, &job);
+    diag_sink_finish(&job.sink);
+    arena_finish(&job.arena);
     free(text);
     return 0;
 }

@@ -4,7 +4,6 @@
 #include "fuzz_sample.h"
 #include "parser/format/format.h"
 
-#include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +19,7 @@ struct job {
     struct source_set sources;
     struct diag_sink sink;
     struct limits limits;
+    str text;
     struct strbuf once, twice;
 };
 
@@ -37,23 +37,18 @@ static enum format_status format(struct job *job, str path, str text, struct str
     return format_source(&context, source, NULL, out);
 }
 
-// The job lies outside, so that it is whole after a jump.
-static void run(struct job *job, str text) {
-    struct arena_guard guard;
-    str path = reader_is_xml(STR("fuzz"), text) ? STR("fuzz.xml") : STR("fuzz.yaml");
+static void run(void *context) {
+    struct job *job = context;
+    str path = reader_is_xml(STR("fuzz"), job->text) ? STR("fuzz.xml") : STR("fuzz.yaml");
     source_set_init(&job->sources, &job->arena);
-    arena_set_guard(&job->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        enum format_status status = format(job, path, text, &job->once);
-        require(status != FORMAT_UNSAFE, "the meaning stays");
-        require(status == FORMAT_DONE || job->sink.errors > 0, "what is refused has a diagnostic");
-        if (status == FORMAT_DONE && fuzz_is_chosen(text, 0, 2)) {
-            status = format(job, path, strbuf_view(&job->once), &job->twice);
-            require(status == FORMAT_DONE, "what was laid out can be laid out");
-            require(str_equal(strbuf_view(&job->once), strbuf_view(&job->twice)), "once is enough");
-        }
+    enum format_status status = format(job, path, job->text, &job->once);
+    require(status != FORMAT_UNSAFE, "the meaning stays");
+    require(status == FORMAT_DONE || job->sink.errors > 0, "what is refused has a diagnostic");
+    if (status == FORMAT_DONE && fuzz_is_chosen(job->text, 0, 2)) {
+        status = format(job, path, strbuf_view(&job->once), &job->twice);
+        require(status == FORMAT_DONE, "what was laid out can be laid out");
+        require(str_equal(strbuf_view(&job->once), strbuf_view(&job->twice)), "once is enough");
     }
-    arena_set_guard(&job->arena, NULL);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -69,7 +64,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     diag_sink_init(&job.sink);
     strbuf_init(&job.once);
     strbuf_init(&job.twice);
-    run(&job, (str){copy, size});
+    job.text = (str){copy, size};
+    arena_guarded(&job.arena, run, &job);
     strbuf_finish(&job.once);
     strbuf_finish(&job.twice);
     diag_sink_finish(&job.sink);

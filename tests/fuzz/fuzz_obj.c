@@ -4,7 +4,6 @@
 #include "grammar/schema.h"
 #include "scene/view.h"
 
-#include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +39,8 @@ static void check_mesh(const struct mesh *mesh, struct arena *arena) {
 }
 
 struct loaded {
+    struct asset_store *store;
+    str mesh, materials; // texts
     struct arena arena;
     struct source_set sources;
     struct files files;
@@ -50,11 +51,12 @@ struct loaded {
     struct assets assets;
 };
 
-static void load(struct loaded *s, struct asset_store *store, str mesh, str materials) {
+static void load(void *context) {
+    struct loaded *s = context;
     source_set_init(&s->sources, &s->arena);
     files_init(&s->files, &s->arena);
-    files_add_overlay(&s->files, STR("/mesh.obj"), mesh);
-    files_add_overlay(&s->files, STR("/own.mtl"), materials);
+    files_add_overlay(&s->files, STR("/mesh.obj"), s->mesh);
+    files_add_overlay(&s->files, STR("/own.mtl"), s->materials);
     ir_origin_init(&s->origin, &s->arena);
     schema_init(&SCHEMA_SCENE, &s->scene);
     s->limits = limits_default();
@@ -66,7 +68,7 @@ static void load(struct loaded *s, struct asset_store *store, str mesh, str mate
     model->material.index = IR_NO_INDEX;
     struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
                                  &s->limits, &s->sink,   &s->arena,   NULL};
-    assets_load(store, &input, false, &s->assets);
+    assets_load(s->store, &input, false, &s->assets);
     const struct mesh *loaded = s->assets.models[0].mesh;
     require(loaded || s->sink.errors > 0, "a mesh, or an error");
     if (loaded)
@@ -74,7 +76,7 @@ static void load(struct loaded *s, struct asset_store *store, str mesh, str mate
     struct scene scene;
     scene_build(&s->scene, &s->assets, &s->arena, &scene);
     scene_check_reach(&scene, &s->sink);
-    if (!fuzz_is_chosen(mesh, 0, 4))
+    if (!fuzz_is_chosen(s->mesh, 0, 4))
         return;
     struct strbuf text;
     strbuf_init(&text);
@@ -87,17 +89,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const char *nul = memchr(all.ptr ? all.ptr : "", 0, size);
     size_t cut = nul ? (size_t)(nul - all.ptr) : size;
     struct loaded *s = calloc(1, sizeof *s);
-    struct asset_store *store = asset_store_create();
-    if (!s || !store)
+    if (!s || !(s->store = asset_store_create()))
         abort();
-    struct arena_guard guard;
+    s->mesh = str_slice(all, 0, cut);
+    s->materials = str_slice(all, nul ? cut + 1 : size, size);
     diag_sink_init(&s->sink);
     arena_init(&s->arena, MEMORY_BYTES);
-    arena_set_guard(&s->arena, &guard);
-    if (setjmp(guard.jump) == 0)
-        load(s, store, str_slice(all, 0, cut), str_slice(all, nul ? cut + 1 : size, size));
+    arena_guarded(&s->arena, load, s);
     assets_finish(&s->assets);
-    asset_store_destroy(store);
+    asset_store_destroy(s->store);
     diag_sink_finish(&s->sink);
     arena_finish(&s->arena);
     free(s);

@@ -3,7 +3,6 @@
 #include "core/strbuf.h"
 #include "fuzz_sample.h"
 
-#include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -190,22 +189,18 @@ struct job {
     struct tree tree;
 };
 
-// The job lies outside, so that it is whole after a jump.
-static void run(struct job *job, uint32_t size) {
-    struct reader_context context = {
+static void run(void *context) {
+    struct job *job = context;
+    struct reader_context reader = {
         .sources = &job->sources, .sink = &job->sink, .limits = &job->limits, .arena = &job->arena};
-    struct arena_guard guard;
-    arena_set_guard(&job->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        bool readable = job->read(&context, job->source, &job->tree);
-        require(readable || job->sink.errors > 0, "a text that cannot be read has a diagnostic");
-        require(!readable || job->tree.root, "a text that can be read has a root");
-        check_tree(&job->tree, size);
-        check_diagnostics(&job->sources, &job->sink, size);
-        if (readable && job->entries && fuzz_is_chosen(job->sources.items[job->source].text, 0, 4))
-            check_taken(job->read, &context, job->source, &job->tree);
-    }
-    arena_set_guard(&job->arena, NULL);
+    str text = job->sources.items[job->source].text;
+    bool readable = job->read(&reader, job->source, &job->tree);
+    require(readable || job->sink.errors > 0, "a text that cannot be read has a diagnostic");
+    require(!readable || job->tree.root, "a text that can be read has a root");
+    check_tree(&job->tree, (uint32_t)text.len);
+    check_diagnostics(&job->sources, &job->sink, (uint32_t)text.len);
+    if (readable && job->entries && fuzz_is_chosen(text, 0, 4))
+        check_taken(job->read, &reader, job->source, &job->tree);
 }
 
 void fuzz_reader_run(fuzz_reader *read, bool entries, const uint8_t *data, size_t size) {
@@ -221,7 +216,7 @@ void fuzz_reader_run(fuzz_reader *read, bool entries, const uint8_t *data, size_
     if (size)
         memcpy(copy, data, size);
     job.source = source_add(&job.sources, SOURCE_KIND_OVERLAY, STR("fuzz"), (str){copy, size});
-    run(&job, (uint32_t)size);
+    arena_guarded(&job.arena, run, &job);
     diag_sink_finish(&job.sink);
     arena_finish(&job.arena);
     free(copy);

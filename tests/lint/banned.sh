@@ -1,5 +1,5 @@
 #!/bin/sh
-# Calls that have no place here, and those that have none in a library.
+# Calls that have no place here, those that have none in a library, and those that few files may make.
 . "$(dirname -- "$0")/lib.sh"
 
 call='(^|[^A-Za-z0-9_.>])'
@@ -7,6 +7,10 @@ anywhere='strcpy|strcat|stpcpy|sprintf|vsprintf|gets|atoi|atol|atoll|atof|strtok
 ends='exit|_exit|_Exit|quick_exit|abort'
 prints='printf|vprintf|puts|putchar|perror'
 opens='fopen|freopen|open|openat|creat|opendir|mmap|realpath'
+# Where memory ends, arena_guarded is the one way out; beside it only files whose library reports its errors by
+# a jump may catch one. No more than six files in all.
+jumps='(sig|_|__builtin_)?(set|long)jmp'
+may_jump='core/arena\.c|picture/write/encode_png\.c'
 code=$(mktemp)
 trap 'rm -f "$code"' EXIT
 # A program that a library's folder holds may do as a program does.
@@ -14,6 +18,8 @@ rooms=$(sed -n 's/^\([a-z][a-z/]*\):.*/\1/p' cmake/rooms.txt | grep -v '^cli$' |
 ours "^(${rooms%|})/[^/]*\.[ch]\$" | grep -vE '(^|[/_])main\.c$' | code >"$code"
 {
     ours '\.[ch]$' | code | grep -E "$call($anywhere)[ ]*\(" | sed 's/$/   <- a banned call/' || true
+    ours '\.[ch]$' | code | grep -E "$call$jumps[ ]*\(" | grep -vE "^($may_jump):" |
+        sed 's/$/   <- arena_guarded is the one way out of memory/' || true
     grep -E "$call($ends)[ ]*\(" "$code" | grep -v '^core/arena\.c:[0-9]*:.*abort' |
         sed 's/$/   <- a library does not end the program/' || true
     grep -E "$call($prints)[ ]*\(|$call(stdout|stderr)([^A-Za-z0-9_]|\$)" "$code" |

@@ -106,7 +106,8 @@ finds lengths 'c.c:601:'
 fresh
 rooms
 plant core/a.c '// strcpy(a, b); exit(1);' '/* atoi(x)' '   printf("x"); */' 'f("strtok(a)", ascii_atoi(3), s->open(2));' 'snprintf(a, 3, "\"");'
-plant core/arena.c '        abort();'
+plant core/arena.c 'if (setjmp(guard->jump) == 0)' '        longjmp(guard->jump, 1);' '        abort();'
+plant picture/write/encode_png.c 'if (setjmp(png_jmpbuf(png)) == 0)' 'png_longjmp(png, 1);'
 plant files/output.c '    f(stdout);' '    int fd = open(a, b);'
 plant cli/a.c 'printf("x");' 'exit(1);'
 plant grammar/emit/emit_main.c 'fprintf(stderr, "x");'
@@ -119,6 +120,10 @@ refuses banned core/arena.c 'abort();' 'exit(1);'
 refuses banned parser/bind/b.c "x = '\"'; abort();"
 refuses banned app/b.c 'printf("x");'
 refuses banned assets/b.c '/* " */ fprintf(stderr, "x");'
+refuses banned core/b.c '' 'if (setjmp(guard.jump) == 0)'
+refuses banned parser/yaml/arena.c 'if (sigsetjmp(jump, 0))'
+refuses banned cli/b.c 'longjmp(jump, 1);'
+refuses banned tests/unit/b.c '#include <setjmp.h>' 'int jumped = _setjmp (jump);'
 refuses banned assets/b.c 'FILE *f = fopen(a, "r");'
 
 fresh

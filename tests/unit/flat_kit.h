@@ -13,7 +13,6 @@ enum {
 
 struct kit {
     struct arena arena;
-    struct arena_guard guard;
     struct ir_scene scene;
     struct assets assets;
     struct scene resolved; // of both, by kit_resolve

@@ -1,26 +1,25 @@
 #include "reader_kit.h"
 
-#include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void read_guarded(struct reader_kit *kit, struct reader_kit_options options) {
-    struct reader_context context = {
+struct reading {
+    struct reader_kit *kit;
+    struct reader_kit_options options;
+};
+
+static void run(void *context) {
+    const struct reading *reading = context;
+    struct reader_kit *kit = reading->kit;
+    struct reader_context reader = {
         .sources = &kit->sources, .sink = &kit->sink, .limits = &kit->limits, .arena = &kit->arena};
-    struct arena_guard guard;
-    arena_set_guard(&kit->arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        if (options.is_value)
-            kit->readable = read_yaml_value(&context, kit->source, options.begin, &kit->tree);
-        else if (options.is_xml)
-            kit->readable = read_xml(&context, kit->source, &kit->tree);
-        else
-            kit->readable = read_yaml(&context, kit->source, &kit->tree);
-    } else {
-        kit->fault = guard.fault;
-    }
-    arena_set_guard(&kit->arena, NULL);
+    if (reading->options.is_value)
+        kit->readable = read_yaml_value(&reader, kit->source, reading->options.begin, &kit->tree);
+    else if (reading->options.is_xml)
+        kit->readable = read_xml(&reader, kit->source, &kit->tree);
+    else
+        kit->readable = read_yaml(&reader, kit->source, &kit->tree);
 }
 
 void reader_kit_read(struct reader_kit *kit, str text, struct reader_kit_options options) {
@@ -39,7 +38,8 @@ void reader_kit_read(struct reader_kit *kit, str text, struct reader_kit_options
     kit->source = source_add(&kit->sources, SOURCE_KIND_FILE, STR("scene"), (str){kit->text, text.len});
     if (options.memory_bytes)
         kit->arena.cap_bytes = kit->arena.used_bytes + options.memory_bytes;
-    read_guarded(kit, options);
+    struct reading reading = {kit, options};
+    kit->fault = arena_guarded(&kit->arena, run, &reading);
     kit->arena.cap_bytes = plenty;
     diag_sort(&kit->sink);
 }

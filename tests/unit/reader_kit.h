@@ -16,7 +16,7 @@ struct reader_kit {
     struct tree tree;
     uint32_t source;
     bool readable;          // what the reader returned
-    enum arena_fault fault; // the arena's guard was jumped to
+    enum arena_fault fault; // that ended the reading
     char *text;             // a copy of exactly the text's size
     struct strbuf out;
 };

@@ -66,53 +66,59 @@ static void large_and_small_in_turns(void **state) {
     arena_finish(&arena);
 }
 
-static void cap_is_kept_and_jumps_to_the_guard(void **state) {
+struct job {
+    struct arena *arena;
+    size_t count, size;
+    int done;
+};
+
+static void take(void *context) {
+    struct job *job = context;
+    arena_alloc_array(job->arena, job->count, job->size);
+    job->done++;
+}
+
+static void take_all(void *context) {
+    for (;;)
+        take(context);
+}
+
+static void cap_is_kept_and_ends_the_work(void **state) {
     (void)state;
     struct arena arena;
-    struct arena_guard guard;
+    struct job job = {&arena, 1, 96, 0};
     arena_init(&arena, 1000);
-    arena_set_guard(&arena, &guard);
-    volatile int got = 0;
-    if (setjmp(guard.jump) == 0) {
-        for (;;) {
-            arena_alloc(&arena, 96);
-            got++;
-        }
-    }
-    assert_int_equal(guard.fault, ARENA_FAULT_CAP);
-    assert_int_equal(got, 10);
+    assert_int_equal(arena_guarded(&arena, take_all, &job), ARENA_FAULT_CAP);
+    assert_int_equal(job.done, 10);
     assert_true(arena.used_bytes <= 1000);
     // The arena still works for what fits.
     assert_non_null(arena_try_alloc(&arena, 16));
     assert_null(arena_try_alloc(&arena, 96));
     arena_finish(&arena);
     assert_int_equal(arena.used_bytes, 0);
-    assert_ptr_equal(arena.guard, &guard);
     assert_non_null(arena_try_alloc(&arena, 96));
     arena_finish(&arena);
 }
 
-static void setting_a_guard_clears_its_fault(void **state) {
+static void work_that_ends_has_no_fault(void **state) {
     (void)state;
     struct arena arena;
-    struct arena_guard guard;
-    memset(&guard, 0xFF, sizeof guard);
+    struct job job = {&arena, 1, 96, 0};
     arena_init(&arena, 1000);
-    arena_set_guard(&arena, &guard);
-    assert_int_equal(guard.fault, ARENA_FAULT_NONE);
-    arena_set_guard(&arena, NULL);
+    assert_int_equal(arena_guarded(&arena, take, &job), ARENA_FAULT_NONE);
+    assert_int_equal(job.done, 1);
     assert_null(arena.guard);
+    arena_finish(&arena);
 }
 
 static enum arena_fault fault_of(size_t cap, size_t count, size_t size) {
     struct arena arena;
-    struct arena_guard guard;
+    struct job job = {&arena, count, size, 0};
     arena_init(&arena, cap);
-    arena_set_guard(&arena, &guard);
-    if (setjmp(guard.jump) == 0)
-        arena_alloc_array(&arena, count, size);
+    enum arena_fault fault = arena_guarded(&arena, take, &job);
+    assert_int_equal(job.done, fault == ARENA_FAULT_NONE);
     arena_finish(&arena);
-    return guard.fault;
+    return fault;
 }
 
 static void sizes_that_overflow_fault(void **state) {
@@ -143,17 +149,15 @@ static void copies_and_formats_end_with_nul(void **state) {
     arena_finish(&arena);
 }
 
+static void format_too_much(void *context) {
+    arena_format(context, "%100s", "");
+}
+
 static void format_jumps_at_the_cap(void **state) {
     (void)state;
     struct arena arena;
-    struct arena_guard guard;
     arena_init(&arena, 64);
-    arena_set_guard(&arena, &guard);
-    if (setjmp(guard.jump) == 0) {
-        arena_format(&arena, "%100s", "");
-        fail();
-    }
-    assert_int_equal(guard.fault, ARENA_FAULT_CAP);
+    assert_int_equal(arena_guarded(&arena, format_too_much, &arena), ARENA_FAULT_CAP);
     arena_finish(&arena);
 }
 
@@ -173,38 +177,154 @@ static void lists_grow_and_keep_their_items(void **state) {
     arena_finish(&arena);
 }
 
+struct full_list {
+    struct arena arena;
+    uint32_t capacity;
+};
+
+static void grow_full(void *context) {
+    struct full_list *list = context;
+    arena_grow(&list->arena, NULL, UINT32_MAX, &list->capacity, 1);
+}
+
 static void a_full_list_faults_instead_of_wrapping(void **state) {
     (void)state;
-    struct arena arena;
-    struct arena_guard guard;
-    arena_init(&arena, SIZE_MAX);
-    arena_set_guard(&arena, &guard);
-    uint32_t capacity = UINT32_MAX;
-    if (setjmp(guard.jump) == 0) {
-        arena_grow(&arena, NULL, UINT32_MAX, &capacity, 1);
-        fail();
+    struct full_list list = {.capacity = UINT32_MAX};
+    arena_init(&list.arena, SIZE_MAX);
+    assert_int_equal(arena_guarded(&list.arena, grow_full, &list), ARENA_FAULT_SYSTEM);
+    assert_int_equal(list.capacity, UINT32_MAX);
+    arena_finish(&list.arena);
+}
+
+// ---- several guards, several arenas
+
+struct nest {
+    struct arena arenas[2];
+    enum arena_fault inner;
+    bool raises, returned;
+};
+
+static void take_second(void *context) {
+    struct nest *nest = context;
+    arena_alloc(&nest->arenas[1], 100);
+}
+
+static void take_first(void *context) {
+    struct nest *nest = context;
+    arena_alloc(&nest->arenas[0], 100);
+}
+
+static void guard_within(void *context) {
+    struct nest *nest = context;
+    nest->inner = arena_guarded(&nest->arenas[0], take_first, nest);
+    if (nest->raises)
+        arena_raise(&nest->arenas[0], nest->inner);
+    nest->returned = true;
+}
+
+static struct nest nest_of(size_t first, size_t second) {
+    struct nest nest = {.raises = false};
+    arena_init(&nest.arenas[0], first);
+    arena_init(&nest.arenas[1], second);
+    return nest;
+}
+
+static void end(struct nest *nest) {
+    for (int i = 0; i < 2; i++) {
+        assert_null(nest->arenas[i].guard);
+        arena_finish(&nest->arenas[i]);
     }
-    assert_int_equal(guard.fault, ARENA_FAULT_SYSTEM);
-    assert_int_equal(capacity, UINT32_MAX);
-    arena_finish(&arena);
+}
+
+static void a_fault_ends_the_innermost_work(void **state) {
+    (void)state;
+    struct nest nest = nest_of(10, 10);
+    assert_int_equal(arena_guarded(&nest.arenas[0], guard_within, &nest), ARENA_FAULT_NONE);
+    assert_int_equal(nest.inner, ARENA_FAULT_CAP);
+    assert_true(nest.returned);
+    end(&nest);
 }
 
 static void a_fault_is_passed_on(void **state) {
     (void)state;
-    struct arena arena;
-    struct arena_guard outer;
-    struct arena_guard inner;
-    arena_init(&arena, 10);
-    arena_set_guard(&arena, &outer);
-    if (setjmp(outer.jump) == 0) {
-        arena_set_guard(&arena, &inner);
-        if (setjmp(inner.jump) == 0)
-            arena_alloc(&arena, 100);
-        arena_set_guard(&arena, &outer);
-        arena_raise(&arena, inner.fault);
+    struct nest nest = nest_of(10, 10);
+    nest.raises = true;
+    assert_int_equal(arena_guarded(&nest.arenas[0], guard_within, &nest), ARENA_FAULT_CAP);
+    assert_int_equal(nest.inner, ARENA_FAULT_CAP);
+    assert_false(nest.returned);
+    end(&nest);
+}
+
+static void guard_then_take(void *context) {
+    guard_within(context);
+    take_first(context);
+}
+
+// The guard of before is in force again, after a work that ended by itself and after one that did not.
+static void the_guard_of_before_is_put_back(void **state) {
+    (void)state;
+    for (size_t room = 10; room <= 110; room += 100) {
+        struct nest nest = nest_of(room, 10);
+        assert_int_equal(arena_guarded(&nest.arenas[0], guard_then_take, &nest), ARENA_FAULT_CAP);
+        assert_int_equal(nest.inner, room < 100 ? ARENA_FAULT_CAP : ARENA_FAULT_NONE);
+        end(&nest);
     }
-    assert_int_equal(outer.fault, ARENA_FAULT_CAP);
-    arena_finish(&arena);
+}
+
+static void each_of_several_arenas_ends_the_work(void **state) {
+    (void)state;
+    struct nest nest = nest_of(10, SIZE_MAX);
+    struct arena *arenas[] = {&nest.arenas[0], &nest.arenas[1], NULL};
+    struct job too_large = {&nest.arenas[1], SIZE_MAX, 1, 0};
+    assert_int_equal(arena_guarded_all(arenas, take_first, &nest), ARENA_FAULT_CAP);
+    assert_int_equal(arena_guarded_all(arenas, take, &too_large), ARENA_FAULT_SYSTEM);
+    assert_int_equal(arena_guarded_all(arenas, take_second, &nest), ARENA_FAULT_NONE);
+    end(&nest);
+}
+
+// One of them is guarded further out already, and listed twice.
+static void guard_all_within(void *context) {
+    struct nest *nest = context;
+    struct arena *arenas[] = {&nest->arenas[0], &nest->arenas[1], &nest->arenas[0], NULL};
+    nest->inner = arena_guarded_all(arenas, take_second, nest);
+    assert_null(nest->arenas[1].guard);
+    take_first(nest);
+}
+
+static void each_arena_has_its_own_guard_of_before(void **state) {
+    (void)state;
+    struct nest nest = nest_of(10, 20);
+    assert_int_equal(arena_guarded(&nest.arenas[0], guard_all_within, &nest), ARENA_FAULT_CAP);
+    assert_int_equal(nest.inner, ARENA_FAULT_CAP);
+    end(&nest);
+}
+
+struct keeper {
+    struct arena arena;
+    char *small, *large;
+};
+
+static void take_until_full(void *context) {
+    struct keeper *keeper = context;
+    keeper->small = arena_alloc(&keeper->arena, 100);
+    keeper->large = arena_alloc(&keeper->arena, 500000);
+    memset(keeper->small, 's', 100);
+    memset(keeper->large, 'l', 500000);
+    arena_alloc(&keeper->arena, 600000);
+}
+
+// The sanitizer sees what would not be given back.
+static void memory_stays_until_the_arena_is_finished(void **state) {
+    (void)state;
+    struct keeper keeper = {.small = NULL};
+    arena_init(&keeper.arena, 1 << 20);
+    assert_int_equal(arena_guarded(&keeper.arena, take_until_full, &keeper), ARENA_FAULT_CAP);
+    assert_true(keeper.small[99] == 's' && keeper.large[499999] == 'l');
+    assert_true(keeper.arena.used_bytes >= 500100);
+    arena_finish(&keeper.arena);
+    assert_int_equal(keeper.arena.used_bytes, 0);
+    assert_int_equal(arena_guarded(&keeper.arena, take_until_full, &keeper), ARENA_FAULT_CAP);
+    arena_finish(&keeper.arena);
 }
 
 static void finish_takes_null_and_twice(void **state) {
@@ -246,27 +366,29 @@ static void arrays_regrow_and_are_given_back(void **state) {
     arena_finish(&arena);
 }
 
+struct regrown {
+    struct arena arena;
+    uint64_t *items;
+    uint32_t count, capacity;
+};
+
+static void regrow_without_end(void *context) {
+    struct regrown *list = context;
+    for (;;) {
+        list->items =
+            arena_regrow(&list->arena, list->items, list->count, &list->capacity, sizeof *list->items);
+        list->items[list->count++] = 1;
+    }
+}
+
 static void regrowing_keeps_to_the_cap(void **state) {
     (void)state;
-    struct arena arena;
-    struct arena_guard guard;
-    arena_init(&arena, 1 << 20);
-    arena_set_guard(&arena, &guard);
-    struct {
-        uint64_t *items;
-        uint32_t count, capacity;
-    } volatile list = {0};
-    if (setjmp(guard.jump) == 0)
-        for (;;) {
-            uint32_t capacity = list.capacity;
-            list.items = arena_regrow(&arena, list.items, list.count, &capacity, sizeof *list.items);
-            list.capacity = capacity;
-            list.items[list.count++] = 1;
-        }
-    assert_int_equal(guard.fault, ARENA_FAULT_CAP);
-    assert_true(arena.used_bytes <= arena.cap_bytes);
+    struct regrown list = {.items = NULL};
+    arena_init(&list.arena, 1 << 20);
+    assert_int_equal(arena_guarded(&list.arena, regrow_without_end, &list), ARENA_FAULT_CAP);
+    assert_true(list.arena.used_bytes <= list.arena.cap_bytes);
     assert_int_equal(list.items[list.count - 1], 1);
-    arena_finish(&arena);
+    arena_finish(&list.arena);
 }
 
 static void reset_gives_zeroed_memory_again(void **state) {
@@ -292,14 +414,19 @@ int main(void) {
         cmocka_unit_test(memory_is_zeroed_aligned_and_apart),
         cmocka_unit_test(size_zero_gives_a_pointer_of_its_own),
         cmocka_unit_test(large_and_small_in_turns),
-        cmocka_unit_test(cap_is_kept_and_jumps_to_the_guard),
-        cmocka_unit_test(setting_a_guard_clears_its_fault),
+        cmocka_unit_test(cap_is_kept_and_ends_the_work),
+        cmocka_unit_test(work_that_ends_has_no_fault),
         cmocka_unit_test(sizes_that_overflow_fault),
         cmocka_unit_test(copies_and_formats_end_with_nul),
         cmocka_unit_test(format_jumps_at_the_cap),
         cmocka_unit_test(lists_grow_and_keep_their_items),
         cmocka_unit_test(a_full_list_faults_instead_of_wrapping),
+        cmocka_unit_test(a_fault_ends_the_innermost_work),
         cmocka_unit_test(a_fault_is_passed_on),
+        cmocka_unit_test(the_guard_of_before_is_put_back),
+        cmocka_unit_test(each_of_several_arenas_ends_the_work),
+        cmocka_unit_test(each_arena_has_its_own_guard_of_before),
+        cmocka_unit_test(memory_stays_until_the_arena_is_finished),
         cmocka_unit_test(finish_takes_null_and_twice),
         cmocka_unit_test(arrays_regrow_and_are_given_back),
         cmocka_unit_test(regrowing_keeps_to_the_cap),

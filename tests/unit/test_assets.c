@@ -245,18 +245,14 @@ static void models_too_large_for_the_world(void **state) {
     assets_scene_end(s);
 }
 
+static void load(void *context) {
+    assets_scene_load(context);
+}
+
 // Whether the scene loads with so much memory of its own.
 static bool loads_in(struct assets_scene *s, size_t room) {
-    struct arena_guard guard;
     s->arena.cap_bytes = s->arena.used_bytes + room;
-    arena_set_guard(&s->arena, &guard);
-    volatile bool loaded = false;
-    if (setjmp(guard.jump) == 0) {
-        assets_scene_load(s);
-        loaded = true;
-    }
-    arena_set_guard(&s->arena, NULL);
-    return loaded;
+    return arena_guarded(&s->arena, load, s) == ARENA_FAULT_NONE;
 }
 
 // Every size of the scene's own memory up to what is needed: the jump leaves nothing behind that

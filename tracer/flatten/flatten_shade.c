@@ -115,25 +115,28 @@ static void turn_normals(void *context, size_t begin, size_t end) {
     }
 }
 
-// The normals of one mesh are made once, for all bodies that show it. The caller frees the arena.
-static enum flatten_fault turn_mesh(struct flattening *f, const struct smooth_use *uses, uint32_t count,
-                                    struct arena *arena) {
-    const struct mesh *mesh = uses[0].mesh;
-    struct arena_guard guard;
-    arena_set_guard(arena, &guard);
-    if (setjmp(guard.jump) != 0)
-        return FLATTEN_NO_MEMORY;
-    const vec3 *normals = mesh_smooth_normals(mesh, arena);
-    for (uint32_t i = 0; i < count; i++) {
-        const struct scene_body *body = &f->scene->bodies[uses[i].body];
-        struct turning turning = {.f = f,
+struct mesh_turning {
+    struct flattening *f;
+    const struct smooth_use *uses; // of one mesh
+    uint32_t count;
+    struct arena arena;
+};
+
+// The normals of one mesh are made once, for all bodies that show it.
+static void turn_mesh(void *context) {
+    struct mesh_turning *m = context;
+    const struct mesh *mesh = m->uses[0].mesh;
+    const vec3 *normals = mesh_smooth_normals(mesh, &m->arena);
+    for (uint32_t i = 0; i < m->count; i++) {
+        const uint32_t number = m->uses[i].body;
+        const struct scene_body *body = &m->f->scene->bodies[number];
+        struct turning turning = {.f = m->f,
                                   .body = body,
                                   .normals = normals,
                                   .turn = transform_for_normals(body->object_to_world.linear),
-                                  .base = f->normal_base[uses[i].body]};
+                                  .base = m->f->normal_base[number]};
         parallel_for(mesh->triangle_count, PIECE, turn_normals, &turning);
     }
-    return FLATTEN_DONE;
 }
 
 enum flatten_fault flatten_normals(struct flattening *f) {
@@ -143,10 +146,11 @@ enum flatten_fault flatten_normals(struct flattening *f) {
     for (uint32_t begin = 0, end; fault == FLATTEN_DONE && begin < count; begin = end) {
         for (end = begin + 1; end < count && uses[end].mesh == uses[begin].mesh;)
             end++;
-        struct arena arena;
-        arena_init(&arena, SIZE_MAX);
-        fault = turn_mesh(f, uses + begin, end - begin, &arena);
-        arena_finish(&arena);
+        struct mesh_turning m = {.f = f, .uses = uses + begin, .count = end - begin};
+        arena_init(&m.arena, SIZE_MAX);
+        if (arena_guarded(&m.arena, turn_mesh, &m) != ARENA_FAULT_NONE)
+            fault = FLATTEN_NO_MEMORY;
+        arena_finish(&m.arena);
     }
     free(uses);
     return fault;
