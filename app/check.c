@@ -1,5 +1,7 @@
 #include "app/check.h"
 
+#include "grammar/ir.h"
+
 #include <stdlib.h>
 
 // ---- judging

@@ -1,6 +1,7 @@
 // From a place in a file to its path in the scene, by walking the table.
 #include "app/check.h"
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 struct search {
     const struct session *session;

@@ -3,6 +3,7 @@
 
 #include "core/nearest.h"
 #include "core/strbuf.h"
+#include "grammar/ir.h"
 
 uint32_t session_camera(struct session *session, str name) {
     const struct ir_cameras *cameras = &session->scene->cameras;
@@ -37,7 +38,7 @@ bool session_view(struct session *session, uint32_t camera, struct view *view) {
     arena_set_guard(&session->arena, &guard);
     bool made = false;
     if (setjmp(guard.jump) == 0) {
-        view_build(session->scene, &session->assets, camera, session->image.width, session->image.height,
+        view_build(session->scene, &session->assets, camera, session->image->width, session->image->height,
                    &session->arena, &session->sink, view);
         made = true;
     }

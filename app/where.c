@@ -1,5 +1,6 @@
 #include "app/where.h"
 
+#include "grammar/ir.h"
 #include "scene/hits.h"
 
 static const struct ir_material_ref *find_body(const struct session *session, uint32_t body,

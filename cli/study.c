@@ -91,7 +91,7 @@ static int run(struct cli *cli, struct session *session, struct gpu *gpu, uint32
                                          .origin_places = &session->origin,
                                          .assets = &session->assets,
                                          .view = &view,
-                                         .image = &session->image,
+                                         .image = session->image,
                                          .origin = flat.origin,
                                          .limits = &session->options.limits,
                                          .sink = &session->sink,

@@ -1,6 +1,7 @@
 #include "grammar/generate.h"
 
 #include "grammar/generate_values.h"
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 
 #include <string.h>

@@ -1,5 +1,6 @@
 // What a table cannot say: the scene rules (E4xx) as repairs on the typed IR, and what a picture needs.
 #include "grammar/generate_values.h"
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 
 #include <math.h>

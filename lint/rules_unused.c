@@ -1,6 +1,8 @@
 // What the scene holds and nothing uses.
 #include "lint/lint_parts.h"
 
+#include "grammar/ir.h"
+
 static void use(bool *used, const struct ir_material_ref *ref) {
     if (ref->index != IR_NO_INDEX)
         used[ref->index] = true;

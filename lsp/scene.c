@@ -3,6 +3,7 @@
 #include "app/check.h"
 #include "core/heap.h"
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -8,8 +8,9 @@
 #define GLINT_MEASURE_HIT_ERRORS_H
 
 #include "assets/assets.h"
-#include "grammar/ir.h"
 #include "scene/hits.h"
+
+struct ir_scene;
 
 // What the first rays met against what they meet in the reference, per million pixels.
 struct hit_errors {

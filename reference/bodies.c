@@ -1,6 +1,8 @@
 // From the IR to bodies and materials with everything resolved.
 #include "reference/parts.h"
 
+#include "grammar/ir.h"
+
 // Cofactors are the inverse transpose times the determinant, whose sign is taken back.
 static mat3 normal_map(const mat3 *a, bool mirrors) {
     mat3 out;

@@ -1,6 +1,7 @@
 #include "reference/key.h"
 
 #include "core/xxh64.h"
+#include "grammar/ir.h"
 
 // Two seeds make 128 bits.
 struct hash {

@@ -1,5 +1,6 @@
 #include "scene/reach.h"
 
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "scene/view.h"
 

@@ -1,5 +1,7 @@
 #include "scene/view.h"
 
+#include "grammar/ir.h"
+
 #include <string.h>
 
 #define DEGREE 0.017453292519943295769 // pi / 180

@@ -6,6 +6,10 @@
 #define GLINT_SCENE_VIEW_H
 
 #include "assets/assets.h"
+#include "grammar/ir_value.h"
+
+struct ir_model;
+struct ir_scene;
 
 struct view_camera {
     str name;

@@ -4,6 +4,7 @@
 #ifndef GLINT_MEASURE_TRADEOFF_STUDY_H
 #define GLINT_MEASURE_TRADEOFF_STUDY_H
 
+#include "grammar/ir.h"
 #include "measure/tradeoff/tradeoff.h"
 
 enum {

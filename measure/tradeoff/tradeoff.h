@@ -15,6 +15,8 @@
 #include "reference/cache.h"
 #include "tracer/render/render.h"
 
+struct ir_image;
+
 enum {
     TRADEOFF_COST_MOST = 64, // settings that cost more than this many times the file's own are left out
 };

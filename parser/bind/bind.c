@@ -1,4 +1,5 @@
 #include "parser/bind/bind.h"
+#include "grammar/ir.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
 
