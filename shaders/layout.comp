@@ -1,5 +1,5 @@
 // Loads record 0 of each kind and writes its fields one after another, each filled up to a word: the test
-// that C structs and GLSL loaders agree (tests/unit/test_gpu.c).
+// that C structs and GLSL loaders agree (tests/unit/tracer/test_gpu.c).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
