@@ -1,7 +1,9 @@
 #include "app/check.h"
 
+#include "grammar/schema.h"
 #include "app/check_allow.h"
 #include "app/check_path.h"
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "app/check_path.h"
 
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 struct search {
     const struct session *session;

@@ -13,7 +13,7 @@ enum shot_status exact_open(struct exact *exact, struct session *session, uint32
         return shot_no_memory(session, "the reference");
     struct reference_input input = {.scene = &session->resolved, .view = &exact->view};
     exact->settings =
-        reference_settings_of(session->scene, &session->image, &session->options.limits, options.as_file);
+        reference_settings_of(session->scene, session->image, &session->options.limits, options.as_file);
     exact->store_path = options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);
     struct folder_store store = {exact->store_path, REFERENCE_CACHE_BYTES};
     reference_source_init(&exact->source, &input, store);

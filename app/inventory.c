@@ -1,5 +1,6 @@
 #include "app/inventory.h"
 
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 
 const char *inventory_role_name(enum inventory_role role) {

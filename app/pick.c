@@ -1,6 +1,7 @@
 #include "app/pick.h"
 
 #include "app/exact.h"
+#include "grammar/ir.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -163,7 +164,7 @@ static enum shot_status compare_paths(struct pick *pick) {
 
 enum shot_status pick_take(struct pick *pick, struct session *session, struct gpu *gpu, uint32_t camera,
                            uint32_t x, uint32_t y, uint32_t sample) {
-    const uint32_t samples = (uint32_t)session->image.samples;
+    const uint32_t samples = (uint32_t)session->image->samples;
     *pick = (struct pick){.session = session, .x = x, .y = y, .sample = sample};
     pick->sample_count = samples < PICK_SAMPLES_MAX ? samples : PICK_SAMPLES_MAX;
     enum shot_status status = log_reference(pick, camera);

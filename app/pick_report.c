@@ -3,6 +3,7 @@
 
 #include "app/where.h"
 #include "core/json_write.h"
+#include "grammar/ir.h"
 
 #include <math.h>
 
@@ -172,8 +173,8 @@ void pick_text(const struct pick *pick, struct strbuf *out) {
     const struct session *session = pick->session;
     const char *precision = pick->is_double ? "double precision" : "single precision";
     strbuf_format(out, "pixel      %u,%u of %d x %d, camera '%.*s', sample %u of %d\n", pick->x, pick->y,
-                  session->image.width, session->image.height, STR_ARG(pick->camera), pick->sample,
-                  session->image.samples);
+                  session->image->width, session->image->height, STR_ARG(pick->camera), pick->sample,
+                  session->image->samples);
     put_seen(pick, out);
     if (pick->device.len)
         put_color(&pick->logs[PICK_DEVICE], precision, pick->logs[PICK_DEVICE].whole, out);
@@ -310,8 +311,8 @@ void pick_json(const struct pick *pick, struct strbuf *out) {
     json_open_object(&w, NULL);
     json_write_integer(&w, "x", pick->x);
     json_write_integer(&w, "y", pick->y);
-    json_write_integer(&w, "width", (uint64_t)pick->session->image.width);
-    json_write_integer(&w, "height", (uint64_t)pick->session->image.height);
+    json_write_integer(&w, "width", (uint64_t)pick->session->image->width);
+    json_write_integer(&w, "height", (uint64_t)pick->session->image->height);
     json_write_text(&w, "camera", pick->camera);
     json_write_integer(&w, "sample", pick->sample);
     if (pick->device.len) {

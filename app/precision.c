@@ -1,6 +1,7 @@
 #include "app/precision.h"
 
 #include "app/where.h"
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 
 static const char *const feature_words[PRECISION_FEATURES] = {
@@ -86,7 +87,7 @@ void precision_check(struct session *session) {
     if (trace->precision != IR_PRECISION_SINGLE)
         return;
     struct view view;
-    view_build(&session->resolved, 0, session->image.width, session->image.height, &session->arena, NULL,
+    view_build(&session->resolved, 0, session->image->width, session->image->height, &session->arena, NULL,
                &view);
     struct flat_input input = precision_input(session, &view);
     struct precision_report report;

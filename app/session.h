@@ -13,11 +13,13 @@
 #include "diag/diag.h"
 #include "diag/diag_policy.h"
 #include "files/files.h"
-#include "grammar/ir.h"
 #include "grammar/ir_origin.h"
 #include "lint/lint.h"
 #include "scene/scene.h"
 #include "scene/view.h"
+
+struct ir_image;
+struct ir_scene;
 
 struct session_options {
     str path; // of the scene, or of a mesh, which is then a scene with that one model
@@ -58,7 +60,7 @@ struct session {
     struct diag_sink sink;
     struct ir_scene *scene;
     struct ir_origin origin;
-    struct ir_image image; // the scene's, with the options' size and samples
+    const struct ir_image *image; // the scene's, with the options' size and samples
     struct assets assets;
     struct scene resolved; // what scene and assets mean together; without assets: nothing
     enum session_state state;

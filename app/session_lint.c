@@ -8,7 +8,7 @@ void session_lint(struct session *session) {
         return;
     double start = clock_seconds();
     struct assets_input files = session_assets_input(session);
-    struct lint_input input = {.scene = &session->resolved, .files = &files, .image = &session->image};
+    struct lint_input input = {.scene = &session->resolved, .files = &files, .image = session->image};
     lint_run(&input, session->options.lint);
     if (session->options.lint == LINT_ALL)
         precision_check(session);

@@ -2,6 +2,7 @@
 #include "app/check_allow.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
+#include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
 #include "parser/parser.h"
 
@@ -119,13 +120,15 @@ static void load_assets(struct session *session, struct asset_store *store) {
 }
 
 static void take_image_options(struct session *session) {
-    session->image = session->scene->image;
+    struct ir_image *image = ARENA_NEW(&session->arena, struct ir_image);
+    *image = session->scene->image;
     if (session->options.width)
-        session->image.width = session->options.width;
+        image->width = session->options.width;
     if (session->options.height)
-        session->image.height = session->options.height;
+        image->height = session->options.height;
     if (session->options.samples)
-        session->image.samples = session->options.samples;
+        image->samples = session->options.samples;
+    session->image = image;
 }
 
 // What of the path is loaded.

@@ -2,6 +2,7 @@
 #include "app/session.h"
 
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 struct rebase {
     struct session *session;

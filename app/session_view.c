@@ -3,6 +3,7 @@
 
 #include "core/nearest.h"
 #include "core/strbuf.h"
+#include "grammar/ir.h"
 
 struct assets_input session_assets_input(struct session *session) {
     return (struct assets_input){.scene = session->scene,
@@ -51,7 +52,7 @@ struct viewing {
 static void make_view(void *context) {
     const struct viewing *v = context;
     struct session *session = v->session;
-    view_build(&session->resolved, v->camera, session->image.width, session->image.height, &session->arena,
+    view_build(&session->resolved, v->camera, session->image->width, session->image->height, &session->arena,
                &session->sink, v->view);
 }
 

@@ -3,6 +3,7 @@
 #include "app/precision.h"
 #include "app/where.h"
 #include "core/clock.h"
+#include "grammar/ir.h"
 
 static bool flatten_shot(struct shot *shot) {
     struct session *s = shot->session;
@@ -26,9 +27,9 @@ enum shot_status shot_open(struct shot *shot, struct session *session, struct gp
     if (!flatten_shot(shot))
         return SHOT_SCENE;
     shot->settings = render_settings_of(&session->resolved, &shot->flat, &session->options.limits);
-    shot->settings.width = (uint32_t)session->image.width;
-    shot->settings.height = (uint32_t)session->image.height;
-    shot->settings.samples = (uint32_t)session->image.samples;
+    shot->settings.width = (uint32_t)session->image->width;
+    shot->settings.height = (uint32_t)session->image->height;
+    shot->settings.samples = (uint32_t)session->image->samples;
     double start = clock_seconds();
     shot->renderer = renderer_create(gpu, &shot->flat, &shot->settings);
     shot->upload_seconds = clock_seconds() - start;

@@ -1,5 +1,6 @@
 #include "app/where.h"
 
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "scene/hits.h"
 

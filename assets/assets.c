@@ -3,6 +3,7 @@
 #include "assets/loader.h"
 #include "assets/mesh_build.h"
 #include "core/strbuf.h"
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "picture/read/picture_read.h"
 

@@ -12,9 +12,12 @@
 #include "core/limits.h"
 #include "diag/diag.h"
 #include "files/files.h"
-#include "grammar/ir.h"
 #include "grammar/ir_origin.h"
 #include "picture/read/picture.h"
+
+struct ir_material;
+struct ir_material_ref;
+struct ir_scene;
 
 struct asset_store;
 struct asset_hold;

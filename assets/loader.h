@@ -7,6 +7,8 @@
 #include "assets/read_mtl.h"
 #include "assets/store.h"
 
+struct ir_model;
+
 // A mesh file that models of this scene name.
 struct loaded_mesh {
     struct asset_file file;

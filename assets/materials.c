@@ -3,6 +3,7 @@
 
 #include "core/nearest.h"
 #include "core/strbuf.h"
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 
 #include <string.h>

@@ -7,7 +7,7 @@
 
 #include "core/arena.h"
 #include "core/vec3.h"
-#include "grammar/ir.h"
+#include "grammar/ir_value.h"
 
 struct mesh_triangle {
     uint32_t corners[3]; // into positions

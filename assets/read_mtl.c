@@ -1,6 +1,7 @@
 #include "assets/read_mtl.h"
 
 #include "assets/obj_lex.h"
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 
 #include <math.h>

@@ -2,6 +2,7 @@
 // the same file, in turn, with the memory that glint takes. See README.md.
 #include "core/clock.h"
 #include "core/strbuf.h"
+#include "grammar/ir.h"
 #include "parser/parser.h"
 
 #include <expat.h>

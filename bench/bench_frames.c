@@ -8,6 +8,7 @@
 #include "bench/kit.h"
 #include "bench/original/original.h"
 #include "core/number.h"
+#include "grammar/ir.h"
 #include "shaders/features.h"
 
 #include <getopt.h>
@@ -83,7 +84,7 @@ static bool fight(const struct bench *bench, struct duel *duel) {
 
 static void print_duel(const struct bench_scene *scene, const struct duel *duel,
                        const struct render_settings *settings) {
-    const struct image_display display = {scene->session.image.tone, scene->session.image.transfer};
+    const struct image_display display = {scene->session.image->tone, scene->session.image->transfer};
     const double glint = bench_median(duel->times.wall, duel->times.count);
     print_head(scene->path);
     print_row(settings, "the original's method", &duel->original_times, glint);

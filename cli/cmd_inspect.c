@@ -1,8 +1,10 @@
 // glint inspect SCENE [--ir]: counts, bounds, features with their reasons, buffers; or the canonical dump.
+#include "grammar/schema.h"
 #include "app/precision.h"
 #include "cli/cli.h"
 
 #include "core/number.h"
+#include "grammar/ir.h"
 #include "grammar/ir_features.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print.h"
@@ -27,8 +29,8 @@ static void counts(struct strbuf *out, const struct session *s) {
     for (uint32_t i = 0; i < scene->materials.count; i++)
         named += scene->materials.items[i].name.len > 0;
     strbuf_format(out, "files       %u\n", s->origin.files.count);
-    strbuf_format(out, "image       %d x %d pixels, %d sample%s\n", s->image.width, s->image.height,
-                  s->image.samples, s->image.samples == 1 ? "" : "s");
+    strbuf_format(out, "image       %d x %d pixels, %d sample%s\n", s->image->width, s->image->height,
+                  s->image->samples, s->image->samples == 1 ? "" : "s");
     strbuf_format(out, "cameras     %u\nlights      %u\n", scene->cameras.count, scene->lights.count);
     strbuf_format(out, "materials   %u named, %u inline, %u used in all with those of meshes\n", named,
                   scene->materials.count - named, s->assets.material_count);

@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "core/number.h"
+#include "grammar/ir.h"
 
 #include <string.h>
 
@@ -27,11 +28,11 @@ static bool read_place(struct cli *cli, struct place *place) {
 }
 
 static bool is_in_picture(struct cli *cli, const struct session *session, struct place place) {
-    if (place.x < (uint32_t)session->image.width && place.y < (uint32_t)session->image.height)
+    if (place.x < (uint32_t)session->image->width && place.y < (uint32_t)session->image->height)
         return true;
     cli_usage(cli, cli_operand_place(cli, 1), "the picture has %d x %d pixels, from 0,0 to %d,%d",
-              session->image.width, session->image.height, session->image.width - 1,
-              session->image.height - 1);
+              session->image->width, session->image->height, session->image->width - 1,
+              session->image->height - 1);
     return false;
 }
 
@@ -56,9 +57,9 @@ static int pick_from(struct cli *cli, struct session *session, struct place plac
     if (!is_in_picture(cli, session, place))
         return CLI_USAGE;
     const uint32_t sample = (uint32_t)cli->options.sample;
-    if (cli->options.sample >= session->image.samples)
+    if (cli->options.sample >= session->image->samples)
         return cli_usage(cli, cli->options.sample_arg, "the picture has %d sample%s a pixel, counted from 0",
-                         session->image.samples, session->image.samples == 1 ? "" : "s");
+                         session->image->samples, session->image->samples == 1 ? "" : "s");
     int status = cli_device_is_reference(cli) ? CLI_OK : cli_open_device(cli, &gpu);
     if (status == CLI_OK) {
         const enum shot_status taken = pick_take(&pick, session, gpu, camera, place.x, place.y, sample);

@@ -5,6 +5,7 @@
 #include "core/clock.h"
 #include "core/quantile.h"
 #include "files/output.h"
+#include "grammar/ir.h"
 
 #include <errno.h>
 #include <string.h>
@@ -131,7 +132,7 @@ static int render_cameras(struct render_job *job) {
     uint32_t first = all ? 0 : session_camera(&job->session, job->cli->options.camera);
     if (first == IR_NO_INDEX)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
-    if (!image_init(&job->image, (uint32_t)job->session.image.width, (uint32_t)job->session.image.height)) {
+    if (!image_init(&job->image, (uint32_t)job->session.image->width, (uint32_t)job->session.image->height)) {
         cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->output, NULL, "not enough memory for the picture");
         return CLI_SCENE;
     }

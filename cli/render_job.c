@@ -1,5 +1,6 @@
 #include "cli/render_job.h"
 
+#include "grammar/ir.h"
 #include "core/clock.h"
 
 // OUT.NAME.png for OUT.png.
@@ -25,7 +26,7 @@ int render_interrupted(struct render_job *job) {
 
 int render_write_picture(struct render_job *job, const char *path) {
     struct strbuf file;
-    struct image_display display = {job->session.image.tone, job->session.image.transfer};
+    struct image_display display = {job->session.image->tone, job->session.image->transfer};
     strbuf_init(&file);
     double start = clock_seconds();
     image_encode(&job->image, job->format, display, &file);

@@ -91,7 +91,7 @@ static int run(struct cli *cli, struct session *session, struct gpu *gpu, uint32
     char *store = cli->options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);
     const struct tradeoff_input input = {.scene = &session->resolved,
                                          .view = &view,
-                                         .image = &session->image,
+                                         .image = session->image,
                                          .origin = flat.origin,
                                          .limits = &session->options.limits,
                                          .sink = &session->sink,

@@ -10,26 +10,6 @@ enum {
     TEXT_BYTES_MAX = 2000, // of one message, note or help line
 };
 
-#define SEVERITY(code) (code[0] == 'E' ? DIAG_ERROR : code[0] == 'W' ? DIAG_WARNING : DIAG_NOTE)
-
-static const struct diag_info infos[DIAG_CODE_COUNT] = {
-#define X(NAME, code, where, title, meaning, remedy)                                                         \
-    {#NAME, #code, SEVERITY(#code), where, title, meaning, remedy},
-#include "diag/diag_codes.def"
-#undef X
-};
-
-const struct diag_info *diag_info(enum diag_code code) {
-    return &infos[code];
-}
-
-enum diag_code diag_find(str code) {
-    for (int i = 0; i < DIAG_CODE_COUNT; i++)
-        if (code.len == strlen(infos[i].code) && str_ends_with_nocase(code, infos[i].code))
-            return (enum diag_code)i;
-    return DIAG_CODE_COUNT;
-}
-
 void diag_sink_init(struct diag_sink *sink) {
     *sink = (struct diag_sink){0};
     arena_init(&sink->arena, SINK_BYTES_MAX);
@@ -91,7 +71,7 @@ bool diag_is_full(const struct diag_sink *sink) {
 }
 
 struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...) {
-    count(sink, infos[code].severity);
+    count(sink, diag_info(code)->severity);
     str message = STR("");
     va_list args;
     va_start(args, format);
@@ -102,7 +82,7 @@ struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, cons
         item = &sink->items[sink->count++];
     else
         sink->dropped++;
-    *item = (struct diag){.code = code, .severity = infos[code].severity, .at = at, .message = message};
+    *item = (struct diag){.code = code, .severity = diag_info(code)->severity, .at = at, .message = message};
     return item;
 }
 

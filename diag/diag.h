@@ -29,8 +29,8 @@ enum diag_where {
 };
 
 enum diag_code {
-#define X(NAME, code, where, title, meaning, remedy) DIAG_##NAME,
-#include "diag/diag_codes.def"
+#define X(NAME, code) DIAG_##NAME,
+#include "diag/diag_names.def"
 #undef X
     DIAG_CODE_COUNT
 };

@@ -11,29 +11,9 @@
 
 #include "core/str.h"
 #include "core/vec3.h"
-
-#include <stdint.h>
-
-enum {
-    IR_NONE = 0
-};
-#define IR_NO_INDEX UINT32_MAX
-
-struct ir_head {
-    uint64_t written;  // bit i: row i of the element's schema stands in the file
-    uint64_t poisoned; // bit i: row i was written and wrong
-    uint32_t origin;   // id in struct ir_origin; 0: no place (made by the program)
-};
+#include "grammar/ir_value.h"
 
 // The fields of an enum are `unsigned` in the structs, so that the schema can derive their kind.
-enum ir_tone {
-    IR_TONE_CLIP,
-    IR_TONE_NORMALIZE
-};
-enum ir_transfer {
-    IR_TRANSFER_NONE,
-    IR_TRANSFER_SRGB
-};
 enum ir_depth_limit {
     IR_DEPTH_BACKGROUND,
     IR_DEPTH_BLACK
@@ -64,16 +44,6 @@ enum ir_light_kind {
 enum ir_paint_kind {
     IR_PAINT_COLOR,
     IR_PAINT_CHECKER
-};
-
-struct ir_color {
-    double r, g, b; // as written, linear; zero where is_hex
-    bool is_hex;    // written as #rrggbb, a displayed colour: decoded by flattening (ir_color_linear)
-    uint32_t hex;   // 0xrrggbb
-};
-
-struct ir_weights {
-    double diffuse, specular, reflection, refraction;
 };
 
 struct ir_image {
@@ -143,11 +113,6 @@ struct ir_material {
     struct ir_color specular_color;
     double specular_exponent;
     double refractive_index;
-};
-
-struct ir_material_ref {
-    str name;       // as written; empty for an inline material
-    uint32_t index; // in scene.materials; IR_NO_INDEX: none written, or not found
 };
 
 struct ir_sphere {

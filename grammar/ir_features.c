@@ -1,7 +1,9 @@
 #include "grammar/ir_features.h"
 
+#include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 #include <assert.h>
 #include <stdio.h>

@@ -10,9 +10,11 @@
 #define GLINT_GRAMMAR_IR_FEATURES_H
 
 #include "diag/source.h"
-#include "grammar/ir.h"
 #include "grammar/ir_origin.h"
 #include "shaders/features.h"
+
+struct ir_material;
+struct ir_scene;
 
 enum {
     IR_FEATURE_WORDS_MAX = 200

@@ -1,5 +1,6 @@
 #include "grammar/ir_origin.h"
 
+#include "grammar/ir_value.h"
 #include "grammar/schema.h"
 
 #include <assert.h>

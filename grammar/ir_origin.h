@@ -9,7 +9,10 @@
 
 #include "core/arena.h"
 #include "diag/source.h"
-#include "grammar/ir.h"
+
+struct ir_head;
+struct ir_scene;
+struct schema_element;
 
 struct ir_row_origin {
     uint32_t row;  // index in the element's schema
@@ -68,7 +71,6 @@ void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t r
 const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head,
                                           uint32_t row);
 // The span to show for a row: its value, else the element's label. `row_name` must exist in the schema.
-struct schema_element;
 span ir_place_value(const struct ir_origin *origin, const struct ir_head *head,
                     const struct schema_element *schema, const char *row_name);
 span ir_place_key(const struct ir_origin *origin, const struct ir_head *head,

@@ -1,7 +1,9 @@
 #include "grammar/ir_print_text.h"
 
 #include "core/number.h"
+#include "grammar/ir_value.h"
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 #include <stdio.h>
 #include <string.h>

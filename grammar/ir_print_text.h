@@ -5,8 +5,8 @@
 #define GLINT_GRAMMAR_IR_PRINT_TEXT_H
 
 #include "core/strbuf.h"
-#include "grammar/ir.h"
-#include "grammar/schema.h"
+
+struct schema_row;
 
 // Text as YAML: plain where every reader of YAML 1.1 and 1.2 takes it for the same text, else in double
 // quotes, on one line. `in_flow`: between brackets or as a key, where fewer characters may stand plain.

@@ -1,5 +1,8 @@
 #include "grammar/ir_walk.h"
 
+#include "grammar/ir.h"
+#include "grammar/schema.h"
+
 #include <string.h>
 
 struct ir_any_list ir_walk_list(const struct schema_row *row, const void *element) {

@@ -5,8 +5,12 @@
 #define GLINT_GRAMMAR_IR_WALK_H
 
 #include "core/arena.h"
-#include "grammar/ir.h"
-#include "grammar/schema.h"
+
+struct ir_head;
+struct ir_material_ref;
+struct ir_scene;
+struct schema_element;
+struct schema_row;
 
 // Every list of the IR begins like this.
 struct ir_any_list {

@@ -3,7 +3,7 @@
 
 #include "core/number.h"
 #include "core/vec3.h"
-#include "grammar/ir.h"
+#include "grammar/ir_value.h"
 
 #include <math.h>
 #include <stdlib.h>

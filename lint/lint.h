@@ -11,6 +11,8 @@
 
 #include "scene/scene.h"
 
+struct ir_image;
+
 enum lint_level {
     LINT_NONE,
     LINT_CHEAP, // rules that look at entries of the scene alone, and whose findings spoil the picture

@@ -1,6 +1,8 @@
 // Bodies, meshes and cameras as the rules need them.
 #include "lint/lint_parts.h"
 
+#include "grammar/ir.h"
+
 // ---- materials
 
 const struct ir_material *lint_material(const struct lint *lint, const struct lint_body *body,

@@ -2,6 +2,7 @@
 #include "lint/lint_parts.h"
 
 #include "assets/asset_file.h"
+#include "grammar/ir.h"
 
 #include <stdarg.h>
 #include <stdio.h>

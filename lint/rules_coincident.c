@@ -5,6 +5,8 @@
 // could see both: the bottom of a box that stands on a floor is hidden by the box.
 #include "lint/lint_parts.h"
 
+#include "grammar/ir.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -7,6 +7,7 @@
 
 #include "core/number.h"
 #include "core/parallel.h"
+#include "grammar/ir.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,8 @@
 // Images of more texels than a picture can show.
 #include "lint/lint_parts.h"
 
+#include "grammar/ir.h"
+
 // Texels along a line for each sample of the picture: sixteen times as many texels as samples.
 static const double EXCESS = 4;
 static const double TURN = 6.283185307179586477;

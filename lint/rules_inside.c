@@ -1,6 +1,8 @@
 // Cameras and lights inside bodies, lights on surfaces.
 #include "lint/lint_parts.h"
 
+#include "grammar/ir.h"
+
 enum {
     WORK_MAX = 50000000, // bodies against cameras, or lights: further ones are not looked at
 };

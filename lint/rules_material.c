@@ -2,6 +2,7 @@
 #include "lint/lint_parts.h"
 
 #include "core/number.h"
+#include "grammar/ir.h"
 
 // Growth over all bounces below this is no more than a slip of the last digit of each weight.
 static const double GROWTH_MIN = 2;

@@ -4,6 +4,8 @@
 // refracts, and it can cast no shadow into a field either.
 #include "lint/lint_parts.h"
 
+#include "grammar/ir.h"
+
 enum {
     PLANES = 5,
     WORK_MAX = 20000000, // boxes against cameras and lights

@@ -1,5 +1,6 @@
 #include "lsp/locate.h"
 
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 
 void locate_walk(const struct schema_element *schema, const void *element, locate_visit *visit,

@@ -3,6 +3,7 @@
 
 #include "core/strbuf.h"
 #include "grammar/emit/explain.h"
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 
 #include <string.h>

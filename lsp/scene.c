@@ -1,6 +1,8 @@
 #include "lsp/scene.h"
 
 #include "core/heap.h"
+#include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 #include <stdlib.h>
 #include <string.h>

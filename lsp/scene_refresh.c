@@ -1,4 +1,5 @@
 // Keeping the scenes up with the open documents: loading them, and which are wanted.
+#include "grammar/schema.h"
 #include "lsp/scene.h"
 
 #include "app/check.h"

@@ -1,5 +1,7 @@
 #include "measure/hit_errors.h"
 
+#include "grammar/ir.h"
+
 #include <math.h>
 
 struct hit_counts {

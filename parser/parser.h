@@ -9,8 +9,9 @@
 #include "core/limits.h"
 #include "diag/diag.h"
 #include "files/files.h"
-#include "grammar/ir.h"
 #include "grammar/ir_origin.h"
+
+struct ir_scene;
 
 struct parser_input {
     struct source_set *sources;

@@ -5,13 +5,13 @@
 static struct material make_material(const struct scene_material *from) {
     struct material m = {.checker = from->checker,
                          .cell = from->cell,
-                         .specular = vec3_mul(from->specular, from->albedo.specular),
+                         .specular = vec3_mul(from->specular, from->specular_weight),
                          .exponent = from->specular_exponent,
-                         .reflection = from->albedo.reflection,
-                         .refraction = from->albedo.refraction,
+                         .reflection = from->reflection,
+                         .refraction = from->refraction,
                          .index = from->refractive_index};
     for (int i = 0; i < 2; i++)
-        m.diffuse[i] = vec3_mul(from->diffuse[i], from->albedo.diffuse);
+        m.diffuse[i] = vec3_mul(from->diffuse[i], from->diffuse_weight);
     return m;
 }
 

@@ -1,6 +1,8 @@
 #include "reference/key.h"
 
 #include "core/hash128.h"
+#include "core/xxh64.h"
+#include "grammar/ir.h"
 #include "grammar/ir_hash.h"
 
 #include <assert.h>

@@ -1,6 +1,8 @@
 // Where light comes from: lights with their shadows, and the background (LANGUAGE "Hit", "Background").
 #include "reference/parts.h"
 
+#include "grammar/ir.h"
+
 #define PI 3.14159265358979323846
 // Less than the smallest normal float adds nothing that a picture could hold: tails of highlights.
 #define LEAST_LIGHT 0x1p-126

@@ -2,6 +2,7 @@
 
 #include "core/clock.h"
 #include "core/parallel.h"
+#include "grammar/ir.h"
 #include "reference/parts.h"
 
 #include <stdatomic.h>

@@ -14,6 +14,8 @@
 #include "scene/hits.h"
 #include "scene/view.h"
 
+struct ir_image;
+
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
 #define REFERENCE_VERSION 3
 

@@ -20,7 +20,10 @@ vec3 scene_linear_color(struct ir_color color, unsigned transfer) {
 static struct scene_material material_of(const struct ir_material *ir, unsigned transfer) {
     const struct ir_paint *paint = &ir->diffuse_color;
     bool checker = paint->kind == IR_PAINT_CHECKER;
-    struct scene_material m = {.albedo = ir->albedo,
+    struct scene_material m = {.diffuse_weight = ir->albedo.diffuse,
+                               .specular_weight = ir->albedo.specular,
+                               .reflection = ir->albedo.reflection,
+                               .refraction = ir->albedo.refraction,
                                .checker = checker,
                                .cell = checker ? paint->checker.size : 1,
                                .specular = scene_linear_color(ir->specular_color, transfer),

@@ -13,6 +13,8 @@
 #include "core/arena.h"
 #include "core/vec3.h"
 
+struct ir_color;
+struct ir_head;
 struct schema_element;
 
 // How a body is intersected.
@@ -48,7 +50,7 @@ struct scene_body {
 
 // A material as light meets it. Colours are linear and not yet multiplied by their weights.
 struct scene_material {
-    struct ir_weights albedo;
+    double diffuse_weight, specular_weight, reflection, refraction;
     vec3 diffuse[2]; // of the odd cells too, where it is a checker; else equal
     bool checker;
     double cell; // edge of a checker's cells, scene units; 1 without

@@ -1,6 +1,8 @@
 #include "scene/view.h"
 
+#include "grammar/ir.h"
 #include "scene/transform.h"
+#include <string.h>
 
 #define DEGREE 0.017453292519943295769 // pi / 180
 

@@ -1,6 +1,8 @@
 #include "grammar/emit/example.h"
 
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 #include <string.h>
 

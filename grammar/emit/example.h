@@ -5,8 +5,10 @@
 #define GLINT_GRAMMAR_EMIT_EXAMPLE_H
 
 #include "core/arena.h"
-#include "grammar/ir.h"
-#include "grammar/schema.h"
+
+struct ir_scene;
+struct schema_element;
+struct schema_row;
 
 // A scene in which the element stands with every row that has an example, and around it only what it
 // takes to get there. The scene element itself shows everything.

@@ -1,9 +1,11 @@
 #include "grammar/print/ir_diff.h"
 
 #include "core/strbuf.h"
+#include "grammar/ir_value.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_align.h"
 #include "grammar/print/ir_print_row.h"
+#include "grammar/schema.h"
 
 #include <string.h>
 

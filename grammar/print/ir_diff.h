@@ -10,8 +10,9 @@
 #define GLINT_GRAMMAR_PRINT_IR_DIFF_H
 
 #include "core/arena.h"
-#include "grammar/ir.h"
 #include "grammar/ir_origin.h"
+
+struct ir_scene;
 
 enum ir_change_kind {
     IR_CHANGED,

@@ -11,8 +11,9 @@
 
 #include "core/strbuf.h"
 #include "diag/source.h"
-#include "grammar/ir.h"
 #include "grammar/ir_origin.h"
+
+struct ir_scene;
 
 struct ir_write_options {
     uint32_t width; // columns to stay within where that is possible; 0: 100

@@ -1,6 +1,7 @@
 #include "grammar/print/ir_print_comment.h"
 
 #include "grammar/ir_print_text.h"
+#include "grammar/ir_value.h"
 #include "grammar/ir_walk.h"
 
 #include <string.h>

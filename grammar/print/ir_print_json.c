@@ -2,7 +2,9 @@
 #include "grammar/print/ir_print.h"
 
 #include "grammar/ir_print_text.h"
+#include "grammar/ir_value.h"
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 struct json_writer {
     const struct ir_scene *scene;

@@ -4,8 +4,10 @@
 #define GLINT_GRAMMAR_PRINT_IR_PRINT_ROW_H
 
 #include "core/strbuf.h"
-#include "grammar/ir.h"
-#include "grammar/schema.h"
+
+struct ir_scene;
+struct schema_element;
+struct schema_row;
 
 // `fov: 45`; a key row is the key itself. `scene` holds the anonymous elements; NULL: there are none.
 void print_yaml_row(const struct ir_scene *scene, const struct schema_row *row, const void *element,

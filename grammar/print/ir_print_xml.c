@@ -2,6 +2,7 @@
 #include "grammar/print/ir_print.h"
 
 #include "grammar/ir_print_text.h"
+#include "grammar/ir_value.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print_comment.h"
 #include "grammar/print/ir_print_row.h"

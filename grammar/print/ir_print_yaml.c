@@ -1,6 +1,7 @@
 // The IR as YAML: the canonical dump, and files for people.
 #include "grammar/print/ir_print.h"
 
+#include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print_comment.h"

@@ -5,6 +5,7 @@
 #ifndef GLINT_MEASURE_EXTREMES_EXTREMES_PARTS_H
 #define GLINT_MEASURE_EXTREMES_EXTREMES_PARTS_H
 
+#include "grammar/ir.h"
 #include "measure/extremes/extremes.h"
 #include "scene/hits.h"
 

@@ -182,7 +182,7 @@ static void stand_on_surface(struct variant *v, const struct extreme_base *base,
 static bool set_indices(struct variant *v, double index) {
     bool any = false;
     for (uint32_t i = 0; i < v->scene.material_count; i++)
-        if (v->scene.materials[i].albedo.refraction > 0) {
+        if (v->scene.materials[i].refraction > 0) {
             v->scene.materials[i].refractive_index = index;
             any = true;
         }
@@ -192,7 +192,7 @@ static bool set_indices(struct variant *v, double index) {
 static bool set_exponents(struct variant *v, double exponent) {
     bool any = false;
     for (uint32_t i = 0; i < v->scene.material_count; i++)
-        if (v->scene.materials[i].albedo.specular > 0) {
+        if (v->scene.materials[i].specular_weight > 0) {
             v->scene.materials[i].specular_exponent = exponent;
             any = true;
         }

@@ -9,10 +9,12 @@
 #define GLINT_PARSER_BIND_BIND_H
 
 #include "diag/diag.h"
-#include "grammar/ir.h"
 #include "grammar/ir_origin.h"
+#include "grammar/ir_value.h"
 #include "grammar/schema_index.h"
 #include "parser/tree/tree.h"
+
+struct ir_scene;
 
 // Texts that were copied lately: entries that follow each other name the same meshes and materials.
 enum {

@@ -5,6 +5,7 @@
 #include "parser/tree/mend.h"
 
 #include "core/number.h"
+#include "core/vec3.h"
 
 #include <string.h>
 

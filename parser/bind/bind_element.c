@@ -1,4 +1,5 @@
 // Elements, their rows and the entries of these: what calls itself for what stands inside.
+#include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"

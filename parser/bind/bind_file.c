@@ -1,4 +1,5 @@
 // The root of a file: whether it is a scene, and all that it holds.
+#include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"

@@ -1,6 +1,8 @@
 // Lists of the IR without knowing what they hold: {items, count, capacity}.
 #include "parser/bind/bind.h"
 
+#include "grammar/ir.h"
+
 #include <assert.h>
 #include <string.h>
 

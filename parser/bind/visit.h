@@ -2,8 +2,10 @@
 #ifndef GLINT_PARSER_BIND_VISIT_H
 #define GLINT_PARSER_BIND_VISIT_H
 
-#include "grammar/ir.h"
-#include "grammar/schema.h"
+#include <stdint.h>
+
+struct ir_material_ref;
+struct schema_element;
 
 struct visit_place {
     const struct schema_element *schema; // of the element that holds the reference

@@ -1,6 +1,7 @@
 // One file of a scene: read, and bound to the IR of that file alone.
 #include "parser/stages/loader.h"
 
+#include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/tree/reader.h"
 

@@ -1,4 +1,5 @@
 // One scene out of several files: elements that are there once merge by attribute, lists are joined.
+#include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/visit.h"
 #include "parser/stages/loader.h"

@@ -1,4 +1,5 @@
 // Names: each is used once, and references find what they name.
+#include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/bind/visit.h"

@@ -1,5 +1,7 @@
 #include "parser/parser.h"
 
+#include "grammar/ir.h"
+#include "parser/bind/bind.h"
 #include "parser/stages/loader.h"
 #include "parser/tree/reader_text.h"
 

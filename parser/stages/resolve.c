@@ -1,4 +1,5 @@
 // Includes: which files belong to the scene, in which order, and what stands in the way.
+#include "grammar/ir.h"
 #include "parser/stages/loader.h"
 #include "parser/tree/reader_text.h"
 

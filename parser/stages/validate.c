@@ -4,6 +4,7 @@
 #include "parser/stages/loader.h"
 
 #include "core/number.h"
+#include "grammar/ir.h"
 
 #include <string.h>
 

@@ -10,7 +10,7 @@
 #define GLINT_PICTURE_WRITE_IMAGE_H
 
 #include "core/strbuf.h"
-#include "grammar/ir.h"
+#include "grammar/ir_value.h"
 
 #include <math.h>
 

@@ -2,6 +2,7 @@
 // just outside a range are refused in both spellings.
 #include "grammar/emit/emit_words.h"
 #include "grammar/emit/example.h"
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 #include "tests/equal/equal_kit.h"
 

@@ -1,6 +1,7 @@
 // libFuzzer entry: any bytes as an OBJ mesh and, behind the first NUL byte, its material file own.mtl.
 #include "diag/diag_text.h"
 #include "fuzz_sample.h"
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "scene/view.h"
 

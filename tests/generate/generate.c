@@ -1,5 +1,6 @@
 #include "tests/generate/generate.h"
 
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 #include "tests/generate/generate_values.h"
 

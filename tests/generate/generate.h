@@ -10,7 +10,9 @@
 #define GLINT_TESTS_GENERATE_GENERATE_H
 
 #include "core/arena.h"
-#include "grammar/ir.h"
+#include "core/str.h"
+
+struct ir_scene;
 
 struct generate_paths {
     const str *items;

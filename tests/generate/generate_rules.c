@@ -1,4 +1,5 @@
 // What a table cannot say: the scene rules (E4xx) as repairs on the typed IR, and what a picture needs.
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "tests/generate/generate_values.h"
 

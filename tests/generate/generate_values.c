@@ -1,6 +1,7 @@
 #include "tests/generate/generate_values.h"
 
 #include "core/strbuf.h"
+#include "grammar/ir_value.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,6 +6,8 @@
 // of them together by little.
 #include "tests/pictures/picture_kit.h"
 
+#include "grammar/ir.h"
+
 #include <png.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 
 #include "app/exact.h"
 #include "diag/diag_text.h"
+#include "grammar/ir.h"
 
 #include <stdio.h>
 #include <stdlib.h>

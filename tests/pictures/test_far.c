@@ -5,6 +5,7 @@
 #include "picture_kit.h"
 
 #include "core/number.h"
+#include "grammar/ir.h"
 
 #include <math.h>
 #include <stdio.h>

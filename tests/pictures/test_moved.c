@@ -5,6 +5,8 @@
 // Usage: test_moved SCENE...
 #include "picture_kit.h"
 
+#include "grammar/ir.h"
+
 #include <math.h>
 #include <stdio.h>
 

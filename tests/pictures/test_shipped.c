@@ -5,6 +5,7 @@
 // Usage: test_shipped SCENE.yaml... (their twins end in .xml)
 #include "picture_kit.h"
 
+#include "grammar/ir.h"
 #include "shaders/features.h"
 
 #include <math.h>

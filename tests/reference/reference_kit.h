@@ -1,10 +1,10 @@
-// References over scenes made in memory (tests/unit/flat_kit.h), and random numbers.
+// References over scenes made in memory (tests/unit/kit/flat_kit.h), and random numbers.
 #ifndef GLINT_TESTS_REFERENCE_REFERENCE_KIT_H
 #define GLINT_TESTS_REFERENCE_REFERENCE_KIT_H
 
 #include "reference/reference.h"
-#include "tests/unit/flat_kit.h"
-#include "tests/unit/random.h"
+#include "tests/unit/kit/flat_kit.h"
+#include "tests/unit/kit/random.h"
 
 // Millions of rays take minutes under the sanitizers.
 #ifdef GLINT_ARENA_EXACT

@@ -7,6 +7,7 @@
 
 #include "app/exact.h"
 #include "files/output.h"
+#include "grammar/ir.h"
 #include "grammar/print/ir_print.h"
 #include "tests/generate/generate.h"
 
@@ -154,14 +155,14 @@ static bool take_reference(struct session *session, struct pair *p) {
 }
 
 static bool check_session(struct picture_kit *kit, struct session *session) {
-    struct pair p = {.width = (uint32_t)session->image.width, .height = (uint32_t)session->image.height};
+    struct pair p = {.width = (uint32_t)session->image->width, .height = (uint32_t)session->image->height};
     size_t count = (size_t)p.width * p.height;
     p.device_hits = calloc(count, sizeof *p.device_hits);
     p.reference_hits = calloc(count, sizeof *p.reference_hits);
     bool good = p.device_hits && p.reference_hits && image_init(&p.device, p.width, p.height) &&
                 image_init(&p.reference, p.width, p.height) && take_device(kit, session, &p) &&
                 take_reference(session, &p) && session->sink.errors == 0;
-    struct image_display display = {session->image.tone, session->image.transfer};
+    struct image_display display = {session->image->tone, session->image->transfer};
     if (!good)
         fprintf(stderr, "%.*s: %s\n", STR_ARG(session->options.path), gpu_error(kit->gpu));
     else

@@ -1,7 +1,7 @@
 // The cache of the reference: found again, not mistaken, and replaced where it is damaged.
 #include "reference/cache.h"
 #include "reference_kit.h"
-#include "tests/unit/scratch.h"
+#include "tests/unit/kit/scratch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -23,10 +23,10 @@ enum flatten_fault flatten_materials(struct flattening *f) {
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < f->scene->material_count; i++) {
         const struct scene_material *m = &f->scene->materials[i];
-        struct gpu_material record = {.weight_diffuse = m->albedo.diffuse,
-                                      .weight_specular = m->albedo.specular,
-                                      .weight_reflection = m->albedo.reflection,
-                                      .weight_refraction = m->albedo.refraction,
+        struct gpu_material record = {.weight_diffuse = m->diffuse_weight,
+                                      .weight_specular = m->specular_weight,
+                                      .weight_reflection = m->reflection,
+                                      .weight_refraction = m->refraction,
                                       .diffuse = m->diffuse[0],
                                       .exponent = m->specular_exponent,
                                       .specular = m->specular,

@@ -2,6 +2,7 @@
 #ifndef GLINT_TRACER_FLATTEN_FLATTEN_PARTS_H
 #define GLINT_TRACER_FLATTEN_FLATTEN_PARTS_H
 
+#include "grammar/ir.h"
 #include "scene/transform.h"
 #include "tracer/bvh/bvh.h"
 #include "tracer/flatten/flatten.h"

@@ -1,6 +1,7 @@
 #include "tracer/flatten/precision.h"
 
 #include "core/parallel.h"
+#include "grammar/ir.h"
 #include "scene/transform.h"
 #include "tracer/flatten/precision_parts.h"
 
@@ -149,4 +150,9 @@ bool precision_measure(const struct flat_input *input, struct precision_report *
         out->suffices = out->suffices && !(least->any && least->steps < PRECISION_STEPS);
     }
     return good;
+}
+
+bool precision_is_double(const struct ir_scene *scene, const struct precision_report *report) {
+    return scene->trace.precision == IR_PRECISION_DOUBLE ||
+           (scene->trace.precision == IR_PRECISION_AUTO && !report->suffices);
 }

@@ -47,9 +47,6 @@ struct precision_report {
 bool precision_measure(const struct flat_input *input, struct precision_report *out);
 
 // What a scene is traced in: its own setting, or what the report says.
-static inline bool precision_is_double(const struct ir_scene *ir, const struct precision_report *report) {
-    return ir->trace.precision == IR_PRECISION_DOUBLE ||
-           (ir->trace.precision == IR_PRECISION_AUTO && !report->suffices);
-}
+bool precision_is_double(const struct ir_scene *ir, const struct precision_report *report);
 
 #endif

@@ -1,6 +1,8 @@
 // Gaps between bodies: pairs whose boxes come close, by a sweep along the axis in which they spread most.
 #include "tracer/flatten/precision_parts.h"
 
+#include "grammar/ir.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,7 @@
 #include "tracer/render/render_private.h"
 
+#include "grammar/ir.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

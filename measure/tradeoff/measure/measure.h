@@ -7,6 +7,7 @@
 #ifndef GLINT_MEASURE_TRADEOFF_MEASURE_MEASURE_H
 #define GLINT_MEASURE_TRADEOFF_MEASURE_MEASURE_H
 
+#include "grammar/ir.h"
 #include "measure/tradeoff/study/study.h"
 #include "picture/write/image.h"
 #include "reference/cache.h"

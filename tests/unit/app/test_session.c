@@ -2,6 +2,7 @@
 #include "app/session.h"
 #include "diag/diag_text.h"
 
+#include "grammar/ir.h"
 #include "scratch.h"
 
 #include <setjmp.h>
@@ -92,9 +93,9 @@ static void a_scene_and_its_options(void **state) {
     assert_int_equal(load(f, "ball.yaml"), SESSION_LOADED);
     assert_int_equal(f->session.sink.errors, 0);
     assert_true(f->session.scene->spheres.items[0].radius == 3);
-    assert_int_equal(f->session.image.width, 10);
-    assert_int_equal(f->session.image.height, 30);
-    assert_int_equal(f->session.image.samples, 4);
+    assert_int_equal(f->session.image->width, 10);
+    assert_int_equal(f->session.image->height, 30);
+    assert_int_equal(f->session.image->samples, 4);
     assert_int_equal(f->session.scene->image.height, 20); // the scene says what it said
     session_finish(&f->session);
 }

@@ -1,4 +1,5 @@
 // The writers on IR that was made by hand: quoting, layout, what is written and what is not.
+#include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print.h"

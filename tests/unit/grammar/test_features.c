@@ -1,4 +1,5 @@
 // The feature mask: what each part of a scene switches on, and why.
+#include "grammar/ir.h"
 #include "grammar/ir_features.h"
 #include "grammar/schema.h"
 

@@ -1,5 +1,6 @@
 #include "loaded.h"
 
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "parser/tree/mend.h"
 

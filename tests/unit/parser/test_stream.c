@@ -1,5 +1,6 @@
 // Scenes that are bound entry by entry while they are read: the same words and scenes as otherwise, in little
 // memory.
+#include "grammar/ir.h"
 #include "grammar/print/ir_print.h"
 #include "grammar/schema.h"
 #include "loaded.h"

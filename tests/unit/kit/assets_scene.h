@@ -4,6 +4,7 @@
 
 #include "assets/assets.h"
 #include "diag/diag_text.h"
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "scene/scene.h"
 

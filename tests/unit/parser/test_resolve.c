@@ -1,5 +1,6 @@
 #include "loaded.h"
 
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 
 #define SPHERE(rest) "spheres: [{center: [0, 0, 0], radius: 1" rest "}]\n"

@@ -5,6 +5,7 @@
 #ifndef GLINT_TESTS_UNIT_FLAT_KIT_H
 #define GLINT_TESTS_UNIT_FLAT_KIT_H
 
+#include "grammar/ir.h"
 #include "tracer/flatten/flatten.h"
 
 enum {

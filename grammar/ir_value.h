@@ -1,0 +1,44 @@
+// What every element of the IR is made of: its head, and the values that are structs. Who walks the table and
+// knows no element's name includes this and not ir.h, and is not built anew for a new attribute.
+#ifndef GLINT_GRAMMAR_IR_VALUE_H
+#define GLINT_GRAMMAR_IR_VALUE_H
+
+#include "core/str.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define IR_NO_INDEX UINT32_MAX
+
+struct ir_head {
+    uint64_t written;  // bit i: row i of the element's schema stands in the file
+    uint64_t poisoned; // bit i: row i was written and wrong
+    uint32_t origin;   // id in struct ir_origin; 0: no place (made by the program)
+};
+
+struct ir_color {
+    double r, g, b; // as written, linear; zero where is_hex
+    bool is_hex;    // written as #rrggbb, a displayed colour: decoded by flattening (ir_color_linear)
+    uint32_t hex;   // 0xrrggbb
+};
+
+struct ir_weights {
+    double diffuse, specular, reflection, refraction;
+};
+
+struct ir_material_ref {
+    str name;       // as written; empty for an inline material
+    uint32_t index; // in scene.materials; IR_NO_INDEX: none written, or not found
+};
+
+// How a picture is displayed: words of the image element, known to pictures without a scene too.
+enum ir_tone {
+    IR_TONE_CLIP,
+    IR_TONE_NORMALIZE
+};
+enum ir_transfer {
+    IR_TRANSFER_NONE,
+    IR_TRANSFER_SRGB
+};
+
+#endif
