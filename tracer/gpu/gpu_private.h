@@ -1,4 +1,4 @@
-// Inside of runtime/gpu: what its files share. Thread safety: as gpu.h.
+// Inside of tracer/gpu: what its files share. Thread safety: as gpu.h.
 #ifndef GLINT_TRACER_GPU_GPU_PRIVATE_H
 #define GLINT_TRACER_GPU_GPU_PRIVATE_H
 
@@ -67,10 +67,15 @@ uint32_t gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDev
 // Family of a queue that computes; UINT32_MAX where there is none.
 uint32_t gpu_compute_family(VkPhysicalDevice physical);
 
+// ---- gpu_fault.c
+
 // Notes a failed call; gives true where `result` is a success.
 bool gpu_check(struct gpu *gpu, VkResult result, const char *call);
 void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+// ---- gpu_run.c
+
 // Begins a recording unless one is under way.
 bool gpu_record(struct gpu *gpu);
 
