@@ -10,27 +10,11 @@
 #include <string.h>
 #include <sys/resource.h>
 
-// OUT.NAME.png for OUT.png.
-static const char *camera_output(struct render_job *job, str camera) {
-    str path = str_from(job->output);
-    size_t dot = path.len;
-    while (dot > 0 && path.ptr[dot - 1] != '.')
-        dot--;
-    str stem = str_slice(path, 0, dot ? dot - 1 : path.len);
-    return arena_format(&job->cli->arena, "%.*s.%.*s%s", STR_ARG(stem), STR_ARG(camera), path.ptr + stem.len)
-        .ptr;
-}
-
 static int open_device(struct render_job *job) {
     double start = clock_seconds();
     int status = cli_open_device(job->cli, &job->gpu);
     job->stats.device_seconds = clock_seconds() - start;
     return status;
-}
-
-int render_interrupted(struct render_job *job) {
-    progress_end(&job->progress);
-    return cli_interrupted(job->cli);
 }
 
 static int shot_failed(struct render_job *job, enum shot_status status) {
@@ -66,24 +50,6 @@ static int take_frames(struct render_job *job) {
     job->stats.most_frame_seconds = times[frames - 1];
     job->stats.median_frame_seconds = quantile(times, (size_t)frames, 0.5);
     return CLI_OK;
-}
-
-int render_write_picture(struct render_job *job, const char *path) {
-    struct strbuf file;
-    struct image_display display = {job->session.image.tone, job->session.image.transfer};
-    strbuf_init(&file);
-    double start = clock_seconds();
-    image_encode(&job->image, job->format, display, &file);
-    job->stats.encode_seconds = clock_seconds() - start;
-    int status = CLI_OK;
-    if (file.failed) {
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
-        status = CLI_FILE;
-    } else {
-        status = cli_write(job->cli, path, strbuf_view(&file));
-    }
-    strbuf_finish(&file);
-    return status;
 }
 
 static int report_stats(struct render_job *job) {
@@ -140,11 +106,6 @@ static int render_camera(struct render_job *job, const char *path) {
     if (strcmp(path, "-") != 0)
         fprintf(stderr, "glint: wrote %s, %u x %u\n", path, job->image.width, job->image.height);
     return status;
-}
-
-const char *render_output_of(struct render_job *job, uint32_t camera) {
-    return job->all_cameras ? camera_output(job, job->session.scene->cameras.items[camera].name)
-                            : job->output;
 }
 
 static int render_by_device(struct render_job *job, uint32_t first, uint32_t end) {

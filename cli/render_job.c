@@ -1,0 +1,42 @@
+#include "cli/render_job.h"
+
+#include "core/clock.h"
+
+// OUT.NAME.png for OUT.png.
+static const char *camera_output(struct render_job *job, str camera) {
+    str path = str_from(job->output);
+    size_t dot = path.len;
+    while (dot > 0 && path.ptr[dot - 1] != '.')
+        dot--;
+    str stem = str_slice(path, 0, dot ? dot - 1 : path.len);
+    return arena_format(&job->cli->arena, "%.*s.%.*s%s", STR_ARG(stem), STR_ARG(camera), path.ptr + stem.len)
+        .ptr;
+}
+
+const char *render_output_of(struct render_job *job, uint32_t camera) {
+    return job->all_cameras ? camera_output(job, job->session.scene->cameras.items[camera].name)
+                            : job->output;
+}
+
+int render_interrupted(struct render_job *job) {
+    progress_end(&job->progress);
+    return cli_interrupted(job->cli);
+}
+
+int render_write_picture(struct render_job *job, const char *path) {
+    struct strbuf file;
+    struct image_display display = {job->session.image.tone, job->session.image.transfer};
+    strbuf_init(&file);
+    double start = clock_seconds();
+    image_encode(&job->image, job->format, display, &file);
+    job->stats.encode_seconds = clock_seconds() - start;
+    int status = CLI_OK;
+    if (file.failed) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
+        status = CLI_FILE;
+    } else {
+        status = cli_write(job->cli, path, strbuf_view(&file));
+    }
+    strbuf_finish(&file);
+    return status;
+}
