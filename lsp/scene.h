@@ -41,6 +41,32 @@ void scenes_finish(struct scenes *scenes);
 // Marks the scenes that a changed text may matter to; all of them where `path` is empty.
 void scenes_touch(struct scenes *scenes, str path);
 
+// Whether SCENES_WHOLE would have something to add.
+bool scenes_lack_lint(const struct scenes *scenes);
+// The scene that the document at `path` belongs to, up to date, or NULL.
+struct lsp_scene *scenes_of(struct scenes *scenes, str path);
+// The scene with this main file; added where it is new. NULL: no memory.
+struct lsp_scene *scenes_add(struct scenes *scenes, str path);
+struct lsp_scene *scenes_find(struct scenes *scenes, str path);
+void scenes_forget(struct scenes *scenes, struct lsp_scene *scene);
+void lsp_scene_unload(struct lsp_scene *scene);
+bool lsp_scene_has_file(const struct lsp_scene *scene, str path);
+// Takes the list of files from a loaded session.
+void lsp_scene_note_files(struct lsp_scene *scene, struct session *session);
+void lsp_scene_forget_files(struct lsp_scene *scene);
+// The texts of the open documents, for session_options; to be freed. NULL: no memory.
+struct file_overlay *scenes_overlays(const struct scenes *scenes);
+
+// ---- scene_find.c: which scene a document belongs to
+
+// Looks, once for each time that it is opened, for scenes around the document that include it, and adds them.
+void scenes_place(struct scenes *scenes, struct document *document);
+bool scenes_is_settings(str path);
+// Whether the document is to be checked as a scene.
+bool scenes_is_scene(struct document *document);
+
+// ---- scene_refresh.c
+
 enum scenes_effort {
     SCENES_QUICK, // without the rules about light, where they took long the last time
     SCENES_WHOLE,
@@ -48,25 +74,5 @@ enum scenes_effort {
 // Decides which scenes the open documents belong to, and loads those that are stale, or lack what the effort
 // asks for. Scenes that no open document needs any more are forgotten. Whether anything has changed.
 bool scenes_refresh(struct scenes *scenes, enum scenes_effort effort);
-// Whether SCENES_WHOLE would have something to add.
-bool scenes_lack_lint(const struct scenes *scenes);
-// The scene that the document at `path` belongs to, up to date, or NULL.
-struct lsp_scene *scenes_of(struct scenes *scenes, str path);
-
-// Which scene a document belongs to (lsp/scene_find.c).
-// The scene with this main file; added where it is new. NULL: no memory.
-struct lsp_scene *scenes_add(struct scenes *scenes, str path);
-struct lsp_scene *scenes_find(struct scenes *scenes, str path);
-// Looks, once for each time that it is opened, for scenes around the document that include it, and adds them.
-void scenes_place(struct scenes *scenes, struct document *document);
-bool lsp_scene_has_file(const struct lsp_scene *scene, str path);
-// Takes the list of files from a loaded session.
-void lsp_scene_note_files(struct lsp_scene *scene, struct session *session);
-void lsp_scene_forget_files(struct lsp_scene *scene);
-// The texts of the open documents, for session_options; to be freed. NULL: no memory.
-struct file_overlay *scenes_overlays(const struct scenes *scenes);
-bool scenes_is_settings(str path);
-// Whether the document is to be checked as a scene.
-bool scenes_is_scene(struct document *document);
 
 #endif

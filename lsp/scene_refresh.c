@@ -1,0 +1,147 @@
+// Keeping the scenes up with the open documents: loading them, and which are wanted.
+#include "lsp/scene.h"
+
+#include "app/check.h"
+#include "grammar/ir_walk.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    ROUNDS_MOST = 4, // until every document has its scene: what one load finds may need another
+};
+// Rules about light that take longer wait until no one types.
+#define LINT_SECONDS_QUICK 0.1
+
+// ---- loading
+
+static bool has_syntax_error(const struct session *session) {
+    for (uint32_t i = 0; i < session->sink.count; i++)
+        if (strncmp(diag_info(session->sink.items[i].code)->code, "E1", 2) == 0)
+            return true;
+    return false;
+}
+
+// A text is seldom whole while one types; names that it had a moment ago are still the likely ones.
+static void note_names(struct lsp_scene *scene) {
+    if (!scene->session.scene || has_syntax_error(&scene->session))
+        return;
+    json_decref(scene->names);
+    scene->names = json_object();
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        struct ir_any_list list = ir_walk_list(row, scene->session.scene);
+        json_t *names = list.count ? json_array() : NULL;
+        for (uint32_t k = 0; k < list.count; k++) {
+            str name = ir_walk_key(row->child, ir_walk_item(row, list, k));
+            if (name.len)
+                json_array_append_new(names, json_stringn(name.ptr, name.len));
+        }
+        if (names)
+            json_object_set_new(scene->names, row->child->name, names);
+    }
+}
+
+static void load_scene(struct lsp_scene *scene, const struct session_options *options,
+                       struct asset_store *store) {
+    check_scene(&scene->session, options, store);
+    if (scene->session.state == SESSION_LOADED)
+        lsp_scene_note_files(scene, &scene->session);
+    else if (scene->session.state != SESSION_NO_SCENE)
+        lsp_scene_forget_files(scene);
+    note_names(scene);
+    scene->lacks_lint = options->skip_lint;
+    if (!options->skip_lint)
+        scene->lint_seconds = scene->session.lint_seconds;
+}
+
+static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_effort effort) {
+    struct file_overlay *overlays = scenes_overlays(scenes);
+    struct session_options options = {.path = scene->path,
+                                      .limits = scenes->limits,
+                                      .skip_pixels = true,
+                                      .skip_lint =
+                                          effort == SCENES_QUICK && scene->lint_seconds > LINT_SECONDS_QUICK,
+                                      .overlays = overlays,
+                                      .overlay_count = overlays ? scenes->documents->count : 0};
+    lsp_scene_unload(scene);
+    if (scenes_is_settings(scene->path))
+        session_load_settings(&scene->session, &options);
+    else
+        load_scene(scene, &options, scenes->store);
+    // The texts are the session's by now.
+    scene->session.options.overlays = NULL;
+    scene->session.options.overlay_count = 0;
+    free(overlays);
+    scene->loaded = true;
+    scene->is_stale = false;
+    scene->is_fresh = true;
+}
+
+// ---- keeping up
+
+static bool is_part_of_another(const struct scenes *scenes, str path) {
+    for (uint32_t i = 0; i < scenes->count; i++) {
+        const struct lsp_scene *scene = scenes->items[i];
+        if (!str_equal(scene->path, path) && lsp_scene_has_file(scene, path))
+            return true;
+    }
+    return false;
+}
+
+static void want_owners(struct scenes *scenes, str path) {
+    bool owned = is_part_of_another(scenes, path);
+    for (uint32_t i = 0; i < scenes->count; i++) {
+        struct lsp_scene *scene = scenes->items[i];
+        bool is_main = str_equal(scene->path, path);
+        scene->is_wanted |= owned ? !is_main && lsp_scene_has_file(scene, path) : is_main;
+    }
+}
+
+// Every document that is a scene gets one; whether there were some without.
+static bool add_missing(struct scenes *scenes) {
+    bool added = false;
+    for (uint32_t i = 0; i < scenes->documents->count; i++) {
+        struct document *document = &scenes->documents->items[i];
+        bool settings = scenes_is_settings(document->path);
+        if (!settings && !scenes_is_scene(document))
+            continue;
+        if (!settings)
+            scenes_place(scenes, document);
+        if (!is_part_of_another(scenes, document->path) && !scenes_find(scenes, document->path))
+            added |= scenes_add(scenes, document->path) != NULL;
+    }
+    return added;
+}
+
+static bool forget_unwanted(struct scenes *scenes) {
+    bool changed = false;
+    for (uint32_t i = 0; i < scenes->count; i++)
+        scenes->items[i]->is_wanted = false;
+    for (uint32_t i = 0; i < scenes->documents->count; i++)
+        want_owners(scenes, scenes->documents->items[i].path);
+    for (uint32_t i = scenes->count; i > 0; i--) {
+        if (scenes->items[i - 1]->is_wanted)
+            continue;
+        scenes_forget(scenes, scenes->items[i - 1]);
+        changed = true;
+    }
+    return changed;
+}
+
+bool scenes_refresh(struct scenes *scenes, enum scenes_effort effort) {
+    bool changed = false;
+    bool added = add_missing(scenes);
+    for (int round = 0; round == 0 || (added && round < ROUNDS_MOST); round++) {
+        for (uint32_t i = 0; i < scenes->count; i++) {
+            struct lsp_scene *scene = scenes->items[i];
+            if (scene->is_stale || (effort == SCENES_WHOLE && scene->lacks_lint))
+                load(scenes, scene, effort);
+            changed |= scene->is_fresh;
+            scene->is_fresh = false;
+        }
+        changed |= forget_unwanted(scenes);
+        added = add_missing(scenes);
+    }
+    return changed;
+}
