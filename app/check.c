@@ -1,5 +1,8 @@
 #include "app/check.h"
 
+#include "app/check_allow.h"
+#include "app/check_path.h"
+
 #include <stdlib.h>
 
 // ---- judging
@@ -53,19 +56,6 @@ enum session_state check_scene(struct session *session, const struct session_opt
     apply_policy(session);
     session_group(session);
     return session->state;
-}
-
-static bool is_told(void *context, struct diag *item) {
-    const struct session *session = context;
-    return diag_info(item->code)->severity == DIAG_ERROR ||
-           session->policy.level[item->code] != DIAG_LEVEL_OFF;
-}
-
-void check_silence(struct session *session) {
-    if (session->sink.warnings + session->sink.notes == 0)
-        return;
-    check_allow(session, false);
-    diag_filter(&session->sink, is_told, session);
 }
 
 bool check_failed(const struct session *session) {

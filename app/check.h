@@ -17,15 +17,6 @@ enum session_state check_scene(struct session *session, const struct session_opt
 // Whether the findings make the run fail.
 bool check_failed(const struct session *session);
 
-// Takes away what comments in the scene files allow; with `report`, comments that allow nothing are findings
-// themselves (W801, W802).
-void check_allow(struct session *session, bool report);
-// What other commands leave out of a loaded session's warnings and notes: what comments allow, and what the
-// configuration switches off.
-void check_silence(struct session *session);
-// The path in the scene of a place: "models[2].material", as --set takes it. Empty: it has none.
-str check_scene_path(const struct session *session, struct arena *arena, span at);
-
 // Copies the findings and what is known of the scene into a record, with paths relative to `root`.
 // false: no memory.
 bool check_report(struct report_scene *out, struct session *session, const char *root);

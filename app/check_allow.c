@@ -1,4 +1,4 @@
-#include "app/check.h"
+#include "app/check_allow.h"
 
 #include <string.h>
 
@@ -240,4 +240,17 @@ void check_allow(struct session *session, bool report) {
             report_unused(&allows);
     }
     arena_set_guard(&session->arena, NULL);
+}
+
+static bool is_told(void *context, struct diag *item) {
+    const struct session *session = context;
+    return diag_info(item->code)->severity == DIAG_ERROR ||
+           session->policy.level[item->code] != DIAG_LEVEL_OFF;
+}
+
+void check_silence(struct session *session) {
+    if (session->sink.warnings + session->sink.notes == 0)
+        return;
+    check_allow(session, false);
+    diag_filter(&session->sink, is_told, session);
 }

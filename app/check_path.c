@@ -1,5 +1,6 @@
 // From a place in a file to its path in the scene, by walking the table.
-#include "app/check.h"
+#include "app/check_path.h"
+
 #include "grammar/ir_walk.h"
 
 struct search {

@@ -1,8 +1,18 @@
-// Cameras and lights of a loaded session.
+// What others look at in a loaded session: what its meshes are read with, cameras and lights.
 #include "app/session.h"
 
 #include "core/nearest.h"
 #include "core/strbuf.h"
+
+struct assets_input session_assets_input(struct session *session) {
+    return (struct assets_input){.scene = session->scene,
+                                 .origin = &session->origin,
+                                 .sources = &session->sources,
+                                 .files = &session->files,
+                                 .limits = &session->options.limits,
+                                 .sink = &session->sink,
+                                 .arena = &session->arena};
+}
 
 uint32_t session_camera(struct session *session, str name) {
     const struct ir_cameras *cameras = &session->scene->cameras;

@@ -1,6 +1,5 @@
-#include "app/session.h"
-
-#include "app/check.h"
+// From path and options to a loaded session: the stages one after the other.
+#include "app/check_allow.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
 #include "grammar/ir_print_text.h"
@@ -109,16 +108,6 @@ static enum session_state open_source(struct session *session, uint32_t *source)
         return unreadable(session, path, status);
     *source = source_add(&session->sources, SOURCE_KIND_FILE, path, text);
     return SESSION_LOADED;
-}
-
-struct assets_input session_assets_input(struct session *session) {
-    return (struct assets_input){.scene = session->scene,
-                                 .origin = &session->origin,
-                                 .sources = &session->sources,
-                                 .files = &session->files,
-                                 .limits = &session->options.limits,
-                                 .sink = &session->sink,
-                                 .arena = &session->arena};
 }
 
 static void load_assets(struct session *session, struct asset_store *store) {
