@@ -37,7 +37,7 @@ struct loader {
     bool incomplete; // something that may define names was not read: unknown names may follow from it
 };
 
-// parser.c
+// loader.c
 // Reads and binds a source; gives its place in loader->files. The main scene has itself as its parent.
 uint32_t loader_add_file(struct loader *loader, uint32_t source, uint32_t parent, span include);
 

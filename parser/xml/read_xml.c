@@ -1,16 +1,10 @@
-#include "parser/xml/read_xml.h"
+#include "parser/xml/xml_reader.h"
 
 #include <string.h>
 
 enum {
     CHUNK_BYTES = 1 << 24
 };
-
-void xml_stop(struct xml_reader *r) {
-    if (!r->stopped && r->parser)
-        XML_StopParser(r->parser, XML_FALSE);
-    r->stopped = true;
-}
 
 // What a callback has to work on.
 struct xml_event {

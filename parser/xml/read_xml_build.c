@@ -1,5 +1,5 @@
 // Links what stands in the file into the tree, whoever found it: read_xml.c with expat, or read_xml_plain.c.
-#include "parser/xml/read_xml.h"
+#include "parser/xml/xml_reader.h"
 
 #include "core/number.h"
 #include "parser/tree/mend.h"

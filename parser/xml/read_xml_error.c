@@ -1,4 +1,4 @@
-#include "parser/xml/read_xml.h"
+#include "parser/xml/xml_reader.h"
 
 #include "core/nearest.h"
 #include "parser/tree/mend.h"

@@ -2,7 +2,7 @@
 // Whatever is not surely well-formed and plain (DOCTYPE, CDATA, text, references by number, line ends in
 // values, names beyond ASCII ...) ends it without a word, and expat has the file. A fuzz target holds the two
 // to the same tree.
-#include "parser/xml/read_xml.h"
+#include "parser/xml/xml_reader.h"
 
 #include <string.h>
 

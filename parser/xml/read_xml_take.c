@@ -1,6 +1,6 @@
 // Handing the root's children to the taker as they are read. A child is whole when the next one begins: until
 // then a comment on the line of its end may belong to it.
-#include "parser/xml/read_xml.h"
+#include "parser/xml/xml_reader.h"
 
 void xml_take_mark(struct xml_reader *r) {
     r->taken.nodes_mark = r->tree->nodes.count;

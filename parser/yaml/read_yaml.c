@@ -1,4 +1,4 @@
-#include "parser/yaml/read_yaml.h"
+#include "parser/yaml/yaml_reader.h"
 
 #include <string.h>
 
@@ -8,28 +8,6 @@ enum {
     ATTEMPTS_FREE = 8,
     REREAD_BYTES_MAX = 32 * 1024 * 1024
 };
-
-span yaml_span(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
-    uint32_t size = (uint32_t)r->text->bytes.len;
-    return (span){r->text->source, begin < size ? begin : size, end < size ? end : size};
-}
-
-uint32_t yaml_find_byte(struct yaml_reader *r, yaml_mark_t mark) {
-    str text = r->text->bytes;
-    uint32_t at = r->place_bytes;
-    while (r->place_characters < mark.index && at < text.len) {
-        at += (uint32_t)utf8_sequence_length(text, at);
-        r->place_characters++;
-    }
-    while (r->place_characters > mark.index && at > r->text->begin) {
-        do
-            at--;
-        while (at > r->text->begin && ((unsigned char)text.ptr[at] & 0xC0) == 0x80);
-        r->place_characters--;
-    }
-    r->place_bytes = at;
-    return at;
-}
 
 // ---- properties: anchor and tag before a node
 

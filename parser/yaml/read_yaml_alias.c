@@ -1,5 +1,5 @@
 #include "core/nearest.h"
-#include "parser/yaml/read_yaml.h"
+#include "parser/yaml/yaml_reader.h"
 
 uint32_t yaml_anchor_add(struct yaml_reader *r, str name, span at, tree_index node) {
     if (r->anchors.count == 0)
@@ -42,48 +42,6 @@ static tree_index undefined(struct yaml_reader *r, str name, span at) {
     return add_bad(r, at);
 }
 
-// Whether one more copied node is allowed at this depth; reports where not.
-static bool may_copy(struct yaml_reader *r, uint64_t depth, span at) {
-    const struct limits *limits = r->context->limits;
-    if (r->stopped)
-        return false;
-    if (depth > limits->value[LIMIT_SCENE_DEPTH])
-        reader_limit(&r->sink, limits, LIMIT_SCENE_DEPTH, at, "this alias nests lists and maps too deeply");
-    else if (++r->alias_nodes > limits->value[LIMIT_ALIAS_NODES])
-        reader_limit(&r->sink, limits, LIMIT_ALIAS_NODES, at, "aliases add too many values to the file");
-    else
-        return true;
-    r->stopped = true;
-    return false;
-}
-
-// Recursion ends at the depth limit.
-static tree_index copy_node(struct yaml_reader *r, tree_index from, uint64_t depth, span at) {
-    struct tree_node node = *tree_node(r->tree, from);
-    bool nests = node.kind == TREE_LIST || node.kind == TREE_MAP;
-    if (!may_copy(r, depth + nests, at))
-        return 0;
-    tree_index child = nests ? node.value : 0;
-    node.next = 0;
-    node.flags &= (uint8_t)~TREE_SHARED;
-    if (nests)
-        node.value = 0;
-    tree_index copy = yaml_add(r, node);
-    for (tree_index last = 0; child && !r->stopped; child = tree_next(r->tree, child)) {
-        tree_index copied = copy_node(r, child, depth + 1, at);
-        if (last)
-            tree_node(r->tree, last)->next = copied;
-        else
-            tree_node(r->tree, copy)->value = copied;
-        last = copied;
-    }
-    return copy;
-}
-
-tree_index yaml_copy(struct yaml_reader *r, tree_index node) {
-    return copy_node(r, node, r->depth, tree_span(r->tree, node));
-}
-
 void yaml_alias(struct yaml_reader *r, str name, span at) {
     if (yaml_at_key(r)) {
         diag_add(&r->sink, DIAG_YAML_KEY, at, "an alias where a key belongs");
@@ -105,7 +63,7 @@ void yaml_alias(struct yaml_reader *r, str name, span at) {
         diag_note(&r->sink, r->anchors.items[index].at, "the anchor is here");
         node = add_bad(r, at);
     } else {
-        node = copy_node(r, r->anchors.items[index].node, r->depth, at);
+        node = yaml_copy(r, r->anchors.items[index].node, at);
         if (r->stopped)
             return;
         tree_node(r->tree, node)->key = TREE_KEY_NONE;

@@ -1,29 +1,6 @@
-#include "parser/yaml/read_yaml.h"
+#include "parser/yaml/yaml_reader.h"
 
 #include <string.h>
-
-tree_index yaml_add(struct yaml_reader *r, struct tree_node node) {
-    if (r->tree->nodes.count + r->taken.nodes > r->context->limits->value[LIMIT_SCENE_NODES] && !r->stopped) {
-        reader_limit(&r->sink, r->context->limits, LIMIT_SCENE_NODES, yaml_span(r, node.begin, node.end),
-                     "too many values in the file");
-        r->stopped = true;
-    }
-    return tree_add(r->tree, node);
-}
-
-static struct yaml_frame *top(const struct yaml_reader *r) {
-    return r->depth ? &r->frames[r->depth - 1] : NULL;
-}
-
-bool yaml_at_key(const struct yaml_reader *r) {
-    const struct yaml_frame *frame = top(r);
-    return frame && tree_node(r->tree, frame->node)->kind == TREE_MAP && frame->key == 0;
-}
-
-bool yaml_at_entry(const struct yaml_reader *r) {
-    const struct yaml_frame *frame = top(r);
-    return frame && (tree_node(r->tree, frame->node)->kind == TREE_LIST || frame->key == 0);
-}
 
 static void link_child(struct yaml_reader *r, struct yaml_frame *frame, tree_index child) {
     if (frame->last)
@@ -86,8 +63,8 @@ static void take_key(struct yaml_reader *r, struct yaml_frame *frame, tree_index
 void yaml_put_bad_key(struct yaml_reader *r, tree_index node) {
     tree_node(r->tree, node)->flags |= TREE_BAD;
     tree_node(r->tree, node)->key = TREE_KEY_PLAIN;
-    top(r)->key = node;
-    top(r)->merges = false;
+    yaml_top(r)->key = node;
+    yaml_top(r)->merges = false;
 }
 
 static void take_value(struct yaml_reader *r, struct yaml_frame *frame, tree_index value) {
@@ -112,7 +89,7 @@ static void take_value(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
 }
 
 void yaml_put(struct yaml_reader *r, tree_index node) {
-    struct yaml_frame *frame = top(r);
+    struct yaml_frame *frame = yaml_top(r);
     if (!frame) {
         r->tree->root = node;
     } else if (tree_node(r->tree, frame->node)->kind == TREE_LIST) {
@@ -142,7 +119,7 @@ void yaml_open(struct yaml_reader *r, tree_index node, uint32_t anchor) {
 }
 
 void yaml_close(struct yaml_reader *r, uint32_t end) {
-    struct yaml_frame *frame = top(r);
+    struct yaml_frame *frame = yaml_top(r);
     tree_index node = frame->node;
     if (tree_node(r->tree, node)->kind == TREE_MAP)
         yaml_unique_keys(r, frame);
@@ -162,7 +139,7 @@ void yaml_close(struct yaml_reader *r, uint32_t end) {
 
 void yaml_close_cut(struct yaml_reader *r) {
     while (r->depth) {
-        struct yaml_frame *frame = top(r);
+        struct yaml_frame *frame = yaml_top(r);
         bool is_key = frame->is_key;
         frame->key = 0;
         tree_node(r->tree, frame->node)->flags |= TREE_CUT;

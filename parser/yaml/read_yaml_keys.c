@@ -1,4 +1,4 @@
-#include "parser/yaml/read_yaml.h"
+#include "parser/yaml/yaml_reader.h"
 
 // Links the pairs of `map` behind the children of the frame.
 static void move_pairs(struct yaml_reader *r, struct yaml_frame *frame, tree_index map) {
@@ -19,7 +19,8 @@ static void move_pairs(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
 
 // What a node holds, to be moved from there: of an anchored one, a copy.
 static tree_index own(struct yaml_reader *r, tree_index node) {
-    return tree_node(r->tree, node)->flags & TREE_SHARED ? yaml_copy(r, node) : node;
+    return tree_node(r->tree, node)->flags & TREE_SHARED ? yaml_copy(r, node, tree_span(r->tree, node))
+                                                         : node;
 }
 
 // Merges a map; false: it is none (reported, unless the reader has).

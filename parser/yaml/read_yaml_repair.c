@@ -1,4 +1,4 @@
-#include "parser/yaml/read_yaml.h"
+#include "parser/yaml/yaml_reader.h"
 
 #include <string.h>
 

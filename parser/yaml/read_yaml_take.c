@@ -1,6 +1,6 @@
 // Handing entries of the root's lists and maps to the taker as they are read. An entry is whole when the
 // token behind it was found: until then a comment on its line may belong to it.
-#include "parser/yaml/read_yaml.h"
+#include "parser/yaml/yaml_reader.h"
 
 static void fail(struct yaml_reader *r) {
     r->taken.failed = true;

@@ -6,8 +6,8 @@
 // root over before the file is read to its end, read_xml_error.c puts expat's errors in words. Ownership: the
 // arena of the reader_context. Nothing ever jumps through expat's frames. Thread safety: one reader belongs
 // to one thread.
-#ifndef GLINT_PARSER_XML_READ_XML_H
-#define GLINT_PARSER_XML_READ_XML_H
+#ifndef GLINT_PARSER_XML_XML_READER_H
+#define GLINT_PARSER_XML_XML_READER_H
 
 #include "parser/tree/reader_text.h"
 #include "parser/tree/xml_scan.h"
@@ -68,10 +68,6 @@ struct xml_reader {
 // Reports and repairs, in the whole text.
 void xml_repair(const struct reader_context *context, struct reader_text *text);
 
-// ---- read_xml.c
-// Ends the reading, here and in expat.
-void xml_stop(struct xml_reader *reader);
-
 // ---- read_xml_build.c
 // An opening tag, from '<' to behind '>'; its attributes follow, then xml_opened. false: the reading ended.
 bool xml_open(struct xml_reader *reader, struct reader_range tag, str name);
@@ -101,6 +97,12 @@ void xml_take_close(struct xml_reader *reader, tree_index key);
 // ---- read_xml_error.c
 void xml_report(struct xml_reader *reader);
 
+// Ends the reading, here and in expat.
+static inline void xml_stop(struct xml_reader *reader) {
+    if (!reader->stopped && reader->parser)
+        XML_StopParser(reader->parser, XML_FALSE);
+    reader->stopped = true;
+}
 static inline span xml_span(const struct xml_reader *reader, uint32_t begin, uint32_t end) {
     return (span){reader->text->source, begin, end};
 }

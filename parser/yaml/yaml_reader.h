@@ -1,14 +1,15 @@
 // What the files of the YAML reader share: its state, one libyaml parser at a time.
 //
 // read_yaml.c runs libyaml's events, read_yaml_build.c links nodes into the tree, read_yaml_take.c hands
-// entries of the root's lists over before the file is read to its end, read_yaml_alias.c
-// copies what aliases stand for, read_yaml_keys.c merges maps and finds keys given twice,
+// entries of the root's lists over before the file is read to its end, read_yaml_alias.c finds what aliases
+// stand for, read_yaml_copy.c copies it, read_yaml_keys.c merges maps and finds keys given twice,
 // read_yaml_comment.c finds comments between tokens, read_yaml_repair.c repairs what glint understands
-// better than libyaml, read_yaml_error.c puts libyaml's errors in words. All places are bytes of the source.
+// better than libyaml, read_yaml_error.c puts libyaml's errors in words. They call read_yaml_place.c, which
+// knows where the reader stands, and none calls read_yaml.c. All places are bytes of the source.
 // Ownership: the arena of the reader_context; libyaml's own memory is freed before any jump leaves.
 // Thread safety: one reader belongs to one thread.
-#ifndef GLINT_PARSER_YAML_READ_YAML_H
-#define GLINT_PARSER_YAML_READ_YAML_H
+#ifndef GLINT_PARSER_YAML_YAML_READER_H
+#define GLINT_PARSER_YAML_YAML_READER_H
 
 #include "parser/tree/reader_text.h"
 
@@ -87,6 +88,7 @@ struct yaml_reader {
     uint32_t blamed; // 1 + the place of a mistake that makes libyaml refuse the rest of the line; 0: none
 };
 
+// ---- read_yaml_place.c
 // The span of `begin` to `end` in the reader's source.
 span yaml_span(const struct yaml_reader *reader, uint32_t begin, uint32_t end);
 // Byte offset of a mark.
@@ -108,16 +110,21 @@ static inline bool yaml_is_indent(const struct yaml_reader *reader, uint32_t at)
            (yaml_char(reader, at) == '-' && char_is_blank(yaml_char(reader, at + 1)));
 }
 
-// ---- read_yaml_build.c
+// The list or map that is being read; NULL: none.
+static inline struct yaml_frame *yaml_top(const struct yaml_reader *reader) {
+    return reader->depth ? &reader->frames[reader->depth - 1] : NULL;
+}
+// Whether the next node is an item of a list or a key of a map.
+bool yaml_at_entry(const struct yaml_reader *reader);
+bool yaml_at_key(const struct yaml_reader *reader);
 // Adds a node, counted against the limit.
 tree_index yaml_add(struct yaml_reader *reader, struct tree_node node);
+
+// ---- read_yaml_build.c
 // Puts a whole node in its place: as the root, the next item, a key or the value of the waiting key.
 void yaml_put(struct yaml_reader *reader, tree_index node);
 // Takes a node that is no key, and was reported, as one; its pair is left out.
 void yaml_put_bad_key(struct yaml_reader *reader, tree_index node);
-// Whether the next node is an item of a list or a key of a map.
-bool yaml_at_entry(const struct yaml_reader *reader);
-bool yaml_at_key(const struct yaml_reader *reader);
 void yaml_open(struct yaml_reader *reader, tree_index node, uint32_t anchor);
 void yaml_close(struct yaml_reader *reader, uint32_t end);
 // Closes what is open when the reading ends early; marked TREE_CUT.
@@ -137,8 +144,11 @@ bool yaml_take(struct yaml_reader *reader, tree_index entry);
 // Remembers a name for a node (0: one that is yet to be added); gives its number.
 uint32_t yaml_anchor_add(struct yaml_reader *reader, str name, span at, tree_index node);
 void yaml_alias(struct yaml_reader *reader, str name, span at);
-// A copy of a node, within the budget of aliases; 0 where that is used up (reported).
-tree_index yaml_copy(struct yaml_reader *reader, tree_index node);
+
+// ---- read_yaml_copy.c
+// A copy of a node, within the budget of aliases; 0 where that is used up (reported `at` the alias, or where
+// the node stands).
+tree_index yaml_copy(struct yaml_reader *reader, tree_index node, span at);
 
 // ---- read_yaml_keys.c
 // Moves the pairs of the value of '<<', the key, into the map of the frame.
