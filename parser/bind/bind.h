@@ -1,6 +1,6 @@
 // Binding: a neutral tree to the IR of one file, by walking the schema table. Private to parser/.
 //
-// bind.c knows kinds of rows and never an element's name. Every mistake is reported once; a row whose
+// The binder knows kinds of rows and never an element's name. Every mistake is reported once; a row whose
 // value fails keeps its default and is marked in ir_head.poisoned. Nodes that the reader has reported
 // (TREE_BAD) poison their row without a word.
 // Ownership: IR, texts and places go into `arena`; `scratch` lives until the file is bound.
@@ -97,19 +97,70 @@ static inline enum tree_kind bind_kind(const struct bind_context *context, tree_
     return tree_node(context->tree, node)->kind;
 }
 
-// bind.c
+// The rows of an element's first keys, which are asked for twice.
+struct bind_key_rows {
+    uint32_t count;
+    struct {
+        int row;
+        bool single;
+    } items[16];
+};
+
+// The values of one row, one after the other.
+struct bind_values {
+    bool repeated; // XML
+    bool named;    // a YAML map
+    uint32_t row;
+    tree_index at; // a key where repeated or named, else an item; 0: no more
+};
+
+// Entries that are recognised in spite of a mistake.
+struct bind_found {
+    str name; // empty: none
+    struct bind_given given;
+};
+struct bind_entries {
+    struct bind_found *items;
+    uint32_t count, capacity;
+};
+
+// What a name that an element does not have was meant to be, where that is clear.
+struct bind_meant {
+    enum {
+        BIND_MEANT_NOTHING,
+        BIND_MEANT_ROW,     // `row`, in another style
+        BIND_MEANT_ITSELF,  // the element, around its own rows once more
+        BIND_MEANT_ENTRIES, // a list, around entries that stand without one
+    } what;
+    uint32_t row;
+};
+
+// bind_file.c
 // A scene at its defaults.
 struct ir_scene *bind_new_scene(struct bind_context *context);
 // The scene of a tree, alone; NULL where the tree is no scene, or one of another version (reported).
 struct ir_scene *bind_file(struct bind_context *context);
-// Binds all rows that `node` gives into frame->memory, and checks that what is required is there.
-// false: the node has not the shape of the element (reported, or known to the reader).
+
+// bind_element.c: the only file of the binder that comes back to itself; it calls those below, and none of
+// them calls it. Binds all rows that `node` gives into frame->memory, and checks that what is required is
+// there. false: the node has not the shape of the element (reported, or known to the reader).
 bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node);
 // Binds all pairs of a map as rows of the element: names first, so that messages can use them.
 void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_index node);
+// Those rows that come first, or the others.
+void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_index node, bool first,
+               struct bind_key_rows *known);
 // Binds one row; `single` as schema_find_yaml gives it.
 void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
               struct bind_given given);
+// An entry of a list, bound into memory of its own and appended to the parent's row; `name`: its key.
+// false: no entry was added.
+bool bind_entry(struct bind_context *context, struct bind_frame *parent, const struct schema_row *row,
+                str name, struct bind_given given);
+// Binds an entry into memory that it has already (an override of a whole entry).
+bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given);
+
+// bind_row.c
 // The row that a key names at its place, or -1. The key of a named map's entry is none.
 int bind_find_row(const struct bind_context *context, const struct schema_element *schema, tree_index key,
                   bool *is_single);
@@ -131,33 +182,37 @@ void bind_missing(struct bind_context *context, struct bind_frame *frame, bool s
 void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
                          const struct schema_row *row);
 
-// bind_many.c
-// Lists, named maps and fixed numbers of values.
-void bind_many(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
-               struct bind_given given);
+// bind_fixed.c
+// The value behind values->at; 0: it was the last.
+tree_index bind_next_value(const struct bind_context *context, const struct bind_frame *frame,
+                           const struct bind_values *values);
+// A row with a fixed number of values. `may_be_cut`: the file broke off, so that some may be missing.
+void bind_fixed(struct bind_context *context, struct bind_frame *frame, uint32_t row, struct bind_given given,
+                struct bind_values values, bool may_be_cut);
 
 // bind_loose.c: what is recognised in spite of a mistake that was reported is read on, so that its own
 // mistakes show in the same run and names in it are known. Rows touched are poisoned by the caller.
-// The entries that a value of the wrong shape holds; replaces the last diagnostic's help where there is a
-// better one than an example (`reported`).
-void bind_loose_entries(struct bind_context *context, struct bind_frame *frame, uint32_t row,
-                        struct bind_given given, bool reported);
+// The entries that a value of the wrong shape holds, in scratch; replaces the last diagnostic's help where
+// there is a better one than an example (`reported`).
+struct bind_entries bind_loose_entries(struct bind_context *context, const struct schema_row *row,
+                                       tree_index value, bool reported);
 // Keys behind `key` that belong into its value, one column further right: `outer` (NULL: none) does not know
 // them, the elements of `row` do. Reports and marks them, and what they are missed by.
 void bind_loose_columns(struct bind_context *context, const struct bind_frame *outer,
                         const struct schema_row *row, tree_index key);
-// The value of a key that names a row in another style.
-void bind_loose_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index key);
 
 // bind_entry.c
-// An entry of a list, bound into memory of its own and appended to the parent's row; `name`: its key.
-// false: no entry was added.
-bool bind_entry(struct bind_context *context, struct bind_frame *parent, const struct schema_row *row,
-                str name, struct bind_given given);
-// Binds an entry into memory that it has already (an override of a whole entry).
-bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given);
+// An entry at its defaults, in scratch.
+struct bind_frame bind_entry_begin(struct bind_context *context, const struct bind_frame *parent,
+                                   const struct schema_row *row, str name, struct bind_given given);
+// Gives an entry of a named map the key that it stands behind.
+void bind_entry_key(struct bind_context *context, struct bind_frame *child, struct bind_given given);
 // Gives an element that has no key the standard one of its list, where that has one.
 void bind_default_key(struct bind_context *context, struct bind_frame *child);
+// Whether the parent's list has an entry of this key already; reports it. (Names of the scene's own things
+// are compared over all files, later.)
+bool bind_is_second(struct bind_context *context, const struct bind_frame *parent,
+                    const struct bind_frame *child);
 
 // bind_list.c
 // Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; gives its
@@ -174,8 +229,11 @@ void bind_clear_row(struct arena *scratch, struct ir_origin *origin, const struc
 // The scene's row whose list holds elements of this schema; never -1 for the child of a reference.
 uint32_t bind_home_row(const struct schema_element *schema);
 
-// bind_value.c: one value of a row that holds neither elements nor lists. false: reported or known.
+// bind_composite.c: one value of a row that holds neither elements nor lists. false: reported or known.
 bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
+
+// bind_scalar.c: a value that is no vector, colour or weights.
+bool bind_scalar(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
 bool bind_number(struct bind_context *context, struct bind_subject subject, tree_index node, double *out);
 bool bind_name_text(struct bind_context *context, struct bind_subject subject, str text, span at);
 // Reports a value of the wrong shape, unless the reader has reported the node. Always false.
@@ -188,9 +246,6 @@ void bind_help_shape(struct bind_context *context, struct bind_subject subject, 
 // The same, and nothing where they are not told apart. Of a list the text is taken. false: nothing.
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node);
 bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node);
-
-// bind_composite.c: vectors, colours, weights.
-bool bind_composite(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
 
 // bind_color.c
 // A colour from a text: #rrggbb, or one number.
@@ -212,8 +267,7 @@ void bind_fix_as_child(struct bind_context *context, tree_index value, str child
 int bind_find_style(struct bind_context *context, const struct bind_frame *frame, tree_index key);
 // Proposes another name for an element of XML, in its end tag too.
 void bind_fix_tag(struct bind_context *context, span at, tree_index element, bool safe, str right);
-// Reports a name that the element does not have, with what may have been meant, and reads what it holds where
-// that is clear.
-void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key);
+// Reports a name that the element does not have, with what may have been meant.
+struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key);
 
 #endif

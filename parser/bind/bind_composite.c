@@ -1,4 +1,5 @@
 // Values of several components: vectors, colours, weights; as a list, by name, or as one number or #rrggbb.
+// All others are bind_scalar.c's.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
@@ -202,7 +203,8 @@ static tree_index hex_attribute(const struct bind_context *context, const struct
     return is_hex ? tree_value(context->tree, key) : 0;
 }
 
-bool bind_composite(struct bind_context *context, struct bind_subject subject, tree_index node, void *out) {
+static bool bind_composite(struct bind_context *context, struct bind_subject subject, tree_index node,
+                           void *out) {
     const struct tree_node *n = tree_node(context->tree, node);
     const struct schema_row *row = subject.row;
     double numbers[COMPONENTS_MAX] = {0};
@@ -235,4 +237,10 @@ bool bind_composite(struct bind_context *context, struct bind_subject subject, t
         bind_check_bytes(context, subject, node, numbers);
     store(row->kind, numbers, out);
     return true;
+}
+
+bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out) {
+    enum schema_kind kind = subject.row->kind;
+    bool composite = kind == SCHEMA_VECTOR || kind == SCHEMA_COLOR || kind == SCHEMA_WEIGHTS;
+    return composite ? bind_composite(context, subject, node, out) : bind_scalar(context, subject, node, out);
 }

@@ -1,4 +1,4 @@
-// Entries of lists and named maps.
+// An entry of a list or named map before and after its rows: memory, label, key.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 
@@ -40,9 +40,8 @@ void bind_default_key(struct bind_context *context, struct bind_frame *child) {
     bind_head(child)->written |= bind_bit((uint32_t)row);
 }
 
-// Whether the list has an entry of this key already; reports it. (Names of the scene's own things are
-// compared over all files, later.)
-static bool is_second(struct bind_context *context, struct bind_frame *parent, struct bind_frame *child) {
+bool bind_is_second(struct bind_context *context, const struct bind_frame *parent,
+                    const struct bind_frame *child) {
     int row = child->via->many == SCHEMA_NAMED_MAP ? schema_key_row(child->schema) : -1;
     if (row < 0 || child->schema->rows[row].text == SCHEMA_TEXT_NAME ||
         key_field(child, (uint32_t)row)->len == 0)
@@ -63,30 +62,21 @@ static bool is_second(struct bind_context *context, struct bind_frame *parent, s
     return false;
 }
 
-bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given) {
+void bind_entry_key(struct bind_context *context, struct bind_frame *child, struct bind_given given) {
     int key_row = child->via->many == SCHEMA_NAMED_MAP ? schema_key_row(child->schema) : -1;
     if (key_row >= 0 && !context->tree->is_xml && (child->name.len || given.key))
         set_key(context, child, (uint32_t)key_row, given.key_span);
-    bool good = bind_element(context, child, given.value);
-    // An entry that could not be read stays where it has a name: others may refer to it.
-    if (!good)
-        bind_head(child)->poisoned = ~(uint64_t)0;
-    return good || child->name.len;
 }
 
-bool bind_entry(struct bind_context *context, struct bind_frame *parent, const struct schema_row *row,
-                str name, struct bind_given given) {
+struct bind_frame bind_entry_begin(struct bind_context *context, const struct bind_frame *parent,
+                                   const struct schema_row *row, str name, struct bind_given given) {
     void *memory = arena_alloc(context->scratch, row->child->size);
     schema_index_defaults(context->index, row->child, memory);
-    struct bind_frame child = {.parent = parent,
+    return (struct bind_frame){.parent = parent,
                                .schema = row->child,
                                .via = row,
                                .memory = memory,
                                .name = name,
                                .label = label_of(context, given),
                                .comments = given.comments};
-    if (!bind_entry_into(context, &child, given) || is_second(context, parent, &child))
-        return false;
-    bind_list_push(context->arena, schema_field(row, parent->memory), memory, row->child->size);
-    return true;
 }

@@ -15,17 +15,15 @@ static bool is_entry(struct bind_context *context, const struct schema_row *row,
     return false;
 }
 
-static void add_entry(struct bind_context *context, struct bind_frame *frame, const struct schema_row *row,
-                      str name, struct bind_given given) {
-    if (bind_is_known(context, given.value))
-        return;
-    if (bind_entry(context, frame, row, name, given))
-        bind_head(frame)->written |= bind_bit((uint32_t)(row - frame->schema->rows));
+static void add_entry(struct bind_context *context, struct bind_entries *entries, str name,
+                      struct bind_given given) {
+    if (!bind_is_known(context, given.value))
+        *ARENA_PUSH(context->scratch, entries) = (struct bind_found){name, given};
 }
 
 // A map where a list belongs: one entry, or entries by name.
-static void map_for_list(struct bind_context *context, struct bind_frame *frame, const struct schema_row *row,
-                         tree_index map, bool reported) {
+static void map_for_list(struct bind_context *context, struct bind_entries *entries,
+                         const struct schema_row *row, tree_index map, bool reported) {
     struct diag_sink *sink = context->sink;
     const struct tree *tree = context->tree;
     tree_index first = tree_first(tree, map);
@@ -46,7 +44,7 @@ static void map_for_list(struct bind_context *context, struct bind_frame *frame,
             diag_help(sink, "put it into a list: [{...}]");
         else if (reported)
             diag_help(sink, "begin each entry with '- ', also where there is only one");
-        add_entry(context, frame, row, STR(""), (struct bind_given){.value = map});
+        add_entry(context, entries, STR(""), (struct bind_given){.value = map});
         return;
     }
     if (bind_kind(context, tree_value(tree, first)) != TREE_MAP)
@@ -56,7 +54,7 @@ static void map_for_list(struct bind_context *context, struct bind_frame *frame,
                   STR_ARG(say_text(context->scratch, tree_text(tree, first))));
     for (tree_index key = first; key; key = tree_next_key(tree, key))
         if (bind_kind(context, tree_value(tree, key)) == TREE_MAP && !bind_is_bad_pair(context, map, key))
-            add_entry(context, frame, row, STR(""), bind_given_by(context, key));
+            add_entry(context, entries, STR(""), bind_given_by(context, key));
 }
 
 // The name that an item of a list gives itself, for a map that has names as keys; its pair is then taken.
@@ -78,8 +76,8 @@ static str take_name(const struct bind_context *context, const struct schema_row
 }
 
 // A list where a map by name belongs.
-static void list_for_map(struct bind_context *context, struct bind_frame *frame, const struct schema_row *row,
-                         tree_index list, bool reported) {
+static void list_for_map(struct bind_context *context, struct bind_entries *entries,
+                         const struct schema_row *row, tree_index list, bool reported) {
     for (tree_index item = tree_first(context->tree, list); item; item = tree_next(context->tree, item)) {
         if (bind_kind(context, item) != TREE_MAP)
             continue;
@@ -89,12 +87,12 @@ static void list_for_map(struct bind_context *context, struct bind_frame *frame,
             diag_help(context->sink, "write each entry behind its name, without '- ' and 'name': %.*s: {...}",
                       STR_ARG(say_text(context->scratch, name)));
         reported = false;
-        add_entry(context, frame, row, name, given);
+        add_entry(context, entries, name, given);
     }
 }
 
 // One value where a list of values belongs that need no more than that.
-static void value_for_list(struct bind_context *context, struct bind_frame *frame,
+static void value_for_list(struct bind_context *context, struct bind_entries *entries,
                            const struct schema_row *row, tree_index value, bool reported) {
     str written = source_text(context->sources, tree_span(context->tree, value));
     if (schema_short_row(row->child) < 0 || row->many != SCHEMA_SEQUENCE)
@@ -104,55 +102,22 @@ static void value_for_list(struct bind_context *context, struct bind_frame *fram
         diag_help(context->sink, "write %.*s", STR_ARG(say_text(context->scratch, mended)));
         diag_fix(context->sink, true, tree_span(context->tree, value), mended);
     }
-    add_entry(context, frame, row, STR(""), (struct bind_given){.value = value});
+    add_entry(context, entries, STR(""), (struct bind_given){.value = value});
 }
 
-void bind_loose_entries(struct bind_context *context, struct bind_frame *frame, uint32_t row,
-                        struct bind_given given, bool reported) {
-    const struct schema_row *r = &frame->schema->rows[row];
-    enum tree_kind kind = bind_kind(context, given.value);
-    if (r->many == SCHEMA_FIXED || bind_is_known(context, given.value))
-        return;
-    if (kind == TREE_MAP)
-        map_for_list(context, frame, r, given.value, reported);
-    else if (kind == TREE_LIST)
-        list_for_map(context, frame, r, given.value, reported);
-    else if (kind == TREE_SCALAR)
-        value_for_list(context, frame, r, given.value, reported);
-}
-
-// Whether a value has the shape of the row: what has not would be reported for the same mistake.
-static bool fits(const struct bind_context *context, const struct schema_row *row, bool single,
-                 tree_index value) {
+struct bind_entries bind_loose_entries(struct bind_context *context, const struct schema_row *row,
+                                       tree_index value, bool reported) {
+    struct bind_entries entries = {0};
     enum tree_kind kind = bind_kind(context, value);
-    if (row->many == SCHEMA_SEQUENCE)
-        return kind == TREE_LIST;
-    if (row->many == SCHEMA_NAMED_MAP || single)
-        return kind == TREE_MAP;
-    if (row->kind == SCHEMA_ELEMENT && schema_short_row(row->child) < 0)
-        return kind == TREE_MAP;
-    return kind != TREE_NULL;
-}
-
-void bind_loose_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index key) {
-    const struct schema_row *r = &frame->schema->rows[row];
-    const struct tree *tree = context->tree;
-    struct bind_given given = bind_given_by(context, key);
-    bool child = tree_node(tree, key)->key == TREE_KEY_CHILD;
-    if ((frame->seen & bind_bit(row)) || bind_is_known(context, given.value))
-        return;
-    if (child && r->many != SCHEMA_ONE) {
-        if (r->many != SCHEMA_FIXED)
-            add_entry(context, frame, r, STR(""), given);
-        return;
-    }
-    str snake = mend_snake(context->scratch, tree_text(tree, key));
-    bool single = r->single && !child && str_equal_cstr(snake, r->name);
-    if (fits(context, r, single, given.value))
-        bind_row(context, frame, row, single, given);
-    else if (r->many != SCHEMA_ONE)
-        bind_loose_entries(context, frame, row, given, false);
-    bind_poison(frame, row);
+    if (row->many == SCHEMA_FIXED || bind_is_known(context, value))
+        return entries;
+    if (kind == TREE_MAP)
+        map_for_list(context, &entries, row, value, reported);
+    else if (kind == TREE_LIST)
+        list_for_map(context, &entries, row, value, reported);
+    else if (kind == TREE_SCALAR)
+        value_for_list(context, &entries, row, value, reported);
+    return entries;
 }
 
 // Whether a key belongs to the elements of `row`, and to nothing where it stands.

@@ -236,7 +236,8 @@ static bool is_glued(struct bind_context *context, struct bind_frame *frame, tre
 }
 
 // A key around what belongs in its own place: '- sphere: {...}', 'scene: {...}', <Spheres> around spheres.
-static bool is_wrapper(struct bind_context *context, struct bind_frame *frame, tree_index key, str snake) {
+static bool is_wrapper(struct bind_context *context, struct bind_frame *frame, tree_index key, str snake,
+                       struct bind_meant *meant) {
     tree_index value = tree_value(context->tree, key);
     enum tree_key kind = tree_node(context->tree, key)->key;
     if (bind_kind(context, value) != TREE_MAP || bind_is_bad(context, value) || kind == TREE_KEY_ATTRIBUTE)
@@ -258,11 +259,7 @@ static bool is_wrapper(struct bind_context *context, struct bind_frame *frame, t
     else
         diag_help(context->sink, "this is %.*s already: write what it holds in its place",
                   STR_ARG(say_article(context->scratch, frame->schema->name)));
-    uint64_t seen = frame->seen;
-    if (row)
-        frame->seen = 0; // <Sphere> may stand inside and outside
-    bind_pairs(context, frame, value);
-    frame->seen = row ? seen : frame->seen | seen;
+    meant->what = row ? BIND_MEANT_ENTRIES : BIND_MEANT_ITSELF;
     return true;
 }
 
@@ -388,28 +385,29 @@ static bool is_rest(struct bind_context *context, tree_index key) {
     return true;
 }
 
-void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    struct bind_meant meant = {BIND_MEANT_NOTHING, 0};
     enum tree_key kind = tree_node(context->tree, key)->key;
     str text = tree_text(context->tree, key);
     if (diag_is_full(context->sink)) {
         diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(context->tree, key), "unknown name");
-        return;
+        return meant;
     }
     struct mend_search search = search_rows(context, frame, text);
     if (is_mixed(context, frame, key) || is_glued(context, frame, key) ||
-        is_wrapper(context, frame, key, search.snake) || is_reference(context, frame, key) ||
+        is_wrapper(context, frame, key, search.snake, &meant) || is_reference(context, frame, key) ||
         is_rest(context, key))
-        return;
+        return meant;
     const struct schema_row *near = search.best ? &frame->schema->rows[search.best_id] : NULL;
     bool exact = near && search.distance == 0;
     bool style_is_right = near && (str_equal_cstr(text, near->name) || kind == TREE_KEY_CHILD);
     if (exact && !near->key && !spelling(near, kind, false) && style_is_right) {
         wrong_form(context, frame, key, search.best_id);
-        return;
+        return meant;
     }
     int also = exact ? -1 : schema_find_also(frame->schema, search.snake);
     if (!exact && also < 0 && is_component(context, frame, key))
-        return;
+        return meant;
     str other = exact || also >= 0 ? STR("") : elsewhere(context, frame, search.snake, false);
     if (!near && also < 0 && other.len == 0 && search.snake.len > 3)
         other = elsewhere(context, frame, search.snake, true);
@@ -427,5 +425,6 @@ void bind_unknown_name(struct bind_context *context, struct bind_frame *frame, t
     else
         list_what_there_is(context, frame, kind);
     if (exact && !near->key && spelling(near, kind, false))
-        bind_loose_row(context, frame, (uint32_t)search.best_id, key);
+        meant = (struct bind_meant){BIND_MEANT_ROW, (uint32_t)search.best_id};
+    return meant;
 }

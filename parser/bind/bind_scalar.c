@@ -395,14 +395,11 @@ static bool bind_text(struct bind_context *context, struct bind_subject subject,
     return good;
 }
 
-bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out) {
-    enum schema_kind kind = subject.row->kind;
-    if (kind == SCHEMA_VECTOR || kind == SCHEMA_COLOR || kind == SCHEMA_WEIGHTS)
-        return bind_composite(context, subject, node, out);
+bool bind_scalar(struct bind_context *context, struct bind_subject subject, tree_index node, void *out) {
     if (!is_scalar(context, subject, node))
         return false;
     double number;
-    switch (kind) {
+    switch (subject.row->kind) {
     case SCHEMA_BOOLEAN:
         return bind_boolean(context, subject, node, out);
     case SCHEMA_INTEGER:

@@ -1,87 +1,11 @@
+// Elements, their rows and the entries of these: what calls itself for what stands inside.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
 
 #include <string.h>
 
-int bind_find_row(const struct bind_context *context, const struct schema_element *schema, tree_index key,
-                  bool *is_single) {
-    static const enum schema_name_kind kinds[] = {[TREE_KEY_PLAIN] = SCHEMA_NAME_KEY,
-                                                  [TREE_KEY_ATTRIBUTE] = SCHEMA_NAME_ATTRIBUTE,
-                                                  [TREE_KEY_CHILD] = SCHEMA_NAME_CHILD};
-    enum schema_name_kind kind = kinds[tree_node(context->tree, key)->key];
-    return schema_index_find(context->index, schema, kind, tree_text(context->tree, key), is_single);
-}
-
-struct bind_given bind_given_by(const struct bind_context *context, tree_index key) {
-    return (struct bind_given){.key = key,
-                               .key_span = tree_span(context->tree, key),
-                               .comments = tree_comments(context->tree, key),
-                               .value = tree_value(context->tree, key)};
-}
-
-void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint32_t row,
-                   struct bind_given given) {
-    ir_origin_add_row(context->origin, bind_head(frame)->origin,
-                      (struct ir_row_origin){.row = row,
-                                             .key = given.key_span,
-                                             .value = tree_span(context->tree, given.value),
-                                             .comments = given.comments});
-    frame->seen |= bind_bit(row);
-}
-
-// 'camera' beside 'cameras': the two forms of one row.
-static bool report_both_forms(struct bind_context *context, const struct schema_row *row,
-                              const struct ir_row_origin *first, struct bind_given given) {
-    str before = first ? source_text(context->sources, first->key) : STR("");
-    if (before.len > 2 && (before.ptr[0] == '"' || before.ptr[0] == '\''))
-        before = str_slice(before, 1, before.len - 1);
-    if (!row->single || context->tree->is_xml || before.len == 0 || !given.key ||
-        str_equal(before, tree_text(context->tree, given.key)))
-        return false;
-    diag_add(context->sink, DIAG_GIVEN_TWICE, given.key_span, "both '%s' and '%s' are given", row->name,
-             row->plural);
-    diag_note(context->sink, first->key, "'%.*s' is here", STR_ARG(before));
-    diag_help(context->sink, "'%s: {...}' is short for '%s: {%s: {...}}'; write all of them there", row->name,
-              row->plural, row->single);
-    return true;
-}
-
-void bind_report_twice(struct bind_context *context, struct bind_frame *frame, uint32_t row,
-                       struct bind_given given) {
-    const struct schema_row *r = &frame->schema->rows[row];
-    const struct ir_row_origin *first = ir_origin_row(context->origin, bind_head(frame), row);
-    if (report_both_forms(context, r, first, given))
-        return;
-    str s = say_subject(context->scratch, bind_subject(frame, r));
-    diag_add(context->sink, DIAG_GIVEN_TWICE, given.key_span, "%.*s is given twice", STR_ARG(s));
-    if (first)
-        diag_note(context->sink, first->key, "first given here");
-    diag_help(context->sink, "remove one of the two");
-}
-
-struct bind_frame bind_aside(struct bind_context *context, const struct bind_frame *frame) {
-    struct bind_frame aside = *frame;
-    aside.seen = 0;
-    aside.memory = arena_alloc(context->scratch, frame->schema->size);
-    schema_index_defaults(context->index, frame->schema, aside.memory);
-    bind_head(&aside)->origin =
-        ir_origin_add(context->origin, (struct ir_element_origin){.label = frame->label});
-    return aside;
-}
-
-str bind_copy_once(struct bind_context *context, str text) {
-    // Names that belong together differ in their last letters.
-    uint32_t end = (uint32_t)text.len;
-    for (size_t i = text.len > 3 ? text.len - 3 : 0; i < text.len; i++)
-        end = end * 31 + (unsigned char)text.ptr[i];
-    str *known = &context->texts->items[(end ^ end >> 8) % BIND_TEXTS];
-    if (!str_equal(*known, text))
-        *known = arena_copy(context->arena, text);
-    return *known;
-}
-
-// One row.
+// A row that has one value.
 
 static bool bind_reference(struct bind_context *context, struct bind_frame *frame,
                            const struct schema_row *row, struct bind_given given) {
@@ -141,6 +65,126 @@ static bool is_excluded(struct bind_context *context, struct bind_frame *frame, 
     return false;
 }
 
+// Several of a row: lists and maps in YAML, repeated children in XML, gathered where the first one stands.
+
+bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given) {
+    bind_entry_key(context, child, given);
+    bool good = bind_element(context, child, given.value);
+    // An entry that could not be read stays where it has a name: others may refer to it.
+    if (!good)
+        bind_head(child)->poisoned = ~(uint64_t)0;
+    return good || child->name.len;
+}
+
+bool bind_entry(struct bind_context *context, struct bind_frame *parent, const struct schema_row *row,
+                str name, struct bind_given given) {
+    struct bind_frame child = bind_entry_begin(context, parent, row, name, given);
+    if (!bind_entry_into(context, &child, given) || bind_is_second(context, parent, &child))
+        return false;
+    bind_list_push(context->arena, schema_field(row, parent->memory), child.memory, row->child->size);
+    return true;
+}
+
+// What a value of the wrong shape holds.
+static void loose_entries(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                          tree_index value, bool reported) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    struct bind_entries entries = bind_loose_entries(context, r, value, reported);
+    for (uint32_t i = 0; i < entries.count; i++)
+        if (bind_entry(context, frame, r, entries.items[i].name, entries.items[i].given))
+            bind_head(frame)->written |= bind_bit(row);
+}
+
+static void bind_entries(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                         struct bind_given given, struct bind_values values) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    bind_note_row(context, frame, row, given);
+    bool taken = values.repeated && (tree_node(context->tree, values.at)->flags & TREE_TAKEN);
+    for (; values.at && !taken; values.at = bind_next_value(context, frame, &values)) {
+        bool has_key = values.repeated || values.named;
+        if (values.named && !bind_is_bad(context, values.at))
+            bind_loose_columns(context, NULL, r, values.at);
+        struct bind_given entry = {.comments = tree_comments(context->tree, values.at), .value = values.at};
+        if (has_key)
+            entry = bind_given_by(context, values.at);
+        bool bad = values.named ? bind_is_bad_pair(context, given.value, values.at)
+                                : has_key && bind_is_bad(context, values.at);
+        if (bad)
+            continue;
+        bind_entry(context, frame, r, values.named ? tree_text(context->tree, values.at) : STR(""), entry);
+    }
+    if (bind_list_count(schema_field(r, frame->memory)))
+        bind_head(frame)->written |= bind_bit(row);
+}
+
+// A list or map that is there and holds nothing is the same as none.
+static bool is_nothing(const struct bind_context *context, const struct schema_row *row, tree_index value) {
+    const struct tree_node *node = tree_node(context->tree, value);
+    enum tree_kind wanted = row->many == SCHEMA_NAMED_MAP ? TREE_MAP : TREE_LIST;
+    return row->many != SCHEMA_FIXED &&
+           (node->kind == TREE_NULL || (node->kind == wanted && node->count == 0));
+}
+
+static void bind_single(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                        struct bind_given given) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    bind_note_row(context, frame, row, given);
+    if (bind_entry(context, frame, r, str_from(r->single), given))
+        bind_head(frame)->written |= bind_bit(row);
+}
+
+static void bind_repeated(struct bind_context *context, struct bind_frame *frame, uint32_t row,
+                          struct bind_given given) {
+    if (frame->seen & bind_bit(row))
+        return; // gathered where the first one stands
+    struct bind_values all = {.repeated = true, .row = row, .at = given.key};
+    if (frame->schema->rows[row].many == SCHEMA_FIXED)
+        bind_fixed(context, frame, row, given, all, context->tree->broken);
+    else
+        bind_entries(context, frame, row, given, all);
+}
+
+static void bind_many(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
+                      struct bind_given given) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    if (given.key && tree_node(context->tree, given.key)->key == TREE_KEY_CHILD) {
+        bind_repeated(context, frame, row, given);
+        return;
+    }
+    if (!single && is_nothing(context, r, given.value)) {
+        if (bind_is_bad(context, given.value))
+            bind_poison(frame, row);
+        return;
+    }
+    if (frame->seen & bind_bit(row)) {
+        bind_report_twice(context, frame, row, given);
+        struct bind_frame aside = bind_aside(context, frame);
+        bind_many(context, &aside, row, single, given);
+        return;
+    }
+    if (single) {
+        bind_single(context, frame, row, given);
+        return;
+    }
+    enum tree_kind kind = bind_kind(context, given.value);
+    if (kind != (r->many == SCHEMA_NAMED_MAP ? TREE_MAP : TREE_LIST)) {
+        frame->seen |= bind_bit(row);
+        bind_poison(frame, row);
+        bind_wrong_shape(context, bind_subject(frame, r), given.value);
+        loose_entries(context, frame, row, given.value, true);
+        return;
+    }
+    struct bind_values all = {
+        .named = kind == TREE_MAP, .row = row, .at = tree_first(context->tree, given.value)};
+    if (r->many == SCHEMA_FIXED)
+        bind_fixed(context, frame, row, given, all,
+                   (tree_node(context->tree, given.value)->flags & TREE_CUT) != 0);
+    else
+        bind_entries(context, frame, row, given, all);
+}
+
+// Any row.
+
 void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
               struct bind_given given) {
     const struct schema_row *r = &frame->schema->rows[row];
@@ -169,6 +213,65 @@ void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t r
     }
     if (!bind_one(context, frame, r, given))
         bind_poison(frame, row);
+}
+
+// What is read in spite of a mistake that was reported.
+
+// Whether a value has the shape of the row: what has not would be reported for the same mistake.
+static bool fits(const struct bind_context *context, const struct schema_row *row, bool single,
+                 tree_index value) {
+    enum tree_kind kind = bind_kind(context, value);
+    if (row->many == SCHEMA_SEQUENCE)
+        return kind == TREE_LIST;
+    if (row->many == SCHEMA_NAMED_MAP || single)
+        return kind == TREE_MAP;
+    if (row->kind == SCHEMA_ELEMENT && schema_short_row(row->child) < 0)
+        return kind == TREE_MAP;
+    return kind != TREE_NULL;
+}
+
+// The value of a key that names a row in another style.
+static void loose_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index key) {
+    const struct schema_row *r = &frame->schema->rows[row];
+    const struct tree *tree = context->tree;
+    struct bind_given given = bind_given_by(context, key);
+    bool child = tree_node(tree, key)->key == TREE_KEY_CHILD;
+    if ((frame->seen & bind_bit(row)) || bind_is_known(context, given.value))
+        return;
+    if (child && r->many != SCHEMA_ONE) {
+        if (r->many != SCHEMA_FIXED && bind_entry(context, frame, r, STR(""), given))
+            bind_head(frame)->written |= bind_bit(row);
+        return;
+    }
+    str snake = mend_snake(context->scratch, tree_text(tree, key));
+    bool single = r->single && !child && str_equal_cstr(snake, r->name);
+    if (fits(context, r, single, given.value))
+        bind_row(context, frame, row, single, given);
+    else if (r->many != SCHEMA_ONE)
+        loose_entries(context, frame, row, given.value, false);
+    bind_poison(frame, row);
+}
+
+// Reports a name that the element does not have, and reads what it holds where that is clear.
+static void unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
+    struct bind_meant meant = bind_unknown_name(context, frame, key);
+    uint64_t seen = frame->seen;
+    switch (meant.what) {
+    case BIND_MEANT_NOTHING:
+        return;
+    case BIND_MEANT_ROW:
+        loose_row(context, frame, meant.row, key);
+        return;
+    case BIND_MEANT_ITSELF:
+        bind_pairs(context, frame, tree_value(context->tree, key));
+        frame->seen |= seen;
+        return;
+    case BIND_MEANT_ENTRIES:
+        frame->seen = 0; // <Sphere> may stand inside and outside
+        bind_pairs(context, frame, tree_value(context->tree, key));
+        frame->seen = seen;
+        return;
+    }
 }
 
 // Elements.
@@ -205,17 +308,8 @@ static void report_named_inline(struct bind_context *context, struct bind_frame 
                   frame->via->name, STR_ARG(name));
 }
 
-// The rows of an element's first keys, which are asked for twice.
-struct key_rows {
-    uint32_t count;
-    struct {
-        int row;
-        bool single;
-    } items[16];
-};
-
 static int find_row_once(const struct bind_context *context, const struct bind_frame *frame, tree_index key,
-                         uint32_t number, struct key_rows *known, bool *single) {
+                         uint32_t number, struct bind_key_rows *known, bool *single) {
     if (number < known->count) {
         *single = known->items[number].single;
         return known->items[number].row;
@@ -229,8 +323,8 @@ static int find_row_once(const struct bind_context *context, const struct bind_f
     return row;
 }
 
-static void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_index node, bool first,
-                      struct key_rows *known) {
+void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_index node, bool first,
+               struct bind_key_rows *known) {
     const struct tree *tree = context->tree;
     uint32_t number = 0;
     for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key), number++) {
@@ -243,7 +337,7 @@ static void bind_keys(struct bind_context *context, struct bind_frame *frame, tr
             continue;
         if (row < 0) {
             if (!first && !bad && !is_ignored(context, frame, node, key))
-                bind_unknown_name(context, frame, key);
+                unknown_name(context, frame, key);
         } else if (bad) {
             if (!(frame->seen & bind_bit((uint32_t)row)))
                 bind_poison(frame, (uint32_t)row);
@@ -260,7 +354,7 @@ static void bind_keys(struct bind_context *context, struct bind_frame *frame, tr
 }
 
 void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_index node) {
-    struct key_rows known;
+    struct bind_key_rows known;
     known.count = 0;
     bind_keys(context, frame, node, true, &known);
     bind_keys(context, frame, node, false, &known);
@@ -313,7 +407,7 @@ bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_i
         struct bind_given given = {.key_span = frame->label, .value = node};
         bind_row(context, frame, (uint32_t)bare, false, given);
     } else if (bind_kind(context, node) == TREE_MAP) {
-        struct key_rows known;
+        struct bind_key_rows known;
         known.count = 0;
         if (facts->names)
             bind_keys(context, frame, node, true, &known);
@@ -326,72 +420,4 @@ bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_i
     }
     bind_missing(context, frame, (tree_node(context->tree, node)->flags & (TREE_BAD | TREE_CUT)) != 0);
     return true;
-}
-
-// The root.
-
-static bool knows_any_key(struct bind_context *context, const struct bind_frame *frame) {
-    bool single;
-    for (tree_index key = tree_first(context->tree, context->tree->root); key;
-         key = tree_next_key(context->tree, key))
-        if (bind_find_row(context, frame->schema, key, &single) >= 0 ||
-            bind_find_style(context, frame, key) >= 0)
-            return true;
-    return false;
-}
-
-static void report_no_scene(struct bind_context *context, const struct bind_frame *frame, span at) {
-    const struct tree *tree = context->tree;
-    if (tree->is_xml) {
-        str tag = say_text(context->scratch, tree->root_tag);
-        diag_add(context->sink, DIAG_NOT_A_SCENE, at, "this is not a glint scene: its root is '%.*s'",
-                 STR_ARG(tag));
-        diag_help(context->sink, "a scene begins with <%s glint=\"1\">", frame->schema->element);
-        if (str_equal_cstr(mend_snake(context->scratch, tree->root_tag), frame->schema->name))
-            bind_fix_tag(context, at, tree->root, true, str_from(frame->schema->element));
-    } else {
-        diag_add(context->sink, DIAG_NOT_A_SCENE, at,
-                 "this is not a glint scene: none of its keys belongs to one");
-        diag_help(context->sink, "a scene begins with 'glint: 1'");
-    }
-}
-
-static bool is_scene(struct bind_context *context, const struct bind_frame *frame) {
-    const struct tree *tree = context->tree;
-    bool is_map = tree->root && bind_kind(context, tree->root) == TREE_MAP;
-    str tag = mend_snake(context->scratch, tree->root_tag);
-    bool good = is_map && (tree->is_xml ? str_equal_cstr(tree->root_tag, frame->schema->element)
-                                        : knows_any_key(context, frame));
-    bool known = tree->broken || (tree->root && bind_is_bad(context, tree->root));
-    if (!good && !known)
-        report_no_scene(context, frame, is_map ? tree->root_name : (span){tree->source, 0, 0});
-    // In another style it is a scene all the same, whose other mistakes are told too.
-    return good || (is_map && tree->is_xml && str_equal_cstr(tag, frame->schema->name));
-}
-
-struct ir_scene *bind_new_scene(struct bind_context *context) {
-    struct ir_scene *scene = ARENA_NEW(context->arena, struct ir_scene);
-    schema_index_defaults(context->index, &SCHEMA_SCENE, scene);
-    return scene;
-}
-
-struct ir_scene *bind_file(struct bind_context *context) {
-    const struct tree *tree = context->tree;
-    if (!context->scene)
-        context->scene = bind_new_scene(context);
-    struct ir_scene *scene = context->scene;
-    struct bind_frame root = {.schema = &SCHEMA_SCENE, .memory = scene, .label = tree->root_name};
-    if (!is_scene(context, &root))
-        return NULL;
-    scene->head.origin =
-        ir_origin_add(context->origin, (struct ir_element_origin){.at = tree_span(tree, tree->root),
-                                                                  .label = tree->root_name});
-    struct key_rows known;
-    known.count = 0;
-    bind_keys(context, &root, tree->root, true, &known);
-    if (context->other_version)
-        return NULL;
-    bind_keys(context, &root, tree->root, false, &known);
-    bind_missing(context, &root, (tree_node(tree, tree->root)->flags & (TREE_BAD | TREE_CUT)) != 0);
-    return scene;
 }
