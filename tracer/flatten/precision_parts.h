@@ -1,4 +1,4 @@
-// Inside of precision.h: what precision.c and precision_gaps.c share.
+// Inside of precision.h: what precision.c, precision_gaps.c and precision_least.c share.
 #ifndef GLINT_TRACER_FLATTEN_PRECISION_PARTS_H
 #define GLINT_TRACER_FLATTEN_PRECISION_PARTS_H
 
