@@ -1,10 +1,10 @@
 #include "app/check.h"
 
-#include "grammar/schema.h"
 #include "app/check_allow.h"
 #include "app/check_path.h"
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 #include <stdlib.h>
 

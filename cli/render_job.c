@@ -1,7 +1,7 @@
 #include "cli/render_job.h"
 
-#include "grammar/ir.h"
 #include "core/clock.h"
+#include "grammar/ir.h"
 
 // OUT.NAME.png for OUT.png.
 static const char *camera_output(struct render_job *job, str camera) {

@@ -242,7 +242,7 @@ const char *number_problem(enum number_status status) {
 }
 
 // Rewrites a "%.*e" text as digits with a point or, where that is long, as d.ddde+XX.
-static size_t layout(const char *scientific, char *out) {
+static size_t write_decimal(const char *scientific, char *out) {
     char mantissa[24] = {'0'};
     size_t count = 0;
     const char *p = scientific;
@@ -358,5 +358,5 @@ size_t number_format(double value, char out[NUMBER_FORMAT_MAX]) {
     char scientific[NUMBER_FORMAT_MAX];
     while (!print_digits(value, digits, scientific))
         digits++;
-    return layout(scientific, out);
+    return write_decimal(scientific, out);
 }

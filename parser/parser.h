@@ -1,4 +1,19 @@
-// From a scene file to the IR: read, bind, resolve, validate. All diagnostics of all stages in one run.
+// From a scene file to the IR. All diagnostics of all stages in one run.
+//
+// There are eight stages (stages/parser.c). After each holds what is said of it and of those before:
+// 1 read      The file is a tree of its tokens, each with its place. No name of the language was asked for.
+//             What is wrong in the syntax is reported, and marked TREE_BAD or TREE_CUT.
+// 2 bind      The file is an IR of its own. Each value is right by its row of the table; or it is reported,
+//             marked in ir_head.poisoned, and stands at its default.
+// 3 resolve   Every file that is included is read and bound, once. loader->order has each before the one that
+//             includes it; where one is missing, loader->incomplete is set.
+// 4 merge     There is one scene. Lists are joined; of elements that are there once the including file's
+//             attributes win. The IR of each file stays in origin.files.
+// 5 override  The --set options are applied, in their order, and bound by the same rules.
+// 6 names     No two things share a name, and each reference has its index; else it is reported.
+// 7 compact   Anonymous elements that no reference means are gone. The IR changes no more.
+// 8 validate  The rules that a table cannot say hold; else it is reported.
+// What is said of an included file then tells where it is included. parser_load_file runs the first two.
 //
 // Ownership: IR and places live in `arena`; sources keep the texts. The caller owns everything in
 // struct parser_input, and has added the scene's root to `files`.

@@ -6,7 +6,8 @@ span yaml_span(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
     return (span){r->text->source, begin < size ? begin : size, end < size ? end : size};
 }
 
-uint32_t yaml_find_byte(struct yaml_reader *r, yaml_mark_t mark) {
+// libyaml counts characters, from where it was asked last.
+static uint32_t find_byte(struct yaml_reader *r, yaml_mark_t mark) {
     str text = r->text->bytes;
     uint32_t at = r->place_bytes;
     while (r->place_characters < mark.index && at < text.len) {
@@ -21,6 +22,13 @@ uint32_t yaml_find_byte(struct yaml_reader *r, yaml_mark_t mark) {
     }
     r->place_bytes = at;
     return at;
+}
+
+uint32_t yaml_byte(struct yaml_reader *r, yaml_mark_t mark) {
+    const struct reader_text *text = r->text;
+    if (!r->ascii)
+        return find_byte(r, mark);
+    return text->begin + (uint32_t)(mark.index < text->bytes.len ? mark.index : text->bytes.len);
 }
 
 bool yaml_at_key(const struct yaml_reader *r) {

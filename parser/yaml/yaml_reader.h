@@ -92,13 +92,7 @@ struct yaml_reader {
 // The span of `begin` to `end` in the reader's source.
 span yaml_span(const struct yaml_reader *reader, uint32_t begin, uint32_t end);
 // Byte offset of a mark.
-uint32_t yaml_find_byte(struct yaml_reader *reader, yaml_mark_t mark);
-static inline uint32_t yaml_byte(struct yaml_reader *reader, yaml_mark_t mark) {
-    const struct reader_text *text = reader->text;
-    if (!reader->ascii)
-        return yaml_find_byte(reader, mark);
-    return text->begin + (uint32_t)(mark.index < text->bytes.len ? mark.index : text->bytes.len);
-}
+uint32_t yaml_byte(struct yaml_reader *reader, yaml_mark_t mark);
 
 // NUL behind the text.
 static inline char yaml_char(const struct yaml_reader *reader, uint32_t at) {

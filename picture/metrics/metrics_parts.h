@@ -1,5 +1,5 @@
 // What the metrics share: separable filters over planes, and the two metrics that need them. Private to
-// runtime/measure.
+// picture/metrics.
 //
 // Thread safety: pure; planes are the caller's. Errors: false where memory lacks.
 #ifndef GLINT_PICTURE_METRICS_METRICS_PARTS_H

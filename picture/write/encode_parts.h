@@ -1,4 +1,4 @@
-// One writer a format: for image_encode, and for the maps and thumbnails of runtime/measure.
+// One writer a format: for image_encode, and for maps and thumbnails elsewhere.
 #ifndef GLINT_PICTURE_WRITE_ENCODE_PARTS_H
 #define GLINT_PICTURE_WRITE_ENCODE_PARTS_H
 

@@ -104,6 +104,54 @@ rm c.c
 finds lengths 'c.c:601:'
 
 fresh
+plant cmake/rooms.txt '# core: parser' 'core:' 'core/in: core' 'parser: core core/in'
+plant core/README.md '# core: what all stand on'
+plant core/in/in.h '// What it is.'
+plant parser/parser.h '// What it is.'
+{ repeat 'int x;' 6000; } >core/a.c
+i=0
+while [ $((i += 1)) -le 40 ]; do echo 'int x;' >core/in/$i.c; done
+rm core/in/40.c
+passes rooms
+{ repeat 'int x;' 6001; } >core/a.c
+finds rooms 'core:1: 6001 lines'
+rm core/a.c
+echo 'int x;' >core/in/40.c
+finds rooms 'core/in:1: 41 source files'
+rm core/in/40.c
+rm core/in/in.h
+finds rooms 'core/in:1: neither'
+refuses rooms core/in/README.md 1 2 3 4 5 6 7 8 9 10 11
+
+fresh
+plant cmake/rooms.txt 'core:' 'grammar: core shaders/features.h' 'shaders: core'
+built() { # PATH LINE...: a C file of a room, and its object
+    plant "$@"
+    mkdir -p "../build/${1%/*}/CMakeFiles/glint.dir"
+    "${CC:-cc}" -c -o "../build/${1%/*}/CMakeFiles/glint.dir/${1##*/}.o" "$1"
+}
+if command -v "${CC:-cc}" >/dev/null; then
+    built core/a.c 'int a; int b(void); int f(void) { return b(); }'
+    built core/b.c 'static int f(void) { return 1; } int b(void) { return f(); }'
+    built grammar/c.c 'int f(void), c(void); int d(void) { return f(); } int main(void) { return c() + d(); }'
+    built grammar/d.c 'extern int a; int c(void) { return a; }'
+    passes circles ../build
+    finds circles 'no object' ../nowhere
+    built core/b.c 'extern int a; int b(void) { return a; }'
+    finds circles 'core/a.c:1: is in a circle with core/b.c, from which it takes b' ../build
+    finds circles 'core/b.c:1: is in a circle with core/a.c, from which it takes a' ../build
+    built grammar/c.c 'int c2(void); int d(void) { return c2(); }'
+    built grammar/d.c 'int e(void); int c2(void) { return e(); }'
+    built grammar/e.c 'int d(void); int e(void) { return d(); }'
+    finds circles 'grammar/e.c:1: is in a circle with grammar/c.c, from which it takes d' ../build
+    rm core/b.c grammar/e.c
+    passes circles ../build
+    plant cmake/rooms.txt 'core:' 'grammar: core shaders/features.h' 'shaders: grammar'
+    finds circles 'grammar:1: is in a circle with shaders, from which it takes shaders/features.h' ../build
+    rm -rf ../build
+fi
+
+fresh
 rooms
 plant core/a.c '// strcpy(a, b); exit(1);' '/* atoi(x)' '   printf("x"); */' 'f("strtok(a)", ascii_atoi(3), s->open(2));' 'snprintf(a, 3, "\"");'
 plant core/arena.c 'if (setjmp(guard->jump) == 0)' '        longjmp(guard->jump, 1);' '        abort();'
@@ -166,5 +214,5 @@ rm core/aa.c
 plant tests/unit/test_buf.c ''
 finds sources 'tests/unit/test_buf.c:1:'
 
-rm -rf "$work/tree" "$work/names" "$work/rooms"
+rm -rf "$work/tree" "$work/names" "$work/rooms" "$work/build"
 [ $failures -eq 0 ]

@@ -1,8 +1,8 @@
-// One node of the wide tree as the words of shaders/gpu_scene.h. Private to runtime/bvh.
+// One node of the wide tree as the words of shaders/gpu_scene.h, and back. Private to tracer/bvh.
 #ifndef GLINT_TRACER_BVH_ENCODE_H
 #define GLINT_TRACER_BVH_ENCODE_H
 
-#include "tracer/bvh/binary.h"
+#include "tracer/bvh/box.h"
 
 struct wide_child {
     struct bvh_box box;

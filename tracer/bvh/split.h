@@ -1,8 +1,10 @@
-// Where to cut a range of items in two. Private to runtime/bvh.
+// Where to cut a range of items in two. Private to tracer/bvh.
 #ifndef GLINT_TRACER_BVH_SPLIT_H
 #define GLINT_TRACER_BVH_SPLIT_H
 
-#include "tracer/bvh/binary.h"
+#include "tracer/bvh/box.h"
+
+#include <stddef.h>
 
 enum {
     SPLIT_BINS = 16,

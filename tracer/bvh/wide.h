@@ -1,4 +1,4 @@
-// From the binary tree to the wide one. Private to runtime/bvh.
+// From the binary tree to the wide one. Private to tracer/bvh.
 #ifndef GLINT_TRACER_BVH_WIDE_H
 #define GLINT_TRACER_BVH_WIDE_H
 
