@@ -175,7 +175,7 @@ static void walk_scene(struct feature_walk *w) {
     if (w->reasons) {
         struct ir_feature_reason *reason = &w->reasons[bit_number(FEATURE_POINT_LIGHT)];
         *reason = (struct ir_feature_reason){.bit = FEATURE_POINT_LIGHT, .at = SPAN_NONE};
-        snprintf(reason->words, sizeof reason->words, "no light is written, so one stands at the camera");
+        snprintf(reason->words, sizeof reason->words, "no light is written, so one is placed at the camera");
     }
 }
 
@@ -219,21 +219,21 @@ static const struct feature_text feature_texts[] = {
     {FEATURE_SPECULAR, "specular", "Some material has highlights."},
     {FEATURE_REFLECTION, "reflection", "Some material reflects: rays go on from its surface."},
     {FEATURE_REFRACTION, "refraction", "Some material lets light through: rays split at its surface."},
-    {FEATURE_SHADOWS, "shadows", "A ray to each light asks whether a body is in between."},
+    {FEATURE_SHADOWS, "shadows", "A ray to each light tests whether a body is in between."},
     {FEATURE_SMOOTH, "smooth", "Normals are interpolated between the vertices of some mesh."},
     {FEATURE_CHECKER, "checker", "Some material has cells of two colours."},
     {FEATURE_POINT_LIGHT, "point_light", "Some light has a position."},
     {FEATURE_DIRECTION_LIGHT, "direction_light", "Some light comes from infinitely far away."},
     {FEATURE_INVERSE_SQUARE, "inverse_square", "Some light weakens with the square of the distance."},
     {FEATURE_BACKGROUND_IMAGE, "background_image", "Rays that hit nothing look up an image."},
-    {FEATURE_DEPTH_BLACK, "depth_black", "Rays beyond the greatest depth see nothing, not the background."},
+    {FEATURE_DEPTH_BLACK, "depth_black", "Rays beyond the maximum depth see black, not the background."},
     {FEATURE_SLICES, "slices", "Long paths are saved and resumed in a later dispatch."},
     {FEATURE_COUNTERS, "counters", "Rays are counted for --stats."},
 };
 static_assert(sizeof feature_texts / sizeof feature_texts[0] == FEATURE_COUNT, "every feature has a name");
 
 static const struct feature_text *find_text(uint32_t bit) {
-    static const struct feature_text unknown = {0, "unknown", "No feature of this tracer."};
+    static const struct feature_text unknown = {0, "unknown", "Not a feature of this tracer."};
     for (size_t i = 0; i < FEATURE_COUNT; i++)
         if (feature_texts[i].bit == bit)
             return &feature_texts[i];

@@ -20,7 +20,7 @@ static const struct rule {
     {DIAG_UNUSED_MATERIAL, "materials that nothing uses", lint_unused_material, LINT_ALL},
     {DIAG_UNUSED_INCLUDE, "includes that add nothing", lint_unused_include, LINT_ALL},
     // A tree for each mesh and a walk for each leaf; then a walk through what pairs of bodies have in common.
-    {DIAG_COINCIDENT, "faces in one plane", lint_coincident, LINT_ALL},
+    {DIAG_COINCIDENT, "faces in the same plane", lint_coincident, LINT_ALL},
     // One pass over the triangles of each mesh, the second one with a hash table.
     {DIAG_ZERO_AREA, "triangles without area", lint_zero_area, LINT_ALL},
     {DIAG_DUPLICATE_TRIANGLES, "triangles given twice", lint_duplicates, LINT_ALL},

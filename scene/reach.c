@@ -14,10 +14,10 @@ static void check_model(const struct ir_model *model, const struct mesh *mesh, c
     }
     if (largest <= schema_range_info(SCHEMA_RANGE_COORDINATE)->greatest)
         return;
-    diag_add(sink, DIAG_TRANSFORM_OVERFLOW, ir_place_label(origin, &model->head),
-             "placed by its scale, rotation and translation, the model reaches coordinates of %.3g; the "
-             "largest allowed is 1e18",
-             largest);
+    diag_add(
+        sink, DIAG_TRANSFORM_OVERFLOW, ir_place_label(origin, &model->head),
+        "after scale, rotation and translation the model has coordinates of %.3g; at most 1e18 is allowed",
+        largest);
 }
 
 void scene_check_reach(const struct ir_scene *scene, const struct assets *assets, struct diag_sink *sink) {

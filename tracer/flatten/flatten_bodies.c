@@ -110,7 +110,7 @@ static enum flatten_fault measure_model(const struct flattening *f, uint32_t mod
     span at = f->input->origin_places ? ir_place_label(f->input->origin_places, &ir->head) : SPAN_NONE;
     diag_add(
         f->input->sink, DIAG_TRANSFORM_OVERFLOW, at,
-        "after scale, rotation and translation a coordinate of this model is %.3g; at most 1e18 is allowed",
+        "after scale, rotation and translation this model has coordinates of %.3g; at most 1e18 is allowed",
         farthest);
     return FLATTEN_REPORTED;
 }
