@@ -29,7 +29,7 @@ static void counts(struct strbuf *out, const struct session *s) {
     strbuf_format(out, "image       %d x %d pixels, %d sample%s\n", s->image.width, s->image.height,
                   s->image.samples, s->image.samples == 1 ? "" : "s");
     strbuf_format(out, "cameras     %u\nlights      %u\n", scene->cameras.count, scene->lights.count);
-    strbuf_format(out, "materials   %u named, %u inline, %u used in all with those of meshes\n", named,
+    strbuf_format(out, "materials   %u named, %u inline, %u used in all, including those of meshes\n", named,
                   scene->materials.count - named, s->assets.material_count);
     strbuf_format(out, "spheres     %u\nrectangles  %u\nmodels      %u\n", scene->spheres.count,
                   scene->rectangles.count, scene->models.count);
@@ -80,7 +80,7 @@ static void features(struct strbuf *out, struct session *s, uint32_t mask) {
         while (k < reasons.count && reasons.items[k].bit != bit)
             k++;
         if (k == reasons.count) {
-            strbuf_cstr(out, "a material that a mesh brings along\n");
+            strbuf_cstr(out, "a material from a mesh's material file\n");
             continue;
         }
         if (!span_is_none(reasons.items[k].at)) {
