@@ -100,7 +100,8 @@ static void bad_comment(struct allows *allows, span at, const char *before, str 
     if (!allows->report)
         return;
     diag_add(&allows->session->sink, DIAG_ALLOW_UNKNOWN, at, "%s%.*s%s", before, STR_ARG(word), after);
-    diag_help(&allows->session->sink, "write for example 'glint: allow W401: the pane is meant to be thin'");
+    diag_help(&allows->session->sink,
+              "write, for example, 'glint: allow W401: the pane is meant to be thin'");
 }
 
 // The next word in text[*at, end): up to a blank, comma or colon; false: there is none.
@@ -149,7 +150,7 @@ static void read_comment(struct allows *allows, span comment) {
     bool any = next_word(text, &at, end, &word, comment.source);
     str verb = source_text(&allows->session->sources, word);
     if (!any || !str_equal_cstr(verb, "allow")) {
-        bad_comment(allows, any ? word : comment, "a comment for glint says 'allow'", STR(""), "");
+        bad_comment(allows, any ? word : comment, "a comment for glint must say 'allow'", STR(""), "");
         return;
     }
     uint32_t codes = 0;

@@ -70,10 +70,8 @@ static void offer_words(struct nearest *search, const char *const *words) {
 static bool accept_codes(const struct binder *b, tree_index node, enum diag_policy_status status) {
     if (status == DIAG_POLICY_UNKNOWN_CODE) {
         bad_value(b, node, "there is no code ", "");
-        diag_help(
-            b->input->sink,
-            "a code is a letter and three digits, W401, or a family, W4xx; it stands at the end of each "
-            "message");
+        diag_help(b->input->sink, "a code is a letter and three digits, such as W401, or a family, such as "
+                                  "W4xx; it is at the end of each message");
     } else if (status == DIAG_POLICY_ERROR_CODE) {
         bad_value(b, node, "errors cannot be silenced or lowered, and ", " is one");
         diag_help(b->input->sink, "only warnings (W) and notes (N) can be changed");
@@ -92,7 +90,7 @@ static void take_asset_path(struct binder *b, tree_index key, tree_index value) 
     struct files probe;
     files_init(&probe, arena);
     if (!path_is_below(canonical, b->folder, &rest)) {
-        bad_value(b, value, "the folder ", " lies outside the configuration's own");
+        bad_value(b, value, "the folder ", " is outside the configuration's folder");
         diag_help(b->input->sink, "move .glintrc.yaml to a folder above both, or name it with --asset-path");
     } else if (files_add_root(&probe, canonical) != FILE_OK) {
         bad_value(b, value, "there is no folder ", "");
@@ -111,11 +109,11 @@ static void take_severity(struct binder *b, tree_index key, tree_index value) {
     }
     struct nearest search = nearest_begin(word);
     offer_words(&search, diag_level_words);
-    bad_value(b, value, "", " is no severity");
+    bad_value(b, value, "", " is not a severity");
     if (nearest_best(&search).len)
         did_you_mean(b, value, &search);
     else
-        diag_help(b->input->sink, "it is one of error, warning, note and off");
+        diag_help(b->input->sink, "write error, warning, note or off");
 }
 
 static void take_ignore(struct binder *b, tree_index key, tree_index value) {
@@ -124,8 +122,8 @@ static void take_ignore(struct binder *b, tree_index key, tree_index value) {
     if (diag_is_code_text(text)) {
         accept_codes(b, value, diag_policy_level(&b->config->policy, text, STR("off")));
     } else if (text.len == 0 || text.len > PATTERN_BYTES_MAX) {
-        bad_value(b, value, "", " is no code and no path");
-        diag_help(b->input->sink, "write a code, W401, or a pattern of paths, \"drafts/**\"");
+        bad_value(b, value, "", " is neither a code nor a path");
+        diag_help(b->input->sink, "write a code, such as W401, or a pattern of paths, such as \"drafts/**\"");
     } else {
         diag_policy_ignore_path(&b->config->policy, b->input->arena, b->folder, text);
     }
@@ -143,11 +141,11 @@ static void take_fail_on(struct binder *b, tree_index key, tree_index value) {
         return;
     struct nearest search = nearest_begin(word);
     offer_words(&search, diag_fail_words);
-    bad_value(b, value, "'fail_on' is error or warning, not ", "");
+    bad_value(b, value, "'fail_on' must be error or warning, not ", "");
     if (nearest_best(&search).len)
         did_you_mean(b, value, &search);
     else
-        diag_help(b->input->sink, "fail_on: warning makes warnings fail, too");
+        diag_help(b->input->sink, "fail_on: warning makes warnings fail too");
 }
 
 static void set_limit(struct binder *b, tree_index key, tree_index value, enum limit which) {

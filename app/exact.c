@@ -79,7 +79,7 @@ enum shot_status exact_take(struct exact *exact, struct image *image, double *rg
         return result == REFERENCE_CANCELLED ? SHOT_CANCELLED
                                              : shot_no_memory(exact->session, "the reference");
     report_fault(exact->session, DIAG_NOT_FINITE, &statistics->not_finite, WHERE_NOT_FINITE);
-    report_fault(exact->session, DIAG_NOT_FINITE, &too_large, "got a value that no float holds");
+    report_fault(exact->session, DIAG_NOT_FINITE, &too_large, "got a value that is too large for a float");
     report_fault(exact->session, DIAG_PATH_SEGMENTS, &statistics->over_segments, WHERE_OVER_SEGMENTS);
     return SHOT_OK;
 }

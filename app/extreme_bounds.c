@@ -72,14 +72,14 @@ static void take_bound(struct binder *b, uint32_t axes, tree_index node) {
             unknown_key(b, key, "metric", &search);
         else if (tree_node(b->tree, value)->kind != TREE_SCALAR ||
                  number_parse(tree_text(b->tree, value), &number) != NUMBER_OK || number < 0)
-            bad_value(b, value, "a bound is a number from 0");
+            bad_value(b, value, "a bound must be a number that is not negative");
         else
             *place = number;
     }
     if (bound.from > bound.to)
-        bad_value(b, node, "'from' is above 'to': the bound holds nowhere");
+        bad_value(b, node, "'from' is above 'to': the bound applies to no value");
     else if (!has_metric(b, node))
-        bad_value(b, node, "it bounds nothing: name a metric, such as off: 0.0005");
+        bad_value(b, node, "this bounds nothing: name a metric, such as off: 0.0005");
     *ARENA_PUSH(b->input->arena, b->out) = bound;
 }
 
@@ -100,7 +100,7 @@ static void take_axis(struct binder *b, tree_index key) {
         for (tree_index item = tree_first(b->tree, list); item; item = tree_next(b->tree, item))
             take_bound(b, axes, item);
     else if (tree_node(b->tree, list)->kind != TREE_NULL)
-        bad_value(b, list, "an axis has a list of bounds, such as [{off: 0.0005}]");
+        bad_value(b, list, "an axis must have a list of bounds, such as [{off: 0.0005}]");
 }
 
 // The reader knows scenes: what it says of a file that is no map has other words here.
@@ -139,7 +139,7 @@ bool extreme_bounds_read(const struct extreme_bounds_input *input, uint32_t sour
     diag_filter(input->sink, keep_for_bounds, NULL);
     // A run without bounds would pass whatever it measured.
     if (out->count == 0 && input->sink->errors == 0) {
-        diag_add(input->sink, DIAG_CONFIG_VALUE, (span){source, 0, 0}, "the file holds no bounds");
+        diag_add(input->sink, DIAG_CONFIG_VALUE, (span){source, 0, 0}, "the file contains no bounds");
         diag_help(input->sink, "write an axis, such as move: [{off: 0.0005}]");
     }
     diag_sort(input->sink);

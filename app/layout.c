@@ -22,10 +22,10 @@ static enum layout_status unreadable(struct job *job, enum file_status status) {
 static enum layout_status failed(struct layout *layout, uint32_t source) {
     if (layout->result.failed)
         diag_add(&layout->sink, DIAG_OUT_OF_MEMORY, (span){source, 0, 0},
-                 "there is no memory for the text in its new layout");
+                 "not enough memory to format the file");
     else
         diag_add(&layout->sink, DIAG_FORMAT_UNSAFE, (span){source, 0, 0},
-                 "its canonical layout would be read otherwise than this one");
+                 "in its new layout the file would have another meaning");
     return LAYOUT_FAILED;
 }
 
@@ -64,7 +64,8 @@ static enum layout_status guarded(struct job *job) {
     enum arena_fault fault = arena_guarded(&layout->arena, run_job, job);
     if (fault) {
         diag_add(&layout->sink, fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
-                 "the scene needs more memory than %s", fault == ARENA_FAULT_CAP ? "the limit" : "there is");
+                 "the scene needs more memory than %s",
+                 fault == ARENA_FAULT_CAP ? "the limit" : "is available");
         diag_help(&layout->sink, "raise the limit with --limit %s=BYTES",
                   limit_info(LIMIT_SCENE_MEMORY)->name);
         layout->status = LAYOUT_FAILED;

@@ -141,7 +141,9 @@ static void add_libraries(struct planner *p, str folder, const struct inventory_
             sink, DIAG_PACK_PATH, use->at,
             "line %u of the mesh '%.*s' names its material file '%.*s' by a path that leads out of a package",
             use->named_line, STR_ARG(mesh->path), STR_ARG(use->named));
-        diag_help(sink, "put the material file beside the mesh, and write its name alone behind 'mtllib'");
+        diag_help(
+            sink,
+            "put the material file into the folder of the mesh, and write only its name after 'mtllib'");
     }
 }
 

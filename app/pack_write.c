@@ -189,9 +189,8 @@ static bool verify(struct session *session, const struct pack_plan *plan, const 
     bool same = compare(session, &packed, plan, folder);
     session_finish(&packed);
     asset_store_destroy(store);
-    return same ||
-           fail(error, "a path in the scene is spelled so that it cannot be rewritten in place; write "
-                       "each path on one line, without a YAML tag or a block");
+    return same || fail(error, "a path in the scene is written in a way that cannot be changed in place; "
+                               "write each path on one line, without a YAML tag or a block");
 }
 
 // ---- all
@@ -226,7 +225,7 @@ static bool make_folder_beside(const char *out, size_t length, char *folder, str
         length--;
     if (snprintf(folder, PATH_BYTES, "%.*s.glint-XXXXXX", (int)length, out) >= PATH_BYTES)
         return fail(error, "the path is too long");
-    return mkdtemp(folder) || fail(error, "cannot make a folder beside it: %s", strerror(errno));
+    return mkdtemp(folder) || fail(error, "cannot make a folder next to it: %s", strerror(errno));
 }
 
 static bool name_folder(const char *folder, const char *out, struct pack_error *error) {
@@ -244,7 +243,7 @@ enum pack_status pack_write(struct session *session, const struct pack_plan *pla
         length--;
     bool zips = str_ends_with_nocase((str){out, length}, ".zip");
     if (!zips && is_taken(out)) {
-        fail(error, "it exists, and is not an empty folder");
+        fail(error, "it exists and is not an empty folder");
         return PACK_OUTPUT;
     }
     if (!make_folder_beside(out, length, folder, error))

@@ -62,7 +62,7 @@ static void put_target(const struct pick *pick, const struct reference_segment *
     if (found)
         strbuf_format(out, ", at %.9g", s->distance);
     else if (s->depth > pick->max_depth)
-        strbuf_cstr(out, ", cut by max_depth");
+        strbuf_cstr(out, ", stopped by max_depth");
 }
 
 static void put_segment(const struct pick *pick, const struct pick_log *log, uint32_t index,
@@ -124,7 +124,7 @@ static void put_difference(const struct pick *pick, const struct pick_difference
     if (d->kind == PICK_OTHER_RAYS) {
         const int side = d->device != UINT32_MAX ? PICK_DEVICE : PICK_REFERENCE;
         const uint32_t ray = side == PICK_DEVICE ? d->device : d->reference;
-        strbuf_format(out, "  only the %s sends its ray %u (%s), which meets ",
+        strbuf_format(out, "  only the %s sends its ray %u (%s), which hits ",
                       side == PICK_DEVICE ? "device" : "reference", ray,
                       kind_words[pick->logs[side].segments[ray].kind]);
         put_side(pick, side, ray, out);

@@ -78,7 +78,7 @@ static void warn(struct session *session, const struct precision_report *report)
     struct where where;
     bool found = where_find(session, m->body, m->triangle, &where);
     diag_add(&session->sink, DIAG_SINGLE_ONLY, found ? where.at : SPAN_NONE,
-             "the device computes in single precision only, and this scene needs double");
+             "the device computes only in single precision, but this scene needs double");
     note_measure(session, report);
 }
 
@@ -95,11 +95,12 @@ void precision_check(struct session *session) {
         return;
     diag_add(&session->sink, DIAG_SINGLE_PRECISION,
              ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
-             "'trace.precision' is 'single', and this scene needs double: something in it has %.2g of the %g "
-             "steps that it takes",
+             "'trace.precision' is 'single', but this scene needs double: something in it has only %.2g of "
+             "the %g steps that it needs",
              report.least[report.decides].steps, PRECISION_STEPS);
     note_measure(session, &report);
-    diag_help(&session->sink, "leave 'precision' out: 'auto' computes in double where that is needed");
+    diag_help(&session->sink,
+              "leave 'precision' out: 'auto' computes in double precision when that is needed");
 }
 
 struct flat_input precision_input(struct session *session, const struct view *view) {
@@ -117,7 +118,7 @@ bool precision_choose(struct session *session, struct flat_input *input, bool ha
     if (input->is_double && !has_double) {
         diag_add(&session->sink, DIAG_NO_DOUBLE,
                  ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
-                 "'trace.precision' is 'double', and the device cannot compute in double precision");
+                 "'trace.precision' is 'double', but the device cannot compute in double precision");
         return false;
     }
     if (trace->precision != IR_PRECISION_AUTO)

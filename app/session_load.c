@@ -199,7 +199,8 @@ static enum session_state guarded_load(struct session *session, const struct ses
     enum arena_fault fault = arena_guarded(&session->arena, load, &loading);
     if (fault) {
         diag_add(&session->sink, fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
-                 "the scene needs more memory than %s", fault == ARENA_FAULT_CAP ? "the limit" : "there is");
+                 "the scene needs more memory than %s",
+                 fault == ARENA_FAULT_CAP ? "the limit" : "is available");
         diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
                   limit_info(LIMIT_SCENE_MEMORY)->name);
         session->state = SESSION_NO_SCENE;

@@ -32,13 +32,14 @@ static void warn(struct rebase *rebase) {
     struct session *session = rebase->session;
     if (rebase->beyond == 0)
         return;
-    diag_add(&session->sink, DIAG_FILE_BEYOND, rebase->first,
-             "from '%.*s' %u path%s of the scene %s outside the folder that it may read; here '%.*s'",
-             STR_ARG(rebase->out), rebase->beyond, rebase->beyond == 1 ? "" : "s",
-             rebase->beyond == 1 ? "leads" : "lead", STR_ARG(rebase->first_path));
+    diag_add(
+        &session->sink, DIAG_FILE_BEYOND, rebase->first,
+        "written to '%.*s', the scene has %u path%s that %s outside the folder that it may read; here '%.*s'",
+        STR_ARG(rebase->out), rebase->beyond, rebase->beyond == 1 ? "" : "s",
+        rebase->beyond == 1 ? "leads" : "lead", STR_ARG(rebase->first_path));
     str folder = files_canonical(&session->files, path_folder(session->options.path));
     diag_help(&session->sink,
-              "use it with --asset-path %.*s, or place an empty .glintrc.yaml in a folder above both",
+              "use the scene with --asset-path %.*s, or put an empty .glintrc.yaml in a folder above both",
               STR_ARG(folder));
     diag_sort(&session->sink);
 }

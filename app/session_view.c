@@ -38,7 +38,7 @@ uint32_t session_camera(struct session *session, str name) {
     else if (all.len)
         diag_help(&session->sink, "the scene's cameras are %.*s", STR_ARG(strbuf_view(&all)));
     else
-        diag_help(&session->sink, "the scene has no camera at all; leave out --camera for the automatic one");
+        diag_help(&session->sink, "the scene has no cameras; leave out --camera to use the automatic one");
     strbuf_finish(&all);
     return IR_NO_INDEX;
 }

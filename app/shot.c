@@ -57,7 +57,7 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
     static const char *const words[RENDER_FAULT_KINDS] = {
         [RENDER_NOT_FINITE] = WHERE_NOT_FINITE,
         [RENDER_SEGMENTS] = WHERE_OVER_SEGMENTS,
-        [RENDER_ITERATIONS] = "sent a ray that did not end",
+        [RENDER_ITERATIONS] = "had a ray that did not end",
     };
     struct session *s = shot->session;
     where_report_fault(
@@ -70,8 +70,8 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
                                  .triangle = fault->triangle});
     if (kind == RENDER_NOT_FINITE)
         diag_help(&s->sink,
-                  "they are magenta in PNG and HDR, and NaN in PFM; 'glint pick SCENE %u,%u' tells "
-                  "what happens there",
+                  "they are magenta in PNG and HDR, and NaN in PFM; 'glint pick SCENE %u,%u' shows what "
+                  "happens there",
                   fault->x, fault->y);
     if (kind == RENDER_SEGMENTS)
         diag_help(

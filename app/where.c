@@ -61,14 +61,14 @@ void where_report_fault(struct session *session, const struct where_fault *fault
     strbuf_init(&body);
     strbuf_init(&material);
     if (found) {
-        strbuf_cstr(&body, ", where the ray last met ");
+        strbuf_cstr(&body, ", where the ray last hit ");
         where_body_words(&where, &body);
         where_material_words(&where, &material);
     }
     diag_add(&session->sink, fault->code, at, "%u pixel%s %s, the first at %u,%u%.*s", fault->pixels,
              fault->pixels == 1 ? "" : "s", fault->words, fault->x, fault->y, STR_ARG(strbuf_view(&body)));
     if (found && where.mesh_line)
-        diag_note(&session->sink, SPAN_NONE, "there it is the face at line %u of %.*s", where.mesh_line,
+        diag_note(&session->sink, SPAN_NONE, "the face there is at line %u of %.*s", where.mesh_line,
                   STR_ARG(where.mesh));
     if (found && !span_is_none(where.material_at))
         diag_note(&session->sink, where.material_at, "its %.*s", STR_ARG(strbuf_view(&material)));

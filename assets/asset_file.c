@@ -208,7 +208,7 @@ static void report_missing(struct asset_file *file, str path) {
         diag_help(file->input->sink, "did you mean '%.*s%.*s'?", STR_ARG(folder), STR_ARG(near));
         diag_fix_part(file->input->sink, file->input->sources, false, path_base(path), near);
     } else {
-        diag_help(file->input->sink, "it was looked for as '%.*s'; --asset-path DIR adds a folder to look in",
+        diag_help(file->input->sink, "glint looked for '%.*s'; --asset-path DIR adds a folder to look in",
                   STR_ARG(file->path));
     }
 }

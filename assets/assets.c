@@ -45,12 +45,13 @@ static void report_mesh_kind(struct asset_file *file) {
     for (const char *const *ending = known; *ending; ending++)
         is_known |= str_ends_with_nocase(base, *ending);
     if (dot == 0)
-        asset_report_named(file, DIAG_FILE_KIND, "'%.*s' has no ending that tells its kind", STR_ARG(base));
+        asset_report_named(file, DIAG_FILE_KIND, "'%.*s' has no extension that shows its kind",
+                           STR_ARG(base));
     else
-        asset_report_named(file, DIAG_FILE_KIND, "meshes of the kind '.%.*s' are not read",
+        asset_report_named(file, DIAG_FILE_KIND, "meshes of the kind '.%.*s' are not supported",
                            STR_ARG(str_slice(base, dot, base.len)));
     diag_help(file->input->sink,
-              is_known ? "this version reads Wavefront OBJ (.obj); a 3-D program can convert the file"
+              is_known ? "this version reads Wavefront OBJ (.obj); a 3D program can convert the file"
                        : "this version reads Wavefront OBJ (.obj)");
 }
 
@@ -180,8 +181,8 @@ static void check_refraction(struct loader *loader, const struct ir_model *model
     diag_add(sink, DIAG_OPEN_DIELECTRIC, place,
              "the mesh '%.*s' is open and its material refracts: it will look like a thin pane",
              STR_ARG(model->mesh));
-    diag_note(sink, line, "%u edge%s of one face alone, the first of this face", mesh->open_edges,
-              mesh->open_edges == 1 ? " is" : "s are");
+    diag_note(sink, line, "%u edge%s to only one face, the first to this face", mesh->open_edges,
+              mesh->open_edges == 1 ? " belongs" : "s belong");
     diag_help(sink, "close the mesh, or set the material's refraction to 0");
 }
 
@@ -219,7 +220,7 @@ static void decode_image(struct asset_file *file, str name, bool header_only, st
     struct picture_header header;
     const char *fault = picture_read_header(file->text, &header);
     if (header.kind == PICTURE_KIND_NONE) {
-        asset_report_named(file, DIAG_IMAGE_KIND, "'%.*s' is no PNG, JPEG or Radiance HDR image",
+        asset_report_named(file, DIAG_IMAGE_KIND, "'%.*s' is not a PNG, JPEG or Radiance HDR image",
                            STR_ARG(name));
         return;
     }

@@ -56,7 +56,7 @@ static void report_missing_library(struct loaded_mesh *loaded, str name, uint32_
     struct diag_sink *sink = loaded->file.input->sink;
     if (!asset_report_line(
             &loaded->file, DIAG_MTL_MISSING, line,
-            "the material file '%.*s' does not exist; faces that need it have the default material",
+            "the material file '%.*s' does not exist; faces that need it get the default material",
             STR_ARG(name)))
         return;
     static const char *const endings[] = {".mtl", NULL};
@@ -69,7 +69,7 @@ static void report_missing_library(struct loaded_mesh *loaded, str name, uint32_
     else if (near.len)
         diag_help(sink, "did you mean '%.*s'?", STR_ARG(near));
     else
-        diag_help(sink, "put the file beside the mesh, or give the model a 'material'");
+        diag_help(sink, "put the file into the folder of the mesh, or give the model a 'material'");
 }
 
 static void read_library_or_report(struct loader *loader, struct loaded_mesh *loaded, str name,
@@ -131,11 +131,11 @@ static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, 
     if (loaded->mesh->library_count == 0)
         asset_report_line(
             &loaded->file, DIAG_MTL_MATERIAL_MISSING, g->line,
-            "the mesh names no material file that could define '%.*s'; its faces have the default material",
+            "the mesh names no material file that could define '%.*s'; its faces get the default material",
             STR_ARG(g->name));
     else
         asset_report_line(&loaded->file, DIAG_MTL_MATERIAL_MISSING, g->line,
-                          "no material file defines '%.*s'; its faces have the default material",
+                          "no material file defines '%.*s'; its faces get the default material",
                           STR_ARG(g->name));
     return standard;
 }
@@ -171,7 +171,7 @@ static void report_unknown(struct loader *loader, const struct ir_map_entry *ent
     if (named > NAMES_SHOWN)
         strbuf_format(&names, " and %u more", named - NAMES_SHOWN);
     if (named == 0) {
-        diag_help(input->sink, "the mesh names no materials at all; use 'material'");
+        diag_help(input->sink, "the mesh names no materials; use 'material'");
     } else if (nearest_best(&search).len) {
         diag_help(input->sink, "did you mean '%.*s'? The mesh uses %.*s", STR_ARG(nearest_best(&search)),
                   STR_ARG(strbuf_view(&names)));

@@ -71,7 +71,7 @@ static double clamp_into(struct mtl_reader *r, double value, double least, doubl
     double inside = value < least ? least : value > greatest ? greatest : value;
     if (inside != value)
         asset_report(r->file, DIAG_MTL_RANGE, begin, obj_lex_offset(&r->lex),
-                     "%g lies outside %g to %g; %g is taken", value, least, greatest, inside);
+                     "%g is outside the range from %g to %g; %g is used", value, least, greatest, inside);
     return inside;
 }
 

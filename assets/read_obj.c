@@ -106,7 +106,7 @@ static void report_index(struct obj_reader *r, str word, int64_t index, uint32_t
         asset_report(r->file, DIAG_MESH_INDEX, at, at + word.len, "index 0: %s count from 1", things);
     else if (index < 0)
         asset_report(r->file, DIAG_MESH_INDEX, at, at + word.len,
-                     "index %lld reaches before the first of %u %s so far", (long long)index, count, things);
+                     "index %lld goes back further than the %u %s so far", (long long)index, count, things);
     else
         asset_report(r->file, DIAG_MESH_INDEX, at, at + word.len, "index %lld: the file defines %u %s",
                      (long long)index, count, things);
@@ -185,7 +185,7 @@ static void read_face(struct obj_reader *r, str keyword) {
         broken = true;
         obj_lex_word(&r->lex);
         report_word(r, DIAG_MESH_SYNTAX, (str){begin, (size_t)(r->lex.at - begin)},
-                    "is no corner; write V, V/VT, V//VN or V/VT/VN");
+                    "is not a corner; write V, V/VT, V//VN or V/VT/VN");
     }
     uint32_t corners = obj->corners.count - first;
     if (corners < 3 && !broken) {
@@ -229,7 +229,7 @@ static void read_other(struct obj_reader *r, str keyword) {
         if (r->obj->ignored_count++ == 0)
             r->obj->ignored_line = r->lex.line;
     } else if (!is_word_of(without_effect, keyword) && !is_word_of(of_curves, keyword)) {
-        report_word(r, DIAG_MESH_SYNTAX, keyword, "begins no line of an OBJ file");
+        report_word(r, DIAG_MESH_SYNTAX, keyword, "cannot begin a line of an OBJ file");
     }
 }
 

@@ -133,7 +133,8 @@ static int add_folder(struct check *check, int operand) {
     if (found.paths.count)
         return CLI_OK;
     cli_usage(cli, cli_operand_place(cli, operand), "there is no scene in the folder '%s'", path);
-    diag_help(&cli->sink, "in folders scenes are the files named *.glint.yaml, *.glint.yml and *.glint.xml");
+    diag_help(&cli->sink,
+              "in a folder, the files named *.glint.yaml, *.glint.yml and *.glint.xml are scenes");
     return CLI_USAGE;
 }
 
@@ -184,7 +185,7 @@ static int write_report(struct check *check) {
     int status = CLI_OK;
     if (!good) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->options.output ? cli->options.output : "report", NULL,
-                  "there is no memory for the report");
+                  "not enough memory for the report");
         status = CLI_FILE;
     } else if (cli->options.output) {
         status = cli_write(cli, cli->options.output, strbuf_view(&out));
@@ -231,7 +232,7 @@ static int run(struct check *check) {
     }
     int written = write_report(check);
     if (!good) {
-        cli_error(check->cli, DIAG_OUT_OF_MEMORY, "check", NULL, "there was no memory to keep all findings");
+        cli_error(check->cli, DIAG_OUT_OF_MEMORY, "check", NULL, "not enough memory to keep all findings");
         worst = CLI_FILE;
     }
     return written > worst ? written : worst;
@@ -248,7 +249,7 @@ int cmd_check(struct cli *cli) {
         cli->options.fix = FIX_SAFE;
     if (cli->options.diff && check.format != CHECK_TEXT && !cli->options.output)
         return cli_usage(cli, cli->options.fix_arg,
-                         "the patch and the report would be mixed: give the report a file with -o");
+                         "the patch and the report would be mixed: write the report to a file with -o");
     if (!getcwd(check.root, sizeof check.root))
         check.root[0] = '\0';
     int status = run(&check);

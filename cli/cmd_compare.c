@@ -81,7 +81,8 @@ static bool offer_display(struct comparison *c) {
         struct strbuf text;
         strbuf_init(&text);
         strbuf_format(
-            &text, "glint: the pictures are nearer by '--tone %s --transfer %s': mae %.3g instead of %.3g\n",
+            &text,
+            "glint: the pictures are closer with '--tone %s --transfer %s': mae %.3g instead of %.3g\n",
             tones[options.display.tone], transfers[options.display.transfer], best,
             c->result.value[METRIC_MAE]);
         cli_write_error(strbuf_view(&text));
@@ -96,8 +97,8 @@ static int choose_space(struct comparison *c) {
     const struct cli_measure *m = &c->cli->options.measure;
     const bool linear = c->pictures[0].space == MEASURE_LINEAR && c->pictures[1].space == MEASURE_LINEAR;
     if (m->space == CLI_SPACE_LINEAR && !linear) {
-        cli_usage(c->cli, m->space_arg, "an 8-bit picture holds displayed values only");
-        diag_help(&c->cli->sink, "compare two of .pfm and .hdr, or leave '--space linear' out");
+        cli_usage(c->cli, m->space_arg, "an 8-bit picture has only displayed values");
+        diag_help(&c->cli->sink, "compare two .pfm or .hdr pictures, or leave '--space linear' out");
         return CLI_USAGE;
     }
     c->options = measure_options_default();

@@ -61,9 +61,9 @@ int cmd_convert(struct cli *cli) {
     struct session_options options = cli_session_options(cli, cli->operands[0]);
     const char *out = cli->operands[1];
     if (is_onto_itself(cli)) {
-        int status = cli_usage(cli, cli_operand_place(cli, 1), "OUT is IN itself");
-        diag_help(&cli->sink, "a scene is written anew, without its anchors and some of its comments; "
-                              "choose another name");
+        int status = cli_usage(cli, cli_operand_place(cli, 1), "OUT is the same file as IN");
+        diag_help(&cli->sink,
+                  "a converted scene loses its anchors and some of its comments; choose another name");
         return status;
     }
     session_load_text(&session, &options);

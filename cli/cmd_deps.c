@@ -128,8 +128,7 @@ static int list_scene(struct listing *listing, struct asset_store *store, const 
     options.skip_pixels = true;
     session_load(&session, &options, store);
     if (!inventory_make(&session, &inventory))
-        diag_add(&session.sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
-                 "there is not enough memory to list the files");
+        diag_add(&session.sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to list the files");
     if (listing->form == FORM_JSON)
         add_json(&listing->json, &session, &inventory, path);
     else if (listing->form == FORM_MAKE)
@@ -145,7 +144,7 @@ static int print_listing(struct listing *listing) {
     struct cli *cli = listing->cli;
     if (!listing->out.failed)
         return cli_print(cli, strbuf_view(&listing->out));
-    cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "there is no memory for the list");
+    cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the list");
     return CLI_FILE;
 }
 

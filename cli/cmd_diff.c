@@ -140,7 +140,7 @@ static int report(struct comparison *c, bool json) {
     (json ? make_json : make_text)(c, &out);
     int status = c->changes.count ? CLI_SCENE : CLI_OK;
     if (out.failed) {
-        cli_error(c->cli, DIAG_OUT_OF_MEMORY, c->cli->operands[0], NULL, "there is no memory for the report");
+        cli_error(c->cli, DIAG_OUT_OF_MEMORY, c->cli->operands[0], NULL, "not enough memory for the report");
         status = CLI_FILE;
     } else if (out.len && cli_print(c->cli, strbuf_view(&out)) != CLI_OK) {
         status = CLI_FILE;
@@ -160,8 +160,7 @@ int cmd_diff(struct cli *cli) {
     if (status == CLI_OK && compare_guarded(&c)) {
         status = report(&c, format == 1);
     } else if (status == CLI_OK) {
-        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL,
-                  "there is no memory to compare the scenes");
+        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory to compare the scenes");
         status = CLI_FILE;
     }
     session_finish(&c.sessions[0]);

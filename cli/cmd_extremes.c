@@ -197,7 +197,7 @@ int cmd_extremes(struct cli *cli) {
         return CLI_USAGE;
     const char *report = cli->options.output;
     if (cli_device_is_reference(cli))
-        return cli_usage(cli, 1, "the reference is what extremes are measured by: choose a device");
+        return cli_usage(cli, 1, "extremes are measured against the reference: choose a device");
     if (report && strcmp(report, "-") != 0 && !str_ends_with_nocase(str_from(report), ".html"))
         return cli_usage(cli, cli->options.output_arg, "the report '%s' must end in .html", report);
     int status = read_bounds(&job);

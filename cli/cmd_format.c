@@ -112,7 +112,7 @@ int cmd_format(struct cli *cli) {
     const struct cli_options *o = &cli->options;
     bool folder = files_is_folder(str_from(cli->operands[0]));
     if (o->output && (cli->operand_count > 1 || folder || o->check || o->diff))
-        return cli_usage(cli, o->output_arg, "-o takes what one file becomes, without --check and --diff");
+        return cli_usage(cli, o->output_arg, "-o needs exactly one file, and neither --check nor --diff");
     strbuf_init(&f.out);
     for (int i = 0; i < cli->operand_count; i++) {
         const char *path = cli->operands[i];
@@ -124,7 +124,7 @@ int cmd_format(struct cli *cli) {
             format_file(&f, path);
     }
     if (f.out.failed) {
-        cli_error(cli, DIAG_OUT_OF_MEMORY, "format", NULL, "there is no memory for the report");
+        cli_error(cli, DIAG_OUT_OF_MEMORY, "format", NULL, "not enough memory for the report");
         worsen(&f, CLI_FILE);
     } else if (f.out.len) {
         worsen(&f, cli_print(cli, strbuf_view(&f.out)));

@@ -1,7 +1,7 @@
 // glint inspect SCENE [--ir]: counts, bounds, features with their reasons, buffers; or the canonical dump.
-#include "grammar/schema.h"
 #include "app/precision.h"
 #include "cli/cli.h"
+#include "grammar/schema.h"
 
 #include "core/number.h"
 #include "grammar/ir.h"
@@ -32,7 +32,7 @@ static void counts(struct strbuf *out, const struct session *s) {
     strbuf_format(out, "image       %d x %d pixels, %d sample%s\n", s->image->width, s->image->height,
                   s->image->samples, s->image->samples == 1 ? "" : "s");
     strbuf_format(out, "cameras     %u\nlights      %u\n", scene->cameras.count, scene->lights.count);
-    strbuf_format(out, "materials   %u named, %u inline, %u used in all with those of meshes\n", named,
+    strbuf_format(out, "materials   %u named, %u inline, %u used in all, including those of meshes\n", named,
                   scene->materials.count - named, s->assets.material_count);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
@@ -86,7 +86,7 @@ static void features(struct strbuf *out, struct session *s, uint32_t mask) {
         while (k < reasons.count && reasons.items[k].bit != bit)
             k++;
         if (k == reasons.count) {
-            strbuf_cstr(out, "a material that a mesh brings along\n");
+            strbuf_cstr(out, "a material from a mesh's material file\n");
             continue;
         }
         if (!span_is_none(reasons.items[k].at)) {

@@ -35,7 +35,7 @@ int cmd_pack(struct cli *cli) {
     struct session_options options = cli_session_options(cli, cli->operands[0]);
     if (assets_is_mesh_path(options.path))
         return cli_usage(cli, cli_operand_place(cli, 0),
-                         "'glint pack' takes a scene file, and this is a mesh");
+                         "'glint pack' takes a scene file, but this is a mesh");
     if (strcmp(cli->operands[1], "-") == 0)
         return cli_usage(cli, cli_operand_place(cli, 1), "a package cannot be written to standard output");
     struct asset_store *store = asset_store_create();

@@ -58,8 +58,9 @@ static int pick_from(struct cli *cli, struct session *session, struct place plac
         return CLI_USAGE;
     const uint32_t sample = (uint32_t)cli->options.sample;
     if (cli->options.sample >= session->image->samples)
-        return cli_usage(cli, cli->options.sample_arg, "the picture has %d sample%s a pixel, counted from 0",
-                         session->image->samples, session->image->samples == 1 ? "" : "s");
+        return cli_usage(cli, cli->options.sample_arg,
+                         "the picture has %d sample%s per pixel, counted from 0", session->image->samples,
+                         session->image->samples == 1 ? "" : "s");
     int status = cli_device_is_reference(cli) ? CLI_OK : cli_open_device(cli, &gpu);
     if (status == CLI_OK) {
         const enum shot_status taken = pick_take(&pick, session, gpu, camera, place.x, place.y, sample);

@@ -161,12 +161,12 @@ int cmd_render(struct cli *cli) {
         return cli_usage(cli, cli->options.output_arg, "the output '%s' must end in %s", job.output,
                          image_format_endings());
     if (strcmp(job.output, "-") == 0 && str_equal(cli->options.camera, STR("all"))) {
-        int status = cli_usage(cli, cli->options.output_arg, "'--camera all' makes a file for each camera");
-        diag_help(&cli->sink, "name a file; '-' takes one picture");
+        int status = cli_usage(cli, cli->options.output_arg, "'--camera all' writes a file for each camera");
+        diag_help(&cli->sink, "name a file; only one picture can go to '-'");
         return status;
     }
     if (cli->options.as_file && !cli_device_is_reference(cli))
-        return cli_usage(cli, cli->options.as_file_arg, "'--as-file' goes with '--device reference' alone");
+        return cli_usage(cli, cli->options.as_file_arg, "'--as-file' works only with '--device reference'");
     interrupt_catch();
     struct asset_store *store = asset_store_create();
     int status = cli_has_study(cli) ? cli_choose_settings(cli, store) : CLI_OK;

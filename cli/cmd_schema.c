@@ -49,9 +49,9 @@ static int write_schema(struct cli *cli, const char *path, bool is_xml) {
 }
 
 static int refuse_json(struct cli *cli, int operand) {
-    int status =
-        cli_usage(cli, cli_operand_place(cli, operand),
-                  "'%s' is JSON, which has no comment to hold a schema's address", cli->operands[operand]);
+    int status = cli_usage(cli, cli_operand_place(cli, operand),
+                           "'%s' is JSON, which has no comments that could tell where the schema is",
+                           cli->operands[operand]);
     diag_help(&cli->sink, "name the schema in the editor's settings; 'glint schema json' prints it");
     return status;
 }
@@ -111,7 +111,7 @@ int cmd_schema(struct cli *cli) {
     }
     int status = cli_usage(
         cli, cli_operand_place(cli, 0),
-        "'%s' is no kind of schema; they are json, relaxng, rnc, xsd and markdown, beside 'install'", wanted);
+        "'%s' is not a kind of schema; write json, relaxng, rnc, xsd, markdown or 'install'", wanted);
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     return status;

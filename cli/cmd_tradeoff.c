@@ -56,7 +56,7 @@ int cmd_tradeoff(struct cli *cli) {
     if (!cli_format(cli, kinds, &kind) || !cli_study_options(cli, &options))
         return CLI_USAGE;
     if (cli_device_is_reference(cli))
-        return cli_usage(cli, 1, "the reference is what settings are measured by: choose a device");
+        return cli_usage(cli, 1, "settings are measured against the reference: choose a device");
     if (cli->options.output && !str_ends_with_nocase(str_from(cli->options.output), ".html"))
         return cli_usage(cli, cli->options.output_arg, "the report '%s' must end in .html",
                          cli->options.output);

@@ -16,7 +16,7 @@ static bool is_done(struct cli *cli, str canonical) {
 
 static void tell(struct strbuf *text, const struct fixed_file *file) {
     if (file->refused)
-        strbuf_format(text, "%.*s: left as it is: its fixes do not make a file that can be read\n",
+        strbuf_format(text, "%.*s: not changed: the fixes would make a file that cannot be read\n",
                       STR_ARG(file->path));
     else
         strbuf_format(text, "%.*s: %u %s made\n", STR_ARG(file->path), file->changes,
@@ -48,7 +48,7 @@ int cli_fix(struct cli *cli, const struct session_options *options, struct asset
     }
     if (fixes.failed) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, arena_copy(&cli->arena, options->path).ptr, NULL,
-                  "there is no memory for its fixes");
+                  "not enough memory for its fixes");
         status = CLI_FILE;
     }
     if (!cli->options.quiet)

@@ -15,111 +15,99 @@
 
 const struct cli_command cli_commands[] = {
     {"render", "SCENE", "render a scene to a picture",
-     "SCENE is a scene file (YAML or XML) or a mesh (OBJ). Without -o the picture is written to the current\n"
-     "folder, named after the scene.\n\n"
+     "SCENE is a scene file (YAML or XML) or a mesh (OBJ). Without -o the picture is written to the\n"
+     "current folder and named after the scene.\n\n"
      "  glint render scenes/showcase.glint.yaml\n"
      "  glint render scene.xml -o picture.png --size 640x480 --samples 4\n"
      "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n",
      1, 1, cmd_render},
     {"check", "SCENE|FOLDER...", "find every mistake in scene files",
-     "Reads each scene with all that it names and reports every mistake at its line and column; in folders "
-     "the\n"
-     "files named *.glint.yaml, *.glint.yml and *.glint.xml. The exit status is 0 where there is no error.\n"
-     "Settings come from the nearest .glintrc.yaml above each scene, and options go before them. A comment\n"
-     "'glint: allow W401' silences a warning on the next line. --format is one of text, json, sarif, "
-     "github,\n"
-     "gitlab and junit; notes are told with --verbose and in reports.\n\n"
+     "Reads each scene with every file that it names and reports every mistake with its line and column.\n"
+     "In folders it checks the files named *.glint.yaml, *.glint.yml and *.glint.xml. The exit status is 0\n"
+     "if there are no errors. Settings come from the nearest .glintrc.yaml above each scene; options\n"
+     "override them. A comment 'glint: allow W401' silences a warning on the next line. --format is one of\n"
+     "text, json, sarif, github, gitlab and junit; notes are shown with --verbose and in reports.\n\n"
      "  glint check scenes\n"
      "  glint check scenes --format sarif -o glint.sarif --fail-on warning\n",
      1, -1, cmd_check},
-    {"inspect", "SCENE", "tell what a scene holds and requires",
+    {"inspect", "SCENE", "show what a scene contains and requires",
      "Counts, bounds, the features that the scene switches on and where, and the sizes of the buffers.\n"
-     "With --ir the scene as it was understood: equal for two files that mean the same.\n",
+     "With --ir, prints the scene as glint understood it: the same text for two files that mean the same.\n",
      1, 1, cmd_inspect},
-    {"convert", "IN OUT", "translate between the YAML and the XML spelling",
-     "The endings of IN and OUT (.yaml .yml .json, .xml) tell the spellings; OUT '-' writes the other "
-     "spelling\n"
-     "to standard output. Comments before entries and includes are kept (JSON has no comments). Where OUT\n"
-     "lies in another folder than IN, paths are changed so that they name the same files.\n\n"
-     "  glint convert scene.xml scene.yaml\n",
+    {"convert", "IN OUT", "convert between the YAML and the XML spelling",
+     "The extensions of IN and OUT (.yaml .yml .json, .xml) determine the spellings; with OUT '-' the\nother "
+     "spelling is written to standard output. Comments before entries and includes are kept (JSON\nhas no "
+     "comments). If OUT is in another folder, paths are changed to name the same files.\n\n  glint convert "
+     "scene.xml scene.yaml\n",
      2, 2, cmd_convert},
     {"deps", "SCENE...", "list every file that scenes read",
-     "One path a line, each once: scene files, includes, meshes, their material files, the background.\n"
-     "--format text; json, with the role of each file and the places that name it; make, a rule for each\n"
-     "picture.\n\n"
+     "One path per line, each once: scene files, includes, meshes, their material files, the background.\n"
+     "--format is one of text; json, with the role of each file and the places that name it; and make,\n"
+     "with a rule for each picture.\n\n"
      "  glint deps --format make scenes/showcase.glint.yaml >showcase.d\n",
      1, -1, cmd_deps},
     {"pack", "SCENE OUT", "put a scene and all its files into one folder or ZIP archive",
-     "OUT is a ZIP archive where it ends in .zip, else a new folder. Paths are rewritten in the text of the\n"
-     "scene; nothing else is changed, and the package renders the same wherever it is put.\n\n"
+     "OUT is a ZIP archive if it ends in .zip, otherwise a new folder. Paths are rewritten in the text of\n"
+     "the scene; nothing else is changed, and the package renders the same wherever it is put.\n\n"
      "  glint pack scenes/showcase.glint.yaml showcase.zip\n",
      2, 2, cmd_pack},
     {"lsp", "", "serve an editor through the Language Server Protocol",
-     "Over standard input and output. While one types: every finding of 'glint check' with its fixes; where\n"
-     "names are defined and used, over includes; renaming; completion of names, words and files; the "
-     "outline;\n"
-     "formatting. docs/editors.md shows how editors are told to start it.\n",
+     "Uses standard input and output. While you type: every finding of 'glint check' with its fixes; where\n"
+     "names are defined and used, across includes; renaming; completion of names, words and files; the\n"
+     "outline; formatting. docs/editors.md shows how to make editors start it.\n",
      0, 0, cmd_lsp},
-    {"format", "FILE...", "lay scene files out in one way",
-     "Indentation, blanks and line breaks; comments, quoting, numbers, anchors and the order of keys stay. "
-     "FILE\n"
-     "is a scene, a folder with scenes, or '-': standard input, to standard output. docs/format.md describes "
-     "the\n"
-     "layout.\n\n"
+    {"format", "FILE...", "format scene files in one standard layout",
+     "Changes indentation, spaces and line breaks; keeps comments, quoting, numbers, anchors and the order\n"
+     "of keys. FILE is a scene, a folder with scenes, or '-' for standard input to standard output.\n"
+     "docs/format.md describes the layout.\n\n"
      "  glint format scene.glint.yaml\n"
      "  glint format --check scenes\n",
      1, -1, cmd_format},
-    {"diff", "A B", "tell what differs in meaning between two scenes",
-     "Values, entries that came or went, moved or were renamed, each with its place in both files; the "
-     "spelling,\n"
-     "comments and the order of keys are no difference. --format takes text and json. The exit status is 1\n"
-     "where anything differs.\n\n"
+    {"diff", "A B", "show how two scenes differ in meaning",
+     "Lists values that changed and entries that were added, removed, moved or renamed, each with its\n"
+     "place in both files. Differences in spelling, comments and the order of keys do not count. --format\n"
+     "is text or json. The exit status is 1 if anything differs.\n\n"
      "  glint diff old.glint.yaml new.glint.xml\n",
      2, 2, cmd_diff},
     {"schema", "json|relaxng|rnc|xsd|markdown|install FILE...",
-     "print the language's schema or reference page, or tie files to it",
-     "json: JSON Schema (draft-07) for YAML editors. relaxng, rnc: RELAX NG, in XML and compact syntax, for\n"
-     "XML editors. xsd: XML Schema for editors that know no RELAX NG: completion alone. markdown: the\n"
-     "reference page. install: puts the line into scene files that tells editors their schema, and the "
-     "schema\n"
-     "beside them (or names the one at --schema).\n\n"
+     "print the language's schema or reference page, or connect files to it",
+     "json: JSON Schema (draft-07) for YAML editors. relaxng, rnc: RELAX NG, in XML and compact syntax,\n"
+     "for XML editors. xsd: XML Schema for editors that do not know RELAX NG, for completion only.\n"
+     "markdown: the reference page. install: adds a line to scene files that tells editors where the\n"
+     "schema is, and writes the schema into the same folder (or uses the one at --schema).\n\n"
      "  glint schema install scene.yaml\n",
      1, -1, cmd_schema},
     {"explain", "CODE|ELEMENT[.ATTRIBUTE]", "explain a message's code or a part of the language",
      "  glint explain E206\n  glint explain material.albedo\n", 1, 1, cmd_explain},
     {"compare", "PICTURE REFERENCE", "measure how far one picture is from another",
-     "Reads PNG, JPEG, PFM and Radiance HDR pictures of one size. Two float pictures are compared as linear\n"
-     "values; 8-bit ones, and one of each kind, as displayed values from 0 to 1 (floats are clamped and\n"
-     "encoded, see --tone and --transfer). SSIM and FLIP are always of displayed values. --format takes "
-     "text\n"
-     "and json. The exit status is 1 where a bound is not kept.\n\n"
+     "Reads PNG, JPEG, PFM and Radiance HDR pictures of the same size. Two float pictures are compared as\n"
+     "linear values; two 8-bit ones, or one of each kind, as displayed values from 0 to 1 (floats are\n"
+     "clamped and encoded, see --tone and --transfer). SSIM and FLIP always use displayed values. --format\n"
+     "is text or json. The exit status is 1 if a value is beyond its bound.\n\n"
      "  glint compare picture.png reference.png --max-share 0.001 --heatmap errors.png\n",
      2, 2, cmd_compare},
-    {"extremes", "SCENE", "take a scene to its extremes, and tell what breaks",
-     "Moves, scales and backs away from the scene, changes its indices and exponents, puts slivers, "
-     "coplanar\n"
-     "rectangles and narrow gaps into it, and light and camera onto its surfaces. Each variant is traced by\n"
-     "the device and by the double-precision reference: wrong hits, self-hits, leaks, holes, values that are "
-     "no\n"
-     "number, image error. --format takes text and json; -o writes a report with the matrix. The exit "
-     "status\n"
-     "is 1 where a bound is broken (docs/accuracy.md; --thresholds brings others).\n\n"
+    {"extremes", "SCENE", "push a scene to its extremes, and show what breaks",
+     "Moves and scales the scene, moves the camera far away, changes refractive indices and specular\n"
+     "exponents, adds slivers, coplanar rectangles and narrow gaps, and puts light and camera onto\n"
+     "surfaces. Each variant is traced by the device and by the double-precision reference, which shows\n"
+     "wrong hits, self-hits, leaks, holes, values that are not a number, and image error. --format is text\n"
+     "or json; -o writes a report with the matrix. The exit status is 1 if a bound is broken\n"
+     "(docs/accuracy.md; --thresholds uses other bounds).\n\n"
      "  glint extremes scenes/showcase.glint.yaml -o report.html\n",
      1, 1, cmd_extremes},
-    {"pick", "SCENE X,Y", "tell what is seen at a pixel, and why",
-     "Body, material, the lines of scene and mesh, distance and normal, then the path of the ray: each "
-     "ray's\n"
-     "weight, what it meets, which lights shine there, what it adds; as the device traces it and as the\n"
-     "reference does in double precision, with the differences. Pixels count from 0,0 at the top left.\n"
-     "--format takes text and json; --device reference needs no device.\n\n"
+    {"pick", "SCENE X,Y", "show what is seen at a pixel, and why",
+     "Body, material, the lines of scene and mesh, distance and normal, then the path of the ray: each\n"
+     "ray's weight, what it hits, which lights shine there, what it adds; as the device traces it and as\n"
+     "the reference does in double precision, with the differences. Pixels count from 0,0 at the top left.\n"
+     "--format is text or json; --device reference needs no device.\n\n"
      "  glint pick scenes/showcase.glint.yaml 320,200\n",
      2, 2, cmd_pick},
-    {"tradeoff", "SCENE", "measure what each setting costs and what error it brings",
+    {"tradeoff", "SCENE", "measure what each setting costs and what error it causes",
      "Renders the scene with one setting changed at a time (max_depth, min_weight, precision, samples,\n"
      "shadows, resolution), then with pairs of those that mattered, and compares time and error with the\n"
-     "double-precision reference. Marks the front of what is worth choosing, and its knee; with --max-error\n"
-     "and --max-time names the settings to choose, as text to paste. --format takes text, json and csv; -o\n"
-     "writes a report with a plot and pictures. The exit status is 1 where nothing fits.\n\n"
+     "double-precision reference. Marks the front of the settings worth choosing, and its knee; with\n"
+     "--max-error and --max-time, names the settings to choose, as text to paste. --format is text, json\n"
+     "or csv; -o writes a report with a plot and pictures. The exit status is 1 if no settings fit.\n\n"
      "  glint tradeoff scene.yaml -o report.html\n"
      "  glint tradeoff scene.yaml --max-error flip=0.02 --max-time 40\n",
      1, 1, cmd_tradeoff},
@@ -157,14 +145,16 @@ static void init(struct cli *cli, int argc, char **argv) {
 }
 
 static void program_help(struct strbuf *out) {
-    strbuf_cstr(out, "Usage: glint COMMAND [OPTION]...\n\nDescribes a picture in a text file and renders it: "
-                     "scenes in YAML or XML, Whitted ray tracing on any\n"
-                     "Vulkan device, the processor included.\n\nCommands:\n");
+    strbuf_cstr(
+        out,
+        "Usage: glint COMMAND [OPTION]...\n\n"
+        "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
+        "any Vulkan device, including the processor.\n\nCommands:\n");
     for (const struct cli_command *c = cli_commands; c->name; c++)
         strbuf_format(out, "  %-10s %s\n", c->name, c->summary);
     strbuf_cstr(out, "\nOptions:\n");
     cli_option_help(out, NULL);
-    strbuf_cstr(out, "\n'glint COMMAND --help' tells more about a command.\n"
+    strbuf_cstr(out, "\n'glint COMMAND --help' shows more about a command.\n"
                      "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
                      "line cannot be\n"
                      "read or written; 4 no usable device; 130 or 143 interrupted.\n");
@@ -240,7 +230,7 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
         return too_many_operands(cli, command);
     for (int i = 0; i < cli->operand_count; i++)
         if (cli->operands[i][0] == '\0')
-            return cli_usage(cli, cli_operand_place(cli, i), "'glint %s' needs %s, and this is empty",
+            return cli_usage(cli, cli_operand_place(cli, i), "'glint %s' needs %s, but this is empty",
                              command->name, command->operands);
     return command->run(cli);
 }

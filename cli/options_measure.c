@@ -11,7 +11,7 @@ static bool read_number(struct cli *cli, int arg, const char *name, const char *
     double value = 0;
     if (number_parse(str_from(text), &value) != NUMBER_OK || !(value >= least && value <= most)) {
         if (isinf(most))
-            cli_usage(cli, arg, "--%s takes a number from %g on, not '%s'", name, least, text);
+            cli_usage(cli, arg, "--%s takes a number of at least %g, not '%s'", name, least, text);
         else
             cli_usage(cli, arg, "--%s takes a number from %g to %g, not '%s'", name, least, most, text);
         return false;

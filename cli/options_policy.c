@@ -10,7 +10,7 @@ static bool refuse_codes(struct cli *cli, int arg, const char *name, str codes,
                          enum diag_policy_status status) {
     if (status == DIAG_POLICY_UNKNOWN_CODE) {
         cli_usage(cli, arg, "--%s: there is no code '%.*s'", name, STR_ARG(codes));
-        diag_help(&cli->sink, "a code is a letter and three digits, W401, or a family, W4xx");
+        diag_help(&cli->sink, "a code is a letter and three digits, such as W401, or a family, such as W4xx");
     } else if (status == DIAG_POLICY_ERROR_CODE) {
         cli_usage(cli, arg, "--%s: errors cannot be silenced or lowered, and '%.*s' is one", name,
                   STR_ARG(codes));
@@ -53,7 +53,8 @@ static bool read_ignore(struct cli *cli, int arg, const char *text) {
         return refuse_codes(cli, arg, "ignore", pattern,
                             diag_policy_level(&cli->options.policy, pattern, STR("off")));
     if (pattern.len == 0 || !getcwd(folder, sizeof folder)) {
-        cli_usage(cli, arg, "--ignore takes a code, W401, or a pattern of paths, 'drafts/**'");
+        cli_usage(cli, arg,
+                  "--ignore takes a code, such as W401, or a pattern of paths, such as 'drafts/**'");
         return false;
     }
     diag_policy_ignore_path(&cli->options.policy, &cli->arena, str_from(folder), pattern);

@@ -87,7 +87,8 @@ static void tell_end(struct render_job *job, const struct exact *exact, const ch
                      const struct reference_statistics *statistics) {
     if (job->cli->options.quiet)
         return;
-    fprintf(stderr, "glint: the reference left weight %.3g of a pixel at most, which is worth %.3g%s\n",
+    fprintf(stderr,
+            "glint: the reference left out at most %.3g of a pixel's weight, which could add %.3g%s\n",
             statistics->left_weight_most, statistics->bound,
             exact->source.found ? " (picture from its cache)" : "");
     if (strcmp(path, "-") != 0)

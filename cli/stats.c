@@ -49,7 +49,7 @@ void stats_text(const struct stats *s, struct strbuf *out) {
     count(out, "by min_weight", r->cut_by_weight);
     strbuf_format(out, "  largest lost     %10.3g by depth, %.3g by weight\n", r->lost_by_depth,
                   r->lost_by_weight);
-    count(out, "zero triangles", s->dropped);
+    count(out, "zero-area faces", s->dropped);
     strbuf_cstr(out, "scene\n");
     count(out, "triangles", s->triangles);
     count(out, "spheres", s->spheres);

@@ -31,8 +31,9 @@ static bool read_max_error(struct cli *cli, struct tradeoff_options *options) {
         if (best.len)
             diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
         else
-            diag_help(&cli->sink,
-                      "write METRIC=X, METRIC one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
+            diag_help(
+                &cli->sink,
+                "write METRIC=X, where METRIC is one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
         return false;
     }
     if (equals && number_parse(str_from(equals + 1), &options->max_error) == NUMBER_OK &&
@@ -135,8 +136,9 @@ static int take_choice(struct cli *cli, const struct tradeoff *study) {
         fwrite(text.data ? text.data : "", 1, text.len, stderr);
     strbuf_finish(&text);
     if (row == CHOICE_NONE) {
-        cli_error(cli, DIAG_NOTHING_FITS, cli->operands[0], "'glint tradeoff' shows all that was tried",
-                  "no setting keeps the bounds of --max-error and --max-time");
+        cli_error(cli, DIAG_NOTHING_FITS, cli->operands[0],
+                  "'glint tradeoff' shows everything that was tried",
+                  "no settings stay within the bounds of --max-error and --max-time");
         return CLI_SCENE;
     }
     char assignment[80];
@@ -173,7 +175,7 @@ int cli_choose_settings(struct cli *cli, struct asset_store *store) {
         return CLI_USAGE;
     if (cli_device_is_reference(cli) || str_equal(cli->options.camera, STR("all")))
         return cli_usage(cli, cli->options.measure.max_error_arg,
-                         "--max-error and --max-time choose for one camera on a device");
+                         "--max-error and --max-time work for one camera, on a device");
     options.quick = true;
     const struct session_options load = cli_session_options(cli, cli->operands[0]);
     session_load(&session, &load, store);

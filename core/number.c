@@ -220,13 +220,13 @@ const char *number_problem(enum number_status status) {
     case NUMBER_OCTAL:
         return "is octal; write it in decimal";
     case NUMBER_UNDERSCORE:
-        return "holds an underscore; write the digits together";
+        return "contains an underscore; write the digits without it";
     case NUMBER_COMMA:
-        return "has a decimal comma; write a point";
+        return "has a decimal comma; write a decimal point";
     case NUMBER_LEADING_ZERO:
         return "has superfluous leading zeros";
     case NUMBER_UNIT:
-        return "has text behind the number; write the number alone";
+        return "has text after the number; write only the number";
     case NUMBER_OVERFLOW:
         return "is too large to be represented";
     case NUMBER_UNDERFLOW:

@@ -317,21 +317,21 @@ static bool is_letter(char c) {
 
 str files_advice(struct arena *arena, str path) {
     if (path.len > 2 && is_letter(path.ptr[0]) && path.ptr[1] == ':')
-        return STR("paths are relative to the file that holds them, with '/' between folders");
+        return STR("paths are relative to the file that contains them, with '/' between folders");
     if (path.len && path.ptr[0] == '~')
-        return STR("'~' is not expanded: paths are relative to the file that holds them");
+        return STR("'~' is not expanded: paths are relative to the file that contains them");
     if (path.len && path.ptr[0] == '$')
-        return STR("variables are not expanded: paths are relative to the file that holds them");
+        return STR("variables are not expanded: paths are relative to the file that contains them");
     for (size_t at = 0; at + 3 <= path.len; at++)
         if (memcmp(path.ptr + at, "://", 3) == 0)
-            return STR("only files are read, and no addresses");
+            return STR("only files are read, not addresses");
     if (path.len == 0 || !memchr(path.ptr, '\\', path.len))
         return STR("");
     str copy = arena_copy(arena, path);
     for (size_t at = 0; at < copy.len; at++)
         if (copy.ptr[at] == '\\')
             ((char *)copy.ptr)[at] = '/';
-    return arena_format(arena, "write '%.*s': '/' stands between folders on every system", STR_ARG(copy));
+    return arena_format(arena, "write '%.*s': '/' goes between folders on every system", STR_ARG(copy));
 }
 
 const char *file_status_text(const struct files *files, enum file_status status) {

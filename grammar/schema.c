@@ -46,19 +46,20 @@
     .row_count = sizeof(table) / sizeof((table)[0]), .size = sizeof(struct type)
 
 static const char *const tone_words[] = {"clip", "normalize", NULL};
-static const char *const tone_docs[] = {"Values above 1 are cut.",
-                                        "A colour with a component above 1 is divided by its largest.", NULL};
+static const char *const tone_docs[] = {
+    "Values above 1 are clipped.", "A colour with a component above 1 is divided by its largest component.",
+    NULL};
 static const char *const transfer_words[] = {"none", "srgb", NULL};
 static const char *const transfer_docs[] = {
     "Values are displayed as they are.",
     "Values are linear light; image files, #rrggbb and the picture are sRGB.", NULL};
 static const char *const depth_words[] = {"background", "black", NULL};
-static const char *const depth_docs[] = {"A ray beyond the depth sees the background.",
-                                         "A ray beyond the depth sees nothing.", NULL};
+static const char *const depth_docs[] = {"A ray beyond 'max_depth' sees the background.",
+                                         "A ray beyond 'max_depth' sees black.", NULL};
 static const char *const precision_words[] = {"auto", "single", "double", NULL};
 static const char *const precision_docs[] = {
     "Double where the scene's sizes and distances need it, else single; `glint inspect` says which and why.",
-    "Single precision whatever the scene.", "Double precision: slower.", NULL};
+    "Always single precision.", "Always double precision: slower.", NULL};
 static const char *const falloff_words[] = {"none", "inverse_square", NULL};
 static const char *const falloff_docs[] = {"The light is equally strong everywhere.",
                                            "The light's strength is divided by the square of the distance.",
@@ -100,18 +101,18 @@ const struct schema_element SCHEMA_IMAGE = {
 static const struct schema_row trace_rows[] = {
     {.name = "max_depth", FIELD(ir_trace, max_depth), .example = "8", .range = SCHEMA_RANGE_DEPTH,
      .also = "depth bounces max_bounces recursion max_recursion",
-     .standard = "16", .doc = "Surfaces at this depth send no further ray; the camera's ray has depth 0."},
+     .standard = "16", .doc = "Surfaces at this depth send no further rays; the camera's ray has depth 0."},
     {.name = "min_weight", FIELD(ir_trace, min_weight), .example = "0.001", .range = SCHEMA_RANGE_FRACTION,
      .standard = "0.0009765625",
-     .doc = "A ray that would contribute with less than this weight is not traced."},
+     .doc = "A ray that would contribute less than this weight is not traced."},
     {.name = "depth_limit", FIELD(ir_trace, depth_limit), .example = "black", .words = depth_words,
      .word_docs = depth_docs, .standard = "background", .feature = FEATURE_DEPTH_BLACK,
      .doc = "What a ray beyond 'max_depth' sees."},
     {.name = "precision", FIELD(ir_trace, precision), .example = "double", .words = precision_words,
      .word_docs = precision_docs, .standard = "auto", .also = "float real accuracy",
-     .doc = "How exactly places and distances are computed."},
+     .doc = "How precisely positions and distances are computed."},
     {.name = "shadows", FIELD(ir_trace, shadows), .standard = "true", .feature = FEATURE_SHADOWS,
-     .doc = "Whether bodies keep light from other bodies."},
+     .doc = "Whether bodies cast shadows."},
 };
 const struct schema_element SCHEMA_TRACE = {
     ELEMENT("trace", "Trace", ir_trace, trace_rows, "How far rays are followed.")};
@@ -123,21 +124,21 @@ static const struct schema_row camera_rows[] = {
     {.name = "position", .element = "Position", FIELD(ir_camera, position), .example = "0 2 8",
      .also = "eye origin location from center translation",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .standard = "0 0 0",
-     .doc = "Where the camera stands."},
+     .doc = "The camera's position."},
     {.name = "look_at", .element = "LookAt", FIELD(ir_camera, look_at), .example = "0 1 0",
      .also = "target at to focus looking_at",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_VIEW_LOOK_AT,
-     .doc = "A point in the middle of the picture."},
+     .doc = "The point shown in the middle of the picture."},
     {.name = "direction", .element = "Direction", FIELD(ir_camera, direction), .example = "0 -0.2 -1",
      .also = "forward view_direction",
      .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_VIEW_DIRECTION, .standard = "0 0 -1",
-     .doc = "The direction of view; any length but 0."},
+     .doc = "The direction of view; any length except 0."},
     {.name = "rotation", .element = "Rotation", FIELD(ir_camera, rotation), .example = "-10 0 0",
      .also = "orientation rotate",
      .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_ANGLE, .choice = 1, .alternative = IR_VIEW_ROTATION,
      .doc = "Turns a camera that looks along -z: about x, then y, then z."},
     {.name = "up", .element = "Up", FIELD(ir_camera, up), .range = SCHEMA_RANGE_COORDINATE,
-     .standard = "0 1 0", .doc = "A direction that is upwards in the picture."},
+     .standard = "0 1 0", .doc = "The direction that points up in the picture."},
     {.name = "fov", FIELD(ir_camera, fov), .example = "45", .unit = SCHEMA_UNIT_DEGREES,
      .also = "angle field_of_view vfov fovy fov_y",
      .range = SCHEMA_RANGE_FOV, .standard = "60", .doc = "Vertical field of view."},
@@ -154,16 +155,15 @@ static const struct schema_row background_rows[] = {
      .also = "texture map file skybox envmap hdri",
      .file = SCHEMA_FILE_IMAGE, .choice = 1, .alternative = IR_BACKDROP_IMAGE,
      .feature = FEATURE_BACKGROUND_IMAGE,
-     .doc = "Path of an equirectangular image (PNG, JPEG or Radiance HDR): the middle shows the view along "
-            "+x."},
+     .doc = "Path of an equirectangular image (PNG, JPEG or Radiance HDR): its middle is the view along +x."},
     {.name = "intensity", FIELD(ir_background, intensity), .example = "0.5", .range = SCHEMA_RANGE_WEIGHT,
      .also = "strength brightness",
-     .standard = "1", .doc = "Factor on the background."},
+     .standard = "1", .doc = "Multiplies the background."},
     {.name = "rotation", FIELD(ir_background, rotation), .example = "90", .unit = SCHEMA_UNIT_DEGREES,
      .range = SCHEMA_RANGE_ANGLE, .standard = "0", .doc = "Turns the background about the y axis."},
 };
 const struct schema_element SCHEMA_BACKGROUND = {
-    ELEMENT("background", "Background", ir_background, background_rows, "What rays see that hit no body."),
+    ELEMENT("background", "Background", ir_background, background_rows, "What rays that hit no body see."),
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_background, kind)}}};
 
 static const struct schema_row light_rows[] = {
@@ -177,10 +177,10 @@ static const struct schema_row light_rows[] = {
     {.name = "direction", .element = "Direction", FIELD(ir_light, direction), .example = "1 -2 -1",
      .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_LIGHT_DIRECTION,
      .feature = FEATURE_DIRECTION_LIGHT,
-     .doc = "A light infinitely far away: the way its light travels; any length but 0."},
+     .doc = "A light infinitely far away: the direction in which its light travels; any length except 0."},
     {.name = "intensity", FIELD(ir_light, intensity), .example = "1.5", .range = SCHEMA_RANGE_WEIGHT,
      .also = "power strength brightness energy",
-     .standard = "1", .doc = "Factor on the colour."},
+     .standard = "1", .doc = "Multiplies the colour."},
     {.name = "color", .element = "Color", FIELD(ir_light, color), .example = "1 0.9 0.8",
      .range = SCHEMA_RANGE_WEIGHT, .standard = "1 1 1", .doc = "Colour of the light."},
     {.name = "falloff", FIELD(ir_light, falloff), .words = falloff_words, .word_docs = falloff_docs,
@@ -188,20 +188,20 @@ static const struct schema_row light_rows[] = {
      .standard = "none", .feature = FEATURE_INVERSE_SQUARE, .doc = "How the light weakens with distance."},
 };
 const struct schema_element SCHEMA_LIGHT = {
-    ELEMENT("light", "Light", ir_light, light_rows, "A light without extent; shadows have hard edges."),
+    ELEMENT("light", "Light", ir_light, light_rows, "A light without size: its shadows have hard edges."),
     .choices = {{SCHEMA_CHOICE_EXACTLY_ONE, offsetof(struct ir_light, kind)}}};
 
 static const struct schema_row checker_rows[] = {
     {.name = "color", .element = "Color", .plural = "colors", FIELD_PAIR(ir_checker, colors),
      .example = "0.9 0.9 0.9", .example_next = "0.1 0.1 0.3", .range = SCHEMA_RANGE_WEIGHT, .required = true,
-     .doc = "The two colours; the first is that of the cell at the origin."},
+     .doc = "The two colours; the cell at the origin has the first."},
     {.name = "size", FIELD(ir_checker, size), .example = "2", .unit = SCHEMA_UNIT_SCENE,
      .also = "scale width cell_size",
      .range = SCHEMA_RANGE_LENGTH, .standard = "1",
-     .doc = "Edge of a cell: along the edges of a rectangle, in the body's own coordinates elsewhere."},
+     .doc = "Edge length of a cell: on a rectangle along its edges, on other bodies in their own coordinates."},
 };
 const struct schema_element SCHEMA_CHECKER = {
-    ELEMENT("checker", "Checker", ir_checker, checker_rows, "Cells of two colours in turn.")};
+    ELEMENT("checker", "Checker", ir_checker, checker_rows, "Cells of two alternating colours.")};
 
 static const struct schema_row paint_rows[] = {
     {.name = "color", .element = "Color", FIELD(ir_paint, color), .example = "0.4 0.4 0.3",
@@ -232,7 +232,7 @@ static const struct schema_row material_rows[] = {
     {.name = "specular_exponent", FIELD(ir_material, specular_exponent), .example = "125",
      .also = "shininess exponent ns phong_exponent glossiness",
      .range = SCHEMA_RANGE_EXPONENT, .standard = "32",
-     .doc = "Sharpness of the highlights: larger is smaller and sharper (Phong's exponent)."},
+     .doc = "Sharpness of the highlights: a larger value makes them smaller and sharper (Phong's exponent)."},
     {.name = "refractive_index", FIELD(ir_material, refractive_index), .example = "1.5",
      .also = "ior index index_of_refraction eta ni",
      .range = SCHEMA_RANGE_INDEX, .standard = "1",
@@ -240,7 +240,7 @@ static const struct schema_row material_rows[] = {
 };
 const struct schema_element SCHEMA_MATERIAL = {
     ELEMENT("material", "Material", ir_material, material_rows,
-            "How a surface answers light: the weights and colours of tinyraytracer's materials.")};
+            "How a surface responds to light: the weights and colours of tinyraytracer's materials.")};
 
 #define BODY_NAME(type, sample)                                                                                      \
     {                                                                                                        \
@@ -252,7 +252,7 @@ const struct schema_element SCHEMA_MATERIAL = {
         .name = "material", .element = "Material", FIELD(type, material), .example = "glass",                \
         .also = "color colour diffuse_color shader",                                                         \
         .child = &SCHEMA_MATERIAL,                                                                           \
-        .doc = "Name of a material, or a material of its own; without one the default material."             \
+        .doc = "Name of a material, or a material of its own; if left out, the default material."             \
     }
 
 static const struct schema_row sphere_rows[] = {
@@ -260,10 +260,10 @@ static const struct schema_row sphere_rows[] = {
     {.name = "center", .element = "Center", FIELD(ir_sphere, center), .example = "0 1 0",
      .also = "pos position location origin translation middle",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
-     .doc = "Middle of the sphere."},
+     .doc = "Centre of the sphere."},
     {.name = "radius", FIELD(ir_sphere, radius), .example = "1.5", .unit = SCHEMA_UNIT_SCENE,
      .also = "r size diameter",
-     .range = SCHEMA_RANGE_LENGTH, .required = true, .doc = "Distance from the middle to the surface."},
+     .range = SCHEMA_RANGE_LENGTH, .required = true, .doc = "Distance from the centre to the surface."},
     BODY_MATERIAL(ir_sphere),
 };
 const struct schema_element SCHEMA_SPHERE = {
@@ -278,11 +278,11 @@ static const struct schema_row rectangle_rows[] = {
     {.name = "edge_u", .element = "EdgeU", FIELD(ir_rectangle, edge_u), .example = "10 0 0",
      .also = "u",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
-     .doc = "From the corner to the next one."},
+     .doc = "From the corner to a neighbouring corner."},
     {.name = "edge_v", .element = "EdgeV", FIELD(ir_rectangle, edge_v), .example = "0 0 -10",
      .also = "v",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
-     .doc = "From the corner to the one on its other side; need not be at a right angle to 'edge_u'."},
+     .doc = "From the corner to its other neighbour; need not be at a right angle to 'edge_u'."},
     BODY_MATERIAL(ir_rectangle),
 };
 const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
@@ -290,14 +290,14 @@ const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
 
 static const struct schema_row map_entry_rows[] = {
     {.name = "from", FIELD(ir_map_entry, from), .example = "Gold", .text = SCHEMA_TEXT_FOREIGN_NAME,
-     .key = true, .required = true, .doc = "Name of a material as the mesh file has it."},
+     .key = true, .required = true, .doc = "Name of a material in the mesh file."},
     {.name = "to", .element = "To", FIELD(ir_map_entry, to), .example = "brass", .child = &SCHEMA_MATERIAL,
      .required = true, .short_form = true,
-     .doc = "Name of the scene's material that takes its place, or a material of its own."},
+     .doc = "Name of the scene's material that replaces it, or a material of its own."},
 };
 const struct schema_element SCHEMA_MAP_ENTRY = {
     ELEMENT("material_map", "MaterialMap", ir_map_entry, map_entry_rows,
-            "Gives a material of the scene to the faces of one material of the mesh file.")};
+            "Gives the faces of one material of the mesh file a material of the scene.")};
 
 static const struct schema_row model_rows[] = {
     BODY_NAME(ir_model, "dragon"),
@@ -307,14 +307,14 @@ static const struct schema_row model_rows[] = {
     BODY_MATERIAL(ir_model),
     {.name = "material_map", .element = "MaterialMap", FIELD(ir_model, material_map),
      .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MAP_ENTRY,
-     .doc = "Materials by the names that the mesh file uses; stronger than 'material'."},
+     .doc = "Materials by the names that the mesh file uses; they override 'material'."},
     {.name = "smooth", FIELD(ir_model, smooth), .example = "true", .standard = "false",
      .also = "smooth_shading shade_smooth smoothing",
-     .feature = FEATURE_SMOOTH, .doc = "Interpolate normals between vertices, so that facets look round."},
+     .feature = FEATURE_SMOOTH, .doc = "Interpolate normals between vertices, so that facets look smooth."},
     {.name = "scale", .element = "Scale", FIELD(ir_model, scale), .example = "0.7 0.7 0.7",
      .also = "size scaling",
      .range = SCHEMA_RANGE_SCALE, .standard = "1 1 1", .fill = true,
-     .doc = "Factor on the mesh's size, first of all; negative values mirror."},
+     .doc = "Scales the mesh, before it is turned and moved; negative values mirror it."},
     {.name = "rotation", .element = "Rotation", FIELD(ir_model, rotation), .example = "0 110 0",
      .also = "orientation angles",
      .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_ANGLE, .standard = "0 0 0",
@@ -322,7 +322,7 @@ static const struct schema_row model_rows[] = {
     {.name = "translation", .element = "Translation", FIELD(ir_model, translation), .example = "0 -3 -7",
      .also = "pos position location offset center origin move",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .standard = "0 0 0",
-     .doc = "Moves the turned mesh, last of all."},
+     .doc = "Moves the scaled and turned mesh."},
 };
 const struct schema_element SCHEMA_MODEL = {
     ELEMENT("model", "Model", ir_model, model_rows, "A mesh from a file, placed in the scene.")};
@@ -343,7 +343,7 @@ static const struct schema_row scene_rows[] = {
      .doc = "The tracer's settings."},
     {.name = "background", .element = "Background", FIELD(ir_scene, background), .child = &SCHEMA_BACKGROUND,
      .also = "sky environment env world skybox",
-     .doc = "What rays see that hit no body."},
+     .doc = "What rays that hit no body see."},
     {.name = "camera", .element = "Camera", .plural = "cameras", FIELD(ir_scene, cameras),
      .also = "eye viewpoint view",
      .many = SCHEMA_NAMED_MAP, .single = "main", .child = &SCHEMA_CAMERA, .doc = "Points of view."},
@@ -361,10 +361,10 @@ static const struct schema_row scene_rows[] = {
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_RECTANGLE, .feature = FEATURE_TRIANGLES, .doc = "Rectangles."},
     {.name = "model", .element = "Model", .plural = "models", FIELD(ir_scene, models),
      .also = "mesh meshes object objects shape shapes obj",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_MODEL, .feature = FEATURE_TRIANGLES, .doc = "Meshes, placed."},
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_MODEL, .feature = FEATURE_TRIANGLES, .doc = "Meshes placed in the scene."},
 };
 const struct schema_element SCHEMA_SCENE = {
-    ELEMENT("scene", "Scene", ir_scene, scene_rows, "A scene file's root.")};
+    ELEMENT("scene", "Scene", ir_scene, scene_rows, "The root of a scene file.")};
 
 // clang-format on
 

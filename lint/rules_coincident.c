@@ -26,10 +26,10 @@ static void check_mesh(struct lint *lint, struct lint_mesh *mesh) {
     if (pairs->count == 0)
         return;
     diag_add(lint->sink, DIAG_COINCIDENT, lint_place_mesh(lint, mesh->first),
-             "%u of the mesh's %u triangles lie in one plane with others and cover a part of them",
-             pairs->count, mesh->mesh->triangle_count);
-    lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->first].line, "the first is in this face");
-    lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->second].line, "and covers a part of this one");
+             "%u of the mesh's %u triangles lie in the same plane as others and overlap them", pairs->count,
+             mesh->mesh->triangle_count);
+    lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->first].line, "the first is this face");
+    lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->second].line, "which overlaps this one");
     diag_help(lint->sink, "remove one of the faces, or move it by a visible amount");
 }
 
@@ -88,7 +88,7 @@ static bool *find_repeats(struct lint *lint) {
         const struct lint_body *body = &lint->bodies[keys[i].body];
         repeats[keys[i].body] = true;
         diag_add(lint->sink, DIAG_COINCIDENT, lint_place(lint, body),
-                 "%.*s stands exactly where another one does", STR_ARG(lint_words(lint, body)));
+                 "%.*s is at exactly the same place as another one", STR_ARG(lint_words(lint, body)));
         diag_note(lint->sink, lint_place(lint, &lint->bodies[keys[first].body]), "this is the other one");
         diag_help(lint->sink, "remove one of the two, or move it");
     }
@@ -176,11 +176,10 @@ static void report(struct search *s) {
     const struct lint_body *first = s->a < s->b ? s->a : s->b;
     const struct lint_body *second = s->a < s->b ? s->b : s->a;
     struct lint *lint = s->lint;
-    diag_add(
-        lint->sink, DIAG_COINCIDENT, lint_place(lint, second),
-        "faces of %.*s and of %.*s lie in one plane and cover each other: rounding decides which is seen",
-        STR_ARG(lint_words(lint, second)), STR_ARG(lint_words_other(lint, first)));
-    diag_note(lint->sink, lint_place(lint, first), "%u pair%s of triangles with those of this body", s->count,
+    diag_add(lint->sink, DIAG_COINCIDENT, lint_place(lint, second),
+             "faces of %.*s and of %.*s lie in the same plane and overlap: rounding decides which is seen",
+             STR_ARG(lint_words(lint, second)), STR_ARG(lint_words_other(lint, first)));
+    diag_note(lint->sink, lint_place(lint, first), "%u pair%s of triangles with this body", s->count,
               s->count == 1 ? "" : "s");
     if (s->a->mesh)
         lint_note_mesh(lint, s->a->mesh, s->a->mesh->mesh->triangles[s->first_a].line,

@@ -170,11 +170,11 @@ static void report(const struct glass *glass, uint32_t at, uint32_t rays) {
     uint32_t y = (uint32_t)((at / glass->columns + 0.5) / glass->rows * image->height);
     uint32_t needed = glass->layers[at];
     diag_add(lint->sink, DIAG_DEPTH_SHORT, depth_place(lint, body),
-             "max_depth is %d, and a ray through pixel %u,%u crosses %u surfaces of glass: it ends before it "
-             "has passed them",
+             "max_depth is %d, but a ray through pixel %u,%u crosses %u glass surfaces: it ends before it "
+             "has passed all of them",
              lint->ir->trace.max_depth, x, y, needed);
     diag_note(lint->sink, lint_place(lint, body),
-              "the first is that of %.*s; in %.3g %% of the picture rays end in glass",
+              "the first is the surface of %.*s; in %.3g %% of the picture rays end in glass",
               STR_ARG(lint_words_other(lint, body)), 100.0 * rays / (glass->columns * glass->rows));
     if (needed <= 64)
         diag_help(lint->sink, "write max_depth: %u", needed);

@@ -35,5 +35,5 @@ void lint_oversized_image(struct lint *lint) {
         "the background of %u x %u pixels is at least %.3g times finer than a picture of %d x %d can show",
         width, lint->scene->assets->background_height, texels / finest, image->width, image->height);
     double enough = exp2(ceil(log2(TURN * finest)));
-    diag_help(lint->sink, "an image %.0f pixels wide shows all that this picture can", enough);
+    diag_help(lint->sink, "an image %.0f pixels wide is enough for this picture", enough);
 }

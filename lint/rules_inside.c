@@ -22,14 +22,14 @@ static bool holds_light(struct lint *lint, const struct lint_body *body) {
 
 static void report_camera(struct lint *lint, const struct ir_camera *camera, const struct lint_body *body) {
     span at = ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position");
-    diag_add(lint->sink, DIAG_CAMERA_INSIDE, at, "camera '%.*s' stands inside %.*s", STR_ARG(camera->name),
+    diag_add(lint->sink, DIAG_CAMERA_INSIDE, at, "camera '%.*s' is inside %.*s", STR_ARG(camera->name),
              STR_ARG(lint_words_other(lint, body)));
     if (body->is_opaque)
         diag_note(lint->sink, lint_place(lint, body),
-                  "no light is inside: the camera sees its dark inner side");
+                  "there is no light inside: the camera sees only its dark inner side");
     else
         diag_note(lint->sink, lint_place(lint, body),
-                  "it refracts, and rays are bent as they leave it: the picture is that of a diver");
+                  "it refracts, so rays are bent as they leave it, as in a picture taken under water");
     diag_help(lint->sink, "move the camera out of the body");
 }
 
@@ -111,7 +111,7 @@ static bool check_light(struct lint *lint, const struct ir_light *light, const s
     uint32_t triangle = 0;
     if (is_on(lint, body, light->position, near, &triangle)) {
         diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
-                 "this light lies on the surface of %.*s: rounding decides which side it shines on",
+                 "this light is on the surface of %.*s: rounding decides which side it shines on",
                  STR_ARG(lint_words_other(lint, body)));
         if (body->mesh)
             lint_note_mesh(lint, body->mesh, body->mesh->mesh->triangles[triangle].line, "on this face");
@@ -123,9 +123,9 @@ static bool check_light(struct lint *lint, const struct ir_light *light, const s
     if (!lint_is_inside(lint, body, light->position) || any_camera_inside(lint, body))
         return false;
     diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
-             "this light is inside %.*s, which keeps its light from everything outside",
+             "this light is inside %.*s, which blocks its light from everything outside",
              STR_ARG(lint_words_other(lint, body)));
-    diag_note(lint->sink, lint_place(lint, body), "bodies cast full shadows, glass too");
+    diag_note(lint->sink, lint_place(lint, body), "all bodies, even glass, cast full shadows");
     diag_help(lint->sink, "move the light out, or set trace.shadows to false");
     return true;
 }

@@ -32,9 +32,9 @@ static str material_words(struct lint *lint, const struct ir_material *material)
 static void report_index(struct lint *lint, const struct lint_body *body,
                          const struct ir_material *material) {
     diag_add(lint->sink, DIAG_INDEX_ONE, material_part(lint, material, "refractive_index", body),
-             "%.*s refracts with weight %.*s and has the index of the air around it, 1: nothing is bent",
+             "%.*s refracts with weight %.*s but has the same index as the air around it, 1: nothing is bent",
              STR_ARG(material_words(lint, material)), STR_ARG(number(lint, material->albedo.refraction)));
-    diag_note(lint->sink, lint_place(lint, body), "%.*s has it", STR_ARG(lint_words(lint, body)));
+    diag_note(lint->sink, lint_place(lint, body), "%.*s has this material", STR_ARG(lint_words(lint, body)));
     diag_help(lint->sink,
               "write refractive_index: 1.5 for glass, 1.33 for water; for a thin pane use a rectangle");
 }
@@ -110,14 +110,15 @@ void lint_amplifying(struct lint *lint) {
     const struct lint_body *body = worst.a->gain >= worst.b->gain ? worst.a : worst.b;
     const struct ir_material *material = strongest(lint, body);
     diag_add(lint->sink, DIAG_AMPLIFYING, material_part(lint, material, "albedo", body),
-             "%.*s sends on %.*s times the light that it receives; between mirrors it grows %.3g times in "
+             "%.*s passes on %.*s times the light that it receives; between mirrors it grows %.3g times in "
              "%d bounces",
              STR_ARG(material_words(lint, material)), STR_ARG(number(lint, body->gain)), growth, depth);
     if (worst.a == worst.b)
-        diag_note(lint->sink, lint_place(lint, body), "light can go round within %.*s",
+        diag_note(lint->sink, lint_place(lint, body), "light can bounce around inside %.*s",
                   STR_ARG(lint_words_other(lint, body)));
     else
-        diag_note(lint->sink, lint_place(lint, worst.b), "light can go to and fro between %.*s and %.*s",
+        diag_note(lint->sink, lint_place(lint, worst.b),
+                  "light can bounce back and forth between %.*s and %.*s",
                   STR_ARG(lint_words_other(lint, worst.a)), STR_ARG(lint_words_other(lint, worst.b)));
     diag_help(lint->sink, "let the weights of reflection and refraction add up to 1 at most");
 }

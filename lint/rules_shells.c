@@ -17,10 +17,10 @@ void lint_self_overlap(struct lint *lint) {
         diag_add(lint->sink, DIAG_SELF_OVERLAP, lint_place_mesh(lint, mesh->first_refracting),
                  "the mesh refracts and crosses itself: %u of its %u triangles cut through others",
                  pairs->count, mesh->mesh->triangle_count);
-        lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->first].line, "the first is in this face");
+        lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->first].line, "the first is this face");
         lint_note_mesh(lint, mesh, mesh->mesh->triangles[pairs->second].line, "which cuts through this one");
         diag_help(lint->sink,
-                  "unite the parts in a modelling program, so that one surface parts inside from outside");
+                  "join the parts in a modelling program, so that one surface separates inside from outside");
     }
 }
 
@@ -250,11 +250,11 @@ static void check_turned(struct lint *lint, struct lint_mesh *mesh) {
     if (turned == 0)
         return;
     diag_add(lint->sink, DIAG_INSIDE_OUT, lint_place_mesh(lint, mesh->first_refracting),
-             "the mesh refracts, and at %u edge%s two faces of it are turned against each other", turned,
+             "the mesh refracts, and at %u edge%s two of its faces point opposite ways", turned,
              turned == 1 ? "" : "s");
     lint_note_mesh(lint, mesh, mesh->mesh->triangles[a].line, "between this face");
     lint_note_mesh(lint, mesh, mesh->mesh->triangles[b].line, "and this one");
-    diag_help(lint->sink, "let a modelling program turn all faces outwards: 'recalculate normals'");
+    diag_help(lint->sink, "turn all faces outwards in a modelling program: 'recalculate normals'");
 }
 
 void lint_inside_out(struct lint *lint) {

@@ -99,7 +99,7 @@ void lint_duplicates(struct lint *lint) {
         if (twins.count == 0)
             continue;
         diag_add(lint->sink, DIAG_DUPLICATE_TRIANGLES, lint_place_mesh(lint, mesh->first),
-                 "%u of the mesh's %u triangles %s the corners of an earlier one%.*s", twins.count,
+                 "%u of the mesh's %u triangles %s the same corners as an earlier one%.*s", twins.count,
                  mesh->mesh->triangle_count, twins.count == 1 ? "has" : "have", STR_ARG(others(lint, mesh)));
         lint_note_mesh(lint, mesh, twins.line, "%s in this face",
                        twins.count == 1 ? "it is" : "the first is");
@@ -143,18 +143,17 @@ static void look_at(const struct mesh *mesh, uint32_t i, struct torn *torn) {
 static void report_torn(struct lint *lint, struct lint_mesh *mesh, const struct torn *torn) {
     uint32_t n = torn->count + torn->opposed;
     diag_add(lint->sink, DIAG_OPPOSING_NORMALS, lint_place_mesh(lint, mesh->first_smooth),
-             "%u of the mesh's %u triangles %s normals in the file that point against the face", n,
+             "%u of the mesh's %u triangles %s normals in the file that oppose the face", n,
              mesh->mesh->triangle_count, n == 1 ? "has" : "have");
     if (torn->count)
-        lint_note_mesh(lint, mesh, torn->line, "%u triangle%s to both sides, the first in this face",
+        lint_note_mesh(lint, mesh, torn->line, "%u triangle%s on both sides, the first in this face",
                        torn->count, torn->count == 1 ? " has normals" : "s have normals");
     if (torn->opposed)
         lint_note_mesh(lint, mesh, torn->opposed_line,
-                       "%u triangle%s to the back alone, the first in this face", torn->opposed,
+                       "%u triangle%s only on the back, the first in this face", torn->opposed,
                        torn->opposed == 1 ? " has normals" : "s have normals");
-    diag_help(lint->sink,
-              "recompute the normals in a modelling program, or remove them from the file: smooth "
-              "models compute their own");
+    diag_help(lint->sink, "recompute the normals in a modelling program, or remove them from the file: "
+                          "smooth models without normals compute their own");
 }
 
 void lint_opposing_normals(struct lint *lint) {

@@ -82,14 +82,15 @@ static void report_cameras(struct lint *lint) {
     for (uint32_t k = 0; k < lint->body_count; k++)
         all = lint_box_join(all, lint->bodies[k].box);
     vec3 middle = vec3_mul(vec3_add(all.lower, all.upper), 0.5);
-    diag_help(lint->sink, "turn it to them: their middle is at %.3g %.3g %.3g", middle.x, middle.y, middle.z);
+    diag_help(lint->sink, "turn it towards them: their centre is at %.3g %.3g %.3g", middle.x, middle.y,
+              middle.z);
 }
 
 static void report_body(struct lint *lint, const struct lint_body *body) {
     diag_add(lint->sink, DIAG_UNSEEN, lint_place(lint, body),
-             "%.*s lies outside the view of %s, nothing mirrors it, and no shadow of it falls into view",
+             "%.*s is outside the view of %s, nothing mirrors it, and no shadow of it falls into view",
              STR_ARG(lint_words(lint, body)), lint->view_count == 1 ? "the camera" : "all cameras");
-    diag_help(lint->sink, "turn a camera to it, or remove it");
+    diag_help(lint->sink, "turn a camera towards it, or remove it");
 }
 
 void lint_unseen(struct lint *lint) {

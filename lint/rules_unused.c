@@ -66,8 +66,8 @@ void lint_unused_include(struct lint *lint) {
         if (span_is_none(file->included_at) || adds_anything(lint, file, used))
             continue;
         diag_add(lint->sink, DIAG_UNUSED_INCLUDE, file->included_at,
-                 "nothing of this file is used: it adds neither bodies, lights, cameras nor settings%s",
-                 file->scene->materials.count ? ", and no body has one of its materials" : "");
+                 "nothing in this file is used: it adds no bodies, lights, cameras or settings%s",
+                 file->scene->materials.count ? ", and no body uses one of its materials" : "");
         diag_help(lint->sink, "remove the include, or use a material of it");
     }
 }

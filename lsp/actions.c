@@ -38,7 +38,7 @@ static str title_of(struct arena *arena, const struct session *session, const st
         return arena_format(arena, "Fix: %s", diag_info(diag->code)->title);
     if (str_trim(old).len == 0)
         return arena_format(arena, "Insert '%.*s'", STR_ARG(text));
-    return arena_format(arena, "Replace by '%.*s'", STR_ARG(text));
+    return arena_format(arena, "Replace with '%.*s'", STR_ARG(text));
 }
 
 static bool overlaps(span a, size_t begin, size_t end) {
@@ -78,7 +78,7 @@ static void add_fix_all(const struct request *request, uint32_t source, json_t *
         return;
     }
     json_t *action = json_object();
-    json_object_set_new(action, "title", json_string("Fix all that has one right spelling"));
+    json_object_set_new(action, "title", json_string("Make all fixes that are certain"));
     json_object_set_new(action, "kind", json_string("source.fixAll.glint"));
     json_object_set_new(action, "edit", workspace_edit(request->document->uri, edits));
     json_array_append_new(list, action);

@@ -174,7 +174,7 @@ json_t *server_rename(const struct request *request) {
     if (!name_at(request, &at, &name))
         return NULL;
     if (!str_equal(str_from(text), name.name) && is_taken(request->session, name.schema, str_from(text))) {
-        request->server->refusal = "another one has this name";
+        request->server->refusal = "another one already has this name";
         return NULL;
     }
     json_t *edit = json_object();

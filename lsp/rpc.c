@@ -95,7 +95,7 @@ enum rpc_state rpc_read(struct rpc *rpc, json_t **message) {
         rpc->taken += header + body;
         if (*message)
             return RPC_MESSAGE;
-        rpc_refuse(rpc, NULL, RPC_PARSE_ERROR, "the message is no JSON");
+        rpc_refuse(rpc, NULL, RPC_PARSE_ERROR, "the message is not JSON");
     }
 }
 

@@ -234,10 +234,9 @@ void scene_check_reach(const struct scene *scene, struct diag_sink *sink) {
             continue;
         double largest = fmax(vec3_max_abs(body->lower), vec3_max_abs(body->upper));
         if (largest > most)
-            diag_add(
-                sink, DIAG_TRANSFORM_OVERFLOW, ir_place_label(scene->assets->origin, body->head),
-                "placed by its scale, rotation and translation, the model reaches coordinates of %.3g; the "
-                "largest allowed is 1e18",
-                largest);
+            diag_add(sink, DIAG_TRANSFORM_OVERFLOW, ir_place_label(scene->assets->origin, body->head),
+                     "after scale, rotation and translation the model has coordinates of %.3g; at most 1e18 "
+                     "is allowed",
+                     largest);
     }
 }

@@ -17,7 +17,7 @@ test) wanted="$build $test" ;;
 esac
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
-    echo "setup: this is no Debian system; install what stands in tools/setup.sh by hand" >&2
+    echo "setup: this is not a Debian system; install the packages listed in tools/setup.sh by hand" >&2
     exit 0
 fi
 

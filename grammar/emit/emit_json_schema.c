@@ -242,7 +242,7 @@ static void add_single(const struct schema_element *schema, uint32_t i, json_t *
     const struct schema_row *row = &schema->rows[i];
     struct strbuf doc;
     strbuf_init(&doc);
-    strbuf_format(&doc, "The same as `%s: {%s: {...}}`. %s", schema_yaml_key(row), row->single,
+    strbuf_format(&doc, "Short for `%s: {%s: {...}}`. %s", schema_yaml_key(row), row->single,
                   row->child->doc);
     json_t *text = json_text(&doc);
     json_t *value = json_pack("{s:[o]}", "allOf", item_schema(row->child));
@@ -283,7 +283,7 @@ static json_t *element_schema(const struct schema_element *schema) {
 
 void emit_json_schema(struct strbuf *out) {
     json_t *root = json_pack("{s:s, s:s}", "$schema", "http://json-schema.org/draft-07/schema#", "title",
-                             "A scene of glint");
+                             "A glint scene");
     json_t *scene = element_schema(&SCHEMA_SCENE);
     json_t *definitions = json_object();
     json_object_update(root, scene);

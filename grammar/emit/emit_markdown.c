@@ -69,7 +69,7 @@ static void put_doc(struct strbuf *out, const struct schema_element *schema, uin
         strbuf_char(out, '.');
     }
     if (row->single)
-        strbuf_format(out, " `%s: {...}` is `%s: {%s: {...}}`.", row->name, schema_yaml_key(row),
+        strbuf_format(out, " `%s: {...}` is short for `%s: {%s: {...}}`.", row->name, schema_yaml_key(row),
                       row->single);
 }
 
@@ -119,7 +119,7 @@ static void put_element(struct strbuf *out, const struct schema_element *schema,
     int only = schema_short_row(schema);
     strbuf_format(out, "\n## %s\n\n%s\n\n", schema->name, schema->doc);
     if (only >= 0)
-        strbuf_format(out, "Where it has `%s` alone, the value of `%s` may stand for it.\n\n",
+        strbuf_format(out, "If it has only `%s`, the value of `%s` can be written instead.\n\n",
                       schema->rows[only].name, schema->rows[only].name);
     put_choices(out, schema);
     strbuf_cstr(out, "| attribute | YAML | XML | value | default | meaning |\n|---|---|---|---|---|---|\n");

@@ -417,11 +417,11 @@ bool explain(str what, bool color, struct strbuf *out) {
     struct arena arena;
     arena_init(&arena, SUGGEST_BYTES);
     str best = suggest(what, &arena);
-    strbuf_format(out, "'%.*s' is no code, element or attribute", STR_ARG(what));
+    strbuf_format(out, "'%.*s' is not a code, element or attribute", STR_ARG(what));
     if (best.len)
         strbuf_format(out, "; did you mean '%.*s'?\n", STR_ARG(best));
     else
-        strbuf_cstr(out, "; 'glint explain scene' shows where to begin\n");
+        strbuf_cstr(out, "; begin with 'glint explain scene'\n");
     arena_finish(&arena);
     return false;
 }

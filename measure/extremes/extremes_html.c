@@ -146,23 +146,23 @@ void extremes_html(const struct extremes_report *report, struct strbuf *out) {
                   e->count, e->left_out, e->broken, report->input->width, report->input->height);
     strbuf_markup(out, str_from(e->device));
     if (report->input->alternative != RENDER_ALTERNATIVE_NONE)
-        strbuf_format(out, ", traced by another way (%s)",
+        strbuf_format(out, ", traced by another method (%s)",
                       render_alternative_name(report->input->alternative));
     strbuf_cstr(out, ", against the double-precision reference; bounds of ");
     strbuf_markup(out, report->thresholds);
     strbuf_cstr(out, ".</p>\n");
     put_matrix(out, e);
-    strbuf_cstr(out, "<p>A strip of a cell is a metric, from the left: ");
+    strbuf_cstr(out, "<p>The strips of a cell are metrics, from the left: ");
     for (int m = 0; m < EXTREME_METRICS; m++)
         strbuf_format(out, "%s%s", m ? "; " : "", extreme_metrics[m].title);
     strbuf_cstr(out, ". A cell with a d was traced in double precision.</p>\n<p class=\"key\">"
                      "<span style=\"background:#2f9e62\"></span>nothing wrong"
-                     "<span style=\"background:#8fbf4d\"></span>to a tenth of the bound"
-                     "<span style=\"background:#e0b93c\"></span>to a half"
-                     "<span style=\"background:#e08a3c\"></span>to the bound"
-                     "<span style=\"background:#d0342c\"></span>beyond"
+                     "<span style=\"background:#8fbf4d\"></span>up to a tenth of the bound"
+                     "<span style=\"background:#e0b93c\"></span>up to half of it"
+                     "<span style=\"background:#e08a3c\"></span>up to the bound"
+                     "<span style=\"background:#d0342c\"></span>beyond it"
                      "<span style=\"background:#9fc3dd\"></span>no bound, nothing wrong"
-                     "<span style=\"background:#6a5acd\"></span>no bound, something"
+                     "<span style=\"background:#6a5acd\"></span>no bound, something wrong"
                      "<span style=\"background:#c8c8c8\"></span>not measured</p>\n");
     put_tables(out, e);
     strbuf_cstr(out, "</body></html>\n");

@@ -54,7 +54,7 @@ void extremes_text(const struct extremes_report *report, struct strbuf *out) {
                   STR_ARG(report->scene), report->input->width, report->input->height, e->device,
                   STR_ARG(report->thresholds));
     if (report->input->alternative != RENDER_ALTERNATIVE_NONE)
-        strbuf_format(out, "traced by another way: %s\n",
+        strbuf_format(out, "traced by another method: %s\n",
                       render_alternative_name(report->input->alternative));
     for (int m = 0; m < EXTREME_METRICS; m++)
         strbuf_format(out, "  %-10s %s\n", extreme_metrics[m].name, extreme_metrics[m].title);

@@ -130,7 +130,7 @@ static bool report_missing(struct bind_context *context, struct bind_subject sub
     if (bind_is_known(context, node))
         return false;
     diag_add(context->sink, DIAG_MISSING_COMPONENT, tree_span(context->tree, node),
-             "%.*s lacks %.*s; every component is written, 0 too",
+             "%.*s lacks %.*s; write every component, even if it is 0",
              STR_ARG(say_subject(context->scratch, subject)), STR_ARG(list));
     if (numbers_are_good && tree_node(context->tree, node)->count)
         help_with_zeros(context, subject, node);

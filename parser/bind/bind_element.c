@@ -56,7 +56,7 @@ static bool is_excluded(struct bind_context *context, struct bind_frame *frame, 
             continue;
         str owner = say_subject(context->scratch, bind_subject(frame, NULL));
         diag_add(context->sink, DIAG_EXCLUSIVE, given.key_span,
-                 "%.*s has both '%s' and '%s'; only one can hold", STR_ARG(owner), other->name, r->name);
+                 "%.*s has both '%s' and '%s'; only one is allowed", STR_ARG(owner), other->name, r->name);
         const struct ir_row_origin *first = ir_origin_row(context->origin, bind_head(frame), i);
         if (first)
             diag_note(context->sink, first->key, "'%s' is here", other->name);
@@ -302,7 +302,7 @@ static void report_named_inline(struct bind_context *context, struct bind_frame 
     str owner = say_owner(context->scratch, frame);
     str name = tree_text(context->tree, tree_value(context->tree, key));
     diag_add(context->sink, DIAG_NAMED_INLINE, tree_span(context->tree, key),
-             "a %s written in place has no name: it belongs to %.*s alone", frame->schema->name,
+             "a %s written in place must not have a name: it belongs only to %.*s", frame->schema->name,
              STR_ARG(owner));
     if (str_is_name(name))
         diag_help(context->sink, "to use a %s of the scene write %s=\"%.*s\"", frame->schema->name,

@@ -25,7 +25,7 @@ static void report_no_scene(struct bind_context *context, const struct bind_fram
             bind_fix_tag(context, at, tree->root, true, str_from(frame->schema->element));
     } else {
         diag_add(context->sink, DIAG_NOT_A_SCENE, at,
-                 "this is not a glint scene: none of its keys belongs to one");
+                 "this is not a glint scene: it has none of the keys of a scene");
         diag_help(context->sink, "a scene begins with 'glint: 1'");
     }
 }

@@ -35,7 +35,7 @@ static void map_for_list(struct bind_context *context, struct bind_entries *entr
     str name = tree_text(tree, first);
     if (name.len > 1 && name.ptr[0] == '-') {
         if (reported)
-            diag_help(sink, "a blank is missing behind the '-': write '- %.*s'",
+            diag_help(sink, "a space is missing after the '-': write '- %.*s'",
                       STR_ARG(say_text(context->scratch, str_slice(name, 1, name.len))));
         return;
     }
@@ -43,7 +43,7 @@ static void map_for_list(struct bind_context *context, struct bind_entries *entr
         if (reported && tree_node(tree, map)->style == TREE_FLOW)
             diag_help(sink, "put it into a list: [{...}]");
         else if (reported)
-            diag_help(sink, "begin each entry with '- ', also where there is only one");
+            diag_help(sink, "begin each entry with '- ', even if there is only one");
         add_entry(context, entries, STR(""), (struct bind_given){.value = map});
         return;
     }
@@ -84,7 +84,7 @@ static void list_for_map(struct bind_context *context, struct bind_entries *entr
         struct bind_given given = {.value = item};
         str name = take_name(context, row, item, &given);
         if (reported && name.len)
-            diag_help(context->sink, "write each entry behind its name, without '- ' and 'name': %.*s: {...}",
+            diag_help(context->sink, "write each entry after its name, without '- ' and 'name': %.*s: {...}",
                       STR_ARG(say_text(context->scratch, name)));
         reported = false;
         add_entry(context, entries, name, given);
@@ -147,7 +147,7 @@ void bind_loose_columns(struct bind_context *context, const struct bind_frame *o
     str above = say_text(context->scratch, tree_text(tree, key));
     diag_add(context->sink, DIAG_UNKNOWN_NAME, tree_span(tree, next), "'%.*s' does not belong in this column",
              STR_ARG(name));
-    diag_help(context->sink, "what belongs to '%.*s' above it is indented further than that", STR_ARG(above));
+    diag_help(context->sink, "what belongs to '%.*s' above must be indented further than it", STR_ARG(above));
     for (; is_out_of_column(context, outer, row, next); next = tree_next_key(tree, next))
         tree_node(tree, next)->flags |= TREE_BAD;
 }

@@ -229,7 +229,7 @@ static bool is_glued(struct bind_context *context, struct bind_frame *frame, tre
     add_unknown(context, frame, key);
     str value = str_slice(text, name.len + 1, text.len);
     str mended = arena_format(context->scratch, "%.*s: %.*s", STR_ARG(name), STR_ARG(value));
-    diag_help(context->sink, "a blank is missing behind the ':'; write '%.*s'",
+    diag_help(context->sink, "a space is missing after the ':'; write '%.*s'",
               STR_ARG(say_text(context->scratch, mended)));
     diag_fix(context->sink, true, tree_span(context->tree, key), mended);
     return true;
@@ -254,10 +254,10 @@ static bool is_wrapper(struct bind_context *context, struct bind_frame *frame, t
         diag_help(context->sink, "write each <%s> without <%.*s> around it", row->element,
                   STR_ARG(say_text(context->scratch, tree_text(context->tree, key))));
     else if (!frame->parent)
-        diag_help(context->sink, "the file itself is the %s: write what this holds in its place",
+        diag_help(context->sink, "the file itself is the %s: replace this with its contents",
                   frame->schema->name);
     else
-        diag_help(context->sink, "this is %.*s already: write what it holds in its place",
+        diag_help(context->sink, "this is already %.*s: replace it with its contents",
                   STR_ARG(say_article(context->scratch, frame->schema->name)));
     meant->what = row ? BIND_MEANT_ENTRIES : BIND_MEANT_ITSELF;
     return true;
@@ -305,7 +305,7 @@ static bool is_mixed(struct bind_context *context, struct bind_frame *frame, tre
     bool before = here.begin < other.begin;
     frame->guessed |= bind_bit((uint32_t)bare);
     diag_add(context->sink, DIAG_EXCLUSIVE, before ? other : here,
-             "%.*s has both '%s' and '%s'; only one can hold",
+             "%.*s has both '%s' and '%s'; only one is allowed",
              STR_ARG(say_subject(context->scratch, bind_subject(frame, NULL))), before ? row->name : name,
              before ? name : row->name);
     diag_note(context->sink, before ? here : other, "'%s' is here", before ? row->name : name);
@@ -328,7 +328,7 @@ static bool is_component(struct bind_context *context, struct bind_frame *frame,
             return true;
         frame->guessed |= bind_bit(i);
         add_unknown(context, frame, key);
-        diag_help(context->sink, "components stand together: %.*s",
+        diag_help(context->sink, "write the components together: %.*s",
                   STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
         return true;
     }
@@ -377,7 +377,7 @@ static bool is_rest(struct bind_context *context, tree_index key) {
         return false;
     span both = {at.source, begin, at.end};
     str written = source_text(context->sources, both);
-    diag_add(context->sink, DIAG_BAD_NUMBER, both, "'%.*s' has a decimal comma; write a point",
+    diag_add(context->sink, DIAG_BAD_NUMBER, both, "'%.*s' has a decimal comma; write a decimal point",
              STR_ARG(written));
     str mended = mend_number(context->scratch, NUMBER_COMMA, written);
     diag_help(context->sink, "write %.*s", STR_ARG(mended));

@@ -18,8 +18,7 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
     diag_add(context->sink, DIAG_NO_VALUE, tree_span(context->tree, node), "%.*s has no value", STR_ARG(s));
     bool is_text = subject.row && (subject.row->kind == SCHEMA_TEXT || subject.row->kind == SCHEMA_REFERENCE);
     if (is_text && tree_text(context->tree, node).len > 1)
-        diag_help(context->sink,
-                  "'%.*s' stands for nothing: leave the key out, or quote it if you mean the word",
+        diag_help(context->sink, "'%.*s' means no value: leave the key out, or quote it if you mean the word",
                   STR_ARG(tree_text(context->tree, node)));
     else if (subject.row && subject.row->required)
         bind_help_example(context, subject);
@@ -223,8 +222,8 @@ static bool out_of_range(struct bind_context *context, struct bind_subject subje
     if (row->range == SCHEMA_RANGE_VERSION) {
         context->other_version = true;
         diag_add(context->sink, DIAG_BAD_VERSION, at,
-                 "the file is written in version %.*s of the language; this program reads version %s",
-                 STR_ARG(text), range->text);
+                 "the file uses version %.*s of the language; this program reads version %s", STR_ARG(text),
+                 range->text);
         diag_help(context->sink, "use a newer glint, or correct the number");
         return false;
     }

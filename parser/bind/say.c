@@ -137,7 +137,7 @@ str say_expected(struct arena *arena, const struct schema_row *row) {
         return say_words(arena, row->words);
     case SCHEMA_TEXT:
         return row->text == SCHEMA_TEXT_PATH   ? STR("the path of a file")
-               : row->text == SCHEMA_TEXT_FREE ? STR("a text")
+               : row->text == SCHEMA_TEXT_FREE ? STR("text")
                                                : STR("a name");
     case SCHEMA_VECTOR:
         return row->fill ? STR("three numbers x, y, z, or one number for all three")

@@ -183,7 +183,7 @@ static bool is_hex(struct override *o, const struct override_target *target) {
     if (!color[target->slot > 0 ? target->slot : 0].is_hex)
         return false;
     diag_add(o->loader->input->sink, DIAG_SET_PATH, o->path,
-             "%.*s is written as #rrggbb, which has no components; only all of it can be set",
+             "%.*s is written as #rrggbb, which has no components; it can only be set as a whole",
              STR_ARG(say_subject(&o->loader->scratch, bind_subject(target->frame, row))));
     return true;
 }

@@ -33,7 +33,7 @@ static size_t find_equals(str text, bool *open) {
 
 static bool add_step(struct override *o, struct override_step step) {
     if (o->step_count == OVERRIDE_STEPS_MAX)
-        return syntax(o, step.at, "the path has more steps than any scene");
+        return syntax(o, step.at, "the path has more steps than a scene can have");
     o->steps[o->step_count++] = step;
     return true;
 }
@@ -97,7 +97,7 @@ bool override_parse(struct override *o) {
     if (open)
         return syntax(o, o->path, "']' is missing");
     if (end == o->text.len)
-        return syntax(o, at(o, 0, end), "'=' is missing behind the path");
+        return syntax(o, at(o, 0, end), "'=' is missing after the path");
     if (end == 0)
         return syntax(o, at(o, 0, 1), "the path is missing before '='");
     o->value_begin = (uint32_t)end + 1;

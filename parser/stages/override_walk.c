@@ -98,14 +98,14 @@ static bool unknown_name(struct override *o, const struct schema_row *row, void 
 static bool ends_here(struct override *o, const struct bind_frame *frame, const struct schema_row *row,
                       const struct override_step *step) {
     struct bind_subject subject = bind_subject(frame, row);
-    diag_add(sink(o), DIAG_SET_PATH, step->at, "%.*s is one value; nothing lies below it",
+    diag_add(sink(o), DIAG_SET_PATH, step->at, "%.*s is a single value; there is nothing below it",
              STR_ARG(say_subject(scratch(o), subject)));
     return false;
 }
 
 static bool not_written(struct override *o, const struct bind_frame *frame, const struct schema_row *row,
                         uint32_t step) {
-    diag_add(sink(o), DIAG_SET_PATH, o->steps[step].at, "%.*s is not written; only all of it can be set",
+    diag_add(sink(o), DIAG_SET_PATH, o->steps[step].at, "%.*s is not written; it can only be set as a whole",
              STR_ARG(say_subject(scratch(o), bind_subject(frame, row))));
     str example = say_example(scratch(o), row, false);
     const char *colon = memchr(example.ptr, ':', example.len);
@@ -141,7 +141,7 @@ static bool through_reference(struct override *o, const struct bind_frame *frame
     const struct schema_row *home = &SCHEMA_SCENE.rows[bind_home_row(row->child)];
     str name = quoted_text(o, reference->name);
     diag_add(sink(o), DIAG_SET_REFERENCE, o->steps[step - 1].at,
-             "%.*s names the %s '%.*s'; a path does not lead through a name",
+             "%.*s names the %s '%.*s'; a path cannot go through a name",
              STR_ARG(say_subject(scratch(o), bind_subject(frame, row))), row->child->name, STR_ARG(name));
     struct users users = {.o = o, .self = reference, .target = row->child};
     visit_references(&SCHEMA_SCENE, o->scene, note_user, &users);
@@ -330,7 +330,7 @@ bool override_walk(struct override *o, struct override_target *target) {
     }
     if (target->frame->schema->rows[target->row].child != &SCHEMA_INCLUDE)
         return true;
-    diag_add(sink(o), DIAG_SET_PATH, o->steps[0].at, "'%s' cannot be set: the files have been read before",
+    diag_add(sink(o), DIAG_SET_PATH, o->steps[0].at, "'%s' cannot be set: the files have already been read",
              o->steps[0].text.ptr ? "include" : "");
     diag_help(sink(o), "write a scene file that includes both");
     return false;

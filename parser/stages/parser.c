@@ -29,7 +29,7 @@ static void report_fault(const struct parser_input *input, uint32_t source, enum
     if (fault == ARENA_FAULT_CAP)
         reader_limit(input->sink, input->limits, LIMIT_SCENE_MEMORY, at, "the scene needs too much memory");
     else
-        diag_add(input->sink, DIAG_OUT_OF_MEMORY, at, "the system gave no more memory for the scene");
+        diag_add(input->sink, DIAG_OUT_OF_MEMORY, at, "not enough memory for the scene");
 }
 
 struct job {

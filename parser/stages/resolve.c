@@ -21,8 +21,7 @@ static void report_missing(struct loader *loader, span at, str path, str tried) 
         diag_help(sink, "did you mean '%.*s%.*s'?", STR_ARG(folder), STR_ARG(near));
         diag_fix_part(sink, loader->input->sources, false, path_base(path), near);
     } else {
-        diag_help(sink, "it was looked for as '%.*s'; --asset-path DIR adds a folder to look in",
-                  STR_ARG(tried));
+        diag_help(sink, "glint looked for '%.*s'; --asset-path DIR adds a folder to look in", STR_ARG(tried));
     }
 }
 
@@ -66,9 +65,8 @@ static bool is_other_kind(struct loader *loader, span at, str path) {
         if (!str_ends_with_nocase(path, endings[i]))
             continue;
         diag_add(loader->input->sink, DIAG_FILE_KIND, at, "'%.*s' is not a scene file", STR_ARG(path));
-        diag_help(loader->input->sink,
-                  "scene files end in .yaml, .yml, .json or .xml; a mesh belongs to 'mesh' of a model, "
-                  "an image to 'image' of the background");
+        diag_help(loader->input->sink, "scene files end in .yaml, .yml, .json or .xml; a mesh belongs in "
+                                       "'mesh' of a model, an image in 'image' of the background");
         loader->incomplete = true;
         return true;
     }

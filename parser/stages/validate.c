@@ -78,7 +78,7 @@ static bool view_direction(const struct rules *rules, const struct ir_camera *ca
     if (!vec3_is_zero(*view))
         return true;
     diag_add(rules->sink, DIAG_LOOK_AT_POSITION, value_place(rules, schema, camera, "look_at"),
-             "%.*s looks at the point where it stands", STR_ARG(owner(rules, schema, camera->name)));
+             "%.*s looks at its own position", STR_ARG(owner(rules, schema, camera->name)));
     if (is_written(schema, camera, "position"))
         diag_note(rules->sink, value_place(rules, schema, camera, "position"), "'position' is here");
     else
@@ -93,7 +93,7 @@ static void check_camera(const struct rules *rules, const struct ir_camera *came
         if (!is_written(schema, camera, "up"))
             return;
         diag_add(rules->sink, DIAG_UP_WITH_ROTATION, ir_place_key(rules->origin, &camera->head, schema, "up"),
-                 "%.*s has 'up' beside 'rotation', which turns it too", STR_ARG(name));
+                 "%.*s has both 'up' and 'rotation', which turns the up direction too", STR_ARG(name));
         diag_note(rules->sink, ir_place_key(rules->origin, &camera->head, schema, "rotation"),
                   "'rotation' is here");
         diag_help(rules->sink, "remove 'up'; a rotation about z tilts the camera");
@@ -109,9 +109,10 @@ static void check_camera(const struct rules *rules, const struct ir_camera *came
     diag_add(rules->sink, DIAG_UP_PARALLEL, value_place(rules, schema, camera, "up"),
              "'up' of %.*s points along the direction of view", STR_ARG(name));
     if (is_written(schema, camera, row))
-        diag_note(rules->sink, value_place(rules, schema, camera, row), "the view follows from '%s'", row);
+        diag_note(rules->sink, value_place(rules, schema, camera, row),
+                  "the direction of view comes from '%s'", row);
     else
-        diag_note(rules->sink, SPAN_NONE, "without 'look_at' and 'direction' the view is along 0 0 -1");
+        diag_note(rules->sink, SPAN_NONE, "without 'look_at' and 'direction' the camera looks along 0 0 -1");
     diag_help(rules->sink, "choose another 'up', or leave it out: the default one adapts");
 }
 
@@ -125,7 +126,7 @@ static void check_light(const struct rules *rules, const struct ir_light *light)
     if (light->falloff == IR_FALLOFF_NONE || is_poisoned(schema, light, "falloff"))
         return;
     diag_add(rules->sink, DIAG_FALLOFF_DIRECTIONAL, value_place(rules, schema, light, "falloff"),
-             "%.*s has a direction, so that its light cannot fall off with the distance",
+             "%.*s has a direction, so its light cannot fall off with distance",
              STR_ARG(owner(rules, schema, light->name)));
     diag_note(rules->sink, ir_place_key(rules->origin, &light->head, schema, "direction"),
               "'direction' is here");
@@ -141,7 +142,7 @@ static bool leaves_world(vec3 v) {
 static void report_leaving(const struct rules *rules, const struct schema_element *schema, const void *memory,
                            str name, const char *row) {
     diag_add(rules->sink, DIAG_TRANSFORM_OVERFLOW, value_place(rules, schema, memory, row),
-             "%.*s reaches beyond 1e18 in a coordinate", STR_ARG(owner(rules, schema, name)));
+             "%.*s has a coordinate beyond 1e18", STR_ARG(owner(rules, schema, name)));
 }
 
 static void check_sphere(const struct rules *rules, const struct ir_sphere *sphere) {
@@ -205,7 +206,7 @@ static void check_image(const struct rules *rules, const struct ir_image *image)
     const char *later = is_written(schema, image, "height") ? "height" : "width";
     const char *other = strcmp(later, "height") == 0 ? "width" : "height";
     diag_add(rules->sink, DIAG_TOO_MANY_PIXELS, value_place(rules, schema, image, later),
-             "the image has %d times %d, that is %lld pixels; at most %lld are possible", image->width,
+             "the image has %d x %d, that is %lld pixels; at most %lld are allowed", image->width,
              image->height, (long long)pixels, (long long)PIXELS_MAX);
     if (is_written(schema, image, other))
         diag_note(rules->sink, value_place(rules, schema, image, other), "'%s' is here", other);

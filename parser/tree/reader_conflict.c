@@ -57,7 +57,7 @@ void reader_conflicts(const struct reader_context *context, struct reader_text *
         uint32_t end = find_marker(all, middle, '>');
         has_end = end < all.len; // where there is none, there is none behind it either
         diag_add(sink, DIAG_MERGE_CONFLICT, marker_at(text, at),
-                 "two versions of these lines were not merged");
+                 "a merge conflict in these lines was not resolved");
         blank_out(context, text, at, line_end(all, at));
         at = line_end(all, at);
         if (end < all.len) {
@@ -65,11 +65,11 @@ void reader_conflicts(const struct reader_context *context, struct reader_text *
             uint32_t base = find_marker(str_slice(all, 0, middle), at, '|');
             diag_note(sink, marker_at(text, middle), "the second version begins here");
             diag_note(sink, marker_at(text, end), "it ends here");
-            diag_help(sink, "keep one of the two, or something of both, and remove the lines with the marks");
+            diag_help(sink, "keep one version, or parts of both, and remove the lines with the marks");
             at = line_end(all, end);
             blank_out(context, text, base < middle ? base : middle, at);
         } else {
-            diag_help(sink, "remove the line, and what does not belong to the scene");
+            diag_help(sink, "remove the line, and everything that does not belong to the scene");
         }
         all = text->bytes;
     }

@@ -93,7 +93,8 @@ static void on_doctype(struct xml_reader *r, const struct xml_event *event) {
     uint32_t begin = event->begin;
     while (begin > r->text->begin && !str_starts_with(str_slice(text, begin, text.len), STR("<!DOCTYPE")))
         begin--;
-    diag_add(r->context->sink, DIAG_XML_DOCTYPE, xml_span(r, begin, begin + 9), "a scene has no DOCTYPE");
+    diag_add(r->context->sink, DIAG_XML_DOCTYPE, xml_span(r, begin, begin + 9),
+             "a scene must not have a DOCTYPE");
     diag_help(r->context->sink, "remove it; what it declares is not read");
     xml_stop(r);
 }
@@ -154,7 +155,7 @@ static void finish(struct xml_reader *r) {
     if (r->pending.begin != r->pending.end)
         r->tree->closing_comments = xml_span(r, r->pending.begin, r->pending.end);
     if (!span_is_none(r->xinclude)) {
-        diag_add(r->context->sink, DIAG_XML_NAMESPACE, r->xinclude, "a scene has no namespaces");
+        diag_add(r->context->sink, DIAG_XML_NAMESPACE, r->xinclude, "a scene must not use namespaces");
         diag_help(r->context->sink, "remove it");
     }
 }
@@ -210,7 +211,7 @@ static bool prepare(const struct reader_context *context, uint32_t source, struc
     if (!reader_text_open(context, source, 0, foreign, text))
         return false;
     if (reader_text_is_blank(text)) {
-        diag_add(context->sink, DIAG_EMPTY_FILE, (span){source, 0, 0}, "the file holds no scene");
+        diag_add(context->sink, DIAG_EMPTY_FILE, (span){source, 0, 0}, "the file contains no scene");
         diag_help(context->sink, "a scene begins with <Scene glint=\"1\">");
         return false;
     }
@@ -241,7 +242,8 @@ bool read_xml(const struct reader_context *context, uint32_t source, struct tree
         return read_plain(&reader);
     reader.parser = XML_ParserCreate("UTF-8");
     if (!reader.parser) {
-        diag_add(context->sink, DIAG_OUT_OF_MEMORY, (span){source, 0, 0}, "no memory for reading the file");
+        diag_add(context->sink, DIAG_OUT_OF_MEMORY, (span){source, 0, 0},
+                 "not enough memory to read the file");
         return false;
     }
     run_expat(&reader);

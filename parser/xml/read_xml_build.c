@@ -64,18 +64,18 @@ static void help_text(struct xml_reader *r, str text) {
     double number;
     bool one = number_parse(text, &number) == NUMBER_OK || mend_boolean(text).len || text.ptr[0] == '#';
     if (str_equal(text, STR(">")) || str_equal(text, STR("/>"))) {
-        diag_help(sink, "remove it: the tag before it has ended");
+        diag_help(sink, "remove it: the tag before it has already ended");
     } else if (frame && tree_node(r->tree, frame->node)->count == 0 && one) {
         str element = source_text(r->context->sources, frame[-1].name);
         str attribute = mend_snake(r->context->arena, source_text(r->context->sources, frame->name));
-        diag_help(sink, "a value stands in an attribute, as in <%.*s %.*s=\"%.*s\">",
+        diag_help(sink, "a value belongs in an attribute, as in <%.*s %.*s=\"%.*s\">",
                   STR_ARG(reader_clip(element)), STR_ARG(reader_clip(attribute)), STR_ARG(reader_clip(text)));
     } else if (frame && mend_is_numbers(text)) {
         str element = source_text(r->context->sources, frame->name);
-        diag_help(sink, "values stand in attributes, as in <%.*s x=\"1\" y=\"2\" z=\"3\"/>",
+        diag_help(sink, "values belong in attributes, as in <%.*s x=\"1\" y=\"2\" z=\"3\"/>",
                   STR_ARG(reader_clip(element)));
     } else {
-        diag_help(sink, "values stand in attributes; a remark stands in <!-- ... -->");
+        diag_help(sink, "values belong in attributes, comments in <!-- ... -->");
     }
 }
 
@@ -108,7 +108,7 @@ static void report_element_prefix(struct xml_reader *r, str name, span at) {
         r->uses_xinclude = true;
         return;
     }
-    diag_add(sink, DIAG_XML_NAMESPACE, at, "the elements of a scene have no prefix");
+    diag_add(sink, DIAG_XML_NAMESPACE, at, "the elements of a scene must not have a prefix");
     diag_help(sink, "write <%.*s>", STR_ARG(reader_clip(local)));
 }
 
@@ -135,13 +135,13 @@ static bool is_foreign(struct xml_reader *r, str name, str value, struct xml_att
         bool base = str_equal(name, STR("xml:base"));
         diag_add(sink, DIAG_XML_FOREIGN, at, "'%.*s' has no meaning in a scene", STR_ARG(reader_clip(name)));
         diag_help(sink, "%s",
-                  base ? "remove it: paths are relative to the file that holds them" : "remove it");
+                  base ? "remove it: paths are relative to the file that contains them" : "remove it");
     } else if (declares && str_equal(value, STR(XINCLUDE))) {
         r->xinclude = r->uses_xinclude ? SPAN_NONE : at;
     } else {
-        diag_add(sink, DIAG_XML_NAMESPACE, at, "a scene has no namespaces: '%.*s'",
+        diag_add(sink, DIAG_XML_NAMESPACE, at, "a scene must not use namespaces: '%.*s'",
                  STR_ARG(reader_clip(name)));
-        diag_help(sink, schema ? "the schema attributes stand on the root" : "remove it");
+        diag_help(sink, schema ? "the schema attributes belong on the root element" : "remove it");
     }
     return true;
 }
@@ -158,7 +158,7 @@ void xml_add_attribute(struct xml_reader *r, str name, str value, struct xml_att
     bool decoded = place.value_end - place.value_begin != value.len;
     if (decoded && reader_find_control(value) < value.len) {
         diag_add(r->context->sink, DIAG_CONTROL_CHARACTER, at,
-                 "a reference in this text stands for a control character");
+                 "a reference in this text is a control character");
         diag_help(r->context->sink, "remove it");
         flags = TREE_BAD;
     }

@@ -37,13 +37,13 @@ static void report_end(struct xml_reader *r) {
     if (!open) {
         if (sink->errors)
             return;
-        diag_add(sink, DIAG_EMPTY_FILE, xml_span(r, 0, 0), "the file holds no scene");
+        diag_add(sink, DIAG_EMPTY_FILE, xml_span(r, 0, 0), "the file contains no scene");
         diag_help(sink, "a scene begins with <Scene glint=\"1\">");
         return;
     }
     str name = frame_name(r, open);
     diag_add(sink, DIAG_XML_SYNTAX, open->name, "<%.*s> is not closed", STR_ARG(reader_clip(name)));
-    diag_help(sink, "write </%.*s> behind what it holds, or '/>' at the end of its tag",
+    diag_help(sink, "write </%.*s> after its content, or '/>' at the end of its tag",
               STR_ARG(reader_clip(name)));
 }
 
@@ -59,7 +59,7 @@ static void report_mismatch(struct xml_reader *r, uint32_t at) {
         return;
     }
     str expected = frame_name(r, open);
-    diag_add(sink, DIAG_XML_SYNTAX, closing, "</%.*s> stands where </%.*s> is expected",
+    diag_add(sink, DIAG_XML_SYNTAX, closing, "this is </%.*s>, but </%.*s> is expected",
              STR_ARG(reader_clip(name)), STR_ARG(reader_clip(expected)));
     diag_note(sink, open->name, "<%.*s> was opened here", STR_ARG(reader_clip(expected)));
     bool by_case =
@@ -69,7 +69,7 @@ static void report_mismatch(struct xml_reader *r, uint32_t at) {
     if (by_case)
         diag_help(sink, "write </%.*s>: case matters", STR_ARG(reader_clip(expected)));
     else
-        diag_help(sink, "write </%.*s> behind what it holds, or '/>' at the end of its tag",
+        diag_help(sink, "write </%.*s> after its content, or '/>' at the end of its tag",
                   STR_ARG(reader_clip(expected)));
 }
 
@@ -91,7 +91,7 @@ static bool report_tag_end(struct xml_reader *r, uint32_t tag, uint32_t at) {
     if (begins_with(r, at, "<")) {
         diag_add(sink, DIAG_XML_SYNTAX, word_at(r, tag + 1), "this tag is not closed");
         diag_note(sink, character_at(r, at), "the next tag begins here");
-        diag_help(sink, "write '>' or '/>' behind its last attribute");
+        diag_help(sink, "write '>' or '/>' after its last attribute");
         return true;
     }
     return false;
@@ -130,7 +130,7 @@ static bool report_in_tag(struct xml_reader *r, uint32_t tag, uint32_t at) {
     struct xml_attribute attribute;
     while (xml_next_attribute(text, &pos, &attribute) == XML_TAG_MORE) {
         if (attribute.value_end + 1 == at && at < text.len && !memchr(" \t\r\n/>?", text.ptr[at], 7)) {
-            diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "a blank is missing before this attribute");
+            diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at), "a space is missing before this attribute");
             diag_fix(sink, true, xml_span(r, at, at), STR(" "));
             return true;
         }
@@ -175,13 +175,13 @@ static void report_unclosed(struct xml_reader *r, uint32_t at) {
     struct diag_sink *sink = r->context->sink;
     if (begins_with(r, at, "<!--")) {
         diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 4), "this comment is not closed");
-        diag_help(sink, "write --> behind it");
+        diag_help(sink, "write --> after it");
     } else if (begins_with(r, at, "<?")) {
         diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 2), "'<?' is not closed");
-        diag_help(sink, "write ?> behind it");
+        diag_help(sink, "write ?> after it");
     } else if (!report_in_tag(r, at, (uint32_t)r->text->bytes.len)) {
         diag_add(sink, DIAG_XML_SYNTAX, word_at(r, at + 1), "this tag is not closed");
-        diag_help(sink, "write '>' or '/>' behind its last attribute");
+        diag_help(sink, "write '>' or '/>' after its last attribute");
     }
 }
 
@@ -190,13 +190,14 @@ static void report_token(struct xml_reader *r, uint32_t at) {
     uint32_t tag = tag_around(r, at);
     if (begins_with(r, tag, "<!--")) {
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "'--' inside a comment");
-        diag_help(sink, "a comment ends with -->, and holds no other '--'");
+        diag_help(sink, "a comment ends with -->, and must not contain another '--'");
     } else if (begins_with(r, tag, "<!") && !begins_with(r, tag, "<![")) {
         diag_add(sink, DIAG_XML_DOCTYPE, xml_span(r, tag, word_at(r, tag + 2).end),
-                 "a scene has no declarations");
+                 "a scene must not have declarations");
         diag_help(sink, "remove it");
     } else if (tag != at && begins_with(r, tag, "</")) {
-        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "a closing tag holds a name and nothing else");
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at),
+                 "a closing tag contains a name and nothing else");
     } else if (tag != at && report_in_tag(r, tag, at)) {
         return;
     } else if (begins_with(r, at, "<") || begins_with(r, at > 0 ? at - 1 : 0, "<")) {
@@ -205,7 +206,7 @@ static void report_token(struct xml_reader *r, uint32_t at) {
     } else if (at >= 2 && begins_with(r, at - 2, "]]>")) {
         diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at - 2, at + 1), "']]>' between elements");
     } else {
-        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "this character cannot stand here");
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "this character is not allowed here");
     }
 }
 
@@ -214,19 +215,19 @@ static void report_simple(struct xml_reader *r, enum XML_Error error, uint32_t a
     struct diag_sink *sink = r->context->sink;
     switch (error) {
     case XML_ERROR_NO_MEMORY:
-        diag_add(sink, DIAG_OUT_OF_MEMORY, character_at(r, at), "no memory for reading the file");
+        diag_add(sink, DIAG_OUT_OF_MEMORY, character_at(r, at), "not enough memory to read the file");
         break;
     case XML_ERROR_UNCLOSED_CDATA_SECTION:
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "'<![CDATA[' is not closed");
         break;
     case XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
-        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "the scene has ended before this");
+        diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "this comes after the end of the scene");
         diag_note(sink, r->root_end, "it ended here");
         diag_help(sink,
-                  "a file holds one element that holds all others; <Include file=\"...\"/> joins files");
+                  "a file has one element that contains all others; <Include file=\"...\"/> joins files");
         break;
     case XML_ERROR_BAD_CHAR_REF:
-        diag_add(sink, DIAG_XML_ENTITY, word_at(r, at), "this reference names no character");
+        diag_add(sink, DIAG_XML_ENTITY, word_at(r, at), "this reference does not name a character");
         break;
     case XML_ERROR_UNDEFINED_ENTITY:
         diag_add(sink, DIAG_XML_ENTITY, word_at(r, at), "there is no such entity in a scene");
@@ -237,7 +238,7 @@ static void report_simple(struct xml_reader *r, enum XML_Error error, uint32_t a
     case XML_ERROR_MISPLACED_XML_PI:
         diag_add(sink, DIAG_XML_SYNTAX, xml_span(r, at, at + 5),
                  "<?xml ...?> must be the very first thing in the file");
-        diag_help(sink, "remove what stands before it, blanks and empty lines too");
+        diag_help(sink, "remove everything before it, spaces and empty lines too");
         break;
     case XML_ERROR_XML_DECL:
         diag_add(sink, DIAG_XML_SYNTAX, character_at(r, at), "the XML declaration cannot be read");
@@ -255,7 +256,7 @@ static void report_start(struct xml_reader *r, uint32_t at) {
         report_token(r, at);
         return;
     }
-    diag_add(r->context->sink, DIAG_XML_SYNTAX, word_at(r, at), "this stands before the first element");
+    diag_add(r->context->sink, DIAG_XML_SYNTAX, word_at(r, at), "this comes before the first element");
     str word = source_text(r->context->sources, word_at(r, at));
     bool yaml = word.len && (word.ptr[0] == '{' || word.ptr[0] == '#' || word.ptr[word.len - 1] == ':' ||
                              str_equal(word, STR("---")));

@@ -64,7 +64,7 @@ static uint32_t check_entity(struct repairer *r, uint32_t at) {
         return end + 1;
     struct diag_sink *sink = r->context->sink;
     if (!closed) {
-        diag_add(sink, DIAG_XML_ENTITY, place(r, at, at + 1), "'&' begins an entity, and none follows");
+        diag_add(sink, DIAG_XML_ENTITY, place(r, at, at + 1), "'&' begins an entity, but none follows");
         diag_help(sink, "write '&amp;' for the character '&'");
         diag_fix(sink, end == at + 1, place(r, at, at + 1), STR("&amp;"));
         end = at + 1;
@@ -104,7 +104,7 @@ static void check_twice(struct repairer *r, struct xml_attribute attribute) {
 static void repair_split(struct repairer *r, uint32_t slash) {
     uint32_t end = xml_skip_blanks(r->text->bytes, slash + 1);
     struct diag_sink *sink = r->context->sink;
-    diag_add(sink, DIAG_XML_SPLIT_CLOSE, place(r, slash, end + 1), "a space stands inside '/>'");
+    diag_add(sink, DIAG_XML_SPLIT_CLOSE, place(r, slash, end + 1), "there is a space inside '/>'");
     diag_help(sink, "write '/>'");
     diag_fix(sink, true, place(r, slash, end + 1), STR("/>"));
     reader_text_put(r->context, r->text, slash, STR(" "));
@@ -151,7 +151,7 @@ static uint32_t repair_doctype(struct repairer *r, uint32_t at) {
     }
     if (end >= text.len)
         return end;
-    diag_add(r->context->sink, DIAG_XML_DOCTYPE, place(r, at, end + 1), "a scene has no DOCTYPE");
+    diag_add(r->context->sink, DIAG_XML_DOCTYPE, place(r, at, end + 1), "a scene must not have a DOCTYPE");
     diag_help(r->context->sink, "remove it");
     diag_fix(r->context->sink, true, place(r, at, end + 1), STR(""));
     blank_out(r, at, end + 1);

@@ -96,9 +96,8 @@ static uint8_t check_escapes(struct yaml_reader *r, str value, span at) {
     size_t control = reader_find_control(value);
     if (control == value.len)
         return 0;
-    diag_add(&r->sink, DIAG_CONTROL_CHARACTER, at, "an escape in this text stands for a control character");
-    diag_help(&r->sink,
-              "remove the escape; a backslash itself is written '\\\\', or the text in single quotes");
+    diag_add(&r->sink, DIAG_CONTROL_CHARACTER, at, "an escape in this text is a control character");
+    diag_help(&r->sink, "remove the escape; for a backslash write '\\\\', or put the text in single quotes");
     return TREE_BAD;
 }
 
@@ -211,7 +210,7 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
         p = find_properties(r, begin, (uint32_t)r->text->bytes.len);
     if (r->is_option && !flow) {
         diag_add(&r->sink, DIAG_SET_SYNTAX, yaml_span(r, p.end, p.end + 1),
-                 "a value of several lines or keys needs brackets");
+                 "a value with several lines or keys needs brackets");
         diag_help(&r->sink, "write lists as [a, b] and maps as {key: value}");
         r->stopped = true;
         return;
@@ -379,7 +378,7 @@ static void run_attempts(void *context) {
     for (unsigned attempt = 0;; attempt++) {
         begin_attempt(r);
         if (!yaml_parser_initialize(&r->parser)) {
-            diag_add(&r->sink, DIAG_OUT_OF_MEMORY, yaml_span(r, 0, 0), "no memory for reading the file");
+            diag_add(&r->sink, DIAG_OUT_OF_MEMORY, yaml_span(r, 0, 0), "not enough memory to read the file");
             return;
         }
         enum outcome outcome = run_events(r);
@@ -431,7 +430,7 @@ static void read_text(const struct reader_context *context, struct reader_text *
     } else {
         diag_add(context->sink, DIAG_SET_SYNTAX, yaml_span(&reader, text->begin, (uint32_t)text->bytes.len),
                  "there is no value here");
-        diag_help(context->sink, "in YAML '#' begins a comment: quote a text that holds it");
+        diag_help(context->sink, "in YAML '#' begins a comment: put text that contains it in quotes");
     }
 }
 
@@ -441,13 +440,13 @@ static void report_root(const struct reader_context *context, struct tree *tree,
     if (silent)
         return;
     if (tree->root == 0 || root->kind == TREE_NULL) {
-        diag_add(context->sink, DIAG_EMPTY_FILE, (span){tree->source, 0, 0}, "the file holds no scene");
+        diag_add(context->sink, DIAG_EMPTY_FILE, (span){tree->source, 0, 0}, "the file contains no scene");
         diag_help(context->sink, "a scene begins with 'glint: 1'");
         return;
     }
     span first = {tree->source, root->begin, root->kind == TREE_LIST ? root->begin + 1 : root->end};
-    diag_add(context->sink, DIAG_NOT_A_SCENE, first, "a scene is a map of keys and values, and this is a %s",
-             root->kind == TREE_LIST ? "list" : "single text");
+    diag_add(context->sink, DIAG_NOT_A_SCENE, first, "a scene is a map of keys and values, but this is a %s",
+             root->kind == TREE_LIST ? "list" : "single value");
     str text = context->sources->items[tree->source].text;
     bool xml = str_starts_with(str_slice(text, root->begin, text.len), STR("<"));
     diag_help(context->sink,

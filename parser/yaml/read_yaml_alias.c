@@ -24,7 +24,7 @@ enum {
 };
 
 static tree_index undefined(struct yaml_reader *r, str name, span at) {
-    diag_add(&r->sink, DIAG_UNDEFINED_ALIAS, at, "nothing before this is anchored as '%.*s'",
+    diag_add(&r->sink, DIAG_UNDEFINED_ALIAS, at, "there is no anchor '%.*s' before this",
              STR_ARG(reader_clip(name)));
     struct nearest nearest = nearest_begin(name);
     uint32_t searched = r->sink.errors > SEARCHES_MAX ? 0 : r->anchors.count;
@@ -36,7 +36,7 @@ static tree_index undefined(struct yaml_reader *r, str name, span at) {
         diag_help(&r->sink, "did you mean '*%.*s'?", STR_ARG(reader_clip(best)));
         diag_fix_part(&r->sink, r->context->sources, false, name, best);
     } else if (r->anchors.count <= 1) {
-        diag_help(&r->sink, "'*' begins an alias; a text that begins with it needs quotes: \"%.*s\"",
+        diag_help(&r->sink, "'*' begins an alias; text that begins with it needs quotes: \"%.*s\"",
                   STR_ARG(reader_clip(written)));
     }
     return add_bad(r, at);
@@ -58,7 +58,7 @@ void yaml_alias(struct yaml_reader *r, str name, span at) {
     if (index == YAML_NO_ANCHOR) {
         node = undefined(r, name, at);
     } else if (r->anchors.items[index].open) {
-        diag_add(&r->sink, DIAG_ALIAS_CYCLE, at, "'*%.*s' stands inside what it names",
+        diag_add(&r->sink, DIAG_ALIAS_CYCLE, at, "'*%.*s' is inside the value that it names",
                  STR_ARG(reader_clip(name)));
         diag_note(&r->sink, r->anchors.items[index].at, "the anchor is here");
         node = add_bad(r, at);

@@ -20,7 +20,7 @@ static bool lacks_colon(struct yaml_reader *r, const struct tree_node *node, str
     if (node->style != TREE_PLAIN || !bracket)
         return false;
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, node->begin, node->begin + (uint32_t)end),
-             "a ':' is missing behind '%.*s'", STR_ARG(reader_clip(str_slice(text, 0, end))));
+             "a ':' is missing after '%.*s'", STR_ARG(reader_clip(str_slice(text, 0, end))));
     diag_help(&r->sink, "write '%.*s: %c'", STR_ARG(reader_clip(str_slice(text, 0, end))), text.ptr[end + 1]);
     r->blamed = node->begin + 1;
     return true;
@@ -31,8 +31,8 @@ static bool is_remark(struct yaml_reader *r, const struct tree_node *node, str t
     if (node->style != TREE_PLAIN || !str_starts_with(text, STR("//")))
         return false;
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, node->begin, node->begin + 2),
-             "'//' begins no remark in YAML");
-    diag_help(&r->sink, "a remark begins with '#' and ends with its line");
+             "'//' does not begin a comment in YAML");
+    diag_help(&r->sink, "a comment begins with '#' and ends with its line");
     r->blamed = node->end; // of the last line that was taken for a part of it
     return true;
 }
@@ -55,7 +55,7 @@ static void take_key(struct yaml_reader *r, struct yaml_frame *frame, tree_index
     } else {
         diag_add(&r->sink, DIAG_YAML_KEY, at, "a %s where a key belongs",
                  node->kind == TREE_LIST ? "list" : "map");
-        diag_help(&r->sink, "a key is one word; a text that begins with '[' or '{' needs quotes");
+        diag_help(&r->sink, "a key is one word; text that begins with '[' or '{' needs quotes");
         node->flags |= TREE_BAD;
     }
 }

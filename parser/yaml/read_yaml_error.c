@@ -13,73 +13,74 @@ struct yaml_words {
     bool at_context; // the mistake is where the context begins
 };
 
-#define TAG_HELP "remove the tag; a text that begins with '!' needs quotes"
+#define TAG_HELP "remove the tag; text that begins with '!' needs quotes"
 
 static const struct yaml_words words[] = {
     {"mapping values are not allowed", NULL, "this ':' cannot begin a value here", NULL,
-     "put each key on a line of its own, in one column with its neighbours; a text that holds ': ' needs "
+     "put each key on a line of its own, in the same column as its neighbours; text that contains ': ' needs "
      "quotes",
      DIAG_YAML_SYNTAX, false},
     {"block sequence entries are not allowed", NULL, "a list item ('- ') cannot begin here", NULL,
      "begin the list on a line of its own, or write it as [a, b]", DIAG_YAML_SYNTAX, false},
     {"mapping keys are not allowed", NULL, "a key ('? ') cannot begin here", NULL,
      "put the key on a line of its own", DIAG_YAML_SYNTAX, false},
-    {"could not find expected ':'", NULL, "a ':' is missing behind this key", NULL,
+    {"could not find expected ':'", NULL, "a ':' is missing after this key", NULL,
      "write 'key: value', or '- value' for an item of a list", DIAG_YAML_SYNTAX, true},
     {"did not find expected key", NULL, "this does not fit into the map around it", "the map begins here",
-     "the keys of a map stand in one column; what follows a quoted text, a bracket or an alias begins a line "
-     "of its own",
+     "the keys of a map begin in the same column; what follows quoted text, a bracket or an alias needs a "
+     "line of its own",
      DIAG_YAML_SYNTAX, false},
     {"did not find expected '-' indicator", NULL, "this does not fit into the list around it",
-     "the list begins here", "the items of a list begin with '- ' in one column", DIAG_YAML_SYNTAX, false},
+     "the list begins here", "the items of a list begin with '- ' in the same column", DIAG_YAML_SYNTAX,
+     false},
     {"did not find expected ',' or ']'", NULL, "a ',' or ']' is missing before this", "the list begins here",
-     "items are parted by ','; ']' closes the list", DIAG_YAML_SYNTAX, false},
+     "items are separated by ','; ']' closes the list", DIAG_YAML_SYNTAX, false},
     {"did not find expected ',' or '}'", NULL, "a ',' or '}' is missing before this", "the map begins here",
-     "pairs are parted by ','; '}' closes the map", DIAG_YAML_SYNTAX, false},
+     "pairs are separated by ','; '}' closes the map", DIAG_YAML_SYNTAX, false},
     {"did not find expected node content", NULL, "a value is missing before this", NULL, NULL,
      DIAG_YAML_SYNTAX, false},
     {"found unexpected end of stream", NULL, "the text that begins here has no closing quote", NULL,
      "close the quotes", DIAG_YAML_SYNTAX, true},
     {"found unexpected document indicator", NULL, "the text that begins here has no closing quote", NULL,
      "close the quotes", DIAG_YAML_SYNTAX, true},
-    {"found unknown escape character", NULL, "this escape means nothing in a text in double quotes",
+    {"found unknown escape character", NULL, "this escape has no meaning in double quotes",
      "the text begins here", "write '\\\\' for a backslash, or put the text in single quotes",
      DIAG_YAML_SYNTAX, false},
     {"did not find expected hexdecimal number", NULL, "this escape needs hexadecimal digits",
      "the text begins here", "write '\\\\' for a backslash, or put the text in single quotes",
      DIAG_YAML_SYNTAX, false},
-    {"found invalid Unicode character escape code", NULL, "this escape names no character",
+    {"found invalid Unicode character escape code", NULL, "this escape does not name a character",
      "the text begins here", "write the character itself", DIAG_YAML_SYNTAX, false},
-    {"found unexpected ':'", NULL, "a ':' inside brackets needs a blank behind it, or quotes around the text",
+    {"found unexpected ':'", NULL, "a ':' inside brackets needs a space after it, or quotes around the text",
      NULL, "write 'key: value'", DIAG_YAML_SYNTAX, false},
     {"did not find expected comment or line break", NULL,
-     "'|' and '>' begin a text of several lines on the next line", NULL,
-     "a text that begins with '|' or '>' needs quotes", DIAG_YAML_SYNTAX, true},
-    {"found an indentation indicator equal to 0", NULL,
-     "'|' and '>' begin a text of several lines on the next line", NULL, NULL, DIAG_YAML_SYNTAX, true},
+     "'|' and '>' begin text that starts on the next line", NULL,
+     "text that begins with '|' or '>' needs quotes", DIAG_YAML_SYNTAX, true},
+    {"found an indentation indicator equal to 0", NULL, "'|' and '>' begin text that starts on the next line",
+     NULL, NULL, DIAG_YAML_SYNTAX, true},
     {"did not find expected alphabetic or numeric character", "while scanning an alias",
-     "'*' begins an alias, and no name follows", NULL, "a text that begins with '*' needs quotes",
+     "'*' begins an alias, but no name follows", NULL, "text that begins with '*' needs quotes",
      DIAG_YAML_SYNTAX, true},
     {"did not find expected alphabetic or numeric character", "while scanning an anchor",
-     "'&' begins an anchor, and no name follows", NULL, "a text that begins with '&' needs quotes",
+     "'&' begins an anchor, but no name follows", NULL, "text that begins with '&' needs quotes",
      DIAG_YAML_SYNTAX, true},
     {"found undefined tag handle", NULL, "this tag has no meaning in a scene", NULL, TAG_HELP, DIAG_YAML_TAG,
      false},
     {"", "while scanning a tag", "this tag has no meaning in a scene", NULL, TAG_HELP, DIAG_YAML_TAG, true},
     {"", "while parsing a tag", "this tag has no meaning in a scene", NULL, TAG_HELP, DIAG_YAML_TAG, true},
-    {"found incompatible YAML document", NULL, "this version of YAML is not read", NULL,
+    {"found incompatible YAML document", NULL, "this version of YAML is not supported", NULL,
      "remove the %YAML line", DIAG_YAML_SYNTAX, false},
-    {"", "while scanning a directive", "a line that begins with '%' is not read", NULL, "remove the line",
+    {"", "while scanning a directive", "a line that begins with '%' is not allowed", NULL, "remove the line",
      DIAG_YAML_SYNTAX, true},
-    {"", "while scanning a %YAML directive", "this line is not read", NULL, "remove the line",
+    {"", "while scanning a %YAML directive", "this line is not allowed", NULL, "remove the line",
      DIAG_YAML_SYNTAX, true},
-    {"", "while scanning a %TAG directive", "this line is not read", NULL, "remove the line",
+    {"", "while scanning a %TAG directive", "this line is not allowed", NULL, "remove the line",
      DIAG_YAML_SYNTAX, true},
-    {"", "while parsing a %TAG directive", "this line is not read", NULL, "remove the line", DIAG_YAML_SYNTAX,
-     true},
+    {"", "while parsing a %TAG directive", "this line is not allowed", NULL, "remove the line",
+     DIAG_YAML_SYNTAX, true},
     {"found duplicate", NULL, "this line is given twice", NULL, "remove the line", DIAG_YAML_SYNTAX, false},
-    {"did not find expected <document start>", NULL, "the scene has ended before this", NULL,
-     "a scene file holds one map of keys and values", DIAG_YAML_SYNTAX, false},
+    {"did not find expected <document start>", NULL, "this comes after the end of the scene", NULL,
+     "a scene file is one map of keys and values", DIAG_YAML_SYNTAX, false},
 };
 
 static const struct yaml_words *find_words(const char *problem, const char *context) {
@@ -128,7 +129,7 @@ static bool at_end(const struct yaml_reader *r, uint32_t at) {
 
 void yaml_report_document(struct yaml_reader *r, uint32_t at) {
     diag_add(&r->sink, DIAG_SECOND_DOCUMENT, word_at(r, at),
-             "a second document begins here; a scene file holds one");
+             "a second document begins here; a scene file has only one");
     diag_help(&r->sink, "put it into a file of its own; 'include' joins files");
 }
 
@@ -195,7 +196,7 @@ static void help_pair(struct yaml_reader *r, str key, str value) {
     for (size_t i = 0; i < sizeof remarks / sizeof *remarks; i++) {
         if (!str_starts_with(key, str_from(remarks[i])))
             continue;
-        diag_help(&r->sink, "a remark begins with '#'");
+        diag_help(&r->sink, "a comment begins with '#'");
         return;
     }
     value = str_trim(value);
@@ -223,7 +224,7 @@ static bool report_line_above(struct yaml_reader *r, uint32_t at) {
         return false;
     bool colon = yaml_char(r, stop) == ':';
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, colon ? end : stop),
-             colon ? "a blank is missing behind the ':'" : "a ':' is missing behind this key");
+             colon ? "a space is missing after the ':'" : "a ':' is missing after this key");
     help_pair(r, word, str_slice(r->text->bytes, colon ? stop + 1 : stop, end));
     diag_fix(&r->sink, colon, yaml_span(r, stop + colon, stop + colon), colon ? STR(" ") : STR(":"));
     return true;
@@ -239,13 +240,12 @@ static void report_colon(struct yaml_reader *r, uint32_t at) {
         second = yaml_char(r, i) == ':' && char_is_blank(yaml_char(r, i + 1));
     if (second) {
         diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "a second ':' on this line");
-        diag_help(&r->sink, "put each key on a line of its own; a text that holds ': ' needs quotes");
+        diag_help(&r->sink, "put each key on a line of its own; text that contains ': ' needs quotes");
     } else {
         diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, at > begin ? at : at + 1),
                  "this key does not fit under the line above it");
-        diag_help(&r->sink,
-                  "the keys of a map stand in one column; a key with a map below it has no value on its "
-                  "own line");
+        diag_help(&r->sink, "the keys of a map begin in the same column; a key with a map below it has no "
+                            "value on its own line");
     }
 }
 
@@ -253,7 +253,7 @@ static void report_colon(struct yaml_reader *r, uint32_t at) {
 static bool report_dash(struct yaml_reader *r, uint32_t begin) {
     if (yaml_char(r, begin) != '-' || char_is_blank(yaml_char(r, begin + 1)))
         return false;
-    diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, begin), "a blank is missing behind the '-'");
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, begin), "a space is missing after the '-'");
     diag_help(&r->sink, "write '- %.*s'",
               STR_ARG(reader_clip(str_slice(r->text->bytes, begin + 1, word_at(r, begin).end))));
     diag_fix(&r->sink, !is_digit(yaml_char(r, begin + 1)), yaml_span(r, begin + 1, begin + 1), STR(" "));
@@ -276,21 +276,21 @@ static void report_behind(struct yaml_reader *r, uint32_t at) {
         return;
     }
     if (yaml_char(r, at) == ',') {
-        diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "this ',' parts nothing");
-        diag_help(&r->sink, "remove it: outside brackets entries stand on lines of their own");
+        diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "this ',' separates nothing");
+        diag_help(&r->sink, "remove it: outside brackets each entry is on a line of its own");
         diag_fix(&r->sink, true, character_at(r, at), STR(""));
         return;
     }
-    diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, at), "this stands behind a value that has ended");
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, at), "this comes after the end of a value");
     diag_help(&r->sink, "put the whole text in quotes; inside single quotes a quote is written ''");
 }
 
 // A character that begins no token.
 static void report_character(struct yaml_reader *r, uint32_t at) {
     char c = yaml_char(r, at);
-    diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "nothing can begin with this character");
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "a value cannot begin with this character");
     if (c == '@' || c == '`' || c == '%')
-        diag_help(&r->sink, "a text that begins with '%c' needs quotes", c);
+        diag_help(&r->sink, "text that begins with '%c' needs quotes", c);
 }
 
 // The brackets that are open at the end of the file; false: there are none.
@@ -316,7 +316,7 @@ static bool report_glued(struct yaml_reader *r, uint32_t at) {
     char next = yaml_char(r, at + 1);
     if (!str_is_name(key) || (next != '[' && next != '{'))
         return false;
-    diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, at + 1), "a blank is missing behind the ':'");
+    diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, begin, at + 1), "a space is missing after the ':'");
     diag_help(&r->sink, "write '%.*s: %c'", STR_ARG(reader_clip(key)), next);
     diag_fix(&r->sink, true, yaml_span(r, at + 1, at + 1), STR(" "));
     return true;
@@ -351,7 +351,7 @@ static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint
     else if (strstr(row->problem, "expected ','") && precedes(r, at, '='))
         diag_help(&r->sink, "a key and its value are joined by ':', not by '='");
     else if (strstr(row->problem, "block sequence") && is_digit(yaml_char(r, at + 2)))
-        diag_help(&r->sink, "a negative number is written without the blank: -%c", yaml_char(r, at + 2));
+        diag_help(&r->sink, "a negative number has no space after the '-': -%c", yaml_char(r, at + 2));
     else if (row->help)
         diag_help(&r->sink, "%s", row->help);
 }
@@ -360,7 +360,7 @@ void yaml_report(struct yaml_reader *r) {
     const yaml_parser_t *p = &r->parser;
     if (p->error == YAML_MEMORY_ERROR) {
         diag_add(&r->sink, DIAG_OUT_OF_MEMORY, yaml_span(r, r->gap, r->gap),
-                 "no memory for reading the file");
+                 "not enough memory to read the file");
         return;
     }
     const char *problem = p->problem ? p->problem : "";

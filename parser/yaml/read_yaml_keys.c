@@ -38,8 +38,8 @@ static bool merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_inde
     // What came by an alias has its place where it is anchored.
     bool is_alias = node->begin < tree_node(r->tree, key)->begin;
     diag_add(&r->sink, DIAG_YAML_MERGE, tree_span(r->tree, is_alias ? key : value),
-             "'<<' merges maps, and this is none");
-    diag_help(&r->sink, "write '<<: *name', where the anchor '&name' stands before a map");
+             "'<<' merges maps, and this is not a map");
+    diag_help(&r->sink, "write '<<: *name', where '&name' comes before a map");
     return false;
 }
 
@@ -113,7 +113,7 @@ static void report_twice(struct yaml_reader *r, tree_index first, tree_index sec
     if (r->sink.errors < JOINS_MAX && joins(r->tree, a, b)) {
         // The entries of both are checked, and references to them hold: the mistake is reported once.
         join(r, a, b);
-        diag_help(&r->sink, "put what both hold under one key, or rename one of the two");
+        diag_help(&r->sink, "put the contents of both under one key, or rename one of the two");
     } else {
         diag_help(&r->sink, "remove one of the two");
     }

@@ -104,7 +104,7 @@ static bool repair_tag(struct yaml_reader *r, struct diag_sink *sink, uint32_t p
     str written = source_text(r->context->sources, yaml_span(r, begin, end));
     diag_add(sink, DIAG_YAML_TAG, yaml_span(r, begin, end), "the tag '%.*s' has no meaning in a scene",
              STR_ARG(reader_clip(written)));
-    diag_help(sink, "remove it; a text that begins with '!' needs quotes");
+    diag_help(sink, "remove it; text that begins with '!' needs quotes");
     while (end < r->text->bytes.len && !char_is_break(yaml_char(r, end)))
         end++;
     reader_text_mark(r->context, r->text, begin, end);

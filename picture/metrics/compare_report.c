@@ -57,7 +57,7 @@ static void text_metric(const struct compare_report *report, enum metric metric,
     if (bounds->has[metric])
         strbuf_format(out, "; %s %.6g: %s", info->higher_is_better ? "at least" : "at most",
                       bounds->bound[metric],
-                      measure_keeps(bounds, report->result, metric) ? "kept" : "NOT KEPT");
+                      measure_keeps(bounds, report->result, metric) ? "passed" : "FAILED");
     strbuf_char(out, '\n');
 }
 
@@ -82,7 +82,7 @@ void compare_text(const struct compare_report *report, struct strbuf *out) {
         strbuf_format(out,
                       "%" PRIu64 " pixels are infinite or not a number in the picture, %" PRIu64
                       " in the reference, and left out of the means%s\n",
-                      r->not_finite[0], r->not_finite[1], keeps_finite(report) ? "" : ": NOT KEPT");
+                      r->not_finite[0], r->not_finite[1], keeps_finite(report) ? "" : ": FAILED");
 }
 
 // ---- JSON

@@ -54,7 +54,7 @@ const char *picture_file_decode(str bytes, uint64_t most_pixels, struct picture_
         return fault;
     if (header.kind == PICTURE_KIND_NONE) {
         *unknown = true;
-        return "it is no picture that is read: PNG, JPEG, PFM or Radiance HDR";
+        return "it is not a PNG, JPEG, PFM or Radiance HDR picture";
     }
     if ((uint64_t)header.width * header.height > most_pixels)
         return "it has more pixels than the limit image-pixels";

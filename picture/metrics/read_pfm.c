@@ -43,9 +43,9 @@ const char *pfm_decode(str bytes, uint64_t most_pixels, struct picture_file *out
     double scale = 0;
     if (bytes.len < 3 || !char_is_space(bytes.ptr[2]) || !read_side(next_word(bytes, &at), &out->width) ||
         !read_side(next_word(bytes, &at), &out->height))
-        return "its width or height is no whole number from 1 to 16777216";
+        return "its width or height is not a whole number from 1 to 16777216";
     if (number_parse(next_word(bytes, &at), &scale) != NUMBER_OK || scale == 0)
-        return "its scale, whose sign tells the byte order, is no number";
+        return "its scale, whose sign shows the byte order, is not a number";
     const uint64_t pixels = (uint64_t)out->width * out->height;
     if (pixels > most_pixels)
         return "it has more pixels than the limit image-pixels";

@@ -60,7 +60,7 @@ static const char *read_huffman_tables(struct walk *w, struct segment s) {
         for (int i = 1; i <= CODE_LENGTHS; i++) {
             room = 2 * room;
             if (s.data[i] > room)
-                return "a Huffman table holds more codes than there are";
+                return "a Huffman table has more codes than are possible";
             room -= s.data[i];
             codes += s.data[i];
         }
@@ -95,7 +95,7 @@ static const char *read_frame(struct walk *w, struct segment s, unsigned marker)
     if (s.size < 6 || s.size != 6 + 3 * (size_t)s.data[5])
         return "its frame header is damaged";
     if (s.data[0] != 8)
-        return "it has not 8 bits a channel";
+        return "it does not have 8 bits per channel";
     w->progressive = marker == MARKER_SOF2;
     w->height = (uint32_t)s.data[1] << 8 | s.data[2];
     w->width = (uint32_t)s.data[3] << 8 | s.data[4];
@@ -103,7 +103,7 @@ static const char *read_frame(struct walk *w, struct segment s, unsigned marker)
     if (w->width == 0 || w->height == 0)
         return "its width or height is 0";
     if (w->component_count < 1 || w->component_count > COMPONENTS_MAX)
-        return "it has not 1 to 4 channels";
+        return "it does not have 1 to 4 channels";
     for (unsigned i = 0; i < w->component_count; i++) {
         w->components[i] = (struct component){s.data[6 + 3 * i], s.data[8 + 3 * i]};
         if (w->components[i].quantization >= TABLES)
@@ -136,7 +136,7 @@ static const char *read_scan(struct walk *w, struct segment s) {
             return "a scan header is damaged";
         if ((uses_dc && !w->dc_table[dc]) || (uses_ac && !w->ac_table[ac]) ||
             !w->quantization[component->quantization])
-            return "a scan uses a table that the file lacks";
+            return "a scan uses a table that the file does not have";
     }
     w->has_scan = true;
     return NULL;
@@ -177,9 +177,9 @@ static const char *walk_file(struct walk *w) {
             return w->has_scan ? "the file ends within the picture" : "the file ends before the picture";
         unsigned marker = w->data[w->at + 1];
         if (w->data[w->at] != 0xFF || marker == 0 || marker == MARKER_SOI)
-            return "a marker is expected where there is none";
+            return "a marker is missing";
         if (marker == MARKER_EOI)
-            return w->has_scan ? NULL : "it holds no picture";
+            return w->has_scan ? NULL : "it contains no picture";
         w->at += 2;
         if (w->size - w->at < 2)
             return "the file ends within a segment";

@@ -54,7 +54,7 @@ static const char *png_header(str bytes, struct picture_header *out) {
             return "the file ends within a chunk";
         if (at == PNG_SIGNATURE) {
             if (length != 13 || memcmp(type, "IHDR", 4) != 0)
-                return "the first chunk is no header";
+                return "the first chunk is not a header";
             out->width = big_endian(data + at + 8, 4);
             out->height = big_endian(data + at + 12, 4);
             out->is_16_bit = data[at + 16] == 16;

@@ -75,7 +75,7 @@ void *stb_decode(const struct stb_job *job, const char **why) {
     else
         pixels = stbi_load_from_memory(job->bytes, (int)job->count, &width, &height, &channels, 4);
     *why = pixels            ? NULL
-           : budget_exceeded ? "it holds more data than a picture of its size"
+           : budget_exceeded ? "it has more data than a picture of its size needs"
                              : stbi_failure_reason();
     if (pixels && ((uint32_t)width != job->width || (uint32_t)height != job->height)) {
         *why = "its parts contradict each other about its size";

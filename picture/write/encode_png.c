@@ -8,7 +8,7 @@ static void on_write(png_structp png, png_bytep bytes, size_t count) {
     struct strbuf *out = png_get_io_ptr(png);
     strbuf_add(out, bytes, count);
     if (out->failed)
-        png_error(png, "no memory");
+        png_error(png, "not enough memory");
 }
 
 static void on_flush(png_structp png) {

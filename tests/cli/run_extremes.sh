@@ -40,14 +40,14 @@ expect "a report of another kind" 2 - 'must end in \.html' "$glint" extremes sce
 expect "a missing file of bounds" 3 - 'none.yaml:1:1: error: the file of bounds' "$glint" extremes scene.yaml --thresholds none.yaml
 printf 'move:\n  - {of: 0.1}\n  - {off: -1}\nscal:\n  - {off: 0}\nlight: 3\n' >bad.yaml
 expect "an unknown metric" 1 - "^bad.yaml:2:6: error: there is no metric 'of'" "$glint" extremes scene.yaml --thresholds bad.yaml
-expect "a bad bound" 1 - '^bad.yaml:3:11: error: a bound is a number from 0' "$glint" extremes scene.yaml --thresholds bad.yaml
+expect "a bad bound" 1 - '^bad.yaml:3:11: error: a bound must be a number that is not negative' "$glint" extremes scene.yaml --thresholds bad.yaml
 expect "an unknown axis of bounds" 1 - "^bad.yaml:4:1: error: there is no axis 'scal'" "$glint" extremes scene.yaml --thresholds bad.yaml
-expect "no list of bounds" 1 - '^bad.yaml:6:8: error: an axis has a list of bounds' "$glint" extremes scene.yaml --thresholds bad.yaml
+expect "no list of bounds" 1 - '^bad.yaml:6:8: error: an axis must have a list of bounds' "$glint" extremes scene.yaml --thresholds bad.yaml
 printf 'move:\n  - {from: 10, to: 1, off: 0}\n  - {to: 1}\n' >empty.yaml
 : >void.yaml
-expect "no bound at all" 1 - '^void.yaml:1:1: error: the file holds no bounds' "$glint" extremes scene.yaml --thresholds void.yaml
+expect "no bound at all" 1 - '^void.yaml:1:1: error: the file contains no bounds' "$glint" extremes scene.yaml --thresholds void.yaml
 expect "a bound that holds nowhere" 1 - "^empty.yaml:2:5: error: 'from' is above 'to'" "$glint" extremes scene.yaml --thresholds empty.yaml
-expect "a bound of nothing" 1 - '^empty.yaml:3:5: error: it bounds nothing' "$glint" extremes scene.yaml --thresholds empty.yaml
+expect "a bound of nothing" 1 - '^empty.yaml:3:5: error: this bounds nothing' "$glint" extremes scene.yaml --thresholds empty.yaml
 expect "a missing scene" 3 - 'error' "$glint" extremes missing.yaml
 
 # Told before the work, which would take longer than this.

@@ -41,10 +41,10 @@ expect "the background" 0 '^sees       the background' - "$glint" pick scene.yam
 if "$glint" devices | grep -q .; then
     expect "two paths" 0 '^differences: 0$' - "$glint" pick scene.yaml 32,32
     expect "a refracted ray" 0 '^ +[0-9]+  refracted from 0, weight 0.8: sphere .ball., at 1.9' - "$glint" pick scene.yaml 32,32
-    expect "a cut ray" 0 'the background, cut by max_depth' - "$glint" pick scene.yaml 32,32
+    expect "a cut ray" 0 'the background, stopped by max_depth' - "$glint" pick scene.yaml 32,32
     expect "another sample" 0 'sample 2 of 4$' - "$glint" pick scene.yaml 32,32 --sample 2 --set image.samples=4
     expect "the colours of all" 0 '^sample 3   .* \(device\), .* \(reference\)$' - "$glint" pick scene.yaml 32,32 --sample 2 --set image.samples=4
-    expect "no such sample" 2 - 'the picture has 1 sample a pixel, counted from 0' "$glint" pick scene.yaml 32,32 --sample 1
+    expect "no such sample" 2 - 'the picture has 1 sample per pixel, counted from 0' "$glint" pick scene.yaml 32,32 --sample 1
     expect "a shadow" 0 "rectangles\[0\], at [0-9.]+; 'sun' in shadow; adds 0 0 0" - "$glint" pick scene.yaml 32,63
     expect "a light below" 0 "rectangles\[0\], at [0-9.]+; 'sun' lit; adds 0\.[0-9]" - "$glint" pick scene.yaml 4,62
     # Below what single precision resolves: a plane behind another is met, and a lid under a lamp not seen.
@@ -99,8 +99,8 @@ END
     # Values that a float does not hold, from attributes inside their ranges: weights that grow from mirror to
     # mirror, a background, a sum of samples, a light at a hair's breadth.
     sed 's/0.1, 0, 0.9, 0/0, 0, 1.0e6, 0/; s/translation: \[0, 0, -6\]/translation: [0, 0, -6]}\n  - {mesh: wall.obj, material: mirror, translation: [0, 0, 9]/; /^spheres:/d; /ball/d; s/max_depth: 6/max_depth: 20/' scene.yaml >mirrors.yaml
-    expect "growing weights" 1 - "^mirrors.yaml:1[3-6]:[0-9]+: error: [0-9]+ pixels got a value that is infinite or not a number, the first at [0-9]+,[0-9]+, where the ray last met model" "$glint" render mirrors.yaml -o mirrors.pfm
-    expect "the line of the mesh" 1 - 'note: there it is the face at line 7 of wall.obj' "$glint" render mirrors.yaml -o mirrors.pfm
+    expect "growing weights" 1 - "^mirrors.yaml:1[3-6]:[0-9]+: error: [0-9]+ pixels got a value that is infinite or not a number, the first at [0-9]+,[0-9]+, where the ray last hit model" "$glint" render mirrors.yaml -o mirrors.pfm
+    expect "the line of the mesh" 1 - 'note: the face there is at line 7 of wall.obj' "$glint" render mirrors.yaml -o mirrors.pfm
     expect "the line of the material" 1 - "^mirrors.yaml:11:3: note: its material 'mirror'" "$glint" render mirrors.yaml -o mirrors.pfm
     expect "what helps" 1 - "magenta in PNG and HDR, and NaN in PFM; 'glint pick SCENE" "$glint" render mirrors.yaml -o mirrors.png
     expect "the marked pixels" 0 '^[1-9][0-9]* pixels are infinite or not a number' - "$glint" compare mirrors.pfm mirrors.pfm
@@ -110,7 +110,7 @@ END
     expect "a background" 1 - 'pixels got a value that is infinite.*E706' "$glint" render sky.yaml -o sky.pfm
     expect "seen at once" 1 - 'E706' "$glint" render sky.yaml -o sky.pfm --set 'models=' --set 'spheres=' --set 'rectangles='
     expect "a sum of samples" 1 - 'E706' "$glint" render sky.yaml -o sky.pfm --samples 4 --set 'background.intensity=1.5' --set 'models=' --set 'spheres=' --set 'rectangles='
-    expect "by the reference" 1 - '256 pixels got a value that no float holds, the first at 0,0 \[E706\]' "$glint" render sky.yaml -o sky.pfm --device reference --no-cache --size 16x16 --set 'models=' --set 'spheres=' --set 'rectangles='
+    expect "by the reference" 1 - '256 pixels got a value that is too large for a float, the first at 0,0 \[E706\]' "$glint" render sky.yaml -o sky.pfm --device reference --no-cache --size 16x16 --set 'models=' --set 'spheres=' --set 'rectangles='
     expect "each of them is finite" 0 - 'wrote sky.pfm' "$glint" render sky.yaml -o sky.pfm --set 'background.intensity=1.5' --set 'models=' --set 'spheres=' --set 'rectangles='
     cat >near.yaml <<'END'
 glint: 1
@@ -120,7 +120,7 @@ lights: [{position: [0, 0, 0], intensity: 1.0e6, color: 1.0e6, falloff: inverse_
 rectangles:
   - {corner: [-1.0e-17, -1.0e-17, -1.0e-17], edge_u: [2.0e-17, 0, 0], edge_v: [0, 2.0e-17, 0], material: {diffuse_color: 1.0e6}}
 END
-    expect "a light nearby" 1 - "near.yaml:6:5: error: .*the ray last met rectangles\[0\] \[E706\]" "$glint" render near.yaml -o near.pfm
+    expect "a light nearby" 1 - "near.yaml:6:5: error: .*the ray last hit rectangles\[0\] \[E706\]" "$glint" render near.yaml -o near.pfm
     expect "its material" 1 - "near.yaml:6:[0-9]+: note: its inline material" "$glint" render near.yaml -o near.pfm
 else
     echo "skip: no Vulkan device"

@@ -45,9 +45,9 @@ if [ -z "$mode" ]; then
     expect "its file's own row" 0 '^  0 .*as the file says' - cat study.txt
     expect "the report is one file" 0 '<svg.*time against error' - cat report.html
     # The reference's share of the budget grows with the processors.
-    expect "a truth cut short, whatever the depth of the file" 0 'let the reference follow [0-9]+ rays a sample; those' - \
+    expect "a truth cut short, whatever the depth of the file" 0 'allowed the reference only [0-9]+ rays per sample; those' - \
         "$glint" tradeoff small.yaml -q --budget 1 --size 80x60 --samples $((8 * $(nproc))) --set trace.max_depth=0
-    expect "both bounds" 0 '^cheapest that keeps both' - \
+    expect "both bounds" 0 '^cheapest that fits both' - \
         "$glint" tradeoff small.yaml -q --budget 1 --max-error flip=0.9 --max-time 100000
     expect "nothing fits" 1 '"misses_by"' - "$glint" tradeoff small.yaml -q --max-error mae=0 --budget 1 --format json
     printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\377\377\377\377' >sky.hdr
@@ -119,7 +119,7 @@ if ! echo "$options" | grep -q width; then
     "$glint" render small.yaml -q --device reference --samples "$samples" -o truth.pfm
     # shellcheck disable=SC2086
     "$glint" render small.yaml -q --set image.samples=2 $options -o again.pfm
-    expect "the choice keeps the bound: $options" 0 'at most 0\.1: kept' - \
+    expect "the choice keeps the bound: $options" 0 'at most 0\.1: passed' - \
         "$glint" compare again.pfm truth.pfm --space displayed --max-flip 0.1
 fi
 expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.2 --budget 30 -o chosen.png

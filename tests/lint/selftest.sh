@@ -186,6 +186,24 @@ refuses words b.md 'Look into `x` at /t''mp/y.'
 refuses words CMakeLists.txt 'include_directories("/ho''me/me")'
 
 fresh
+plant core/a.c '// a blank stands behind the key' 'f("a blank line", "there is no key %s", "the camera is behind the wall");' '#include "is no x.h"' "x = '\"';"
+plant tests/a.c 'f("a blank is missing behind the key");'
+plant docs/a.md 'A box that stands on a floor is fine. It is' 'nothing that is no longer there.'
+plant CONTRIBUTING.md 'Do not write "blank".'
+passes english
+refuses english core/b.c 'f("a space");' 'f("a blank is missing");'
+refuses english core/b.c '/* "fine" */ f("a \\"key\\"", "a colon is missing behind the key");'
+plant core/b.c 'f("a colon is "' '  "missing behind"' '  "\nthe key");'
+finds english 'core/b.c:1: "missing behind" is odd English; write: after'
+rm core/b.c
+refuses english diag/b.def 'X(A, E1, "the value stands in quotes")'
+refuses english README.md 'A scene.' 'It has not 8 bits.'
+plant README.md 'Radiance files that this is' 'no part of.'
+finds english 'README.md:2: "is no part"'
+rm README.md
+refuses english tools/b.sh 'echo "this is no scene"'
+
+fresh
 plant parser/bind/bind.c 'f(&SCHEMA_SCENE, "x-", "a sphere", "sphere is");'
 plant parser/stages/validate.c 'f("sphere");'
 plant ../names '#!/bin/sh' 'echo sphere; echo scene; echo Sphere'

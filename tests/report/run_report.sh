@@ -184,7 +184,7 @@ printf 'fial_on: warning\nseverity: {W401: eror, W999: off, E301: off}\nlimits: 
 tells "a wrong configuration is an error of usage" 2 '' "$glint" check w.glint.yaml
 ok "an unknown setting" grep -q "^.glintrc.yaml:1:1: error: there is no setting 'fial_on' \[E805\]" config.txt
 ok "and what was meant" grep -q "did you mean 'fail_on'" config.txt
-ok "an unknown severity" grep -q "^.glintrc.yaml:2:18: error: 'eror' is no severity \[E806\]" config.txt
+ok "an unknown severity" grep -q "^.glintrc.yaml:2:18: error: 'eror' is not a severity \[E806\]" config.txt
 ok "an unknown code" grep -q "^.glintrc.yaml:2:24: error: there is no code 'W999' \[E806\]" config.txt
 ok "an error's code" grep -q "^.glintrc.yaml:2:35: error: errors cannot be silenced" config.txt
 ok "an unknown limit" grep -q "^.glintrc.yaml:3:10: error: there is no limit 'mesh-byte' \[E806\]" config.txt

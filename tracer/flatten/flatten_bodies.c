@@ -93,7 +93,7 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
         return FLATTEN_DONE;
     diag_add(
         f->input->sink, DIAG_TRANSFORM_OVERFLOW, place_of(f, body),
-        "after scale, rotation and translation a coordinate of this model is %.3g; at most 1e18 is allowed",
+        "after scale, rotation and translation this model has coordinates of %.3g; at most 1e18 is allowed",
         farthest);
     return FLATTEN_REPORTED;
 }

@@ -211,26 +211,27 @@ void tradeoff_html(const struct tradeoff *t, const char *scene, struct strbuf *o
         out,
         "<p class=\"soft\">Each dot is a setting; its bar spans the quartiles of its time. The dashed "
         "line joins the front: no cheaper setting has a smaller error (%s). Times closer than %.0f %% "
-        "are one class, in which counted work decides.</p>\n",
+        "form one class, within which counted work decides.</p>\n",
         metric_infos[t->options.metric].title, 100 * t->noise);
     strbuf_cstr(out, "<h2>Answers</h2>\n<pre>");
     escaped(out, tradeoff_answers, t);
     strbuf_cstr(out, "</pre>\n<h2>Settings</h2>\n<p class=\"soft\">Bold: on the front. Grey: studies and the "
-                     "general shader, never chosen. A click on a head sorts.");
+                     "general shader, never chosen. Click a column heading to sort.");
     if (t->part_pixels)
         strbuf_format(out, " The last four columns split the mean absolute error by cause, at %u pixels.",
                       t->part_pixels);
     strbuf_cstr(out, "</p>\n");
     rows_table(t, out);
-    strbuf_cstr(out,
-                "<h2>First hits against the reference</h2>\n<p class=\"soft\">Per million pixels. Acne: dark "
-                "although nothing is between surface and light. Leaks: lit although something is. Holes: the "
-                "background seen through a closed body. 2nd ray: the mirrored or refracted ray meets another "
-                "body. Away from silhouettes and shadows' edges, but for their own columns.</p>\n");
+    strbuf_cstr(
+        out, "<h2>First hits against the reference</h2>\n<p class=\"soft\">Per million pixels. Acne: dark "
+             "although nothing is between surface and light. Leaks: lit although something is. Holes: the "
+             "background seen through a closed body. 2nd ray: the mirrored or refracted ray hits another "
+             "body. Silhouettes and the edges of shadows are left out, except in their own columns.</p>\n");
     hits_table(t, out);
-    strbuf_cstr(out,
-                "<h2>Pictures</h2>\n<p class=\"soft\">Each beside its difference from the reference: black "
-                "below 0.001, violet 0.005, red 0.03, orange 0.1, pale yellow 1.</p>\n");
+    strbuf_cstr(
+        out,
+        "<h2>Pictures</h2>\n<p class=\"soft\">Each picture next to its difference from the reference: black "
+        "below 0.001, violet 0.005, red 0.03, orange 0.1, pale yellow 1.</p>\n");
     cards(t, out);
     strbuf_format(out, "<script>%s</script>\n</body></html>\n", SCRIPT);
 }

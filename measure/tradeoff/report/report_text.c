@@ -76,7 +76,7 @@ void tradeoff_answers(const struct tradeoff *t, struct strbuf *out) {
     }
     if (!isnan(t->options.max_error) && !isnan(t->options.max_time_ms)) {
         strbuf_clear(&question);
-        strbuf_format(&question, "cheapest that keeps both");
+        strbuf_format(&question, "cheapest that fits both");
         answer(t, strbuf_view(&question), metric, &t->both, out);
     }
     if (t->knee != CHOICE_NONE && isnan(t->options.max_error) && isnan(t->options.max_time_ms)) {
@@ -159,25 +159,24 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
         strbuf_format(out, "; the budget was %.6g s", t->options.budget_s);
     strbuf_char(out, '\n');
     if (t->truth_samples <= t->rows[0].setting.samples)
-        strbuf_cstr(
-            out, "the budget let the reference have no more samples than the file: what more of them would "
-                 "mend is not seen\n");
+        strbuf_cstr(out, "the budget allowed the reference no more samples than the file: what more samples "
+                         "would improve is not measured\n");
     if (t->truth_cut)
         strbuf_format(out,
-                      "the budget let the reference follow %" PRIu64
-                      " rays a sample; those left out weigh %.2g of a pixel on average, and settings that "
-                      "follow more may look worse than they are\n",
+                      "the budget allowed the reference only %" PRIu64
+                      " rays per sample; those left out weigh %.2g of a pixel on average, and settings that "
+                      "follow more rays may look worse than they are\n",
                       t->truth_segments, t->truth_left_weight);
     if (t->parts_out)
-        strbuf_format(out, "settings whose errors were not split into parts, for want of time: %u\n",
+        strbuf_format(out, "settings whose errors were not split into parts, for lack of time: %u\n",
                       t->parts_out);
     if (t->numeric_probed)
-        strbuf_cstr(out,
-                    "for want of time the numeric part was measured where the others were, not all over\n");
+        strbuf_cstr(out, "for lack of time the numeric part was measured at the same pixels as the others, "
+                         "not over the whole picture\n");
     if (t->hits_out)
-        strbuf_cstr(out, "first hits were left out for want of time\n");
+        strbuf_cstr(out, "first hits were left out for lack of time\n");
     if (t->rows_left_out)
-        strbuf_format(out, "%u settings were left out for want of time\n", t->rows_left_out);
+        strbuf_format(out, "%u settings were left out for lack of time\n", t->rows_left_out);
     if (t->pairs_left_out)
         strbuf_format(out, "%u less promising pairs were left out\n", t->pairs_left_out);
     if (t->too_costly)
@@ -186,7 +185,7 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
     if (t->cut_short)
         strbuf_cstr(out, "the budget cut the study short: further pairs or rounds might change the choice\n");
     if (t->options.budget_s > 0 && t->seconds > t->options.budget_s)
-        strbuf_format(out, "the least that a study needs took %.1f s longer than the budget\n",
+        strbuf_format(out, "the minimum that a study needs took %.1f s longer than the budget\n",
                       t->seconds - t->options.budget_s);
 }
 

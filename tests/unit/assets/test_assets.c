@@ -112,13 +112,13 @@ static void other_kinds_are_named(void **state) {
         snprintf(path, sizeof path, "scene/%s", names[i]);
         scratch_write(&f->scratch, path, "ply\n");
     }
-    expect(f, "a.ply", "meshes of the kind '.ply' are not read [E605]",
-           "this version reads Wavefront OBJ (.obj); a 3-D program can convert the file");
-    expect(f, "a.STL", "meshes of the kind '.STL' are not read [E605]", "can convert");
-    expect(f, "a.gltf", "meshes of the kind '.gltf' are not read [E605]", "can convert");
-    expect(f, "a.txt", "meshes of the kind '.txt' are not read [E605]",
+    expect(f, "a.ply", "meshes of the kind '.ply' are not supported [E605]",
+           "this version reads Wavefront OBJ (.obj); a 3D program can convert the file");
+    expect(f, "a.STL", "meshes of the kind '.STL' are not supported [E605]", "can convert");
+    expect(f, "a.gltf", "meshes of the kind '.gltf' are not supported [E605]", "can convert");
+    expect(f, "a.txt", "meshes of the kind '.txt' are not supported [E605]",
            "this version reads Wavefront OBJ (.obj)\n");
-    expect(f, "a", "'a' has no ending that tells its kind [E605]", "this version reads");
+    expect(f, "a", "'a' has no extension that shows its kind [E605]", "this version reads");
 }
 
 static void unreadable_files_say_why(void **state) {
@@ -241,7 +241,7 @@ static void models_too_large_for_the_world(void **state) {
     model->translation = (vec3){2e17, 0, 0};
     assets_scene_load(s);
     assert_int_equal(s->sink.count, 1);
-    assert_says(s, "the model reaches coordinates of 1.1e+18; the largest allowed is 1e18 [E409]");
+    assert_says(s, "the model has coordinates of 1.1e+18; at most 1e18 is allowed [E409]");
     assets_scene_end(s);
 }
 

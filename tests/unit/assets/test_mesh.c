@@ -239,7 +239,7 @@ static void bad_indices_are_shown(void **state) {
                                  "       |       ^\n");
     expect(TRIANGLE "f 1 0 3\n", "mesh.obj:4:5: error: index 0: vertices count from 1 [E612]");
     expect(TRIANGLE "f -1 -2 -4\n",
-           "mesh.obj:4:9: error: index -4 reaches before the first of 3 vertices so far [E612]");
+           "mesh.obj:4:9: error: index -4 goes back further than the 3 vertices so far [E612]");
     expect(TRIANGLE "vn 0 0 1\n f 1//1 2//2 3//1\n",
            "mesh.obj:5:12: error: index 2: the file defines 1 normals [E612]");
     expect(TRIANGLE "f 1 2 \\\n 99999999999999999999\n", "mesh.obj:5:2: error: index");
@@ -251,14 +251,15 @@ static void bad_lines_are_shown(void **state) {
     expect(TRIANGLE "f 1 2\n", "mesh.obj:4:1: error: a face with 2 corners [E613]");
     expect(TRIANGLE "f\nf 1 2 3\n", "mesh.obj:4:1: error: a face with 0 corners [E613]");
     expect(TRIANGLE "f 1 2 3x\n",
-           "mesh.obj:4:7: error: '3x' is no corner; write V, V/VT, V//VN or V/VT/VN [E610]");
-    expect(TRIANGLE "f 1 2 3/1/1/1\n", "mesh.obj:4:7: error: '3/1/1/1' is no corner");
-    expect(TRIANGLE "f 1 2 3/a\n", "mesh.obj:4:7: error: '3/a' is no corner");
-    expect(TRIANGLE "f 1 2 1.5\n", "mesh.obj:4:7: error: '1.5' is no corner");
-    expect(TRIANGLE "wow 1\nf 1 2 3\n", "mesh.obj:4:1: error: 'wow' begins no line of an OBJ file [E610]");
+           "mesh.obj:4:7: error: '3x' is not a corner; write V, V/VT, V//VN or V/VT/VN [E610]");
+    expect(TRIANGLE "f 1 2 3/1/1/1\n", "mesh.obj:4:7: error: '3/1/1/1' is not a corner");
+    expect(TRIANGLE "f 1 2 3/a\n", "mesh.obj:4:7: error: '3/a' is not a corner");
+    expect(TRIANGLE "f 1 2 1.5\n", "mesh.obj:4:7: error: '1.5' is not a corner");
+    expect(TRIANGLE "wow 1\nf 1 2 3\n",
+           "mesh.obj:4:1: error: 'wow' cannot begin a line of an OBJ file [E610]");
     expect(TRIANGLE, "mesh.obj:1:1: error: the mesh has no faces [E614]");
     expect("", "mesh.obj:1:1: error: the mesh has no faces [E614]");
-    expect(TRIANGLE "\x1b[31m\xff\n", "mesh.obj:4:1: error: '?[31m?' begins no line");
+    expect(TRIANGLE "\x1b[31m\xff\n", "mesh.obj:4:1: error: '?[31m?' cannot begin a line");
 }
 
 static void many_faults_are_few_messages(void **state) {

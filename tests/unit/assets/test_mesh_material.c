@@ -101,7 +101,7 @@ static void values_outside_their_range_are_cut_with_a_warning(void **state) {
     assert_true(m->refractive_index == 0.1 && m->specular_exponent == 0 && m->diffuse_color.color.g == 0);
     assert_weights(m->albedo, 1, 0, 0, 0);
     assert_int_equal(assets_scene_count(s, DIAG_MTL_RANGE), 4);
-    assert_says(s, "own.mtl:2:4: warning: 0 lies outside 0.1 to 10; 0.1 is taken [W603]");
+    assert_says(s, "own.mtl:2:4: warning: 0 is outside the range from 0.1 to 10; 0.1 is used [W603]");
     assert_int_equal(s->sink.errors, 0);
     assets_scene_end(s);
 }
@@ -166,7 +166,7 @@ static void map_then_material_then_file_then_default(void **state) {
     assert_int_equal(s->sink.count, 1);
     assert_says(
         s,
-        "mesh.obj:9:1: warning: no material file defines 'gold'; its faces have the default material [W602]");
+        "mesh.obj:9:1: warning: no material file defines 'gold'; its faces get the default material [W602]");
     assets_scene_end(s);
 }
 
@@ -277,7 +277,7 @@ static void refraction_needs_a_closed_mesh(void **state) {
     assets_scene_load(s);
     assert_int_equal(s->sink.count, 1);
     assert_says(s, "scene.yaml:1:1: warning: the mesh 'open.obj' is open and its material refracts");
-    assert_says(s, "open.obj:6:1: note: 3 edges are of one face alone, the first of this face");
+    assert_says(s, "open.obj:6:1: note: 3 edges belong to only one face, the first to this face");
     assets_scene_end(s);
 }
 

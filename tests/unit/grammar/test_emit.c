@@ -219,7 +219,7 @@ static void test_every_row_is_explained(void **state) {
     assert_explained("lookat", "camera.look_at");
     assert_explained("ior", "material.refractive_index");
     assert_explained("paint", "XML: <DiffuseColor>");
-    assert_explained("image.tone", "clip: Values above 1 are cut.");
+    assert_explained("image.tone", "clip: Values above 1 are clipped.");
 }
 
 static void test_colour(void **state) {
@@ -233,16 +233,16 @@ static void test_colour(void **state) {
 
 static void test_unknown_things(void **state) {
     (void)state;
-    assert_unknown("lihgt", "'lihgt' is no code, element or attribute; did you mean 'light'?\n");
+    assert_unknown("lihgt", "'lihgt' is not a code, element or attribute; did you mean 'light'?\n");
     assert_unknown("camera.fob",
-                   "'camera.fob' is no code, element or attribute; did you mean 'camera.fov'?\n");
-    assert_unknown("E2006", "'E2006' is no code, element or attribute; did you mean 'E206'?\n");
+                   "'camera.fob' is not a code, element or attribute; did you mean 'camera.fov'?\n");
+    assert_unknown("E2006", "'E2006' is not a code, element or attribute; did you mean 'E206'?\n");
     assert_unknown("zzzzzz",
-                   "'zzzzzz' is no code, element or attribute; 'glint explain scene' shows where to begin\n");
-    assert_unknown("", "'' is no code, element or attribute; 'glint explain scene' shows where to begin\n");
-    assert_unknown("camera.", "'camera.' is no code, element or attribute; did you mean 'camera.up'?\n");
+                   "'zzzzzz' is not a code, element or attribute; begin with 'glint explain scene'\n");
+    assert_unknown("", "'' is not a code, element or attribute; begin with 'glint explain scene'\n");
+    assert_unknown("camera.", "'camera.' is not a code, element or attribute; did you mean 'camera.up'?\n");
     assert_unknown("camera.fov.x",
-                   "'camera.fov.x' is no code, element or attribute; did you mean 'camera.fov'?\n");
+                   "'camera.fov.x' is not a code, element or attribute; did you mean 'camera.fov'?\n");
     assert_unknown("rotation", "several elements have 'rotation'; say which: 'camera.rotation', "
                                "'background.rotation' or 'model.rotation'\n");
 }

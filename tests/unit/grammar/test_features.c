@@ -148,7 +148,7 @@ static void test_reasons(void **state) {
     assert_string_equal(reason->words, "trace: shadows is true by default");
     assert_true(span_is_none(reason->at));
     assert_string_equal(reason_for(&reasons, FEATURE_POINT_LIGHT)->words,
-                        "no light is written, so one stands at the camera");
+                        "no light is written, so one is placed at the camera");
     uint32_t mask = 0;
     for (uint32_t i = 0; i < reasons.count; i++) {
         assert_true(reasons.items[i].bit > mask); // each once, in order

@@ -243,7 +243,7 @@ static void mistakes_in_components(void **state) {
                  "'position' of camera 'main' has 2 numbers; it needs 3: x, y, z");
     loaded_check_twins(HEAD_YAML "camera: {position: {x: 1, y: 2}}\n",
                        HEAD_XML "<Camera><Position x=\"1\" y=\"2\"/></Camera>" END_XML, "E211",
-                       "'position' of camera 'main' lacks 'z'; every component is written, 0 too");
+                       "'position' of camera 'main' lacks 'z'; write every component, even if it is 0");
     loaded_check_twins(
         HEAD_YAML "camera: {position: {x: 1, y: 2, Z: 3}}\n",
         HEAD_XML "<Camera><Position x=\"1\" y=\"2\" Z=\"3\"/></Camera>" END_XML, "E202",
@@ -286,7 +286,7 @@ static void what_is_there_twice(void **state) {
     loaded_check_twins(HEAD_YAML "camera: {look_at: [0, 0, 0], position: [1, 1, 1], rotation: [0, 0, 0]}\n",
                        HEAD_XML "<Camera><LookAt x=\"0\" y=\"0\" z=\"0\"/><Position x=\"1\" y=\"1\" "
                                 "z=\"1\"/><Rotation x=\"0\" y=\"0\" z=\"0\"/></Camera>" END_XML,
-                       "E214", "camera 'main' has both 'look_at' and 'rotation'; only one can hold");
+                       "E214", "camera 'main' has both 'look_at' and 'rotation'; only one is allowed");
     // The second value is looked into all the same.
     loaded_check(HEAD_YAML "camera: {look_at: [0, 0, 9], rotation: [0, x, 0]}\n", "E214 E205", NULL);
     loaded_check(HEAD_XML "<Image/><Image width=\"x\"/>" END_XML, "E203 E205", NULL);
@@ -323,7 +323,7 @@ static void what_is_no_scene(void **state) {
     loaded_check("name: x\nversion: 3\n", "E201", "a scene begins with 'glint: 1'");
     loaded_check("<svg width=\"3\"/>", "E201", "its root is 'svg'");
     loaded_check_twins("glint: 2\nnew_thing: 5\n", "<Scene glint=\"2\" new_thing=\"5\"/>", "E216",
-                       "the file is written in version 2 of the language; this program reads version 1");
+                       "the file uses version 2 of the language; this program reads version 1");
     loaded_check("glint: one\nimage: {width: x}\n", "E205 E205", NULL);
 }
 

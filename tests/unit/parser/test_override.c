@@ -160,8 +160,7 @@ static void mistakes_in_the_value(void **state) {
     expect("image.width=0x5", "E205", "--set:1:13: error: 'image.width': '0x5' is hexadecimal");
     expect("camera.fov=200", "E206", "--set:1:12: error: 'fov' of camera 'main' is 200");
     expect("camera.fov=~", "E121", "has no value");
-    expect("camera.look_at=[0, 0, 5]", "E401",
-           "--set:1:16: error: camera 'main' looks at the point where it stands");
+    expect("camera.look_at=[0, 0, 5]", "E401", "--set:1:16: error: camera 'main' looks at its own position");
     expect("spheres[0].material=glas", "E301", "did you mean 'glass'?");
     expect("materials.glass={albdo: 1}", "E202", "--set:1:18: error: a material has no 'albdo'");
     expect("image.width=[1", "E219", "--set:1:");
@@ -173,7 +172,7 @@ static void mistakes_in_the_path(void **state) {
     (void)state;
     expect("image.width =x", "E205", "--set:1:14: error: 'image.width': 'x' is not a number");
     expect("image .width=5", "E220", "did you mean 'image'?");
-    expect("image", "E219", "'=' is missing behind the path");
+    expect("image", "E219", "'=' is missing after the path");
     expect("=5", "E219", "the path is missing before '='");
     expect("a..b=5", "E219", "--set:1:3: error: a key is missing here");
     expect("lights[0=5", "E219", "']' is missing");
@@ -182,13 +181,13 @@ static void mistakes_in_the_path(void **state) {
     expect("lights[-1].x=5", "E219", "entries are counted from 0");
     expect("image.widht=5", "E220", "did you mean 'width'?");
     expect("imag.width=5", "E220", "did you mean 'image'?");
-    expect("image.width.x=5", "E220", "'image.width' is one value; nothing lies below it");
+    expect("image.width.x=5", "E220", "'image.width' is a single value; there is nothing below it");
     expect("lights[2].intensity=1", "E220", "counted from 0, the last one is lights[1]");
     expect("lights[kye].intensity=1", "E220", "did you mean 'key'?");
     expect("lights.key.intensity=1", "E220", "for example lights[0] or lights[key]");
     expect("materials.glas.albedo=1", "E220", "did you mean 'glass'?");
     expect("materials.nothing=", "E220", "there is no material 'nothing'");
-    expect("camera.direction.x=1", "E220", "is not written; only all of it can be set");
+    expect("camera.direction.x=1", "E220", "is not written; it can only be set as a whole");
     expect("camera.position.w=1", "E220", "it has x, y, z");
     expect("camera.position.x=", "E220", "cannot be removed");
     expect("lights[1].color.r=1", "E220", "written as #rrggbb");

@@ -318,8 +318,8 @@ static void test_bad_files(void **state) {
         const char *fault;
         bool unknown;
     } cases[] = {
-        {STR(""), "no picture", true},
-        {STR("hello"), "no picture", true},
+        {STR(""), "it is not a PNG", true},
+        {STR("hello"), "it is not a PNG", true},
         {STR("PF"), "width or height", false},
         {STR("PF\n0 1\n-1\n"), "width or height", false},
         {STR("PF\n1 -1\n-1\n"), "width or height", false},

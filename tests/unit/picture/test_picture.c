@@ -266,8 +266,8 @@ static void a_small_file_does_not_become_large(void **state) {
     put_header(&file, 1, 1, 8, 2);
     put_chunk(&file, "IDAT", data.data, data.len);
     put_chunk(&file, "IEND", NULL, 0);
-    expect_fault(&file, "sky.png:1:1: error: the image cannot be decoded: it holds more data than a picture "
-                        "of its size [E620]");
+    expect_fault(&file, "sky.png:1:1: error: the image cannot be decoded: it has more data than a picture "
+                        "of its size needs [E620]");
     strbuf_finish(&data);
     strbuf_finish(&file);
 }
@@ -295,7 +295,7 @@ static void broken_jpeg_files(void **state) {
     expect_fault(&file, "the file ends before the picture [E620]");
     file.len = whole;
     file.data[2] = 'x';
-    expect_fault(&file, "scene.yaml:1:8: error: 'sky.png' is no PNG, JPEG or Radiance HDR image [E621]");
+    expect_fault(&file, "scene.yaml:1:8: error: 'sky.png' is not a PNG, JPEG or Radiance HDR image [E621]");
     strbuf_finish(&file);
 }
 
@@ -306,7 +306,8 @@ static void other_files_are_no_images(void **state) {
         struct strbuf file;
         strbuf_init(&file);
         strbuf_cstr(&file, texts[i]);
-        expect_fault(&file, "scene.yaml:1:8: error: 'sky.png' is no PNG, JPEG or Radiance HDR image [E621]");
+        expect_fault(&file,
+                     "scene.yaml:1:8: error: 'sky.png' is not a PNG, JPEG or Radiance HDR image [E621]");
         strbuf_finish(&file);
     }
     struct assets_scene *s = assets_scene_begin();
