@@ -1,6 +1,5 @@
 #include "measure/hit_errors.h"
 
-#include "grammar/ir.h"
 
 #include <math.h>
 

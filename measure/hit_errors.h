@@ -7,11 +7,9 @@
 #ifndef GLINT_MEASURE_HIT_ERRORS_H
 #define GLINT_MEASURE_HIT_ERRORS_H
 
-#include "assets/assets.h"
 #include "scene/hits.h"
 #include "scene/scene.h"
 
-struct ir_scene;
 
 // What the first rays met against what they meet in the reference, per million pixels.
 struct hit_errors {

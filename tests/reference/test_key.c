@@ -1,8 +1,8 @@
 // The key of the reference's cache: whatever changes in a scene, in any row of the table, is another key.
-#include "grammar/schema.h"
-#include "grammar/ir.h"
 #include "core/arena.h"
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 #include "reference/key.h"
 
 #include <setjmp.h>
