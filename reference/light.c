@@ -1,4 +1,5 @@
 // Where light comes from: lights with their shadows, and the background (LANGUAGE "Hit", "Background").
+#include "core/srgb.h"
 #include "reference/parts.h"
 
 #define PI 3.14159265358979323846
@@ -133,7 +134,7 @@ void reference_make_background(struct reference *r) {
         r->decoded = ARENA_ARRAY(&r->arena, double, greatest + 1);
         for (size_t i = 0; i <= greatest; i++) {
             double value = (double)i / (double)greatest;
-            r->decoded[i] = srgb ? view_srgb_decode(value) : value;
+            r->decoded[i] = srgb ? srgb_decode(value) : value;
         }
     }
     r->background_brightest = image_brightest(r) * background->intensity;

@@ -1,14 +1,12 @@
 #include "scene/view.h"
 
+#include "core/srgb.h"
+
 #include <string.h>
 
 #define DEGREE 0.017453292519943295769 // pi / 180
 
 // ---- colours
-
-double view_srgb_decode(double value) {
-    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
-}
 
 vec3 view_linear_color(struct ir_color color, unsigned transfer) {
     if (!color.is_hex)
@@ -17,7 +15,7 @@ vec3 view_linear_color(struct ir_color color, unsigned transfer) {
                   (double)(color.hex & 0xFF) / 255};
     if (transfer != IR_TRANSFER_SRGB)
         return shown;
-    return (vec3){view_srgb_decode(shown.x), view_srgb_decode(shown.y), view_srgb_decode(shown.z)};
+    return (vec3){srgb_decode(shown.x), srgb_decode(shown.y), srgb_decode(shown.z)};
 }
 
 // ---- rotations

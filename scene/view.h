@@ -33,8 +33,6 @@ struct view {
 
 // #rrggbb is a displayed colour: /255 with transfer none, decoded from sRGB with srgb (IEC 61966-2-1).
 vec3 view_linear_color(struct ir_color color, unsigned transfer);
-// sRGB decoding of one value in 0..1.
-double view_srgb_decode(double value);
 
 // The affine map of a model, T·Rz·Ry·Rx·S, in double.
 affine3 view_model_transform(const struct ir_model *model);

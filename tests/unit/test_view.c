@@ -1,6 +1,8 @@
 // Cameras, lights, rotations and colours, against values worked out by hand.
 #include "scene/view.h"
 
+#include "core/srgb.h"
+
 #include "assets_scene.h"
 
 #include <math.h>
@@ -236,7 +238,7 @@ static void hex_colours_are_displayed_ones(void **state) {
     assert_near(view_linear_color(hex, IR_TRANSFER_SRGB), 0.0030352698354883752, 0.21586050011389926, 1);
     struct ir_color numbers = {.r = 0.25, .g = 3, .b = 0};
     assert_exact(view_linear_color(numbers, IR_TRANSFER_SRGB), 0.25, 3, 0);
-    assert_true(view_srgb_decode(0) == 0 && view_srgb_decode(1) == 1);
+    assert_true(srgb_decode(0) == 0 && srgb_decode(1) == 1);
 }
 
 static void samples_follow_the_sequence(void **state) {
