@@ -1,6 +1,6 @@
 #include "app/config.h"
 
-#include "core/nearest.h"
+#include "app/keys.h"
 #include "core/unicode.h"
 #include "parser/tree/reader.h"
 
@@ -17,22 +17,6 @@ struct binder {
     const struct tree *tree;
     struct config *config;
     str folder; // of the configuration
-};
-
-enum shape {
-    SHAPE_VALUE, // one scalar
-    SHAPE_LIST,  // each item is taken
-    SHAPE_MAP,   // each pair is taken
-};
-
-// A setting: its name, what it looks like and what takes each of its values. `key`: of a pair of a map, else
-// 0.
-struct setting {
-    const char *name;
-    enum shape shape;
-    const char *form; // for "'only' takes ..."
-    const char *example;
-    void (*take)(struct binder *b, tree_index key, tree_index value);
 };
 
 // ---- saying what is wrong
@@ -59,6 +43,15 @@ static void did_you_mean(const struct binder *b, tree_index node, const struct n
         return;
     diag_help(b->input->sink, "did you mean '%.*s'?", STR_ARG(best));
     diag_fix(b->input->sink, false, tree_span(b->tree, node), best);
+}
+
+// There is no such key in the table: what is meant, else what there is.
+static void unknown_key(const struct binder *b, const struct key_table *table, enum diag_code code,
+                        tree_index node, const struct nearest *search, str otherwise) {
+    if (key_report_unknown(table, b->input->sink, code, tree_span(b->tree, node), shown(b, node), search))
+        diag_fix(b->input->sink, false, tree_span(b->tree, node), nearest_best(search));
+    else
+        diag_help(b->input->sink, "%.*s", STR_ARG(otherwise));
 }
 
 static void offer_words(struct nearest *search, const char *const *words) {
@@ -158,38 +151,24 @@ static void set_limit(struct binder *b, tree_index key, tree_index value, enum l
 }
 
 static void take_limit(struct binder *b, tree_index key, tree_index value) {
-    str name = tree_text(b->tree, key);
-    enum limit which;
-    if (limit_find(name, &which)) {
-        set_limit(b, key, value, which);
-        return;
-    }
-    struct nearest search = nearest_begin(name);
-    for (int i = 0; i < LIMIT_COUNT; i++)
-        nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
-    bad_value(b, key, "there is no limit ", "");
-    if (nearest_best(&search).len)
-        did_you_mean(b, key, &search);
+    struct nearest search;
+    const struct key_row *row = key_find(&LIMIT_KEYS, tree_text(b->tree, key), &search);
+    if (row)
+        set_limit(b, key, value, (enum limit)(row - LIMIT_KEYS.rows));
     else
-        diag_help(b->input->sink, "'glint check --limit help' lists the limits");
+        unknown_key(b, &LIMIT_KEYS, DIAG_CONFIG_VALUE, key, &search,
+                    STR("'glint check --limit help' lists the limits"));
 }
 
 static void take_max_messages(struct binder *b, tree_index key, tree_index value) {
     set_limit(b, key, value, LIMIT_MESSAGES);
 }
 
-static const struct setting settings[] = {
-    {"asset_paths", SHAPE_LIST, "a list of folders", "asset_paths: [textures]", take_asset_path},
-    {"severity", SHAPE_MAP, "a map from codes to severities", "severity: {W401: error, N601: off}",
-     take_severity},
-    {"ignore", SHAPE_LIST, "a list of codes and paths", "ignore: [N401, \"drafts/**\"]", take_ignore},
-    {"only", SHAPE_LIST, "a list of codes", "only: [W4xx]", take_only},
-    {"fail_on", SHAPE_VALUE, "error or warning", "fail_on: warning", take_fail_on},
-    {"max_messages", SHAPE_VALUE, "a whole number", "max_messages: 20", take_max_messages},
-    {"limits", SHAPE_MAP, "a map from limits to numbers", "limits: {mesh-bytes: 1000000}", take_limit},
-};
-enum {
-    SETTING_COUNT = sizeof settings / sizeof *settings
+// `key`: of a pair of a map, else 0.
+static void (*const takers[])(struct binder *b, tree_index key, tree_index value) = {
+    [KEY_FOLDER] = take_asset_path,         [KEY_CODE] = take_only,         [KEY_CODE_OR_PATH] = take_ignore,
+    [KEY_CODE_SEVERITY] = take_severity,    [KEY_FAIL_WORD] = take_fail_on, [KEY_LIMIT] = take_limit,
+    [KEY_MAX_MESSAGES] = take_max_messages,
 };
 
 // ---- walking the file
@@ -198,7 +177,7 @@ static bool is_reported(const struct binder *b, tree_index node) {
     return (tree_node(b->tree, node)->flags & (TREE_BAD | TREE_CUT)) != 0;
 }
 
-static void wrong_shape(struct binder *b, const struct setting *setting, tree_index node) {
+static void wrong_shape(struct binder *b, const struct key_row *setting, tree_index node) {
     if (is_reported(b, node))
         return;
     diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node), "'%s' takes %s", setting->name,
@@ -206,25 +185,25 @@ static void wrong_shape(struct binder *b, const struct setting *setting, tree_in
     diag_help(b->input->sink, "write %s", setting->example);
 }
 
-static void take_one(struct binder *b, const struct setting *setting, tree_index key, tree_index value) {
+static void take_one(struct binder *b, const struct key_row *setting, tree_index key, tree_index value) {
     if (is_reported(b, value))
         return;
     if (tree_node(b->tree, value)->kind == TREE_SCALAR)
-        setting->take(b, key, value);
+        takers[setting->value](b, key, value);
     else
         wrong_shape(b, setting, value);
 }
 
-static void take_setting(struct binder *b, const struct setting *setting, tree_index key, tree_index value) {
+static void take_setting(struct binder *b, const struct key_row *setting, tree_index key, tree_index value) {
     enum tree_kind kind = tree_node(b->tree, value)->kind;
-    if (kind == TREE_NULL && setting->shape != SHAPE_VALUE)
+    if (kind == TREE_NULL && setting->shape != KEY_ONE)
         return; // an empty list or map
-    if (setting->shape == SHAPE_VALUE) {
+    if (setting->shape == KEY_ONE) {
         take_one(b, setting, key, value);
-    } else if (setting->shape == SHAPE_LIST && kind == TREE_LIST) {
+    } else if (setting->shape == KEY_LIST && kind == TREE_LIST) {
         for (tree_index i = tree_first(b->tree, value); i; i = tree_next(b->tree, i))
             take_one(b, setting, 0, i);
-    } else if (setting->shape == SHAPE_MAP && kind == TREE_MAP) {
+    } else if (setting->shape == KEY_MAP && kind == TREE_MAP) {
         for (tree_index k = tree_first(b->tree, value); k; k = tree_next_key(b->tree, k))
             take_one(b, setting, k, tree_value(b->tree, k));
     } else {
@@ -232,32 +211,22 @@ static void take_setting(struct binder *b, const struct setting *setting, tree_i
     }
 }
 
-static void unknown_key(struct binder *b, tree_index key) {
-    struct nearest search = nearest_begin(tree_text(b->tree, key));
-    for (int i = 0; i < SETTING_COUNT; i++)
-        nearest_offer(&search, str_from(settings[i].name));
-    diag_add(b->input->sink, DIAG_CONFIG_KEY, tree_span(b->tree, key), "there is no setting '%.*s'",
-             STR_ARG(shown(b, key)));
-    if (nearest_best(&search).len)
-        did_you_mean(b, key, &search);
-    else
-        diag_help(b->input->sink,
-                  "the settings are asset_paths, severity, ignore, only, fail_on, max_messages "
-                  "and limits");
+static void unknown_setting(struct binder *b, tree_index key, const struct nearest *search) {
+    str all = key_list(&SETTING_KEYS, b->input->arena);
+    unknown_key(b, &SETTING_KEYS, DIAG_CONFIG_KEY, key, search,
+                arena_format(b->input->arena, "the settings are %.*s", STR_ARG(all)));
 }
 
 static void bind(struct binder *b) {
     for (tree_index key = tree_first(b->tree, b->tree->root); key; key = tree_next_key(b->tree, key)) {
-        const struct setting *found = NULL;
+        struct nearest search;
         if (is_reported(b, key))
             continue;
-        for (int i = 0; i < SETTING_COUNT; i++)
-            if (str_equal_cstr(tree_text(b->tree, key), settings[i].name))
-                found = &settings[i];
-        if (found)
-            take_setting(b, found, key, tree_value(b->tree, key));
+        const struct key_row *setting = key_find(&SETTING_KEYS, tree_text(b->tree, key), &search);
+        if (setting)
+            take_setting(b, setting, key, tree_value(b->tree, key));
         else
-            unknown_key(b, key);
+            unknown_setting(b, key, &search);
     }
 }
 

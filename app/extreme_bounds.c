@@ -1,6 +1,6 @@
 #include "app/extreme_bounds.h"
 
-#include "core/nearest.h"
+#include "app/keys.h"
 #include "core/number.h"
 #include "parser/tree/reader.h"
 
@@ -21,38 +21,23 @@ static void bad_value(const struct binder *b, tree_index node, const char *words
         diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, node), "%s", words);
 }
 
-static void unknown_key(const struct binder *b, tree_index key, const char *kind,
-                        const struct nearest *search) {
-    if (is_reported(b, key))
-        return;
-    diag_add(b->input->sink, DIAG_CONFIG_KEY, tree_span(b->tree, key), "there is no %s '%.*s'", kind,
-             STR_ARG(tree_text(b->tree, key)));
-    if (nearest_best(search).len)
-        diag_help(b->input->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(search)));
+static const struct key_row *find_key(const struct binder *b, const struct key_table *table, tree_index key) {
+    struct nearest search;
+    const str name = tree_text(b->tree, key);
+    const struct key_row *row = key_find(table, name, &search);
+    if (!row && !is_reported(b, key))
+        key_report_unknown(table, b->input->sink, DIAG_CONFIG_KEY, tree_span(b->tree, key), name, &search);
+    return row;
 }
 
-// Where the number of a key of a bound goes; NULL: there is no such key.
-static double *place_of(struct extreme_bound *bound, str key, struct nearest *search) {
-    nearest_offer(search, STR("from"));
-    nearest_offer(search, STR("to"));
-    if (str_equal_cstr(key, "from"))
-        return &bound->from;
-    if (str_equal_cstr(key, "to"))
-        return &bound->to;
-    for (int m = 0; m < EXTREME_METRICS; m++) {
-        nearest_offer(search, str_from(extreme_metrics[m].name));
-        if (str_equal_cstr(key, extreme_metrics[m].name))
-            return &bound->bound[m];
-    }
-    return NULL;
-}
-
-static bool has_metric(const struct binder *b, tree_index node) {
-    for (tree_index key = tree_first(b->tree, node); key; key = tree_next_key(b->tree, key))
-        if (!str_equal_cstr(tree_text(b->tree, key), "from") &&
-            !str_equal_cstr(tree_text(b->tree, key), "to"))
-            return true;
-    return false;
+static void take_number(struct binder *b, struct extreme_bound *bound, const struct key_row *row,
+                        tree_index value) {
+    double number;
+    if (tree_node(b->tree, value)->kind != TREE_SCALAR ||
+        number_parse(tree_text(b->tree, value), &number) != NUMBER_OK || number < row->least)
+        bad_value(b, value, "a bound must be a number that is not negative");
+    else
+        *(double *)((char *)bound + row->offset) = number;
 }
 
 static void take_bound(struct binder *b, uint32_t axes, tree_index node) {
@@ -63,42 +48,28 @@ static void take_bound(struct binder *b, uint32_t axes, tree_index node) {
         bad_value(b, node, "a bound is a map from metrics to numbers, such as {to: 1.0e+6, off: 0.0005}");
         return;
     }
+    bool has_metric = false;
     for (tree_index key = tree_first(b->tree, node); key; key = tree_next_key(b->tree, key)) {
-        const tree_index value = tree_value(b->tree, key);
-        struct nearest search = nearest_begin(tree_text(b->tree, key));
-        double *place = place_of(&bound, tree_text(b->tree, key), &search);
-        double number;
-        if (!place)
-            unknown_key(b, key, "metric", &search);
-        else if (tree_node(b->tree, value)->kind != TREE_SCALAR ||
-                 number_parse(tree_text(b->tree, value), &number) != NUMBER_OK || number < 0)
-            bad_value(b, value, "a bound must be a number that is not negative");
-        else
-            *place = number;
+        const struct key_row *row = find_key(b, &BOUND_KEYS, key);
+        has_metric |= !row || row->value == KEY_BOUND;
+        if (row)
+            take_number(b, &bound, row, tree_value(b->tree, key));
     }
     if (bound.from > bound.to)
         bad_value(b, node, "'from' is above 'to': the bound applies to no value");
-    else if (!has_metric(b, node))
+    else if (!has_metric)
         bad_value(b, node, "this bounds nothing: name a metric, such as off: 0.0005");
     *ARENA_PUSH(b->input->arena, b->out) = bound;
 }
 
 static void take_axis(struct binder *b, tree_index key) {
     const tree_index list = tree_value(b->tree, key);
-    const str name = tree_text(b->tree, key);
-    struct nearest search = nearest_begin(name);
-    uint32_t axes = str_equal_cstr(name, "all") ? (1u << EXTREME_AXES) - 1 : 0;
-    nearest_offer(&search, STR("all"));
-    for (int axis = 0; axis < EXTREME_AXES; axis++) {
-        nearest_offer(&search, str_from(extreme_axes[axis].name));
-        if (str_equal_cstr(name, extreme_axes[axis].name))
-            axes = 1u << axis;
-    }
-    if (!axes)
-        unknown_key(b, key, "axis", &search);
-    else if (tree_node(b->tree, list)->kind == TREE_LIST)
+    const struct key_row *row = find_key(b, &AXIS_KEYS, key);
+    if (!row)
+        return;
+    if (tree_node(b->tree, list)->kind == TREE_LIST)
         for (tree_index item = tree_first(b->tree, list); item; item = tree_next(b->tree, item))
-            take_bound(b, axes, item);
+            take_bound(b, row->axes, item);
     else if (tree_node(b->tree, list)->kind != TREE_NULL)
         bad_value(b, list, "an axis must have a list of bounds, such as [{off: 0.0005}]");
 }

@@ -3,9 +3,9 @@
 #define GLINT_ASSETS_LOADER_H
 
 #include "assets/asset_file.h"
-#include "assets/name_table.h"
 #include "assets/read_mtl.h"
 #include "assets/store.h"
+#include "core/str_map.h"
 
 struct ir_model;
 
@@ -13,8 +13,8 @@ struct ir_model;
 struct loaded_mesh {
     struct asset_file file;
     str canonical;
-    const struct mesh *mesh;  // NULL: it could not be loaded
-    struct name_table groups; // of the mesh, by name; made when first needed
+    const struct mesh *mesh; // NULL: it could not be loaded
+    struct str_map groups;   // of the mesh: 1 + index; made when first needed
     bool libraries_read;
     bool library_missing; // so that what it would have defined is not missed once more
     struct mtl_materials materials;

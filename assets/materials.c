@@ -182,13 +182,14 @@ static void report_unknown(struct loader *loader, const struct ir_map_entry *ent
     strbuf_finish(&names);
 }
 
+// 1 + index, or 0.
 static uint32_t find_group(struct loader *loader, struct loaded_mesh *loaded, str name) {
     if (!loaded->groups.arena) {
-        name_table_init(&loaded->groups, loader->input->arena);
+        str_map_init(&loaded->groups, loader->input->arena);
         for (uint32_t i = 0; i < loaded->mesh->group_count; i++)
-            name_table_add(&loaded->groups, loaded->mesh->groups[i].name, i);
+            *str_map_at(&loaded->groups, loaded->mesh->groups[i].name) = i + 1;
     }
-    return name_table_find(&loaded->groups, name);
+    return str_map_find(&loaded->groups, name);
 }
 
 uint32_t *loader_group_materials(struct loader *loader, const struct ir_model *model,
@@ -203,10 +204,10 @@ uint32_t *loader_group_materials(struct loader *loader, const struct ir_model *m
         if (entry->from.len == 0)
             continue;
         uint32_t group = find_group(loader, loaded, entry->from);
-        if (group == NAME_TABLE_NONE)
+        if (group == 0)
             report_unknown(loader, entry, mesh);
         else
-            materials[group] = assets_material(scene, &entry->to);
+            materials[group - 1] = assets_material(scene, &entry->to);
     }
     for (uint32_t i = 0; i < mesh->group_count; i++) {
         if (materials[i] != IR_NO_INDEX)

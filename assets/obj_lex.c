@@ -1,18 +1,10 @@
 #include "assets/obj_lex.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
-    DIGITS_MAX = 19,      // any number of 19 digits fits 64 bits
-    EXACT_POWER_MAX = 22, // 10^22 is the largest power of ten that is a double
-    WORD_NUMBER_MAX = 1000,
+    WORD_NUMBER_MAX = 1000
 };
-
-static const double exact_powers[EXACT_POWER_MAX + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                         1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                                         1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 void obj_lex_init(struct obj_lex *lex, str text) {
     *lex = (struct obj_lex){
@@ -92,7 +84,7 @@ str obj_lex_rest(struct obj_lex *lex) {
     return str_trim((str){begin, (size_t)(lex->at - begin)});
 }
 
-// What the fast path does not decide: long mantissas, large exponents, and all that is no number.
+// What number_take does not decide: long mantissas, large exponents, and all that is no number.
 static enum number_status slow_number(str word, double *value) {
     // The language's own grammar finds what is wrong; only leading zeros are taken away before.
     char copy[WORD_NUMBER_MAX + 1];
@@ -109,60 +101,10 @@ static enum number_status slow_number(str word, double *value) {
     return status == NUMBER_UNDERFLOW ? NUMBER_OK : status;
 }
 
-struct decimal {
-    uint64_t mantissa;
-    int digits;   // of the mantissa, without leading zeros
-    int exponent; // of ten
-    bool any;     // a digit was seen
-};
-
-static const char *scan_digits(const char *p, const char *end, struct decimal *d, int exponent_step) {
-    for (; p < end && is_digit(*p); p++) {
-        d->any = true;
-        if (d->digits < DIGITS_MAX) {
-            d->mantissa = d->mantissa * 10 + (uint64_t)(*p - '0');
-            d->digits += d->mantissa != 0;
-            d->exponent -= exponent_step;
-        } else {
-            d->digits = DIGITS_MAX + 1;
-        }
-    }
-    return p;
-}
-
-static const char *scan_exponent(const char *p, const char *end, struct decimal *d) {
-    bool negative = p < end && *p == '-';
-    if (p < end && (*p == '-' || *p == '+'))
-        p++;
-    int value = 0;
-    const char *begin = p;
-    for (; p < end && is_digit(*p); p++)
-        value = value < 10000 ? value * 10 + (*p - '0') : value;
-    d->any = d->any && p > begin;
-    d->exponent += negative ? -value : value;
-    return p;
-}
-
 enum number_status obj_lex_number(struct obj_lex *lex, double *value) {
-    const char *p = lex->at;
-    const char *end = lex->end;
-    struct decimal d = {0};
-    bool negative = p < end && *p == '-';
-    if (p < end && (*p == '-' || *p == '+'))
-        p++;
-    p = scan_digits(p, end, &d, 0);
-    if (p < end && *p == '.')
-        p = scan_digits(p + 1, end, &d, 1);
-    if (p < end && (*p == 'e' || *p == 'E'))
-        p = scan_exponent(p + 1, end, &d);
-    // Exact: both operands are doubles without rounding, so the one operation rounds once (Clinger 1990).
-    bool is_exact = d.any && d.digits <= DIGITS_MAX && d.mantissa <= (UINT64_C(1) << 53) &&
-                    d.exponent >= -EXACT_POWER_MAX && d.exponent <= EXACT_POWER_MAX;
-    if (is_exact && ends_word(p, end)) {
-        double m = (double)d.mantissa;
-        m = d.exponent < 0 ? m / exact_powers[-d.exponent] : m * exact_powers[d.exponent];
-        *value = negative && m != 0 ? -m : m;
-        lex->at = p;
+    size_t length = number_take((str){lex->at, (size_t)(lex->end - lex->at)}, value);
+    if (length && ends_word(lex->at + length, lex->end)) {
+        lex->at += length;
         return NUMBER_OK;
     }
     *value = 0;

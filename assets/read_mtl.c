@@ -148,7 +148,7 @@ static void close_entry(struct mtl_reader *r) {
     struct ir_material *m = ARENA_PUSH(arena, r->out);
     schema_init(&SCHEMA_MATERIAL, m);
     m->name = arena_copy(arena, e->name);
-    name_table_add(&r->out->names, m->name, r->out->count - 1);
+    *str_map_at(&r->out->names, m->name) = r->out->count;
     double largest = fmax(e->ks[0], fmax(e->ks[1], e->ks[2]));
     double transparency = e->has_d ? 1 - e->d : e->has_tr ? e->tr : 0;
     bool reflects = e->illum >= ILLUM_REFLECTS_FIRST && e->illum <= ILLUM_REFLECTS_LAST;
@@ -218,10 +218,10 @@ void read_mtl(struct asset_file *file, struct mtl_materials *out) {
 
 void mtl_init(struct mtl_materials *materials, struct arena *arena) {
     *materials = (struct mtl_materials){0};
-    name_table_init(&materials->names, arena);
+    str_map_init(&materials->names, arena);
 }
 
 const struct ir_material *mtl_find(const struct mtl_materials *materials, str name) {
-    uint32_t at = name_table_find(&materials->names, name);
-    return at == NAME_TABLE_NONE ? NULL : &materials->items[at];
+    uint32_t number = str_map_find(&materials->names, name);
+    return number ? &materials->items[number - 1] : NULL;
 }

@@ -11,12 +11,12 @@
 #define GLINT_ASSETS_READ_MTL_H
 
 #include "assets/asset_file.h"
-#include "assets/name_table.h"
+#include "core/str_map.h"
 
 struct mtl_materials {
     struct ir_material *items; // with their names
     uint32_t count, capacity;
-    struct name_table names;
+    struct str_map names; // 1 + index
 };
 
 void mtl_init(struct mtl_materials *materials, struct arena *arena);

@@ -1,7 +1,7 @@
 #include "assets/read_obj.h"
 
-#include "assets/name_table.h"
 #include "assets/obj_lex.h"
+#include "core/str_map.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,8 +18,8 @@ struct obj_reader {
     // The name of the last `usemtl`; its group is made by the first face.
     str material;
     uint32_t material_line;
-    uint32_t group; // IR_NO_INDEX until a face needs it
-    struct name_table groups;
+    uint32_t group;        // IR_NO_INDEX until a face needs it
+    struct str_map groups; // 1 + index, by name
 };
 
 // ---- faults
@@ -72,13 +72,13 @@ static vec3 read_point(struct obj_reader *r, str keyword) {
 static uint32_t current_group(struct obj_reader *r) {
     if (r->group != IR_NO_INDEX)
         return r->group;
-    r->group = name_table_find(&r->groups, r->material);
-    if (r->group == NAME_TABLE_NONE) {
-        r->group = r->obj->groups.count;
+    uint32_t *number = str_map_at(&r->groups, r->material);
+    if (*number == 0) {
         struct mesh_group *group = ARENA_PUSH(r->scratch, &r->obj->groups);
         *group = (struct mesh_group){.name = r->material, .line = r->material_line};
-        name_table_add(&r->groups, r->material, r->group);
+        *number = r->obj->groups.count;
     }
+    r->group = *number - 1;
     return r->group;
 }
 
@@ -295,7 +295,7 @@ static void check_forward(struct obj_reader *r) {
 void read_obj(struct asset_file *file, struct arena *scratch, struct obj *out) {
     *out = (struct obj){0};
     struct obj_reader r = {.file = file, .scratch = scratch, .obj = out, .group = IR_NO_INDEX};
-    name_table_init(&r.groups, scratch);
+    str_map_init(&r.groups, scratch);
     obj_lex_init(&r.lex, file->text);
     while (!obj_lex_done(&r.lex) && !r.is_full) {
         read_line(&r);

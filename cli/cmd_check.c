@@ -7,6 +7,7 @@
 #include "cli/cli.h"
 #include "cli/fix.h"
 #include "core/parallel.h"
+#include "core/str_map.h"
 #include "diag/diag_text.h"
 #include "files/files_walk.h"
 #include "parser/tree/reader_text.h"
@@ -50,7 +51,7 @@ struct check {
         struct check_file *items;
         uint32_t count, capacity;
     } files;
-    struct reader_names paths; // of files
+    struct str_map paths; // of files
     struct check_store *stores;
     unsigned store_count;
 };
@@ -113,7 +114,7 @@ static bool check_all(struct check *check) {
 
 // A file that is named twice, or stands in a folder that is named too, is checked once.
 static void add_file(struct check *check, const char *path) {
-    if (reader_names_at(&check->paths, str_from(path))->value++)
+    if ((*str_map_at(&check->paths, str_from(path)))++)
         return;
     struct check_file *file = ARENA_PUSH(&check->cli->arena, &check->files);
     file->path = path;
@@ -240,7 +241,7 @@ static int run(struct check *check) {
 
 int cmd_check(struct cli *cli) {
     struct check check = {.cli = cli};
-    reader_names_init(&check.paths, &cli->arena);
+    str_map_init(&check.paths, &cli->arena);
     int format = 0;
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;

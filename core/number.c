@@ -77,6 +77,8 @@ static enum number_status explain_no_number(str text) {
 
 // A number in the language's grammar: mantissa * 10^exponent, where the digits fit.
 struct decimal {
+    bool negative;
+    bool padded;       // superfluous leading zeros
     bool whole;        // digits only
     bool exact;        // mantissa and exponent hold all of it
     uint64_t mantissa; // at most 19 digits
@@ -114,30 +116,37 @@ static long scan_exponent(str s, size_t at, size_t *length) {
     return negative ? -value : value;
 }
 
-static enum number_status scan(str s, struct decimal *decimal) {
-    *decimal = (struct decimal){.exact = true};
-    size_t first = s.len && (s.ptr[0] == '+' || s.ptr[0] == '-') ? 1 : 0;
+// The number that `s` begins with; gives its length, 0 where there is none.
+static size_t scan_decimal(str s, struct decimal *decimal) {
+    *decimal = (struct decimal){.exact = true, .negative = s.len && s.ptr[0] == '-'};
+    size_t first = decimal->negative || (s.len && s.ptr[0] == '+') ? 1 : 0;
     size_t whole = scan_digits(s, first, decimal);
     size_t fraction = 0;
     size_t at = first + whole;
-    decimal->whole = at == s.len;
     if (at < s.len && s.ptr[at] == '.') {
         fraction = scan_digits(s, at + 1, decimal);
         at += 1 + fraction;
     }
     if (whole + fraction == 0)
-        return explain_no_number(s);
+        return 0;
     if (at < s.len && (s.ptr[at] == 'e' || s.ptr[at] == 'E')) {
         size_t length;
         decimal->exponent = scan_exponent(s, at, &length);
         if (length == 0)
-            return explain_no_number(s);
+            return 0;
         at += length;
     }
     decimal->exponent -= (long)fraction;
-    if (at != s.len)
+    decimal->whole = at == first + whole;
+    decimal->padded = whole > 1 && s.ptr[first] == '0';
+    return at;
+}
+
+static enum number_status scan(str s, struct decimal *decimal) {
+    size_t length = scan_decimal(s, decimal);
+    if (length == 0 || length != s.len)
         return explain_no_number(s);
-    return whole > 1 && s.ptr[first] == '0' ? NUMBER_LEADING_ZERO : NUMBER_OK;
+    return decimal->padded ? NUMBER_LEADING_ZERO : NUMBER_OK;
 }
 
 // Clinger, How to Read Floating Point Numbers Accurately (1990), section 3: where mantissa and power of
@@ -153,6 +162,16 @@ static bool read_fast(const struct decimal *decimal, double *value) {
     return true;
 }
 
+size_t number_take(str text, double *value) {
+    struct decimal decimal;
+    size_t length = scan_decimal(text, &decimal);
+    if (length == 0 || !read_fast(&decimal, value))
+        return 0;
+    if (decimal.negative && decimal.mantissa != 0)
+        *value = -*value;
+    return length;
+}
+
 enum number_status number_parse(str text, double *value) {
     *value = 0;
     if (text.len == 0)
@@ -165,7 +184,7 @@ enum number_status number_parse(str text, double *value) {
         return status;
     double read;
     if (read_fast(&decimal, &read)) {
-        *value = text.ptr[0] == '-' ? -read : read;
+        *value = decimal.negative ? -read : read;
         return NUMBER_OK;
     }
     char copy[NUMBER_TEXT_MAX + 1];
@@ -192,14 +211,13 @@ enum number_status number_parse_integer(str text, int64_t *value) {
         return status;
     if (!decimal.whole)
         return NUMBER_NOT_INTEGER;
-    bool negative = text.ptr[0] == '-';
-    uint64_t largest = (uint64_t)INT64_MAX + (negative ? 1 : 0);
+    uint64_t largest = (uint64_t)INT64_MAX + (decimal.negative ? 1 : 0);
     if (!decimal.exact || decimal.mantissa > largest)
         return NUMBER_OVERFLOW;
-    if (negative && decimal.mantissa == largest)
+    if (decimal.negative && decimal.mantissa == largest)
         *value = INT64_MIN;
     else
-        *value = negative ? -(int64_t)decimal.mantissa : (int64_t)decimal.mantissa;
+        *value = decimal.negative ? -(int64_t)decimal.mantissa : (int64_t)decimal.mantissa;
     return NUMBER_OK;
 }
 

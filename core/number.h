@@ -30,6 +30,10 @@ enum number_status {
 // *value is set where the result is NUMBER_OK, else 0. -0 reads as 0. The double is the nearest one
 // (ties to even), as strtod gives it.
 enum number_status number_parse(str text, double *value);
+// The number that a text begins with, leading zeros allowed: its length. 0 where there is none, and where it
+// is one of so many digits or so large an exponent that only number_parse reads it; *value is unspecified
+// then. For meshes, whose numbers are millions and short.
+size_t number_take(str text, double *value);
 // Digits with an optional sign, no superfluous leading zeros, within the range of int64_t. A number of
 // another form is NUMBER_NOT_INTEGER.
 enum number_status number_parse_integer(str text, int64_t *value);

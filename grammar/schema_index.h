@@ -5,7 +5,7 @@
 #ifndef GLINT_GRAMMAR_SCHEMA_INDEX_H
 #define GLINT_GRAMMAR_SCHEMA_INDEX_H
 
-#include "core/arena.h"
+#include "core/str_map.h"
 #include "grammar/schema.h"
 
 // The place where a name stands.
@@ -13,16 +13,7 @@ enum schema_name_kind {
     SCHEMA_NAME_KEY,       // YAML
     SCHEMA_NAME_ATTRIBUTE, // XML
     SCHEMA_NAME_CHILD,     // XML
-};
-
-struct schema_slot {
-    const struct schema_element *element; // NULL: free
-    const char *name;
-    uint32_t hash;
-    uint16_t length;
-    uint8_t kind; // schema_name_kind
-    bool single;
-    int row;
+    SCHEMA_NAME_KINDS,
 };
 
 // What is asked of each element that is bound. Sets of rows are masks: bit i is row i.
@@ -33,11 +24,11 @@ struct schema_facts {
     uint64_t names;         // key rows and names
     uint64_t required;
     bool has_choices; // of which one must be taken
+    // By name: 1 + the row, and, in the lowest bit, whether the name is that of a single item.
+    struct str_map rows[SCHEMA_NAME_KINDS];
 };
 
 struct schema_index {
-    struct schema_slot *slots;
-    uint32_t mask;
     struct schema_facts *facts; // in the order of schema_elements
 };
 

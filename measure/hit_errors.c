@@ -1,6 +1,5 @@
 #include "measure/hit_errors.h"
 
-
 #include <math.h>
 
 struct hit_counts {

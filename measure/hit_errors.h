@@ -10,7 +10,6 @@
 #include "scene/hits.h"
 #include "scene/scene.h"
 
-
 // What the first rays met against what they meet in the reference, per million pixels.
 struct hit_errors {
     bool known;

@@ -1,4 +1,5 @@
 // Where light comes from: lights with their shadows, and the background (LANGUAGE "Hit", "Background").
+#include "core/srgb.h"
 #include "reference/parts.h"
 
 #include "grammar/ir.h"
@@ -131,7 +132,7 @@ void reference_make_background(struct reference *r) {
         r->decoded = ARENA_ARRAY(&r->arena, double, greatest + 1);
         for (size_t i = 0; i <= greatest; i++) {
             double value = (double)i / (double)greatest;
-            r->decoded[i] = srgb ? scene_srgb_decode(value) : value;
+            r->decoded[i] = srgb ? srgb_decode(value) : value;
         }
     }
     r->background_brightest = image_brightest(r) * background->intensity;

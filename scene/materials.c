@@ -1,11 +1,8 @@
 // Colours, materials and the background.
+#include "core/srgb.h"
 #include "grammar/ir_features.h"
 #include "scene/scene_parts.h"
 #include "scene/transform.h"
-
-double scene_srgb_decode(double value) {
-    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
-}
 
 vec3 scene_linear_color(struct ir_color color, unsigned transfer) {
     if (!color.is_hex)
@@ -14,7 +11,7 @@ vec3 scene_linear_color(struct ir_color color, unsigned transfer) {
                   (double)(color.hex & 0xFF) / 255};
     if (transfer != IR_TRANSFER_SRGB)
         return shown;
-    return (vec3){scene_srgb_decode(shown.x), scene_srgb_decode(shown.y), scene_srgb_decode(shown.z)};
+    return (vec3){srgb_decode(shown.x), srgb_decode(shown.y), srgb_decode(shown.z)};
 }
 
 static struct scene_material material_of(const struct ir_material *ir, unsigned transfer) {

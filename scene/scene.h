@@ -101,7 +101,5 @@ void scene_check_reach(const struct scene *scene, struct diag_sink *sink);
 
 // #rrggbb is a displayed colour: /255 with transfer none, decoded from sRGB with srgb (IEC 61966-2-1).
 vec3 scene_linear_color(struct ir_color color, unsigned transfer);
-// sRGB decoding of one value in 0..1.
-double scene_srgb_decode(double value);
 
 #endif

@@ -3,8 +3,9 @@
 # rendering, `tools/setup.sh test` for the tests too. Needs root or sudo only where something is missing.
 set -eu
 
-build="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libpng-dev libstb-dev libminizip-dev
-zlib1g-dev libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers glslang-tools spirv-tools"
+build="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libpng-dev zlib1g-dev
+libjpeg62-turbo-dev libstb-dev libminizip-dev libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers
+glslang-tools spirv-tools"
 test="libcmocka-dev vulkan-validationlayers valgrind libxml2-utils clang-format git"
 
 case "${1:-}" in

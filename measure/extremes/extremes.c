@@ -12,29 +12,15 @@
 #include <stdlib.h>
 
 const struct extreme_axis_info extreme_axes[EXTREME_AXES] = {
-    [EXTREME_MOVE] = {"move", "moved by"},
-    [EXTREME_SCALE] = {"scale", "scaled by"},
-    [EXTREME_DISTANCE] = {"distance", "camera distance, times"},
-    [EXTREME_INDEX] = {"index", "refractive index"},
-    [EXTREME_EXPONENT] = {"exponent", "specular exponent"},
-    [EXTREME_SLIVER] = {"sliver", "slivers of aspect"},
-    [EXTREME_LIGHT] = {"light", "light off a surface"},
-    [EXTREME_CAMERA] = {"camera", "camera off a surface"},
-    [EXTREME_COPLANAR] = {"coplanar", "coplanar, shifted by"},
-    [EXTREME_GAP] = {"gap", "gap between plates"},
+#define X(NAME, name, title) {name, title},
+#include "measure/extremes/axes.def"
+#undef X
 };
 
 const struct extreme_metric_info extreme_metrics[EXTREME_METRICS] = {
-    [EXTREME_WRONG] = {"wrong", "wrong hits per million, outside silhouettes", EXTREME_UNIT_WHOLE},
-    [EXTREME_BAND] = {"band", "wrong hits per million, at silhouettes", EXTREME_UNIT_WHOLE},
-    [EXTREME_SELF_HITS] = {"self_hits", "self-hits per million", EXTREME_UNIT_WHOLE},
-    [EXTREME_LEAKS] = {"leaks", "leaks per million", EXTREME_UNIT_WHOLE},
-    [EXTREME_HOLES] = {"holes", "holes in closed bodies per million", EXTREME_UNIT_WHOLE},
-    [EXTREME_NOT_FINITE] = {"not_finite", "pixels that are not a number", EXTREME_UNIT_WHOLE},
-    [EXTREME_OFF] = {"off", "share of pixels off by more than 1/255", EXTREME_UNIT_SHARE},
-    [EXTREME_ERROR] = {"error", "mean absolute difference", EXTREME_UNIT_SMALL},
-    [EXTREME_CHANGED] = {"changed", "share of pixels off compared with the unchanged scene",
-                         EXTREME_UNIT_SHARE},
+#define X(NAME, name, title, unit) {name, title, EXTREME_UNIT_##unit},
+#include "measure/extremes/metrics.def"
+#undef X
 };
 
 enum {

@@ -16,29 +16,16 @@
 #include "tracer/render/render.h"
 
 enum extreme_axis {
-    EXTREME_MOVE,     // by so many units
-    EXTREME_SCALE,    // by this factor
-    EXTREME_DISTANCE, // the camera this many times as far away, with a field as much narrower
-    EXTREME_INDEX,    // refractive index of all that refracts
-    EXTREME_EXPONENT, // of all that shines
-    EXTREME_SLIVER,   // a disc of triangles of this aspect before the camera
-    EXTREME_LIGHT,    // the first light this far off a surface, in parts of the scene's radius
-    EXTREME_CAMERA,   // the camera likewise, looking away from it
-    EXTREME_COPLANAR, // two plates in one plane, one shifted by this part of its edges
-    EXTREME_GAP,      // a camera between two plates this far apart, in parts of their size
+#define X(NAME, name, title) EXTREME_##NAME,
+#include "measure/extremes/axes.def"
+#undef X
     EXTREME_AXES,
 };
 
 enum extreme_metric {
-    EXTREME_WRONG,      // first rays per million that meet something else, outside silhouettes
-    EXTREME_BAND,       // the same in the silhouettes' band, a pixel wide
-    EXTREME_SELF_HITS,  // per million: dark, where the reference is lit, away from shadows' edges
-    EXTREME_LEAKS,      // per million: lit, where the reference is dark, away from shadows' edges
-    EXTREME_HOLES,      // per million: the background, where the reference meets a closed body
-    EXTREME_NOT_FINITE, // pixels
-    EXTREME_OFF,        // share of pixels that differ by more than 1/255 as displayed
-    EXTREME_ERROR,      // mean absolute difference as displayed
-    EXTREME_CHANGED,    // moves and scales: share of pixels off against the device's picture at rest
+#define X(NAME, name, title, unit) EXTREME_##NAME,
+#include "measure/extremes/metrics.def"
+#undef X
     EXTREME_METRICS,
 };
 

@@ -1,4 +1,5 @@
 // Names: each is used once, and references find what they name.
+#include "core/str_map.h"
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
@@ -20,7 +21,7 @@ struct named {
 struct named_list {
     struct named *items;
     uint32_t count;
-    struct reader_names by_name; // 1 + the place of the first item of a name
+    struct str_map by_name; // 1 + the place of the first item of a name
 };
 
 static int compare(const void *left, const void *right) {
@@ -78,7 +79,7 @@ static struct named_list collect(struct loader *loader, struct ir_scene *scene,
         if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST)
             most += count_names(&SCHEMA_SCENE.rows[i], scene);
     struct named_list list = {.items = ARENA_ARRAY(&loader->scratch, struct named, most)};
-    reader_names_init(&list.by_name, &loader->scratch);
+    str_map_init(&list.by_name, &loader->scratch);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (only ? row == only : row->kind == SCHEMA_LIST && row->many == SCHEMA_SEQUENCE)
@@ -129,14 +130,14 @@ struct resolving {
 };
 
 static const struct named *find(const struct named_list *list, str name) {
-    uint32_t found = reader_names_find(&list->by_name, name);
+    uint32_t found = str_map_find(&list->by_name, name);
     return found ? &list->items[found - 1] : NULL;
 }
 
 static void number_names(struct named_list *list) {
     for (uint32_t i = 0; i < list->count; i++)
         if (i == 0 || !str_equal(list->items[i].name, list->items[i - 1].name))
-            reader_names_at(&list->by_name, list->items[i].name)->value = i + 1;
+            *str_map_at(&list->by_name, list->items[i].name) = i + 1;
 }
 
 static void list_names(struct loader *loader, const struct named_list *list, const char *what) {

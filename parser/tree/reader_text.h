@@ -1,4 +1,4 @@
-// What both readers share: the text as the library gets it, limits, and a table of names.
+// What both readers share: the text as the library gets it, and limits.
 //
 // Mistakes that glint itself finds in the text (bytes that are not UTF-8, control characters, '/ >', ...)
 // are reported and overwritten in a copy of equal length, so that the library reads on and every offset
@@ -53,27 +53,5 @@ str reader_clip(str text);
 // E501 at `at`: "<what> (more than N); raise it with ...".
 void reader_limit(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,
                   const char *what);
-
-struct reader_name {
-    str name; // not owned
-    uint32_t value;
-    uint32_t stamp;
-};
-
-// From names to numbers; cleared in constant time.
-struct reader_names {
-    struct arena *arena;
-    struct reader_name *items;
-    uint32_t capacity; // a power of two, or 0
-    uint32_t count;
-    uint32_t stamp; // items of other stamps are empty
-};
-
-void reader_names_init(struct reader_names *names, struct arena *arena);
-void reader_names_clear(struct reader_names *names);
-// The entry of `name`, made with value 0 where there is none; valid until the next call.
-struct reader_name *reader_names_at(struct reader_names *names, str name);
-// The value of `name`, 0 where there is none.
-uint32_t reader_names_find(const struct reader_names *names, str name);
 
 #endif

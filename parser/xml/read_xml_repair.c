@@ -1,11 +1,13 @@
 #include "parser/xml/xml_reader.h"
 
+#include "core/str_map.h"
+
 #include <string.h>
 
 struct repairer {
     const struct reader_context *context;
     struct reader_text *text;
-    struct reader_names names; // attributes of the tag
+    struct str_map names; // attributes of the tag
 };
 
 static span place(const struct repairer *r, uint32_t begin, uint32_t end) {
@@ -88,15 +90,15 @@ static void check_entities(struct repairer *r, uint32_t begin, uint32_t end) {
 static void check_twice(struct repairer *r, struct xml_attribute attribute) {
     str name =
         str_slice(r->context->sources->items[r->text->source].text, attribute.name_begin, attribute.name_end);
-    struct reader_name *first = reader_names_at(&r->names, name);
-    if (!first->value) {
-        first->value = attribute.name_begin;
+    uint32_t *first = str_map_at(&r->names, name);
+    if (!*first) {
+        *first = attribute.name_begin;
         return;
     }
     struct diag_sink *sink = r->context->sink;
     diag_add(sink, DIAG_DUPLICATE_ATTRIBUTE, place(r, attribute.name_begin, attribute.name_end),
              "the attribute '%.*s' is given twice", STR_ARG(reader_clip(name)));
-    diag_note(sink, place(r, first->value, first->value + (uint32_t)name.len), "it was given here first");
+    diag_note(sink, place(r, *first, *first + (uint32_t)name.len), "it was given here first");
     diag_help(sink, "remove one of the two");
     blank_out(r, attribute.name_begin, attribute.value_end + 1);
 }
@@ -117,7 +119,7 @@ static uint32_t repair_tag(struct repairer *r, uint32_t at) {
     at = xml_name_end(r->text->bytes, at);
     if (at == tag + 1)
         return (uint32_t)r->text->bytes.len;
-    reader_names_clear(&r->names);
+    str_map_clear(&r->names);
     for (;;) {
         struct xml_attribute attribute;
         enum xml_tag_end end = xml_next_attribute(r->text->bytes, &at, &attribute);
@@ -165,7 +167,7 @@ static uint32_t behind(str text, uint32_t at, const char *end) {
 
 void xml_repair(const struct reader_context *context, struct reader_text *text) {
     struct repairer r = {.context = context, .text = text};
-    reader_names_init(&r.names, context->arena);
+    str_map_init(&r.names, context->arena);
     for (uint32_t at = text->begin; at < text->bytes.len;) {
         str rest = str_slice(text->bytes, at, text->bytes.len);
         if (rest.ptr[0] == '&')

@@ -356,7 +356,7 @@ static void begin_attempt(struct yaml_reader *r) {
     r->blamed = 0;
     r->pending = (struct tree_comment){0};
     r->lost_color = (struct reader_range){0};
-    reader_names_clear(&r->anchor_names);
+    str_map_clear(&r->anchor_names);
     reader_text_seal(r->text);
 }
 
@@ -369,10 +369,10 @@ static void run_attempts(void *context) {
     struct yaml_reader *r = context;
     struct arena *arena = r->context->arena;
     r->frames = ARENA_ARRAY(arena, struct yaml_frame, r->context->limits->value[LIMIT_SCENE_DEPTH] + 1);
-    reader_names_init(&r->anchor_names, arena);
-    reader_names_init(&r->keys, arena);
-    reader_names_init(&r->joined_keys, arena);
-    reader_names_init(&r->taken.keys, arena);
+    str_map_init(&r->anchor_names, arena);
+    str_map_init(&r->keys, arena);
+    str_map_init(&r->joined_keys, arena);
+    str_map_init(&r->taken.keys, arena);
     r->taken.on = r->context->taker && !r->is_option;
     bool tabs_repaired = false;
     for (unsigned attempt = 0;; attempt++) {

@@ -9,7 +9,7 @@ uint32_t yaml_anchor_add(struct yaml_reader *r, str name, span at, tree_index no
     uint32_t index = r->anchors.count - 1;
     if (node)
         tree_node(r->tree, node)->flags |= TREE_SHARED;
-    reader_names_at(&r->anchor_names, anchor->name)->value = index;
+    *str_map_at(&r->anchor_names, anchor->name) = index;
     return index;
 }
 
@@ -53,7 +53,7 @@ void yaml_alias(struct yaml_reader *r, str name, span at) {
         yaml_put_bad_key(r, bad);
         return;
     }
-    uint32_t index = reader_names_find(&r->anchor_names, name);
+    uint32_t index = str_map_find(&r->anchor_names, name);
     tree_index node;
     if (index == YAML_NO_ANCHOR) {
         node = undefined(r, name, at);

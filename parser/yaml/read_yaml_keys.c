@@ -81,18 +81,18 @@ static bool joins(const struct tree *tree, tree_index a, tree_index b) {
 static void join(struct yaml_reader *r, tree_index into, tree_index from) {
     struct tree *tree = r->tree;
     bool is_map = tree_node(tree, into)->kind == TREE_MAP;
-    reader_names_clear(&r->joined_keys);
+    str_map_clear(&r->joined_keys);
     tree_index last = 0;
     for (tree_index child = tree_first(tree, into); child; child = tree_next(tree, last)) {
         if (is_map)
-            reader_names_at(&r->joined_keys, tree_text(tree, child))->value = child;
+            *str_map_at(&r->joined_keys, tree_text(tree, child)) = child;
         last = is_map ? tree_value(tree, child) : child;
     }
     for (tree_index child = tree_first(tree, from); child;) {
         tree_index end = is_map ? tree_value(tree, child) : child;
         tree_index next = tree_next(tree, end);
         tree_node(tree, end)->next = 0;
-        if (!is_map || !reader_names_at(&r->joined_keys, tree_text(tree, child))->value) {
+        if (!is_map || !*str_map_at(&r->joined_keys, tree_text(tree, child))) {
             if (last)
                 tree_node(tree, last)->next = child;
             else
@@ -133,18 +133,18 @@ static void unique(struct yaml_reader *r, struct yaml_frame *frame, bool merged)
         tree_index value = tree_value(tree, key);
         tree_index next = tree_next(tree, value);
         bool concerns = ((tree_node(tree, key)->flags & TREE_MERGED) != 0) == merged;
-        struct reader_name *name = concerns ? reader_names_at(&r->keys, tree_text(tree, key)) : NULL;
-        if (name && name->value) {
+        uint32_t *first = concerns ? str_map_at(&r->keys, tree_text(tree, key)) : NULL;
+        if (first && *first) {
             if (!merged && !is_item(r->tree, value))
-                report_twice(r, name->value, key);
+                report_twice(r, *first, key);
             if (before)
                 tree_node(tree, before)->next = next;
             else
                 tree_node(tree, frame->node)->value = next;
             tree_node(tree, frame->node)->count--;
         } else {
-            if (name)
-                name->value = key;
+            if (first)
+                *first = key;
             before = value;
         }
         key = next;
@@ -175,7 +175,7 @@ static bool is_plainly_unique(const struct tree *tree, const struct yaml_frame *
 void yaml_unique_keys(struct yaml_reader *r, struct yaml_frame *frame) {
     if (tree_node(r->tree, frame->node)->count < 2 || is_plainly_unique(r->tree, frame))
         return;
-    reader_names_clear(&r->keys);
+    str_map_clear(&r->keys);
     unique(r, frame, false);
     if (frame->has_merged)
         unique(r, frame, true);

@@ -44,7 +44,7 @@ void yaml_take_open(struct yaml_reader *r) {
         !taker->wants(taker, r->tree, root->key, (enum tree_kind)list->kind))
         return;
     r->taken.list_key = root->key;
-    reader_names_clear(&r->taken.keys);
+    str_map_clear(&r->taken.keys);
 }
 
 void yaml_take_close(struct yaml_reader *r) {
@@ -72,9 +72,9 @@ void yaml_take_ready(struct yaml_reader *r) {
 // Names of a map's keys outlive their nodes, so that one given twice is noticed.
 static bool is_new_key(struct yaml_reader *r, tree_index key) {
     str name = tree_text(r->tree, key);
-    if (reader_names_find(&r->taken.keys, name))
+    if (str_map_find(&r->taken.keys, name))
         return false;
-    reader_names_at(&r->taken.keys, arena_copy(r->context->arena, name))->value = 1;
+    *str_map_at(&r->taken.keys, arena_copy(r->context->arena, name)) = 1;
     return true;
 }
 

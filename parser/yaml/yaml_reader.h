@@ -11,6 +11,7 @@
 #ifndef GLINT_PARSER_YAML_YAML_READER_H
 #define GLINT_PARSER_YAML_YAML_READER_H
 
+#include "core/str_map.h"
 #include "parser/tree/reader_text.h"
 
 #include <yaml.h>
@@ -61,9 +62,9 @@ struct yaml_reader {
     struct {
         struct yaml_anchor *items;
         uint32_t count, capacity;
-    } anchors;                        // [0] is none
-    struct reader_names anchor_names; // the last anchor of each name
-    struct reader_names keys, joined_keys;
+    } anchors;                   // [0] is none
+    struct str_map anchor_names; // the last anchor of each name
+    struct str_map keys, joined_keys;
     uint64_t alias_nodes;
 
     // Comments are looked for between tokens.
@@ -83,7 +84,7 @@ struct yaml_reader {
         tree_index entry_key; // its list's
         uint64_t nodes;       // that are gone
         uint32_t nodes_mark, texts_mark, comments_mark, anchors_mark; // before the entry
-        struct reader_names keys;                                     // of the map
+        struct str_map keys;                                          // of the map
     } taken;
     uint32_t blamed; // 1 + the place of a mistake that makes libyaml refuse the rest of the line; 0: none
 };

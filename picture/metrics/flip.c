@@ -8,6 +8,7 @@
 #include "picture/metrics/metrics_parts.h"
 
 #include "core/parallel.h"
+#include "core/srgb.h"
 #include "core/vec3.h"
 
 #include <math.h>
@@ -65,13 +66,9 @@ static double white(int i) {
     return TO_XYZ.m[i][0] + TO_XYZ.m[i][1] + TO_XYZ.m[i][2];
 }
 
-static double decoded(float displayed) {
-    const double c = (double)displayed;
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
 static struct color to_opponent(const float *displayed) {
-    struct color rgb = {{decoded(displayed[0]), decoded(displayed[1]), decoded(displayed[2])}};
+    struct color rgb = {{srgb_decode((double)displayed[0]), srgb_decode((double)displayed[1]),
+                         srgb_decode((double)displayed[2])}};
     struct color xyz = apply(&TO_XYZ, rgb);
     for (int i = 0; i < 3; i++)
         xyz.c[i] /= white(i);

@@ -1,7 +1,7 @@
 #include "picture/metrics/heatmap.h"
 
+#include "core/srgb.h"
 #include "picture/write/encode_parts.h"
-#include "picture/write/image.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@ static const double PI = 3.14159265358979323846;
 
 static uint8_t srgb_byte(double linear) {
     const double c = linear > 0 ? (linear < 1 ? linear : 1) : 0;
-    return (uint8_t)floor(255 * image_srgb_encode(c) + 0.5);
+    return (uint8_t)floor(255 * srgb_encode(c) + 0.5);
 }
 
 // OKLab to linear sRGB, the matrices of its definition.

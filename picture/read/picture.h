@@ -1,4 +1,4 @@
-// Images that a scene reads: PNG and JPEG (decoded by stb_image), Radiance HDR.
+// Images that a scene reads: PNG and JPEG (decoded by libpng and libjpeg-turbo), Radiance HDR.
 //
 // Ownership: pixels on the heap, freed by picture_finish; pictures in the store belong to the store.
 #ifndef GLINT_PICTURE_READ_PICTURE_H

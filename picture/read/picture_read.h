@@ -1,4 +1,4 @@
-// Image files in memory: what they are, and their pixels (stb_image within bounds).
+// Image files in memory: what they are, and their pixels.
 //
 // The size is known and checked before anything is decoded, and decoding has a budget of bytes: no small
 // file becomes a large allocation that its header did not announce.

@@ -44,8 +44,6 @@ static inline bool image_is_marked(const float rgb[3]) {
 void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes);
 // The same before rounding: 0..1, what is no number 0. `displayed` may be `linear`.
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
-// 0..1 to 0..1.
-double image_srgb_encode(double linear);
 
 // By the ending of a path; false: none that is written.
 bool image_format_of_path(str path, enum image_format *format);

@@ -1,4 +1,5 @@
 #include "core/parallel.h"
+#include "core/srgb.h"
 #include "picture/write/image.h"
 
 #include <math.h>
@@ -7,11 +8,6 @@
 enum {
     PIECE_PIXELS = 16384
 };
-
-// IEC 61966-2-1.
-double image_srgb_encode(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-}
 
 static uint8_t round_to_byte(double displayed) {
     return (uint8_t)floor(255 * displayed + 0.5);
@@ -23,15 +19,13 @@ struct thresholds {
 };
 
 static bool reaches(float linear, int byte) {
-    return round_to_byte(image_srgb_encode(linear)) >= byte;
+    return round_to_byte(srgb_encode(linear)) >= byte;
 }
 
 static void thresholds_make(struct thresholds *t) {
     t->least[0] = 0;
     for (int byte = 1; byte < 256; byte++) {
-        double displayed = (byte - 0.5) / 255;
-        float linear =
-            (float)(displayed <= 0.04045 ? displayed / 12.92 : pow((displayed + 0.055) / 1.055, 2.4));
+        float linear = (float)srgb_decode((byte - 0.5) / 255);
         while (linear > 0 && reaches(nextafterf(linear, 0), byte))
             linear = nextafterf(linear, 0);
         while (!reaches(linear, byte))
@@ -113,7 +107,7 @@ static void display_pixels(void *context, size_t begin, size_t end) {
         for (size_t k = 0; k < 3; k++) {
             const float value = toned(c[k], divisor);
             job->displayed[3 * i + k] =
-                job->display.transfer == IR_TRANSFER_SRGB ? (float)image_srgb_encode((double)value) : value;
+                job->display.transfer == IR_TRANSFER_SRGB ? (float)srgb_encode((double)value) : value;
         }
     }
 }

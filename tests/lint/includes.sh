@@ -30,9 +30,10 @@ function foreign(path, target) {
     if (target ~ /^yaml\.h$/) return path ~ /^(parser\/yaml\/|bench\/bench_check)/
     if (target ~ /^expat/) return path ~ /^(parser\/xml\/|bench\/bench_check)/
     if (target ~ /^(volk|vulkan)/) return path ~ /^tracer\/gpu\//
-    if (target ~ /^stb/) return path ~ /^(picture|tools|tests)\//
+    if (target ~ /^stb/) return path ~ /^(tools|tests|bench)\//
     if (target ~ /^png\.h/) return path ~ /^(picture|tests)\//
-    if (target ~ /^zlib/) return path ~ /^(shaders|tools)\//
+    if (target ~ /^zlib/) return path ~ /^(shaders|tools|picture\/read)\//
+    if (target ~ /^(jpeglib|jerror)\.h/) return path ~ /^(picture\/read|bench)\//
     if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
     if (target ~ /^minizip/) return path ~ /^app\/pack_zip/
     if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//

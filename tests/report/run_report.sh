@@ -228,10 +228,14 @@ agree bad 'max_messages: 0'
 agree bad 'max_messages: [1]'
 agree bad 'limits: {mesh-byte: 1}'
 agree bad 'limits: {mesh-bytes: 0}'
+agree bad 'limits: {scene-depth: 2000}'
+agree good 'limits: {scene-depth: 1024, image-pixels: 1}'
 agree bad 'asset_path: [x]'
 for limit in $("$glint" check --limit help | sed 's/ .*//'); do
     ok "the schema knows the limit $limit" grep -q "\"$limit\"" "$schema"
 done
+ok "the default bounds of extremes, by their schema" \
+    "$tool" validate-yaml "$source/docs/schema/bounds.schema.json" "$source/measure/extremes/extremes.yaml"
 
 # ---- comments
 line='  - {mesh: open.obj, material: {albedo: [0.1, 0, 0, 0.9], refractive_index: 1.5}}'

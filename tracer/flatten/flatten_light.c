@@ -1,5 +1,6 @@
 // Materials, lights, the background and what of the tracer all of it needs.
 #include "core/parallel.h"
+#include "core/srgb.h"
 #include "grammar/ir_features.h"
 #include "shaders/features.h"
 #include "tracer/flatten/flatten_parts.h"
@@ -126,7 +127,7 @@ enum flatten_fault flatten_background(struct flattening *f) {
     }
     for (uint32_t i = 0; i <= greatest; i++) {
         double value = (double)i / greatest;
-        decoded[i] = (float)(is_srgb ? scene_srgb_decode(value) : value);
+        decoded[i] = (float)(is_srgb ? srgb_decode(value) : value);
     }
     struct texels texels = {picture, decoded, to};
     parallel_for(count, PIECE_TEXELS, put_texels, &texels);

@@ -147,6 +147,33 @@ static void explains_what_it_refuses(void **state) {
     assert_int_equal(number_parse((str){0}, &value), NUMBER_EMPTY);
 }
 
+static void takes_a_number_from_the_beginning(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t length; // 0: none that is read at once
+        double value;
+    } cases[] = {
+        {"1 2", 1, 1},       {"-1.5/7", 4, -1.5},
+        {"+.5e1\n", 5, 5},   {"007.250x", 7, 7.25},
+        {"-0 1", 2, 0},      {"1.2.3", 3, 1.2},
+        {"1e-22", 5, 1e-22}, {"1e23", 0, 0},
+        {"", 0, 0},          {"-", 0, 0},
+        {".", 0, 0},         {"x1", 0, 0},
+        {"1e", 0, 0},        {"1e+ 3", 0, 0},
+        {"nan", 0, 0},       {"9007199254740993", 0, 0},
+        {"0x1f", 1, 0},      {"9007199254740992", 16, 9007199254740992.0},
+        {"0e9 ", 3, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double value = 0;
+        size_t length = number_take(str_from(cases[i].text), &value);
+        assert_int_equal(length, cases[i].length);
+        if (length)
+            assert_true(to_bits(value) == to_bits(cases[i].value));
+    }
+}
+
 static void long_texts_end_at_1000_characters(void **state) {
     (void)state;
     char text[1001];
@@ -372,6 +399,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(accepts_the_grammar),
         cmocka_unit_test(explains_what_it_refuses),
+        cmocka_unit_test(takes_a_number_from_the_beginning),
         cmocka_unit_test(long_texts_end_at_1000_characters),
         cmocka_unit_test(integers),
         cmocka_unit_test(every_status_has_words),

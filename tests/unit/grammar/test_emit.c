@@ -1,5 +1,6 @@
 // The files made from the table are those that are committed, well formed, and hold every name; so does
 // what `glint explain` says.
+#include "app/key_schema.h"
 #include "diag/diag.h"
 #include "grammar/emit/emit.h"
 #include "grammar/emit/explain.h"
@@ -49,6 +50,8 @@ static void test_committed_files_are_fresh(void **state) {
     assert_fresh(emit_xml_schema, "docs/schema/glint.xsd");
     assert_fresh(emit_markdown, "docs/reference.md");
     assert_fresh(dictionary_write, "tests/fuzz/glint.dict");
+    assert_fresh(key_schema_settings, "docs/schema/glintrc.schema.json");
+    assert_fresh(key_schema_bounds, "docs/schema/bounds.schema.json");
 }
 
 // ---- JSON Schema

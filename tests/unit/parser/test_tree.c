@@ -91,28 +91,6 @@ static void tells_comments_apart(void **state) {
     arena_finish(&arena);
 }
 
-static void names_are_found_again(void **state) {
-    (void)state;
-    struct arena arena;
-    arena_init(&arena, PLENTY_BYTES);
-    struct reader_names names;
-    reader_names_init(&names, &arena);
-    assert_int_equal(reader_names_find(&names, STR("nothing")), 0);
-    static char texts[MANY][8];
-    for (int round = 0; round < 3; round++) {
-        for (uint32_t i = 0; i < MANY; i++) {
-            snprintf(texts[i], sizeof texts[i], "n%u", i);
-            assert_int_equal(reader_names_at(&names, str_from(texts[i]))->value, 0);
-            reader_names_at(&names, str_from(texts[i]))->value = i + 1;
-        }
-        for (uint32_t i = 0; i < MANY; i++)
-            assert_int_equal(reader_names_find(&names, str_from(texts[i])), i + 1);
-        reader_names_clear(&names);
-        assert_int_equal(reader_names_find(&names, STR("n5")), 0);
-    }
-    arena_finish(&arena);
-}
-
 static void bad_ranges_are_found(void **state) {
     (void)state;
     struct arena arena;
@@ -157,9 +135,8 @@ static void tells_the_spelling(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(holds_nodes_and_texts), cmocka_unit_test(walks_maps),
-        cmocka_unit_test(tells_comments_apart),  cmocka_unit_test(names_are_found_again),
-        cmocka_unit_test(bad_ranges_are_found),  cmocka_unit_test(clips_at_characters),
-        cmocka_unit_test(tells_the_spelling),
+        cmocka_unit_test(tells_comments_apart),  cmocka_unit_test(bad_ranges_are_found),
+        cmocka_unit_test(clips_at_characters),   cmocka_unit_test(tells_the_spelling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

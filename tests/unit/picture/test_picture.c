@@ -2,64 +2,10 @@
 #include "picture/read/picture_read.h"
 
 #include "assets_scene.h"
+#include "png_kit.h"
 
 #include <math.h>
 #include <stdio.h>
-
-// ---- a PNG writer that compresses nothing
-
-static uint32_t crc_of(const unsigned char *p, size_t n) {
-    uint32_t crc = UINT32_MAX;
-    for (size_t i = 0; i < n; i++) {
-        crc ^= p[i];
-        for (int bit = 0; bit < 8; bit++)
-            crc = crc & 1 ? UINT32_C(0xEDB88320) ^ crc >> 1 : crc >> 1;
-    }
-    return ~crc;
-}
-
-static void put32(struct strbuf *out, uint32_t value) {
-    for (int shift = 24; shift >= 0; shift -= 8)
-        strbuf_char(out, (char)(value >> shift & 0xFF));
-}
-
-static void put_chunk(struct strbuf *out, const char *type, const void *data, size_t size) {
-    put32(out, (uint32_t)size);
-    size_t begin = out->len;
-    strbuf_cstr(out, type);
-    strbuf_add(out, data, size);
-    put32(out, crc_of((const unsigned char *)out->data + begin, out->len - begin));
-}
-
-static void put_header(struct strbuf *out, uint32_t width, uint32_t height, char depth, char color) {
-    struct strbuf header;
-    strbuf_init(&header);
-    put32(&header, width);
-    put32(&header, height);
-    strbuf_add(&header, (char[5]){depth, color, 0, 0, 0}, 5);
-    strbuf_add(out, "\x89PNG\r\n\x1A\n", 8);
-    put_chunk(out, "IHDR", header.data, header.len);
-    strbuf_finish(&header);
-}
-
-// Rows with their filter bytes, at most 65535 bytes, as one stored block.
-static void put_rows(struct strbuf *out, const void *rows, size_t size) {
-    struct strbuf data;
-    strbuf_init(&data);
-    strbuf_add(&data,
-               (unsigned char[7]){0x78, 0x01, 1, size & 0xFF, size >> 8, ~size & 0xFF, (~size >> 8) & 0xFF},
-               7);
-    strbuf_add(&data, rows, size);
-    uint32_t a = 1, b = 0;
-    for (size_t i = 0; i < size; i++) {
-        a = (a + ((const unsigned char *)rows)[i]) % 65521;
-        b = (b + a) % 65521;
-    }
-    put32(&data, b << 16 | a);
-    put_chunk(out, "IDAT", data.data, data.len);
-    put_chunk(out, "IEND", NULL, 0);
-    strbuf_finish(&data);
-}
 
 // ---- scenes with a background
 
@@ -89,8 +35,8 @@ static void png_of_8_bits(void **state) {
     (void)state;
     struct strbuf file;
     strbuf_init(&file);
-    put_header(&file, 2, 2, 8, 2);
-    put_rows(&file, "\0\1\2\3\4\5\6\0\xFF\xFE\xFD\0\0\x80", 14);
+    png_put_header(&file, 2, 2, 8, 2, 0);
+    png_put_rows(&file, "\0\1\2\3\4\5\6\0\xFF\xFE\xFD\0\0\x80", 14);
     struct assets_scene *s = assets_scene_begin();
     const struct picture *picture = load(s, "sky.anything", &file);
     assert_silent(s);
@@ -107,8 +53,8 @@ static void png_of_16_bits(void **state) {
     (void)state;
     struct strbuf file;
     strbuf_init(&file);
-    put_header(&file, 1, 2, 16, 0);
-    put_rows(&file, "\0\x12\x34\0\xFF\xFF", 6);
+    png_put_header(&file, 1, 2, 16, 0, 0);
+    png_put_rows(&file, "\0\x12\x34\0\xFF\xFF", 6);
     struct assets_scene *s = assets_scene_begin();
     const struct picture *picture = load(s, "sky.png", &file);
     assert_silent(s);
@@ -133,6 +79,7 @@ static void real_files(void **state) {
         {"tests/data/image/palette.png", 4, 3, {{0, 0, 0x33, 0x66, 0xCC, 0}, {3, 2, 0x33, 0x66, 0xCC, 0}}},
         {"tests/data/image/gray.jpg", 16, 8, {{0, 0, 128, 128, 128, 0}, {15, 7, 128, 128, 128, 0}}},
         {"tests/data/image/progressive.jpg", 8, 16, {{0, 0, 254, 0, 0, 2}, {7, 15, 0, 0, 254, 2}}},
+        {"tests/fuzz/seeds/image/cmyk.jpg", 8, 8, {{0, 0, 250, 217, 250, 2}, {3, 6, 2, 25, 62, 2}}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct assets_scene *s = assets_scene_begin();
@@ -163,10 +110,10 @@ static void what_is_ignored_is_one_note(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct strbuf file;
         strbuf_init(&file);
-        put_header(&file, 1, 1, 8, cases[i].color);
+        png_put_header(&file, 1, 1, 8, cases[i].color, 0);
         if (cases[i].chunk)
-            put_chunk(&file, cases[i].chunk, "\0\0\0\0\0\0", 6);
-        put_rows(&file, "\0\1\2\3\4", cases[i].color == 6 ? 5 : 4);
+            png_put_chunk(&file, cases[i].chunk, "\0\0\0\0\0\0", 6);
+        png_put_rows(&file, "\0\1\2\3\4", cases[i].color == 6 ? 5 : 4);
         struct assets_scene *s = assets_scene_begin();
         assert_non_null(load(s, "sky.png", &file));
         if (cases[i].note) {
@@ -186,8 +133,8 @@ static void broken_png_files(void **state) {
     (void)state;
     struct strbuf file;
     strbuf_init(&file);
-    put_header(&file, 2, 2, 8, 2);
-    put_rows(&file, "\0\1\2\3\4\5\6\0\xFF\xFE\xFD\0\0\x80", 14);
+    png_put_header(&file, 2, 2, 8, 2, 0);
+    png_put_rows(&file, "\0\1\2\3\4\5\6\0\xFF\xFE\xFD\0\0\x80", 14);
     size_t whole = file.len;
     file.len = whole - 3;
     expect_fault(
@@ -203,14 +150,14 @@ static void broken_png_files(void **state) {
     strbuf_finish(&file);
 
     strbuf_init(&file);
-    put_header(&file, 2, 2, 8, 2);
-    put_rows(&file, "\0\1\2\3\4\5\6", 7);
+    png_put_header(&file, 2, 2, 8, 2, 0);
+    png_put_rows(&file, "\0\1\2\3\4\5\6", 7);
     expect_fault(&file, "the image cannot be decoded: ");
     strbuf_finish(&file);
 
     strbuf_init(&file);
-    put_header(&file, 0, 2, 8, 2);
-    put_rows(&file, "", 0);
+    png_put_header(&file, 0, 2, 8, 2, 0);
+    png_put_rows(&file, "", 0);
     expect_fault(&file, "its width or height is 0");
     strbuf_finish(&file);
 }
@@ -221,8 +168,8 @@ static void too_many_pixels_are_refused_before_decoding(void **state) {
     for (size_t i = 0; i < 3; i++) {
         struct strbuf file;
         strbuf_init(&file);
-        put_header(&file, sizes[i][0], sizes[i][1], 8, 2);
-        put_rows(&file, "\0\1\2\3", 4);
+        png_put_header(&file, sizes[i][0], sizes[i][1], 8, 2, 0);
+        png_put_rows(&file, "\0\1\2\3", 4);
         char message[128];
         snprintf(message, sizeof message,
                  "scene.yaml:1:8: error: the image 'sky.png' claims %u x %u pixels; the limit image-pixels "
@@ -263,9 +210,9 @@ static void a_small_file_does_not_become_large(void **state) {
         put_bits(&b, 0xA3, 13); // length 258: 11000101, distance 1: 00000
     put_bits(&b, 0, 7 + 8);
     strbuf_add(&data, "\0\0\0\0", 4);
-    put_header(&file, 1, 1, 8, 2);
-    put_chunk(&file, "IDAT", data.data, data.len);
-    put_chunk(&file, "IEND", NULL, 0);
+    png_put_header(&file, 1, 1, 8, 2, 0);
+    png_put_chunk(&file, "IDAT", data.data, data.len);
+    png_put_chunk(&file, "IEND", NULL, 0);
     expect_fault(&file, "sky.png:1:1: error: the image cannot be decoded: it has more data than a picture "
                         "of its size needs [E620]");
     strbuf_finish(&data);
@@ -294,8 +241,27 @@ static void broken_jpeg_files(void **state) {
     file.len = 3;
     expect_fault(&file, "the file ends before the picture [E620]");
     file.len = whole;
+    file.data[0x80] = 0x11; // number and kind of the second Huffman table
+    expect_fault(&file, "a scan uses a table that the file does not have [E620]");
+    file.data[0x80] = 0x10;
+    file.data[0x5F] = 64; // rows, of which the data hold eight
+    file.data[0x9C] = 0;
+    expect_fault(&file, "the data of a scan end too early [E620]");
     file.data[2] = 'x';
     expect_fault(&file, "scene.yaml:1:8: error: 'sky.png' is not a PNG, JPEG or Radiance HDR image [E621]");
+    strbuf_finish(&file);
+}
+
+static void a_jpeg_of_many_scans_is_refused(void **state) {
+    (void)state;
+    struct strbuf file;
+    strbuf_init(&file);
+    read_file(&file, "tests/data/image/gray.jpg");
+    file.len -= 10 + 1 + 2; // the scan's header, its data and the end marker
+    for (int i = 0; i < 501; i++)
+        strbuf_add(&file, "\xFF\xDA\0\x08\1\1\0\0\x3F\0", 10);
+    strbuf_add(&file, "\xFF\xD9", 2);
+    expect_fault(&file, "it has more than 500 scans [E620]");
     strbuf_finish(&file);
 }
 
@@ -454,6 +420,7 @@ int main(void) {
         cmocka_unit_test(too_many_pixels_are_refused_before_decoding),
         cmocka_unit_test(a_small_file_does_not_become_large),
         cmocka_unit_test(broken_jpeg_files),
+        cmocka_unit_test(a_jpeg_of_many_scans_is_refused),
         cmocka_unit_test(other_files_are_no_images),
         cmocka_unit_test(hdr_pixels_are_floats),
         cmocka_unit_test(hdr_runs_are_read),

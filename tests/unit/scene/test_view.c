@@ -2,6 +2,8 @@
 #include "scene/transform.h"
 #include "scene/view.h"
 
+#include "core/srgb.h"
+
 #include "assets_scene.h"
 
 #include <math.h>
@@ -237,7 +239,7 @@ static void hex_colours_are_displayed_ones(void **state) {
     assert_near(scene_linear_color(hex, IR_TRANSFER_SRGB), 0.0030352698354883752, 0.21586050011389926, 1);
     struct ir_color numbers = {.r = 0.25, .g = 3, .b = 0};
     assert_exact(scene_linear_color(numbers, IR_TRANSFER_SRGB), 0.25, 3, 0);
-    assert_true(scene_srgb_decode(0) == 0 && scene_srgb_decode(1) == 1);
+    assert_true(srgb_decode(0) == 0 && srgb_decode(1) == 1);
 }
 
 static void samples_follow_the_sequence(void **state) {

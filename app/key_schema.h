@@ -1,0 +1,13 @@
+// JSON Schema (draft 7) of the files that have tables of keys, for editors. Ownership: the caller's buffer,
+// whose `failed` flag tells of memory. Thread safety: pure.
+#ifndef GLINT_APP_KEY_SCHEMA_H
+#define GLINT_APP_KEY_SCHEMA_H
+
+#include "core/strbuf.h"
+
+// docs/schema/glintrc.schema.json
+void key_schema_settings(struct strbuf *out);
+// docs/schema/bounds.schema.json
+void key_schema_bounds(struct strbuf *out);
+
+#endif

@@ -1,0 +1,65 @@
+// Tables of the keys that small YAML files beside scenes may hold: settings, limits, bounds.
+//
+// One row a key, as in the table of the scene language (grammar/schema.h): its name, what it takes, its
+// range, one sentence. What is read, "did you mean" and the JSON Schema come from the rows; no other file
+// lists the names. Thread safety: constant data.
+#ifndef GLINT_APP_KEYS_H
+#define GLINT_APP_KEYS_H
+
+#include "core/arena.h"
+#include "core/nearest.h"
+#include "diag/diag.h"
+
+enum key_shape {
+    KEY_ONE,  // one value
+    KEY_LIST, // each item is a value
+    KEY_MAP,  // each pair has a value
+};
+
+// What a value is.
+enum key_value {
+    KEY_FOLDER,
+    KEY_CODE,          // W401, or a family, W4xx
+    KEY_CODE_OR_PATH,  // the same, or a pattern of paths
+    KEY_CODE_SEVERITY, // of a map: from codes to severities
+    KEY_FAIL_WORD,
+    KEY_LIMIT,        // of a map: from limits to numbers
+    KEY_MAX_MESSAGES, // that limit
+    KEY_WHOLE_NUMBER, // from `least` to `greatest`
+    KEY_AXIS_BOUNDS,  // of a list: the bounds of an axis
+    KEY_FROM_TO,      // a number from `least`, where a bound begins or ends
+    KEY_BOUND,        // likewise, the most that a metric may be
+};
+
+struct key_row {
+    const char *name;
+    enum key_shape shape;
+    enum key_value value;
+    const char *form; // for "'only' takes ..."
+    const char *example;
+    double least, greatest; // of numbers
+    uint32_t axes;          // KEY_AXIS_BOUNDS: bit 1 << axis
+    uint32_t offset;        // of the number in struct extreme_bound
+    const char *doc;
+};
+
+struct key_table {
+    const char *what; // "setting", as in "there is no setting 'x'"
+    const struct key_row *rows;
+    uint32_t count;
+};
+
+extern const struct key_table SETTING_KEYS; // of .glintrc.yaml
+extern const struct key_table LIMIT_KEYS;   // in the order of enum limit
+extern const struct key_table AXIS_KEYS;    // of a file of bounds
+extern const struct key_table BOUND_KEYS;   // of one bound
+
+// The row of a name; where it is NULL, `search` holds the nearest one.
+const struct key_row *key_find(const struct key_table *table, str name, struct nearest *search);
+// "a, b and c", in the arena, whose guard the caller sets.
+str key_list(const struct key_table *table, struct arena *arena);
+// Reports that there is none of this name, and the one that may be meant; false: no other is near.
+bool key_report_unknown(const struct key_table *table, struct diag_sink *sink, enum diag_code code, span at,
+                        str name, const struct nearest *search);
+
+#endif

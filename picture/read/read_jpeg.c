@@ -1,0 +1,266 @@
+#include "picture/read/read_jpeg.h"
+
+#include <setjmp.h>
+#include <stdio.h> // which jpeglib.h needs
+#include <stdlib.h>
+#include <string.h>
+
+#include <jerror.h>
+#include <jpeglib.h>
+
+enum marker {
+    MARKER_SOF0 = 0xC0,
+    MARKER_SOF2 = 0xC2,
+    MARKER_DHT = 0xC4,
+    MARKER_JPG = 0xC8,
+    MARKER_DAC = 0xCC,
+    MARKER_SOF15 = 0xCF,
+    MARKER_RST0 = 0xD0,
+    MARKER_RST7 = 0xD7,
+    MARKER_SOI = 0xD8,
+    MARKER_EOI = 0xD9,
+    MARKER_SOS = 0xDA,
+    MARKER_APP2 = 0xE2,
+};
+
+enum {
+    COMPONENTS_MAX = 4,
+    SCANS_MAX = 500, // each one walks the whole picture, however few bytes it has
+    BUDGET_SLACK = 16 << 20,
+};
+
+// ---- segments: all are there, and the frame's header tells the size
+
+struct walk {
+    const unsigned char *data;
+    size_t size;
+    size_t at;
+    unsigned scans;
+    bool profile;
+    uint32_t width, height; // 0: no frame yet
+};
+
+struct segment {
+    const unsigned char *data; // behind the length
+    size_t size;
+};
+
+static const char *read_frame(struct walk *w, struct segment s, unsigned marker) {
+    if (marker > MARKER_SOF2)
+        return "it is lossless, hierarchical or arithmetically coded; save it as baseline or progressive";
+    if (w->width)
+        return "it has two frames";
+    if (s.size < 6 || s.size != 6 + 3 * (size_t)s.data[5])
+        return "its frame header is damaged";
+    if (s.data[0] != 8)
+        return "it does not have 8 bits per channel";
+    w->height = (uint32_t)s.data[1] << 8 | s.data[2];
+    w->width = (uint32_t)s.data[3] << 8 | s.data[4];
+    if (w->width == 0 || w->height == 0)
+        return "its width or height is 0";
+    if (s.data[5] < 1 || s.data[5] > COMPONENTS_MAX)
+        return "it does not have 1 to 4 channels";
+    return NULL;
+}
+
+// Moves to the marker behind a scan's data; restart markers belong to them, and 0 behind 0xFF is no marker.
+static bool skip_scan_data(struct walk *w) {
+    while (w->at + 1 < w->size) {
+        const unsigned char *mark = memchr(w->data + w->at, 0xFF, w->size - 1 - w->at);
+        if (!mark)
+            return false;
+        w->at = (size_t)(mark - w->data);
+        if (mark[1] != 0 && mark[1] != 0xFF && !(mark[1] >= MARKER_RST0 && mark[1] <= MARKER_RST7))
+            return true;
+        w->at += mark[1] == 0xFF ? 1 : 2;
+    }
+    return false;
+}
+
+static const char *read_segment(struct walk *w, unsigned marker, struct segment s) {
+    bool is_frame = marker >= MARKER_SOF0 && marker <= MARKER_SOF15 && marker != MARKER_DHT &&
+                    marker != MARKER_JPG && marker != MARKER_DAC;
+    if (is_frame)
+        return read_frame(w, s, marker);
+    if (marker == MARKER_SOS && w->width == 0)
+        return "it has no frame header";
+    if (marker == MARKER_SOS && ++w->scans > SCANS_MAX)
+        return "it has more than 500 scans";
+    w->profile |= marker == MARKER_APP2 && s.size >= 12 && memcmp(s.data, "ICC_PROFILE", 12) == 0;
+    return NULL;
+}
+
+static const char *walk_file(struct walk *w) {
+    for (;;) {
+        while (w->at + 1 < w->size && w->data[w->at] == 0xFF && w->data[w->at + 1] == 0xFF)
+            w->at++; // fill bytes
+        if (w->size - w->at < 2)
+            return w->scans ? "the file ends within the picture" : "the file ends before the picture";
+        unsigned marker = w->data[w->at + 1];
+        if (w->data[w->at] != 0xFF || marker == 0 || marker == MARKER_SOI)
+            return "a marker is missing";
+        if (marker == MARKER_EOI)
+            return w->scans ? NULL : "it contains no picture";
+        w->at += 2;
+        if (w->size - w->at < 2)
+            return "the file ends within a segment";
+        size_t length = (size_t)w->data[w->at] << 8 | w->data[w->at + 1];
+        if (length < 2 || length > w->size - w->at)
+            return "the file ends within a segment";
+        const char *fault = read_segment(w, marker, (struct segment){w->data + w->at + 2, length - 2});
+        if (fault)
+            return fault;
+        w->at += length;
+        if (marker == MARKER_SOS && !skip_scan_data(w))
+            return "the file ends within the picture";
+    }
+}
+
+const char *picture_jpeg_header(str bytes, struct picture_header *out) {
+    struct walk w = {.data = (const unsigned char *)bytes.ptr, .size = bytes.len, .at = 2};
+    const char *fault = walk_file(&w);
+    out->width = w.width;
+    out->height = w.height;
+    out->ignored = w.profile ? "colour profile is" : NULL;
+    return fault;
+}
+
+// ---- pixels, by libjpeg-turbo
+
+struct job {
+    struct jpeg_decompress_struct decoder;
+    struct jpeg_error_mgr errors;
+    jmp_buf jump;
+    const struct picture_header *header;
+    uint8_t *pixels;
+    const char *fault; // NULL: all went well
+};
+
+// Faults that a file can have and that say more than that it is damaged.
+static const struct {
+    int code;
+    const char *fault;
+} faults[] = {
+    {JERR_OUT_OF_MEMORY, "there is not enough memory"},
+    {JERR_NO_BACKING_STORE, "it has more data than a picture of its size needs"},
+    {JERR_IMAGE_TOO_BIG, "its width or height is above 65500"},
+    {JERR_CONVERSION_NOTIMPL, "it has two channels; save it with one or three"},
+    {JERR_DHT_INDEX, "a Huffman table is damaged"},
+    {JERR_BAD_HUFF_TABLE, "a Huffman table is damaged"},
+    {JERR_DQT_INDEX, "a quantization table is damaged"},
+    {JERR_BAD_LENGTH, "a segment has the wrong length"},
+    {JERR_BAD_SAMPLING, "its frame header is damaged"},
+    {JERR_BAD_COMPONENT_ID, "a scan header is damaged"},
+    {JERR_BAD_PROGRESSION, "a scan header is damaged"},
+    {JERR_NO_HUFF_TABLE, "a scan uses a table that the file does not have"},
+    {JERR_NO_QUANT_TABLE, "a scan uses a table that the file does not have"},
+    {JWRN_HIT_MARKER, "the data of a scan end too early"},
+};
+
+_Noreturn static void on_error(j_common_ptr decoder) {
+    struct job *job = decoder->client_data;
+    job->fault = "its pixels are damaged, or some are missing";
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
+        if (faults[i].code == decoder->err->msg_code)
+            job->fault = faults[i].fault;
+    longjmp(job->jump, 1);
+}
+
+// What the library would go on with, a grey rest in place of what is lost, is a fault here. These are not:
+// bytes behind a scan's data, and what concerns no pixel.
+static void on_message(j_common_ptr decoder, int level) {
+    int code = decoder->err->msg_code;
+    bool harmless = code == JWRN_EXTRANEOUS_DATA || code == JWRN_JFIF_MAJOR || code == JWRN_ADOBE_XFORM ||
+                    code == JWRN_NOT_SEQUENTIAL;
+    if (level < 0 && !harmless)
+        on_error(decoder);
+}
+
+static void on_output(j_common_ptr decoder) {
+    (void)decoder;
+}
+
+// Four channels come out as C, M, Y, K, which Adobe's programs store inverted; a file that does not say it is
+// theirs has Y, Cb, Cr and a fourth one that is ignored.
+static bool choose_colors(j_decompress_ptr decoder) {
+    bool inks = decoder->saw_Adobe_marker && (decoder->Adobe_transform == 0 || decoder->Adobe_transform == 2);
+    decoder->out_color_space = JCS_EXT_RGBA;
+    if (decoder->num_components < 4)
+        return false;
+    decoder->out_color_space = JCS_CMYK;
+    if (!inks)
+        decoder->jpeg_color_space = JCS_YCCK;
+    return inks;
+}
+
+// a * b / 255, rounded (Blinn 1995, "Three wrongs make a right").
+static uint8_t product(unsigned a, unsigned b) {
+    unsigned t = a * b + 128;
+    return (uint8_t)((t + (t >> 8)) >> 8);
+}
+
+static void rgba_of_four(uint8_t *row, uint32_t width, bool inks) {
+    for (uint8_t *p = row, *end = row + 4 * (size_t)width; p < end; p += 4) {
+        for (int c = 0; c < 3; c++)
+            p[c] = inks ? product(p[c], p[3]) : 255 - p[c];
+        p[3] = 255;
+    }
+}
+
+// The library takes the standard tables where a file has none; a file that was damaged is to be no picture.
+static bool has_tables(j_decompress_ptr decoder) {
+    for (int i = 0; i < decoder->comps_in_scan && !decoder->progressive_mode; i++) {
+        int dc = decoder->cur_comp_info[i]->dc_tbl_no;
+        int ac = decoder->cur_comp_info[i]->ac_tbl_no;
+        if (dc >= NUM_HUFF_TBLS || ac >= NUM_HUFF_TBLS || !decoder->dc_huff_tbl_ptrs[dc] ||
+            !decoder->ac_huff_tbl_ptrs[ac])
+            return false;
+    }
+    return true;
+}
+
+// Returns normally, or through on_error's jump to the caller's setjmp.
+static void read_rows(str bytes, struct job *job) {
+    j_decompress_ptr decoder = &job->decoder;
+    const struct picture_header *header = job->header;
+    jpeg_create_decompress(decoder);
+    jpeg_mem_src(decoder, (const unsigned char *)bytes.ptr, bytes.len);
+    // The coefficients of several scans are kept, two bytes each; no header can make the library keep more.
+    decoder->mem->max_memory_to_use = (long)(16 * (uint64_t)header->width * header->height + BUDGET_SLACK);
+    jpeg_read_header(decoder, TRUE);
+    if (decoder->image_width != header->width || decoder->image_height != header->height) {
+        job->fault = "its parts contradict each other about its size";
+        return;
+    }
+    if (!has_tables(decoder)) {
+        job->fault = "a scan uses a table that the file does not have";
+        return;
+    }
+    bool inks = choose_colors(decoder);
+    jpeg_start_decompress(decoder);
+    for (uint32_t y = 0; y < header->height; y++) {
+        uint8_t *row = job->pixels + (size_t)y * 4 * header->width;
+        jpeg_read_scanlines(decoder, &row, 1);
+        if (decoder->num_components == 4)
+            rgba_of_four(row, header->width, inks);
+    }
+    jpeg_finish_decompress(decoder);
+}
+
+// The job lies outside of the function that calls setjmp, so that it is whole after a jump.
+static void read_guarded(str bytes, struct job *job) {
+    if (setjmp(job->jump) == 0)
+        read_rows(bytes, job);
+}
+
+const char *picture_jpeg_pixels(str bytes, const struct picture_header *header, uint8_t *pixels) {
+    struct job job = {.header = header, .pixels = pixels};
+    job.decoder.err = jpeg_std_error(&job.errors);
+    job.decoder.client_data = &job;
+    job.errors.error_exit = on_error;
+    job.errors.emit_message = on_message;
+    job.errors.output_message = on_output;
+    read_guarded(bytes, &job);
+    jpeg_destroy_decompress(&job.decoder);
+    return job.fault;
+}

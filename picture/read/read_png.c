@@ -1,0 +1,198 @@
+#include "picture/read/read_png.h"
+
+#include <png.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <zlib.h>
+
+enum {
+    SIGNATURE = 8,
+    FRAME = 12, // length, type and checksum of a chunk
+    DATA_SLACK = 64 << 10,
+    MEMORY_SLACK = 1 << 20,
+};
+
+static uint32_t big_endian(const unsigned char *p, int bytes) {
+    uint32_t value = 0;
+    for (int i = 0; i < bytes; i++)
+        value = value << 8 | p[i];
+    return value;
+}
+
+// ---- chunks: all are there, and the first tells the size
+
+static const char *name_ignored(bool alpha, bool profile) {
+    return alpha && profile ? "alpha and colour profile are"
+           : alpha          ? "alpha is"
+           : profile        ? "colour profile is"
+                            : NULL;
+}
+
+const char *picture_png_header(str bytes, struct picture_header *out) {
+    const unsigned char *data = (const unsigned char *)bytes.ptr;
+    bool alpha = false;
+    bool profile = false;
+    for (size_t at = SIGNATURE;;) {
+        if (bytes.len - at < FRAME)
+            return at == SIGNATURE ? "the file ends before the first chunk"
+                                   : "the file ends before its end chunk";
+        uint32_t length = big_endian(data + at, 4);
+        const char *type = bytes.ptr + at + 4;
+        if (length > bytes.len - at - FRAME)
+            return "the file ends within a chunk";
+        if (at == SIGNATURE) {
+            if (length != 13 || memcmp(type, "IHDR", 4) != 0)
+                return "the first chunk is not a header";
+            out->width = big_endian(data + at + 8, 4);
+            out->height = big_endian(data + at + 12, 4);
+            out->is_16_bit = data[at + 16] == 16;
+            alpha = data[at + 17] & PNG_COLOR_MASK_ALPHA;
+        }
+        alpha |= memcmp(type, "tRNS", 4) == 0;
+        profile |=
+            memcmp(type, "gAMA", 4) == 0 || memcmp(type, "cHRM", 4) == 0 || memcmp(type, "iCCP", 4) == 0;
+        if (memcmp(type, "IEND", 4) == 0)
+            break;
+        at += FRAME + length;
+    }
+    out->ignored = name_ignored(alpha, profile);
+    return out->width == 0 || out->height == 0 || out->width > INT32_MAX || out->height > INT32_MAX
+               ? "its width or height is 0 or beyond the format's range"
+               : NULL;
+}
+
+// The CRC-32 of each chunk (annex D), and how much compressed data there is: a byte inflates to a thousand,
+// so data beyond what the picture can need are refused before any time is spent on them.
+static const char *check_chunks(str bytes, uint64_t most_data) {
+    const unsigned char *data = (const unsigned char *)bytes.ptr;
+    uint64_t data_bytes = 0;
+    for (size_t at = SIGNATURE;;) {
+        uint32_t length = big_endian(data + at, 4);
+        const unsigned char *type = data + at + 4;
+        if (crc32(crc32(0, type, 4), type + 4, length) != big_endian(type + 4 + length, 4))
+            return "a chunk's checksum is wrong: the file is damaged";
+        if (memcmp(type, "IEND", 4) == 0)
+            break;
+        if (memcmp(type, "IDAT", 4) == 0)
+            data_bytes += length;
+        at += FRAME + length;
+    }
+    return data_bytes > most_data ? "it has more data than a picture of its size needs" : NULL;
+}
+
+// ---- pixels, by libpng
+
+struct job {
+    const char *at; // the next byte that libpng has not asked for
+    size_t left;
+    const struct picture_header *header;
+    unsigned char *pixels;
+    size_t row_bytes;     // of the pixels
+    uint64_t memory_left; // that libpng may still ask for
+    const char *fault;    // what is wrong if libpng gives up now; NULL: all went well
+};
+
+static void on_read(png_structp png, png_bytep to, size_t count) {
+    struct job *job = png_get_io_ptr(png);
+    if (count > job->left)
+        png_error(png, "the file ends");
+    memcpy(to, job->at, count);
+    job->at += count;
+    job->left -= count;
+}
+
+static void on_error(png_structp png, png_const_charp message) {
+    (void)message;
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message) {
+    (void)png;
+    (void)message;
+}
+
+static png_voidp on_malloc(png_structp png, png_alloc_size_t count) {
+    struct job *job = png_get_mem_ptr(png);
+    if (count > job->memory_left) {
+        job->fault = "it has more data than a picture of its size needs";
+        return NULL;
+    }
+    job->memory_left -= count;
+    void *memory = malloc(count);
+    if (!memory)
+        job->fault = "there is not enough memory";
+    return memory;
+}
+
+static void on_free(png_structp png, png_voidp memory) {
+    (void)png;
+    free(memory);
+}
+
+// Of the chunks only those that hold the picture are read: no text, no profile, no correction of gamma. Their
+// checksums have been compared.
+static void set_up(png_structp png, struct job *job) {
+    png_set_read_fn(png, job, on_read);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
+    png_set_crc_action(png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+    png_set_user_limits(png, INT32_MAX, INT32_MAX);
+}
+
+static void ask_for_rgba(png_structp png) {
+    static const uint16_t one = 1;
+    png_set_expand(png); // palettes, fewer than 8 bits, tRNS
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, UINT16_MAX, PNG_FILLER_AFTER);
+    if (*(const uint8_t *)&one == 1)
+        png_set_swap(png); // 16 bits are big-endian in the file
+}
+
+// Returns normally, or through libpng's jump to the caller's setjmp.
+static void read_rows(png_structp png, png_infop info, struct job *job) {
+    const struct picture_header *header = job->header;
+    set_up(png, job);
+    job->fault = "its header or its palette is damaged";
+    png_read_info(png, info);
+    ask_for_rgba(png);
+    int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    if (png_get_image_width(png, info) != header->width ||
+        png_get_image_height(png, info) != header->height || png_get_rowbytes(png, info) != job->row_bytes) {
+        job->fault = "its parts contradict each other about its size";
+        return;
+    }
+    job->fault = "its pixels are damaged, or some are missing";
+    for (int pass = 0; pass < passes; pass++)
+        for (uint32_t y = 0; y < header->height; y++)
+            png_read_row(png, job->pixels + y * job->row_bytes, NULL);
+    png_read_end(png, info);
+    job->fault = NULL;
+}
+
+// The job lies outside of the function that calls setjmp, so that it is whole after a jump.
+static void read_guarded(png_structp png, png_infop info, struct job *job) {
+    if (setjmp(png_jmpbuf(png)) == 0)
+        read_rows(png, info, job);
+}
+
+const char *picture_png_pixels(str bytes, const struct picture_header *header, void *pixels) {
+    const size_t row_bytes = (size_t)header->width * 4 * (header->is_16_bit ? 2 : 1);
+    const uint64_t size_bytes = (uint64_t)row_bytes * header->height;
+    const char *fault = check_chunks(bytes, 2 * size_bytes + DATA_SLACK);
+    if (fault)
+        return fault;
+    struct job job = {.at = bytes.ptr,
+                      .left = bytes.len,
+                      .header = header,
+                      .pixels = pixels,
+                      .row_bytes = row_bytes,
+                      .memory_left = 4 * (uint64_t)row_bytes + MEMORY_SLACK,
+                      .fault = "there is not enough memory"};
+    png_structp png =
+        png_create_read_struct_2(PNG_LIBPNG_VER_STRING, NULL, on_error, on_warning, &job, on_malloc, on_free);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    if (info)
+        read_guarded(png, info, &job);
+    png_destroy_read_struct(&png, &info, NULL);
+    return job.fault;
+}

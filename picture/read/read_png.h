@@ -1,0 +1,15 @@
+// PNG files (ISO/IEC 15948): the chunks are walked here, the pixels decoded by libpng.
+//
+// Thread safety: calls are independent of each other.
+#ifndef GLINT_PICTURE_READ_READ_PNG_H
+#define GLINT_PICTURE_READ_READ_PNG_H
+
+#include "picture/read/picture_read.h"
+
+// Walks all chunks. Fills width, height, is_16_bit and ignored. NULL, or what is wrong.
+const char *picture_png_header(str bytes, struct picture_header *out);
+// RGBA of 8 or 16 bits a channel, as the header says, for a file that picture_png_header found whole. NULL,
+// or what is wrong.
+const char *picture_png_pixels(str bytes, const struct picture_header *header, void *pixels);
+
+#endif
