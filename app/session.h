@@ -7,7 +7,7 @@
 #ifndef GLINT_APP_SESSION_H
 #define GLINT_APP_SESSION_H
 
-#include "app/config.h"
+#include "app/settings/config.h"
 #include "assets/assets.h"
 #include "core/limits.h"
 #include "diag/diag.h"

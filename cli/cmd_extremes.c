@@ -1,5 +1,5 @@
 // glint extremes SCENE: the scene moved, scaled, far away, lit from its own surfaces ...: what breaks.
-#include "app/extreme_bounds.h"
+#include "app/settings/extreme_bounds.h"
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "cli/progress.h"

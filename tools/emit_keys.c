@@ -1,7 +1,7 @@
-// Writes a JSON Schema that is made from the tables of keys (app/keys.h) to standard output:
+// Writes a JSON Schema that is made from the tables of keys (app/settings/keys.h) to standard output:
 //     emit_keys settings|bounds
 // The target `emitted` writes both to where they are committed.
-#include "app/key_schema.h"
+#include "app/settings/key_schema.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -81,7 +81,8 @@ struct extremes_progress {
     void *context;
 };
 
-// The bounds that hold where no others are given: YAML (app/extreme_bounds.h), without a NUL behind it.
+// The bounds that hold where no others are given: YAML (app/settings/extreme_bounds.h), without a NUL behind
+// it.
 extern const char extremes_default_bounds[];
 extern const size_t extremes_default_bounds_bytes;
 

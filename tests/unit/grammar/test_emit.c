@@ -1,6 +1,6 @@
 // The files made from the table are those that are committed, well formed, and hold every name; so does
 // what `glint explain` says.
-#include "app/key_schema.h"
+#include "app/settings/key_schema.h"
 #include "diag/diag.h"
 #include "grammar/emit/emit.h"
 #include "grammar/emit/explain.h"

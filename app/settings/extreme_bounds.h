@@ -7,8 +7,8 @@
 //
 // What is wrong is reported at its place, E805 and E806, and the rest counts. Ownership: the arena's. Thread
 // safety: one call belongs to one thread.
-#ifndef GLINT_APP_EXTREME_BOUNDS_H
-#define GLINT_APP_EXTREME_BOUNDS_H
+#ifndef GLINT_APP_SETTINGS_EXTREME_BOUNDS_H
+#define GLINT_APP_SETTINGS_EXTREME_BOUNDS_H
 
 #include "core/limits.h"
 #include "diag/diag.h"

@@ -1,6 +1,6 @@
-#include "app/config.h"
+#include "app/settings/config.h"
 
-#include "app/keys.h"
+#include "app/settings/keys.h"
 #include "core/unicode.h"
 #include "parser/tree/reader.h"
 

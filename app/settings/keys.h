@@ -3,8 +3,8 @@
 // One row a key, as in the table of the scene language (grammar/schema.h): its name, what it takes, its
 // range, one sentence. What is read, "did you mean" and the JSON Schema come from the rows; no other file
 // lists the names. Thread safety: constant data.
-#ifndef GLINT_APP_KEYS_H
-#define GLINT_APP_KEYS_H
+#ifndef GLINT_APP_SETTINGS_KEYS_H
+#define GLINT_APP_SETTINGS_KEYS_H
 
 #include "core/arena.h"
 #include "core/nearest.h"

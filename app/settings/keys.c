@@ -1,4 +1,4 @@
-#include "app/keys.h"
+#include "app/settings/keys.h"
 
 #include "core/limits.h"
 #include "measure/extremes/extremes.h"

@@ -11,8 +11,8 @@
 // An empty file is one that only marks its folder as the root. What is wrong in it is reported at its place,
 // and the rest counts. Ownership: everything lies in the arena given, which must be guarded. Thread
 // safety: one call belongs to one thread.
-#ifndef GLINT_APP_CONFIG_H
-#define GLINT_APP_CONFIG_H
+#ifndef GLINT_APP_SETTINGS_CONFIG_H
+#define GLINT_APP_SETTINGS_CONFIG_H
 
 #include "core/limits.h"
 #include "diag/diag_policy.h"

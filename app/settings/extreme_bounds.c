@@ -1,6 +1,6 @@
-#include "app/extreme_bounds.h"
+#include "app/settings/extreme_bounds.h"
 
-#include "app/keys.h"
+#include "app/settings/keys.h"
 #include "core/number.h"
 #include "parser/tree/reader.h"
 

@@ -1,6 +1,6 @@
-#include "app/key_schema.h"
+#include "app/settings/key_schema.h"
 
-#include "app/keys.h"
+#include "app/settings/keys.h"
 #include "core/json_write.h"
 #include "core/limits.h"
 #include "diag/diag_policy.h"
