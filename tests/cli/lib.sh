@@ -40,6 +40,33 @@ expect() {
     fi
 }
 
+# also NAME PATTERN_OUT PATTERN_ERR: of what the command before has printed.
+also() {
+    if matches "$2" out.txt && matches "$3" err.txt; then
+        pass "$1"
+    else
+        fail "$1: wanted out '$2', err '$3'"
+    fi
+}
+
+# within SECONDS command...: of processor time.
+within() {
+    (
+        ulimit -t "$1"
+        shift
+        "$@"
+    )
+}
+
+# works PROCESS HUNDREDTHS: waits until it has used so many hundredths of a second of processor time; false: it ended.
+works() {
+    while used=$(sed 's/.*) //' "/proc/$1/stat" 2>/dev/null | awk '{print $12 + $13}') && [ -n "$used" ]; do
+        [ "$used" -lt "$2" ] || return 0
+        sleep 0.05
+    done
+    return 1
+}
+
 # tells NAME EXIT PATTERN command...: the same of standard output and error together, in out.txt.
 tells() {
     name=$1 wanted=$2 pattern=$3

@@ -218,7 +218,7 @@ if "$glint" devices >devices.txt 2>/dev/null; then
     for end in INT:130 TERM:143; do
         "$glint" render good.yaml --size 2048x2048 --samples 4096 -o kept.png >/dev/null 2>interrupted.txt &
         process=$!
-        sleep 2
+        works $process 60
         kill -"${end%:*}" $process
         wait $process
         expect "exit code of SIG${end%:*}" 0 "^${end#*:}$" - echo $?

@@ -36,8 +36,8 @@ if ! "$glint" render small.yaml -o probe.png -q 2>/dev/null; then
 fi
 
 # Told before the study, which would take longer than this.
-expect "a report that cannot be written" 3 - 'E802' timeout 20 "$glint" tradeoff "$source/scenes/showcase.glint.yaml" -o nowhere/r.html
-expect "a picture that cannot be written" 3 - 'E802' timeout 20 "$glint" render "$source/scenes/showcase.glint.yaml" --max-error flip=0.1 -o nowhere/r.png
+expect "a report that cannot be written" 3 - 'E802' within 20 "$glint" tradeoff "$source/scenes/showcase.glint.yaml" -o nowhere/r.html
+expect "a picture that cannot be written" 3 - 'E802' within 20 "$glint" render "$source/scenes/showcase.glint.yaml" --max-error flip=0.1 -o nowhere/r.png
 
 if [ -z "$mode" ]; then
     expect "a study cut short" 0 'the budget cut the study short' - "$glint" tradeoff small.yaml -q --budget 1 -o report.html

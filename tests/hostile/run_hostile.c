@@ -18,6 +18,7 @@ enum {
     ARGUMENTS_MAX = 12,
     MEMORY_MAX_KB = 256 * 1024,
     SECONDS_MAX = 1,
+    WAIT_SECONDS_MAX = 600, // for what waits for ever, however busy the machine is
     TEXT_MAX_BYTES = 64 * 1024,
 };
 
@@ -102,7 +103,7 @@ static void child(const char *glint, const struct hostile_case *c, int error_fd,
         setrlimit(RLIMIT_FSIZE, &limit);
         setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
     }
-    alarm(30);
+    alarm(WAIT_SECONDS_MAX);
     execv(glint, argv);
     _exit(127);
 }

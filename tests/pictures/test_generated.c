@@ -1,6 +1,6 @@
 // Generated valid scenes, written in both spellings: their pictures are the same, byte for byte.
 //
-// Usage: test_generated FOLDER_WITH_MESHES WORK_FOLDER
+// Usage: test_generated FOLDER_WITH_MESHES WORK_FOLDER FIRST_SEED SCENES
 #include "picture_kit.h"
 
 #include "files/output.h"
@@ -8,9 +8,9 @@
 #include "tests/generate/generate.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 enum {
-    SCENES = 20,
     PATH_BYTES = 1024,
 };
 
@@ -53,16 +53,19 @@ static bool check_seed(struct picture_kit *kit, uint64_t seed, const char *meshe
 
 int main(int argc, char **argv) {
     struct picture_kit kit;
-    if (argc != 3 || !picture_kit_open(&kit))
+    if (argc != 5)
+        return 2;
+    if (!picture_kit_open(&kit))
         return 77;
-    int failed = 0;
-    int showing = 0;
-    for (uint64_t seed = 0; seed < SCENES; seed++) {
+    const uint64_t first = strtoull(argv[3], NULL, 10), scenes = strtoull(argv[4], NULL, 10);
+    uint64_t failed = 0, showing = 0;
+    for (uint64_t seed = first; seed < first + scenes; seed++) {
         bool shows;
         failed += !check_seed(&kit, seed, argv[1], argv[2], &shows);
         showing += shows;
     }
     uint32_t messages = picture_kit_close(&kit);
-    printf("%d scenes, %d failed, %d of the pictures show something\n", SCENES, failed, showing);
-    return failed || messages || showing < SCENES / 2;
+    printf("%llu scenes, %llu failed, %llu of the pictures show something\n", (unsigned long long)scenes,
+           (unsigned long long)failed, (unsigned long long)showing);
+    return failed || messages || 2 * showing < scenes;
 }
