@@ -1,0 +1,436 @@
+// Every attribute is used wherever light is computed: by the device's tracer, by its path log, by the
+// reference.
+//
+// Random scenes that have an attribute are rendered as they are and with another value of it. Where the
+// device's picture changes visibly, the reference's must change in the same way, and `pick` must tell the
+// colours of both. A row of the table whose changes no picture shows, in any of the scenes, fails by its
+// name: nothing uses it. Left out are texts (names, and files, which have tests of their own) and what holds
+// other rows.
+//
+// Usage: test_attributes WORK_FOLDER
+#include "app/exact.h"
+#include "app/pick.h"
+#include "files/output.h"
+#include "grammar/ir.h"
+#include "grammar/ir_walk.h"
+#include "grammar/print/ir_print.h"
+#include "grammar/schema.h"
+#include "tests/generate/generate.h"
+#include "tests/pictures/picture_kit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    SEEDS = 30,
+    ROWS_MAX = 256,
+    TRIES_A_SCENE = 2, // elements in which a row is changed, of one scene
+    TOP = 8,           // pixels that changed most, which the reference is asked about
+    PATH_BYTES = 1024,
+};
+
+// A row of the table, or one component of weights.
+struct use {
+    const struct schema_element *schema;
+    const struct schema_row *row;
+    uint32_t component;
+    bool proven;
+    bool faint;       // the picture changed in a bit, and nowhere to be seen
+    const char *lack; // what failed where it was tried
+    uint32_t tries;   // in this scene
+};
+
+struct bench {
+    struct picture_kit kit;
+    const char *work;
+    struct use uses[ROWS_MAX];
+    uint32_t count;
+    struct arena arena;
+    struct ir_scene *scene; // of this seed
+    struct image device;    // as it is
+};
+
+// ---- the rows
+
+static bool is_light(const struct schema_row *row) {
+    return row->kind != SCHEMA_TEXT && row->kind != SCHEMA_ELEMENT && row->kind != SCHEMA_LIST &&
+           row->range != SCHEMA_RANGE_VERSION;
+}
+
+static void list_uses(struct bench *b) {
+    for (uint32_t i = 0; schema_elements[i]; i++)
+        for (uint32_t k = 0; k < schema_elements[i]->row_count; k++) {
+            const struct schema_row *row = &schema_elements[i]->rows[k];
+            const uint32_t components = !is_light(row) ? 0 : row->kind == SCHEMA_WEIGHTS ? 4 : 1;
+            for (uint32_t c = 0; c < components && b->count < ROWS_MAX; c++)
+                b->uses[b->count++] = (struct use){.schema = schema_elements[i], .row = row, .component = c};
+        }
+}
+
+// ---- another value
+
+static double in_range(enum schema_range range, double wanted, double otherwise) {
+    return schema_in_range(range, wanted) ? wanted : otherwise;
+}
+
+static double other_number(const struct schema_row *row, double value) {
+    if (row->range == SCHEMA_RANGE_FRACTION)
+        return value < 0.25 ? 0.5 : 0.0;
+    if (row->range == SCHEMA_RANGE_EXPONENT)
+        return value > 20 ? 3 : 60;
+    if (row->range == SCHEMA_RANGE_ANGLE)
+        return value + 40;
+    return in_range(row->range, value * 1.4 + 0.05, value * 0.7);
+}
+
+static vec3 other_vector(const struct schema_row *row, vec3 v) {
+    if (row->range == SCHEMA_RANGE_SCALE)
+        return vec3_mul(v, 1.4);
+    const double size = row->range == SCHEMA_RANGE_ANGLE ? 40 : 0.4 * fmax(vec3_max_abs(v), 0.5);
+    return vec3_add(v, (vec3){0.8 * size, size, -0.6 * size});
+}
+
+// false: there is none.
+static bool other_reference(const struct ir_scene *scene, struct ir_material_ref *ref) {
+    for (uint32_t i = 0; i < scene->materials.count; i++)
+        if (i != ref->index && scene->materials.items[i].name.len) {
+            *ref = (struct ir_material_ref){scene->materials.items[i].name, i};
+            return true;
+        }
+    return false;
+}
+
+static uint32_t word_count(const struct schema_row *row) {
+    uint32_t count = 0;
+    while (row->words[count])
+        count++;
+    return count;
+}
+
+static bool change(const struct bench *b, const struct use *use, void *field) {
+    const struct schema_row *row = use->row;
+    switch (row->kind) {
+    case SCHEMA_BOOLEAN:
+        *(bool *)field = !*(bool *)field;
+        return true;
+    case SCHEMA_INTEGER: {
+        int32_t *value = field;
+        *value = row->range == SCHEMA_RANGE_DEPTH ? (*value > 1 ? 1 : 6) : *value + 1;
+        return schema_in_range(row->range, *value);
+    }
+    case SCHEMA_NUMBER:
+        *(double *)field = other_number(row, *(double *)field);
+        return true;
+    case SCHEMA_WORD:
+        *(unsigned *)field = (*(unsigned *)field + 1) % word_count(row);
+        return true;
+    case SCHEMA_VECTOR:
+        *(vec3 *)field = other_vector(row, *(vec3 *)field);
+        return true;
+    case SCHEMA_COLOR: {
+        struct ir_color *color = field;
+        const bool is_dark = !color->is_hex && color->r + color->g + color->b < 1;
+        *color =
+            is_dark ? (struct ir_color){.r = 0.9, .g = 0.8, .b = 0.7} : (struct ir_color){.r = 0.1, .b = 0.2};
+        return true;
+    }
+    case SCHEMA_WEIGHTS:
+        ((double *)field)[use->component] += ((double *)field)[use->component] < 0.5 ? 0.4 : -0.4;
+        return true;
+    case SCHEMA_REFERENCE:
+        return other_reference(b->scene, field);
+    default:
+        return false;
+    }
+}
+
+// ---- pictures
+
+struct pictures {
+    struct session session;
+    struct image device, reference;
+    struct image_display display;
+};
+
+static bool write_scene(const struct bench *b, char path[PATH_BYTES]) {
+    struct strbuf text;
+    strbuf_init(&text);
+    snprintf(path, PATH_BYTES, "%s/scene.yaml", b->work);
+    ir_write_yaml(b->scene, NULL, NULL, (struct ir_write_options){0}, &text);
+    int error = output_whole(path, text.data, text.len);
+    strbuf_finish(&text);
+    return error == 0;
+}
+
+static bool load(struct bench *b, struct pictures *p) {
+    char path[PATH_BYTES];
+    *p = (struct pictures){.display = {0}};
+    if (!write_scene(b, path))
+        return false;
+    const struct session_options options = {.path = str_from(path), .limits = limits_default()};
+    session_load(&p->session, &options, b->kit.store);
+    if (p->session.state != SESSION_LOADED || p->session.sink.errors)
+        return false;
+    p->display = (struct image_display){p->session.image->tone, p->session.image->transfer};
+    return true;
+}
+
+static bool by_device(struct bench *b, struct pictures *p) {
+    struct shot shot;
+    struct render_statistics statistics;
+    bool good = shot_open(&shot, &p->session, b->kit.gpu, 0) == SHOT_OK &&
+                image_init(&p->device, shot.settings.width, shot.settings.height) &&
+                shot_take(&shot, &p->device, NULL, &statistics) == SHOT_OK;
+    shot_close(&shot);
+    return good && p->session.sink.errors == 0;
+}
+
+static bool by_reference(struct pictures *p) {
+    struct exact exact;
+    struct reference_statistics statistics;
+    const struct exact_options options = {.as_file = true, .no_cache = true};
+    bool good = exact_open(&exact, &p->session, 0, options) == SHOT_OK &&
+                image_init(&p->reference, exact.settings.width, exact.settings.height) &&
+                exact_take(&exact, &p->reference, NULL, NULL, &statistics) == SHOT_OK;
+    exact_close(&exact);
+    return good;
+}
+
+static void finish(struct pictures *p) {
+    image_finish(&p->device);
+    image_finish(&p->reference);
+    session_finish(&p->session);
+}
+
+// ---- comparing
+
+static bool same_size(const struct image *a, const struct image *b) {
+    return a->width == b->width && a->height == b->height;
+}
+
+static size_t value_count(const struct image *image) {
+    return 3 * (size_t)image->width * image->height;
+}
+
+static bool same_shown(const struct pictures *a, const struct pictures *b) {
+    const size_t count = value_count(&a->device);
+    uint8_t *bytes = malloc(2 * count);
+    if (!bytes)
+        return true;
+    image_to_bytes(&a->device, a->display, bytes);
+    image_to_bytes(&b->device, b->display, bytes + count);
+    const bool same = memcmp(bytes, bytes + count, count) == 0;
+    free(bytes);
+    return same;
+}
+
+static float change_of(const struct image *a, const struct image *b, size_t value) {
+    return fabsf(b->rgb[value] - a->rgb[value]);
+}
+
+// The values that changed most, in order.
+static uint32_t find_top(const struct image *a, const struct image *b, size_t top[TOP]) {
+    uint32_t found = 0;
+    for (size_t i = 0; i < value_count(a); i++) {
+        const float change = change_of(a, b, i);
+        if (!(change > 1.0f / 32) || (found == TOP && change <= change_of(a, b, top[TOP - 1])))
+            continue;
+        uint32_t at = found < TOP ? found++ : TOP - 1;
+        for (; at > 0 && change > change_of(a, b, top[at - 1]); at--)
+            top[at] = top[at - 1];
+        top[at] = i;
+    }
+    return found;
+}
+
+static bool is_near(double a, double b, double size) {
+    return fabs(a - b) <= 0.02 * size + 1e-4;
+}
+
+static double channel(vec3 color, size_t c) {
+    return c == 0 ? color.x : c == 1 ? color.y : color.z;
+}
+
+// Whether the path log says the colour of this value in both tracers' pictures.
+static bool pick_agrees(struct bench *b, struct pictures *p, size_t value) {
+    struct pick pick;
+    const uint32_t pixel = (uint32_t)(value / 3);
+    if (p->session.image->samples != 1)
+        return true;
+    bool good = pick_take(&pick, &p->session, b->kit.gpu, 0, pixel % p->device.width, pixel / p->device.width,
+                          0) == SHOT_OK;
+    const double shown[2] = {p->device.rgb[value], p->reference.rgb[value]};
+    for (int i = 0; good && i < 2; i++)
+        good = is_near(channel(pick.logs[i].color, value % 3), shown[i], fabs(shown[i]));
+    pick_finish(&pick);
+    return good;
+}
+
+// Of the values that changed most, half at least change in the reference as they do on the device: the others
+// may lie where rounding decides what a ray hits.
+static const char *judge(struct bench *b, struct pictures *before, struct pictures *after) {
+    size_t top[TOP] = {0};
+    const uint32_t count = find_top(&before->device, &after->device, top);
+    uint32_t agree = 0;
+    bool told = false;
+    if (!by_reference(before) || !by_reference(after))
+        return "the reference makes no picture";
+    for (uint32_t i = 0; i < count; i++) {
+        const size_t v = top[i];
+        const double device = (double)after->device.rgb[v] - (double)before->device.rgb[v];
+        const double reference = (double)after->reference.rgb[v] - (double)before->reference.rgb[v];
+        const bool agrees = fabs(device - reference) <= 0.1 * fabs(device);
+        agree += agrees;
+        told = told || (agrees && pick_agrees(b, after, v));
+    }
+    if (2 * agree < count)
+        return "the reference does not use it as the device does";
+    return told ? NULL : "the path that 'pick' tells has other colours";
+}
+
+// ---- all
+
+static void note_change(struct bench *b, struct use *use, struct pictures *before, struct pictures *after) {
+    size_t top[TOP];
+    if (!same_size(&before->device, &after->device)) {
+        use->proven = true;
+        return;
+    }
+    const size_t bytes = value_count(&before->device) * sizeof(float);
+    const bool same = memcmp(before->device.rgb, after->device.rgb, bytes) == 0;
+    if (same && !same_shown(before, after)) { // tone: what is computed stays the same
+        use->proven = true;
+    } else if (!same && find_top(&before->device, &after->device, top)) {
+        use->lack = judge(b, before, after);
+        use->proven = use->lack == NULL;
+    } else if (!same) {
+        use->faint = true;
+    }
+}
+
+static void *field_of(const struct use *use, void *element) {
+    return schema_field(use->row, element);
+}
+
+// true: the picture changed, and everything was as it must be, or was said.
+static void try_element(struct bench *b, struct use *use, void *element) {
+    struct ir_head *head = element;
+    const uint64_t bit = UINT64_C(1) << (use->row - use->schema->rows);
+    const struct ir_head head_before = *head;
+    unsigned char field_before[64];
+    struct pictures before, after;
+    if (use->row->size > sizeof field_before || use->proven || use->tries >= TRIES_A_SCENE)
+        return;
+    memcpy(field_before, field_of(use, element), use->row->size);
+    use->tries++;
+    bool good = load(b, &before) && by_device(b, &before);
+    good = change(b, use, field_of(use, element)) && good;
+    head->written |= bit;
+    memset(&after, 0, sizeof after);
+    bool loaded = good && load(b, &after);
+    if (loaded && by_device(b, &after)) {
+        note_change(b, use, &before, &after);
+    }
+    if (good)
+        finish(&after);
+    finish(&before);
+    memcpy(field_of(use, element), field_before, use->row->size);
+    *head = head_before;
+}
+
+static void try_rows(struct bench *b, const struct schema_element *schema, void *element) {
+    for (uint32_t i = 0; i < b->count; i++)
+        if (b->uses[i].schema == schema && ir_walk_taken(schema, b->uses[i].row, element))
+            try_element(b, &b->uses[i], element);
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        const struct ir_any_list list = ir_walk_list(row, element);
+        if (!ir_walk_taken(schema, row, element))
+            continue;
+        if (row->kind == SCHEMA_ELEMENT)
+            try_rows(b, row->child, schema_field(row, element));
+        for (uint32_t k = 0; k < list.count; k++)
+            try_rows(b, row->child, ir_walk_item(row, list, k));
+    }
+}
+
+// A picture of a few colours as background: bands that a rotation moves.
+static bool write_sky(const struct bench *b) {
+    char path[PATH_BYTES];
+    struct image sky;
+    struct strbuf file;
+    snprintf(path, sizeof path, "%s/sky.hdr", b->work);
+    if (!image_init(&sky, 16, 8))
+        return false;
+    for (size_t i = 0; i < value_count(&sky); i++)
+        sky.rgb[i] = (float)((i / 3 * 7 + i % 3 * 5) % 11) / 10;
+    strbuf_init(&file);
+    image_encode(&sky, IMAGE_HDR, (struct image_display){0}, &file);
+    bool good = output_whole(path, file.data, file.len) == 0;
+    strbuf_finish(&file);
+    image_finish(&sky);
+    return good;
+}
+
+// A mesh of two materials that its file names and does not have.
+static bool write_mesh(const struct bench *b) {
+    static const char text[] = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
+                               "usemtl Gold\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+                               "usemtl Rest\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+    char path[PATH_BYTES];
+    snprintf(path, sizeof path, "%s/octahedron.obj", b->work);
+    return output_whole(path, text, sizeof text - 1) == 0;
+}
+
+static bool all_proven(const struct bench *b) {
+    for (uint32_t i = 0; i < b->count; i++)
+        if (!b->uses[i].proven)
+            return false;
+    return true;
+}
+
+static void try_seed(struct bench *b, uint64_t seed) {
+    static const str meshes[] = {{"octahedron.obj", sizeof "octahedron.obj" - 1}};
+    static const str materials[] = {{"Gold", 4}, {"Rest", 4}};
+    static const str images[] = {{"sky.hdr", sizeof "sky.hdr" - 1}};
+    const struct generate_options options = {.seed = seed,
+                                             .renderable = true,
+                                             .meshes = {meshes, 1},
+                                             .images = {images, 1},
+                                             .mesh_materials = {materials, 2}};
+    arena_init(&b->arena, (size_t)1 << 30);
+    b->scene = generate_scene(&options, &b->arena);
+    for (uint32_t i = 0; i < b->count; i++)
+        b->uses[i].tries = 0;
+    try_rows(b, &SCHEMA_SCENE, b->scene);
+    arena_finish(&b->arena);
+}
+
+static int tell(const struct bench *b) {
+    int failed = 0;
+    for (uint32_t i = 0; i < b->count; i++) {
+        const struct use *use = &b->uses[i];
+        if (use->proven || (use->faint && !use->lack))
+            continue;
+        failed++;
+        printf("FAIL '%s' of %s, component %u: %s\n", use->row->name, use->schema->name, use->component,
+               use->lack ? use->lack : "no picture of the device changes with it");
+    }
+    printf("%u rows and components, %d failed\n", b->count, failed);
+    return failed;
+}
+
+int main(int argc, char **argv) {
+    static struct bench b;
+    if (argc != 2 || !picture_kit_open(&b.kit))
+        return 77;
+    b.work = argv[1];
+    list_uses(&b);
+    bool good = !b.kit.by_reference && write_sky(&b) && write_mesh(&b);
+    for (uint64_t seed = 0; good && seed < SEEDS && !all_proven(&b); seed++)
+        try_seed(&b, seed);
+    int failed = tell(&b);
+    return picture_kit_close(&b.kit) || failed || !good;
+}
