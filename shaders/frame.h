@@ -3,7 +3,7 @@
 #ifndef GLINT_SHADERS_FRAME_H
 #define GLINT_SHADERS_FRAME_H
 
-/* Uniform buffer of BINDING_FRAME. A vector and the scalar behind it fill 16 bytes. Lengths are flat. */
+/* Uniform buffer of BINDING_FRAME. A vector and the scalar after it fill 16 bytes. Lengths are flat. */
 #define FRAME_FIELDS(VECTOR, FLOAT, UINT)                                                                    \
     VECTOR(camera_position)                                                                                  \
     UINT(light_count)                                                                                        \
@@ -29,7 +29,7 @@
     UINT(slice_iterations) /* past these a path is saved at the next ray boundary */                         \
     UINT(features)         /* of the scene: what the mask only makes possible, these bits decide */
 
-/* The camera once more, behind those, for kernels that trace in double precision. */
+/* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
     DOUBLE(double_position_x)                                                                                \
     DOUBLE(double_position_y)                                                                                \
