@@ -56,7 +56,7 @@ struct reference_settings reference_settings_of(const struct ir_scene *ir, const
 struct reference_fault {
     uint32_t pixels; // how many; the rest is about the first of them, by rows
     uint32_t x, y;
-    uint32_t body; // last met in IR order; HIT_NONE: none
+    uint32_t body; // last hit, in IR order; HIT_NONE: none
     uint32_t triangle;
 };
 
@@ -69,8 +69,8 @@ struct reference_statistics {
     // and the mean over all.
     double left_weight_most, left_weight_mean;
     double brightest; // of anything in view: background, direct light of a surface, pixel; one channel
-    // left_weight_most * brightest: what following all rays could add to a pixel, unless they meet something
-    // brighter than all that was met.
+    // left_weight_most * brightest: what following all rays could add to a pixel, unless they hit something
+    // brighter than all that was hit.
     double bound;
     struct reference_fault not_finite;    // the pixel is NaN
     struct reference_fault over_segments; // as_file: part of the pixel's light is missing
@@ -102,7 +102,7 @@ enum reference_result reference_render(const struct reference *reference,
                                        const struct reference_settings *settings, double *rgb,
                                        const struct reference_progress *progress,
                                        struct reference_statistics *statistics);
-// width * height records: what sample 0 of each pixel meets.
+// width * height records: what sample 0 of each pixel hits.
 enum reference_result reference_hits(const struct reference *reference,
                                      const struct reference_settings *settings, struct hit_pixel *hits,
                                      const struct reference_progress *progress);
@@ -154,8 +154,8 @@ struct reference_segment {
     double cut_weight; // of the rays that this surface would have sent and that were not followed
 };
 
-// Follows sample `sample` of pixel x, y; gives the number of rays, of which the first `capacity` are written.
-// *radiance (may be NULL) is the sample's value. 0: no memory.
+// Follows sample `sample` of pixel x, y; returns the number of rays, of which the first `capacity` are
+// written. *radiance (may be NULL) is the sample's value. 0: no memory.
 uint32_t reference_log(const struct reference *reference, const struct reference_settings *settings,
                        uint32_t x, uint32_t y, uint32_t sample, struct reference_segment *segments,
                        uint32_t capacity, vec3 *radiance);

@@ -1,7 +1,7 @@
 // The reference's own tree: binary, boxes in double, split by the surface area heuristic in bins (Wald 2007,
 // "On fast Construction of SAH-based Bounding Volume Hierarchies").
 //
-// A range of n items has 2n - 1 nodes at most, its first child's behind its own node, then its second's: so
+// A range of n items has 2n - 1 nodes at most, its first child's after its own node, then its second's: so
 // every node's place is known before its children are built, and the tree does not depend on threads.
 #include "core/heap.h"
 #include "core/parallel.h"
