@@ -17,8 +17,8 @@
 
 // Triangles of one mesh that get in each other's way, in file order.
 struct lint_pairs {
-    uint32_t count;         // triangles that another one meets
-    uint32_t first, second; // the first of them, and the first that it meets
+    uint32_t count;         // triangles that another one touches
+    uint32_t first, second; // the first of them, and the first that it touches
 };
 
 // A mesh that models of the scene name, once.

@@ -246,7 +246,7 @@ void lint_coincident(struct lint *lint) {
         struct lint_box box = lint_box_grow(flat[i]->box, NEAR * farthest(lint, &flat[i]->box));
         for (uint32_t k = i + 1; k < count && flat[k]->box.lower.x <= box.upper.x && pairs_left > 0; k++) {
             pairs_left--;
-            if (lint_box_meets(&box, &flat[k]->box) && work_left > 0)
+            if (lint_boxes_overlap(&box, &flat[k]->box) && work_left > 0)
                 check_pair(lint, flat[i], flat[k], &work_left);
         }
     }

@@ -51,7 +51,7 @@ void lint_camera_inside(struct lint *lint) {
 
 struct nearest_face {
     const struct lint_tree *tree;
-    affine3 placing;
+    affine3 object_to_world;
     vec3 point; // in scene units
     double distance;
     uint32_t triangle;
@@ -61,7 +61,7 @@ static bool measure(void *context, uint32_t first, uint32_t count) {
     struct nearest_face *nearest = context;
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(nearest->tree->mesh, nearest->tree->order[i]);
-        t = lint_triangle_place(t, &nearest->placing);
+        t = lint_triangle_place(t, &nearest->object_to_world);
         double distance = lint_triangle_distance(&t, nearest->point);
         if (distance < nearest->distance) {
             nearest->distance = distance;

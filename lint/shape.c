@@ -2,7 +2,7 @@
 
 // Less of a triangle than this part of it reaches through nothing: rounded corners of neighbours do.
 static const double SHALLOW = 0.001;
-// Planes that meet at a smaller angle meet nowhere in particular.
+// Planes at a smaller angle intersect nowhere in particular.
 static const double PARALLEL_SINE = 1e-6;
 
 // ---- boxes and places
@@ -70,7 +70,7 @@ static double longest_edge(const struct lint_triangle *t) {
     return sqrt(square);
 }
 
-// The part of the line along which the planes meet that lies in the triangle.
+// The part of the line in which the planes intersect that lies in the triangle.
 static void cut(const struct lint_triangle *t, const double d[3], vec3 along, vec3 origin, double *least,
                 double *greatest) {
     *least = INFINITY;

@@ -47,7 +47,7 @@ static inline struct lint_box lint_box_grow(struct lint_box box, double by) {
     vec3 margin = {by, by, by};
     return (struct lint_box){vec3_sub(box.lower, margin), vec3_add(box.upper, margin)};
 }
-static inline bool lint_box_meets(const struct lint_box *a, const struct lint_box *b) {
+static inline bool lint_boxes_overlap(const struct lint_box *a, const struct lint_box *b) {
     return a->lower.x <= b->upper.x && b->lower.x <= a->upper.x && a->lower.y <= b->upper.y &&
            b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
 }

@@ -48,7 +48,7 @@ struct scene_body {
     vec3 lower, upper; // a box around it: of a mesh, around its transformed box; lower > upper: no mesh
 };
 
-// A material as light meets it. Colours are linear and not yet multiplied by their weights.
+// A material as the tracers see it. Colours are linear and not yet multiplied by their weights.
 struct scene_material {
     double diffuse_weight, specular_weight, reflection, refraction;
     vec3 diffuse[2]; // of the odd cells too, where it is a checker; else equal

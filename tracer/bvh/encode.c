@@ -58,7 +58,7 @@ static void put_byte(uint32_t pair[2], int slot, uint32_t byte) {
     pair[slot / 4] |= byte << (slot % 4 * 8);
 }
 
-// Planes of an empty slot are turned inside out, so that no ray meets it.
+// Planes of an empty slot are turned inside out, so that no ray hits it.
 static void encode_axis(const struct wide_child slots[BVH_WIDTH], int axis, const struct axis_grid *grid,
                         uint32_t low[2], uint32_t high[2]) {
     double wide = widening(grid->exponent);

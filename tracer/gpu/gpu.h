@@ -107,7 +107,7 @@ void gpu_program_destroy(struct gpu *gpu, struct gpu_program *program);
 void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
                       struct gpu_buffer *const buffers[GPU_BINDINGS]);
 
-// Records a dispatch of groups_x times groups_y workgroups behind those recorded before; each sees what
+// Records a dispatch of groups_x times groups_y workgroups after those recorded before; each sees what
 // the ones before it wrote. `push` holds the program's push constants.
 bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
                   const void *push);

@@ -113,13 +113,13 @@ enum render_result renderer_render(struct renderer *renderer, const struct view_
 // Renders the frame once more with a kernel that counts, and throws the picture away.
 enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
                                   const struct render_progress *progress, struct render_rays *rays);
-// What each pixel's first ray meets (scene/hits.h), by the tracer's own code: width * height entries, rows
+// What each pixel's first ray hits (scene/hits.h), by the tracer's own code: width * height entries, rows
 // from the top. Sends, for each pixel, the camera's ray, one to each of the first 32 lights that would add
 // something, and the mirrored and refracted one where they have a weight (total reflection mirrors), whatever
 // max_depth and min_weight say. Numbers are those of the picture that renderer_render makes.
 enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
                                  struct hit_pixel *out, const struct render_progress *progress);
-// Rays of the last renderer_hits that did not end; what they would have met is told as nothing.
+// Rays of the last renderer_hits that did not end; what they would have hit is reported as nothing.
 uint64_t renderer_hits_unfinished(const struct renderer *renderer);
 
 enum render_ray {
