@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 static int compare_values(double a, double b) {
-    // NaN behind everything.
+    // NaN after everything.
     if (isnan(a) || isnan(b))
         return isnan(a) - isnan(b);
     return a < b ? -1 : a > b;
