@@ -12,7 +12,7 @@
 #include "scene/view.h"
 
 // 2^-20: a vertex in a file of six digits, and a coordinate after a few operations in single precision, are
-// known no better than this part of their size.
+// known only to within this part of their size.
 #define LINT_RESOLUTION 0x1p-20
 
 // Triangles of one mesh that get in each other's way, in file order.

@@ -1,8 +1,8 @@
 // Faces that lie in one plane and cover each other: which one is seen is decided by rounding.
 //
 // Within a mesh: lint_find_pairs. Between bodies: those at equal places first, then each pair whose boxes
-// meet, the faces of the smaller body against the tree of the larger one. Two faces count only where a camera
-// could see both: the bottom of a box that stands on a floor is hidden by the box.
+// overlap, the faces of the smaller body against the tree of the larger one. Two faces count only where a
+// camera could see both: the bottom of a box on a floor is hidden by the box.
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"

@@ -9,7 +9,7 @@ enum {
 
 // ---- cameras
 
-// A room: what stands in an opaque body is lit there, and its camera sees it.
+// A room: what is inside an opaque body is lit there, and the camera inside sees it.
 static bool holds_light(struct lint *lint, const struct lint_body *body) {
     const struct view *view = &lint->views[0];
     for (uint32_t i = 0; i < view->light_count; i++) {
@@ -99,7 +99,7 @@ static bool any_camera_inside(struct lint *lint, const struct lint_body *body) {
     return false;
 }
 
-// true: told.
+// true: reported.
 static bool check_light(struct lint *lint, const struct ir_light *light, const struct lint_body *body) {
     // A few units of the last place that single precision keeps of the light's and the body's coordinates.
     double size = fmax(vec3_max_abs(body->box.lower), vec3_max_abs(body->box.upper));

@@ -1,4 +1,4 @@
-// What the first rays hit, against the reference: wrong hits, acne, leaks, holes.
+// First hits compared with those of the reference: wrong hits, acne, leaks, holes.
 //
 // A pixel lies in the silhouettes' band where one of its eight neighbours hits another body in the
 // reference, or the same one more than a twentieth of the way nearer or further. It lies at a shadow's edge
@@ -10,7 +10,7 @@
 #include "scene/hits.h"
 #include "scene/scene.h"
 
-// What the first rays hit against what they hit in the reference, per million pixels.
+// Where first hits differ from those of the reference, per million pixels.
 struct hit_errors {
     bool known;
     double wrong_inside, wrong_outside; // of the silhouettes' band, one pixel wide

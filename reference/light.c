@@ -21,7 +21,7 @@ static vec3 scaled(vec3 a, vec3 b) {
     return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-// What the light adds where nothing stands before it.
+// What the light adds where nothing blocks it.
 static vec3 unshadowed(const struct reference *r, const struct view_light *light, const struct surface *s,
                        vec3 direction) {
     vec3 way = vec3_sub(vec3_sub(light->position, r->origin), s->point);

@@ -13,7 +13,7 @@
 
 #define NO_PRIMITIVE UINT32_MAX
 
-// Where NaN does not come, or may pass: fmin and fmax are calls.
+// For places where NaN cannot occur, or does no harm: fmin and fmax are function calls.
 static inline double reference_smaller(double a, double b) {
     return a < b ? a : b;
 }
@@ -161,7 +161,7 @@ struct queue {
 };
 void reference_queue_finish(struct queue *queue);
 
-// What one sample brought.
+// The result of one sample.
 struct sample {
     vec3 radiance;
     uint64_t rays[3]; // by kind

@@ -135,12 +135,12 @@ struct work {
     atomic_flag reporting;
 };
 
-// One thread at a time tells how far the work is; the others go on.
+// One thread at a time reports how far the work is; the others go on.
 static void tell(struct work *w, size_t pixels) {
     atomic_fetch_add(&w->done, pixels);
     if (!w->progress || atomic_flag_test_and_set(&w->reporting))
         return;
-    // Read here, so that what is told never goes back.
+    // Read here, so that the progress reported never goes back.
     size_t done = atomic_load(&w->done);
     if (!w->progress->report(w->progress->context, (double)done / (double)w->pixels))
         atomic_store(&w->cancelled, true);
@@ -229,7 +229,7 @@ static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     bool comes_through = s.refraction > 0 && reference_bent(&s, direction, &bent);
     if (comes_through)
         hit.refracted = body_ahead(r, reference_ray_offset(&s, vec3_neg(s.geometric)), bent);
-    // Total reflection gives the mirrored ray what the refracted one would have had.
+    // Under total reflection the mirrored ray has the refracted one's weight too.
     if (s.reflection > 0 || (s.refraction > 0 && !comes_through))
         hit.reflected =
             body_ahead(r, reference_ray_offset(&s, s.geometric), reference_mirrored(&s, direction));

@@ -1,11 +1,12 @@
-// The reference: an independent tracer in double precision on the processor, by which the other is measured.
+// The reference: an independent tracer in double precision on the processor, against which the other is
+// measured.
 //
 // Input: a scene (scene/scene.h) and the view; never anything flattened. It has its own
 // tree, its own intersections and its own shading, written from the language alone. Results do not depend on
 // the number of threads. Geometry is kept relative to the camera's position, so that a scene far from 0 loses
 // nothing. Positions that come in or go out are in scene units, relative to the scene's own origin.
 // Ownership: scene and view must outlive the reference. Errors: NULL or REFERENCE_NO_MEMORY where
-// memory ends; values that are not finite are counted and are no error here.
+// memory ends; values that are not finite are counted and are not an error here.
 // Thread safety: immutable once made; all calls may run at the same time.
 #ifndef GLINT_REFERENCE_REFERENCE_H
 #define GLINT_REFERENCE_REFERENCE_H
@@ -19,7 +20,7 @@ struct ir_image;
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
 #define REFERENCE_VERSION 3
 
-// How far paths are followed where the file is not to be obeyed.
+// How far paths are followed where the file's own limits do not apply.
 #define REFERENCE_MIN_WEIGHT 1e-6
 #define REFERENCE_MAX_DEPTH  200
 #define REFERENCE_NO_SEGMENT UINT32_MAX
@@ -40,7 +41,7 @@ struct reference_settings {
     uint32_t width, height;   // pixels
     uint32_t samples;         // per pixel, at least 1
     uint32_t max_depth;       // a surface this deep sends no ray
-    double min_weight;        // rays of less are not followed
+    double min_weight;        // rays of a lower weight are not followed
     bool cut_sees_background; // what a ray sees that max_depth cut; else nothing
     // Rays, shadow rays counted, that one sample may take. Where they end, as_file reports a fault; else the
     // rays not followed count among the weight left.

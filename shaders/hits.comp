@@ -96,7 +96,7 @@ void main() {
     }
     hit_record hit = hit_record(ray.end, 0.0, 0.0, NO_ITEM, 0u);
     uint iterations = 0u;
-    // Without shadows the tracer sends no such ray, and the light counts.
+    // Without shadows the tracer sends no shadow ray, and the light always counts.
     if (kind < HITS_LIGHTS || (HAS_SHADOWS && wants(FEATURE_SHADOWS))) {
         if (HAS_SPHERES)
             trace_spheres(ray.origin, ray.direction, ray.any, hit, iterations);

@@ -1,4 +1,4 @@
-// Small arithmetic with a fixed order of operations: the module's own dot, cross and friends, because the
+// Small arithmetic with a fixed order of operations: own versions of dot, cross and the like, because the
 // built-in ones may be reordered or fused by a driver. gamma(n) = n u / (1 - n u) with u = 2^-24, or 2^-53 in
 // double precision, bounds the relative error of n roundings (Higham 2002, section 3.1).
 #ifdef ALTERNATIVES

@@ -1,7 +1,7 @@
 // How a path is kept from one dispatch to the next, and the refracted rays that wait in it.
 
-// Words lie by kind first, then by slot, so that neighbours lie together. The refracted rays that wait
-// until the reflected ones before them are done are there from the start: lavapipe writes and reads an
+// Words are ordered by kind first, then by slot, so that neighbours are adjacent. The refracted rays that wait
+// until the reflected ones before them are done are always in this buffer: lavapipe writes and reads an
 // indexed private array for all lanes, and a storage buffer only for those that want it.
 uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TILE_PIXELS) + slot; }
 
@@ -9,7 +9,7 @@ uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TIL
 const uint PATH_WORDS = STATE64_WORDS;
 const uint BRANCH_WORDS = STACK64_ENTRY_WORDS;
 
-// Two numbers to a word, the third with two more components.
+// Two numbers in a word, the third in the next with two more components.
 void put_real3(uint slot, uint word, dvec3 v, uvec2 more) {
     states[state_word(slot, word)] = uvec4(unpackDouble2x32(v.x), unpackDouble2x32(v.y));
     states[state_word(slot, word + 1u)] = uvec4(unpackDouble2x32(v.z), more);

@@ -27,8 +27,8 @@ layout(local_size_x = TILE_PIXELS, local_size_x_id = CONSTANT_WORKGROUP) in;
 // What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
 const uint SEGMENT_ITERATIONS = 9u;
 
-const uint PHASE_RAY = 0u;    // the path's ray is to be traced
-const uint PHASE_HIT = 1u;    // it was traced before: only the surface is to be made again
+const uint PHASE_RAY = 0u;    // the path's ray must be traced
+const uint PHASE_HIT = 1u;    // it was traced before: only the surface must be made again
 const uint PHASE_SHADOW = 2u; // a shadow ray
 
 const uint GOES_ON = 0u;

@@ -112,7 +112,7 @@ bool has_nodes(uvec2 group) { return group.y > 0x00ffffffu; }
 
 // Takes the next node out of the group.
 uint next_node(inout uvec2 group, uint flip) {
-    // The exponent of the float tells the highest bit: cheaper than findMSB where that is emulated.
+    // The exponent of the float is the highest bit: cheaper than findMSB where that is emulated.
     uint bit = (floatBitsToUint(float(int(group.y >> 24u))) >> 23u) - 127u;
     group.y &= ~(0x1000000u << bit);
     uint slot = bit ^ flip;

@@ -1,7 +1,7 @@
 // A scene at its extremes: moved, scaled, far away, with other indices, exponents, slivers, gaps, with light
 // and camera on surfaces; each variant on a device against the double-precision reference.
 //
-// Variants are made of the IR in memory, in double; meshes and images are loaded once. Each axis turns one
+// Variants are made of the IR in memory, in double; meshes and images are loaded once. Each axis varies one
 // thing; a cell is one value of it. Axes that need a shape of their own put it where the scene is, as large
 // as the scene. What is compared: the first rays (hits.h) and a picture of one sample a pixel, the reference
 // obeying the file's depth and weight. Precision auto is decided anew for each cell. Ownership:

@@ -77,7 +77,7 @@ static void encode_axis(const struct wide_child slots[BVH_WIDTH], int axis, cons
     }
 }
 
-// Gives the mask of children that are nodes.
+// Returns the mask of children that are nodes.
 static uint32_t encode_meta(const struct wide_child slots[BVH_WIDTH], uint32_t meta[2]) {
     static const uint32_t unary[BVH_LEAF_ITEMS + 1] = {0, 1, 3, 7};
     uint32_t mask = 0;

@@ -1,4 +1,4 @@
-// One sample's path, told ray by ray: the host decides which rays go on, as the tracer does, and the log
+// One sample's path, logged ray by ray: the host decides which rays go on, as the tracer does, and the log
 // kernel follows all of a level at a time. Weights and sums are floats in the tracer's order.
 #include "tracer/render/render_private.h"
 

@@ -70,7 +70,7 @@ struct measuring {
 
 // Since the study began.
 double measuring_seconds(const struct measuring *s);
-// Tells of a further step; false: cancelled.
+// Reports one more step; false: cancelled.
 bool measuring_step(struct measuring *s, const char *what);
 // Passes the reference's progress on.
 struct reference_progress measuring_reference_progress(struct measuring *s);
@@ -99,7 +99,7 @@ enum tradeoff_status ground_truth_picture(struct measuring *s, const struct refe
 // Fills `full` and the ground truth, as far as the budget allows. `own`: of the file's settings; bounces:
 // something reflects or refracts.
 enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *own, bool bounces);
-// Whether the reference may trace so many rays more before the time for rows is over.
+// Whether the reference may trace this many more rays before the time for rows is over.
 bool ground_truth_affords(const struct measuring *s, double rays);
 
 // ---- measure_errors.c

@@ -1,8 +1,8 @@
 // The error of a picture, split: numeric, truncation, sampling, resolution.
 //
 // Whitted pictures are deterministic: between the device's picture and the ground truth lie pictures that the
-// reference can make, each apart from the one before by one cause. They are made at some pixels only, spread
-// evenly.
+// reference can make, each different from the one before by one cause. They are made at some pixels only,
+// spread evenly.
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/parallel.h"

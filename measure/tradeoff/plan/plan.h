@@ -25,12 +25,12 @@ struct plan_input {
 };
 
 // The file's own settings first, then each knob's ladder from coarse to fine, without the file's own value.
-// Gives the number of rows, at most PLAN_ROWS_MAX.
+// Returns the number of rows, at most PLAN_ROWS_MAX.
 uint32_t plan_single(const struct plan_input *input, struct row *rows);
 
 // Pairs of settings, one from each of two knobs that mattered: by at least 2 % of the work or 5 % of the
 // error. Those are taken that no row of their own knob betters in both. First those that the fewest others
-// are foretold to better; `most` at most. Gives the number of rows.
+// are foretold to better; `most` at most. Returns the number of rows.
 uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, uint32_t most,
                     struct row *pairs, uint32_t *left_out);
 
@@ -71,7 +71,7 @@ struct plan_ground_truth {
 // where that is far from fitting, the file's own samples.
 struct plan_ground_truth plan_ground_truth(const struct plan_ground_truth_input *input);
 
-// Whether the knob stands otherwise.
+// Whether the knob has another value.
 bool plan_differs(const struct setting *a, const struct setting *b, enum knob knob);
 // Fills knobs, choosable and name from the setting.
 void plan_describe(struct row *row, const struct setting *base);

@@ -9,7 +9,8 @@ enum {
     PILOT_STEP = 4, // from one pilot's rays to the next one's
     // Where none of n pixels showed it, up to 3 of n others still may (95 %).
     UNSEEN = 3,
-    // Twice the file's samples may cost so many times what they should; else it is the file's own samples.
+    // Twice the file's samples may cost this many times what they should; if they cost more, the file's own
+    // samples are taken.
     PATIENCE = 8,
 };
 

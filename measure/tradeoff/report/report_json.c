@@ -94,7 +94,7 @@ static void put_choice(const struct tradeoff *t, const char *key, double bound, 
     if (isnan(bound))
         return;
     json_open_object(json, key);
-    if (choice != &t->both) // its bounds stand beside the two others
+    if (choice != &t->both) // its bounds are those of the two others
         json_write_real(json, "bound", bound);
     put_index("row", choice->row, json);
     put_index("runner_up", choice->runner_up, json);

@@ -118,7 +118,7 @@ struct tradeoff {
     uint64_t ground_truth_segments;  // rays that a sample of the ground truth might take
     bool ground_truth_cut;           // the budget lowered that, and some samples would have taken more
     double ground_truth_left_weight; // of the rays that the ground truth did not follow, mean of the pixels
-    // For want of time:
+    // For lack of time:
     uint32_t parts_out;  // rows without parts
     bool numeric_probed; // the numeric part was measured at the probes only
     bool hits_out;       // first hits were not compared
