@@ -1,10 +1,10 @@
-// Rules about light that a grammar cannot hold: what is a scene by every rule of the language, and will still
-// not show what its author meant. Each rule has a code of the family W4xx (docs/lint.md has a page for each).
+// Rules about light that a grammar cannot express: a scene may keep every rule of the language and still not
+// show what its author meant. Each rule has a code of the family W4xx (docs/lint.md has a page for each).
 //
 // Input: a scene without errors, with its meshes; neither pixels of images nor a device. Output: warnings in
 // the sink, placed in the scene, with notes at lines of mesh files. A rule says what is certain: where it
-// cannot know (mirrors that may show what no camera sees) it is silent. Ownership: nothing stays but
-// diagnostics and sources. Errors: where memory ends, E502 says that rules are missing. Thread safety: the
+// cannot know (mirrors that may show what no camera sees) it is silent. Ownership: only diagnostics
+// and sources remain. Errors: where memory runs out, E502 says that rules are missing. Thread safety: the
 // thread of the sink; the rules use all processors.
 #ifndef GLINT_LINT_LINT_H
 #define GLINT_LINT_LINT_H

@@ -12,13 +12,13 @@
 #include "scene/view.h"
 
 // 2^-20: a vertex in a file of six digits, and a coordinate after a few operations in single precision, are
-// known no better than this part of their size.
+// known only to within this part of their size.
 #define LINT_RESOLUTION 0x1p-20
 
 // Triangles of one mesh that get in each other's way, in file order.
 struct lint_pairs {
-    uint32_t count;         // triangles that another one meets
-    uint32_t first, second; // the first of them, and the first that it meets
+    uint32_t count;         // triangles that another one touches
+    uint32_t first, second; // the first of them, and the first that it touches
 };
 
 // A mesh that models of the scene name, once.

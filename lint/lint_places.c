@@ -1,4 +1,4 @@
-// Where findings stand and what they call things.
+// Where findings are reported and what they call things.
 #include "lint/lint_parts.h"
 
 #include "assets/asset_file.h"

@@ -1,8 +1,8 @@
 // Faces that lie in one plane and cover each other: which one is seen is decided by rounding.
 //
 // Within a mesh: lint_find_pairs. Between bodies: those at equal places first, then each pair whose boxes
-// meet, the faces of the smaller body against the tree of the larger one. Two faces count only where a camera
-// could see both: the bottom of a box that stands on a floor is hidden by the box.
+// overlap, the faces of the smaller body against the tree of the larger one. Two faces count only where a
+// camera could see both: the bottom of a box on a floor is hidden by the box.
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
@@ -246,7 +246,7 @@ void lint_coincident(struct lint *lint) {
         struct lint_box box = lint_box_grow(flat[i]->box, NEAR * farthest(lint, &flat[i]->box));
         for (uint32_t k = i + 1; k < count && flat[k]->box.lower.x <= box.upper.x && pairs_left > 0; k++) {
             pairs_left--;
-            if (lint_box_meets(&box, &flat[k]->box) && work_left > 0)
+            if (lint_boxes_overlap(&box, &flat[k]->box) && work_left > 0)
                 check_pair(lint, flat[i], flat[k], &work_left);
         }
     }

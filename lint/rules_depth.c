@@ -1,8 +1,8 @@
 // Whether max_depth reaches through the layers of glass that the cameras see.
 //
 // A grid of rays goes straight on through all that refracts; the surfaces that it crosses, up to the first
-// opaque one and as long as its weight is at least min_weight, are the depth that it needs. Bending is left
-// out: it moves the layers in the picture, and hardly changes their number.
+// opaque one and as long as its throughput is at least min_weight, are the depth that it needs. Bending is
+// left out: it moves the layers in the picture, and hardly changes their number.
 #include "lint/lint_parts.h"
 
 #include "core/number.h"
@@ -30,7 +30,7 @@ struct glass {
     uint32_t refracting_count;
     uint32_t columns, rows;
     uint32_t *layers; // per ray
-    uint32_t *first;  // per ray: the body met first
+    uint32_t *first;  // per ray: the body hit first
 };
 
 struct ray_hits {
@@ -47,7 +47,7 @@ static void add_hit(struct ray_hits *hits, double t) {
         hits->items[hits->count++] = (struct crossing){t, hits->body};
 }
 
-static bool meet(void *context, uint32_t first, uint32_t count) {
+static bool intersect_leaf(void *context, uint32_t first, uint32_t count) {
     struct ray_hits *hits = context;
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(hits->tree->mesh, hits->tree->order[i]);
@@ -60,7 +60,8 @@ static bool meet(void *context, uint32_t first, uint32_t count) {
     return hits->tried < RAY_WORK_MAX;
 }
 
-static void meet_sphere(struct ray_hits *hits, const struct scene_body *sphere, vec3 origin, vec3 direction) {
+static void intersect_sphere(struct ray_hits *hits, const struct scene_body *sphere, vec3 origin,
+                             vec3 direction) {
     vec3 to_center = vec3_sub(sphere->object_to_world.offset, origin);
     double along = vec3_dot(to_center, direction);
     double square =
@@ -72,8 +73,8 @@ static void meet_sphere(struct ray_hits *hits, const struct scene_body *sphere, 
     add_hit(hits, along + sqrt(square));
 }
 
-static void meet_body(const struct lint *lint, uint32_t index, vec3 origin, vec3 direction,
-                      struct ray_hits *hits) {
+static void intersect_body(const struct lint *lint, uint32_t index, vec3 origin, vec3 direction,
+                           struct ray_hits *hits) {
     const struct lint_body *body = &lint->bodies[index];
     hits->body = index;
     struct lint_triangle flat[LINT_FLAT_TRIANGLES];
@@ -85,13 +86,13 @@ static void meet_body(const struct lint *lint, uint32_t index, vec3 origin, vec3
             break; // the other one shares the edge that the ray may go through
         }
     if (body->is->shape == SCENE_SPHERE) {
-        meet_sphere(hits, body->is, origin, direction);
+        intersect_sphere(hits, body->is, origin, direction);
     } else if (body->mesh) {
         hits->tree = &body->mesh->tree;
         affine3 back = transform_inverse(body->is->object_to_world);
         hits->origin = affine3_apply(back, origin);
         hits->direction = mat3_apply(back.linear, direction);
-        lint_tree_on_ray(hits->tree, hits->origin, hits->direction, meet, hits);
+        lint_tree_on_ray(hits->tree, hits->origin, hits->direction, intersect_leaf, hits);
     }
 }
 
@@ -101,7 +102,7 @@ static int compare_crossings(const void *a, const void *b) {
     return x->t < y->t ? -1 : x->t > y->t;
 }
 
-// 0 where a ray's work ends first: what was not tried may stand before all glass.
+// 0 where a ray's work ends first: what was not tried may be in front of all glass.
 static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direction) {
     struct ray_hits hits = {.count = 0};
     double nearest = INFINITY;
@@ -110,20 +111,20 @@ static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direct
         if (!body->is_opaque || !lint_box_on_ray(&body->box, origin, direction))
             continue;
         hits.count = 0;
-        meet_body(glass->lint, k, origin, direction, &hits);
+        intersect_body(glass->lint, k, origin, direction, &hits);
         for (uint32_t i = 0; i < hits.count; i++)
             nearest = fmin(nearest, hits.items[i].t);
     }
     return hits.tried < RAY_WORK_MAX ? nearest : 0;
 }
 
-// Surfaces that the ray passes before `end`, while it carries enough weight to be traced.
+// Surfaces that the ray passes before `end`, while its throughput is enough for it to be traced.
 static uint32_t count_layers(const struct lint *lint, const struct ray_hits *hits, double end) {
-    double weight = 1;
+    double throughput = 1;
     uint32_t layers = 0;
     while (layers < hits->count && hits->items[layers].t < end) {
-        weight *= lint->bodies[hits->items[layers].body].refraction;
-        if (weight < lint->ir->trace.min_weight)
+        throughput *= lint->bodies[hits->items[layers].body].refraction;
+        if (throughput < lint->ir->trace.min_weight)
             break;
         layers++;
     }
@@ -141,7 +142,7 @@ static void trace_ray(const struct glass *glass, uint32_t index) {
     struct ray_hits hits = {.count = 0};
     for (uint32_t i = 0; i < glass->refracting_count; i++)
         if (lint_box_on_ray(&lint->bodies[glass->refracting[i]].box, camera->position, direction))
-            meet_body(lint, glass->refracting[i], camera->position, direction, &hits);
+            intersect_body(lint, glass->refracting[i], camera->position, direction, &hits);
     uint32_t most = (uint32_t)lint->ir->trace.max_depth;
     if (hits.count <= most || hits.tried >= RAY_WORK_MAX)
         return;

@@ -9,7 +9,7 @@ enum {
 
 // ---- cameras
 
-// A room: what stands in an opaque body is lit there, and its camera sees it.
+// A room: what is inside an opaque body is lit there, and the camera inside sees it.
 static bool holds_light(struct lint *lint, const struct lint_body *body) {
     const struct view *view = &lint->views[0];
     for (uint32_t i = 0; i < view->light_count; i++) {
@@ -51,7 +51,7 @@ void lint_camera_inside(struct lint *lint) {
 
 struct nearest_face {
     const struct lint_tree *tree;
-    affine3 placing;
+    affine3 object_to_world;
     vec3 point; // in scene units
     double distance;
     uint32_t triangle;
@@ -61,7 +61,7 @@ static bool measure(void *context, uint32_t first, uint32_t count) {
     struct nearest_face *nearest = context;
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(nearest->tree->mesh, nearest->tree->order[i]);
-        t = lint_triangle_place(t, &nearest->placing);
+        t = lint_triangle_place(t, &nearest->object_to_world);
         double distance = lint_triangle_distance(&t, nearest->point);
         if (distance < nearest->distance) {
             nearest->distance = distance;
@@ -99,7 +99,7 @@ static bool any_camera_inside(struct lint *lint, const struct lint_body *body) {
     return false;
 }
 
-// true: told.
+// true: reported.
 static bool check_light(struct lint *lint, const struct ir_light *light, const struct lint_body *body) {
     // A few units of the last place that single precision keeps of the light's and the body's coordinates.
     double size = fmax(vec3_max_abs(body->box.lower), vec3_max_abs(body->box.upper));

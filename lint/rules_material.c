@@ -4,7 +4,7 @@
 #include "core/number.h"
 #include "grammar/ir.h"
 
-// Growth over all bounces below this is no more than a slip of the last digit of each weight.
+// Growth over all bounces below this is only an error in the last digit of each weight.
 static const double GROWTH_MIN = 2;
 
 static str number(struct lint *lint, double value) {

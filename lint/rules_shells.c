@@ -1,4 +1,4 @@
-// Meshes that refract and whose faces do not agree which side is out, or that cross themselves.
+// Meshes that refract and whose faces disagree on which side is outside, or that cross themselves.
 #include "lint/lint_parts.h"
 
 #include <stdlib.h>
@@ -121,7 +121,7 @@ static bool surrounding(const struct shells *shells, uint32_t own, int *times) {
     return a.sum == b.sum;
 }
 
-// A point is inside a solid once or not at all: a shell that faces outwards stands in nothing, one that faces
+// A point is inside a solid once or not at all: a shell that faces outwards is in nothing, one that faces
 // inwards is the wall of a hollow in another.
 static bool is_wrong(const struct shells *shells, uint32_t root) {
     const struct shell *shell = &shells->items[root];
@@ -262,7 +262,7 @@ void lint_inside_out(struct lint *lint) {
         struct lint_mesh *mesh = lint->meshes.items[i];
         if (!mesh->first_refracting)
             continue;
-        // Parts that cross have no order; the rule above told about them.
+        // Parts that cross have no order; the rule above reported them.
         if (!mesh->mesh->closed)
             check_turned(lint, mesh);
         else if (mesh->crossings.count == 0)

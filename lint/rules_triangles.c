@@ -110,11 +110,11 @@ void lint_duplicates(struct lint *lint) {
 
 // ---- normals
 
-// A normal along the face, which rounding tips over, is none that opposes it.
+// A normal along the face, which rounding tips over, does not count as opposing it.
 static const double SLACK = 0.05;
 
 struct torn {
-    uint32_t count, line;   // faces whose normals point to both sides: no turning makes them all fit
+    uint32_t count, line;   // faces whose normals point to both sides: no orientation makes them all fit
     uint32_t opposed, seen; // faces whose normals all point against them, of those with normals
     uint32_t opposed_line;
 };

@@ -1,4 +1,4 @@
-// Bodies that no camera sees: certainly, or not told.
+// Bodies that no camera sees: reported only where that is certain.
 //
 // A body counts as unseen where its box lies wholly outside the field of each camera, nothing mirrors or
 // refracts, and it can cast no shadow into a field either.
@@ -66,7 +66,7 @@ static bool anything_mirrors(const struct lint *lint) {
     return false;
 }
 
-// Cameras that see nothing at all are what is wrong, not the bodies.
+// Where cameras see nothing at all, they are wrong, not the bodies.
 static void report_cameras(struct lint *lint) {
     const struct ir_camera *camera = &lint->ir->cameras.items[0];
     span at = ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position");

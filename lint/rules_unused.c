@@ -20,7 +20,7 @@ static bool *used_materials(struct lint *lint) {
     return found.used;
 }
 
-// Files that are libraries for others are made of what one of them uses and another does not.
+// A library for other files holds things that one of them uses and another does not.
 static bool is_of_main_file(const struct lint *lint, span at) {
     return lint->origin->files.count > 0 && at.source == lint->origin->files.items[0].source;
 }

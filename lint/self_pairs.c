@@ -1,6 +1,6 @@
-// Triangles of one mesh against each other: each leaf of the tree asks for those that meet its box.
+// Triangles of one mesh against each other: each leaf of the tree asks for those that overlap its box.
 //
-// Each triangle looks for those behind it on the curve and marks itself alone, so that the work can be cut.
+// Each triangle looks for those after it on the curve and marks itself alone, so that the work can be cut.
 // Where there are marks, which good meshes have none of, those triangles then mark the others, one by one.
 #include "lint/lint_parts.h"
 
@@ -11,7 +11,7 @@ enum {
     WORK_MAX = 1 << 28,      // for the mesh: boxes against boxes
     LEAF_WORK_MIN = 4096,    // for each leaf: some thousand in a good mesh, all of them in a fan of needles
     TRIANGLES_MAX = 1 << 23, // larger meshes are not searched: it would take gigabytes
-    MEET_WORK = 32,          // of two triangles, in boxes
+    PAIR_WORK = 32,          // of two triangles, in boxes
 };
 
 struct self {
@@ -60,7 +60,7 @@ static void mark(const struct self *self, uint32_t *marks, uint32_t i, uint32_t 
         keep_first(&marks[j], self->tree->order[i]);
 }
 
-static void meet(const struct self *self, uint32_t i, uint32_t j) {
+static void test_pair(const struct self *self, uint32_t i, uint32_t j) {
     const struct lint_face *other = &self->faces[j];
     const struct lint_face *own = &self->faces[i];
     if (self->refracts && lint_faces_cross(own, other, self->tolerance))
@@ -76,9 +76,9 @@ static bool visit(void *context, uint32_t first, uint32_t count) {
     for (uint32_t j = first; j < first + count; j++) {
         struct lint_box box = lint_box_of(&leaf->self->faces[j].t);
         for (uint32_t k = 0; k < leaf->count && leaf->first + k < j; k++)
-            if (lint_box_meets(&box, &leaf->boxes[k])) {
-                meet(leaf->self, leaf->first + k, j);
-                work += MEET_WORK;
+            if (lint_boxes_overlap(&box, &leaf->boxes[k])) {
+                test_pair(leaf->self, leaf->first + k, j);
+                work += PAIR_WORK;
             }
     }
     leaf->work_left -= work < leaf->work_left ? work : leaf->work_left;

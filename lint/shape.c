@@ -1,8 +1,9 @@
 #include "lint/shape.h"
 
-// Less of a triangle than this part of it reaches through nothing: rounded corners of neighbours do.
+// A triangle that reaches through another by less than this part of its size does not cross it: rounded
+// corners of neighbours reach that far.
 static const double SHALLOW = 0.001;
-// Planes that meet at a smaller angle meet nowhere in particular.
+// Planes at a smaller angle count as parallel: where they intersect is left to rounding.
 static const double PARALLEL_SINE = 1e-6;
 
 // ---- boxes and places
@@ -70,7 +71,7 @@ static double longest_edge(const struct lint_triangle *t) {
     return sqrt(square);
 }
 
-// The part of the line along which the planes meet that lies in the triangle.
+// The part inside the triangle of the line in which the two planes intersect.
 static void cut(const struct lint_triangle *t, const double d[3], vec3 along, vec3 origin, double *least,
                 double *greatest) {
     *least = INFINITY;
@@ -127,7 +128,7 @@ static void project(const struct lint_triangle *t, vec3 axis, vec3 origin, doubl
     *greatest = a > b ? a > c ? a : c : b > c ? b : c;
 }
 
-// Whether an edge of `a` parts them; an axis along which one of them is too narrow to tell parts them too.
+// Whether an edge of `a` separates them; so does an axis along which one of them is too narrow to decide.
 static bool is_parted(const struct lint_triangle *a, const struct lint_triangle *b, vec3 unit_normal,
                       double tolerance) {
     for (int k = 0; k < 3; k++) {

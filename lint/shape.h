@@ -1,4 +1,4 @@
-// Triangles against triangles, points and rays, in double precision with tolerances of the caller's.
+// Triangles against triangles, points and rays, in double precision, with the caller's tolerances.
 //
 // A tolerance is a length: what is nearer counts as touching, never as crossing. That is what keeps good
 // meshes free of false alarms: a file with six digits places a vertex no better than 2^-20 of its
@@ -25,7 +25,7 @@ struct lint_box {
     vec3 lower, upper;
 };
 
-// Coordinates are never NaN here, so that plain comparisons do (fmin and fmax are calls).
+// Coordinates are never NaN here, so that plain comparisons are enough (fmin and fmax are calls).
 static inline vec3 lint_least(vec3 a, vec3 b) {
     return (vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
 }
@@ -47,7 +47,7 @@ static inline struct lint_box lint_box_grow(struct lint_box box, double by) {
     vec3 margin = {by, by, by};
     return (struct lint_box){vec3_sub(box.lower, margin), vec3_add(box.upper, margin)};
 }
-static inline bool lint_box_meets(const struct lint_box *a, const struct lint_box *b) {
+static inline bool lint_boxes_overlap(const struct lint_box *a, const struct lint_box *b) {
     return a->lower.x <= b->upper.x && b->lower.x <= a->upper.x && a->lower.y <= b->upper.y &&
            b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
 }

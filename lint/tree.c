@@ -174,7 +174,7 @@ static void walk(const struct lint_tree *tree, const struct lint_box *box, const
         const struct lint_box *node = &tree->nodes[at.node];
         if (at.end <= from)
             continue;
-        if (box ? !lint_box_meets(node, box) : !lint_box_on_ray(node, ray->origin, ray->direction))
+        if (box ? !lint_boxes_overlap(node, box) : !lint_box_on_ray(node, ray->origin, ray->direction))
             continue;
         if (at.end - at.begin == 1) {
             uint32_t first = at.begin * LINT_LEAF;
@@ -226,7 +226,7 @@ static bool wind(void *context, uint32_t first, uint32_t count) {
 }
 
 int lint_tree_winding(const struct lint_tree *tree, vec3 point) {
-    // Directions without a relation to what people model, so that a ray hardly ever meets an edge.
+    // Directions unrelated to those that people model in, so that a ray hardly ever hits an edge.
     static const vec3 directions[3] = {{0.5403023058681398, 0.8414709848078965, 0.2955202066613396},
                                        {-0.6536436208636119, 0.4546487134128409, 0.7568024953079282},
                                        {0.2836621854632263, -0.6794193416919838, -0.9589242746631385}};

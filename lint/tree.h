@@ -33,15 +33,15 @@ static inline struct lint_triangle lint_mesh_triangle(const struct mesh *mesh, u
 // Whether the line from `origin` along `direction` (t >= 0) enters the box.
 bool lint_box_on_ray(const struct lint_box *box, vec3 origin, vec3 direction);
 
-// Called with each leaf, entries [first, first + count) of `order`, whose box meets what was asked for; false
-// ends the walk.
+// Called with each leaf, entries [first, first + count) of `order`, whose box overlaps what was asked for;
+// false ends the walk.
 typedef bool lint_tree_visit(void *context, uint32_t first, uint32_t count);
 void lint_tree_in_box(const struct lint_tree *tree, const struct lint_box *box, lint_tree_visit *visit,
                       void *context);
 // The same from leaf `from` on, in the order of the curve.
 void lint_tree_in_box_from(const struct lint_tree *tree, const struct lint_box *box, uint32_t from,
                            lint_tree_visit *visit, void *context);
-// Those that the line from `origin` along `direction` (any length, t >= 0) may meet.
+// Those that the line from `origin` along `direction` (any length, t >= 0) may hit.
 void lint_tree_on_ray(const struct lint_tree *tree, vec3 origin, vec3 direction, lint_tree_visit *visit,
                       void *context);
 

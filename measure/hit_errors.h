@@ -1,6 +1,6 @@
-// What the first rays meet, against the reference: wrong hits, acne, leaks, holes.
+// First hits compared with those of the reference: wrong hits, acne, leaks, holes.
 //
-// A pixel lies in the silhouettes' band where one of its eight neighbours meets another body in the
+// A pixel lies in the silhouettes' band where one of its eight neighbours hits another body in the
 // reference, or the same one more than a twentieth of the way nearer or further. It lies at a shadow's edge
 // where a neighbour of the same body is lit by other lights. Ownership: the caller's arrays. Thread safety:
 // pure.
@@ -10,7 +10,7 @@
 #include "scene/hits.h"
 #include "scene/scene.h"
 
-// What the first rays met against what they meet in the reference, per million pixels.
+// Where first hits differ from those of the reference, per million pixels.
 struct hit_errors {
     bool known;
     double wrong_inside, wrong_outside; // of the silhouettes' band, one pixel wide
@@ -18,8 +18,8 @@ struct hit_errors {
     double acne;         // dark although nothing is between hit and light, away from shadows' edges
     double leaks;        // lit although something is between
     double shadow_edge;  // lit differently in the band around shadows' edges
-    double holes;        // the background seen where the reference meets a closed body, outside the band
-    double wrong_second; // another body met by the mirrored or the refracted ray, outside the band
+    double holes;        // the background seen where the reference hits a closed body, outside the band
+    double wrong_second; // another body hit by the mirrored or the refracted ray, outside the band
 };
 
 // `scene`: whose bodies the hits name; nothing can be seen through those that are closed.

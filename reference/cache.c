@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What an entry begins with. An entry is read on the machine that wrote it.
+// The header of an entry. An entry is read on the machine that wrote it.
 struct entry_head {
     char magic[8];
     uint64_t version, head_bytes;

@@ -73,7 +73,7 @@ void reference_scene_key(const struct reference_input *input, uint64_t key[2]) {
     hash128_whole(&h, REFERENCE_VERSION);
     hash128_whole(&h, input->test);
     ir_hash(&h, &SCHEMA_SCENE, scene->ir);
-    // The scene's once more, as they are in use, and those that material files of meshes add.
+    // The scene's materials again, as they are used, and those that material files of meshes add.
     hash128_whole(&h, scene->assets->material_count);
     for (uint32_t i = 0; i < scene->assets->material_count; i++)
         ir_hash(&h, &SCHEMA_MATERIAL, &scene->assets->materials[i]);

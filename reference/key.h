@@ -1,4 +1,4 @@
-// Hashes of what the reference reads: equal keys, equal answers. Private to runtime/reference.
+// Hashes of what the reference reads: equal keys, equal answers. Private to reference/.
 #ifndef GLINT_REFERENCE_KEY_H
 #define GLINT_REFERENCE_KEY_H
 

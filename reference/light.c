@@ -21,7 +21,7 @@ static vec3 scaled(vec3 a, vec3 b) {
     return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-// What the light adds where nothing stands before it.
+// What the light adds where nothing blocks it.
 static vec3 unshadowed(const struct reference *r, const struct view_light *light, const struct surface *s,
                        vec3 direction) {
     vec3 way = vec3_sub(vec3_sub(light->position, r->origin), s->point);
@@ -46,7 +46,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
                      struct lighting *out) {
     const struct view *view = r->input.view;
     bool shadows = r->input.scene->ir->trace.shadows;
-    vec3 start = reference_start(s, s->geometric);
+    vec3 start = reference_ray_offset(s, s->geometric);
     *out = (struct lighting){0};
     for (uint32_t i = 0; i < view->light_count; i++) {
         const struct view_light *light = &view->lights[i];

@@ -1,4 +1,4 @@
-// The parts of the reference. Private to runtime/reference.
+// The parts of the reference. Private to reference/.
 //
 // All positions here are relative to the reference's origin (the camera's position), in scene units.
 #ifndef GLINT_REFERENCE_PARTS_H
@@ -13,7 +13,7 @@
 
 #define NO_PRIMITIVE UINT32_MAX
 
-// Where NaN does not come, or may pass: fmin and fmax are calls.
+// For places where NaN cannot occur, or does no harm: fmin and fmax are function calls.
 static inline double reference_smaller(double a, double b) {
     return a < b ? a : b;
 }
@@ -77,7 +77,7 @@ struct reference {
 
 // Fills bodies and materials; jumps to the arena's guard where memory ends.
 void reference_make_bodies(struct reference *r);
-// The primitive of a number in IR order; false: a triangle without area, which nothing can meet.
+// The primitive of a number in IR order; false: a triangle without area, which no ray can hit.
 bool reference_make_primitive(const struct reference *r, const struct body *body, uint32_t triangle,
                               struct primitive *out);
 
@@ -86,21 +86,21 @@ bool reference_make_primitive(const struct reference *r, const struct body *body
 // Fills primitives and nodes. false: no memory.
 bool reference_make_tree(struct reference *r);
 
-// ---- meet.c
+// ---- intersect.c
 
 struct ray {
     vec3 origin, direction; // any length
     double t_max;
 };
 
-struct meeting {
+struct intersection {
     double t;
     double b1, b2;
     double t_error;
     uint32_t primitive; // NO_PRIMITIVE: nothing
 };
 
-void reference_meet(const struct reference *r, const struct ray *ray, struct meeting *out);
+void reference_intersect(const struct reference *r, const struct ray *ray, struct intersection *out);
 // Whether anything lies strictly between the ray's start and t_max.
 bool reference_blocks(const struct reference *r, const struct ray *ray);
 
@@ -117,13 +117,16 @@ struct surface {
     double exponent, reflection, refraction, index;
 };
 
-void reference_surface(const struct reference *r, const struct ray *ray, const struct meeting *met,
+void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out);
-// Where rays begin that leave on the side of `side`, a unit vector along the geometric normal.
-vec3 reference_start(const struct surface *s, vec3 side);
 vec3 reference_mirrored(const struct surface *s, vec3 direction);
 // false: total reflection.
 bool reference_bent(const struct surface *s, vec3 direction, vec3 *out);
+
+// ---- ray_offset.c
+
+// Where rays start that leave on the side of `side`, a unit vector along the geometric normal.
+vec3 reference_ray_offset(const struct surface *s, vec3 side);
 
 // ---- light.c
 
@@ -143,7 +146,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
 
 struct branch {
     vec3 origin, direction;
-    double weight;
+    double throughput;
     uint32_t depth;
     uint32_t parent; // in a log
     enum reference_kind kind;
@@ -153,12 +156,12 @@ struct branch {
 struct queue {
     struct branch *items;
     uint32_t count, capacity;
-    bool heaviest_first; // else last in, first out
+    bool heaviest_first; // by throughput; else last in, first out
     bool failed;         // no memory
 };
 void reference_queue_finish(struct queue *queue);
 
-// What one sample brought.
+// The result of one sample.
 struct sample {
     vec3 radiance;
     uint64_t rays[3]; // by kind
@@ -166,7 +169,7 @@ struct sample {
     uint32_t deepest;
     double left_weight, brightest;
     bool over_segments;
-    uint32_t body, triangle; // last met
+    uint32_t body, triangle; // last hit
 };
 
 struct log {

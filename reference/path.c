@@ -11,7 +11,7 @@ void reference_queue_finish(struct queue *queue) {
     *queue = (struct queue){0};
 }
 
-// A heap by weight, or a stack.
+// A heap by throughput, or a stack.
 static void push(struct queue *q, const struct branch *branch) {
     struct branch *items = heap_grow(q->items, q->count, &q->capacity, sizeof *items);
     if (!items) {
@@ -20,7 +20,7 @@ static void push(struct queue *q, const struct branch *branch) {
     }
     q->items = items;
     size_t at = q->count++;
-    while (q->heaviest_first && at > 0 && q->items[(at - 1) / 2].weight < branch->weight) {
+    while (q->heaviest_first && at > 0 && q->items[(at - 1) / 2].throughput < branch->throughput) {
         q->items[at] = q->items[(at - 1) / 2];
         at = (at - 1) / 2;
     }
@@ -34,9 +34,9 @@ static struct branch pop(struct queue *q) {
     struct branch last = q->items[--q->count];
     size_t at = 0;
     for (size_t child = 1; child < q->count; child = 2 * at + 1) {
-        if (child + 1 < q->count && q->items[child + 1].weight > q->items[child].weight)
+        if (child + 1 < q->count && q->items[child + 1].throughput > q->items[child].throughput)
             child++;
-        if (q->items[child].weight <= last.weight)
+        if (q->items[child].throughput <= last.throughput)
             break;
         q->items[at] = q->items[child];
         at = child;
@@ -55,31 +55,31 @@ struct following {
     struct sample *sample;
 };
 
-static void add(struct following *f, vec3 value, double weight) {
-    f->sample->radiance = vec3_add(f->sample->radiance, vec3_mul(value, weight));
+static void add(struct following *f, vec3 value, double throughput) {
+    f->sample->radiance = vec3_add(f->sample->radiance, vec3_mul(value, throughput));
 }
 
 static void see(struct following *f, vec3 value) {
     f->sample->brightest = fmax(f->sample->brightest, reference_brightest(value));
 }
 
-// A ray that leaves a surface: it waits, or is cut. Gives the weight cut.
+// A ray that leaves a surface: it waits, or is cut. Returns the throughput cut.
 static double send(struct following *f, const struct branch *child) {
     const struct reference_settings *settings = f->settings;
-    if (!(child->weight > 0))
+    if (!(child->throughput > 0))
         return 0;
-    if (child->weight < settings->min_weight) {
+    if (child->throughput < settings->min_weight) {
         f->sample->cut_by_weight++;
     } else if (child->depth > settings->max_depth) {
         f->sample->cut_by_depth++;
         if (settings->cut_sees_background)
-            add(f, reference_background(f->r, child->direction), child->weight);
+            add(f, reference_background(f->r, child->direction), child->throughput);
     } else {
         push(f->queue, child);
         return 0;
     }
-    f->sample->left_weight += child->weight;
-    return child->weight;
+    f->sample->left_weight += child->throughput;
+    return child->throughput;
 }
 
 static double send_rays(struct following *f, const struct branch *from, const struct surface *s,
@@ -92,16 +92,16 @@ static double send_rays(struct following *f, const struct branch *from, const st
         reflection += s->refraction;
         f->sample->total_reflections++;
     } else {
-        through.weight = from->weight * s->refraction;
+        through.throughput = from->throughput * s->refraction;
     }
     double cut = 0;
-    if (through.weight > 0) {
-        through.origin = reference_start(s, vec3_neg(s->geometric));
+    if (through.throughput > 0) {
+        through.origin = reference_ray_offset(s, vec3_neg(s->geometric));
         cut += send(f, &through);
     }
-    back.weight = from->weight * reflection;
-    if (back.weight > 0) {
-        back.origin = reference_start(s, s->geometric);
+    back.throughput = from->throughput * reflection;
+    if (back.throughput > 0) {
+        back.origin = reference_ray_offset(s, s->geometric);
         back.direction = reference_mirrored(s, from->direction);
         cut += send(f, &back);
     }
@@ -116,7 +116,7 @@ static struct reference_segment *log_segment(struct following *f, const struct b
     *segment = (struct reference_segment){.kind = b->kind,
                                           .parent = b->parent,
                                           .depth = b->depth,
-                                          .weight = b->weight,
+                                          .weight = b->throughput,
                                           .origin = vec3_add(b->origin, f->r->origin),
                                           .direction = b->direction,
                                           .body = HIT_NONE,
@@ -143,28 +143,28 @@ static void log_surface(const struct following *f, struct reference_segment *seg
 
 static void follow_ray(struct following *f, const struct branch *b) {
     struct ray ray = {b->origin, b->direction, INFINITY};
-    struct meeting met;
+    struct intersection hit;
     struct reference_segment *segment = log_segment(f, b);
     f->sample->rays[b->kind]++;
     if (b->depth > f->sample->deepest)
         f->sample->deepest = b->depth;
-    reference_meet(f->r, &ray, &met);
-    if (met.primitive == NO_PRIMITIVE) {
+    reference_intersect(f->r, &ray, &hit);
+    if (hit.primitive == NO_PRIMITIVE) {
         vec3 seen = reference_background(f->r, b->direction);
-        add(f, seen, b->weight);
+        add(f, seen, b->throughput);
         if (segment)
             segment->radiance = seen;
         return;
     }
     struct surface s;
     struct lighting lighting;
-    reference_surface(f->r, &ray, &met, &s);
+    reference_surface(f->r, &ray, &hit, &s);
     reference_light(f->r, &s, b->direction, &lighting);
     f->sample->body = s.body;
     f->sample->triangle = s.triangle;
     f->sample->shadow += lighting.shadow_rays;
     see(f, lighting.sum);
-    add(f, lighting.sum, b->weight);
+    add(f, lighting.sum, b->throughput);
     log_surface(f, segment, &s, &lighting);
     bool total;
     double cut = send_rays(f, b, &s, f->log ? f->log->count - 1 : 0, &total);
@@ -181,7 +181,7 @@ static uint64_t rays_of(const struct sample *s) {
 void reference_follow(const struct reference *r, const struct reference_settings *settings, vec3 direction,
                       struct queue *queue, struct log *log, struct sample *out) {
     struct following f = {r, settings, queue, log, out};
-    struct branch first = {.direction = direction, .weight = 1, .parent = REFERENCE_NO_SEGMENT};
+    struct branch first = {.direction = direction, .throughput = 1, .parent = REFERENCE_NO_SEGMENT};
     *out = (struct sample){.body = HIT_NONE};
     queue->count = 0;
     queue->heaviest_first = !settings->as_file;
@@ -193,7 +193,7 @@ void reference_follow(const struct reference *r, const struct reference_settings
             continue;
         }
         out->cut_by_segments++;
-        out->left_weight += next.weight;
+        out->left_weight += next.throughput;
     }
     out->over_segments = settings->as_file && (out->cut_by_segments > 0 || rays_of(out) > settings->segments);
     see(&f, out->radiance);

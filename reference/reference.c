@@ -71,14 +71,14 @@ vec3 reference_camera_ray(const struct reference *r, const struct reference_sett
 void reference_closest(const struct reference *r, vec3 origin, vec3 direction, double t_max,
                        struct reference_hit *hit) {
     struct ray ray = {vec3_sub(origin, r->origin), direction, t_max};
-    struct meeting met;
+    struct intersection nearest;
     struct surface s;
     *hit = (struct reference_hit){.body = HIT_NONE, .material = IR_NO_INDEX};
-    reference_meet(r, &ray, &met);
-    if (met.primitive == NO_PRIMITIVE)
+    reference_intersect(r, &ray, &nearest);
+    if (nearest.primitive == NO_PRIMITIVE)
         return;
-    reference_surface(r, &ray, &met, &s);
-    vec3 behind = reference_start(&s, vec3_neg(s.geometric));
+    reference_surface(r, &ray, &nearest, &s);
+    vec3 start_through = reference_ray_offset(&s, vec3_neg(s.geometric));
     *hit = (struct reference_hit){.body = s.body,
                                   .triangle = s.triangle,
                                   .t = s.distance,
@@ -89,8 +89,8 @@ void reference_closest(const struct reference *r, vec3 origin, vec3 direction, d
                                   .shading = s.shading,
                                   .enters = s.enters,
                                   .material = s.material,
-                                  .start_back = vec3_add(reference_start(&s, s.geometric), r->origin),
-                                  .start_through = vec3_add(behind, r->origin)};
+                                  .start_back = vec3_add(reference_ray_offset(&s, s.geometric), r->origin),
+                                  .start_through = vec3_add(start_through, r->origin)};
 }
 
 bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, double t_max) {
@@ -125,7 +125,7 @@ struct work {
     const struct reference *r;
     const struct reference_settings *settings;
     double *rgb;            // a picture, or
-    struct hit_pixel *hits; // what first rays meet
+    struct hit_pixel *hits; // what first rays hit
     struct tile_sum *tiles;
     uint32_t tiles_x;
     const struct reference_progress *progress;
@@ -135,12 +135,12 @@ struct work {
     atomic_flag reporting;
 };
 
-// One thread at a time tells how far the work is; the others go on.
+// One thread at a time reports how far the work is; the others go on.
 static void tell(struct work *w, size_t pixels) {
     atomic_fetch_add(&w->done, pixels);
     if (!w->progress || atomic_flag_test_and_set(&w->reporting))
         return;
-    // Read here, so that what is told never goes back.
+    // Read here, so that the progress reported never goes back.
     size_t done = atomic_load(&w->done);
     if (!w->progress->report(w->progress->context, (double)done / (double)w->pixels))
         atomic_store(&w->cancelled, true);
@@ -200,24 +200,24 @@ static void draw_pixel(const struct work *w, uint32_t x, uint32_t y, struct queu
     rgb[2] = sum.z / settings->samples;
 }
 
-// The body that a ray from a surface meets.
+// The body that a ray from a surface hits.
 static uint32_t body_ahead(const struct reference *r, vec3 origin, vec3 direction) {
     struct ray ray = {origin, direction, INFINITY};
-    struct meeting met;
-    reference_meet(r, &ray, &met);
-    return met.primitive == NO_PRIMITIVE ? HIT_NONE : r->primitives[met.primitive].body;
+    struct intersection hit;
+    reference_intersect(r, &ray, &hit);
+    return hit.primitive == NO_PRIMITIVE ? HIT_NONE : r->primitives[hit.primitive].body;
 }
 
 static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
     struct ray ray = {{0, 0, 0}, direction, INFINITY};
-    struct meeting met;
+    struct intersection nearest;
     struct surface s;
     struct lighting lighting;
-    reference_meet(r, &ray, &met);
-    if (met.primitive == NO_PRIMITIVE)
+    reference_intersect(r, &ray, &nearest);
+    if (nearest.primitive == NO_PRIMITIVE)
         return hit;
-    reference_surface(r, &ray, &met, &s);
+    reference_surface(r, &ray, &nearest, &s);
     reference_light(r, &s, direction, &lighting);
     hit.body = s.body;
     hit.triangle = s.triangle;
@@ -228,10 +228,11 @@ static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     vec3 bent;
     bool comes_through = s.refraction > 0 && reference_bent(&s, direction, &bent);
     if (comes_through)
-        hit.refracted = body_ahead(r, reference_start(&s, vec3_neg(s.geometric)), bent);
-    // Total reflection gives the mirrored ray what the refracted one would have had.
+        hit.refracted = body_ahead(r, reference_ray_offset(&s, vec3_neg(s.geometric)), bent);
+    // Under total reflection the mirrored ray has the refracted one's weight too.
     if (s.reflection > 0 || (s.refraction > 0 && !comes_through))
-        hit.reflected = body_ahead(r, reference_start(&s, s.geometric), reference_mirrored(&s, direction));
+        hit.reflected =
+            body_ahead(r, reference_ray_offset(&s, s.geometric), reference_mirrored(&s, direction));
     return hit;
 }
 

@@ -1,11 +1,12 @@
-// The reference: an independent tracer in double precision on the processor, by which the other is measured.
+// The reference: an independent tracer in double precision on the processor, against which the other is
+// measured.
 //
 // Input: a scene (scene/scene.h) and the view; never anything flattened. It has its own
 // tree, its own intersections and its own shading, written from the language alone. Results do not depend on
 // the number of threads. Geometry is kept relative to the camera's position, so that a scene far from 0 loses
 // nothing. Positions that come in or go out are in scene units, relative to the scene's own origin.
 // Ownership: scene and view must outlive the reference. Errors: NULL or REFERENCE_NO_MEMORY where
-// memory ends; values that are not finite are counted and are no error here.
+// memory ends; values that are not finite are counted and are not an error here.
 // Thread safety: immutable once made; all calls may run at the same time.
 #ifndef GLINT_REFERENCE_REFERENCE_H
 #define GLINT_REFERENCE_REFERENCE_H
@@ -19,7 +20,7 @@ struct ir_image;
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
 #define REFERENCE_VERSION 3
 
-// How far paths are followed where the file is not to be obeyed.
+// How far paths are followed where the file's own limits do not apply.
 #define REFERENCE_MIN_WEIGHT 1e-6
 #define REFERENCE_MAX_DEPTH  200
 #define REFERENCE_NO_SEGMENT UINT32_MAX
@@ -40,7 +41,7 @@ struct reference_settings {
     uint32_t width, height;   // pixels
     uint32_t samples;         // per pixel, at least 1
     uint32_t max_depth;       // a surface this deep sends no ray
-    double min_weight;        // rays of less are not followed
+    double min_weight;        // rays of a lower weight are not followed
     bool cut_sees_background; // what a ray sees that max_depth cut; else nothing
     // Rays, shadow rays counted, that one sample may take. Where they end, as_file reports a fault; else the
     // rays not followed count among the weight left.
@@ -56,7 +57,7 @@ struct reference_settings reference_settings_of(const struct ir_scene *ir, const
 struct reference_fault {
     uint32_t pixels; // how many; the rest is about the first of them, by rows
     uint32_t x, y;
-    uint32_t body; // last met in IR order; HIT_NONE: none
+    uint32_t body; // last hit, in IR order; HIT_NONE: none
     uint32_t triangle;
 };
 
@@ -69,8 +70,8 @@ struct reference_statistics {
     // and the mean over all.
     double left_weight_most, left_weight_mean;
     double brightest; // of anything in view: background, direct light of a surface, pixel; one channel
-    // left_weight_most * brightest: what following all rays could add to a pixel, unless they meet something
-    // brighter than all that was met.
+    // left_weight_most * brightest: what following all rays could add to a pixel, unless they hit something
+    // brighter than all that was hit.
     double bound;
     struct reference_fault not_finite;    // the pixel is NaN
     struct reference_fault over_segments; // as_file: part of the pixel's light is missing
@@ -102,7 +103,7 @@ enum reference_result reference_render(const struct reference *reference,
                                        const struct reference_settings *settings, double *rgb,
                                        const struct reference_progress *progress,
                                        struct reference_statistics *statistics);
-// width * height records: what sample 0 of each pixel meets.
+// width * height records: what sample 0 of each pixel hits.
 enum reference_result reference_hits(const struct reference *reference,
                                      const struct reference_settings *settings, struct hit_pixel *hits,
                                      const struct reference_progress *progress);
@@ -154,8 +155,8 @@ struct reference_segment {
     double cut_weight; // of the rays that this surface would have sent and that were not followed
 };
 
-// Follows sample `sample` of pixel x, y; gives the number of rays, of which the first `capacity` are written.
-// *radiance (may be NULL) is the sample's value. 0: no memory.
+// Follows sample `sample` of pixel x, y; returns the number of rays, of which the first `capacity` are
+// written. *radiance (may be NULL) is the sample's value. 0: no memory.
 uint32_t reference_log(const struct reference *reference, const struct reference_settings *settings,
                        uint32_t x, uint32_t y, uint32_t sample, struct reference_segment *segments,
                        uint32_t capacity, vec3 *radiance);

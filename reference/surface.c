@@ -1,4 +1,4 @@
-// What a ray met, and where light comes from that leaves it (LANGUAGE "Hit", "Checker").
+// What a ray hit, and where light comes from that leaves it (LANGUAGE "Hit", "Checker").
 #include "reference/parts.h"
 
 static vec3 vertex(const struct primitive *p, int k) {
@@ -111,14 +111,14 @@ static void triangle_surface(const struct body *body, const struct ray *ray, con
         s->shading = smooth_normal(body, s, b);
 }
 
-void reference_surface(const struct reference *r, const struct ray *ray, const struct meeting *met,
+void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out) {
-    const struct primitive *p = &r->primitives[met->primitive];
+    const struct primitive *p = &r->primitives[hit->primitive];
     const struct body *body = &r->bodies[p->body];
-    const double b[3] = {1 - met->b1 - met->b2, met->b1, met->b2};
+    const double b[3] = {1 - hit->b1 - hit->b2, hit->b1, hit->b2};
     vec3 arm = {0, 0, 0};
     *out = (struct surface){
-        .body = p->body, .triangle = p->triangle, .distance = met->t, .b1 = met->b1, .b2 = met->b2};
+        .body = p->body, .triangle = p->triangle, .distance = hit->t, .b1 = hit->b1, .b2 = hit->b2};
     if (p->is_sphere)
         sphere_surface(ray, p, out, &arm);
     else
@@ -127,22 +127,6 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
 }
 
 // ---- rays that leave
-
-// Displaced by the point's error, then one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not
-// only by the error along the normal: that along the surface can carry the point across an edge.
-vec3 reference_start(const struct surface *s, vec3 side) {
-    vec3 size = absolute(side);
-    double distance = fmax(vec3_dot(size, s->error), vec3_max_abs(s->error));
-    vec3 shift = vec3_mul(side, distance);
-    vec3 at = vec3_add(s->point, shift);
-    if (shift.x != 0)
-        at.x = nextafter(at.x, shift.x > 0 ? INFINITY : -INFINITY);
-    if (shift.y != 0)
-        at.y = nextafter(at.y, shift.y > 0 ? INFINITY : -INFINITY);
-    if (shift.z != 0)
-        at.z = nextafter(at.z, shift.z > 0 ? INFINITY : -INFINITY);
-    return at;
-}
 
 static vec3 mirror(vec3 d, vec3 n) {
     return vec3_sub(d, vec3_mul(n, 2 * vec3_dot(d, n)));

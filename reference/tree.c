@@ -1,7 +1,7 @@
 // The reference's own tree: binary, boxes in double, split by the surface area heuristic in bins (Wald 2007,
 // "On fast Construction of SAH-based Bounding Volume Hierarchies").
 //
-// A range of n items has 2n - 1 nodes at most, its first child's behind its own node, then its second's: so
+// A range of n items has 2n - 1 nodes at most, its first child's after its own node, then its second's: so
 // every node's place is known before its children are built, and the tree does not depend on threads.
 #include "core/heap.h"
 #include "core/parallel.h"
@@ -68,7 +68,7 @@ static void put_box(struct item *item, const struct primitive *p, bool is_sphere
     }
 }
 
-// The last body that begins no later: those without primitives end before the one whose number they share.
+// The last body that begins no later: bodies without primitives come before the one whose number they share.
 static const struct body *body_of(const struct reference *r, uint32_t number) {
     uint32_t low = 0;
     uint32_t high = r->input.scene->body_count;
@@ -186,7 +186,7 @@ static size_t partition(const struct building *b, struct range range, const stru
     return left;
 }
 
-// Fills the node's box and gives where the range is split.
+// Fills the node's box and returns where the range is split.
 static size_t split(const struct building *b, struct range range) {
     struct tree_node *node = &b->nodes[range.node];
     struct box box = no_box();

@@ -12,7 +12,7 @@ enum {
 
 // ---- boxes
 
-// Coordinates are never NaN here, so that plain comparisons do (fmin and fmax are calls).
+// Coordinates are never NaN here, so that plain comparisons are enough (fmin and fmax are calls).
 static vec3 least(vec3 a, vec3 b) {
     return (vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
 }
@@ -175,7 +175,7 @@ void scene_build_bodies(struct scene *scene, struct arena *arena) {
     }
 }
 
-// ---- what is asked of bodies
+// ---- questions about bodies
 
 uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle) {
     return body->materials[body->mesh ? body->mesh->triangles[triangle].group : 0];

@@ -27,8 +27,8 @@ enum scene_shape {
 
 // In IR order (ir.h). Models whose mesh could not be loaded are bodies without triangles.
 struct scene_body {
-    // Of the language: its name is what people call the body. NULL: the program made it, it stands in no
-    // file.
+    // Of the language: its name is what people call the body. NULL: the program made it, and it is in
+    // no file.
     const struct schema_element *element;
     uint32_t index; // among the bodies of this element
     const struct ir_head *head;
@@ -48,7 +48,7 @@ struct scene_body {
     vec3 lower, upper; // a box around it: of a mesh, around its transformed box; lower > upper: no mesh
 };
 
-// A material as light meets it. Colours are linear and not yet multiplied by their weights.
+// A material as the tracers see it. Colours are linear and not yet multiplied by their weights.
 struct scene_material {
     double diffuse_weight, specular_weight, reflection, refraction;
     vec3 diffuse[2]; // of the odd cells too, where it is a checker; else equal
@@ -85,14 +85,14 @@ bool scene_is_body(const struct schema_element *element);
 uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle);
 // The object_to_world of a parallelogram.
 affine3 scene_parallelogram(vec3 corner, vec3 edge_u, vec3 edge_v);
-// Changes where a body stands: object_to_world and, of a sphere, the radius; its box follows.
+// Moves a body: object_to_world and, of a sphere, the radius; its box follows.
 void scene_body_place(struct scene_body *body, affine3 object_to_world, double radius);
-// The corners of a triangle in file order, through a map that stands for object_to_world: often the same
+// The corners of a triangle in file order, through a map in place of object_to_world: often the same
 // relative to an origin (transform_relative), which is then taken off before anything is rounded.
 void scene_corners(const struct scene_body *body, const affine3 *map, uint32_t triangle, vec3 corners[3]);
-// The least box around a body, through such a map; false: there is nothing of it.
+// The least box around a body, through such a map; false: it is empty.
 bool scene_body_bounds(const struct scene_body *body, const affine3 *map, vec3 *lower, vec3 *upper);
-// The least box around all bodies in scene units; false: there is nothing.
+// The least box around all bodies in scene units; false: there are none.
 bool scene_bounds(const struct scene *scene, vec3 *lower, vec3 *upper);
 // Adds an error (E409) for each model whose box reaches beyond the coordinates that the language allows.
 void scene_check_reach(const struct scene *scene, struct diag_sink *sink);

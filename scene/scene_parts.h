@@ -4,7 +4,7 @@
 
 #include "scene/scene.h"
 
-// Fills the bodies; the rest of the scene is there.
+// Fills the bodies; the rest of the scene is complete.
 void scene_build_bodies(struct scene *scene, struct arena *arena);
 
 #endif

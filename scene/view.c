@@ -13,7 +13,7 @@ static vec3 column(mat3 m, int j) {
 // ---- the camera
 
 // Right and up for a direction of view. An up along the view was refused where it was written; the default
-// one gives way: +z where the view goes up, -z where it goes down.
+// one is replaced: by +z where the view goes up, -z where it goes down.
 static void orient(struct view_camera *camera, vec3 forward, vec3 up) {
     vec3 right = vec3_cross(forward, vec3_unit(up));
     if (!(vec3_length(right) >= 1e-9))

@@ -1,6 +1,6 @@
 // Camera and lights in double precision, automatic ones included: the same for GPU and reference.
 //
-// What the IR and the loaded meshes together say about where one looks from and what shines.
+// What the IR and the loaded meshes together say about camera and lights.
 // Ownership: names point into the IR; lights in the caller's arena.
 #ifndef GLINT_SCENE_VIEW_H
 #define GLINT_SCENE_VIEW_H
@@ -32,7 +32,7 @@ struct view {
 };
 
 // The view through camera `camera_index` of the scene (0 where it has none: the automatic camera for an
-// image of width x height pixels). Notes N401 and N402 tell about automatic ones where `sink` is not NULL.
+// image of width x height pixels). Notes N401 and N402 report automatic ones where `sink` is not NULL.
 void view_build(const struct scene *scene, uint32_t camera_index, int32_t width, int32_t height,
                 struct arena *arena, struct diag_sink *sink, struct view *out);
 

@@ -1,4 +1,4 @@
-// What other tracers do, to be measured beside glint's own ways (docs/accuracy.md, "Alternatives"); compiled
+// What other tracers do, to compare with glint's own ways (docs/accuracy.md, "Alternatives"); compiled
 // only with ALTERNATIVES, never into the kernels that make pictures.
 //
 // Offset: a ray leaves a surface from o + t d, moved along the geometric normal by a length that is chosen, and
@@ -7,7 +7,7 @@
 
 // Flat; 0: glint's own starts.
 layout(constant_id = CONSTANT_ALTERNATIVE_OFFSET) const float ALTERNATIVE_OFFSET = 0.0;
-// Of the way that the ray came.
+// As a part of the ray's length.
 layout(constant_id = CONSTANT_ALTERNATIVE_DISTANCE) const float ALTERNATIVE_DISTANCE = 0.0;
 // Flat, squared; 0: glint's own test.
 layout(constant_id = CONSTANT_ALTERNATIVE_CUT) const float ALTERNATIVE_CUT = 0.0;

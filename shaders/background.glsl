@@ -1,4 +1,4 @@
-// What a ray sees that meets nothing (docs/language.md, "Background"): own bilinear weights and own angles,
+// What a ray sees that hits nothing (docs/language.md, "Background"): own bilinear weights and own angles,
 // so that devices agree.
 
 vec3 background_texel(int x, int y) {

@@ -26,3 +26,22 @@ bool refracted(REAL3 d, surface s, out REAL3 t) {
     t = straight ? d : unit3(bent);
     return straight || k >= 0.0;
 }
+
+// What a surface sends on of a ray.
+struct scatter_rays {
+    REAL3 bent;                   // direction of the refracted ray
+    float reflection, refraction; // factors of the ray's throughput; 0: no such ray
+    bool total;                   // the mirrored ray has the weight of the refracted one too
+};
+
+scatter_rays scatter(REAL3 direction, surface s) {
+    scatter_rays rays = scatter_rays(direction, HAS_REFLECTION ? s.reflection : 0.0, 0.0, false);
+    if (HAS_REFRACTION) {
+        bool refracts = s.refraction > 0.0;
+        bool through = refracted(direction, s, rays.bent) && refracts;
+        rays.total = refracts && !through;
+        rays.reflection = rays.total ? s.reflection + s.refraction : rays.reflection;
+        rays.refraction = through ? s.refraction : 0.0;
+    }
+    return rays;
+}

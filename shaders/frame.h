@@ -1,9 +1,9 @@
-/* What the host tells the kernel about one frame (uniform buffer) and one dispatch (push constants), and
+/* What the host passes to the kernel about one frame (uniform buffer) and one dispatch (push constants), and
    the layout of what the kernel keeps between dispatches; compiled by C and by GLSL. */
 #ifndef GLINT_SHADERS_FRAME_H
 #define GLINT_SHADERS_FRAME_H
 
-/* Uniform buffer of BINDING_FRAME. A vector and the scalar behind it fill 16 bytes. Lengths are flat. */
+/* Uniform buffer of BINDING_FRAME. A vector and the scalar after it fill 16 bytes. Lengths are flat. */
 #define FRAME_FIELDS(VECTOR, FLOAT, UINT)                                                                    \
     VECTOR(camera_position)                                                                                  \
     UINT(light_count)                                                                                        \
@@ -22,14 +22,14 @@
     UINT(width) /* of the picture, in pixels */                                                              \
     UINT(height)                                                                                             \
     UINT(tiles_x)                                                                                            \
-    UINT(run_tiles) /* runs of so many tiles lie side by side */                                             \
+    UINT(run_tiles) /* runs of this many tiles are adjacent */                                               \
     UINT(runs)                                                                                               \
     UINT(run_step) /* run k is the picture's run k * run_step mod runs */                                    \
     UINT(sphere_count)                                                                                       \
     UINT(slice_iterations) /* past these a path is saved at the next ray boundary */                         \
     UINT(features)         /* of the scene: what the mask only makes possible, these bits decide */
 
-/* The camera once more, behind those, for kernels that trace in double precision. */
+/* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
     DOUBLE(double_position_x)                                                                                \
     DOUBLE(double_position_y)                                                                                \
@@ -70,7 +70,7 @@
 #define FAULT_SEGMENTS   2u /* the sample exceeded path_segments */
 #define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT */
 
-/* State of a path, word k of slot s at k * slots + s: ray origin, weight; direction, depth; radiance,
+/* State of a path, word k of slot s at k * slots + s: ray origin, throughput; direction, depth; radiance,
    segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare: kept
    between dispatches; then two words for each refracted ray that waits. In double precision places,
    directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. */

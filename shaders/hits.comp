@@ -1,4 +1,4 @@
-// What every pixel's first ray meets (scene/hits.h), with the camera, trees, surfaces and lights of the tracer.
+// What every pixel's first ray hits (scene/hits.h), with the camera, trees, surfaces and lights of the tracer.
 //
 // A dispatch traces one kind of ray (hits.h). Later kinds make the surface again from the hit that the first one
 // left in OUTPUT.
@@ -13,6 +13,7 @@
 #include "triangles.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
+#include "ray_offset.glsl"
 #include "lights.glsl"
 #include "bounce.glsl"
 #include "bits.glsl"
@@ -33,20 +34,17 @@ hit_record load_hit(uint at) {
 }
 
 hits_ray mirrored_ray(surface s, REAL3 direction) {
-    REAL3 bent;
-    bool total = s.refraction > 0.0 && !refracted(direction, s, bent);
-    return hits_ray(ray_start(s.point, s.error, s.geometric), reflected(direction, s), FAR_AWAY, false,
-                    s.reflection > 0.0 || total);
+    return hits_ray(ray_offset(s.point, s.error, s.geometric), reflected(direction, s), FAR_AWAY, false,
+                    scatter(direction, s).reflection > 0.0);
 }
 
 hits_ray refracted_ray(surface s, REAL3 direction) {
-    REAL3 bent;
-    bool through = refracted(direction, s, bent);
-    return hits_ray(ray_start(s.point, s.error, -s.geometric), bent, FAR_AWAY, false, through && s.refraction > 0.0);
+    scatter_rays rays = scatter(direction, s);
+    return hits_ray(ray_offset(s.point, s.error, -s.geometric), rays.bent, FAR_AWAY, false, rays.refraction > 0.0);
 }
 
 hits_ray shadow_ray(surface s, REAL3 direction, uint light) {
-    REAL3 start = ray_start(s.point, s.error, s.geometric);
+    REAL3 start = ray_offset(s.point, s.error, s.geometric);
     light_ray shadow = light_at(light, s, start, direction);
     return hits_ray(start, shadow.direction, shadow.t_max, true, shadow.value != vec3(0.0));
 }
@@ -98,7 +96,7 @@ void main() {
     }
     hit_record hit = hit_record(ray.end, 0.0, 0.0, NO_ITEM, 0u);
     uint iterations = 0u;
-    // Without shadows the tracer sends no such ray, and the light counts.
+    // Without shadows the tracer sends no shadow ray, and the light always counts.
     if (kind < HITS_LIGHTS || (HAS_SHADOWS && wants(FEATURE_SHADOWS))) {
         if (HAS_SPHERES)
             trace_spheres(ray.origin, ray.direction, ray.any, hit, iterations);

@@ -7,7 +7,7 @@
    lower first, or a float's bits and 0.
    0: t, b1 of the first ray's hit
    1: its b2; leaf item; number as in FAULT_NUMBER (HITS_NOTHING: none)
-   2: lights that would add something; those that do; numbers of what the mirrored and the refracted ray meet
+   2: lights that would add something; those that do; numbers of what the mirrored and the refracted ray hit
       (HITS_NOTHING: not sent, or nothing)
    3: shading normal as bits of floats; rays that did not end */
 #define HITS_WORDS   4

@@ -8,8 +8,8 @@
 #define KERNEL(name) extern const struct kernel kernel_##name##_texels, kernel_##name##_storage;
 
 KERNEL(trace)
-KERNEL(hits) // what every pixel's first ray meets
-KERNEL(log)  // what single rays meet, in full
+KERNEL(hits) // what every pixel's first ray hits
+KERNEL(log)  // what single rays hit, in full
 // In double precision.
 KERNEL(trace64)
 KERNEL(hits64)

@@ -1,7 +1,7 @@
 // What one light adds to a surface, shadows aside (docs/language.md, "Hit").
 
 struct light_ray {
-    vec3 value;     // what the light adds where nothing stands before it
+    vec3 value;     // what the light adds where nothing blocks it
     REAL3 direction; // from `start`; the light is at t = 1, or at infinity
     REAL t_max;
 };

@@ -1,4 +1,4 @@
-// What single rays meet and where they go on, told in full, with the code of the tracer: the host walks one
+// What single rays hit and where they go on, reported in full, with the code of the tracer: the host walks one
 // sample's path with it, ray by ray (tracer/render/render_log.c).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,6 +11,7 @@
 #include "triangles.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
+#include "ray_offset.glsl"
 #include "lights.glsl"
 #include "background.glsl"
 #include "bounce.glsl"
@@ -57,22 +58,18 @@ uint material_of(hit_record hit) {
     return shade & TRIANGLE_MATERIAL;
 }
 
-// As send_rays of the tracer.
 void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
-    REAL3 bent = ray.direction;
-    bool refracts = s.refraction > 0.0;
-    bool through = refracted(ray.direction, s, bent) && refracts;
-    float reflection = refracts && !through ? s.reflection + s.refraction : s.reflection;
-    uint flags = (s.enters ? LOG_ENTERS : 0u) | (refracts && !through ? LOG_TOTAL : 0u);
+    scatter_rays rays = scatter(ray.direction, s);
+    uint flags = (s.enters ? LOG_ENTERS : 0u) | (rays.total ? LOG_TOTAL : 0u);
     pixels[at + 2u] = uvec4(0u, 0u, flags, pixels[at + 2u].w);
     pixels[at + 3u] = uvec4(0u, 0u, 0u, material_of(hit));
-    write3(at + 4u, s.point, uvec2(floatBitsToUint(reflection), floatBitsToUint(through ? s.refraction : 0.0)));
+    write3(at + 4u, s.point, uvec2(floatBitsToUint(rays.reflection), floatBitsToUint(rays.refraction)));
     write3(at + 6u, s.geometric, uvec2(0u));
     write3(at + 8u, s.shading, uvec2(0u));
-    write3(at + 10u, ray_start(s.point, s.error, s.geometric), uvec2(0u));
+    write3(at + 10u, ray_offset(s.point, s.error, s.geometric), uvec2(0u));
     write3(at + 12u, reflected(ray.direction, s), uvec2(0u));
-    write3(at + 14u, ray_start(s.point, s.error, -s.geometric), uvec2(0u));
-    write3(at + 16u, bent, uvec2(0u));
+    write3(at + 14u, ray_offset(s.point, s.error, -s.geometric), uvec2(0u));
+    write3(at + 16u, rays.bent, uvec2(0u));
 }
 
 bool trace(REAL3 origin, REAL3 direction, bool any, inout hit_record hit) {
@@ -102,7 +99,7 @@ void main() {
         if (before.item == NO_ITEM)
             return;
         make_surface(before, ray.origin, ray.direction, s);
-        origin = ray_start(s.point, s.error, s.geometric);
+        origin = ray_offset(s.point, s.error, s.geometric);
         shadow = light_at(kind - LOG_LIGHTS, s, origin, ray.direction);
         hit.t = shadow.t_max;
         if (shadow.value == vec3(0.0))

@@ -1,4 +1,4 @@
-// Small arithmetic with a fixed order of operations: the module's own dot, cross and friends, because the
+// Small arithmetic with a fixed order of operations: own versions of dot, cross and the like, because the
 // built-in ones may be reordered or fused by a driver. gamma(n) = n u / (1 - n u) with u = 2^-24, or 2^-53 in
 // double precision, bounds the relative error of n roundings (Higham 2002, section 3.1).
 #ifdef ALTERNATIVES
@@ -68,20 +68,6 @@ float next_real(float x, float outward) {
     return outward == 0.0 ? x : intBitsToFloat(moved);
 }
 #endif
-
-// A start for rays that leave a surface on the side of `side` (unit): displaced by the point's error, then
-// one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not only by the error along the normal: the
-// error along the surface can carry the point across an edge, where a neighbour bends away from it.
-REAL3 ray_start(REAL3 point, REAL3 error, REAL3 side) {
-#ifdef ALTERNATIVES
-    if (alternative_moves())
-        return point + side * error.x;
-#endif
-    REAL distance = max(dot3(abs(side), error), largest3(error));
-    REAL3 shift = side * distance;
-    REAL3 moved = point + shift;
-    return REAL3(next_real(moved.x, shift.x), next_real(moved.y, shift.y), next_real(moved.z, shift.z));
-}
 
 // arctan for |x| <= tan(pi/8): own minimax fit of degree 5 in x^2, relative error 6.3e-10.
 float arctan_small(float x) {

@@ -6,7 +6,7 @@ const uint RAY_REFRACTED = 2u;
 
 struct path_state {
     REAL3 origin, direction;
-    float weight;
+    float throughput; // share of what the ray sees that the sample gets
     uint depth; // max_depth + 1: only sees the background
     uint kind;
     vec3 radiance; // of what is done
@@ -21,7 +21,7 @@ path_state begin_path(REAL3 direction) {
     path_state p;
     p.origin = CAMERA(position);
     p.direction = direction;
-    p.weight = 1.0;
+    p.throughput = 1.0;
     p.depth = 0u;
     p.kind = RAY_PRIMARY;
     p.radiance = vec3(0.0);

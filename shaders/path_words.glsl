@@ -1,7 +1,7 @@
 // How a path is kept from one dispatch to the next, and the refracted rays that wait in it.
 
-// Words lie by kind first, then by slot, so that neighbours lie together. The refracted rays that wait
-// until the reflected ones before them are done are there from the start: lavapipe writes and reads an
+// Words are ordered by kind first, then by slot, so that neighbours are adjacent. The refracted rays that wait
+// until the reflected ones before them are done are always in this buffer: lavapipe writes and reads an
 // indexed private array for all lanes, and a storage buffer only for those that want it.
 uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TILE_PIXELS) + slot; }
 
@@ -9,7 +9,7 @@ uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TIL
 const uint PATH_WORDS = STATE64_WORDS;
 const uint BRANCH_WORDS = STACK64_ENTRY_WORDS;
 
-// Two numbers to a word, the third with two more components.
+// Two numbers in a word, the third in the next with two more components.
 void put_real3(uint slot, uint word, dvec3 v, uvec2 more) {
     states[state_word(slot, word)] = uvec4(unpackDouble2x32(v.x), unpackDouble2x32(v.y));
     states[state_word(slot, word + 1u)] = uvec4(unpackDouble2x32(v.z), more);
@@ -21,7 +21,7 @@ dvec3 get_real3(uint slot, uint word, out uvec2 more) {
 }
 
 void put_path(uint slot, path_state p) {
-    put_real3(slot, 0u, p.origin, uvec2(floatBitsToUint(p.weight), p.depth));
+    put_real3(slot, 0u, p.origin, uvec2(floatBitsToUint(p.throughput), p.depth));
     put_real3(slot, 2u, p.direction, uvec2(p.stack_size, p.kind));
     states[state_word(slot, 4u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
     states[state_word(slot, 5u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
@@ -35,7 +35,7 @@ path_state load_path(uint slot) {
     p.direction = get_real3(slot, 2u, b);
     uvec4 w4 = states[state_word(slot, 4u)], w5 = states[state_word(slot, 5u)];
     dvec3 hit = get_real3(slot, 6u, c);
-    p.weight = uintBitsToFloat(a.x);
+    p.throughput = uintBitsToFloat(a.x);
     p.depth = a.y;
     p.stack_size = b.x;
     p.kind = b.y;
@@ -47,8 +47,8 @@ path_state load_path(uint slot) {
     return p;
 }
 
-void put_branch(uint slot, uint word, dvec3 origin, dvec3 direction, float weight, uint depth) {
-    put_real3(slot, word, origin, uvec2(floatBitsToUint(weight), depth));
+void put_branch(uint slot, uint word, dvec3 origin, dvec3 direction, float throughput, uint depth) {
+    put_real3(slot, word, origin, uvec2(floatBitsToUint(throughput), depth));
     put_real3(slot, word + 2u, direction, uvec2(0u));
 }
 
@@ -56,7 +56,7 @@ void get_branch(uint slot, uint word, inout path_state p) {
     uvec2 more, none;
     p.origin = get_real3(slot, word, more);
     p.direction = get_real3(slot, word + 2u, none);
-    p.weight = uintBitsToFloat(more.x);
+    p.throughput = uintBitsToFloat(more.x);
     p.depth = more.y;
 }
 #else
@@ -64,7 +64,7 @@ const uint PATH_WORDS = STATE_WORDS;
 const uint BRANCH_WORDS = STACK_ENTRY_WORDS;
 
 void put_path(uint slot, path_state p) {
-    states[state_word(slot, 0u)] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.weight));
+    states[state_word(slot, 0u)] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.throughput));
     states[state_word(slot, 1u)] = uvec4(floatBitsToUint(p.direction), p.depth);
     states[state_word(slot, 2u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
     states[state_word(slot, 3u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
@@ -78,7 +78,7 @@ path_state load_path(uint slot) {
     uvec4 w2 = states[state_word(slot, 2u)], w3 = states[state_word(slot, 3u)];
     uvec4 w4 = states[state_word(slot, 4u)], w5 = states[state_word(slot, 5u)];
     p.origin = uintBitsToFloat(w0.xyz);
-    p.weight = uintBitsToFloat(w0.w);
+    p.throughput = uintBitsToFloat(w0.w);
     p.direction = uintBitsToFloat(w1.xyz);
     p.depth = w1.w;
     p.radiance = uintBitsToFloat(w2.xyz);
@@ -91,15 +91,15 @@ path_state load_path(uint slot) {
     return p;
 }
 
-void put_branch(uint slot, uint word, vec3 origin, vec3 direction, float weight, uint depth) {
-    states[state_word(slot, word)] = uvec4(floatBitsToUint(origin), floatBitsToUint(weight));
+void put_branch(uint slot, uint word, vec3 origin, vec3 direction, float throughput, uint depth) {
+    states[state_word(slot, word)] = uvec4(floatBitsToUint(origin), floatBitsToUint(throughput));
     states[state_word(slot, word + 1u)] = uvec4(floatBitsToUint(direction), depth);
 }
 
 void get_branch(uint slot, uint word, inout path_state p) {
     uvec4 a = states[state_word(slot, word)], b = states[state_word(slot, word + 1u)];
     p.origin = uintBitsToFloat(a.xyz);
-    p.weight = uintBitsToFloat(a.w);
+    p.throughput = uintBitsToFloat(a.w);
     p.direction = uintBitsToFloat(b.xyz);
     p.depth = b.w;
 }
@@ -114,8 +114,8 @@ void save_path(uint slot, path_state p) {
     counters[COUNTER_COUNT + (1u - dispatch.read_list) * slots + place] = slot;
 }
 
-void push_branch(uint slot, inout path_state p, REAL3 origin, REAL3 direction, float weight, uint depth) {
-    put_branch(slot, PATH_WORDS + BRANCH_WORDS * p.stack_size, origin, direction, weight, depth);
+void push_branch(uint slot, inout path_state p, REAL3 origin, REAL3 direction, float throughput, uint depth) {
+    put_branch(slot, PATH_WORDS + BRANCH_WORDS * p.stack_size, origin, direction, throughput, depth);
     p.stack_size++;
 }
 

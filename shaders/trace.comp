@@ -2,7 +2,7 @@
 //
 // One loop, a ray an iteration: the path's own ray, or a shadow ray of the last hit. lavapipe runs 8
 // invocations as a vector in which an `if` never skips and only the end of a loop does: so lanes whose
-// chain of reflections has ended wait behind the inner loop, where the background is looked up once for
+// chain of reflections has ended wait after the inner loop, where the background is looked up once for
 // all, and then take up the refracted rays that wait on the stack.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -15,6 +15,7 @@
 #include "triangles.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
+#include "ray_offset.glsl"
 #include "lights.glsl"
 #include "background.glsl"
 #include "bounce.glsl"
@@ -26,8 +27,8 @@ layout(local_size_x = TILE_PIXELS, local_size_x_id = CONSTANT_WORKGROUP) in;
 // What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
 const uint SEGMENT_ITERATIONS = 9u;
 
-const uint PHASE_RAY = 0u;    // the path's ray is to be traced
-const uint PHASE_HIT = 1u;    // it was traced before: only the surface is to be made again
+const uint PHASE_RAY = 0u;    // the path's ray must be traced
+const uint PHASE_HIT = 1u;    // it was traced before: only the surface must be made again
 const uint PHASE_SHADOW = 2u; // a shadow ray
 
 const uint GOES_ON = 0u;
@@ -54,54 +55,47 @@ void count_ray(path_state p, bool own) {
         atomicMax(counters[COUNTER_DEEPEST], p.depth);
 }
 
-void count_cut(uint counter, uint lost, bool yes, float weight) {
+void count_cut(uint counter, uint lost, bool yes, float throughput) {
     if (HAS_COUNTERS && yes) {
         atomicAdd(counters[counter], 1u);
-        atomicMax(counters[lost], floatBitsToUint(weight));
+        atomicMax(counters[lost], floatBitsToUint(throughput));
     }
 }
 
 // A surface or a ray with a value that is infinite or no number: whatever came of it could look like any other
 // pixel, so the sample becomes a fault.
-void taint(inout path_state p, bool exists, REAL3 v, float weight) {
+void taint(inout path_state p, bool exists, REAL3 v, float throughput) {
     // The sum of finite parts of unit vectors is finite.
-    bool sound = is_finite(float(v.x + v.y + v.z) + weight);
+    bool sound = is_finite(float(v.x + v.y + v.z) + throughput);
     p.radiance = exists && !sound ? vec3(uintBitsToFloat(0x7fc00000u)) : p.radiance;
 }
 
-// Whether a child ray of this weight is followed; one cut by depth is, to see the background.
-bool is_followed(path_state p, float weight) {
-    bool heavy = weight > 0.0 && weight >= frame.min_weight;
+// Whether a child ray of this throughput is followed; one cut by depth is, to see the background.
+bool is_followed(path_state p, float throughput) {
+    bool heavy = throughput > 0.0 && throughput >= frame.min_weight;
     bool last = p.depth == frame.max_depth;
-    count_cut(COUNTER_CUT_WEIGHT, COUNTER_LOST_WEIGHT, weight > 0.0 && !heavy, weight);
-    count_cut(COUNTER_CUT_DEPTH, COUNTER_LOST_DEPTH, heavy && last, weight);
+    count_cut(COUNTER_CUT_WEIGHT, COUNTER_LOST_WEIGHT, throughput > 0.0 && !heavy, throughput);
+    count_cut(COUNTER_CUT_DEPTH, COUNTER_LOST_DEPTH, heavy && last, throughput);
     return heavy && !(HAS_DEPTH_BLACK && last && wants(FEATURE_DEPTH_BLACK));
 }
 
 // Sends the rays that leave the surface: the path goes on with one, the other waits. false: none.
 bool send_rays(uint slot, inout path_state p, surface s, REAL3 start) {
-    float reflection = HAS_REFLECTION ? s.reflection : 0.0;
-    bool through = false;
-    REAL3 bent = p.direction;
-    if (HAS_REFRACTION) {
-        bool refracts = s.refraction > 0.0;
-        through = refracted(p.direction, s, bent) && refracts;
-        reflection = refracts && !through ? s.reflection + s.refraction : reflection;
-        count(COUNTER_TOTAL_REFLECT, refracts && !through);
-    }
-    through = through && is_followed(p, p.weight * s.refraction);
-    REAL3 behind = ray_start(s.point, s.error, -s.geometric);
-    bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, p.weight * reflection);
-    float weight = p.weight;
+    scatter_rays rays = scatter(p.direction, s);
+    count(COUNTER_TOTAL_REFLECT, HAS_REFRACTION && rays.total);
+    float throughput = p.throughput;
+    bool through = HAS_REFRACTION && is_followed(p, throughput * rays.refraction);
+    REAL3 start_through = ray_offset(s.point, s.error, -s.geometric);
+    bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, throughput * rays.reflection);
     if (HAS_BRANCHES && back && through)
-        push_branch(slot, p, behind, bent, weight * s.refraction, p.depth + 1u);
-    p.origin = back ? start : behind;
-    p.direction = back ? reflected(p.direction, s) : bent;
-    p.weight = weight * (back ? reflection : s.refraction);
+        push_branch(slot, p, start_through, rays.bent, throughput * rays.refraction, p.depth + 1u);
+    p.origin = back ? start : start_through;
+    p.direction = back ? reflected(p.direction, s) : rays.bent;
+    p.throughput = throughput * (back ? rays.reflection : rays.refraction);
     p.kind = back ? RAY_REFLECTED : RAY_REFRACTED;
     p.depth++;
-    taint(p, back || through, p.direction, p.weight);
-    taint(p, HAS_BRANCHES && back && through, bent, weight * s.refraction);
+    taint(p, back || through, p.direction, p.throughput);
+    taint(p, HAS_BRANCHES && back && through, rays.bent, throughput * rays.refraction);
     return back || through;
 }
 
@@ -140,7 +134,7 @@ bool find_light(inout path_state p, surface s, REAL3 start, inout light_ray shad
     return found;
 }
 
-// What the path's own ray met.
+// What the path's own ray hit.
 uint take_hit(inout path_state p, hit_record hit) {
     hit.number = hit.item == NO_ITEM ? p.hit.number : hit.number; // a fault names the last hit
     p.hit = hit;
@@ -149,7 +143,7 @@ uint take_hit(inout path_state p, hit_record hit) {
     return hit.item == NO_ITEM ? MISSED : GOES_ON;
 }
 
-// What a shadow ray met: nothing lets the light through.
+// What a shadow ray hit: nothing lets the light through.
 void take_light(inout path_state p, hit_record hit, light_ray shadow) {
     p.light_sum = hit.item == NO_ITEM ? p.light_sum + shadow.value : p.light_sum;
     p.light++;
@@ -157,7 +151,7 @@ void take_light(inout path_state p, hit_record hit, light_ray shadow) {
 
 // All lights of a surface are in: on with the rays that it sends.
 uint leave_surface(uint slot, inout path_state p, surface s, REAL3 start) {
-    p.radiance += p.light_sum * p.weight;
+    p.radiance += p.light_sum * p.throughput;
     p.hit.item = NO_ITEM;
     return send_rays(slot, p, s, start) ? GOES_ON : ENDED;
 }
@@ -198,7 +192,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             if (state == GOES_ON && phase != PHASE_SHADOW) {
                 make_surface(p.hit, p.origin, p.direction, s);
                 taint(p, true, s.point + s.shading, 0.0);
-                start = ray_start(s.point, s.error, s.geometric);
+                start = ray_offset(s.point, s.error, s.geometric);
             }
             if (state == GOES_ON) {
                 phase = PHASE_SHADOW;
@@ -213,7 +207,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             }
         }
         if (state == MISSED)
-            p.radiance += background(vec3(p.direction)) * p.weight;
+            p.radiance += background(vec3(p.direction)) * p.throughput;
         if (HAS_BRANCHES && (state == MISSED || state == ENDED) && p.stack_size > 0u) {
             pop_branch(slot, p);
             state = GOES_ON;

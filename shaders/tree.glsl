@@ -3,7 +3,7 @@
 // Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
 // sections 4.1 and 4.2, with a decoding that never loses a hit: t = (p - o)/d + q * (2^e/d), the far side
 // multiplied by BOX_FAR_SCALE. In double precision t counts from where the ray enters the node, so that single
-// precision suffices behind it: see gpu_scene.h.
+// precision suffices after it: see gpu_scene.h.
 
 struct tree_ray {
     REAL3 origin;
@@ -112,7 +112,7 @@ bool has_nodes(uvec2 group) { return group.y > 0x00ffffffu; }
 
 // Takes the next node out of the group.
 uint next_node(inout uvec2 group, uint flip) {
-    // The exponent of the float tells the highest bit: cheaper than findMSB where that is emulated.
+    // The exponent of the float is the highest bit: cheaper than findMSB where that is emulated.
     uint bit = (floatBitsToUint(float(int(group.y >> 24u))) >> 23u) - 127u;
     group.y &= ~(0x1000000u << bit);
     uint slot = bit ^ flip;

@@ -40,7 +40,7 @@ struct run {
     double *exact;
     float *rgb, *shown[2]; // the device's picture; displayed: device, reference
     float *rest;           // the device's picture of the base, displayed; NULL: not made
-    struct diag_sink sink; // of flattening: what it says is told as a cell left out
+    struct diag_sink sink; // of flattening: its message becomes the reason why a cell was left out
 };
 
 static size_t pixels_of(const struct run *run) {

@@ -1,7 +1,7 @@
 // A scene at its extremes: moved, scaled, far away, with other indices, exponents, slivers, gaps, with light
 // and camera on surfaces; each variant on a device against the double-precision reference.
 //
-// Variants are made of the IR in memory, in double; meshes and images are loaded once. Each axis turns one
+// Variants are made of the IR in memory, in double; meshes and images are loaded once. Each axis varies one
 // thing; a cell is one value of it. Axes that need a shape of their own put it where the scene is, as large
 // as the scene. What is compared: the first rays (hits.h) and a picture of one sample a pixel, the reference
 // obeying the file's depth and weight. Precision auto is decided anew for each cell. Ownership:
@@ -81,7 +81,7 @@ struct extremes_progress {
     void *context;
 };
 
-// The bounds that hold where no others are given: YAML (app/settings/extreme_bounds.h), without a NUL behind
+// The bounds that hold where no others are given: YAML (app/settings/extreme_bounds.h), without a NUL after
 // it.
 extern const char extremes_default_bounds[];
 extern const size_t extremes_default_bounds_bytes;

@@ -36,7 +36,8 @@ enum {
 };
 uint32_t extreme_values(enum extreme_axis axis, double *values);
 
-// Fills `v` with a copy, changed as the cell says, and its view. Gives NULL, or why there is no such variant.
+// Fills `v` with a copy, changed as the cell says, and its view. Returns NULL, or why there is no such
+// variant.
 const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,
                          enum extreme_axis axis, double value);
 // The copy alone, with its view.

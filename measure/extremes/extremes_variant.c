@@ -64,7 +64,7 @@ static void make_view(struct variant *v) {
     turn_a_little(&v->view.camera);
 }
 
-// After the materials stands a copy of each, for meshes: their checkers do not grow with the scene.
+// After the materials comes a copy of each, for meshes: their checkers do not grow with the scene.
 static void copy_materials(struct variant *v) {
     struct scene *scene = &v->scene;
     const uint32_t count = scene->material_count;

@@ -146,14 +146,14 @@ static enum tradeoff_status run_rows(struct measuring *s) {
     if (status == TRADEOFF_DONE && !measuring_step(s, "the reference"))
         status = TRADEOFF_CANCELLED;
     if (status == TRADEOFF_DONE)
-        status = truth_make(s, &own.work, bounces(s));
+        status = ground_truth_make(s, &own.work, bounces(s));
     const struct plan_input input = {.base = s->base,
                                      .bounces = bounces(s),
                                      .deepest = own.work.deepest,
                                      .knows_double = gpu_info(s->input->gpu)->has_double,
                                      .has_triangles = s->flat[s->base.is_double].triangle_count > 0,
                                      .quick = s->out->options.quick,
-                                     .most_samples = s->out->truth_samples / 2};
+                                     .most_samples = s->out->ground_truth_samples / 2};
     const uint32_t count = status == TRADEOFF_DONE ? plan_single(&input, planned) : 0;
     s->steps = 1 + count + pairs_most(s) + times_rounds_most(s); // the reference is the first
     for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
@@ -238,7 +238,7 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
         reference_source_finish(&s->source[i]);
         free(s->hits[i]);
     }
-    free(s->truth);
+    free(s->ground_truth);
     free(s->shown);
     free(s->picture);
     free(s);

@@ -15,6 +15,7 @@
 #include "triangles.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
+#include "ray_offset.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;
 
@@ -76,6 +77,6 @@ void main() {
     surface s;
     make_surface(hit, ray.origin, ray.direction, s);
     bool same_side = dot3(ray.next, s.geometric) > 0.0;
-    REAL3 start = ray_start(s.point, s.error, same_side ? s.geometric : -s.geometric);
+    REAL3 start = ray_offset(s.point, s.error, same_side ? s.geometric : -s.geometric);
     write_second(index, trace(start, ray.next, FAR_AWAY, false), same_side);
 }

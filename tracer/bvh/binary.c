@@ -14,7 +14,8 @@ enum {
     LEVELS_BY_COST = 48,   // deeper ranges are halved, so that no input makes a deep tree
 };
 
-// What a finished subtree tells its parent: least costs as up to i + 1 roots (Ylitie et al. 2017, eq. 2).
+// What a parent needs to know of a finished subtree: its least costs as up to i + 1 roots (Ylitie et al.
+// 2017, eq. 2).
 struct subtree {
     struct bvh_box box;
     double cost[BVH_WIDTH - 1];
@@ -123,7 +124,7 @@ static void piece_bins(void *context, size_t begin, size_t end) {
     split_bins_add(bins, &cut->grid, cut->items + begin, end - begin);
 }
 
-// Moves each item to its side; `lefts` holds how many items left of the plane stand before the piece.
+// Moves each item to its side; `lefts` holds how many items left of the plane come before the piece.
 static void piece_part(void *context, size_t begin, size_t end) {
     struct wide_cut *cut = context;
     uint32_t left = cut->lefts[begin / PIECE_ITEMS];

@@ -49,7 +49,7 @@ struct bvh {
     uint32_t depth; // levels of nodes, at least 1: a traversal stack of this many entries suffices
 };
 
-// Builds the tree; `items` is working memory afterwards. count 0 gives a node without children.
+// Builds the tree; `items` serves as working memory and is changed. count 0 makes a node without children.
 bool bvh_build(struct bvh_item *items, uint32_t count, enum bvh_method method, struct bvh *out);
 void bvh_finish(struct bvh *bvh);
 

@@ -58,7 +58,7 @@ static void put_byte(uint32_t pair[2], int slot, uint32_t byte) {
     pair[slot / 4] |= byte << (slot % 4 * 8);
 }
 
-// Planes of an empty slot are turned inside out, so that no ray meets it.
+// Planes of an empty slot are turned inside out, so that no ray hits it.
 static void encode_axis(const struct wide_child slots[BVH_WIDTH], int axis, const struct axis_grid *grid,
                         uint32_t low[2], uint32_t high[2]) {
     double wide = widening(grid->exponent);
@@ -77,7 +77,7 @@ static void encode_axis(const struct wide_child slots[BVH_WIDTH], int axis, cons
     }
 }
 
-// Gives the mask of children that are nodes.
+// Returns the mask of children that are nodes.
 static uint32_t encode_meta(const struct wide_child slots[BVH_WIDTH], uint32_t meta[2]) {
     static const uint32_t unary[BVH_LEAF_ITEMS + 1] = {0, 1, 3, 7};
     uint32_t mask = 0;

@@ -22,7 +22,7 @@ struct split_grid {
 };
 
 struct split_plane {
-    int axis; // -1: no plane parts the items
+    int axis; // -1: no plane separates the items
     int bin;  // the first bin of the right side
 };
 
@@ -40,7 +40,7 @@ void split_bins_merge(struct split_bins *into, const struct split_bins *from);
 // The plane of least Σ area * items.
 struct split_plane split_best(const struct split_bins *bins, const struct split_grid *grid);
 
-// Cuts items[0, count) in place and gives the number of those on the left, 0 < result < count.
+// Cuts items[0, count) in place and returns the number of those on the left, 0 < result < count.
 // count is at least 2.
 uint32_t split_items(struct bvh_item *items, uint32_t count);
 // Halves by number along the axis where the middles spread most; by order where they do not spread.

@@ -33,7 +33,7 @@ static bool is_leaf(const struct binary_tree *tree, struct binary_range range) {
     return range.count == 1 || tree->nodes[range.node].decision[0];
 }
 
-// The roots of a subtree that is to become at most `roots` of them, left to right.
+// The roots of a subtree that becomes at most `roots` of them, left to right.
 static uint32_t gather(const struct binary_tree *tree, struct binary_range range, int roots, bool must_open,
                        struct binary_range found[BVH_WIDTH], uint32_t count) {
     if (range.count > 1) {
@@ -128,7 +128,7 @@ static void write_nodes(void *context, size_t begin, size_t end) {
     }
 }
 
-// Numbers the children of a level; gives the number of nodes of the next.
+// Numbers the children of a level; returns the number of nodes of the next.
 static uint32_t number_children(struct pending *nodes, uint32_t count, uint32_t next_first, uint32_t *items) {
     uint32_t next = next_first;
     for (uint32_t i = 0; i < count; i++) {

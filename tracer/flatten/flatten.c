@@ -120,7 +120,7 @@ static enum flatten_fault run(struct flattening *f) {
     return FLATTEN_DONE;
 }
 
-// In double precision the camera may stand so far from all bodies that the float boxes of the trees, as
+// In double precision the camera may be so far from all bodies that the float boxes of the trees, as
 // coarse as a float at their distance, would hold many triangles at once: then the place of the bodies' box
 // that is nearest to it. All numbers move with the scene.
 static vec3 origin_of(const struct flat_input *input) {

@@ -1,4 +1,4 @@
-// Materials, lights, the background and what of the tracer all of it needs.
+// Materials, lights, the background, and which features of the tracer they need.
 #include "core/parallel.h"
 #include "core/srgb.h"
 #include "grammar/ir_features.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-// A point light further than this, in flat units, is as good as infinitely far away.
+// A point light further than this, in flat units, counts as infinitely far away.
 #define LIGHT_DISTANCE_MAX 0x1p40
 
 enum {

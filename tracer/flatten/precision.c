@@ -20,7 +20,7 @@ struct triangle_least {
     struct precision_measure edge, height;
 };
 
-// Whether the camera stands before the triangle rather than beside it: roughly, by its box.
+// Whether the camera is above the triangle rather than beside it: roughly, by its box.
 static bool is_above(vec3 camera, const vec3 corners[3], double margin) {
     vec3 lower = vec3_min(corners[0], vec3_min(corners[1], corners[2]));
     vec3 upper = vec3_max(corners[0], vec3_max(corners[1], corners[2]));
@@ -95,7 +95,7 @@ static bool measure_triangles(const struct flat_input *input, const struct scene
 
 // ---- bodies
 
-// How large a body is, as far as its size stands for details that nothing else measures.
+// How large a body is, as far as its size represents details that nothing else measures.
 static void note_size(const struct scene_body *body, const struct precision_body *measured,
                       struct precision_report *out) {
     struct precision_measure size = {.length = body->radius,

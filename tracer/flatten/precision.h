@@ -1,10 +1,10 @@
 // Whether single precision suffices for a scene, from its numbers alone (docs/decisions/precision.md).
 //
 // A coordinate at distance D from the flat scene's origin is rounded to steps of D * 2^-24, and what is about
-// as small as a step is lost: so each feature is told in steps at its place, and needs PRECISION_STEPS of
+// as small as a step is lost: so each feature is measured in steps at its place, and needs PRECISION_STEPS of
 // them. Measured: the shortest edge of every triangle; the size of every model and sphere; the gaps between
 // bodies, by their boxes, exact among spheres and parallelograms; the camera's height above large triangles.
-// Not measured: gaps inside a model other than along an edge (its size stands for them: gaps down to 1e-4 of
+// Not measured: gaps inside a model other than along an edge (its size represents them: gaps down to 1e-4 of
 // it), and gaps between bodies whose boxes overlap, one of which is a model. All in double precision, in
 // scene units. Input: as flatten. Errors: false when memory ends. Thread safety: pure.
 #ifndef GLINT_TRACER_FLATTEN_PRECISION_H

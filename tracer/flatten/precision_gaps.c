@@ -17,7 +17,7 @@ static double component(vec3 v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// ---- how far two bodies lie apart; NAN: unknown, or they meet
+// ---- the distance between two bodies; NAN: unknown, or they touch
 
 static double between_boxes(const struct precision_body *a, const struct precision_body *b) {
     vec3 gap = vec3_max(vec3_sub(a->lower, b->upper), vec3_sub(b->lower, a->upper));

@@ -12,8 +12,8 @@ struct precision_body {
     uint32_t body;     // in IR order
 };
 
-// Below this a gap or height is none: what touches in the file is torn apart by the rounding of numbers, of
-// those of the scene's coordinates and of `distance`, which is relative to the origin.
+// Below this a gap or height does not count: what touches in the file is separated by the rounding of
+// numbers, of those of the scene's coordinates and of `distance`, which is relative to the origin.
 static inline double precision_contact(const struct flat_input *input, double distance) {
     return fmax(0x1p-40 * distance, 0x1p-50 * (vec3_max_abs(input->origin) + distance));
 }

@@ -2,8 +2,8 @@
 //
 // Compute only and headless. The Vulkan loader is opened at run time: a program that never calls
 // gpu_create or gpu_list runs where no Vulkan is installed. CPU drivers (lavapipe) are devices like others.
-// Errors: functions give false, or a status; gpu_error then has one line of text. After GPU_LOST nothing
-// but destroying works. Ownership: *_create gives a heap object, *_destroy takes NULL; buffers and
+// Errors: functions return false, or a status; gpu_error then has one line of text. After GPU_LOST nothing
+// but destroying works. Ownership: *_create returns a heap object, *_destroy takes NULL; buffers and
 // programs must be destroyed before their gpu. Sizes in bytes, times in seconds.
 // Thread safety: one thread at a time for a gpu and all that belongs to it, and one in the whole process
 // for gpu_list, gpu_create and gpu_destroy.
@@ -38,7 +38,7 @@ enum {
 
 struct gpu_device_info {
     char name[256];
-    char driver[520]; // name and version as the driver tells them; may be empty
+    char driver[520]; // name and version as the driver reports them; may be empty
     uint32_t number;  // what `device` may name
     enum gpu_kind kind;
     uint64_t memory_bytes;  // of the largest heap that is the device's own
@@ -61,7 +61,7 @@ struct gpu;
 struct gpu_buffer;
 struct gpu_program;
 
-// Fills at most `capacity` devices, *count tells how many there are. `error` gets text unless GPU_OK.
+// Fills at most `capacity` devices, *count becomes the number there are. `error` gets text unless GPU_OK.
 enum gpu_status gpu_list(struct gpu_device_info *items, uint32_t capacity, uint32_t *count,
                          char error[GPU_ERROR_BYTES]);
 // On GPU_OK *out is a gpu; else NULL, with text in `error`.
@@ -103,11 +103,12 @@ struct gpu_program_source {
 // Compiles a kernel and ties it to its buffers, which must outlive it. NULL on failure.
 struct gpu_program *gpu_program_create(struct gpu *gpu, const struct gpu_program_source *source);
 void gpu_program_destroy(struct gpu *gpu, struct gpu_program *program);
-// Ties a kernel to other buffers, of the same uses and at the same bindings. Nothing may be under way.
+// Ties a kernel to other buffers, of the same uses and at the same bindings. No dispatch may be recorded or
+// running.
 void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
                       struct gpu_buffer *const buffers[GPU_BINDINGS]);
 
-// Records a dispatch of groups_x times groups_y workgroups behind those recorded before; each sees what
+// Records a dispatch of groups_x times groups_y workgroups after those recorded before; each sees what
 // the ones before it wrote. `push` holds the program's push constants.
 bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
                   const void *push);

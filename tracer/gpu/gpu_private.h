@@ -6,7 +6,7 @@
 
 #include <volk.h>
 
-// A Vulkan instance with what belongs to it; on the way to a device or for the list of devices alone.
+// A Vulkan instance with what belongs to it: to open a device, or for the list of devices alone.
 struct gpu_instance {
     VkInstance handle;
     VkDebugUtilsMessengerEXT messenger;
@@ -61,7 +61,7 @@ struct gpu_program {
 enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gpu_instance *out, char *error);
 void gpu_instance_finish(struct gpu_instance *instance);
 // Devices that can compute, in the loader's order, and their descriptions; the caller frees both.
-// Gives how many there are.
+// Returns how many there are.
 uint32_t gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
                               struct gpu_device_info **infos);
 // Family of a queue that computes; UINT32_MAX where there is none.
@@ -69,7 +69,7 @@ uint32_t gpu_compute_family(VkPhysicalDevice physical);
 
 // ---- gpu_fault.c
 
-// Notes a failed call; gives true where `result` is a success.
+// Notes a failed call; returns true where `result` is a success.
 bool gpu_check(struct gpu *gpu, VkResult result, const char *call);
 void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

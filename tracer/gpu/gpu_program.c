@@ -32,7 +32,7 @@ static bool is_unknown(const struct gpu *gpu, const uint32_t *instruction) {
     }
 }
 
-// Takes out of a module what it asks for and the device does not know; gives the words left.
+// Takes out of a module what it asks for and the device does not know; returns the number of words left.
 static size_t drop_unknown(const struct gpu *gpu, uint32_t *spirv, size_t words) {
     size_t count = SPIRV_HEADER_WORDS;
     for (size_t at = SPIRV_HEADER_WORDS, length; at < words; at += length) {

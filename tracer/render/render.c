@@ -8,7 +8,7 @@
 
 enum {
     SHORT_PATH_RAYS = 4,    // paths of at most these are never saved
-    BAND_TILES_MAX = 16384, // a megapixel: progress is told, and Ctrl-C seen, between bands
+    BAND_TILES_MAX = 16384, // a megapixel: progress is reported, and Ctrl-C seen, between bands
     RUN_TILES = 32,         // 65536 runs at most in 64 megapixels: their products fit 32 bits
     SLOT_OUTPUT_BYTES = 16,
     WORD_BYTES = 16,

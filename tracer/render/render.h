@@ -13,7 +13,7 @@
 #include "tracer/gpu/gpu.h"
 
 // Ways of other tracers, to be measured beside glint's own (shaders/alternatives.glsl); none is for pictures.
-// An offset moves a ray's start along the normal by so many scene units, and takes hits from t > 0 on.
+// An offset moves a ray's start along the normal by a number of scene units, and takes hits from t > 0 on.
 enum render_alternative {
     RENDER_ALTERNATIVE_NONE,
     RENDER_ALTERNATIVE_OFFSET_3,        // by 1e-3
@@ -40,7 +40,7 @@ struct render_settings {
     // counters) are added where needed.
     uint32_t features;
     uint64_t path_segments;              // LIMIT_PATH_SEGMENTS
-    uint32_t slice_iterations;           // SLICE_ITERATIONS of shaders/frame.h; 0 gives slices of one ray
+    uint32_t slice_iterations;           // SLICE_ITERATIONS of shaders/frame.h; 0: slices of one ray
     enum render_alternative alternative; // in single precision only
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
     uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
@@ -102,7 +102,7 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
 void renderer_destroy(struct renderer *renderer);
 // Other settings, or other features of the flat scene, for what lies on the device already: `flat` is the
 // renderer's own or a copy of it. Compiles anew where that is needed. false: see gpu_error; then the renderer
-// is of no use but to be destroyed.
+// can only be destroyed.
 bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
                      const struct render_settings *settings);
 // Renders a frame into width * height * 3 floats, rows from the top: the mean of the samples, before tone
@@ -113,13 +113,13 @@ enum render_result renderer_render(struct renderer *renderer, const struct view_
 // Renders the frame once more with a kernel that counts, and throws the picture away.
 enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
                                   const struct render_progress *progress, struct render_rays *rays);
-// What each pixel's first ray meets (scene/hits.h), by the tracer's own code: width * height entries, rows
+// What each pixel's first ray hits (scene/hits.h), by the tracer's own code: width * height entries, rows
 // from the top. Sends, for each pixel, the camera's ray, one to each of the first 32 lights that would add
 // something, and the mirrored and refracted one where they have a weight (total reflection mirrors), whatever
 // max_depth and min_weight say. Numbers are those of the picture that renderer_render makes.
 enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
                                  struct hit_pixel *out, const struct render_progress *progress);
-// Rays of the last renderer_hits that did not end; what they would have met is told as nothing.
+// Rays of the last renderer_hits that did not end; what they would have hit is reported as nothing.
 uint64_t renderer_hits_unfinished(const struct renderer *renderer);
 
 enum render_ray {
@@ -128,7 +128,7 @@ enum render_ray {
     RENDER_RAY_REFRACTED,
 };
 
-// A ray of a sample's path. Numbers are the kernel's own, told in double and scene units.
+// A ray of a sample's path. Numbers are the kernel's own, as doubles and in scene units.
 struct render_segment {
     enum render_ray kind;
     uint32_t parent; // index in the log; UINT32_MAX for the camera's ray
@@ -154,7 +154,7 @@ struct render_log {
     float rgb[3]; // of the sample, bit for bit the picture's where it is whole and its only sample
 };
 
-// Follows one sample of one pixel and tells of each ray.
+// Follows one sample of one pixel and logs each ray.
 enum render_result renderer_log(struct renderer *renderer, const struct view_camera *camera, uint32_t x,
                                 uint32_t y, uint32_t sample, struct render_log *log);
 

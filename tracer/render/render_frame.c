@@ -177,7 +177,7 @@ void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t 
     *body = number;
     if (number < flat->sphere_count)
         return;
-    // The last body whose first triangle is not behind this one.
+    // The last body whose first triangle is not after this one.
     const uint32_t wanted = number - flat->sphere_count;
     uint32_t low = flat->sphere_count, high = flat->body_count;
     while (high - low > 1) {

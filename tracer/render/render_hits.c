@@ -1,4 +1,4 @@
-// What every pixel's first ray meets: a dispatch a band and kind of ray, and the way to bodies and pixels.
+// What every pixel's first ray hits: a dispatch a band and kind of ray, and the way to bodies and pixels.
 #include "tracer/render/render_private.h"
 
 #include "core/parallel.h"

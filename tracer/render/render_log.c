@@ -1,4 +1,4 @@
-// One sample's path, told ray by ray: the host decides which rays go on, as the tracer does, and the log
+// One sample's path, logged ray by ray: the host decides which rays go on, as the tracer does, and the log
 // kernel follows all of a level at a time. Weights and sums are floats in the tracer's order.
 #include "tracer/render/render_private.h"
 
@@ -20,11 +20,11 @@ struct renderer_log {
     struct gpu_word told[BATCH_RAYS * LOG_WORDS];
 };
 
-// A ray while the path is walked: by levels, so that children lie behind their parents.
+// A ray while the path is walked: by levels, so that children come after their parents.
 struct node {
     struct render_segment segment;
     struct gpu_word ray[LOG_RAY_WORDS];
-    float weight, radiance[3];
+    float throughput, radiance[3];
     uint32_t children[2]; // mirrored, refracted; NO_NODE: none
 };
 
@@ -119,11 +119,11 @@ static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, 
                       const struct gpu_word *ray) {
     const struct render_settings *settings = &walk->renderer->settings;
     const struct node *from = &walk->nodes[parent];
-    const float weight = from->weight * share;
-    const bool heavy = weight > 0 && weight >= (float)settings->min_weight;
+    const float throughput = from->throughput * share;
+    const bool heavy = throughput > 0 && throughput >= (float)settings->min_weight;
     const bool last = from->segment.depth == settings->max_depth;
-    if (weight > 0 && (!heavy || last))
-        walk->nodes[parent].segment.cut_weight += (double)weight;
+    if (throughput > 0 && (!heavy || last))
+        walk->nodes[parent].segment.cut_weight += (double)throughput;
     if (!heavy || (last && (walk->renderer->flat->features & FEATURE_DEPTH_BLACK)))
         return;
     if (walk->count == walk->capacity) {
@@ -131,7 +131,7 @@ static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, 
         return;
     }
     struct node *child = &walk->nodes[walk->count];
-    *child = (struct node){.weight = weight, .children = {NO_NODE, NO_NODE}};
+    *child = (struct node){.throughput = throughput, .children = {NO_NODE, NO_NODE}};
     child->segment.kind = kind;
     child->segment.parent = parent;
     child->segment.depth = from->segment.depth + 1;
@@ -161,7 +161,7 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
     const struct renderer *renderer = walk->renderer;
     struct node *node = &walk->nodes[index];
     struct render_segment *s = &node->segment;
-    s->weight = (double)node->weight;
+    s->weight = (double)node->throughput;
     s->origin = point_at(renderer, node->ray);
     s->direction = vector_at(renderer, node->ray + 2);
     s->radiance = (vec3){renderer_float(told[3].x), renderer_float(told[3].y), renderer_float(told[3].z)};
@@ -191,7 +191,7 @@ static bool tell(const struct walk *walk, struct render_log *log) {
         s->parent = index ? place[s->parent] : UINT32_MAX;
         place[index] = log->count++;
         for (int i = 0; i < 3; i++)
-            log->rgb[i] += node->radiance[i] * node->weight;
+            log->rgb[i] += node->radiance[i] * node->throughput;
         for (int i = 1; i >= 0; i--)
             if (node->children[i] != NO_NODE)
                 stack[size++] = node->children[i];
@@ -225,7 +225,7 @@ enum render_result renderer_log(struct renderer *renderer, const struct view_cam
         free(walk.nodes);
         return RENDER_FAILED;
     }
-    walk.nodes[0] = (struct node){.weight = 1, .children = {NO_NODE, NO_NODE}};
+    walk.nodes[0] = (struct node){.throughput = 1, .children = {NO_NODE, NO_NODE}};
     walk.count = 1;
     enum render_result result = RENDER_FAILED;
     if (make_camera_ray(renderer, x, y, sample, walk.nodes[0].ray))

@@ -50,7 +50,7 @@ struct renderer {
     struct gpu_program *program;  // of those kept
     struct gpu_program *counting; // the same; made by the first renderer_count
     struct renderer_kept kept[RENDERER_KEPT];
-    uint32_t kept_next;         // which one gives way
+    uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
     struct renderer_hits *hits; // made by the first renderer_hits
     struct renderer_log *log;   // made by the first renderer_log
@@ -75,7 +75,7 @@ float renderer_float(uint32_t bits);
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
 // The frame's uniforms for a camera.
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera);
-// Width of a grid of so many workgroups, which rows of one length hold.
+// Width of a grid of this many workgroups, in rows of equal length.
 uint32_t renderer_grid_width(uint32_t groups);
 // Body in IR order, and its triangle in file order, of a number as in FAULT_NUMBER.
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 static int compare_values(double a, double b) {
-    // NaN behind everything.
+    // NaN after everything.
     if (isnan(a) || isnan(b))
         return isnan(a) - isnan(b);
     return a < b ? -1 : a > b;
@@ -53,7 +53,7 @@ static bool is_slower(const struct search *s, uint32_t row, uint32_t than) {
     return s->rows[row].time_ms > s->rows[than].time_ms * (1 + s->noise);
 }
 
-// Of those that cannot be told from the fastest by their time the one of least work.
+// Of the rows whose times cannot be distinguished from the fastest, the one of least work.
 static uint32_t cheapest(const struct search *s, uint32_t without) {
     const uint32_t first = fastest(s, without);
     uint32_t best = first;
@@ -75,7 +75,7 @@ double choice_classify(struct choice_row *rows, uint32_t count) {
         rows[i].time_class = rows[i].rank = CHOICE_NONE;
         rows[i].on_front = false;
     }
-    // A class is what cannot be told from its fastest row.
+    // A class holds the rows that cannot be distinguished from its fastest.
     for (uint32_t class = 0; taken; class ++) {
         const uint32_t leader = fastest(&s, CHOICE_NONE);
         if (leader == CHOICE_NONE)
@@ -104,7 +104,7 @@ double choice_classify(struct choice_row *rows, uint32_t count) {
 
 // ---- the knee
 
-// Errors of 0 have no logarithm: a thousandth of the smallest other one stands for them.
+// Errors of 0 have no logarithm: a thousandth of the smallest other one is used instead.
 static double error_floor(const struct choice_row *rows, uint32_t count) {
     double least = INFINITY;
     for (uint32_t i = 0; i < count; i++)

@@ -28,7 +28,7 @@ struct choice_row {
     bool on_front;       // no cheaper row errs no more
 };
 
-// Gives the share of a time below which two are equal: three standard errors of a difference, at least the
+// Returns the share of a time below which two are equal: three standard errors of a difference, at least the
 // floor.
 double choice_classify(struct choice_row *rows, uint32_t count);
 
@@ -44,7 +44,7 @@ struct choice {
     double short_by;  // and how much it lacks: error, or milliseconds; NaN: there is none
 };
 
-// The cheapest row with error <= bound. `noise` is what choice_classify gave.
+// The cheapest row with error <= bound. `noise` is what choice_classify returned.
 struct choice choice_cheapest(const struct choice_row *rows, uint32_t count, double noise, double bound);
 // The cheapest row with error <= bound and time <= limit. The cheapest by its error alone may be a little
 // over the limit where another of its class keeps it. How near the others come is left to the other two:

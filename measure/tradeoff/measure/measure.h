@@ -51,11 +51,11 @@ struct measuring {
     struct ir_scene ir_shadowless;
     struct scene scene_shadowless; // over that IR
     struct reference_source source[2];
-    struct reference_settings full; // of the file's size, truth's samples and rays
-    double truth_rays;              // that a sample of the truth took, on average
-    double reference_rate;          // rays a second of the truth
-    // Displayed values of the truth, three a pixel of the file's size.
-    float *truth, *shown, *picture; // the two others are a row's, shown at the file's size
+    struct reference_settings full; // of the file's size, ground truth's samples and rays
+    double ground_truth_rays;       // that a sample of the ground truth took, on average
+    double reference_rate;          // rays a second of the ground truth
+    // Displayed values of the ground truth, three a pixel of the file's size.
+    float *ground_truth, *shown, *picture; // the two others are a row's, shown at the file's size
     struct image_display display;
     struct setting base;
     struct hit_pixel *hits[2]; // device's, reference's
@@ -70,7 +70,7 @@ struct measuring {
 
 // Since the study began.
 double measuring_seconds(const struct measuring *s);
-// Tells of a further step; false: cancelled.
+// Reports one more step; false: cancelled.
 bool measuring_step(struct measuring *s, const char *what);
 // Passes the reference's progress on.
 struct reference_progress measuring_reference_progress(struct measuring *s);
@@ -91,16 +91,16 @@ enum tradeoff_status device_time(struct measuring *s, const struct setting *sett
 enum tradeoff_status device_hits(struct measuring *s, const struct setting *setting, struct hit_pixel *hits);
 void device_close(struct measuring *s);
 
-// ---- measure_truth.c
+// ---- measure_ground_truth.c
 
 // The reference's picture of the file's size, displayed. `statistics` may be NULL.
-enum tradeoff_status truth_picture(struct measuring *s, const struct reference_settings *settings,
-                                   float *shown, struct reference_statistics *statistics);
-// Fills `full` and the truth, as far as the budget allows. `own`: of the file's settings; bounces: something
-// reflects or refracts.
-enum tradeoff_status truth_make(struct measuring *s, const struct work *own, bool bounces);
-// Whether the reference may trace so many rays more before the time for rows is over.
-bool truth_affords(const struct measuring *s, double rays);
+enum tradeoff_status ground_truth_picture(struct measuring *s, const struct reference_settings *settings,
+                                          float *shown, struct reference_statistics *statistics);
+// Fills `full` and the ground truth, as far as the budget allows. `own`: of the file's settings; bounces:
+// something reflects or refracts.
+enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *own, bool bounces);
+// Whether the reference may trace this many more rays before the time for rows is over.
+bool ground_truth_affords(const struct measuring *s, double rays);
 
 // ---- measure_errors.c
 

@@ -119,8 +119,9 @@ static bool measure(struct measuring *s, struct row *row) {
     options.pixels_per_degree = s->out->options.ppd;
     if (s->out->options.quick)
         options.metrics = 1u << s->out->options.metric;
-    bool good = (difference || !s->out->options.thumbnails) &&
-                measure_pictures(width, height, s->shown, s->truth, &options, &result, difference, NULL);
+    bool good =
+        (difference || !s->out->options.thumbnails) &&
+        measure_pictures(width, height, s->shown, s->ground_truth, &options, &result, difference, NULL);
     if (good)
         for (int i = 0; i < METRIC_COUNT; i++)
             row->value[i] = result.value[i];

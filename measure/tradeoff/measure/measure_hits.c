@@ -23,7 +23,7 @@ static enum tradeoff_status make_reference_hits(struct measuring *s) {
 enum tradeoff_status hits_measure(struct measuring *s, struct row *row) {
     if (!s->hits[1] && !s->no_hits)
         s->no_hits = s->out->hits_out =
-            !truth_affords(s, RAYS_A_HIT * (double)s->base.width * s->base.height);
+            !ground_truth_affords(s, RAYS_A_HIT * (double)s->base.width * s->base.height);
     if (s->no_hits)
         return TRADEOFF_DONE;
     enum tradeoff_status status = make_reference_hits(s);

@@ -1,8 +1,8 @@
 // The error of a picture, split: numeric, truncation, sampling, resolution.
 //
-// Whitted pictures are deterministic: between the device's picture and the truth lie pictures that the
-// reference can make, each apart from the one before by one cause. They are made at some pixels only, spread
-// evenly.
+// Whitted pictures are deterministic: between the device's picture and the ground truth lie pictures that the
+// reference can make, each different from the one before by one cause. They are made at some pixels only,
+// spread evenly.
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/parallel.h"
@@ -137,7 +137,7 @@ static double mean_difference(const float *a, const float *b, size_t count) {
 static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) {
     const size_t pixels = (size_t)s->base.width * s->base.height;
     if (!s->as_file && !s->only_probes)
-        s->only_probes = s->out->numeric_probed = !truth_affords(s, (double)s->out->rows[0].work.rays);
+        s->only_probes = s->out->numeric_probed = !ground_truth_affords(s, (double)s->out->rows[0].work.rays);
     if (s->only_probes)
         return TRADEOFF_DONE;
     if (!s->as_file) {
@@ -145,7 +145,7 @@ static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) 
             reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, true);
         float *shown = malloc(3 * pixels * sizeof *shown);
         const enum tradeoff_status status =
-            shown ? truth_picture(s, &settings, shown, NULL) : TRADEOFF_MEMORY;
+            shown ? ground_truth_picture(s, &settings, shown, NULL) : TRADEOFF_MEMORY;
         if (status != TRADEOFF_DONE) {
             free(shown);
             return status;
@@ -159,7 +159,8 @@ static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) 
 enum tradeoff_status parts_measure(struct measuring *s, struct row *row) {
     const struct setting *t = &row->setting;
     const uint32_t count = probe_count(s);
-    if (!truth_affords(s, count * s->truth_rays * (s->out->truth_samples + t->samples))) {
+    if (!ground_truth_affords(s,
+                              count * s->ground_truth_rays * (s->out->ground_truth_samples + t->samples))) {
         s->out->parts_out++;
         return TRADEOFF_DONE;
     }
@@ -167,28 +168,28 @@ enum tradeoff_status parts_measure(struct measuring *s, struct row *row) {
                                       t->min_weight, t->shadows, false,      NULL};
     struct probe_set full = {t->width, t->height, t->samples, 0, 0, s->base.shadows, true, NULL};
     const float *settings = probe(s, as_file), *paths = settings ? probe(s, full) : NULL;
-    full.samples = s->out->truth_samples;
+    full.samples = s->out->ground_truth_samples;
     const float *samples = paths ? probe(s, full) : NULL;
     float *own = malloc((size_t)6 * count * sizeof *own);
     if (!samples || !own) {
         free(own);
         return TRADEOFF_MEMORY;
     }
-    float *truth = own + (size_t)3 * count;
+    float *ground_truth = own + (size_t)3 * count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t x, y;
         probe_place(s, i, &x, &y);
         const size_t at = 3 * ((size_t)y * s->base.width + x);
         for (size_t k = 0; k < 3; k++) {
             own[3 * (size_t)i + k] = s->shown[at + k];
-            truth[3 * (size_t)i + k] = s->truth[at + k];
+            ground_truth[3 * (size_t)i + k] = s->ground_truth[at + k];
         }
     }
     row->parts = (struct error_parts){.known = true,
                                       .numeric = mean_difference(own, settings, count),
                                       .truncation = mean_difference(settings, paths, count),
                                       .sampling = mean_difference(paths, samples, count),
-                                      .resolution = mean_difference(samples, truth, count)};
+                                      .resolution = mean_difference(samples, ground_truth, count)};
     s->out->part_pixels = count;
     free(own);
     return measuring_traces_as_file(row) ? whole_numeric(s, &row->parts.numeric) : TRADEOFF_DONE;

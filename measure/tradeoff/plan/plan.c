@@ -284,7 +284,7 @@ static int by_promise(const void *a, const void *b) {
 }
 
 static struct pair foretell(const struct row *rows, uint32_t a, uint32_t b, enum metric metric) {
-    // Works multiply. Errors of two knobs hide each other as often as they add: the larger one stands for
+    // Works multiply. Errors of two knobs hide each other as often as they add: the larger one is taken for
     // both.
     return (struct pair){.a = a,
                          .b = b,

@@ -1,5 +1,5 @@
-// Which settings are tried: the ladders of each knob, and pairs of those that mattered; and how far the truth
-// goes that they are compared with. Private to measure/tradeoff.
+// Which settings are tried: the ladders of each knob, and pairs of those that mattered; and how far the
+// ground truth goes that they are compared with. Private to measure/tradeoff.
 //
 // What is planned depends on the scene and on counted work and measured errors alone, never on a clock.
 // Thread safety: pure.
@@ -25,12 +25,12 @@ struct plan_input {
 };
 
 // The file's own settings first, then each knob's ladder from coarse to fine, without the file's own value.
-// Gives the number of rows, at most PLAN_ROWS_MAX.
+// Returns the number of rows, at most PLAN_ROWS_MAX.
 uint32_t plan_single(const struct plan_input *input, struct row *rows);
 
 // Pairs of settings, one from each of two knobs that mattered: by at least 2 % of the work or 5 % of the
 // error. Those are taken that no row of their own knob betters in both. First those that the fewest others
-// are foretold to better; `most` at most. Gives the number of rows.
+// are foretold to better; `most` at most. Returns the number of rows.
 uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, uint32_t most,
                     struct row *pairs, uint32_t *left_out);
 
@@ -39,17 +39,17 @@ uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, 
 // and is set to the middle of it; all else stays. false: no memory.
 bool plan_order_times(struct row *rows, uint32_t count);
 
-// ---- the truth (plan_truth.c)
+// ---- the ground truth (plan_ground_truth.c)
 
-// A small picture of the truth, to count what the whole one would take: the file's own rays say nothing of
-// it, for they end where max_depth and min_weight do.
+// A small picture of the ground truth, to count what the whole one would take: the file's own rays say
+// nothing of it, for they end where max_depth and min_weight do.
 struct plan_pilot {
     uint64_t segments; // rays that a sample might take
     double rays;       // and took, on average
     bool cut;          // some samples would have taken more
 };
 
-struct plan_truth_input {
+struct plan_ground_truth_input {
     uint32_t file_samples;
     uint64_t pixels, pilot_pixels; // traced for the study, and by a pilot
     double rays_most;              // that all may take together; INFINITY: no bound
@@ -59,9 +59,9 @@ struct plan_truth_input {
 };
 
 // Rays a sample of the pilot to be counted next; 0: what is known is enough.
-uint64_t plan_next_pilot(const struct plan_truth_input *input);
+uint64_t plan_next_pilot(const struct plan_ground_truth_input *input);
 
-struct plan_truth {
+struct plan_ground_truth {
     uint32_t samples;
     uint64_t segments; // rays that a sample may take, the heaviest first
     bool fits;         // into rays_most; else it is the least that is worth comparing with
@@ -69,9 +69,9 @@ struct plan_truth {
 
 // As many samples as fit, at least twice the file's; where these do not fit either, with fewer rays each; and
 // where that is far from fitting, the file's own samples.
-struct plan_truth plan_truth(const struct plan_truth_input *input);
+struct plan_ground_truth plan_ground_truth(const struct plan_ground_truth_input *input);
 
-// Whether the knob stands otherwise.
+// Whether the knob has another value.
 bool plan_differs(const struct setting *a, const struct setting *b, enum knob knob);
 // Fills knobs, choosable and name from the setting.
 void plan_describe(struct row *row, const struct setting *base);

@@ -94,7 +94,7 @@ static void put_choice(const struct tradeoff *t, const char *key, double bound, 
     if (isnan(bound))
         return;
     json_open_object(json, key);
-    if (choice != &t->both) // its bounds stand beside the two others
+    if (choice != &t->both) // its bounds are those of the two others
         json_write_real(json, "bound", bound);
     put_index("row", choice->row, json);
     put_index("runner_up", choice->runner_up, json);
@@ -128,10 +128,10 @@ void tradeoff_json(const struct tradeoff *t, const char *scene, struct strbuf *o
     json_write_text(&json, "metric", str_from(metric_infos[t->options.metric].name));
     json_write_real(&json, "seconds", t->seconds);
     json_write_integer(&json, "rounds", t->rounds);
-    json_write_integer(&json, "truth_samples", t->truth_samples);
-    json_write_integer(&json, "truth_segments", t->truth_segments);
-    json_write_boolean(&json, "truth_cut", t->truth_cut);
-    json_write_real(&json, "truth_left_weight", t->truth_left_weight);
+    json_write_integer(&json, "truth_samples", t->ground_truth_samples);
+    json_write_integer(&json, "truth_segments", t->ground_truth_segments);
+    json_write_boolean(&json, "truth_cut", t->ground_truth_cut);
+    json_write_real(&json, "truth_left_weight", t->ground_truth_left_weight);
     json_write_integer(&json, "parts_left_out", t->parts_out);
     json_write_boolean(&json, "numeric_probed", t->numeric_probed);
     json_write_boolean(&json, "hits_left_out", t->hits_out);

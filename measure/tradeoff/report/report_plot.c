@@ -23,7 +23,7 @@ static double place(const struct axis *axis, double value) {
     return axis->from + at * (axis->to - axis->from);
 }
 
-// Errors of 0, and equal pictures, stand at the axis' end.
+// Errors of 0, and equal pictures, are drawn at the end of the axis.
 static double shown_error(const struct tradeoff *t, const struct row *row, double least) {
     const double value = row->value[t->options.metric];
     const double error = t->options.metric == METRIC_SSIM ? 1 - value : value;
@@ -69,7 +69,7 @@ static void ticks(const struct axis *axis, bool vertical, struct strbuf *out) {
 struct plot {
     const struct tradeoff *t;
     struct axis x, y;
-    double least; // error that stands for none
+    double least; // error drawn for an error of 0
 };
 
 static struct plot plan(const struct tradeoff *t) {

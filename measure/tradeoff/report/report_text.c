@@ -154,19 +154,19 @@ static void hits_table(const struct tradeoff *t, struct strbuf *out) {
 
 void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
     strbuf_format(out, "%u rows, %u rounds, %.1f s in all, %.1f s of it for the reference of %u samples",
-                  t->count, t->rounds, t->seconds, t->reference_seconds, t->truth_samples);
+                  t->count, t->rounds, t->seconds, t->reference_seconds, t->ground_truth_samples);
     if (t->options.budget_s > 0)
         strbuf_format(out, "; the budget was %.6g s", t->options.budget_s);
     strbuf_char(out, '\n');
-    if (t->truth_samples <= t->rows[0].setting.samples)
+    if (t->ground_truth_samples <= t->rows[0].setting.samples)
         strbuf_cstr(out, "the budget allowed the reference no more samples than the file: what more samples "
                          "would improve is not measured\n");
-    if (t->truth_cut)
+    if (t->ground_truth_cut)
         strbuf_format(out,
                       "the budget allowed the reference only %" PRIu64
                       " rays per sample; those left out weigh %.2g of a pixel on average, and settings that "
                       "follow more rays may look worse than they are\n",
-                      t->truth_segments, t->truth_left_weight);
+                      t->ground_truth_segments, t->ground_truth_left_weight);
     if (t->parts_out)
         strbuf_format(out, "settings whose errors were not split into parts, for lack of time: %u\n",
                       t->parts_out);

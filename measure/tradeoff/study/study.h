@@ -48,12 +48,12 @@ struct work {
     double cost;                     // nodes + triangles, doubled in double precision; see docs/accuracy.md
 };
 
-// Mean absolute errors of what comes one behind the other; the signed errors add up to that of the picture.
+// Mean absolute errors of what comes one after the other; the signed errors add up to that of the picture.
 struct error_parts {
     bool known;
     double numeric;    // device against the reference at the same settings
     double truncation; // what max_depth, min_weight and absent shadows leave out
-    double sampling;   // few samples against those of the truth
+    double sampling;   // few samples against those of the ground truth
     double resolution; // fewer pixels, scaled up
 };
 
@@ -114,11 +114,11 @@ struct tradeoff {
     struct tradeoff_options options;
     struct row *rows; // [0]: the file's own settings
     uint32_t count, capacity;
-    uint32_t truth_samples;
-    uint64_t truth_segments;  // rays that a sample of the truth might take
-    bool truth_cut;           // the budget lowered that, and some samples would have taken more
-    double truth_left_weight; // of the rays that the truth did not follow, mean of the pixels
-    // For want of time:
+    uint32_t ground_truth_samples;
+    uint64_t ground_truth_segments;  // rays that a sample of the ground truth might take
+    bool ground_truth_cut;           // the budget lowered that, and some samples would have taken more
+    double ground_truth_left_weight; // of the rays that the ground truth did not follow, mean of the pixels
+    // For lack of time:
     uint32_t parts_out;  // rows without parts
     bool numeric_probed; // the numeric part was measured at the probes only
     bool hits_out;       // first hits were not compared

@@ -158,7 +158,7 @@ static void test_not_a_number(void **state) {
     assert_int_equal(choice_cheapest(rows, 2, noise, 0.01).nearest, 1);
 }
 
-// A thousand tables of the same truth under noise: the same choice each time.
+// A thousand tables of the same ground truth under noise: the same choice each time.
 static void test_same_choice_under_noise(void **state) {
     (void)state;
     uint64_t seed = 42;
@@ -296,12 +296,12 @@ static void test_plan_pairs(void **state) {
     free(pairs);
 }
 
-// ---- the truth
+// ---- the ground truth
 
 enum {
-    TRUTH_PIXELS = 64000,
-    TRUTH_PILOT = 2000,
-    TRUTH_LIMIT = 16384,
+    GROUND_TRUTH_PIXELS = 64000,
+    GROUND_TRUTH_PILOT = 2000,
+    GROUND_TRUTH_LIMIT = 16384,
     LIGHT_RAYS = 2, // of most pixels
 };
 
@@ -312,43 +312,43 @@ static double rays_of(uint64_t segments, uint32_t heavy) {
 }
 
 // The plan for a budget of rays, by pilots of that scene; *spent: rays of the pilots.
-static struct plan_truth planned(uint32_t samples, double rays_most, uint32_t heavy, double *spent) {
+static struct plan_ground_truth planned(uint32_t samples, double rays_most, uint32_t heavy, double *spent) {
     struct plan_pilot pilots[PLAN_PILOTS_MAX];
-    struct plan_truth_input in = {.file_samples = samples,
-                                  .pixels = TRUTH_PIXELS,
-                                  .pilot_pixels = TRUTH_PILOT,
-                                  .rays_most = rays_most,
-                                  .segments_most = TRUTH_LIMIT,
-                                  .pilots = pilots};
+    struct plan_ground_truth_input in = {.file_samples = samples,
+                                         .pixels = GROUND_TRUTH_PIXELS,
+                                         .pilot_pixels = GROUND_TRUTH_PILOT,
+                                         .rays_most = rays_most,
+                                         .segments_most = GROUND_TRUTH_LIMIT,
+                                         .pilots = pilots};
     *spent = 0;
     for (uint64_t segments; (segments = plan_next_pilot(&in)) > 0;) {
-        assert_true(in.pilot_count < PLAN_PILOTS_MAX && segments <= TRUTH_LIMIT);
+        assert_true(in.pilot_count < PLAN_PILOTS_MAX && segments <= GROUND_TRUTH_LIMIT);
         pilots[in.pilot_count++] = (struct plan_pilot){segments, rays_of(segments, heavy), heavy > 0};
-        *spent += TRUTH_PILOT * rays_of(segments, heavy);
+        *spent += GROUND_TRUTH_PILOT * rays_of(segments, heavy);
     }
-    return plan_truth(&in);
+    return plan_ground_truth(&in);
 }
 
-static void test_plan_truth(void **state) {
+static void test_plan_ground_truth(void **state) {
     (void)state;
     double spent;
     // No budget: everything, and nothing is counted before.
-    struct plan_truth p = planned(2, INFINITY, 20, &spent);
-    assert_true(p.samples == 16 && p.segments == TRUTH_LIMIT && p.fits && spent == 0.0);
+    struct plan_ground_truth p = planned(2, INFINITY, 20, &spent);
+    assert_true(p.samples == 16 && p.segments == GROUND_TRUTH_LIMIT && p.fits && spent == 0.0);
     assert_int_equal(planned(32, INFINITY, 20, &spent).samples, 64);
     assert_int_equal(planned(100, INFINITY, 20, &spent).samples, 200);
     // Light paths only: samples by what they take, and room for heavier pixels than the pilot met.
-    p = planned(2, 2.1 * 8 * TRUTH_PIXELS, 0, &spent);
+    p = planned(2, 2.1 * 8 * GROUND_TRUTH_PIXELS, 0, &spent);
     assert_true(p.samples == 8 && p.fits && p.segments > 50 && p.segments < 100);
     // One pixel of twenty asks for all: what is planned stays within the bound, whatever that is, and the
     // counting is a small part of it.
     for (double most = 2.1e6; most < 1e11; most *= 1.7) {
         p = planned(2, most, 20, &spent);
         assert_true(p.fits && p.samples >= 4);
-        assert_true((double)p.samples * TRUTH_PIXELS * rays_of(p.segments, 20) <= most);
+        assert_true((double)p.samples * GROUND_TRUTH_PIXELS * rays_of(p.segments, 20) <= most);
         assert_true(spent <= 0.1 * most);
     }
-    assert_true(p.samples == 16 && p.segments == TRUTH_LIMIT);
+    assert_true(p.samples == 16 && p.segments == GROUND_TRUTH_LIMIT);
     // Not even the least fits: twice the file's samples where that is not far off, else the file's.
     p = planned(2, 5e5, 20, &spent);
     assert_true(!p.fits && p.samples == 4 && p.segments == PLAN_PILOT_SEGMENTS);
@@ -495,7 +495,7 @@ int main(void) {
         cmocka_unit_test(test_knee),
         cmocka_unit_test(test_plan_single),
         cmocka_unit_test(test_plan_pairs),
-        cmocka_unit_test(test_plan_truth),
+        cmocka_unit_test(test_plan_ground_truth),
         cmocka_unit_test(test_ordered_times),
         cmocka_unit_test(test_setting_text),
         cmocka_unit_test(test_hits),

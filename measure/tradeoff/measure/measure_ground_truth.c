@@ -1,4 +1,4 @@
-// The truth of a study, and how much of the reference the budget allows.
+// The ground truth of a study, and how much of the reference the budget allows.
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/clock.h"
@@ -13,18 +13,18 @@ enum {
     PILOT_PIXELS_LEAST = 64,
     PILOT_PART = 16,
 };
-// Rays a second and processor that the reference is taken to trace when the truth is planned; fixed, so that
-// the plan does not depend on the load of the machine.
+// Rays a second and processor that the reference is taken to trace when the ground truth is planned; fixed,
+// so that the plan does not depend on the load of the machine.
 static const double REFERENCE_RAYS = 1e6;
-// Share of the budget for the truth.
-static const double TRUTH_SHARE = 0.3;
+// Share of the budget for the ground truth.
+static const double GROUND_TRUTH_SHARE = 0.3;
 
 static uint64_t rays_of(const struct reference_statistics *r) {
     return r->primary + r->reflected + r->refracted + r->shadow;
 }
 
-enum tradeoff_status truth_picture(struct measuring *s, const struct reference_settings *settings,
-                                   float *shown, struct reference_statistics *statistics) {
+enum tradeoff_status ground_truth_picture(struct measuring *s, const struct reference_settings *settings,
+                                          float *shown, struct reference_statistics *statistics) {
     const size_t pixels = (size_t)s->base.width * s->base.height;
     double *rgb = malloc(3 * pixels * sizeof *rgb);
     if (!rgb)
@@ -55,7 +55,7 @@ static struct reference_settings pilot_settings(const struct measuring *s) {
     return settings;
 }
 
-static enum tradeoff_status run_pilots(struct measuring *s, struct plan_truth_input *in,
+static enum tradeoff_status run_pilots(struct measuring *s, struct plan_ground_truth_input *in,
                                        struct plan_pilot pilots[PLAN_PILOTS_MAX]) {
     struct reference_settings settings = pilot_settings(s);
     struct reference_statistics taken;
@@ -76,21 +76,21 @@ static enum tradeoff_status run_pilots(struct measuring *s, struct plan_truth_in
     return measuring_reference_status(result);
 }
 
-// Where nothing is reflected nor refracted, the file's own rays say what the truth's are.
+// Where nothing is reflected nor refracted, the file's own rays say what the ground truth's are.
 static enum tradeoff_status plan(struct measuring *s, const struct work *own, bool bounces,
-                                 struct plan_truth *out) {
+                                 struct plan_ground_truth *out) {
     const uint64_t pixels = (uint64_t)s->base.width * s->base.height;
     const double budget = s->out->options.budget_s;
     struct plan_pilot pilots[PLAN_PILOTS_MAX];
     // The parts are measured by up to two more sets of probes before any other row.
     const uint64_t probes = s->out->options.quick ? 0 : pixels < PROBE_PIXELS ? pixels : PROBE_PIXELS;
-    struct plan_truth_input in = {.file_samples = s->base.samples,
-                                  .pixels = pixels + 2 * probes,
-                                  .rays_most = budget > 0 ? TRUTH_SHARE * budget * REFERENCE_RAYS *
-                                                                parallel_processors()
-                                                          : (double)INFINITY,
-                                  .segments_most = s->full.segments,
-                                  .pilots = pilots};
+    struct plan_ground_truth_input in = {.file_samples = s->base.samples,
+                                         .pixels = pixels + 2 * probes,
+                                         .rays_most = budget > 0 ? GROUND_TRUTH_SHARE * budget *
+                                                                       REFERENCE_RAYS * parallel_processors()
+                                                                 : (double)INFINITY,
+                                         .segments_most = s->full.segments,
+                                         .pilots = pilots};
     enum tradeoff_status status = TRADEOFF_DONE;
     if (budget > 0 && !bounces) {
         in.pilot_pixels = pixels;
@@ -99,42 +99,42 @@ static enum tradeoff_status plan(struct measuring *s, const struct work *own, bo
     } else {
         status = run_pilots(s, &in, pilots);
     }
-    *out = plan_truth(&in);
+    *out = plan_ground_truth(&in);
     return status;
 }
 
 // ---- making
 
-enum tradeoff_status truth_make(struct measuring *s, const struct work *own, bool bounces) {
+enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *own, bool bounces) {
     const size_t values = (size_t)3 * s->base.width * s->base.height;
     struct tradeoff *t = s->out;
     struct reference_statistics taken;
-    struct plan_truth planned;
+    struct plan_ground_truth planned;
     const double start = clock_seconds();
     s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
     enum tradeoff_status status = plan(s, own, bounces, &planned);
     if (status != TRADEOFF_DONE)
         return status;
     const bool lowered = planned.segments < s->full.segments;
-    t->truth_samples = s->full.samples = planned.samples;
-    t->truth_segments = s->full.segments = planned.segments;
-    s->truth = malloc(values * sizeof *s->truth);
+    t->ground_truth_samples = s->full.samples = planned.samples;
+    t->ground_truth_segments = s->full.segments = planned.segments;
+    s->ground_truth = malloc(values * sizeof *s->ground_truth);
     s->shown = malloc(values * sizeof *s->shown);
     s->picture = malloc(values * sizeof *s->picture);
-    if (!s->truth || !s->shown || !s->picture)
+    if (!s->ground_truth || !s->shown || !s->picture)
         return TRADEOFF_MEMORY;
-    status = truth_picture(s, &s->full, s->truth, &taken);
+    status = ground_truth_picture(s, &s->full, s->ground_truth, &taken);
     if (status != TRADEOFF_DONE)
         return status;
     t->reference_seconds = clock_seconds() - start;
-    t->truth_cut = lowered && taken.cut_by_segments > 0;
-    t->truth_left_weight = taken.left_weight_mean;
-    s->truth_rays = (double)rays_of(&taken) / ((double)values / 3 * planned.samples);
+    t->ground_truth_cut = lowered && taken.cut_by_segments > 0;
+    t->ground_truth_left_weight = taken.left_weight_mean;
+    s->ground_truth_rays = (double)rays_of(&taken) / ((double)values / 3 * planned.samples);
     s->reference_rate = taken.seconds > 0 ? (double)rays_of(&taken) / taken.seconds : REFERENCE_RAYS;
     return status;
 }
 
-bool truth_affords(const struct measuring *s, double rays) {
+bool ground_truth_affords(const struct measuring *s, double rays) {
     const double budget = s->out->options.budget_s;
     return !(budget > 0) ||
            clock_seconds() - s->begun + rays / s->reference_rate <= MEASURE_ROWS_SHARE * budget;

@@ -1,4 +1,4 @@
-// What a ray meets: boxes, triangles, spheres.
+// What a ray hits: boxes, triangles, spheres.
 #include "reference/parts.h"
 
 #include <assert.h>
@@ -35,7 +35,8 @@ static double largest_of(double a, double b, double c) {
 
 // Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"; the bound of t: Pharr, Jakob, Humphreys
 // 2023, section 6.8.7, without its factor for the ray's length, which double does not need.
-static bool meet_watertight(const struct sheared *s, const struct primitive *p, struct meeting *out) {
+static bool intersect_watertight(const struct sheared *s, const struct primitive *p,
+                                 struct intersection *out) {
     double x[3], y[3], z[3];
     for (int k = 0; k < 3; k++) {
         double depth = p->v[k][s->kz] - s->origin[s->kz];
@@ -69,7 +70,8 @@ static bool meet_watertight(const struct sheared *s, const struct primitive *p, 
 }
 
 // Möller, Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection".
-static bool meet_moeller_trumbore(const struct ray *ray, const struct primitive *p, struct meeting *out) {
+static bool intersect_moeller_trumbore(const struct ray *ray, const struct primitive *p,
+                                       struct intersection *out) {
     vec3 v0 = {p->v[0][0], p->v[0][1], p->v[0][2]};
     vec3 e1 = vec3_sub((vec3){p->v[1][0], p->v[1][1], p->v[1][2]}, v0);
     vec3 e2 = vec3_sub((vec3){p->v[2][0], p->v[2][1], p->v[2][2]}, v0);
@@ -90,7 +92,7 @@ static bool meet_moeller_trumbore(const struct ray *ray, const struct primitive 
 
 // Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
 // Gems, chapter 7). A root that its own error reaches down to 0 is where the ray left the sphere.
-static bool meet_sphere(const struct ray *ray, const struct primitive *p, struct meeting *out) {
+static bool intersect_sphere(const struct ray *ray, const struct primitive *p, struct intersection *out) {
     vec3 f = vec3_sub(ray->origin, (vec3){p->v[0][0], p->v[0][1], p->v[0][2]});
     vec3 d = ray->direction;
     double radius = p->v[1][0];
@@ -115,7 +117,7 @@ static bool meet_sphere(const struct ray *ray, const struct primitive *p, struct
     for (int i = 0; i < 2; i++, order = 1 - order) {
         if (!(t[order] > error[order]))
             continue;
-        *out = (struct meeting){.t = t[order], .t_error = error[order]};
+        *out = (struct intersection){.t = t[order], .t_error = error[order]};
         return true;
     }
     return false;
@@ -133,10 +135,10 @@ struct search {
     struct sheared sheared;
     double inverse[3];
     bool any;
-    struct meeting nearest;
-    double end; // nothing behind this matters any more
-    // Meetings that rounding cannot tell from the nearest: faces in one plane, edges that meet.
-    struct meeting ties[TIES_MOST];
+    struct intersection nearest;
+    double end; // nothing farther away matters any more
+    // Intersections that rounding cannot tell from the nearest: faces in one plane, edges that touch.
+    struct intersection ties[TIES_MOST];
     int tie_count;
 };
 
@@ -146,32 +148,32 @@ static bool is_lower(const struct search *s, uint32_t x, uint32_t y) {
     return a->body != b->body ? a->body < b->body : a->triangle < b->triangle;
 }
 
-static bool is_tie(const struct search *s, const struct meeting *met) {
-    return met->t - met->t_error <= s->nearest.t + s->nearest.t_error;
+static bool is_tie(const struct search *s, const struct intersection *hit) {
+    return hit->t - hit->t_error <= s->nearest.t + s->nearest.t_error;
 }
 
-// Takes a meeting into the ties, in order of (body, triangle); those that are none any more go.
-static void take(struct search *s, const struct meeting *met) {
-    if (s->nearest.primitive == NO_PRIMITIVE || met->t < s->nearest.t) {
-        s->nearest = *met;
-        s->end = met->t + met->t_error;
-    } else if (!is_tie(s, met)) {
+// Adds a hit to the ties, in order of (body, triangle), and drops those that are no longer ties.
+static void take(struct search *s, const struct intersection *hit) {
+    if (s->nearest.primitive == NO_PRIMITIVE || hit->t < s->nearest.t) {
+        s->nearest = *hit;
+        s->end = hit->t + hit->t_error;
+    } else if (!is_tie(s, hit)) {
         return;
     }
-    struct meeting kept[TIES_MOST + 1];
+    struct intersection kept[TIES_MOST + 1];
     int count = 0;
     bool placed = false;
     for (int i = 0; i < s->tie_count; i++) {
         if (!is_tie(s, &s->ties[i]))
             continue;
-        if (!placed && is_lower(s, met->primitive, s->ties[i].primitive)) {
-            kept[count++] = *met;
+        if (!placed && is_lower(s, hit->primitive, s->ties[i].primitive)) {
+            kept[count++] = *hit;
             placed = true;
         }
         kept[count++] = s->ties[i];
     }
     if (!placed)
-        kept[count++] = *met;
+        kept[count++] = *hit;
     s->tie_count = count < TIES_MOST ? count : TIES_MOST;
     for (int i = 0; i < s->tie_count; i++)
         s->ties[i] = kept[i];
@@ -179,15 +181,16 @@ static void take(struct search *s, const struct meeting *met) {
 
 static void test_primitive(struct search *s, uint32_t index) {
     const struct primitive *p = &s->r->primitives[index];
-    struct meeting met = {0};
-    bool is_met = p->is_sphere                                     ? meet_sphere(s->ray, p, &met)
-                  : s->r->input.test == REFERENCE_MOELLER_TRUMBORE ? meet_moeller_trumbore(s->ray, p, &met)
-                                                                   : meet_watertight(&s->sheared, p, &met);
+    struct intersection hit = {0};
+    bool is_hit = p->is_sphere ? intersect_sphere(s->ray, p, &hit)
+                  : s->r->input.test == REFERENCE_MOELLER_TRUMBORE
+                      ? intersect_moeller_trumbore(s->ray, p, &hit)
+                      : intersect_watertight(&s->sheared, p, &hit);
     // What could be at t_max itself is not strictly before it.
-    if (!is_met || met.t + met.t_error >= s->ray->t_max)
+    if (!is_hit || hit.t + hit.t_error >= s->ray->t_max)
         return;
-    met.primitive = index;
-    take(s, &met);
+    hit.primitive = index;
+    take(s, &hit);
 }
 
 // Comparisons let NaN pass: 0 times infinity, where the ray lies in a face of the box.
@@ -251,7 +254,7 @@ static void search_tree(struct search *s) {
 }
 
 // At equal distance the lower (body, triangle): the first of the ties.
-static void search(const struct reference *r, const struct ray *ray, bool any, struct meeting *out) {
+static void search(const struct reference *r, const struct ray *ray, bool any, struct intersection *out) {
     struct search s = {.r = r, .ray = ray, .sheared = shear(ray), .any = any, .end = ray->t_max};
     s.nearest.primitive = NO_PRIMITIVE;
     for (int a = 0; a < 3; a++)
@@ -261,15 +264,15 @@ static void search(const struct reference *r, const struct ray *ray, bool any, s
             test_primitive(&s, i);
     else if (r->primitive_count)
         search_tree(&s);
-    *out = s.tie_count ? s.ties[0] : (struct meeting){.t = ray->t_max, .primitive = NO_PRIMITIVE};
+    *out = s.tie_count ? s.ties[0] : (struct intersection){.t = ray->t_max, .primitive = NO_PRIMITIVE};
 }
 
-void reference_meet(const struct reference *r, const struct ray *ray, struct meeting *out) {
+void reference_intersect(const struct reference *r, const struct ray *ray, struct intersection *out) {
     search(r, ray, false, out);
 }
 
 bool reference_blocks(const struct reference *r, const struct ray *ray) {
-    struct meeting met;
-    search(r, ray, true, &met);
-    return met.primitive != NO_PRIMITIVE;
+    struct intersection hit;
+    search(r, ray, true, &hit);
+    return hit.primitive != NO_PRIMITIVE;
 }

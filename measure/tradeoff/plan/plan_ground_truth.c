@@ -1,27 +1,28 @@
-// How many samples and rays the truth may take.
+// How many samples and rays the ground truth may take.
 #include "measure/tradeoff/plan/plan.h"
 
 #include <math.h>
 
 enum {
-    TRUTH_SAMPLES = 16, // at least; four times the file's where that is more
-    TRUTH_SAMPLES_MOST = 64,
+    GROUND_TRUTH_SAMPLES = 16, // at least; four times the file's where that is more
+    GROUND_TRUTH_SAMPLES_MOST = 64,
     PILOT_STEP = 4, // from one pilot's rays to the next one's
     // Where none of n pixels showed it, up to 3 of n others still may (95 %).
     UNSEEN = 3,
-    // Twice the file's samples may cost so many times what they should; else it is the file's own samples.
+    // Twice the file's samples may cost this many times what they should; if they cost more, the file's own
+    // samples are taken.
     PATIENCE = 8,
 };
 
-static uint32_t least_samples(const struct plan_truth_input *in) {
+static uint32_t least_samples(const struct plan_ground_truth_input *in) {
     return 2 * in->file_samples;
 }
 
-static double rays_a_sample(const struct plan_truth_input *in, uint32_t samples) {
+static double rays_a_sample(const struct plan_ground_truth_input *in, uint32_t samples) {
     return in->rays_most / ((double)in->pixels * samples);
 }
 
-uint64_t plan_next_pilot(const struct plan_truth_input *in) {
+uint64_t plan_next_pilot(const struct plan_ground_truth_input *in) {
     if (!isfinite(in->rays_most))
         return 0;
     if (in->pilot_count == 0)
@@ -35,28 +36,30 @@ uint64_t plan_next_pilot(const struct plan_truth_input *in) {
 }
 
 // Samples may wish for more rays than the pilot's pixels did: they get what is left.
-static uint64_t whole_paths(const struct plan_truth_input *in, const struct plan_pilot *pilot, double rays) {
+static uint64_t whole_paths(const struct plan_ground_truth_input *in, const struct plan_pilot *pilot,
+                            double rays) {
     const double most = (double)in->pilot_pixels * (rays - pilot->rays) / UNSEEN;
     if (pilot->cut || most <= (double)pilot->segments)
         return pilot->segments;
     return most < (double)in->segments_most ? (uint64_t)most : in->segments_most;
 }
 
-struct plan_truth plan_truth(const struct plan_truth_input *in) {
+struct plan_ground_truth plan_ground_truth(const struct plan_ground_truth_input *in) {
     const uint32_t least = least_samples(in);
-    uint32_t samples = 4 * in->file_samples > TRUTH_SAMPLES ? 4 * in->file_samples : TRUTH_SAMPLES;
-    samples = samples < TRUTH_SAMPLES_MOST ? samples : TRUTH_SAMPLES_MOST;
+    uint32_t samples =
+        4 * in->file_samples > GROUND_TRUTH_SAMPLES ? 4 * in->file_samples : GROUND_TRUTH_SAMPLES;
+    samples = samples < GROUND_TRUTH_SAMPLES_MOST ? samples : GROUND_TRUTH_SAMPLES_MOST;
     samples = samples > least ? samples : least;
     if (in->pilot_count == 0)
-        return (struct plan_truth){samples, in->segments_most, true};
+        return (struct plan_ground_truth){samples, in->segments_most, true};
     const struct plan_pilot *last = &in->pilots[in->pilot_count - 1];
     while (samples / 2 >= least && last->rays > rays_a_sample(in, samples))
         samples /= 2;
     const double rays = rays_a_sample(in, samples);
     for (uint32_t i = in->pilot_count; i-- > 0;)
         if (in->pilots[i].rays <= rays)
-            return (struct plan_truth){samples, whole_paths(in, &in->pilots[i], rays), true};
+            return (struct plan_ground_truth){samples, whole_paths(in, &in->pilots[i], rays), true};
     if (in->pilots[0].rays > PATIENCE * rays)
         samples = in->file_samples;
-    return (struct plan_truth){samples, in->pilots[0].segments, false};
+    return (struct plan_ground_truth){samples, in->pilots[0].segments, false};
 }

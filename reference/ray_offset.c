@@ -1,0 +1,18 @@
+// Where a ray starts that leaves a surface, so that it does not hit that surface again.
+#include "reference/parts.h"
+
+// Displaced by the point's error, then one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not
+// only by the error along the normal: that along the surface can carry the point across an edge.
+vec3 reference_ray_offset(const struct surface *s, vec3 side) {
+    vec3 size = {fabs(side.x), fabs(side.y), fabs(side.z)};
+    double distance = fmax(vec3_dot(size, s->error), vec3_max_abs(s->error));
+    vec3 shift = vec3_mul(side, distance);
+    vec3 at = vec3_add(s->point, shift);
+    if (shift.x != 0)
+        at.x = nextafter(at.x, shift.x > 0 ? INFINITY : -INFINITY);
+    if (shift.y != 0)
+        at.y = nextafter(at.y, shift.y > 0 ? INFINITY : -INFINITY);
+    if (shift.z != 0)
+        at.z = nextafter(at.z, shift.z > 0 ? INFINITY : -INFINITY);
+    return at;
+}

@@ -1,0 +1,15 @@
+// Where a ray starts that leaves a surface, so that it does not hit that surface again.
+
+// For rays that leave on the side of `side` (unit): the point is displaced by its error, then by one number
+// outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not only by the error along the normal: the
+// error along the surface can carry the point across an edge, where a neighbour bends away from it.
+REAL3 ray_offset(REAL3 point, REAL3 error, REAL3 side) {
+#ifdef ALTERNATIVES
+    if (alternative_moves())
+        return point + side * error.x;
+#endif
+    REAL distance = max(dot3(abs(side), error), largest3(error));
+    REAL3 shift = side * distance;
+    REAL3 moved = point + shift;
+    return REAL3(next_real(moved.x, shift.x), next_real(moved.y, shift.y), next_real(moved.z, shift.z));
+}
