@@ -17,7 +17,7 @@ struct emit_lines {
     uint32_t depth;
 };
 
-// The blanks before a line.
+// The indentation of a line.
 void emit_indent(const struct emit_lines *w);
 void emit_line(const struct emit_lines *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 // A start tag on a line, and what follows is deeper; the end tag on a line.

@@ -9,9 +9,9 @@
 #include "core/str.h"
 #include "core/strbuf.h"
 
-// `what`: "E206", "material", "material.albedo" or "Material" (case of codes does not matter; an
-// attribute alone will do where it is unique). `color`: ANSI colours.
-// false: there is no such thing; `out` then holds one sentence that names the nearest thing there is.
+// `what`: "E206", "material", "material.albedo" or "Material" (case of codes does not matter; an attribute by
+// itself will do if it is unique). `color`: ANSI colours.
+// false: there is no such thing; `out` then holds one sentence that names the nearest thing.
 bool explain(str what, bool color, struct strbuf *out);
 
 #endif
