@@ -56,7 +56,7 @@ static void read_again(void *context) {
               format_same(r->tree, r->text, &again, r->written);
 }
 
-// Reads what was written once more, and compares.
+// Reads the output again, and compares.
 static bool is_safe(const struct reader_context *context, const struct tree *tree, str text, str written) {
     struct source_set sources;
     struct diag_sink sink;
@@ -93,5 +93,5 @@ enum format_status format_source(const struct reader_context *context, uint32_t 
     if (is_safe(context, &tree, text, str_slice(strbuf_view(out), before, out->len)))
         return FORMAT_DONE;
     out->len = before;
-    return errors ? FORMAT_REFUSED : FORMAT_UNSAFE; // what the reader has mended cannot always be laid out
+    return errors ? FORMAT_REFUSED : FORMAT_UNSAFE; // what the reader has repaired cannot always be laid out
 }
