@@ -33,7 +33,7 @@ static bool holds(str text, str what) {
     return false;
 }
 
-// Once it was one it stays one, whatever is typed.
+// Once it was a scene it stays one, whatever is typed.
 bool scenes_is_scene(struct document *document) {
     str text = document_text(document);
     if (!document->is_scene && is_scene_path(document->path))
