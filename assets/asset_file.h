@@ -39,7 +39,7 @@ struct asset_file {
 
 // Finds the file that `base_path` (a file) names `path`. On success file->path is set and *identity filled;
 // else adds a diagnostic where the file is named. `file` has its other members set. If `missing` is not NULL,
-// a missing file is no diagnostic, but sets *missing.
+// a missing file only sets *missing, without a diagnostic.
 bool asset_find(struct asset_file *file, str base_path, str path, struct file_read *identity, bool *missing);
 // Reads the found file into `arena`; if that fails, adds a diagnostic where it is named.
 bool asset_read(struct asset_file *file, struct arena *arena);

@@ -7,7 +7,7 @@
 //
 // Columns below the line are a terminal's: tabs are shown as spaces, wide characters take two. Control
 // characters and bytes that are not UTF-8, in source lines, paths and messages alike, are shown as '?'.
-// Thread safety: pure but for the line maps of the sources.
+// Thread safety: pure except for the line maps of the sources.
 #ifndef GLINT_DIAG_DIAG_TEXT_H
 #define GLINT_DIAG_DIAG_TEXT_H
 

@@ -1,6 +1,6 @@
 // The scenes in a folder and in the folders below it.
 //
-// Ownership: paths go into the given arena, which must be guarded. Thread safety: pure but for the
+// Ownership: paths go into the given arena, which must be guarded. Thread safety: pure except for the
 // arena.
 #ifndef GLINT_FILES_FILES_WALK_H
 #define GLINT_FILES_FILES_WALK_H

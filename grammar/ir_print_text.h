@@ -1,6 +1,6 @@
 // Scalars of the two spellings: quoting, escapes, numbers. Part of the writers (ir_print.h).
 //
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_IR_PRINT_TEXT_H
 #define GLINT_GRAMMAR_IR_PRINT_TEXT_H
 

@@ -15,7 +15,7 @@ struct document {
     char *text;
     size_t length, capacity;
     json_int_t version;
-    bool is_placed; // scenes that might include it were looked for
+    bool is_placed; // scenes that might include it were searched for
     bool is_scene;  // its name or its text showed that it is a scene
 };
 

@@ -1,6 +1,6 @@
 // What is at a place of the text: element, attribute, name or reference; and where a name is defined and
 // used. Walks the table and the places beside the IR; knows no element's name.
-// Thread safety: pure but for the sessions' line maps.
+// Thread safety: pure except for the sessions' line maps.
 #ifndef GLINT_LSP_LOCATE_H
 #define GLINT_LSP_LOCATE_H
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    FOLDERS_MOST = 8,      // above a document, in which scenes that include it are looked for
+    FOLDERS_MOST = 8,      // above a document that are searched for scenes including it
     CANDIDATES_MOST = 200, // files in each
 };
 #define CANDIDATE_BYTES ((uint64_t)1 << 20)

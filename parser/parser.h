@@ -41,7 +41,7 @@ struct parser_input {
 
 struct parser_output {
     struct ir_scene *scene;  // merged, resolved; with every poisoned value at its default
-    struct ir_origin origin; // origin.files[0].scene is the main file alone
+    struct ir_origin origin; // origin.files[0].scene is only the main file
 };
 
 // Loads the source `main_source` (already read) and all that it includes.

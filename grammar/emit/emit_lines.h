@@ -1,6 +1,6 @@
 // What the schemas of the XML spelling have in common: indented lines, tags, patterns. Private to grammar/.
 //
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EMIT_LINES_H
 #define GLINT_GRAMMAR_EMIT_EMIT_LINES_H
 

@@ -2,7 +2,7 @@
 // walk, for every schema that prints them. Private to this folder.
 //
 // Ownership: patterns live while they are printed. Errors: only lack of memory; check `out->failed`.
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EMIT_PATTERN_H
 #define GLINT_GRAMMAR_EMIT_EMIT_PATTERN_H
 

@@ -1,6 +1,6 @@
 // The words in which schemas, the reference page and `explain` describe a row. Private to grammar/.
 //
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EMIT_WORDS_H
 #define GLINT_GRAMMAR_EMIT_EMIT_WORDS_H
 

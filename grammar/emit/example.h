@@ -1,6 +1,6 @@
 // Examples made from the table: an element that shows its rows, at its place in a scene.
 //
-// Ownership: all is in `arena`. Thread safety: pure but for the arena.
+// Ownership: all is in `arena`. Thread safety: pure except for the arena.
 #ifndef GLINT_GRAMMAR_EMIT_EXAMPLE_H
 #define GLINT_GRAMMAR_EMIT_EXAMPLE_H
 

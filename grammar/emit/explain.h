@@ -2,7 +2,7 @@
 //
 // Codes: title, meaning, remedy, and where they can occur. Elements: every attribute with both spellings,
 // and an example in both. Attributes: type, range, unit, default, words. Nothing here is written by hand.
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EXPLAIN_H
 #define GLINT_GRAMMAR_EMIT_EXPLAIN_H
 

@@ -1,5 +1,5 @@
 // Which entries of two lists are the same entry: part of ir_diff.
-// Ownership: the given arena, which must be guarded. Thread safety: pure but for the arena.
+// Ownership: the given arena, which must be guarded. Thread safety: pure except for the arena.
 #ifndef GLINT_GRAMMAR_PRINT_IR_ALIGN_H
 #define GLINT_GRAMMAR_PRINT_IR_ALIGN_H
 

@@ -5,7 +5,7 @@
 // content, else by the most equal attributes; entries that are elsewhere in the list are reported as moved
 // (of two surfaces at one place the earlier one is seen). Ownership: everything is made in the given arena,
 // which must be guarded; spans point into the sources of their side. Errors: only lack of memory. Thread
-// safety: pure but for the arena and the callbacks.
+// safety: pure except for the arena and the callbacks.
 #ifndef GLINT_GRAMMAR_PRINT_IR_DIFF_H
 #define GLINT_GRAMMAR_PRINT_IR_DIFF_H
 

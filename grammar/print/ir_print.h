@@ -5,7 +5,7 @@
 // entries is not written. Numbers have the shortest digits that read back, one number replaces equal
 // components of a colour or scale, and text that YAML 1.1 or 1.2 would read as something else is quoted.
 // Errors: only lack of memory; check `out->failed` once at the end. Ownership: the caller's.
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_PRINT_IR_PRINT_H
 #define GLINT_GRAMMAR_PRINT_IR_PRINT_H
 
@@ -24,7 +24,7 @@ struct ir_write_options {
 // the files wrote the same, in whichever spelling. No places, no comments. It reads back as a scene.
 void ir_dump(const struct ir_scene *scene, struct strbuf *out);
 
-// Whole files. `scene` is one file alone (ir_file_origin.scene); from `origin` and `sources` come the
+// Whole files. `scene` is only one file (ir_file_origin.scene); from `origin` and `sources` come the
 // comments before an entry and the editor's schema line, respelled where the other language spells them
 // differently. Both may be NULL: then there are none.
 void ir_write_yaml(const struct ir_scene *scene, const struct ir_origin *origin,

@@ -2,7 +2,7 @@
 //
 // `# text` is `<!-- text -->` and back. XML forbids `--` inside a comment: there a backslash is put between
 // the two (`-\-`, and one more for each that was there), which YAML's writer removes again. Thread safety:
-// pure but for `out`.
+// pure except for `out`.
 #ifndef GLINT_GRAMMAR_PRINT_IR_PRINT_COMMENT_H
 #define GLINT_GRAMMAR_PRINT_IR_PRINT_COMMENT_H
 

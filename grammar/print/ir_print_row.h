@@ -1,5 +1,5 @@
 // One row of an element in both spellings, on one line. Part of the writers (ir_print.h), for code that shows
-// examples. Thread safety: pure but for `out`.
+// examples. Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_PRINT_IR_PRINT_ROW_H
 #define GLINT_GRAMMAR_PRINT_IR_PRINT_ROW_H
 

@@ -144,7 +144,7 @@ struct ir_scene *bind_new_scene(struct bind_context *context);
 struct ir_scene *bind_file(struct bind_context *context);
 
 // bind_element.c: the only recursive file of the binder; it calls those below, and none of them calls it.
-// Binds all rows that `node` gives into frame->memory, and checks that what is required is there. false: the
+// Binds all rows that `node` has into frame->memory, and checks that what is required is there. false: the
 // node does not have the shape of the element (reported, or known to the reader).
 bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node);
 // Binds all pairs of a map as rows of the element: names first, so that messages can use them.
@@ -185,7 +185,7 @@ void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
                          const struct schema_row *row);
 
 // bind_fixed.c
-// The value behind values->at; 0: it was the last.
+// The value after values->at; 0: it was the last.
 tree_index bind_next_value(const struct bind_context *context, const struct bind_frame *frame,
                            const struct bind_values *values);
 // A row with a fixed number of values. `may_be_cut`: the file broke off, so that some may be missing.
@@ -217,7 +217,7 @@ bool bind_is_second(struct bind_context *context, const struct bind_frame *paren
                     const struct bind_frame *child);
 
 // bind_list.c
-// Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; gives its
+// Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; returns its
 // index.
 uint32_t bind_list_push(struct arena *arena, void *field, const void *item, uint32_t size);
 void *bind_list_item(void *field, uint32_t index, uint32_t size);
@@ -234,7 +234,7 @@ uint32_t bind_home_row(const struct schema_element *schema);
 // bind_composite.c: one value of a row that holds neither elements nor lists. false: reported or known.
 bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
 
-// bind_scalar.c: a value that is no vector, colour or weights.
+// bind_scalar.c: a value that is not a vector, colour or weights.
 bool bind_scalar(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
 bool bind_number(struct bind_context *context, struct bind_subject subject, tree_index node, double *out);
 bool bind_name_text(struct bind_context *context, struct bind_subject subject, str text, span at);

@@ -57,7 +57,7 @@ static void map_for_list(struct bind_context *context, struct bind_entries *entr
             add_entry(context, entries, STR(""), bind_given_by(context, key));
 }
 
-// The name that an item of a list gives itself, for a map that has names as keys; its pair is then taken.
+// The name that an item of a list gives itself, for a map that has names as keys; its pair is then skipped.
 static str take_name(const struct bind_context *context, const struct schema_row *row, tree_index item,
                      struct bind_given *given) {
     const struct tree *tree = context->tree;

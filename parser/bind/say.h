@@ -1,7 +1,7 @@
 // The words of diagnostics about values: what a thing is called, what it must be, how it is written.
 //
 // The words are the same for both spellings; only examples differ. All text is in `arena`.
-// Thread safety: pure but for the arena.
+// Thread safety: pure except for the arena.
 #ifndef GLINT_PARSER_BIND_SAY_H
 #define GLINT_PARSER_BIND_SAY_H
 

@@ -11,7 +11,7 @@ static bool ends_line(str text) {
 
 struct layout {
     str text;
-    uint32_t begin; // behind a byte order mark
+    uint32_t begin; // after a byte order mark
     bool is_xml, found;
     struct format_lines lines;
 };

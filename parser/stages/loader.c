@@ -1,4 +1,4 @@
-// One file of a scene: read, and bound to the IR of that file alone.
+// One file of a scene: read, and bound to the IR of only that file.
 #include "parser/stages/loader.h"
 
 #include "grammar/ir.h"

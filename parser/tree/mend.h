@@ -1,5 +1,5 @@
 // What was probably meant: mended numbers, booleans and names, and the nearest of several words.
-// Thread safety: pure but for the arena.
+// Thread safety: pure except for the arena.
 #ifndef GLINT_PARSER_TREE_MEND_H
 #define GLINT_PARSER_TREE_MEND_H
 

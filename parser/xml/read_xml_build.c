@@ -1,4 +1,5 @@
-// Links what is in the file into the tree, whoever found it: read_xml.c with expat, or read_xml_plain.c.
+// Links what is in the file into the tree, whichever file found it: read_xml.c with expat, or
+// read_xml_plain.c.
 #include "parser/xml/xml_reader.h"
 
 #include "core/number.h"

@@ -67,7 +67,7 @@ struct yaml_reader {
     struct str_map keys, joined_keys;
     uint64_t alias_nodes;
 
-    // Comments are looked for between tokens.
+    // Comments are searched for between tokens.
     uint32_t gap; // what comes before was searched
     tree_index
         line_entry; // the first entry that begins on the line of the last token; YAML_LOST_ENTRY: taken
