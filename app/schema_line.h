@@ -1,5 +1,5 @@
-// The line that says to an editor which schema a scene file follows: `# yaml-language-server:
-// $schema=ADDRESS` in YAML, `<?xml-model href="ADDRESS" ...?>` in XML.
+// The line that names the schema of a scene file for editors: `# yaml-language-server: $schema=ADDRESS` in
+// YAML, `<?xml-model href="ADDRESS" ...?>` in XML.
 //
 // Thread safety: the session's thread.
 #ifndef GLINT_APP_SCHEMA_LINE_H

@@ -3,7 +3,7 @@
 // missing, refused or of an unsupported kind is reported where the scene names it.
 //
 // The store keeps meshes and images with counted references, keyed by path, size and time, so that they
-// outlive a reload. Ownership: assets hold references into the store; assets_finish returns them.
+// outlive a reload. Ownership: assets hold references into the store; assets_finish releases them.
 // Thread safety: one thread loads; loaded assets are immutable.
 #ifndef GLINT_ASSETS_ASSETS_H
 #define GLINT_ASSETS_ASSETS_H
@@ -76,7 +76,7 @@ struct assets_input {
 
 // Loads all; goes on after a fault. `geometry_only` skips decoding the background (its header is still
 // checked). When memory runs out, it jumps to the guards of input->arena and of the arenas of sources and
-// files; assets_finish(out) then still returns what was taken.
+// files; assets_finish(out) then still releases what was taken.
 void assets_load(struct asset_store *store, const struct assets_input *input, bool geometry_only,
                  struct assets *out);
 // Accepts zeroed, half-loaded and finished assets.

@@ -36,7 +36,7 @@ struct asset_hold {
 
 // NULL: no memory.
 struct asset_hold *store_hold(struct asset_store *store);
-// Returns all references. NULL does nothing.
+// Releases all references. NULL does nothing.
 void store_release(struct asset_hold *hold);
 // A whole entry, now referenced by the hold; NULL: none.
 struct store_entry *store_find(struct asset_hold *hold, enum store_kind kind,

@@ -1,6 +1,6 @@
 // Memory of one phase (source, tree, IR, flat): many allocations, freed together.
 //
-// `arena_alloc` returns zeroed memory or does not return: at the byte cap, or when malloc fails, it jumps out
+// `arena_alloc` returns zeroed memory, or not at all: at the byte cap, or when malloc fails, it jumps out
 // of the work that `arena_guarded` runs, however deep it is, and `arena_guarded` says why:
 //
 //     struct job job = {.arena = &arena, ...};

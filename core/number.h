@@ -30,12 +30,12 @@ enum number_status {
 // *value is the number if the result is NUMBER_OK, else 0. -0 reads as 0. The double is the nearest one
 // (ties to even), as strtod returns it.
 enum number_status number_parse(str text, double *value);
-// The number that `s` begins with, leading zeros allowed: returns its length. Returns 0 if there is none, or
-// if it has so many digits or so large an exponent that only number_parse reads it; *value is unspecified
+// The number that `text` begins with, leading zeros allowed: returns its length, 0 if there is none or if it
+// has so many digits or so large an exponent that only number_parse reads it; *value is unspecified
 // then. For meshes, which have millions of short numbers.
 size_t number_take(str text, double *value);
-// Digits with an optional sign, no superfluous leading zeros, within the range of int64_t. Any other number
-// is NUMBER_NOT_INTEGER.
+// Digits with an optional sign, no superfluous leading zeros, within the range of int64_t. A number in
+// another form is NUMBER_NOT_INTEGER.
 enum number_status number_parse_integer(str text, int64_t *value);
 // What is wrong, as words that continue "...": "has a decimal comma"; never NULL.
 const char *number_problem(enum number_status status);

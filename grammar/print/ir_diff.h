@@ -4,8 +4,8 @@
 // and of named things are not part of the meaning. Entries of lists are matched by name, else by equal
 // content, else by the most equal attributes; entries that are elsewhere in the list are reported as moved
 // (of two surfaces at one place the earlier one is seen). Ownership: everything is made in the given arena,
-// which must be guarded; spans point into the sources of their side. Errors: only lack of memory. Thread
-// safety: pure except for the arena and the callbacks.
+// which must be guarded; spans point into the sources of their side. Errors: only lack of memory.
+// Thread safety: pure except for the arena and the callbacks.
 #ifndef GLINT_GRAMMAR_PRINT_IR_DIFF_H
 #define GLINT_GRAMMAR_PRINT_IR_DIFF_H
 

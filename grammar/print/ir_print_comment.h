@@ -1,8 +1,8 @@
 // Comments and the editor's schema line, from one spelling to the other. Part of the writers (ir_print.h).
 //
 // `# text` is `<!-- text -->` and back. XML forbids `--` inside a comment: there a backslash is put between
-// the two (`-\-`, and one more for each that was there), which YAML's writer removes again. Thread safety:
-// pure except for `out`.
+// the two (`-\-`, and one more for each that was there), which YAML's writer removes again.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_PRINT_IR_PRINT_COMMENT_H
 #define GLINT_GRAMMAR_PRINT_IR_PRINT_COMMENT_H
 

@@ -193,9 +193,9 @@ void bind_fixed(struct bind_context *context, struct bind_frame *frame, uint32_t
                 struct bind_values values, bool may_be_cut);
 
 // bind_loose.c: what is recognised despite a reported mistake is still read, so that its own mistakes show in
-// the same run and names in it are known. Rows touched are poisoned by the caller. The entries that a value
-// of the wrong shape holds, in scratch; replaces the last diagnostic's help if there is a better one than an
-// example (`reported`).
+// the same run and names in it are known. Rows touched are poisoned by the caller.
+// The entries that a value of the wrong shape holds, in scratch; replaces the last diagnostic's help if there
+// is a better one than an example (`reported`).
 struct bind_entries bind_loose_entries(struct bind_context *context, const struct schema_row *row,
                                        tree_index value, bool reported);
 // Keys after `key` that belong in its value, one column further right: `outer` (NULL: none) does not know
