@@ -35,7 +35,7 @@ static void apply_policy(void *context) {
     diag_filter(&session->sink, keeps, &judge);
 }
 
-// The notes about what stands in for a camera or a light that is not written.
+// The notes about what replaces a camera or a light that is not written.
 static void note_view(struct session *session) {
     struct view view;
     if (session->state == SESSION_LOADED && session->sink.errors == 0)

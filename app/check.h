@@ -1,16 +1,16 @@
-// Judging a scene: everything that `glint check` has to say about one file.
+// Judging a scene: everything that `glint check` reports about one file.
 //
-// Loads it, asks for what stands in for camera and light, runs the rules for scenes, and then judges all
-// findings: comments (`glint: allow W401`) and the policy of configuration and options take some away or
-// change their severity. Ownership: as session_load. Thread safety: one call belongs to one thread; the store
-// too.
+// Loads it, finds what replaces a missing camera or light, runs the rules for scenes, and then judges all
+// findings: comments (`glint: allow W401`) and the policy of configuration and options remove some or change
+// their severity. Ownership: as session_load. Thread safety: one call belongs to one thread; so does the
+// store.
 #ifndef GLINT_APP_CHECK_H
 #define GLINT_APP_CHECK_H
 
 #include "app/session.h"
 #include "diag/diag_report.h"
 
-// The session's sink then holds the findings, sorted and grouped. Whatever the result, session_finish takes
+// The session's sink then holds the findings, sorted and grouped. Whatever the result, session_finish accepts
 // it.
 enum session_state check_scene(struct session *session, const struct session_options *options,
                                struct asset_store *store);

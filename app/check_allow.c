@@ -6,7 +6,7 @@
 struct allow {
     span code;
     span comment;
-    uint32_t first_line, last_line; // of the comment's file, that it speaks for
+    uint32_t first_line, last_line; // of the comment's file, that it applies to
     bool used;
 };
 
@@ -27,7 +27,7 @@ static uint32_t line_of(struct session *session, uint32_t source, size_t at) {
     return source_locate(&session->sources, (span){source, (uint32_t)at, (uint32_t)at}).line;
 }
 
-// Behind blanks and comments.
+// After spaces and comments.
 static size_t skip_to_content(str text, size_t at, bool is_xml) {
     while (at < text.len) {
         if (char_is_space(text.ptr[at])) {
@@ -46,8 +46,8 @@ static size_t skip_to_content(str text, size_t at, bool is_xml) {
     return at;
 }
 
-// Where the XML tag that begins at `at` ends. No comment can stand inside a tag, so that one before it, or
-// behind it, speaks for all of its lines.
+// Where the XML tag that begins at `at` ends. No comment can be inside a tag, so that one before it, or after
+// it, applies to all of its lines.
 static size_t tag_end(str text, size_t at) {
     char quote = '\0';
     for (; at < text.len; at++) {
@@ -62,7 +62,7 @@ static size_t tag_end(str text, size_t at) {
     return at;
 }
 
-// Whether more than the dash of a list's item stands on the line before `end`.
+// Whether the line has more than the dash of a list's item before `end`.
 static bool has_content(str text, size_t end) {
     for (; end > 0 && !char_is_break(text.ptr[end - 1]); end--)
         if (!char_is_space(text.ptr[end - 1]) && text.ptr[end - 1] != '-')
@@ -70,8 +70,7 @@ static bool has_content(str text, size_t end) {
     return false;
 }
 
-// The lines that a comment speaks for: its own where something stands before it, else the next one with
-// content.
+// The lines that a comment applies to: its own if something is before it, else the next one with content.
 static void find_lines(struct session *session, span comment, struct allow *allow) {
     const struct source *source = &session->sources.items[comment.source];
     str text = source->text;
@@ -104,7 +103,7 @@ static void bad_comment(struct allows *allows, span at, const char *before, str 
               "write, for example, 'glint: allow W401: the pane is meant to be thin'");
 }
 
-// The next word in text[*at, end): up to a blank, comma or colon; false: there is none.
+// The next word in text[*at, end): up to a space, comma or colon; false: there is none.
 static bool next_word(str text, size_t *at, size_t end, span *word, uint32_t source) {
     while (*at < end && (char_is_space(text.ptr[*at]) || text.ptr[*at] == ','))
         ++*at;
@@ -164,7 +163,7 @@ static void read_comment(struct allows *allows, span comment) {
 
 // ---- using them
 
-// Whether a place stands on the lines that a comment speaks for.
+// Whether a place is on the lines that a comment applies to.
 static bool speaks_for(struct allows *allows, const struct allow *allow, span at) {
     if (at.source != allow->comment.source)
         return false;
@@ -172,7 +171,7 @@ static bool speaks_for(struct allows *allows, const struct allow *allow, span at
     return line >= allow->first_line && line <= allow->last_line;
 }
 
-// A finding stands on the lines itself, or, in a mesh or image, the note does that tells who names the file.
+// A finding is on the lines itself, or, in a mesh or image, the note is that says what names the file.
 static bool is_meant(struct allows *allows, const struct allow *allow, const struct diag *item) {
     bool meant = speaks_for(allows, allow, item->at);
     if (item->at.source != allow->comment.source)
@@ -206,8 +205,8 @@ static bool is_alone(const struct allows *allows, const struct allow *allow) {
     return true;
 }
 
-// Comments of the scene itself: what an included file allows may be found only by another scene. Where there
-// are errors, rules may not have run.
+// Comments of the scene itself: what an included file allows may only be found in another scene. If there are
+// errors, rules may not have run.
 static void report_unused(struct allows *allows) {
     struct session *session = allows->session;
     uint32_t main_source =

@@ -1,4 +1,4 @@
-// Which warnings and notes of a session are told: comments (`glint: allow W401`) and policy take some away.
+// Which warnings and notes of a session are reported: comments (`glint: allow W401`) and policy remove some.
 //
 // Ownership: the session's. Thread safety: one call belongs to one thread.
 #ifndef GLINT_APP_CHECK_ALLOW_H
@@ -6,7 +6,7 @@
 
 #include "app/session.h"
 
-// Takes away what comments in the scene files allow; with `report`, comments that allow nothing are findings
+// Removes what comments in the scene files allow; with `report`, comments that allow nothing are findings
 // themselves (W801, W802).
 void check_allow(struct session *session, bool report);
 // What other commands than check leave out of a loaded session's warnings and notes: what comments allow, and

@@ -40,7 +40,7 @@ static void report_fault(struct session *session, enum diag_code code, const str
                                                           .triangle = fault->triangle});
 }
 
-// Floats for the image; a pixel with a value that none holds is marked as one that is no number.
+// Floats for the image; a pixel with a value that no float holds is marked as not a number.
 static struct reference_fault round_picture(const struct exact *exact, const double *values,
                                             struct image *image) {
     struct reference_fault fault = {.body = HIT_NONE};

@@ -1,6 +1,6 @@
 // A session through one camera by the double-precision reference.
 //
-// Errors: as app/shot.h; there is no device. Ownership: exact_close frees all but the session, which must
+// Errors: as app/shot.h; there is no device. Ownership: exact_close frees all except the session, which must
 // outlive it. Thread safety: one thread.
 #ifndef GLINT_APP_EXACT_H
 #define GLINT_APP_EXACT_H
@@ -23,12 +23,12 @@ struct exact {
     char *store_path;
 };
 
-// `camera` is an index of session_camera. Leaves what exact_close takes, whatever the status.
+// `camera` is an index of session_camera. Leaves what exact_close accepts, whatever the status.
 enum shot_status exact_open(struct exact *exact, struct session *session, uint32_t camera,
                             struct exact_options options);
 void exact_close(struct exact *exact);
-// A picture of settings.width x settings.height; `rgb` (may be NULL) gets it in double, three a pixel. Faulty
-// pixels become errors in the session's sink.
+// A picture of settings.width x settings.height; `rgb` (may be NULL) gets it in double, three per pixel.
+// Faulty pixels become errors in the session's sink.
 enum shot_status exact_take(struct exact *exact, struct image *image, double *rgb,
                             const struct reference_progress *progress,
                             struct reference_statistics *statistics);

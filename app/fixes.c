@@ -11,7 +11,7 @@ enum {
 struct fixer {
     struct fixes *fixes;
     const struct session_options *given;
-    struct session_options options; // its overlays: the files as they are by now
+    struct session_options options; // its overlays: the files as they are now
     enum fix_level level;
     struct asset_store *store;
     struct {
@@ -37,7 +37,7 @@ static bool is_wanted(const struct fixer *f, const struct diag *item) {
            item->fix_at.source != SOURCE_DEFAULT;
 }
 
-// Only scenes: not the configuration, options or what a mesh stands for.
+// Only scenes: not the configuration, options or the scene made around a mesh.
 static bool is_scene(const struct session *session, uint32_t source) {
     const struct source *s = &session->sources.items[source];
     if (s->kind != SOURCE_KIND_FILE)
@@ -65,7 +65,7 @@ static struct fixed_file *find_file(struct fixer *f, struct session *session, ui
 
 // ---- one round
 
-// A finding of the same kind where something was changed for it: the change did not help.
+// A finding of the same kind at a place that was changed for it: the change did not help.
 static void refuse_what_failed(struct fixer *f, struct session *session) {
     for (uint32_t i = 0; i < session->sink.count; i++) {
         const struct diag *item = &session->sink.items[i];
@@ -94,7 +94,7 @@ static void note_tried(struct fixer *f, const struct session *session, uint32_t 
     }
 }
 
-// Makes all changes of this round to the file of one source; gives their number.
+// Makes all changes of this round to the file of one source; returns their number.
 static uint32_t change_file(struct fixer *f, struct session *session, uint32_t source) {
     f->edits.count = 0;
     for (uint32_t i = 0; i < session->sink.count; i++) {

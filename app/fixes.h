@@ -1,11 +1,11 @@
 // Making the changes that diagnostics propose (struct diag: fix_at, fix_text), in the scene and the files it
 // includes.
 //
-// Rounds: check, make all changes that do not touch one another, check again, until none is left or none
-// helps. A file gets all of its changes or none: none where its text could not be read to its end afterwards,
-// or where a change did not take its finding away. Nothing is written here. Ownership: fixes_finish frees
-// everything. Errors: `failed` tells that memory ended. Thread safety: one call belongs to one thread; the
-// store too.
+// Rounds: check, make all changes that do not touch each other, check again, until none is left or none
+// helps. A file gets all of its changes or none: none if its text could not be read to its end afterwards, or
+// if a change did not remove its finding. Nothing is written here. Ownership: fixes_finish frees everything.
+// Errors: `failed` is set when memory runs out. Thread safety: one call belongs to one thread; so does the
+// store.
 #ifndef GLINT_APP_FIXES_H
 #define GLINT_APP_FIXES_H
 
@@ -13,7 +13,7 @@
 
 enum fix_level {
     FIX_NONE,
-    FIX_SAFE, // what can only be meant so
+    FIX_SAFE, // changes with only one possible meaning
     FIX_ALL,  // suggestions too
 };
 
@@ -21,7 +21,7 @@ struct fixed_file {
     str path;      // as it is shown
     str canonical; // absolute, links resolved
     str before;
-    str text; // equal to `before`: nothing is to be written
+    str text; // equal to `before`: nothing must be written
     uint32_t changes;
     bool refused;
 };

@@ -9,7 +9,7 @@ const char *inventory_role_name(enum inventory_role role) {
     return names[role];
 }
 
-// The path of an include as it is written, from the place where that stands.
+// The path of an include as it is written, from the place of the include.
 static str include_name(const struct session *session, span at) {
     for (uint32_t f = 0; f < session->origin.files.count; f++) {
         const struct ir_scene *scene = session->origin.files.items[f].scene;
@@ -27,7 +27,7 @@ static void add_scene_files(struct session *session, struct inventory *out) {
         const struct ir_file_origin *file = &session->origin.files.items[i];
         const struct source *source = &session->sources.items[file->source];
         if (source->kind == SOURCE_KIND_GENERATED)
-            continue; // a mesh stands for the scene; it follows as a mesh
+            continue; // the main file is a mesh; it follows as a mesh
         *ARENA_PUSH(&session->arena, out) =
             (struct inventory_use){.role = i == 0 ? INVENTORY_SCENE : INVENTORY_INCLUDE,
                                    .named = i == 0 ? STR("") : include_name(session, file->included_at),

@@ -1,6 +1,6 @@
 // Every file that a loaded scene reads, and where it is named: for `glint deps` and `glint pack`.
 //
-// Ownership: the inventory lies in the session's arena and lives as long as the session.
+// Ownership: the inventory is in the session's arena and lives as long as the session.
 // Thread safety: the session's thread.
 #ifndef GLINT_APP_INVENTORY_H
 #define GLINT_APP_INVENTORY_H
@@ -20,7 +20,7 @@ enum inventory_role {
 // A file at a place that names it.
 struct inventory_use {
     enum inventory_role role;
-    str named;     // as it is written there; empty where no one writes it
+    str named;     // as it is written there; empty if it is not written
     str path;      // to open
     str canonical; // absolute, links resolved: equal for two uses of one file
     uint64_t size_bytes;

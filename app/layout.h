@@ -15,7 +15,7 @@ enum layout_status {
     LAYOUT_CHANGED,    // `result` holds the text as it should be
     LAYOUT_REFUSED,    // the text cannot be read to its end
     LAYOUT_UNREADABLE, // the file cannot be read
-    LAYOUT_FAILED,     // the layout would have changed the meaning, or memory ended
+    LAYOUT_FAILED,     // the layout would have changed the meaning, or memory ran out
 };
 
 struct layout {
@@ -28,7 +28,7 @@ struct layout {
     enum layout_status status;
 };
 
-// `path` tells the spelling by its ending; others are told by the text. `text` must outlive the layout.
+// The ending of `path` decides the spelling; for other endings the text does. `text` must outlive the layout.
 enum layout_status layout_text(struct layout *layout, str path, str text, const struct limits *limits,
                                bool upgrade);
 enum layout_status layout_file(struct layout *layout, str path, const struct limits *limits, bool upgrade);

@@ -1,11 +1,11 @@
 // A scene with all its files in one folder or ZIP archive, to be rendered elsewhere.
 //
-// The scene file lies on top under its own name, what it includes in includes/, meshes with their material
-// files in meshes/, the background in images/; of two files of one name the second goes to meshes-2/ and so
-// on. Paths in scene files are rewritten where they stand: not a byte else of any file is changed. Limits
-// that were raised go into a `.glintrc.yaml`, so that the package loads without options. Before it is given
-// its name the packed scene is loaded and compared: same meaning, same files. Thread safety: the session's
-// thread.
+// The scene file is at the top under its own name, what it includes in includes/, meshes with their material
+// files in meshes/, the background in images/; of two files with the same name the second goes to meshes-2/
+// and so on. Paths in scene files are rewritten in place: no other byte of any file is changed.
+// Limits that were raised go into a `.glintrc.yaml`, so that the package loads without options. Before it
+// gets its name, the packed scene is loaded and compared: same meaning, same files. Thread safety: the
+// session's thread.
 #ifndef GLINT_APP_PACK_H
 #define GLINT_APP_PACK_H
 
@@ -37,18 +37,18 @@ struct pack_error {
     char text[512];
 };
 
-// Where each file goes, and the rewritten scene files. `session` has been loaded without errors. The plan
-// lies in the session's arena and keeps the inventory. PACK_OK or PACK_SCENE.
+// Where each file goes, and the rewritten scene files. `session` has been loaded without errors. The plan is
+// in the session's arena and keeps the inventory. PACK_OK or PACK_SCENE.
 enum pack_status pack_make_plan(struct session *session, const struct inventory *inventory,
                                 struct pack_plan *plan);
-// Writes the plan to `out`: a ZIP archive where it ends in .zip, else a new or empty folder. All or nothing;
-// nothing, too, once `is_stopped` says so. NULL: it never does.
+// Writes the plan to `out`: a ZIP archive if it ends in .zip, else a new or empty folder. All or nothing;
+// also nothing once `is_stopped` returns true. NULL: it never does.
 typedef bool pack_is_stopped(void);
 enum pack_status pack_write(struct session *session, const struct pack_plan *plan, const char *out,
                             pack_is_stopped *is_stopped, struct pack_error *error);
 
 // Writes the files of `folder` that the plan names to a ZIP archive: stored in the plan's order, with one
-// fixed time, so that equal scenes give equal archives. false: *error has the text.
+// fixed time, so that equal scenes make equal archives. false: *error has the text.
 bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, pack_is_stopped *is_stopped,
               struct pack_error *error);
 

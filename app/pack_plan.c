@@ -1,4 +1,4 @@
-// Which file of a scene goes where in a package, and what its scene files then have to say.
+// Which file of a scene goes where in a package, and what its scene files must then contain.
 #include "app/pack.h"
 
 #include "core/strbuf.h"
@@ -28,10 +28,10 @@ struct edits {
 };
 
 static bool same_name(str a, str b) {
-    return a.len == b.len && strncasecmp(a.ptr, b.ptr, a.len) == 0; // some file systems know no case
+    return a.len == b.len && strncasecmp(a.ptr, b.ptr, a.len) == 0; // some file systems ignore case
 }
 
-// The first: a material file may lie beside several meshes.
+// The first: a material file may be beside several meshes.
 static struct pack_file *find_canonical(const struct pack_plan *plan, str canonical) {
     for (uint32_t i = 0; i < plan->count; i++)
         if (str_equal(plan->items[i].canonical, canonical))
@@ -59,7 +59,7 @@ static void add_file(struct planner *p, str target, const struct inventory_use *
 }
 
 // `path` seen from `folder` ("" or "a/"), both relative to the package, without '.' and '..'; the empty
-// string where it leaves the package.
+// string if it leaves the package.
 static str normalize(struct arena *arena, str folder, str path) {
     str joined = arena_format(arena, "%.*s%.*s", STR_ARG(folder), STR_ARG(path));
     char *out = arena_alloc(arena, joined.len + 1);
@@ -95,7 +95,7 @@ static str folder_name(struct planner *p, const char *base, int number) {
 
 // ---- targets
 
-// Where a material file must lie for the mesh to find it under the name that it has there.
+// Where a material file must be for the mesh to find it under the name that the mesh uses.
 static str library_target(struct planner *p, str mesh_folder, const struct inventory_use *use) {
     struct arena *arena = &p->session->arena;
     str named = arena_copy(arena, use->named);
@@ -153,7 +153,7 @@ static void place(struct planner *p, const struct inventory_use *use, const char
     for (int number = 1; number <= TRIES; number++) {
         str in = folder_name(p, folder, number);
         str target = arena_format(&p->session->arena, "%.*s%.*s", STR_ARG(in), STR_ARG(path_base(use->path)));
-        // A scene may be called as the folder is.
+        // A scene may have the same name as a folder.
         if (find_target(p->plan, str_slice(in, 0, in.len - 1)) || !fits(p, in, use, target))
             continue;
         add_file(p, target, use);
@@ -206,7 +206,7 @@ static str way(struct arena *arena, str from, str to) {
     return arena_format(arena, "../%.*s", STR_ARG(to));
 }
 
-// A path as the file spells it; `old` is the text that it replaces.
+// A path as the file writes it; `old` is the text that it replaces.
 static str spell(struct arena *arena, bool is_xml, str old, str path) {
     struct strbuf text;
     strbuf_init(&text);
@@ -257,7 +257,7 @@ static void rewrite(struct planner *p, const struct ir_file_origin *file, struct
     for (uint32_t i = 0; i < edits.count; i++) {
         const struct edit *edit = &edits.items[i];
         if (edit->at.begin < at)
-            continue; // an anchored path stands once and is used more than once
+            continue; // an anchored path is written once and used more than once
         strbuf_str(&text, str_slice(old, at, edit->at.begin));
         strbuf_str(&text, edit->text);
         at = edit->at.end;

@@ -107,14 +107,14 @@ static void forget_path(void *context, const struct schema_element *schema, void
     *path = STR("x");
 }
 
-// What the scene means beside its paths. It changes the scene.
+// What the scene means apart from its paths. It changes the scene.
 static void dump(struct session *session, struct strbuf *out) {
     strbuf_init(out);
     ir_walk_paths(session->scene, forget_path, NULL);
     ir_dump(session->scene, out);
 }
 
-// The file that the packed scene reads in the place of each one that the scene reads.
+// The file that the packed scene reads in place of each one that the scene reads.
 static bool same_files(struct session *session, const struct inventory *after, const struct pack_plan *plan,
                        const char *folder) {
     const struct inventory *before = plan->inventory;
@@ -207,7 +207,7 @@ static void look_into(void *context) {
     look->taken = !files_list_folder(&look->arena, str_from(look->path), &names) || names.count > 0;
 }
 
-// A folder that exists and holds nothing may be taken.
+// A folder that exists and is empty may be used.
 static bool is_taken(const char *path) {
     struct stat info;
     struct look look = {.path = path, .taken = true};

@@ -43,7 +43,7 @@ static enum shot_status log_device(struct pick *pick, struct gpu *gpu, uint32_t 
         status = shot_no_memory(pick->session, "the path");
     struct render_log log = {.segments = segments, .capacity = PICK_SEGMENTS_MAX};
     for (uint32_t i = 0; status == SHOT_OK && i <= pick->sample_count; i++) {
-        // The one that is told comes last.
+        // The one that is reported comes last.
         const uint32_t sample = i < pick->sample_count ? i : pick->sample;
         if (renderer_log(shot.renderer, &shot.view.camera, pick->x, pick->y, sample, &log) != RENDER_DONE)
             status = SHOT_DEVICE;
@@ -96,7 +96,7 @@ static enum shot_status log_reference(struct pick *pick, uint32_t camera) {
 // ---- differences
 
 static void differ(struct pick *pick, enum pick_difference_kind kind, uint32_t device, uint32_t reference) {
-    // What a log does not have may lie behind its end.
+    // What a log does not have may be after its end.
     if ((device == UINT32_MAX && !pick->logs[PICK_DEVICE].whole) ||
         (reference == UINT32_MAX && !pick->logs[PICK_REFERENCE].whole))
         return;
@@ -105,7 +105,7 @@ static void differ(struct pick *pick, enum pick_difference_kind kind, uint32_t d
     pick->difference_count++;
 }
 
-// The ray of this kind that leaves what ray `parent` met; UINT32_MAX: none.
+// The ray of this kind that leaves what ray `parent` hit; UINT32_MAX: none.
 static uint32_t child_of(const struct pick_log *log, uint32_t parent, enum reference_kind kind,
                          uint32_t max_depth) {
     for (uint32_t i = parent + 1; i < log->count; i++)
@@ -115,7 +115,7 @@ static uint32_t child_of(const struct pick_log *log, uint32_t parent, enum refer
     return UINT32_MAX;
 }
 
-// Whether the two meet the same; if so, what leaves it can be compared too.
+// Whether the two hit the same; if so, what leaves it can be compared too.
 static bool compare_segments(struct pick *pick, uint32_t device, uint32_t reference) {
     const struct reference_segment *a = &pick->logs[PICK_DEVICE].segments[device];
     const struct reference_segment *b = &pick->logs[PICK_REFERENCE].segments[reference];

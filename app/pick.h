@@ -11,9 +11,9 @@
 #include "reference/reference.h"
 
 enum {
-    PICK_SEGMENTS_MAX = 4096,  // rays of a path that are told
-    PICK_DIFFERENCES_MAX = 16, // that are told
-    PICK_SAMPLES_MAX = 16,     // whose colours are told
+    PICK_SEGMENTS_MAX = 4096,  // rays of a path that are reported
+    PICK_DIFFERENCES_MAX = 16, // that are reported
+    PICK_SAMPLES_MAX = 16,     // whose colours are reported
 };
 
 // One tracer's path, in the reference's words. Rays deeper than max_depth are not traced: they see the
@@ -22,7 +22,7 @@ struct pick_log {
     struct reference_segment *segments;
     uint32_t count;
     bool whole; // else PICK_SEGMENTS_MAX ended it
-    // Of the sample; of the device's log only what its rays add, while the reference follows all.
+    // Of the sample; in the device's log only what its rays add, while the reference follows all.
     vec3 color;
 };
 
@@ -43,7 +43,7 @@ struct pick {
     struct session *session;
     uint32_t x, y, sample;
     str camera;
-    str device;     // its name; empty: the reference alone
+    str device;     // its name; empty: only the reference
     bool is_double; // the device's precision
     uint32_t max_depth;
     struct pick_log logs[2];                // device, reference
@@ -51,7 +51,7 @@ struct pick {
     bool is_sample_whole[PICK_SAMPLES_MAX]; // else the device's is that of PICK_SEGMENTS_MAX rays
     uint32_t sample_count;
     struct pick_difference differences[PICK_DIFFERENCES_MAX];
-    uint32_t difference_count; // told or not
+    uint32_t difference_count; // reported or not
 };
 
 enum {
@@ -59,10 +59,10 @@ enum {
     PICK_REFERENCE
 };
 
-// The path of a sample of pixel x, y of the session's picture. `gpu` NULL: the reference alone.
+// The path of a sample of pixel x, y of the session's picture. `gpu` NULL: only the reference.
 enum shot_status pick_take(struct pick *pick, struct session *session, struct gpu *gpu, uint32_t camera,
                            uint32_t x, uint32_t y, uint32_t sample);
-void pick_finish(struct pick *pick); // NULL and zeroed ones are fine
+void pick_finish(struct pick *pick); // accepts NULL and zeroed ones
 
 void pick_text(const struct pick *pick, struct strbuf *out);
 void pick_json(const struct pick *pick, struct strbuf *out);

@@ -9,7 +9,7 @@
 
 enum {
     LIGHTS_TOLD = 32, // bits of hit_pixel
-    FLAT_DEPTH = 3,   // of the JSON: a ray a line
+    FLAT_DEPTH = 3,   // of the JSON: a ray per line
 };
 
 static const char *const kind_words[] = {
@@ -155,7 +155,7 @@ static void put_color(const struct pick_log *log, const char *words, bool whole,
     strbuf_char(out, '\n');
 }
 
-// Which sample a mean owes its colour to.
+// Which sample decides the colour of a mean.
 static void put_samples(const struct pick *pick, struct strbuf *out) {
     for (uint32_t i = 0; pick->sample_count > 1 && i < pick->sample_count; i++) {
         strbuf_format(out, "sample %-4u", i);

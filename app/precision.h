@@ -8,13 +8,13 @@
 #include "core/strbuf.h"
 #include "tracer/flatten/precision.h"
 
-// What flattening takes for a session seen in this view; `view` must outlive it.
+// The input of flattening for a session seen in this view; `view` must outlive it.
 struct flat_input precision_input(struct session *session, const struct view *view);
 
-// Sets input->is_double. The scene is measured where its setting is auto. `has_double`: the device can. Its
-// sink gets the error E707, or the warning W701. false: an error, or no memory.
+// Sets input->is_double. The scene is measured if its setting is auto. `has_double`: the device can. The
+// session's sink gets the error E707, or the warning W701. false: an error, or no memory.
 bool precision_choose(struct session *session, struct flat_input *input, bool has_double);
-// Warns (W417) where the scene asks for single precision and needs double. The session's arena must be
+// Warns (W417) if the scene asks for single precision and needs double. The session's arena must be
 // guarded.
 void precision_check(struct session *session);
 // What was measured, what it means, and which body decides: lines of `glint inspect`.

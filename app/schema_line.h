@@ -1,5 +1,5 @@
-// The line that tells an editor which schema a scene file follows: `# yaml-language-server: $schema=ADDRESS`
-// in YAML, `<?xml-model href="ADDRESS" ...?>` in XML.
+// The line that names the schema of a scene file for editors: `# yaml-language-server: $schema=ADDRESS` in
+// YAML, `<?xml-model href="ADDRESS" ...?>` in XML.
 //
 // Thread safety: the session's thread.
 #ifndef GLINT_APP_SCHEMA_LINE_H
@@ -9,8 +9,8 @@
 #include "core/strbuf.h"
 
 // Puts the line with this address into the text of the session's main file, or changes the one that is there;
-// not a byte else changes, and the line ends as the file's lines do. `session` is of session_load_text.
-// false: the text has that line already, and `out` is as it was.
+// no other byte changes, and the line ends as the file's lines do. `session` is from session_load_text.
+// false: the text has that line already, and `out` is unchanged.
 bool schema_line_put(struct session *session, str address, struct strbuf *out);
 
 #endif

@@ -2,7 +2,7 @@
 //
 // The one place that joins the stages; command line, viewer and language server call it. Nothing here
 // prints or exits: diagnostics are in `sink`, sorted by session_load.
-// Ownership: session_finish frees everything but the store, which outlives sessions.
+// Ownership: session_finish frees everything except the store, which outlives sessions.
 // Thread safety: a session belongs to one thread; once loaded it is immutable and may be read by many.
 #ifndef GLINT_APP_SESSION_H
 #define GLINT_APP_SESSION_H
@@ -28,13 +28,13 @@ struct session_options {
     const str *sets; // PATH=VALUE
     uint32_t set_count;
     struct limits limits;
-    const struct file_overlay *overlays; // texts that stand for files; they are copied
+    const struct file_overlay *overlays; // text that replaces files; it is copied
     uint32_t overlay_count;
     bool text_only;                   // neither meshes nor images are opened
     bool skip_pixels;                 // the background's header is checked, its pixels are not decoded
     int32_t width, height;            // 0: as the scene says
     int32_t samples;                  // 0: as the scene says
-    enum lint_level lint;             // rules about light that run where the scene has no error; check_scene
+    enum lint_level lint;             // rules about light that run if the scene has no error; check_scene
                                       // runs all, unless skip_lint
     const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
     bool skip_lint; // for check_scene: leaves the rules about light out, and the use of comments unjudged
@@ -50,7 +50,7 @@ enum session_state {
 };
 
 struct session {
-    struct session_options options; // with the configuration's limits where none were given
+    struct session_options options; // with the configuration's limits if none were given
     struct config config;
     bool config_failed;        // errors are in it
     struct diag_policy policy; // the configuration's and, over it, the options'
@@ -67,33 +67,33 @@ struct session {
     double read_seconds, assets_seconds, lint_seconds;
 };
 
-// Loads `options->path`. Always leaves a session that session_finish takes, whatever the result.
+// Loads `options->path`. Always leaves a session that session_finish accepts, whatever the result.
 enum session_state session_load(struct session *session, const struct session_options *options,
                                 struct asset_store *store);
 void session_finish(struct session *session);
-// What is said of a scene file that cannot be read.
+// What is reported about a scene file that cannot be read.
 enum diag_code session_file_code(enum file_status status);
 // What reads meshes and images of the loaded scene; it points into the session.
 struct assets_input session_assets_input(struct session *session);
-// What session_load does last, as options.lint says.
+// The last step of session_load, as options.lint says.
 void session_lint(struct session *session);
-// Sorts the diagnostics and groups those of one code and file, where the findings are judged.
+// Sorts the diagnostics and groups those of one code and file, if the findings are judged.
 void session_group(struct session *session);
 
 // Index of the camera of this name, or IR_NO_INDEX with a diagnostic E302. An empty name is the first
-// (0, also where the scene has none).
+// (0, also if the scene has none).
 uint32_t session_camera(struct session *session, str name);
 // The view through a camera; its lights live in the session. Notes about automatic ones go to the sink.
 // false: no memory.
 bool session_view(struct session *session, uint32_t camera, struct view *view);
-// The origin for flattening: the position of the first camera, or of `view` where the scene has none.
+// The origin for flattening: the position of the first camera, or of `view` if the scene has none.
 vec3 session_origin(const struct session *session, const struct view *view);
 
-// Changes the paths of a loaded file so that it may be written to `out`, in whatever folder; warns where a
-// file lies outside what it may read from there. false: no memory.
+// Changes the paths of a loaded file so that it may be written to `out`, in any folder; warns if a file is
+// outside what it may read from there. false: no memory.
 bool session_rebase(struct session *session, str out);
 
-// One file alone, for `convert`: no includes, no assets. The IR is origin.files[0].scene too.
+// Only one file, for `convert`: no includes, no assets. The IR is origin.files[0].scene too.
 enum session_state session_load_text(struct session *session, const struct session_options *options);
 // `.glintrc.yaml` by itself: a session without a scene (SESSION_NO_SCENE).
 enum session_state session_load_settings(struct session *session, const struct session_options *options);

@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum {
-    SAME_CODE_MAX = 50, // diagnostics of one code in one file that are told one by one
+    SAME_CODE_MAX = 50, // diagnostics of one code in one file that are reported one by one
 };
 
 enum diag_code session_file_code(enum file_status status) {
@@ -40,7 +40,7 @@ static enum session_state unreadable(struct session *session, str path, enum fil
     return SESSION_UNREADABLE;
 }
 
-// A mesh stands for a scene with that one model, which no one wrote.
+// A mesh becomes a scene with only that model, which nobody wrote.
 static str scene_around_mesh(struct session *session, str path) {
     struct strbuf text;
     str name = path_base(path);
@@ -131,7 +131,7 @@ static void take_image_options(struct session *session) {
     session->image = image;
 }
 
-// What of the path is loaded.
+// What is loaded from the path.
 enum extent {
     EXTENT_SCENE,
     EXTENT_FILE,     // without includes and assets

@@ -1,4 +1,4 @@
-// Paths of a scene that is written to another folder than the one it was read from.
+// Paths of a scene that is written to a folder other than the one it was read from.
 #include "app/session.h"
 
 #include "grammar/ir_walk.h"
@@ -8,7 +8,7 @@ struct rebase {
     struct session *session;
     str out;
     struct files there; // what the scene may read from its new folder
-    uint32_t beyond;    // paths that lie outside of that
+    uint32_t beyond;    // paths that are outside that
     span first;
     str first_path;
 };

@@ -1,4 +1,4 @@
-// What others look at in a loaded session: what its meshes are read with, cameras and lights.
+// What other code asks of a loaded session: the input for its assets, cameras and lights.
 #include "app/session.h"
 
 #include "core/nearest.h"

@@ -1,7 +1,7 @@
 // A session through one camera on a device: view, flat scene and renderer together.
 //
-// Errors: shot_open gives a status; what the scene did wrong is in the session's sink, what the device did
-// in gpu_error. Ownership: shot_close frees all but session and gpu, which must outlive the shot.
+// Errors: shot_open returns a status; faults of the scene are in the session's sink, those of the device in
+// gpu_error. Ownership: shot_close frees all except session and gpu, which must outlive the shot.
 // Thread safety: the gpu's thread.
 #ifndef GLINT_APP_SHOT_H
 #define GLINT_APP_SHOT_H
@@ -27,13 +27,13 @@ struct shot {
     double flatten_seconds, upload_seconds;
 };
 
-// `camera` is an index of session_camera. Leaves a shot that shot_close takes, whatever the status.
+// `camera` is an index of session_camera. Leaves a shot that shot_close accepts, whatever the status.
 enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera);
 void shot_close(struct shot *shot);
-// Says in the sink that there is no memory for `what`; gives SHOT_SCENE.
+// Reports in the sink that there is no memory for `what`; returns SHOT_SCENE.
 enum shot_status shot_no_memory(struct session *session, const char *what);
-// Looks through another camera of the same session; only the lights of a scene without lights need
-// flattening anew.
+// Looks through another camera of the same session; only the lights of a scene without lights must be
+// flattened again.
 enum shot_status shot_turn(struct shot *shot, uint32_t camera);
 // One frame into `image`, which has the session's size. Faulty pixels become errors in the session's sink.
 enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,

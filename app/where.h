@@ -1,5 +1,5 @@
-// From a body and its triangle to words and places: what people call it, where the scene and the mesh have
-// it.
+// From a body and its triangle to words and places: what people call it, and where it is in the scene and the
+// mesh.
 //
 // Ownership: text points into session and assets. Thread safety: pure reads.
 #ifndef GLINT_APP_WHERE_H
@@ -16,23 +16,23 @@ struct where {
     uint32_t material;         // in assets.materials
     str material_name;         // empty: inline, or the default
     const char *material_kind; // "material", "inline material", "default material", "material of the mesh"
-    span material_at;          // in the scene; SPAN_NONE where it is not written there
+    span material_at;          // in the scene; SPAN_NONE if it is not written there
     str mesh;                  // path; empty: no mesh
     uint32_t mesh_line;        // 0: no mesh
 };
 
 // `body` in IR order, `triangle` in file order. false: there is no such body.
 bool where_find(const struct session *session, uint32_t body, uint32_t triangle, struct where *out);
-// "model 'dragon'", "spheres[2]"; "the background" where `where` is NULL.
+// "model 'dragon'", "spheres[2]"; "the background" if `where` is NULL.
 void where_body_words(const struct where *where, struct strbuf *out);
 // "material 'jade'", "the default material".
 void where_material_words(const struct where *where, struct strbuf *out);
 
-// What either tracer may say of pixels.
+// What either tracer may report about pixels.
 #define WHERE_NOT_FINITE    "got a value that is infinite or not a number"
 #define WHERE_OVER_SEGMENTS "needed more rays than the limit path-segments"
 
-// Says in the sink that pixels have a fault, with the body (HIT_NONE: none) that the first one's path met
+// Reports in the sink that pixels have a fault, with the body (HIT_NONE: none) that the first one's path hit
 // last: its material, and the lines of scene and mesh.
 struct where_fault {
     enum diag_code code;

@@ -11,7 +11,7 @@ enum {
     KEPT_TEXT_MAX = 256 << 20, // bytes of a file that are kept to show its lines
 };
 
-// Words of a broken file may hold anything: what is no text is shown as '?'.
+// Words of a broken file may hold anything: what is not text is shown as '?'.
 __attribute__((format(printf, 2, 0))) static void format_message(char message[MESSAGE_MAX],
                                                                  const char *format, va_list args) {
     vsnprintf(message, MESSAGE_MAX, format, args);
@@ -25,7 +25,7 @@ __attribute__((format(printf, 2, 0))) static void format_message(char message[ME
     }
 }
 
-// The file's text, kept for as long as the sources are; the empty string where it is too large for that.
+// The file's text, kept for as long as the sources are; the empty string if it is too large for that.
 static str keep_text(const struct asset_file *file) {
     const struct assets_input *input = file->input;
     struct arena *arena = input->sources->arena;
@@ -122,7 +122,7 @@ bool asset_is_grouped(struct asset_file *file, enum diag_code code) {
     return true;
 }
 
-// `line` is that of the place, for files whose text is not kept; 0 is the file as such.
+// `line` is that of the place, for files whose text is not kept; 0 is the whole file.
 __attribute__((format(printf, 5, 0))) static void report(struct asset_file *file, enum diag_code code,
                                                          span at, uint32_t line, const char *format,
                                                          va_list args) {
@@ -213,7 +213,7 @@ static void report_missing(struct asset_file *file, str path) {
     }
 }
 
-// Says why a file that is named as `path` is not read.
+// Reports why the file named `path` is not read.
 static void refuse(struct asset_file *file, str path, enum file_status status, uint64_t size) {
     const struct assets_input *input = file->input;
     switch (status) {

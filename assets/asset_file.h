@@ -3,7 +3,7 @@
 // A file that is missing, refused or too large is a diagnostic where it is named. A fault inside it is
 // placed in the file, with notes "named here" up to the scene; the file's text becomes a source when the
 // first such diagnostic needs it. Repeated faults of one code are grouped.
-// Ownership: texts that become sources are copied into the arena of the source set, which the
+// Ownership: text that becomes a source is copied into the arena of the source set, which the
 // caller of assets_load has guarded; other functions' results say so.
 // Thread safety: one thread loads.
 #ifndef GLINT_ASSETS_ASSET_FILE_H
@@ -28,7 +28,7 @@ struct asset_file {
     const char *what;            // "mesh", "material file", "image"
     str text;                    // while it is in memory; else empty
     uint32_t source;             // with the text; SOURCE_DEFAULT until one was needed
-    uint32_t bare_source;        // without a text: for faults of the file as such
+    uint32_t bare_source;        // without text: for faults of the whole file
     enum limit limit;            // of its size
     span named_at;               // where the scene names it
     struct asset_file *named_in; // the mesh that names it; NULL: the scene
@@ -38,27 +38,28 @@ struct asset_file {
 };
 
 // Finds the file that `base_path` (a file) names `path`. On success file->path is set and *identity filled;
-// else a diagnostic stands where the file is named. `file` has its other members set. Where `missing` is not
-// NULL, a missing file gives no diagnostic, but *missing = true.
+// else adds a diagnostic where the file is named. `file` has its other members set. If `missing` is not NULL,
+// a missing file only sets *missing, without a diagnostic.
 bool asset_find(struct asset_file *file, str base_path, str path, struct file_read *identity, bool *missing);
-// Reads the found file into `arena`; a diagnostic where it is named if that fails.
+// Reads the found file into `arena`; if that fails, adds a diagnostic where it is named.
 bool asset_read(struct asset_file *file, struct arena *arena);
 
 // Adds a diagnostic for bytes [begin, end) of the file's text, with its "named here" notes. false: it was
 // only counted into an earlier one, and neither help nor notes must be added.
 bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, size_t end, const char *format,
                   ...) __attribute__((format(printf, 5, 6)));
-// The same for a whole line (from 1; 0 means the file as such).
+// The same for a whole line (from 1; 0 means the whole file).
 bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-// Whether a further fault of this code is only counted; it is, if so. For callers whose place costs time.
+// Whether a further fault of this code is only counted; if so, counts it. For callers that need time to find
+// the place.
 bool asset_is_grouped(struct asset_file *file, enum diag_code code);
 // The place of a line of the file.
 span asset_line(struct asset_file *file, uint32_t line);
-// A diagnostic where the file is named.
+// Adds a diagnostic where the file is named.
 void asset_report_named(struct asset_file *file, enum diag_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-// Reports that a limit is too low: E501 at the bytes given, with the option to raise it.
+// Reports that a limit is too low: E501 at the given bytes, with the option to raise it.
 void asset_report_limit(struct asset_file *file, enum limit limit, size_t begin, size_t end, uint64_t needed);
 // Reports the fault of an arena that was used for the file (E501 or E502) where the file is named.
 void asset_report_memory(struct asset_file *file, enum arena_fault fault);

@@ -11,7 +11,7 @@
 
 enum {
     TEXT_ROOM = 64
-}; // that an arena takes beside one text
+}; // that an arena needs besides the text itself
 
 bool assets_is_mesh_path(str path) {
     return str_ends_with_nocase(path, ".obj");
@@ -81,7 +81,7 @@ static void read_mesh_guarded(struct asset_file *file, struct arena *scratch, st
         asset_report_memory(file, fault);
 }
 
-// What is worth telling about a mesh, whether it was read now or for an earlier scene.
+// What is worth reporting about a mesh, whether it was read now or for an earlier scene.
 static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
     if (mesh->turned)
         asset_report_line(file, DIAG_MESH_TURNED, 0,

@@ -1,9 +1,9 @@
-// Everything a scene reads beside its text: meshes and the background image, and what they add to the
+// Everything a scene reads besides its text: meshes and the background image, and what they add to the
 // materials. A fault inside a file is placed in that file with "named here" in the scene; a file that is
-// missing, refused or of an unread kind is placed where the scene names it.
+// missing, refused or of an unsupported kind is reported where the scene names it.
 //
 // The store keeps meshes and images with counted references, keyed by path, size and time, so that they
-// outlive a reload. Ownership: assets hold references into the store; assets_finish gives them back.
+// outlive a reload. Ownership: assets hold references into the store; assets_finish releases them.
 // Thread safety: one thread loads; loaded assets are immutable.
 #ifndef GLINT_ASSETS_ASSETS_H
 #define GLINT_ASSETS_ASSETS_H
@@ -26,7 +26,7 @@ struct asset_store *asset_store_create(void); // NULL: no memory
 // All assets that were loaded with the store must be finished before.
 void asset_store_destroy(struct asset_store *store);
 
-// A file that was found under a name, each time that it was named: what `deps` and `pack` tell.
+// A file that was found under a name, one for each place that names it: what `deps` and `pack` list.
 struct asset_use {
     const char *what; // "mesh", "material file", "image"
     str named;        // as it is written there
@@ -43,7 +43,7 @@ struct asset_uses {
 };
 
 struct assets_model {
-    const struct mesh *mesh;  // NULL where it could not be loaded (a diagnostic says why)
+    const struct mesh *mesh;  // NULL if it could not be loaded (a diagnostic says why)
     uint32_t *group_material; // per mesh group: index into assets.materials
 };
 
@@ -57,10 +57,10 @@ struct assets {
     struct assets_model *models; // one per scene model
     uint32_t model_count;
     const struct picture *background; // NULL: none, or not loaded
-    // Of the background, also where only its header was read; 0: none.
+    // Of the background, also if only its header was read; 0: none.
     uint32_t background_width, background_height;
     uint64_t triangle_count; // of all models
-    struct asset_uses uses;  // in the order of loading; texts in the arena of the scene
+    struct asset_uses uses;  // in the order of loading; text is in the arena of the scene
 };
 
 struct assets_input {
@@ -75,15 +75,15 @@ struct assets_input {
 };
 
 // Loads all; goes on after a fault. `geometry_only` skips decoding the background (its header is still
-// checked). Where memory ends, the guards of input->arena and of the arenas of sources and files are jumped
-// to; assets_finish(out) then still gives back what was taken.
+// checked). When memory runs out, it jumps to the guards of input->arena and of the arenas of sources and
+// files; assets_finish(out) then still releases what was taken.
 void assets_load(struct asset_store *store, const struct assets_input *input, bool geometry_only,
                  struct assets *out);
-// Zeroed, half-loaded and finished assets are fine.
+// Accepts zeroed, half-loaded and finished assets.
 void assets_finish(struct assets *assets);
 // The index in assets.materials of a body's reference.
 uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_ref *ref);
-// Whether `path` ends like a mesh that is read (.obj).
+// Whether `path` has the ending of a supported mesh (.obj).
 bool assets_is_mesh_path(str path);
 
 #endif

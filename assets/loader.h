@@ -16,7 +16,7 @@ struct loaded_mesh {
     const struct mesh *mesh; // NULL: it could not be loaded
     struct str_map groups;   // of the mesh: 1 + index; made when first needed
     bool libraries_read;
-    bool library_missing; // so that what it would have defined is not missed once more
+    bool library_missing; // so that what it would have defined is not reported as missing again
     struct mtl_materials materials;
     uint32_t *group_material; // from the material files; IR_NO_INDEX: not asked for yet
     struct loaded_mesh *next;

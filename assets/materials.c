@@ -78,7 +78,7 @@ static void read_library_or_report(struct loader *loader, struct loaded_mesh *lo
         report_missing_library(loaded, name, line);
 }
 
-// End of the first name of several: behind the first word that ends like a material file, else at the end.
+// End of the first name of several: after the first word that ends like a material file, else at the end.
 static size_t first_name_end(str names) {
     for (size_t at = 1; at < names.len; at++) {
         bool ends = names.ptr[at] == ' ' || names.ptr[at] == '\t';
@@ -88,7 +88,7 @@ static size_t first_name_end(str names) {
     return names.len;
 }
 
-// A line holds one name, which may have blanks, or several names.
+// A line holds one name, which may have spaces, or several names.
 static void read_library_line(struct loader *loader, struct loaded_mesh *loaded,
                               const struct mesh_library *library) {
     str names = library->names;

@@ -16,8 +16,8 @@ struct mesh_triangle {
     uint32_t line;       // of the face in the file, from 1
 };
 
-// The faces of one `usemtl` name (or of none: an empty name), in the order of their first face. What
-// material they have is the model's affair: struct assets_model.
+// The faces of one `usemtl` name (or of none: an empty name), in the order of their first face. Their
+// material depends on the model: struct assets_model.
 struct mesh_group {
     str name;
     uint32_t line; // of the first `usemtl` of this name; 0 for the empty name
@@ -25,7 +25,7 @@ struct mesh_group {
 
 // A `mtllib` line: one name, or several.
 struct mesh_library {
-    str names; // the text behind the word, trimmed
+    str names; // the text after the word, trimmed
     uint32_t line;
 };
 
@@ -44,8 +44,8 @@ struct mesh {
     struct mesh_library *libraries;
     uint32_t library_count;
     bool closed;            // bit-equal positions merged, every directed edge occurs as often as its opposite
-    bool turned;            // a closed mesh of negative volume: `triangles` have been turned outward
-    double volume;          // signed, before turning; 0 where open
+    bool turned;            // a closed mesh of negative volume: `triangles` were turned outward
+    double volume;          // signed, before turning; 0 if open
     uint32_t open_edges;    // directed edges without their opposite
     uint32_t open_line;     // face line of the first of them
     uint32_t face_count;    // polygons in the file, before triangulation
@@ -58,10 +58,10 @@ struct mesh {
 // Whether the triangle's area is not 0 (in double, without underflow).
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle);
 
-// Shading normals of smooth models: three unit vectors a triangle (corner order), 3 * triangle_count.
-// A corner with a normal of the file has that; else unit face normals weighted by their angle at the
-// corner are summed over all corners at bit-equal positions (Thürmer and Wüthrich 1998). Zero vectors
-// where they cancel. `arena` owns the result.
+// Shading normals of smooth models: three unit vectors per triangle (corner order), 3 * triangle_count.
+// A corner with a normal in the file has that; else unit face normals weighted by their angle at the
+// corner are summed over all corners at bit-equal positions (Thürmer and Wüthrich 1998). Zero vectors if they
+// cancel. `arena` owns the result.
 vec3 *mesh_smooth_normals(const struct mesh *mesh, struct arena *arena);
 
 #endif

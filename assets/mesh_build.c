@@ -24,7 +24,7 @@ static void copy_names(const struct obj *obj, str path, struct mesh *mesh) {
     mesh->face_count = obj->faces.count;
 }
 
-// Positions that faces use, in file order. Gives the new index of each vertex.
+// Positions that faces use, in file order. Returns the new index of each vertex.
 static uint32_t *keep_used_positions(const struct obj *obj, struct arena *scratch, struct mesh *mesh) {
     uint32_t *place = ARENA_ARRAY(scratch, uint32_t, obj->vertices.count);
     for (uint32_t i = 0; i < obj->corners.count; i++)
@@ -64,7 +64,7 @@ static void add_face(const struct obj *obj, const uint32_t *place, const struct 
         for (int k = 0; k < 3; k++) {
             const struct obj_corner *corner = &obj->corners.items[face->first + cuts[3 * t + (uint32_t)k]];
             triangle->corners[k] = place[corner->vertex];
-            // A normal of length 0 is as good as none.
+            // A normal of length 0 counts as none.
             bool has = corner->normal != IR_NO_INDEX && !vec3_is_zero(mesh->normals[corner->normal]);
             triangle->normals[k] = has ? corner->normal : IR_NO_INDEX;
         }
@@ -125,7 +125,7 @@ bool mesh_has_area(const struct mesh *mesh, uint32_t triangle) {
     vec3 v = vec3_sub(mesh->positions[c[2]], mesh->positions[c[0]]);
     if (!vec3_is_zero(vec3_cross(u, v)))
         return true;
-    // Zero, or too small for a double: products of parts near 1 tell.
+    // Zero, or too small for a double: products of components scaled near 1 show which.
     double largest_u = vec3_max_abs(u);
     double largest_v = vec3_max_abs(v);
     if (!(largest_u > 0) || !(largest_v > 0))

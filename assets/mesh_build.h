@@ -7,8 +7,8 @@
 #include "assets/mesh.h"
 #include "assets/read_obj.h"
 
-// Fills a zeroed mesh whose arena is set up; everything that stays lies there, `scratch` may go. Both arenas
-// must be guarded.
+// Fills a zeroed mesh whose arena is set up; everything that stays is there, `scratch` may be freed. Both
+// arenas must be guarded.
 void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct mesh *mesh);
 
 // The steps after triangulation, in this order (mesh_topology.c).

@@ -8,7 +8,7 @@
 static void corner_normals(const struct mesh *mesh, uint32_t triangle, vec3 out[3]) {
     const uint32_t *c = mesh->triangles[triangle].corners;
     vec3 p[3] = {mesh->positions[c[0]], mesh->positions[c[1]], mesh->positions[c[2]]};
-    // Unit edges first: their products neither under- nor overflow.
+    // Unit edges first: their products neither underflow nor overflow.
     vec3 edge[3];
     for (int k = 0; k < 3; k++)
         edge[k] = vec3_unit(vec3_sub(p[(k + 1) % 3], p[k]));
@@ -18,7 +18,7 @@ static void corner_normals(const struct mesh *mesh, uint32_t triangle, vec3 out[
         vec3 back = vec3_neg(edge[(k + 2) % 3]);
         vec3 cross = vec3_cross(edge[k], back);
         angle[k] = atan2(vec3_length(cross), vec3_dot(edge[k], back));
-        // The corner nearest to a right angle knows the normal best.
+        // The corner nearest to a right angle has the most exact normal.
         if (vec3_dot(cross, cross) > vec3_dot(longest, longest))
             longest = cross;
     }

@@ -42,10 +42,10 @@ void mesh_merge_positions(struct mesh *mesh, struct arena *scratch) {
 
 // ---- edges
 
-// An edge as its end of lower index sees it.
+// An edge, stored with its end of lower index.
 struct half_edge {
     uint32_t other;    // the end of higher index
-    uint32_t triangle; // times two, plus 1 where the edge leads to the lower end
+    uint32_t triangle; // times two, plus 1 if the edge leads to the lower end
 };
 
 static int compare_edges(const void *a, const void *b) {
@@ -80,7 +80,7 @@ static void note_open(struct mesh *mesh, const struct half_edge *edges, uint32_t
     }
 }
 
-// The edges of one lower end, sorted by the other: where the two directions differ in number it is open.
+// The edges of one lower end, sorted by the other: an edge is open if the two directions differ in number.
 static void compare_directions(struct mesh *mesh, const struct half_edge *edges, uint32_t n) {
     for (uint32_t begin = 0, end; begin < n; begin = end) {
         int64_t surplus = 0;
@@ -106,7 +106,7 @@ static bool edge_of(const struct mesh *mesh, uint32_t triangle, int k, struct tr
 }
 
 void mesh_find_edges(struct mesh *mesh, struct arena *scratch) {
-    // Sorted by their lower end by counting: one pass over memory, where a hash table would jump about.
+    // Sorted by their lower end by counting: one pass over memory, where a hash table would jump around.
     uint32_t *first = ARENA_ARRAY(scratch, uint32_t, (size_t)mesh->position_count + 1);
     struct half_edge *edges = ARENA_ARRAY(scratch, struct half_edge, 3 * (size_t)mesh->triangle_count);
     struct triangle_edge edge;
@@ -133,7 +133,7 @@ void mesh_find_edges(struct mesh *mesh, struct arena *scratch) {
 
 // ---- volume
 
-// Brings the extent of the mesh near 1, so that no product of three lengths under- or overflows.
+// Brings the extent of the mesh near 1, so that no product of three lengths underflows or overflows.
 static double extent_scale(vec3 size) {
     double largest = vec3_max_abs(size);
     if (!(largest > 0))
@@ -142,8 +142,8 @@ static double extent_scale(vec3 size) {
     return scalbn(1, exponent < EXPONENT_MAX ? exponent : EXPONENT_MAX);
 }
 
-// A sixth of the sum of a·(b×c), relative to the middle of the mesh, times scale cubed. *rounding is what the
-// sum may be off by.
+// A sixth of the sum of a·(b×c), relative to the middle of the mesh, times scale cubed. *rounding is the most
+// that the sum may be wrong.
 static double scaled_volume(const struct mesh *mesh, double scale, double *rounding) {
     vec3 middle = vec3_add(mesh->lower, vec3_mul(vec3_sub(mesh->upper, mesh->lower), 0.5));
     double sum = 0;
@@ -167,7 +167,7 @@ void mesh_turn_outward(struct mesh *mesh) {
     double rounding;
     double scaled = scaled_volume(mesh, scale, &rounding);
     mesh->volume = scaled / scale / scale / scale;
-    // A sheet that is its own back encloses nothing, whatever rounding says.
+    // A sheet whose every face has an opposite twin encloses nothing, whatever the rounding.
     if (!(scaled < -rounding))
         return;
     mesh->turned = true;

@@ -26,7 +26,8 @@ static size_t line_end_length(const char *p, const char *end) {
     return *p == '\r' && p + 1 < end && p[1] == '\n' ? 2 : 1;
 }
 
-// Length of the continuation at `p`, 0 if there is none. A backslash elsewhere is a letter (of a path).
+// Length of the continuation at `p`, 0 if there is none. A backslash elsewhere is an ordinary character (of a
+// path).
 static size_t continuation_length(const char *p, const char *end) {
     if (p == end || *p != '\\')
         return 0;
@@ -84,9 +85,9 @@ str obj_lex_rest(struct obj_lex *lex) {
     return str_trim((str){begin, (size_t)(lex->at - begin)});
 }
 
-// What number_take does not decide: long mantissas, large exponents, and all that is no number.
+// What number_take does not decide: long mantissas, large exponents, and all that is not a number.
 static enum number_status slow_number(str word, double *value) {
-    // The language's own grammar finds what is wrong; only leading zeros are taken away before.
+    // The language's own grammar finds what is wrong; only leading zeros are removed before.
     char copy[WORD_NUMBER_MAX + 1];
     size_t length = 0;
     size_t at = 0;

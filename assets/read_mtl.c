@@ -50,7 +50,7 @@ static void note_unused(struct mtl_reader *r, str word) {
 static void report_unused(struct mtl_reader *r) {
     if (r->unused_count == 0)
         return;
-    // On the stack: reporting may jump out of here where memory ends.
+    // On the stack: reporting may jump out of here when memory runs out.
     char words[UNUSED_SHOWN * (UNUSED_WORD_SHOWN + 2) + 8];
     int length = 0;
     for (uint32_t i = 0; i < r->unused_words; i++) {

@@ -1,10 +1,10 @@
 // MTL, the material files of OBJ meshes: Kd, Ks, Ns, Ni, d, Tr and illum become materials of the scene
 // language.
 //
-//     diffuse_color Kd; albedo (1-t, 1 where Ks is not 0, max(Ks) where illum is 3..7, t) with t = 1-d
+//     diffuse_color Kd; albedo (1-t, 1 if Ks is not 0, max(Ks) if illum is 3..7, t) with t = 1-d
 //     specular_color Ks; specular_exponent Ns; refractive_index Ni
 //
-// d wins over Tr where both are given. What stands in the file and is not used is one note. Values outside
+// d wins over Tr if both are given. All that is in the file and not used is one note. Values outside
 // their range are cut, with a warning. Of several materials of one name the first counts.
 // Ownership: the arena's; names are copied. Thread safety: one call belongs to one thread.
 #ifndef GLINT_ASSETS_READ_MTL_H

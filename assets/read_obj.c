@@ -52,7 +52,7 @@ static double read_coordinate(struct obj_reader *r) {
 }
 
 // Three coordinates, and whatever numbers follow: w, or a colour. A faulty line still defines a vertex, so
-// that the indices behind it mean what they meant.
+// that the indices after it keep their meaning.
 static vec3 read_point(struct obj_reader *r, str keyword) {
     double value[3] = {0};
     int count = 0;
@@ -112,7 +112,7 @@ static void report_index(struct obj_reader *r, str word, int64_t index, uint32_t
                      (long long)index, count, things);
 }
 
-// One index at the cursor, as one from 0. Positive ones may name what follows later; `check_forward` sees to
+// One index at the cursor, as one from 0. Positive ones may name what follows later; `check_forward` checks
 // these.
 static bool read_index(struct obj_reader *r, uint32_t count, const char *things, uint32_t *out) {
     const char *begin = r->lex.at;
@@ -138,7 +138,7 @@ static bool take_slash(struct obj_reader *r) {
     return true;
 }
 
-// v, v/vt, v//vn or v/vt/vn; texture coordinates are not used, so only their form is looked at.
+// v, v/vt, v//vn or v/vt/vn; texture coordinates are not used, so only their form is checked.
 static bool read_corner(struct obj_reader *r, struct obj_corner *corner) {
     corner->normal = IR_NO_INDEX;
     if (!read_index(r, r->obj->vertices.count, "vertices", &corner->vertex))
@@ -211,7 +211,7 @@ static bool is_word_of(const char *const *words, str word) {
     return false;
 }
 
-// Everything but vertices, normals and faces, which are most of a file.
+// Everything except vertices, normals and faces, which are most of a file.
 static void read_other(struct obj_reader *r, str keyword) {
     static const char *const without_effect[] = {
         "vt",       "vp",     "o",      "g",          "s",         "mg",    "lod",   "bevel", "c_interp",
@@ -249,7 +249,7 @@ static void read_line(struct obj_reader *r) {
 
 // ---- indices of what was defined later
 
-// Finds the corner in the text again: its place is worth no memory in files without faults.
+// Finds the corner in the text again: storing its place would waste memory in files without faults.
 static void report_forward(struct obj_reader *r, const struct obj_face *face, uint32_t number,
                            bool is_normal) {
     obj_lex_init(&r->lex, r->file->text);

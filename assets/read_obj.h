@@ -3,7 +3,7 @@
 // Read: v (more than three numbers are ignored), vn, f (v, v/vt, v//vn, v/vt/vn; negative indices; vertices
 // that follow later), usemtl, mtllib. Ignored: vt, vp, o, g, s and the like; points, lines, curves and
 // surfaces are counted. Every fault is reported, at its place; repeated ones are grouped.
-// Ownership: everything lies in the scratch arena and points into the text.
+// Ownership: everything is in the scratch arena and points into the text.
 // Thread safety: one call belongs to one thread.
 #ifndef GLINT_ASSETS_READ_OBJ_H
 #define GLINT_ASSETS_READ_OBJ_H

@@ -1,7 +1,7 @@
 // The store behind assets.h: meshes and images by canonical path, size and time, with counted references.
 //
 // A hold is one scene's references. Entries without references stay until the next load is done, so that an
-// edit that takes a mesh away and back costs no second reading. Entries live on the heap.
+// edit that removes a mesh and puts it back does not read it again. Entries live on the heap.
 // Thread safety: one thread loads at a time.
 #ifndef GLINT_ASSETS_STORE_H
 #define GLINT_ASSETS_STORE_H
@@ -21,7 +21,7 @@ struct store_entry {
     uint64_t size_bytes;
     int64_t modified_ns;
     uint32_t references;
-    bool is_whole; // loaded without fault; others are never found and go with the next sweep
+    bool is_whole; // loaded without fault; others are never found and are freed by the next sweep
     struct mesh mesh;
     struct picture picture;
 };
@@ -36,7 +36,7 @@ struct asset_hold {
 
 // NULL: no memory.
 struct asset_hold *store_hold(struct asset_store *store);
-// Gives all references back. NULL does nothing.
+// Releases all references. NULL does nothing.
 void store_release(struct asset_hold *hold);
 // A whole entry, now referenced by the hold; NULL: none.
 struct store_entry *store_find(struct asset_hold *hold, enum store_kind kind,

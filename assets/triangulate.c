@@ -69,7 +69,7 @@ static void quadrilateral(const vec3 *p, uint32_t *out) {
 }
 
 // The power of two that brings the polygon's extent near 1, so that no product leaves the range of a double;
-// 0 where all corners are one point.
+// 0 if all corners are one point.
 static double polygon_scale(const vec3 *corners, uint32_t n) {
     double largest = 0;
     for (uint32_t i = 1; i < n; i++)
@@ -90,7 +90,7 @@ static vec3 newell_normal(const vec3 *corners, uint32_t n, double scale) {
     return sum;
 }
 
-// Drops the axis along which the polygon is seen largest; the result turns counter-clockwise.
+// Drops the axis along which the polygon looks largest; the result turns counter-clockwise.
 static void project(const vec3 *corners, uint32_t n, double scale, vec3 normal,
                     struct triangulate_point *points) {
     double ax = fabs(normal.x), ay = fabs(normal.y), az = fabs(normal.z);
@@ -113,7 +113,7 @@ static bool same_point(struct triangulate_point a, struct triangulate_point b) {
     return a.x == b.x && a.y == b.y;
 }
 
-// Every corner turns left, and the boundary goes round once: along x it turns back twice only.
+// Every corner turns left, and the boundary goes round once: along x it turns back only twice.
 static bool is_convex(const struct triangulate_point *p, uint32_t n) {
     int reversals = 0;
     double last = 0;
@@ -134,7 +134,7 @@ static bool is_convex(const struct triangulate_point *p, uint32_t n) {
     return reversals <= 2;
 }
 
-// ---- the grid of corners that are not convex: only these can lie in an ear
+// ---- the grid of corners that are not convex: only these can be in an ear
 
 static uint32_t cell_along(double value, double origin, double per_unit, uint32_t side) {
     double cell = (value - origin) * per_unit;
@@ -164,7 +164,7 @@ static bool is_reflex(const struct triangulate_point *p, uint32_t n, uint32_t i)
     return !(area2(p[i == 0 ? n - 1 : i - 1], p[i], p[i + 1 == n ? 0 : i + 1]) > 0);
 }
 
-// Sorts the reflex corners into cells by counting. `first` holds a cell more than there are.
+// Sorts the reflex corners into cells by counting. `first` holds one cell more than there are.
 static struct grid fill_grid(const struct triangulate_point *points, uint32_t n, uint32_t *first,
                              uint32_t *items) {
     uint32_t reflex_count = 0;
@@ -181,7 +181,7 @@ static struct grid fill_grid(const struct triangulate_point *points, uint32_t n,
         sum += c < cells ? first[c] : 0;
         first[c] = sum;
     }
-    // Filled from behind, so that the ends become the beginnings.
+    // Filled backwards, so that the ends become the beginnings.
     for (uint32_t i = n; i > 0; i--)
         if (is_reflex(points, n, i - 1))
             items[--first[cell_of(&grid, points[i - 1])]] = i - 1;
@@ -190,15 +190,16 @@ static struct grid fill_grid(const struct triangulate_point *points, uint32_t n,
 
 // ---- ears
 
-// How much is asked of a corner before it is cut: less from level to level, as rounds go by without a cut.
+// The conditions for cutting a corner: fewer from level to level, as rounds pass without a cut.
 enum level {
-    LEVEL_EMPTY, // nothing lies in the ear or on its rim
+    LEVEL_EMPTY, // nothing is in the ear or on its rim
     LEVEL_FLAT,  // or its area is 0
-    LEVEL_RIM,   // or others lie on its rim alone
+    LEVEL_RIM,   // or others are only on its rim
     LEVEL_ANY,
 };
 
-// Whether the boundary through corner `k`, which stands where corner `i` does, leaves into the ear at i.
+// Whether the boundary through corner `k`, which is at the same position as corner `i`, continues into the
+// ear at i.
 static bool enters_ear(const struct clipping *c, uint32_t k, uint32_t i) {
     const struct triangulate_point *p = c->points;
     struct triangulate_point before = p[c->links[i].previous], at = p[i], after = p[c->links[i].next];
@@ -222,7 +223,7 @@ static bool blocks_ear(const struct clipping *c, uint32_t k, uint32_t i, enum le
     return level < LEVEL_RIM ? u >= 0 && v >= 0 && w >= 0 : u > 0 && v > 0 && w > 0;
 }
 
-// Widens lower..upper by the part of the edge a-b that lies between the heights y0 and y1.
+// Widens lower..upper by the part of the edge a-b between the heights y0 and y1.
 static void widen(struct triangulate_point a, struct triangulate_point b, double y0, double y1, double *lower,
                   double *upper) {
     if (a.y > b.y) {
@@ -248,7 +249,7 @@ static bool is_clear(struct clipping *c, uint32_t i, enum level level) {
     uint32_t low = cell_along(fmin(a.y, fmin(b.y, d.y)), g->y, g->per_y, g->side);
     uint32_t high = cell_along(fmax(a.y, fmax(b.y, d.y)), g->y, g->per_y, g->side);
     for (uint32_t y = low; y <= high; y++) {
-        // Coordinates are near 1: the margin is beyond rounding and of no weight.
+        // Coordinates are near 1: the margin is larger than rounding and does not matter.
         double y0 = y == 0 ? -INFINITY : g->y + y / g->per_y - ROUNDING_MARGIN;
         double y1 = y + 1 == g->side ? INFINITY : g->y + (y + 1) / g->per_y + ROUNDING_MARGIN;
         double lower = INFINITY;
@@ -298,10 +299,10 @@ static void cut(struct clipping *c, uint32_t i) {
     c->left--;
 }
 
-// ---- corners that wait to be looked at
+// ---- corners that wait to be checked
 //
-// Cutting an ear changes what its two neighbours are and nothing else (of a simple polygon), so each corner
-// is looked at once, and again when a neighbour went.
+// Cutting an ear (of a simple polygon) changes the kind of its two neighbours and nothing else, so each
+// corner is checked once, and again when a neighbour is cut.
 
 static void enqueue(struct clipping *c, uint32_t i) {
     if (c->links[i].is_queued || c->links[i].is_gone)
@@ -328,8 +329,8 @@ static void enqueue_all(struct clipping *c, uint32_t from) {
     c->work_left -= c->left < c->work_left ? c->left : c->work_left;
 }
 
-// Cuts a corner, and spikes that this makes of its neighbours: left standing they would be taken for the
-// other side of the boundary. Gives a corner that is left.
+// Cuts a corner, and spikes that this makes of its neighbours: if left, they would be mistaken for the other
+// side of the boundary. Returns a corner that is left.
 static uint32_t cut_with_spikes(struct clipping *c, uint32_t i) {
     cut(c, i);
     uint32_t before = c->links[i].previous;

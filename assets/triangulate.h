@@ -1,11 +1,11 @@
 // Polygons to triangles.
 //
-// A polygon of n corners always gives n - 2 triangles that use its corners alone, in its own sense of
+// A polygon of n corners always becomes n - 2 triangles that use only its corners, in its own sense of
 // rotation, so that a mesh closed in polygons is closed in triangles. Convex polygons become fans; others are
 // cut by ear clipping (Meisters 1975; the reflex corners in a grid) in the plane of the largest component of
 // Newell's normal. Corners that repeat a position, collinear ones, and polygons that touch or cross
-// themselves are cut as well as may be; work is bounded by a multiple of n.
-// Thread safety: one triangulator belongs to one thread. Results depend on the positions alone.
+// themselves are cut as well as possible; work is bounded by a multiple of n.
+// Thread safety: one triangulator belongs to one thread. Results depend only on the positions.
 #ifndef GLINT_ASSETS_TRIANGULATE_H
 #define GLINT_ASSETS_TRIANGULATE_H
 

@@ -48,7 +48,7 @@ struct cli_options {
     int format_arg;
     struct cli_list sets, asset_paths;
     struct limits limits;
-    struct diag_policy policy; // what a check tells, over the folder's configuration
+    struct diag_policy policy; // what a check reports, over the folder's configuration
     struct cli_measure measure;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
@@ -56,7 +56,7 @@ struct cli_options {
     bool check, diff, upgrade; // of what changes files
     int fix;                   // enum fix_level
     int fix_arg;
-    int output_arg;  // where it stands on the command line; 0: not given
+    int output_arg;  // its place on the command line; 0: not given
     int as_file_arg; // as output_arg
 };
 
@@ -67,9 +67,9 @@ struct cli {
     struct source_set sources; // [1] is the command line
     struct diag_sink sink;     // of the command line itself
     uint32_t *arg_begin;       // byte offset of each argument in the command line's text
-    bool color;                // standard error takes colours
+    bool color;                // standard error accepts colours
     struct cli_options options;
-    char **operands; // what is left behind the options
+    char **operands; // what is left after the options
     int operand_count;
     struct cli_list fixed; // files whose fixes were shown
 };
@@ -79,7 +79,7 @@ struct cli_command {
     const char *operands; // for the usage line: "SCENE"
     const char *summary;
     const char *details;               // paragraphs and examples for --help
-    int least_operands, most_operands; // most: -1 is any number
+    int least_operands, most_operands; // most: -1 means any number
     int (*run)(struct cli *cli);
 };
 
@@ -89,8 +89,8 @@ const struct cli_command *cli_find_command(const char *name);
 // Reads argv into cli->options and cli->operands; mistakes go to cli->sink. `command` NULL: the program's
 // own options only.
 bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first);
-// What --format asks for: its index in `kinds`, which NULL ends; the first where it was not given. false: it
-// is none of them, and the mistake is in cli->sink.
+// What --format asks for: its index in `kinds`, which NULL ends; the first if it was not given. false: it is
+// not one of them, and the mistake is in cli->sink.
 bool cli_format(struct cli *cli, const char *const *kinds, int *kind);
 enum cli_policy_option {
     CLI_POLICY_SEVERITY,
@@ -107,20 +107,20 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command);
 span cli_place(const struct cli *cli, int arg);
 // The argument that is operand number `index`, from 0.
 int cli_operand_place(const struct cli *cli, int index);
-// Gives one error of the command line and returns CLI_USAGE.
+// Reports one error of the command line and returns CLI_USAGE.
 int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((format(printf, 3, 4)));
 // Prints diagnostics of the command line and of files in cli->sources.
 void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
-// Prints a session's diagnostics, notes too unless `quiet`; gives the exit code that they ask for.
+// Prints a session's diagnostics, notes too unless `quiet`; returns their exit code.
 int cli_report(struct cli *cli, struct session *session, bool notes);
-// The exit code alone.
+// Only the exit code.
 int cli_session_status(const struct session *session);
 // Text for people, to standard error.
 void cli_write_error(str text);
 // One error with the place 1:1 of `path`, printed at once.
 void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
                ...) __attribute__((format(printf, 5, 6)));
-// Says that a signal ended the work (progress.h); gives its exit code.
+// Reports that a signal ended the work (progress.h); returns its exit code.
 int cli_interrupted(struct cli *cli);
 struct session_options cli_session_options(const struct cli *cli, const char *path);
 // Where render writes without -o: the scene's name without its endings, in the current folder:
@@ -130,9 +130,10 @@ const char *cli_default_picture(struct cli *cli, const char *scene);
 int cli_print(struct cli *cli, str text);
 // Writes a whole file (or "-"); CLI_OK or CLI_FILE with an error printed.
 int cli_write(struct cli *cli, const char *path, str bytes);
-// The same of what was made in memory, `what` by name: where memory ended, CLI_SCENE with an error printed.
+// The same for what was made in memory, called `what` in messages: if memory ran out, CLI_SCENE with an error
+// printed.
 int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made, const char *what);
-// Whether the output can be made at all, which is better known before long work than behind it: CLI_OK, or
+// Whether the output can be made at all, which is better known before long work than after it: CLI_OK, or
 // CLI_FILE with an error printed. NULL: there is none.
 int cli_try_output(struct cli *cli, const char *path);
 

@@ -1,7 +1,7 @@
 // glint check SCENE...: every finding of every file, in the order of the command line; folders by name.
 //
-// Files are checked at the same time, each with a session, a sink and a record of its own; what was said of
-// each is kept until all are done, so that the output does not depend on who was first.
+// Files are checked at the same time, each with a session, a sink and a record of its own; what is reported
+// about each is kept until all are done, so that the output does not depend on which was first.
 #include "app/check.h"
 #include "app/fixes.h"
 #include "cli/cli.h"
@@ -29,7 +29,7 @@ enum check_format {
 static const char *const formats[] = {"text", "json", "sarif", "github", "gitlab", "junit", NULL};
 static const char *const endings[] = {".glint.yaml", ".glint.yml", ".glint.xml", NULL};
 
-// A store of meshes and images belongs to one thread at a time, and serves one scene after the other.
+// A store of meshes and images belongs to one thread at a time, and serves one scene after another.
 struct check_store {
     atomic_flag busy;
     struct asset_store *store;
@@ -112,7 +112,7 @@ static bool check_all(struct check *check) {
 
 // ---- the files
 
-// A file that is named twice, or stands in a folder that is named too, is checked once.
+// A file that is named twice, or is in a folder that is named too, is checked once.
 static void add_file(struct check *check, const char *path) {
     if ((*str_map_at(&check->paths, str_from(path)))++)
         return;
@@ -199,7 +199,7 @@ static int write_report(struct check *check) {
     return status;
 }
 
-// Before the check, so that it tells what is left; one file after the other, since several may include one.
+// Before the check, so that it reports what is left; one file after another, since several may include one.
 static int fix_files(struct check *check) {
     struct cli *cli = check->cli;
     struct strbuf patch;

@@ -17,8 +17,8 @@ struct comparison {
     struct picture_file pictures[2];
     struct measure_options options;
     struct measure_result result;
-    float *map;    // a value a pixel, for the heat map; NULL where there is none
-    float *linear; // the float picture as its file has it, where the other holds bytes; else NULL
+    float *map;    // a value per pixel, for the heat map; NULL if there is none
+    float *linear; // the float picture as its file has it, if the other holds bytes; else NULL
 };
 
 static int cannot_read(struct comparison *c, const char *path, enum diag_code code, const char *why) {
@@ -55,8 +55,8 @@ static bool keep_linear(struct comparison *c, int which) {
     return c->linear;
 }
 
-// A float picture does not say how the picture of bytes beside it was toned: where another way than the
-// one assumed brings them much nearer, it is named.
+// A float picture does not say how the picture of bytes beside it was toned: if another way than the one
+// assumed brings them much nearer, that way is named.
 static bool offer_display(struct comparison *c) {
     static const char *const tones[] = {[IR_TONE_CLIP] = "clip", [IR_TONE_NORMALIZE] = "normalize"};
     static const char *const transfers[] = {[IR_TRANSFER_NONE] = "none", [IR_TRANSFER_SRGB] = "srgb"};
@@ -91,7 +91,7 @@ static bool offer_display(struct comparison *c) {
     return true;
 }
 
-// Linear floats in place of displayed values cannot be had, the other way round is exact: pictures of two
+// Displayed values cannot be turned back into linear floats, the other way round is exact: pictures of two
 // kinds are compared as displayed.
 static int choose_space(struct comparison *c) {
     const struct cli_measure *m = &c->cli->options.measure;

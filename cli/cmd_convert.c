@@ -48,7 +48,7 @@ static int write_scene(struct cli *cli, struct session *session) {
     return status;
 }
 
-// Anchors, and comments inside of entries, would be lost for good.
+// Anchors, and comments inside entries, would be lost for good.
 static bool is_onto_itself(const struct cli *cli) {
     struct stat in;
     struct stat out;

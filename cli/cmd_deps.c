@@ -12,7 +12,7 @@ enum form {
     FORM_MAKE,
 };
 
-// The files of all scenes so far, for text: each is told once.
+// The files of all scenes so far, for text: each is listed once.
 struct listing {
     struct cli *cli;
     enum form form;
@@ -24,7 +24,7 @@ struct listing {
     } told;
 };
 
-// What make takes apart in a list of files is escaped, with the backslashes before it (GNU make 4.3, "Rule
+// What make would split in a list of files is escaped, with the backslashes before it (GNU make 4.3, "Rule
 // Syntax", "Pattern Intro", "Wildcards"). Nothing can be written for ';', a pair of parentheses and a
 // backslash at the end.
 static void make_name(struct strbuf *out, str path, bool is_target) {

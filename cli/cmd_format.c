@@ -21,7 +21,7 @@ static void worsen(struct formatter *f, int status) {
     f->status = status > f->status ? status : f->status;
 }
 
-// Errors only: what the file means is no concern of its layout.
+// Errors only: what the file means does not matter for its layout.
 static void tell(struct formatter *f, struct layout *layout) {
     struct strbuf text;
     struct diag_text_options options = {.color = f->cli->color,

@@ -43,7 +43,7 @@ static int take_frames(struct render_job *job) {
         if (i == 0)
             job->stats.first_frame_seconds = times[i];
         if (job->session.sink.errors > errors)
-            frames = i + 1; // a faulty picture: more frames would tell the same
+            frames = i + 1; // a faulty picture: more frames would show the same
     }
     quantile_sort(times, (size_t)frames);
     job->stats.frames = frames;
@@ -88,7 +88,7 @@ static int report_stats(struct render_job *job) {
     return status;
 }
 
-// One camera: frames, picture, statistics. The shot is open and looks through it.
+// One camera: frames, picture, statistics. The shot is open and uses it.
 static int render_camera(struct render_job *job, const char *path) {
     progress_begin(&job->progress, job->cli->options.quiet);
     int status = take_frames(job);

@@ -1,4 +1,4 @@
-// glint schema: prints what is made from the language's table, or ties scene files to it.
+// glint schema: prints what is made from the language's table, or links scene files to it.
 #include "cli/cli.h"
 
 #include "app/schema_line.h"
@@ -32,7 +32,7 @@ static int print_kind(struct cli *cli, const struct kind *kind) {
 
 // ---- install
 
-// Writes the schema beside the scene, unless it is there as it should be.
+// Writes the schema beside the scene, unless it is already there and current.
 static int write_schema(struct cli *cli, const char *path, bool is_xml) {
     struct strbuf text;
     struct files files;

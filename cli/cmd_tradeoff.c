@@ -1,4 +1,4 @@
-// glint tradeoff SCENE: what each setting costs, and what error it brings.
+// glint tradeoff SCENE: what each setting costs, and what error it causes.
 #include "cli/device.h"
 #include "cli/progress.h"
 #include "cli/study.h"

@@ -1,4 +1,4 @@
-// The device that --device, else GLINT_DEVICE, asks for, and what is said where it fails.
+// The device that --device, else GLINT_DEVICE, asks for, and what is reported if it fails.
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_DEVICE_H
@@ -13,7 +13,7 @@ const char *cli_device_wanted(const struct cli *cli);
 bool cli_device_is_reference(const struct cli *cli);
 // CLI_OK, or CLI_DEVICE with an error printed. *gpu is the caller's to destroy.
 int cli_open_device(struct cli *cli, struct gpu **gpu);
-// Prints what failed last; gives CLI_DEVICE.
+// Prints what failed last; returns CLI_DEVICE.
 int cli_device_failed(struct cli *cli, const struct gpu *gpu);
 
 #endif

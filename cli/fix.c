@@ -33,7 +33,8 @@ int cli_fix(struct cli *cli, const struct session_options *options, struct asset
     for (uint32_t i = 0; i < fixes.files.count && !fixes.failed; i++) {
         const struct fixed_file *file = &fixes.files.items[i];
         const char *path = arena_copy(&cli->arena, file->path).ptr;
-        // A file that several scenes include is shown once; what was written is not found again.
+        // A file that several scenes include is shown once; files that were written have no findings left to
+        // fix.
         bool shown = cli->options.diff && is_done(cli, file->canonical);
         bool changed = !str_equal(file->before, file->text);
         int written = CLI_OK;

@@ -5,8 +5,8 @@
 #include "app/session.h"
 #include "cli/cli.h"
 
-// Mends the scene of `options` and the files that it includes, as --fix says: writes them, or with --diff
-// appends a patch. An exit code.
+// Repairs the scene of `options` and the files that it includes, as --fix says: writes them, or with --diff
+// appends a patch. Returns an exit code.
 int cli_fix(struct cli *cli, const struct session_options *options, struct asset_store *store,
             struct strbuf *patch);
 

@@ -40,8 +40,8 @@ enum option_id {
     OPTION_ALTERNATIVE,
     OPTION_SCHEMA,
     OPTION_MAX_MESSAGES,
-    OPTION_POLICY = 1500,  // and enum cli_policy_option behind it
-    OPTION_MEASURE = 2000, // and enum cli_measure_option behind it
+    OPTION_POLICY = 1500,  // and enum cli_policy_option after it
+    OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
 
 struct option_row {
@@ -49,7 +49,7 @@ struct option_row {
     const char *name;
     char letter;          // 0: none
     const char *argument; // NULL: none; "[=X]": optional
-    const char *commands; // separated by blanks; "*": all, "-": the program itself too
+    const char *commands; // separated by spaces; "*": all, "-": the program itself too
     const char *doc;
 };
 
@@ -265,7 +265,7 @@ static void append(struct cli *cli, struct cli_list *list, const char *text) {
     *item = str_from(text);
 }
 
-// The field of an option that is given or not; NULL: it is another kind.
+// The field of an option that takes no value; NULL: it is another kind.
 static bool *flag_of(struct cli_options *options, int id) {
     switch (id) {
     case OPTION_HELP:
@@ -293,7 +293,7 @@ static bool *flag_of(struct cli_options *options, int id) {
     }
 }
 
-// The field of an option whose text is kept as it is; NULL: it is another kind.
+// The field of an option whose text is kept unchanged; NULL: it is another kind.
 static const char **text_of(struct cli_options *options, int id) {
     switch (id) {
     case OPTION_OUTPUT:
@@ -315,7 +315,7 @@ static const char **text_of(struct cli_options *options, int id) {
     }
 }
 
-// Where the option stands, for those whose mistakes are found later.
+// The option's place, for those whose mistakes are found later.
 static void keep_place(struct cli_options *options, int id, int arg) {
     int *place = id == OPTION_OUTPUT        ? &options->output_arg
                  : id == OPTION_AS_FILE     ? &options->as_file_arg
@@ -435,7 +435,7 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
         }
     }
     letters[letter_count] = '\0';
-    // getopt sorts operands behind options: it works on a copy, so that places stay those of the user.
+    // getopt sorts operands after options: it works on a copy, so that places stay those of the user.
     int argc = cli->argc - first + 1;
     char **argv = ARENA_ARRAY(&cli->arena, char *, (size_t)argc + 1);
     for (int i = 0; i < argc; i++)

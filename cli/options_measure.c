@@ -20,7 +20,7 @@ static bool read_number(struct cli *cli, int arg, const char *name, const char *
     return true;
 }
 
-// The index of `text` among `words`, which NULL ends; -1 with a mistake where it is none of them.
+// The index of `text` among `words`, which NULL ends; -1 with a mistake reported if it is not one of them.
 static int read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words) {
     struct strbuf list;
     for (int i = 0; words[i]; i++)

@@ -7,7 +7,7 @@
 #include "picture/metrics/compare_report.h"
 
 enum cli_measure_option {
-    CLI_MEASURE_BOUND, // and enum metric behind it
+    CLI_MEASURE_BOUND, // and enum metric after it
     CLI_MEASURE_NOT_FINITE = CLI_MEASURE_BOUND + METRIC_COUNT,
     CLI_MEASURE_THRESHOLD,
     CLI_MEASURE_PPD,
@@ -35,7 +35,7 @@ struct cli_measure {
     enum cli_space space;
     int space_arg;
     struct image_display display; // how linear values are shown
-    bool has_display;             // it was said
+    bool has_display;             // it was given
     const char *heatmap;          // NULL: none
     bool heatmap_flip;
     const char *max_error; // METRIC=X as written; NULL: not given

@@ -1,4 +1,4 @@
-// The options that say what a check tells and when it fails: --severity, --ignore, --only, --fail-on.
+// The options that say what a check reports and when it fails: --severity, --ignore, --only, --fail-on.
 #include "cli/cli.h"
 
 #include "core/nearest.h"

@@ -12,9 +12,9 @@ struct progress {
 };
 
 void progress_begin(struct progress *progress, bool quiet);
-// What renderer_render calls; false after a signal.
+// The callback of renderer_render; false after a signal.
 struct render_progress progress_callback(struct progress *progress);
-// Wipes the bar.
+// Erases the bar.
 void progress_end(struct progress *progress);
 
 // SIGINT and SIGTERM end the work at the next dispatch; a second one ends the process at once.

@@ -22,11 +22,11 @@ struct render_job {
 
 // Where a camera's picture goes.
 const char *render_output_of(struct render_job *job, uint32_t camera);
-// These give an exit code.
+// These return an exit code.
 int render_interrupted(struct render_job *job);
 int render_write_picture(struct render_job *job, const char *path);
 
-// render_reference.c: session and output are ready; `first` to before `end` are the cameras. Gives an exit
+// render_reference.c: session and output are ready; `first` to before `end` are the cameras. Returns an exit
 // code.
 int render_by_reference(struct render_job *job, uint32_t first, uint32_t end);
 

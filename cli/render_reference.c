@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// The progress bar speaks of render_progress; both are the same question.
+// Adapts the progress bar, which takes a render_progress: both callbacks answer whether to continue.
 static bool report(void *context, double fraction) {
     const struct render_progress *progress = context;
     return progress->report(progress->context, fraction);

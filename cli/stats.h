@@ -1,4 +1,4 @@
-// What --stats tells: times by stage, rays by kind, triangles, memory, device.
+// What --stats reports: times by stage, rays by kind, triangles, memory, device.
 #ifndef GLINT_CLI_STATS_H
 #define GLINT_CLI_STATS_H
 
@@ -15,7 +15,7 @@ struct stats {
     struct render_rays rays;
     uint64_t scene_bytes, band_bytes, triangles, dropped, spheres;
     uint32_t triangle_depth, features;
-    bool is_double;         // the precision that was traced in
+    bool is_double;         // the precision that was used for tracing
     long peak_memory_bytes; // of the process
     char device[256];
     uint32_t width, height, samples;
@@ -23,8 +23,8 @@ struct stats {
 
 void stats_text(const struct stats *stats, struct strbuf *out);
 void stats_json(const struct stats *stats, struct strbuf *out);
-// JSON to standard output, unless the picture (`output` is "-") goes there; text to standard error. An exit
-// code.
+// JSON to standard output, unless the picture (`output` is "-") goes there; text to standard error. Returns
+// an exit code.
 int stats_tell(struct cli *cli, const char *output, str text);
 
 #endif

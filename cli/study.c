@@ -148,7 +148,7 @@ static int take_choice(struct cli *cli, const struct tradeoff *study) {
         str *set = ARENA_PUSH(&cli->arena, &cli->options.sets);
         *set = arena_copy(&cli->arena, str_from(assignment));
     }
-    // The choice has them: what the command line said would win over it.
+    // The choice includes them: else those of the command line would override it.
     const struct setting *s = &study->rows[row].setting;
     if (cli->options.width) {
         cli->options.width = (int32_t)s->width;
@@ -180,7 +180,7 @@ int cli_choose_settings(struct cli *cli, struct asset_store *store) {
     const struct session_options load = cli_session_options(cli, cli->operands[0]);
     session_load(&session, &load, store);
     const bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
-    // Where the scene has errors, the rendering itself tells them.
+    // If the scene has errors, the rendering itself reports them.
     const int status = good ? study_session(cli, &session, &options) : CLI_OK;
     session_finish(&session);
     return status;

@@ -1,4 +1,4 @@
-// A study of settings of a loaded scene: what tradeoff reports, and what render chooses by.
+// A study of settings of a loaded scene: what tradeoff reports, and what render's choice is based on.
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_STUDY_H
@@ -12,12 +12,12 @@ bool cli_has_study(const struct cli *cli);
 // Reads --max-error METRIC=X into `options`, and the rest of what the command line says about studies. false:
 // a mistake is in cli->sink.
 bool cli_study_options(struct cli *cli, struct tradeoff_options *options);
-// Studies the camera that the command line names, on its device; `study` is the caller's to finish whatever
-// comes. Gives an exit code, errors printed.
+// Studies the camera that the command line names, on its device; `study` is the caller's to finish in any
+// case. Returns an exit code, errors printed.
 int cli_study(struct cli *cli, struct session *session, const struct tradeoff_options *options,
               struct tradeoff *study);
 // render: studies the scene, and adds the chosen settings to the command line's --set options. CLI_SCENE with
-// an error printed where nothing fits.
+// an error printed if nothing fits.
 int cli_choose_settings(struct cli *cli, struct asset_store *store);
 
 #endif

@@ -21,8 +21,8 @@ endif()
 if(GLINT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
-  # Overruns of arena allocations are to be seen: each is a block of its own, or, where speed counts, has
-  # poisoned bytes behind it.
+  # Overruns of arena allocations must show: each is a block of its own, or, where speed counts, has poisoned
+  # bytes after it.
   if(GLINT_FUZZ)
     add_compile_definitions(GLINT_ARENA_REDZONES=1)
   else()
@@ -73,7 +73,7 @@ foreach(room ${ROOMS})
   endforeach()
 endforeach()
 
-# What a room's files see: what it may include, and what that includes in its turn.
+# What a room's files see: what it may include, and what that includes in turn.
 function(glint_room_closure out room)
   set(seen)
   set(next ${room})
@@ -103,7 +103,8 @@ function(glint_room_includes target room)
 endfunction()
 
 # glint_room([EXCEPT file.c ...] [SOURCES generated.c ...] [LIBS external ...]): the library of the room in this
-# folder: `glint_` and its path with underscores. It holds every C file of the folder but those EXCEPT.
+# folder: `glint_` and its path with underscores. It holds every C file of the folder except those after
+# EXCEPT.
 function(glint_room)
   cmake_parse_arguments(R "" "" "EXCEPT;SOURCES;LIBS" ${ARGN})
   file(RELATIVE_PATH room ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})

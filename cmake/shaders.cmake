@@ -3,7 +3,7 @@ find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
 # glint_kernel(OUT NAME SOURCE.comp DEFINE...): compiles SOURCE, which sees shaders/, with the macros given, and appends the C
-# file that defines the struct kernel `kernel_NAME` to the list OUT. With the macro MAY_FUSE among them the
+# file that defines the struct kernel `kernel_NAME` to the list OUT. If MAY_FUSE is one of the macros, the
 # operations stay undecorated.
 function(glint_kernel out name source)
   set(base ${CMAKE_CURRENT_BINARY_DIR}/${name})

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A fuzz build has blocks, which are quick, with poisoned bytes behind each allocation, which shows overruns.
+// A fuzz build has blocks, which are quick, with poisoned bytes after each allocation, which show overruns.
 #ifdef GLINT_ARENA_REDZONES
 #include <sanitizer/asan_interface.h>
 #define POISON(memory, size)   ASAN_POISON_MEMORY_REGION((memory), (size))
@@ -30,7 +30,7 @@ struct arena_block {
     struct arena_block *previous;
     size_t used;
     size_t size;
-    struct arena_block *next; // also keeps the bytes behind the header aligned to 16
+    struct arena_block *next; // also keeps the bytes after the header aligned to 16
 };
 
 void arena_init(struct arena *arena, size_t cap_bytes) {
@@ -76,7 +76,7 @@ static bool is_single(size_t need) {
 #endif
 }
 
-// Whether one that was made is known to have one: smaller ones may lie where a shared block had room.
+// Whether an allocation already made is sure to have one: smaller ones may share a block that had room.
 static bool has_own_block(size_t need) {
 #ifdef GLINT_ARENA_EXACT
     (void)need;
@@ -126,8 +126,8 @@ static void unlink_block(struct arena *arena, struct arena_block *block) {
         arena->last = block->previous;
 }
 
-// A block with room for `need` bytes. A block of a single allocation goes behind the last one, which
-// stays in use: what it has left is not lost.
+// A block with room for `need` bytes. A block of a single allocation goes after the last one, which stays in
+// use: the room it has left is not lost.
 static struct arena_block *block_with_room(struct arena *arena, size_t need) {
     struct arena_block *last = arena->last;
     if (last && last->size - last->used >= need)
@@ -167,13 +167,13 @@ struct arena_guard {
     enum arena_fault fault;
 };
 
-// The guard lies outside of the function that calls setjmp, so that the fault is whole after a jump.
+// The guard is outside the function that calls setjmp, so that the fault is defined after a jump.
 static void run(struct arena_guard *guard, arena_work *work, void *context) {
     if (setjmp(guard->jump) == 0)
         work(context);
 }
 
-// Each arena's guard of before waits in a frame of its own, and is put back in reverse order.
+// Each arena's previous guard is kept in a frame of its own; they are put back in reverse order.
 static void guard_each(struct arena *const *arenas, struct arena_guard *guard, arena_work *work,
                        void *context) {
     struct arena *arena = *arenas;
@@ -252,7 +252,7 @@ void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capac
     return moved;
 }
 
-// The block of an array of its own, with room for `need` bytes: moved, mostly by the system's page tables.
+// A block for one array, with room for `need` bytes: moved, mostly by the system's page tables.
 static void *move_block(struct arena *arena, void *items, size_t need) {
     struct arena_block *block = (struct arena_block *)items - 1;
     size_t had = block->size;

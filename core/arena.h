@@ -1,16 +1,16 @@
 // Memory of one phase (source, tree, IR, flat): many allocations, freed together.
 //
-// `arena_alloc` gives zeroed memory or does not return: at the byte cap, or when malloc fails, it jumps out
+// `arena_alloc` returns zeroed memory, or not at all: at the byte cap, or when malloc fails, it jumps out
 // of the work that `arena_guarded` runs, however deep it is, and `arena_guarded` says why:
 //
 //     struct job job = {.arena = &arena, ...};
 //     enum arena_fault fault = arena_guarded(&arena, run, &job);
 //
-// The job holds what the work is given, what it makes, and what must be given back whether it ends or not (a
-// file, memory of malloc): the work's own locals are gone after a jump.
+// The job holds the input of the work, its results, and what must be released whether it finishes or not (a
+// file, memory from malloc): the work's own locals are gone after a jump.
 // Never jump through a library's frames: callbacks of expat and stb use `arena_try_alloc` and set a flag, or
 // run what they do guarded.
-// An arena is guarded while such a work runs. Unguarded, a failed `arena_alloc` aborts: that is a
+// An arena is guarded while such work runs. Unguarded, a failed `arena_alloc` aborts: that is a
 // programmer's mistake. Thread safety: an arena belongs to one thread at a time.
 #ifndef GLINT_CORE_ARENA_H
 #define GLINT_CORE_ARENA_H
@@ -23,7 +23,7 @@
 enum arena_fault {
     ARENA_FAULT_NONE,
     ARENA_FAULT_CAP,    // the arena's own byte cap is reached
-    ARENA_FAULT_SYSTEM, // malloc gave NULL
+    ARENA_FAULT_SYSTEM, // malloc returned NULL
 };
 
 struct arena_block;
@@ -39,7 +39,7 @@ struct arena {
 void arena_init(struct arena *arena, size_t cap_bytes);
 // Frees all; the arena may be used again, with the same cap. NULL does nothing.
 void arena_finish(struct arena *arena);
-// Frees all but a block that is kept for what comes next: for memory that is needed item by item.
+// Frees all but one block, which is kept for later use: for memory that is needed item by item.
 void arena_reset(struct arena *arena);
 
 typedef void arena_work(void *context);
@@ -47,39 +47,39 @@ typedef void arena_work(void *context);
 // fault ends the innermost one of its arena. What was allocated stays in the arena until that is finished.
 enum arena_fault arena_guarded(struct arena *arena, arena_work *work, void *context);
 // As `arena_guarded`, for all arenas of a list that ends with NULL; an arena may be in it twice. The list
-// names every arena that `work` allocates from: a fault of one that is guarded further out alone would pass
-// this call by, and leave the arenas named here with a guard that is over.
+// must name every arena that `work` allocates from: a fault of one that is only guarded further out would
+// jump past this call, and leave the arenas named here with a stale guard.
 enum arena_fault arena_guarded_all(struct arena *const *arenas, arena_work *work, void *context);
 
-// `size` zeroed bytes, aligned to 16. A size of 0 gives a valid pointer.
+// `size` zeroed bytes, aligned to 16. A size of 0 returns a valid pointer.
 void *arena_alloc(struct arena *arena, size_t size);
-// As `arena_alloc`, but NULL where that would jump.
+// As `arena_alloc`, but returns NULL when that would jump.
 void *arena_try_alloc(struct arena *arena, size_t size);
 // `count * size` with the overflow checked.
 void *arena_alloc_array(struct arena *arena, size_t count, size_t size);
 #define ARENA_NEW(arena, type)          ((type *)arena_alloc((arena), sizeof(type)))
 #define ARENA_ARRAY(arena, type, count) ((type *)arena_alloc_array((arena), (count), sizeof(type)))
 
-// Jumps as a failed allocation does: for a caller that guarded a work so as to give something back, and
-// passes its fault on.
+// Jumps as a failed allocation does: for a caller that guarded some work in order to release something, and
+// passes the fault on.
 _Noreturn void arena_raise(struct arena *arena, enum arena_fault fault);
 
-// A copy of `s` in the arena, with a NUL behind it (not counted).
+// A copy of `s` in the arena, followed by a NUL (not counted).
 str arena_copy(struct arena *arena, str s);
-// printf into the arena; the result has a NUL behind it (not counted).
+// printf into the arena; the result is followed by a NUL (not counted).
 str arena_format(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Makes room for one more item in an array that lives in an arena: `items` holds `count` of `*capacity`
-// items; returns the array, moved to twice the room where it was full. The old array stays in the arena.
+// items; returns the array, moved to twice the room if it was full. The old array stays in the arena.
 void *arena_grow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size);
-// As `arena_grow`, for large arrays: the old array is given back, so that pointers into it are void, and the
-// room behind the `count` items is not zeroed.
+// As `arena_grow`, for large arrays: the old array is freed, so pointers into it become invalid, and the room
+// after the `count` items is not zeroed.
 void *arena_regrow(struct arena *arena, void *items, size_t count, uint32_t *capacity, size_t item_size);
 // Whether another item needs arena_regrow first; a test that costs less than the call.
 #define ARENA_IS_FULL(list) ((list)->count >= (list)->capacity)
-// Gives back an array that arena_regrow made; small ones stay with the arena. NULL does nothing.
+// Frees an array that arena_regrow made; small ones stay with the arena. NULL does nothing.
 void arena_give_back(struct arena *arena, void *items, uint32_t capacity, size_t item_size);
-// Appends a zeroed item to a list {items, count, capacity}; gives its address.
+// Appends a zeroed item to a list {items, count, capacity}; returns its address.
 #define ARENA_PUSH(arena, list)                                                                              \
     ((list)->items =                                                                                         \
          arena_grow((arena), (list)->items, (list)->count, &(list)->capacity, sizeof(*(list)->items)),       \

@@ -41,7 +41,7 @@ static inline void hash128_text(struct hash128 *h, str text) {
     if (text.len)
         hash128_add(h, text.ptr, text.len);
 }
-// `count` items of `size` bytes without padding; the pointer may be NULL where there are none.
+// `count` items of `size` bytes without padding; the pointer may be NULL if there are none.
 static inline void hash128_array(struct hash128 *h, const void *items, size_t count, size_t size) {
     hash128_whole(h, count);
     if (count)

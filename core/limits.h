@@ -33,12 +33,12 @@ struct limit_info {
 };
 
 struct limits limits_default(void);
-// Applies "name=value". On LIMIT_BAD_VALUE *which tells the row.
+// Applies "name=value". On LIMIT_BAD_VALUE *which is the row.
 enum limit_status limits_set(struct limits *limits, str assignment, enum limit *which);
 // The two halves of it.
 bool limit_find(str name, enum limit *which);
 bool limits_set_value(struct limits *limits, enum limit which, str value);
-// Takes from `from` what it was given and `limits` was not.
+// Copies from `from` the limits that were set there and not in `limits`.
 void limits_fill(struct limits *limits, const struct limits *from);
 const struct limit_info *limit_info(enum limit which);
 

@@ -16,7 +16,7 @@ static unsigned least(unsigned a, unsigned b) {
     return a < b ? a : b;
 }
 
-// The distance, or UINT_MAX where it is larger than `most`.
+// The distance, or UINT_MAX if it is larger than `most`.
 static unsigned distance_up_to(str a, str b, unsigned most) {
     if (a.len > WORD_MAX || b.len > WORD_MAX)
         return UINT_MAX;

@@ -1,7 +1,7 @@
 // "Did you mean": the candidate nearest to a misspelt word.
 //
 // Distance is the optimal string alignment distance (Damerau 1964; restricted transpositions), over bytes;
-// ASCII case is ignored, and '-' and blanks equal '_'. A candidate counts when it is at most a third of the
+// ASCII case is ignored, and '-' and spaces equal '_'. A candidate counts when it is at most a third of the
 // longer word's length away, rounded up; words of fewer than three bytes must be equal in that sense.
 // Thread safety: one search belongs to one thread.
 #ifndef GLINT_CORE_NEAREST_H
@@ -11,7 +11,7 @@
 
 struct nearest {
     str word;
-    str best; // empty: none near enough
+    str best; // empty: none is near enough
     unsigned best_distance;
 };
 

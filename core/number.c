@@ -29,7 +29,7 @@ static bool equals_nocase(str s, const char *word) {
     return s.len == strlen(word) && str_ends_with_nocase(s, word);
 }
 
-// HYPHEN to HORIZONTAL BAR and MINUS SIGN, which a text processor or a web page puts for '-'.
+// HYPHEN to HORIZONTAL BAR and MINUS SIGN, which a text processor or a web page writes for '-'.
 static bool begins_with_dash(str s) {
     if (utf8_sequence_length(s, 0) != 3 || s.len < 4 || !(is_digit(s.ptr[3]) || s.ptr[3] == '.'))
         return false;
@@ -75,7 +75,7 @@ static enum number_status explain_no_number(str text) {
     return letter ? NUMBER_UNIT : NUMBER_NOT_A_NUMBER;
 }
 
-// A number in the language's grammar: mantissa * 10^exponent, where the digits fit.
+// A number in the language's grammar: mantissa * 10^exponent, if the digits fit.
 struct decimal {
     bool negative;
     bool padded;       // superfluous leading zeros
@@ -85,7 +85,7 @@ struct decimal {
     long exponent;
 };
 
-// Adds a run of digits to the mantissa; gives their number.
+// Adds a run of digits to the mantissa; returns their number.
 static size_t scan_digits(str s, size_t at, struct decimal *decimal) {
     uint64_t mantissa = decimal->mantissa;
     size_t end = at;
@@ -102,7 +102,7 @@ static size_t scan_digits(str s, size_t at, struct decimal *decimal) {
     return end - at;
 }
 
-// The exponent behind an 'e' at `at`; *length is 0 where there are no digits.
+// The exponent after an 'e' at `at`; *length is 0 if there are no digits.
 static long scan_exponent(str s, size_t at, size_t *length) {
     bool negative = at + 1 < s.len && s.ptr[at + 1] == '-';
     size_t sign = negative || (at + 1 < s.len && s.ptr[at + 1] == '+') ? 1 : 0;
@@ -116,7 +116,7 @@ static long scan_exponent(str s, size_t at, size_t *length) {
     return negative ? -value : value;
 }
 
-// The number that `s` begins with; gives its length, 0 where there is none.
+// The number that `s` begins with; returns its length, 0 if there is none.
 static size_t scan_decimal(str s, struct decimal *decimal) {
     *decimal = (struct decimal){.exact = true, .negative = s.len && s.ptr[0] == '-'};
     size_t first = decimal->negative || (s.len && s.ptr[0] == '+') ? 1 : 0;
@@ -149,8 +149,8 @@ static enum number_status scan(str s, struct decimal *decimal) {
     return decimal->padded ? NUMBER_LEADING_ZERO : NUMBER_OK;
 }
 
-// Clinger, How to Read Floating Point Numbers Accurately (1990), section 3: where mantissa and power of
-// ten are doubles, one multiplication or division rounds once and so correctly. false: no such luck.
+// Clinger, How to Read Floating Point Numbers Accurately (1990), section 3: if mantissa and power of ten are
+// doubles, one multiplication or division rounds once and so correctly. false: they are not.
 static bool read_fast(const struct decimal *decimal, double *value) {
     if (!DOUBLE_IS_DOUBLE || !decimal->exact || decimal->mantissa > MANTISSA_EXACT)
         return false;
@@ -259,7 +259,7 @@ const char *number_problem(enum number_status status) {
     return "is not a number";
 }
 
-// Rewrites a "%.*e" text as digits with a point or, where that is long, as d.ddde+XX.
+// Rewrites a "%.*e" text as digits with a point or, if that is long, as d.ddde+XX.
 static size_t write_decimal(const char *scientific, char *out) {
     char mantissa[24] = {'0'};
     size_t count = 0;
@@ -301,7 +301,7 @@ static size_t write_decimal(const char *scientific, char *out) {
 }
 
 // Most numbers that people write have a few decimals: the fewest that give an integer of at most DBL_DIG
-// digits, which divided by its power of ten is the value again. Such a decimal is the only one of so few
+// digits, which divided by its power of ten is the value again. Such a decimal is the only one with so few
 // digits that reads as the value (and dividing rounds once, as in `read_fast`), so it is the shortest.
 static size_t format_fast(double value, char *out) {
     double size = fabs(value);
@@ -333,7 +333,7 @@ static size_t format_fast(double value, char *out) {
     return 0;
 }
 
-// Adds one to the last digit of a "%.*e" text; false where that would change its exponent.
+// Adds one to the last digit of a "%.*e" text; false if that would change its exponent.
 static bool next_decimal(char *scientific) {
     char *digit = strchr(scientific, 'e');
     while (digit > scientific) {
@@ -353,8 +353,9 @@ static bool reads_back(const char *text, double value) {
     return number_parse(str_from(text), &read) == NUMBER_OK && read == value;
 }
 
-// printf gives the nearest decimal of so many digits. Above a power of two doubles lie twice as far apart as
-// below it: there the next decimal away from 0 may read back where the nearest, on the other side, does not.
+// printf writes the nearest decimal with that number of digits. Above a power of two doubles are twice as far
+// apart as below it: there the next decimal away from 0 may read back although the nearest, on the other
+// side, does not.
 static bool print_digits(double value, int digits, char scientific[NUMBER_FORMAT_MAX]) {
     snprintf(scientific, NUMBER_FORMAT_MAX, "%.*e", digits - 1, value);
     if (reads_back(scientific, value))

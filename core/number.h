@@ -1,4 +1,4 @@
-// Numbers as the scene language and mesh files spell them, the same in every locale
+// Numbers as the scene language and mesh files write them, the same in every locale
 // (nothing in glint calls setlocale, so strtod and printf use the "C" locale).
 //
 // Thread safety: pure functions.
@@ -10,7 +10,7 @@
 enum number_status {
     NUMBER_OK,
     NUMBER_EMPTY,
-    NUMBER_NOT_A_NUMBER, // no number at all: letters, two dots, trailing text
+    NUMBER_NOT_A_NUMBER, // not a number at all: letters, two dots, trailing text
     NUMBER_NAN,          // nan, .nan
     NUMBER_INFINITE,     // inf, .inf, infinity
     NUMBER_HEX,          // 0x1f
@@ -18,23 +18,23 @@ enum number_status {
     NUMBER_UNDERSCORE,   // 1_000
     NUMBER_COMMA,        // 0,5
     NUMBER_LEADING_ZERO, // 007
-    NUMBER_UNIT,         // 60deg: a number with letters behind it
+    NUMBER_UNIT,         // 60deg: a number with letters after it
     NUMBER_OVERFLOW,     // beyond the range of a double
     NUMBER_UNDERFLOW,    // not zero as written, zero as a double
     NUMBER_TOO_LONG,     // more than 1000 characters
     NUMBER_NOT_INTEGER,  // an integer takes digits only
-    NUMBER_DASH,         // a dash or minus sign of typesetting in place of '-'
+    NUMBER_DASH,         // a typographic dash or minus sign in place of '-'
 };
 
 // Reads [+-]?(digits[.digits?]|.digits)([eE][+-]?digits)? without superfluous leading zeros.
-// *value is set where the result is NUMBER_OK, else 0. -0 reads as 0. The double is the nearest one
-// (ties to even), as strtod gives it.
+// *value is the number if the result is NUMBER_OK, else 0. -0 reads as 0. The double is the nearest one
+// (ties to even), as strtod returns it.
 enum number_status number_parse(str text, double *value);
-// The number that a text begins with, leading zeros allowed: its length. 0 where there is none, and where it
-// is one of so many digits or so large an exponent that only number_parse reads it; *value is unspecified
-// then. For meshes, whose numbers are millions and short.
+// The number that `text` begins with, leading zeros allowed: returns its length, 0 if there is none or if it
+// has so many digits or so large an exponent that only number_parse reads it; *value is unspecified
+// then. For meshes, which have millions of short numbers.
 size_t number_take(str text, double *value);
-// Digits with an optional sign, no superfluous leading zeros, within the range of int64_t. A number of
+// Digits with an optional sign, no superfluous leading zeros, within the range of int64_t. A number in
 // another form is NUMBER_NOT_INTEGER.
 enum number_status number_parse_integer(str text, int64_t *value);
 // What is wrong, as words that continue "...": "has a decimal comma"; never NULL.
@@ -44,8 +44,8 @@ enum {
     NUMBER_FORMAT_MAX = 40
 };
 // Writes the fewest digits that read back to the same double (of several such numbers the nearest), large
-// and small ones as 1.0e+20, with a NUL behind; returns the length. -0 is written as 0. NaN and infinity,
-// which no scene can hold, come out as .nan and .inf, which no reader takes.
+// and small ones as 1.0e+20, followed by a NUL; returns the length. -0 is written as 0. NaN and infinity,
+// which no scene can hold, come out as .nan and .inf, which no reader accepts.
 size_t number_format(double value, char out[NUMBER_FORMAT_MAX]);
 
 #endif

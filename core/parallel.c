@@ -14,8 +14,8 @@ enum {
     THREADS_MAX = 64
 };
 
-// How many threads a call may use: 0 is all processors. Within a piece that runs beside others it is the
-// share of its thread, so that calls inside calls do not multiply their threads.
+// How many threads a call may use: 0 is all processors. Within a piece that runs beside others, 0 is its
+// thread's share, so that nested calls do not multiply their threads.
 static _Thread_local unsigned share;
 
 struct job {

@@ -6,9 +6,9 @@
 
 #include <stddef.h>
 
-// Sorts in place, rising; what is no number comes last.
+// Sorts in place, ascending; NaN comes last.
 void quantile_sort(double *values, size_t count);
-// Of sorted values, linear between their places: 0 gives the least, 1 the largest, 0.5 the median. `count` is
+// Of sorted values, with linear interpolation: 0 is the least, 1 the largest, 0.5 the median. `count` is
 // at least 1.
 double quantile(const double *sorted, size_t count, double share);
 

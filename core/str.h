@@ -34,7 +34,7 @@ static inline size_t str_break_length(str s, size_t at) {
     return s.ptr[at] == '\r' && at + 1 < s.len && s.ptr[at + 1] == '\n' ? 2 : 1;
 }
 
-str str_from(const char *cstring); // NULL gives the empty string
+str str_from(const char *cstring); // NULL becomes the empty string
 static inline bool str_equal(str a, str b) {
     return a.len == b.len && (a.len == 0 || memcmp(a.ptr, b.ptr, a.len) == 0);
 }
@@ -52,15 +52,14 @@ static inline str str_slice(str s, size_t begin, size_t end) {
         begin = end;
     return (str){begin ? s.ptr + begin : s.ptr, end - begin};
 }
-// Without the blanks, tabs and line ends at both ends.
+// Without the spaces, tabs and line ends at both ends.
 str str_trim(str s);
-// Where a text begins behind its byte order mark, if it has one: 3 or 0.
+// Where a text begins after its byte order mark, if it has one: 3 or 0.
 static inline size_t str_skip_mark(str text) {
     return str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : 0;
 }
-// The kind of line end that most lines of a text have; of equal counts "\n" goes before "\r\n", and that
-// before
-// "\r".
+// The kind of line end that most lines of a text have; if counts are equal, "\n" comes before "\r\n", and
+// that before "\r".
 str str_line_end(str text);
 
 // FNV-1a, 64 bits (Fowler, Noll, Vo).

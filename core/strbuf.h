@@ -1,8 +1,8 @@
 // A growing byte buffer on the heap, for text and files that are made in memory before they are written.
 //
-// Appending never fails loudly: when memory ends or `cap_bytes` is passed, `failed` is set and further
+// Appending never fails loudly: when memory runs out or `cap_bytes` is passed, `failed` is set and further
 // appends do nothing; the owner asks once at the end. Ownership: `strbuf_finish` frees; views are valid until
-// the next append, and must not be appended to the buffer that they are of.
+// the next append, and must not be appended to their own buffer.
 // Thread safety: one thread at a time.
 #ifndef GLINT_CORE_STRBUF_H
 #define GLINT_CORE_STRBUF_H
@@ -12,7 +12,7 @@
 #include <stdarg.h>
 
 struct strbuf {
-    char *data; // NUL-terminated where not NULL
+    char *data; // NUL-terminated if not NULL
     size_t len;
     size_t capacity;
     size_t cap_bytes; // of memory, the closing NUL included; 0: no cap

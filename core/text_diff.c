@@ -178,7 +178,7 @@ static void put_hunk(struct strbuf *out, const struct side *a, const struct side
     }
 }
 
-// From the first change at or behind *i, *j to before the first gap that is wider than both contexts.
+// From the first change at or after *i, *j to before the first gap that is wider than both contexts.
 static bool next_hunk(const struct side *a, const struct side *b, size_t *i, size_t *j, struct hunk *h) {
     while (*i < a->count && *j < b->count && !a->lines[*i].changed && !b->lines[*j].changed)
         ++*i, ++*j;

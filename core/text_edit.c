@@ -20,7 +20,7 @@ static bool collide(const struct text_edit *a, const struct text_edit *b) {
     return a->begin < b->end && b->begin < a->end;
 }
 
-// Keeps of edits that may lie over one another those of the lowest order; gives their number.
+// Of edits that overlap, keeps those of the lowest order; returns their number.
 static uint32_t settle_cluster(struct text_edit *edits, uint32_t count) {
     uint32_t kept = 0;
     if (count > 1)

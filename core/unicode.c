@@ -7,7 +7,7 @@ struct range {
     uint32_t last;
 };
 
-// Sorted and apart, so that a binary search finds the one that may hold a code point. ASCII is not in them.
+// Sorted and disjoint, so that a binary search finds the one that may hold a code point. ASCII is left out.
 // clang-format off
 static const struct range letters[] = {
     {0xAA, 0xAA}, {0xB5, 0xB5}, {0xBA, 0xBA}, {0xC0, 0xD6}, {0xD8, 0xF6}, {0xF8, 0x2C1}, {0x2C6, 0x2D1},

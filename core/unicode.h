@@ -1,4 +1,4 @@
-// What glint needs to know about a code point: whether it may stand in a name, and how wide it is shown.
+// What glint needs to know about a code point: whether it may be in a name, and how wide it is on screen.
 //
 // From the Unicode 14 character database; code points that it does not assign are treated as their
 // neighbours are, so that letters added later to a script count as letters. Thread safety: pure.
@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// A letter, letter number or combining mark of any script (categories L, Nl, M), but for those that leave
-// nothing to see: fillers and variation selectors.
+// A letter, letter number or combining mark of any script (categories L, Nl, M), except those that are
+// invisible: fillers and variation selectors.
 bool unicode_is_letter(uint32_t c);
 // A decimal digit of any script (category Nd).
 bool unicode_is_digit(uint32_t c);

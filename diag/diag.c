@@ -86,7 +86,7 @@ struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, cons
     return item;
 }
 
-// The diagnostic that was added last; NULL where it was dropped.
+// The diagnostic that was added last; NULL if it was dropped.
 static struct diag *last(struct diag_sink *sink) {
     return sink->last_kept && sink->count > 0 ? &sink->items[sink->count - 1] : NULL;
 }
@@ -190,7 +190,7 @@ static void uncount(struct diag_sink *sink, enum diag_severity severity) {
 }
 
 // Removes what was reported before. `slots` (a power of two of them, zeroed) hold 1 + the index of an item
-// kept: a table and not a look at the neighbours, because a thousand may stand at one place.
+// kept: a table and not a look at the neighbours, because a thousand may be at one place.
 static void drop_repeats(struct diag_sink *sink, uint32_t *slots, size_t slot_count) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < sink->count; i++) {

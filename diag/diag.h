@@ -1,8 +1,8 @@
-// Diagnostics are data: a code, a place, a message, notes with places of their own, a help line and,
-// where the right text is known, a fix. Text is made at the edge (diag/diag_text.h).
+// Diagnostics are data: a code, a place, a message, notes with places of their own, a help line and, if the
+// right text is known, a fix. Text is made at the edge (diag/diag_text.h).
 //
-// Stages collect into one sink a job and go on. Ownership: everything lies in the sink's own arena,
-// freed by `diag_sink_finish`; spans point into the sources. When the sink's memory ends, further
+// Stages collect into one sink per job and go on. Ownership: everything is in the sink's own arena,
+// freed by `diag_sink_finish`; spans point into the sources. When the sink's memory runs out, further
 // diagnostics are counted and not kept. Thread safety: one sink belongs to one thread; jobs that run
 // at the same time have a sink each, merged with `diag_merge`.
 #ifndef GLINT_DIAG_DIAG_H
@@ -25,7 +25,7 @@ enum diag_where {
     DIAG_IN_BOTH = 3,
     DIAG_IN_MESH = 4,
     DIAG_IN_IMAGE = 8,
-    DIAG_IN_COMMAND = 16, // needs an option, a device or a file that the scene does not hold
+    DIAG_IN_COMMAND = 16, // needs an option, a device or a file outside the scene
 };
 
 enum diag_code {
@@ -73,7 +73,7 @@ struct diag_sink {
     uint32_t errors;
     uint32_t warnings;
     uint32_t notes;
-    uint32_t dropped;  // did not fit into the sink's memory; counted above all the same
+    uint32_t dropped;  // did not fit into the sink's memory; counted above too
     struct diag spare; // stands for a diagnostic that was dropped
     bool last_kept;    // whether notes, help and fix have something to belong to
 };
@@ -86,19 +86,19 @@ enum {
 void diag_sink_init(struct diag_sink *sink);
 void diag_sink_finish(struct diag_sink *sink);
 
-// Adds a diagnostic and gives it for the calls below, valid until the next diag_add; never NULL. Texts longer
-// than 2000 bytes are cut.
+// Adds a diagnostic and returns it for the calls below, valid until the next diag_add; never NULL. Texts
+// longer than 2000 bytes are cut.
 struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-// Whether diag_add only counts by now: what costs time to say, such as a suggestion, can be left out.
+// Whether diag_add only counts from now on: what takes time to find, such as a suggestion, can be left out.
 bool diag_is_full(const struct diag_sink *sink);
-// Each of these adds to the diagnostic that was added last, or does nothing where that was dropped.
+// Each of these adds to the diagnostic that was added last, or does nothing if that was dropped.
 void diag_note(struct diag_sink *sink, span at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void diag_help(struct diag_sink *sink, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement);
-// As diag_fix, for the first place where `old` stands in the text that the diagnostic is about; nothing where
-// it does not stand there as it is.
+// As diag_fix, for the first place where `old` occurs in the text that the diagnostic is about; does nothing
+// if it does not occur there literally.
 void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, bool safe, str old,
                    str replacement);
 
@@ -106,8 +106,8 @@ const struct diag_info *diag_info(enum diag_code code);
 // The code whose text is `code` ("E203"), case ignored; DIAG_CODE_COUNT if there is none.
 enum diag_code diag_find(str code);
 
-// Sorts by source, place and order of report; drops exact repeats (same code, place and message). Where
-// memory for sorting is lacking, the order of report stays.
+// Sorts by source, place and order of report; drops exact repeats (same code, place and message). If memory
+// for sorting is lacking, the order of report stays.
 void diag_sort(struct diag_sink *sink);
 // Keeps the first `most` (at least 1) diagnostics of each code and source; the last one kept counts the
 // others in `repeats`. The counts of errors, warnings and notes stay. For a sorted sink.
@@ -116,7 +116,7 @@ void diag_group(struct diag_sink *sink, uint32_t most);
 // Diagnostics that were dropped are kept in the counts.
 typedef bool diag_keep(void *context, struct diag *item);
 void diag_filter(struct diag_sink *sink, diag_keep *keep, void *context);
-// Adds a copy of all of `from` behind those of `into`, the counts of dropped ones included.
+// Adds a copy of all of `from` after those of `into`, the counts of dropped ones included.
 void diag_merge(struct diag_sink *into, const struct diag_sink *from);
 
 #endif

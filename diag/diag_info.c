@@ -1,4 +1,4 @@
-// The codes with their sentences: the only object that a changed sentence builds anew.
+// The codes with their sentences: the only object that a changed sentence rebuilds.
 #include "diag/diag.h"
 
 #include <string.h>

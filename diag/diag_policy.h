@@ -1,8 +1,8 @@
-// What a user wants to hear of: severities by code, codes and paths to leave out, and what makes a run fail.
+// What a user wants to see: severities by code, codes and paths to leave out, and what makes a run fail.
 //
-// Errors always stay errors and are always told: a policy changes warnings and notes alone. Codes are written
-// W401, or W4xx for a family. Ownership: lists live in the arena given. Thread safety: a value; set it up
-// first.
+// Errors always stay errors and are always reported: a policy changes only warnings and notes. Codes are
+// written W401, or W4xx for a family. Ownership: lists live in the given arena. Thread safety: a value; set
+// it up first.
 #ifndef GLINT_DIAG_DIAG_POLICY_H
 #define GLINT_DIAG_DIAG_POLICY_H
 
@@ -56,19 +56,19 @@ bool diag_is_code_text(str text);
 bool diag_code_matches(enum diag_code code, str text);
 
 enum diag_policy_status diag_policy_level(struct diag_policy *policy, str codes, str word);
-// Adds to what alone is told.
+// Adds to the only codes that are reported.
 enum diag_policy_status diag_policy_only(struct diag_policy *policy, str codes);
 enum diag_policy_status diag_policy_fail_on(struct diag_policy *policy, str word);
 void diag_policy_ignore_path(struct diag_policy *policy, struct arena *arena, str folder, str pattern);
-// Lays `over` on top: what it says counts, what it leaves open stays.
+// Lays `over` on top: what it sets counts, the rest stays.
 void diag_policy_overlay(struct diag_policy *policy, struct arena *arena, const struct diag_policy *over);
 
 // Whether a file, by its absolute path, is left out.
 bool diag_policy_ignores(const struct diag_policy *policy, str path);
-// Applies it to one diagnostic: sets its severity; false: it is not to be told. `ignored`: it stands in a
-// file that is left out.
+// Applies it to one diagnostic: sets its severity; false: it must not be reported. `ignored`: it is in a file
+// that is left out.
 bool diag_policy_keeps(const struct diag_policy *policy, struct diag *item, bool ignored);
-// Whether a sink, after that, means failure.
+// Whether a sink, after that, means that the run fails.
 bool diag_policy_fails(const struct diag_policy *policy, const struct diag_sink *sink);
 
 #endif

@@ -8,7 +8,7 @@
 
 enum {
     SCENE_BYTES_MAX = 256 * 1024 * 1024,
-    FINDING_BYTES = 550, // on average, of a finding that is kept, in the longest format: 100 stay below 64 KB
+    FINDING_BYTES = 550, // on average, per finding kept, in the longest format: 100 stay below 64 KB
     FINDING_OVERHEAD = 430,
     NOTE_OVERHEAD = 300,
     FIX_OVERHEAD = 400,
@@ -27,11 +27,10 @@ void report_scene_finish(struct report_scene *scene) {
 
 // ---- paths
 
-// Writes `path` without "." and with ".." taken back, where there is something to take back; gives its
-// length.
+// Writes `path` without "." and with ".." resolved, where there is a folder to remove; returns its length.
 static size_t tidy(char *out, str path) {
     size_t length = 0;
-    size_t floor = 0; // what ".." cannot take back
+    size_t floor = 0; // what ".." cannot remove
     bool absolute = path.len && path.ptr[0] == '/';
     if (absolute)
         out[length++] = '/';
@@ -75,7 +74,7 @@ str report_path(struct arena *arena, const char *root, str path) {
 struct adder {
     struct report_scene *scene;
     const struct report_input *input;
-    size_t bytes; // of the texts kept
+    size_t bytes; // of the kept texts
     bool error_kept;
 };
 
@@ -102,7 +101,7 @@ static void add_notes(struct adder *adder, struct report_finding *finding, const
     }
 }
 
-// Where the finding itself stands in no scene, the place that names its file does.
+// If the finding itself is not in a scene, the place that names its file is.
 static str scene_path_of(struct adder *adder, const struct diag *d) {
     const struct report_input *input = adder->input;
     if (!input->find_path)
@@ -121,7 +120,7 @@ static bool is_in_file(const struct adder *adder, span at) {
     return kind != SOURCE_KIND_DEFAULT && kind != SOURCE_KIND_OPTION;
 }
 
-// Puts a finding that stands in no file at the beginning of the scene, and says where it does stand.
+// Puts a finding that is not in a file at the beginning of the scene, and says where it is.
 static void place_in_scene(struct adder *adder, struct report_finding *finding, struct source_place place) {
     struct arena *arena = &adder->scene->arena;
     if (place.line_text.len)

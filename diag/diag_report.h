@@ -1,9 +1,9 @@
-// What a run found, as data: one record a scene, with its findings copied out of the sink and the sources, so
-// that both can go. diag_report_json.c, _sarif.c, _github.c, _gitlab.c and _junit.c make text of it.
+// What a run found, as data: one record per scene, with its findings copied out of the sink and the sources,
+// so that both can be freed. diag_report_json.c, _sarif.c, _github.c, _gitlab.c and _junit.c make text of it.
 //
-// Places are as in diag/source.h: lines and columns from 1, columns in code points, the end behind the last
+// Places are as in diag/source.h: lines and columns from 1, columns in code points, the end after the last
 // character. Paths of findings are those of the sources, tidied (core/report_path).
-// Ownership: everything in a scene's record lies in the record's own arena (report_scene_finish). A report
+// Ownership: everything in a scene's record is in the record's own arena (report_scene_finish). A report
 // only points at the records. Thread safety: a record belongs to one thread while it is filled; reports are
 // read-only.
 #ifndef GLINT_DIAG_DIAG_REPORT_H
@@ -30,7 +30,7 @@ struct report_finding {
     str scene_path; // "models[2].material"; empty: none is known
     str message;
     str help;      // empty: none
-    str line_text; // the line, trimmed: what a fingerprint holds on to when lines move
+    str line_text; // the line, trimmed: what a fingerprint relies on when lines move
     uint32_t repeats;
     struct report_note *notes;
     uint32_t note_count;
@@ -45,7 +45,7 @@ struct report_file {
     uint64_t size_bytes;
 };
 
-// How many entries a list of the scene has.
+// The number of entries of a list of the scene.
 struct report_count {
     const char *name; // of the list: "spheres"
     uint32_t count;
@@ -86,13 +86,13 @@ struct report {
     const char *root; // the folder that relative paths begin at; absolute
     struct report_scene *scenes;
     uint32_t scene_count;
-    bool notes; // where a format leaves notes out unless asked
+    bool notes; // for a format that leaves notes out unless asked
 };
 
 void report_scene_init(struct report_scene *scene, str path);
 void report_scene_finish(struct report_scene *scene);
 
-// The path in the scene of a place; the empty string where it has none. `context` is the caller's.
+// The path in the scene of a place; the empty string if it has none. `context` is the caller's.
 typedef str report_find_path(void *context, struct arena *arena, span at);
 struct report_input {
     const struct diag_sink *sink; // sorted
@@ -104,11 +104,12 @@ struct report_input {
 };
 // Copies the findings. false: no memory (what was copied stays).
 bool report_scene_add(struct report_scene *scene, const struct report_input *input);
-// A path as reports write it: relative to `root` where it lies below, without "." and ".." where that can be
-// told from the text.
+// A path as reports write it: relative to `root` if it is below, without "." and ".." as far as the text
+// alone shows it.
 str report_path(struct arena *arena, const char *root, str path);
 
-// A number for a finding that stays when lines before it come and go: of its code, file, message and line.
+// A number for a finding that stays the same when lines before it change: of its code, file, message and
+// line.
 uint64_t report_fingerprint(const struct report_finding *finding);
 
 // The findings of all scenes in one list, sorted by scene, what several scenes report about one file only
@@ -126,7 +127,7 @@ struct report_list {
 // false: no memory.
 bool report_list_all(const struct report *report, struct report_list *list);
 
-// Text of the whole report. Where memory ends, out->failed is set.
+// Text of the whole report. When memory runs out, out->failed is set.
 void report_json(struct strbuf *out, const struct report *report);
 void report_sarif(struct strbuf *out, const struct report *report);
 void report_github(struct strbuf *out, const struct report *report);

@@ -1,5 +1,5 @@
-// Annotations of GitHub Actions, the worst first. GitHub shows ten of each kind a step: those beyond are
-// plain lines of the log, and the last notice tells how many there are.
+// Annotations of GitHub Actions, the worst first. GitHub shows ten of each kind per step: those beyond are
+// plain lines of the log, and the last notice says how many there are.
 #include "diag/diag_report_text.h"
 #include "diag/diag_text.h"
 
@@ -49,7 +49,7 @@ static void annotation(struct strbuf *out, const struct report_finding *f) {
     strbuf_finish(&text);
 }
 
-// A line of the log that cannot be taken for a command, whatever it quotes.
+// A line of the log that cannot be mistaken for a command, whatever it quotes.
 static void plain(struct strbuf *out, const struct report_finding *f) {
     struct strbuf line;
     strbuf_init(&line);

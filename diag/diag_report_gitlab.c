@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 enum {
-    FLAT_DEPTH = 2, // a line an issue
+    FLAT_DEPTH = 2, // a line per issue
 };
 
 static void issue(struct json_writer *w, const struct report_item *item) {

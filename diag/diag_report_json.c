@@ -4,7 +4,7 @@
 
 enum {
     REPORT_VERSION = 1,
-    FLAT_DEPTH = 5, // a line a finding
+    FLAT_DEPTH = 5, // a line per finding
 };
 
 static const char *const state_names[] = {"passed", "failed", "unreadable", "ignored"};

@@ -1,9 +1,9 @@
-// JUnit's XML: a test case a scene, for what shows test results.
+// JUnit's XML: a test case per scene, for tools that show test results.
 #include "diag/diag_report_text.h"
 #include "diag/diag_text.h"
 
-// Text for XML 1.0, in which no control character may stand, escaped or not, and neither may U+FFFE and
-// U+FFFF, which are text in UTF-8.
+// Text for XML 1.0, which allows no control character, escaped or not, and neither U+FFFE nor U+FFFF, which
+// are valid in UTF-8.
 static void plain(struct strbuf *out, str s) {
     struct strbuf text;
     strbuf_init(&text);

@@ -1,4 +1,4 @@
-// SARIF 2.1.0, as GitHub's code scanning takes it.
+// SARIF 2.1.0, as GitHub's code scanning accepts it.
 #include "core/json_write.h"
 #include "diag/diag_report_text.h"
 #include "diag/diag_text.h"
@@ -7,8 +7,8 @@
 #include <string.h>
 
 enum {
-    RULE_DEPTH = 7,   // a line a rule
-    RESULT_DEPTH = 5, // a line a result
+    RULE_DEPTH = 7,   // a line per rule
+    RESULT_DEPTH = 5, // a line per result
 };
 
 static const char *const stages[] = {"glint", "syntax", "binding", "reference", "rule",

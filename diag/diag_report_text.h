@@ -4,7 +4,7 @@
 
 #include "diag/diag_report.h"
 
-// The message, with what was grouped into it.
+// The message, with the number of those grouped into it.
 void report_message(struct strbuf *out, const struct report_finding *finding);
 // "scene.yaml:4:12: error: message [E203]", with control characters shown as '?'; no line end.
 void report_line(struct strbuf *out, const struct report_finding *finding);

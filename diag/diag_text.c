@@ -21,8 +21,8 @@ static void paint(struct strbuf *out, struct diag_text_options options, const ch
 }
 
 // Writes the character at `at` as a terminal may show it, counts the columns that it takes from *column on,
-// and gives its length in bytes. Tabs become blanks, so that what stands below a line lines up; what a
-// terminal might obey and what is no UTF-8 becomes '?'.
+// and returns its length in bytes. Tabs become spaces, so that what is below a line lines up; what a terminal
+// might obey and what is not UTF-8 becomes '?'.
 static size_t put_character(struct strbuf *out, str s, size_t at, unsigned *column) {
     size_t size = utf8_sequence_length(s, at);
     uint32_t c = size ? utf8_decode(s, at) : 0;
@@ -47,7 +47,7 @@ void diag_text_plain(struct strbuf *out, str s) {
     }
 }
 
-// Byte offset of the character `count` characters behind `at`.
+// Byte offset of the character `count` characters after `at`.
 static size_t skip_characters(str line, size_t at, size_t count) {
     for (; count > 0 && at < line.len; count--) {
         size_t size = utf8_sequence_length(line, at);
@@ -56,7 +56,7 @@ static size_t skip_characters(str line, size_t at, size_t count) {
     return at;
 }
 
-// The source line, cut around the place where it is long, and the caret below it.
+// The source line, cut around the place if it is long, and the caret below it.
 static void excerpt(struct strbuf *out, struct source_place place, struct diag_text_options options) {
     str line = place.line_text;
     size_t begin = skip_characters(line, 0, place.column - 1);

@@ -11,13 +11,13 @@ uint32_t source_add(struct source_set *set, enum source_kind kind, str path, str
     return set->count - 1;
 }
 
-// Line ends are \n, \r\n and a lone \r, as YAML and XML have them.
+// Line ends are \n, \r\n and a \r by itself, as YAML and XML have them.
 static bool ends_line(str text, size_t at) {
     return text.ptr[at] == '\n' || (text.ptr[at] == '\r' && !(at + 1 < text.len && text.ptr[at + 1] == '\n'));
 }
 
-// Text is made where the arena is not guarded, perhaps because memory has ended: without room for the map,
-// lines are counted anew each time.
+// Text is made where the arena is not guarded, perhaps because memory has run out: without room for the map,
+// lines are counted again each time.
 static void map_lines(struct source_set *set, struct source *source) {
     size_t count = 1;
     for (size_t i = 0; i < source->text.len; i++)
@@ -35,7 +35,7 @@ static void map_lines(struct source_set *set, struct source *source) {
 struct line {
     uint32_t index;
     size_t begin;
-    size_t end; // behind its line end
+    size_t end; // after its line end
 };
 
 static struct line count_lines(str text, uint32_t offset) {
@@ -88,7 +88,7 @@ static uint32_t column_at(str text, size_t begin, size_t offset) {
 }
 
 struct source_place source_locate(struct source_set *set, span at) {
-    if (set->count == 0) // memory ended before anything was read
+    if (set->count == 0) // memory ran out before anything was read
         return (struct source_place){
             .path = STR("default"), .line = 1, .column = 1, .end_line = 1, .end_column = 1};
     struct source *source = &set->items[at.source < set->count ? at.source : SOURCE_DEFAULT];

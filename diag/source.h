@@ -1,4 +1,4 @@
-// Where text comes from, and where in it something stands.
+// Where text comes from, and where in it something is.
 //
 // A source is a file, a `--set` option, an overlay (unsaved text, fuzz input) or the built-in defaults.
 // A `span` names a source and a range of bytes; lines and columns are computed when text is made,
@@ -26,11 +26,11 @@ enum {
 #define SPAN_NONE ((span){0, 0, 0})
 
 enum source_kind {
-    SOURCE_KIND_DEFAULT, // values that no one wrote
+    SOURCE_KIND_DEFAULT, // values that nobody wrote
     SOURCE_KIND_FILE,
     SOURCE_KIND_OPTION,    // a --set option
-    SOURCE_KIND_OVERLAY,   // text from memory that stands for a file
-    SOURCE_KIND_GENERATED, // text that no one wrote, around a file: it is never shown
+    SOURCE_KIND_OVERLAY,   // text from memory in place of a file
+    SOURCE_KIND_GENERATED, // text that nobody wrote, around a file: it is never shown
 };
 
 struct source {
@@ -53,13 +53,13 @@ struct source_place {
     uint32_t line;
     uint32_t column;
     uint32_t end_line;
-    uint32_t end_column; // the column behind the last character
-    str line_text;       // without its line end; empty where the source has no text
+    uint32_t end_column; // the column after the last character
+    str line_text;       // without its line end; empty if the source has no text
 };
 
 // Creates the set with source 0, "default".
 void source_set_init(struct source_set *set, struct arena *arena);
-// Adds a source and gives its index. `text` is not copied and must be shorter than 4 GiB; `path` is copied.
+// Adds a source and returns its index. `text` is not copied and must be shorter than 4 GiB; `path` is copied.
 uint32_t source_add(struct source_set *set, enum source_kind kind, str path, str text);
 struct source_place source_locate(struct source_set *set, span at);
 // The text of a span; the empty string for spans without text.

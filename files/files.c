@@ -52,7 +52,7 @@ bool path_is_below(str path, str folder, str *rest) {
     return str_starts_with(path, folder) && (path.len == folder.len || path.ptr[folder.len] == '/');
 }
 
-// NUL-terminated copy of a path, or NULL where it holds a NUL itself or is too long for the system.
+// NUL-terminated copy of a path, or NULL if it contains a NUL or is too long for the system.
 static const char *system_path(struct files *files, str path) {
     if (path.len == 0 || path.len >= PATH_MAX || memchr(path.ptr, '\0', path.len))
         return NULL;
@@ -75,14 +75,14 @@ str files_canonical(struct files *files, str path) {
     str resolved;
     if (resolve_links(files, path, &resolved))
         return resolved;
-    // A file that is still to be written has a folder already.
+    // A file that is not written yet has a folder already.
     str base = path_base(path);
     if (base.len && !str_equal(base, STR("..")) && resolve_links(files, path_folder(path), &resolved))
         return path_join(files->arena, resolved, base);
     return arena_copy(files->arena, path);
 }
 
-// The one that was added last: an editor's newer text counts.
+// The one that was added last: an editor's newest text counts.
 static const struct file_overlay *find_overlay(const struct files *files, str canonical) {
     for (uint32_t i = files->overlays.count; i > 0; i--)
         if (str_equal(files->overlays.items[i - 1].path, canonical))
@@ -257,7 +257,7 @@ enum file_status files_identify(struct files *files, str path, struct file_read 
     return FILE_OK;
 }
 
-// Where a name begins to be an ending: at its last dot, or at its end.
+// Where the ending of a name begins: at its last dot, or at its end.
 static size_t ending_of(str name) {
     for (size_t at = name.len; at > 1; at--)
         if (name.ptr[at - 1] == '.')
@@ -298,7 +298,7 @@ str files_suggest(struct files *files, str path, const char *const *endings) {
         str offered = same_ending ? stem : candidate;
         unsigned before = search->best_distance;
         nearest_offer(search, offered);
-        // Folders have no order: of equals the first by name.
+        // Folders have no order: of equally near names, the first by name.
         bool equal = before != UINT_MAX && nearest_distance(search->word, offered) == before;
         bool better = search->best_distance < before || (equal && str_compare(candidate, str_from(best)) < 0);
         if (!better || (!same_ending && stems.best.len))

@@ -1,4 +1,4 @@
-// The one door to the file system, for reading. Scenes may only read what lies below allowed folders
+// The one door to the file system, for reading. Scenes may only read what is below allowed folders
 // (roots), links followed, and only regular files. Files are read whole into memory, never mapped.
 //
 // Ownership: the caller owns `struct files`; contents go into the caller's arena. Paths go into the arena
@@ -16,8 +16,8 @@ enum file_status {
     FILE_MISSING,
     FILE_OUTSIDE,     // resolves to a place outside every root
     FILE_NOT_REGULAR, // a folder, a pipe, a device
-    FILE_UNREADABLE,  // the system refused; files.system_error tells why
-    FILE_TOO_LARGE,   // larger than the cap given
+    FILE_UNREADABLE,  // the system refused; files.system_error says why
+    FILE_TOO_LARGE,   // larger than the given cap
     FILE_NO_MEMORY,
 };
 
@@ -50,7 +50,7 @@ struct files {
 };
 
 void files_init(struct files *files, struct arena *arena);
-// Makes `directory` an allowed folder. FILE_MISSING or FILE_NOT_REGULAR where it is no folder.
+// Makes `directory` an allowed folder. FILE_MISSING or FILE_NOT_REGULAR if it is not a folder.
 enum file_status files_add_root(struct files *files, str directory);
 // Text from memory in place of the file at `path` (which need not exist); copied. The newest one for a path
 // counts.
@@ -60,40 +60,40 @@ void files_add_overlay(struct files *files, str path, str text);
 // scene's folder. `scene_path` is as given by the user. On FILE_OK the root has been added.
 enum file_status files_add_scene_root(struct files *files, str scene_path);
 
-// The nearest `.glintrc.yaml` at or above the folder of `scene_path`, absolute; the empty string where there
-// is none.
+// The nearest `.glintrc.yaml` at or above the folder of `scene_path`, absolute; the empty string if there is
+// none.
 str files_find_config(struct files *files, str scene_path);
 
-// Where the file lies that `base_path` (a file) names `path`: relative paths are tried beside base_path,
+// Finds the file that `base_path` (a file) names `path`: relative paths are tried beside base_path,
 // then below each root after the first, in order. On FILE_OK *out is the path to open, as readable text;
-// for FILE_OUTSIDE *out is where it led. A path that exists but lies outside is FILE_OUTSIDE; a device or
-// pipe out there is FILE_NOT_REGULAR, since no root could allow it.
+// for FILE_OUTSIDE *out is where it led. A path that exists but is outside is FILE_OUTSIDE; a device or pipe
+// there is FILE_NOT_REGULAR, since no root could allow it.
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out);
-// Reads a file that was resolved, or one that the user named (no root is asked for here). A NUL byte
+// Reads a file that was resolved, or one that the user named (roots are not checked here). A NUL byte
 // follows the contents, not counted. `cap_bytes` is checked before memory is taken.
 enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
                             str *contents);
 // Canonical path, size and time of a regular file (or overlay: its time is a hash of its text) without
-// reading it, for caches; enters the log of reads as a read does.
+// reading it, for caches; is logged as a read.
 enum file_status files_identify(struct files *files, str path, struct file_read *out);
 // The name in the folder of `path` that is nearest to its last part, for "did you mean", among those with one
-// of the endings (NULL at their end; NULL itself: any); the empty string where none is near or the folder
-// lies outside the roots.
+// of the endings (NULL at their end; NULL itself: any); the empty string if none is near or the folder is
+// outside the roots.
 str files_suggest(struct files *files, str path, const char *const *endings);
 // What is wrong with a path that only another system or a shell would understand, and what to write ("write
 // 'a/b.obj': ..."); the empty string for all others.
 str files_advice(struct arena *arena, str path);
-// What a file that will lie at `to_file` must write to name the file that `from_file` names `path`: the path
-// as it is where it is absolute, where both lie in one folder, and where nothing lies there beside from_file.
+// What a file that will be at `to_file` must write to name the file that `from_file` names `path`: the path
+// unchanged if it is absolute, if both are in one folder, or if there is no such file beside from_file.
 str files_rebase(struct files *files, str path, str from_file, str to_file);
-// An absolute path with links followed, also where only its last part does not exist; else the path itself.
+// An absolute path with links followed, also if only its last part does not exist; else the path itself.
 str files_canonical(struct files *files, str path);
-// The folder part of a path ("." if it has none) and the part behind the last '/'.
+// The folder part of a path ("." if it has none) and the part after the last '/'.
 str path_folder(str path);
 str path_base(str path);
-// `path` as it is where it is absolute or the folder is ".", else behind the folder.
+// `path` unchanged if it is absolute or the folder is ".", else appended to the folder.
 str path_join(struct arena *arena, str folder, str path);
-// Whether `path` is `folder` or lies below it, both absolute; *rest is what follows the folder: "a/b", or
+// Whether `path` is `folder` or is below it, both absolute; *rest is what follows the folder: "a/b", or
 // nothing.
 bool path_is_below(str path, str folder, str *rest);
 // What went wrong, as words: "does not exist", ...; system errors with strerror's text.

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// The part of a path up to the next '/'; *rest goes on behind it.
+// The part of a path up to the next '/'; *rest continues after it.
 static str next_part(str *rest) {
     const char *slash = rest->len ? memchr(rest->ptr, '/', rest->len) : NULL;
     size_t end = slash ? (size_t)(slash - rest->ptr) : rest->len;
@@ -43,7 +43,7 @@ str files_rebase(struct files *files, str path, str from_file, str to_file) {
     if (path.len == 0 || path.ptr[0] == '/' || !absolute || str_equal(from, to) ||
         !exists_beside(files, from, path))
         return path;
-    // '..' can be taken off a folder without links; behind a name it may lead elsewhere.
+    // '..' can be removed from a folder without links; after a name it may lead elsewhere.
     str rest = path;
     for (str after = rest; rest.len; rest = after) {
         str part = next_part(&after);

@@ -41,7 +41,7 @@ static void take_names(void *context) {
             *ARENA_PUSH(listing->arena, listing->names) = arena_copy(listing->arena, str_from(entry->d_name));
 }
 
-// The names in a folder are taken before anything is done with them, so that the folder is closed at once.
+// The names in a folder are read before anything is done with them, so that the folder is closed at once.
 bool files_list_folder(struct arena *arena, str folder, struct files_names *names) {
     struct listing listing = {opendir(folder.ptr), arena, names};
     if (!listing.directory)

@@ -1,6 +1,6 @@
 // The scenes in a folder and in the folders below it.
 //
-// Ownership: paths go into the arena given, which must be guarded. Thread safety: pure but for the
+// Ownership: paths go into the given arena, which must be guarded. Thread safety: pure except for the
 // arena.
 #ifndef GLINT_FILES_FILES_WALK_H
 #define GLINT_FILES_FILES_WALK_H
@@ -22,7 +22,7 @@ struct files_names {
     str *items;
     uint32_t count, capacity;
 };
-// The names in a folder, sorted by their bytes, but for those that begin with a dot. false: errno says why it
+// The names in a folder, sorted by their bytes, except those that begin with a dot. false: errno says why it
 // cannot be opened.
 bool files_list_folder(struct arena *arena, str folder, struct files_names *names);
 // Adds the regular files below `folder` whose names have one of the endings. Names that begin with a dot are

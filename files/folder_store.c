@@ -105,7 +105,7 @@ static int compare_entries(const void *a, const void *b) {
     return strcmp(x->name, y->name);
 }
 
-// All regular files of the folder; leftovers of programs that were killed are among them.
+// All regular files of the folder; including leftovers of programs that were killed.
 static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total) {
     size_t count = 0;
     uint32_t capacity = 0;

@@ -1,9 +1,8 @@
-// A folder of files that may go at any time: what a program keeps to be faster next time.
+// A folder of files that may disappear at any time: what a program keeps to be faster next time.
 //
-// Entries are written to a temporary name and renamed. Where the folder holds more than `cap_bytes`, those
-// that were used longest ago are removed. Every failure is silent: a cache that cannot be had is no error.
-// Ownership: the caller owns the path. Thread safety: calls on one store may run at the same time, in other
-// processes too.
+// Entries are written to a temporary name and renamed. If the folder holds more than `cap_bytes`, those that
+// were used longest ago are removed. Every failure is silent: lacking a cache is not an error. Ownership: the
+// caller owns the path. Thread safety: calls on one store may run at the same time, in other processes too.
 #ifndef GLINT_FILES_FOLDER_STORE_H
 #define GLINT_FILES_FOLDER_STORE_H
 
@@ -19,14 +18,14 @@ struct folder_store_part {
     size_t count;
 };
 
-// Reads an entry into memory from malloc, which the caller frees; NULL where there is none or it is larger
+// Reads an entry into memory from malloc, which the caller frees; NULL if there is none or it is larger
 // than `most_bytes`. The entry counts as used.
 void *folder_store_read(const struct folder_store *store, const char *name, size_t most_bytes, size_t *count);
-// Writes the parts, one behind the other, then removes what is too much. false: it was not kept.
+// Writes the parts, one after the other, then removes old entries above the cap. false: it was not kept.
 bool folder_store_write(const struct folder_store *store, const char *name,
                         const struct folder_store_part *parts, int part_count);
 
-// "$XDG_CACHE_HOME/glint/NAME", or ~/.cache/glint/NAME, from malloc; NULL where neither is known (XDG Base
+// "$XDG_CACHE_HOME/glint/NAME", or ~/.cache/glint/NAME, from malloc; NULL if neither is known (XDG Base
 // Directory Specification 0.8: a relative XDG_CACHE_HOME is ignored).
 char *folder_store_path(const char *name);
 

@@ -6,7 +6,7 @@ enum {
     PATTERN_MAX = 1024 // bytes; a longer one matches nothing
 };
 
-// All places in the pattern that the path read so far may have come to, so that the time is the product of
+// All places in the pattern that the path read so far may have reached, so that the time is the product of
 // both lengths whatever the pattern.
 struct places {
     str pattern;

@@ -6,9 +6,9 @@
 
 #include "core/str.h"
 
-// Whether the pattern means the path or a folder above it. Both are relative to the same folder, with '/'
-// between folders. A pattern without '/' (but at its end) may begin at any folder; a leading '/' ties it to
-// the first.
+// Whether the pattern matches the path or a folder above it. Both are relative to the same folder, with '/'
+// between folders. A pattern without '/' (except at its end) may begin at any folder; a leading '/' ties it
+// to the first.
 bool glob_match(str pattern, str path);
 
 #endif

@@ -27,7 +27,7 @@ static void release(struct output *output) {
     output->stream = NULL;
 }
 
-// Owner and permissions of the file that is replaced, as far as the system lets us.
+// Owner and permissions of the file that is replaced, as far as the system allows.
 static void take_mode(int fd, const struct stat *old) {
     struct stat now;
     bool other = fstat(fd, &now) == 0 && (now.st_uid != old->st_uid || now.st_gid != old->st_gid);
@@ -78,7 +78,7 @@ static void open_temporary(struct output *output, const struct stat *old) {
     }
 }
 
-// Where the last of a chain of links leads, though nothing may be there yet: a link is replaced at its
+// Where the last of a chain of links leads, even if nothing is there yet: a link is replaced at its
 // target, so that the link stays. NULL: errno says why.
 static char *follow_links(const char *path) {
     char *at = strdup(path);
@@ -114,7 +114,7 @@ static void open_target(struct output *output) {
         if (!output->stream)
             fail(output);
     } else if (exists && access(output->path, W_OK) != 0) {
-        fail(output); // renaming would replace what its owner protects
+        fail(output); // renaming would replace a file that its owner protects
     } else {
         open_temporary(output, exists ? &info : NULL);
     }

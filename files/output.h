@@ -1,7 +1,7 @@
-// Outputs that are whole or not there: written to a temporary name beside the target, then renamed.
+// Outputs that are complete or absent: written to a temporary name beside the target, then renamed.
 //
 // A failed or abandoned run leaves the old file as it was. Permissions are kept, and links: their target is
-// replaced. A target that exists and is no regular file (a device, a pipe) is written to directly; "-" is
+// replaced. A target that exists and is not a regular file (a device, a pipe) is written to directly; "-" is
 // standard output. The program ignores SIGPIPE and SIGXFSZ, so that they come back as errors here.
 // Thread safety: one output belongs to one thread. After an error every later call does nothing.
 #ifndef GLINT_FILES_OUTPUT_H
@@ -14,7 +14,7 @@
 struct output {
     FILE *stream;
     char *path;
-    char *temporary; // NULL where the target is written directly
+    char *temporary; // NULL if the target is written directly
     int error;       // errno of the first failure, 0 if none
 };
 
@@ -25,10 +25,10 @@ void output_write(struct output *output, const void *bytes, size_t count);
 bool output_commit(struct output *output);
 // Removes the temporary file. Does nothing after output_commit.
 void output_abandon(struct output *output);
-// All of the above for bytes that are there already; 0 or an errno.
+// All of the above for bytes that are complete already; 0 or an errno.
 int output_whole(const char *path, const void *bytes, size_t count);
-// A new file in a folder that is temporary itself: written in place, and not waited for until it is on the
-// disk, which takes milliseconds each. 0 or an errno.
+// A new file in a folder that is temporary itself: written in place, without waiting until it is on the disk,
+// which takes milliseconds each. 0 or an errno.
 int output_part(const char *path, const void *bytes, size_t count);
 
 #endif

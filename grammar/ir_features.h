@@ -1,10 +1,10 @@
 // What a scene asks of the tracer: the OR over the feature columns of the rows that it uses.
 //
 // A row's bit is on while its value is not zero, false, the first word or empty; a row of a choice while
-// it is the one taken; a component of weights while it is not 0. Materials count where a body or a
+// it is the one taken; a component of weights while it is not 0. Materials count if a body or a
 // material_map uses them; a body without one has the default material. Scenes without a light have one at
 // the camera. The materials that meshes bring along, and what the renderer needs for itself (slices,
-// counters), are added by those who know them.
+// counters), are added by the code that knows them.
 // Thread safety: pure functions.
 #ifndef GLINT_GRAMMAR_IR_FEATURES_H
 #define GLINT_GRAMMAR_IR_FEATURES_H
@@ -23,7 +23,7 @@ enum {
 // Why a feature is on: the first place that switches it on.
 struct ir_feature_reason {
     uint32_t bit;                     // FEATURE_
-    span at;                          // SPAN_NONE: nothing is written that says so, it is the default
+    span at;                          // SPAN_NONE: nothing written says so, it is the default
     char words[IR_FEATURE_WORDS_MAX]; // "material 'glass': albedo refraction is 0.8"
 };
 
@@ -39,7 +39,7 @@ uint32_t ir_features(const struct ir_scene *scene);
 void ir_features_explain(const struct ir_scene *scene, const struct ir_origin *origin,
                          struct ir_feature_reasons *out);
 
-// The bits of one material alone (NULL: the default material), for those that meshes bring along.
+// The bits of only one material (NULL: the default material), for those that meshes bring along.
 uint32_t ir_material_features(const struct ir_material *material);
 
 // "refraction"; "unknown" for anything but a single FEATURE_ bit.

@@ -1,4 +1,4 @@
-// Where each part of the IR stands in the files: beside the IR, never in it. Equality, dump and diff of
+// Where each part of the IR is in the files: beside the IR, never in it. Equality, dump and diff of
 // meaning ignore it.
 //
 // For each element its span; for each row that the file gave, the spans of key and value and of the
@@ -18,7 +18,7 @@ struct ir_row_origin {
     uint32_t row;  // index in the element's schema
     span key;      // the key, attribute name or child's tag name
     span value;    // the value; a child element's whole extent
-    span comments; // from the first to the last comment that stands before it; none: SPAN_NONE
+    span comments; // from the first to the last comment before it; none: SPAN_NONE
     uint32_t next; // in ir_origin.rows, in the order of the calls; 0: none
 };
 
@@ -35,8 +35,8 @@ struct ir_file_origin {
     span included_at;       // the path in the file that includes it; the main file: SPAN_NONE
     span schema_line;       // the editor's line: `# yaml-language-server: ...` or `<?xml-model ...?>`
     str xsi_attributes;     // schema attributes of <Scene>, kept as text; empty: none
-    struct ir_scene *scene; // this file alone, before merging
-    span closing_comments;  // comments behind the last entry
+    struct ir_scene *scene; // only this file, before merging
+    span closing_comments;  // comments after the last entry
 };
 
 struct ir_origin {
@@ -60,14 +60,14 @@ struct ir_origin {
 };
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);
-// A new element; gives the id for ir_head.origin.
+// A new element; returns the id for ir_head.origin.
 uint32_t ir_origin_add(struct ir_origin *origin, struct ir_element_origin element);
 // The row's places are kept in the order of the calls; a row that is added again replaces its places.
 void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row_origin row);
-// Forgets the row's places, where it has any.
+// Forgets the row's places, if it has any.
 void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t row);
 
-// NULL where the row has no place. Valid until something is added.
+// NULL if the row has no place. Valid until something is added.
 const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head,
                                           uint32_t row);
 // The span to show for a row: its value, else the element's label. `row_name` must exist in the schema.

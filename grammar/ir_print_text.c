@@ -25,7 +25,7 @@ static bool is_reserved(str text) {
     return false;
 }
 
-// Above ASCII: what YAML forbids, folds, or nobody sees.
+// Above ASCII: what YAML forbids or folds, or what is invisible.
 static bool is_odd(uint32_t c) {
     return c < 0x20 || (c >= 0x7F && c <= 0xA0) || c == 0xAD || (c >= 0x200B && c <= 0x200F) ||
            (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || (c >= 0xE000 && c <= 0xF8FF) ||

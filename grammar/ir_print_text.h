@@ -1,6 +1,6 @@
 // Scalars of the two spellings: quoting, escapes, numbers. Part of the writers (ir_print.h).
 //
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_IR_PRINT_TEXT_H
 #define GLINT_GRAMMAR_IR_PRINT_TEXT_H
 
@@ -8,8 +8,8 @@
 
 struct schema_row;
 
-// Text as YAML: plain where every reader of YAML 1.1 and 1.2 takes it for the same text, else in double
-// quotes, on one line. `in_flow`: between brackets or as a key, where fewer characters may stand plain.
+// Text as YAML: plain if every reader of YAML 1.1 and 1.2 reads it as the same text, else in double
+// quotes, on one line. `in_flow`: between brackets or as a key, where fewer characters may be plain.
 void print_yaml_text(struct strbuf *out, str text, bool in_flow);
 // Whether a literal block ('|') shows the text as it is: several lines, nothing that needs an escape.
 bool print_yaml_is_literal(str text);
@@ -22,11 +22,11 @@ void print_xml_text(struct strbuf *out, str text);
 
 void print_number(struct strbuf *out, double value);
 void print_hex_color(struct strbuf *out, uint32_t hex);
-// Whether one number says all: equal components of a colour, or of a vector that takes one number.
+// Whether one number is enough: equal components of a colour, or of a vector that accepts one number.
 bool print_is_uniform(const struct schema_row *row, const void *field);
 // The value of a scalar row (number, word, boolean, text, reference by name) without quotes.
 void print_plain_value(struct strbuf *out, const struct schema_row *row, const void *field);
-// Code points behind the last line end.
+// Code points after the last line end.
 size_t print_column(const struct strbuf *out);
 
 #endif

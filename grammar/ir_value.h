@@ -1,5 +1,5 @@
-// What every element of the IR is made of: its head, and the values that are structs. Who walks the table and
-// knows no element's name includes this and not ir.h, and is not built anew for a new attribute.
+// What every element of the IR is made of: its head, and the values that are structs. Code that walks the
+// table and knows no element's name includes this and not ir.h, and is not rebuilt for a new attribute.
 #ifndef GLINT_GRAMMAR_IR_VALUE_H
 #define GLINT_GRAMMAR_IR_VALUE_H
 
@@ -11,13 +11,13 @@
 #define IR_NO_INDEX UINT32_MAX
 
 struct ir_head {
-    uint64_t written;  // bit i: row i of the element's schema stands in the file
+    uint64_t written;  // bit i: row i of the element's schema is in the file
     uint64_t poisoned; // bit i: row i was written and wrong
     uint32_t origin;   // id in struct ir_origin; 0: no place (made by the program)
 };
 
 struct ir_color {
-    double r, g, b; // as written, linear; zero where is_hex
+    double r, g, b; // as written, linear; zero if is_hex
     bool is_hex;    // written as #rrggbb, a displayed colour: decoded by flattening (ir_color_linear)
     uint32_t hex;   // 0xrrggbb
 };

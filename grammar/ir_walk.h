@@ -21,16 +21,16 @@ struct ir_any_list {
 // The list of a SCHEMA_LIST row, and one of its items. Other kinds have the empty list.
 struct ir_any_list ir_walk_list(const struct schema_row *row, const void *element);
 void *ir_walk_item(const struct schema_row *row, struct ir_any_list list, uint32_t i);
-// Appends a copy of `item` to the list; gives its index. May move the list.
+// Appends a copy of `item` to the list; returns its index. May move the list.
 uint32_t ir_walk_append(struct arena *arena, const struct schema_row *row, void *element, const void *item);
-// Whether an item of a list has no name: then it stands where it is used, not in the list.
+// Whether an item of a list has no name: then it is written where it is used, not in the list.
 bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item);
 
-// The text of the element's key row (a name); empty where it has none.
+// The text of the element's key row (a name); empty if it has none.
 str ir_walk_key(const struct schema_element *schema, const void *element);
 // The scene's list that references to `target` point into; NULL if there is none.
 const struct schema_row *ir_walk_pool(const struct schema_element *target);
-// Where a SCHEMA_REFERENCE row leads: NULL where nothing was written or found.
+// What a SCHEMA_REFERENCE row refers to: NULL if nothing was written or found.
 const void *ir_walk_referent(const struct ir_scene *scene, const struct schema_row *row,
                              const struct ir_material_ref *reference);
 // Whether it is a body written in place, and not a name.
@@ -41,10 +41,10 @@ bool ir_walk_is_inline(const struct ir_scene *scene, const struct schema_row *ro
 bool ir_walk_written(const struct schema_element *schema, uint32_t i, const void *element);
 // Whether a row of a choice is the one that the element's tag names; true for rows outside choices.
 bool ir_walk_taken(const struct schema_element *schema, const struct schema_row *row, const void *element);
-// Index of the short row where it is all that was written, the key aside, and has no body in place: then
-// its value can stand for the element. -1 otherwise.
+// Index of the short row if nothing else but the key was written, and it has no body in place: then its value
+// can replace the element. -1 otherwise.
 int ir_walk_short(const struct ir_scene *scene, const struct schema_element *schema, const void *element);
-// The components of a vector, colour or weights; gives their number, 0 for other kinds.
+// The components of a vector, colour or weights; returns their number, 0 for other kinds.
 uint32_t ir_walk_components(const struct schema_row *row, const void *field, double out[4]);
 
 // Calls `visit` for each path of a file that the scene holds, and may change it.

@@ -27,13 +27,13 @@ enum schema_kind {
     SCHEMA_LIST,      // {items, count, capacity} of `child`
 };
 
-// Where a colour is an XML element, #rrggbb is this attribute of it.
+// In a colour that is an XML element, #rrggbb is this attribute.
 #define SCHEMA_HEX_ATTRIBUTE "hex"
 
 enum schema_text {
     SCHEMA_TEXT_FREE,
     SCHEMA_TEXT_NAME,         // the language's names
-    SCHEMA_TEXT_FOREIGN_NAME, // a name of another file's: any text but the empty one
+    SCHEMA_TEXT_FOREIGN_NAME, // a name from another file: any text but the empty one
     SCHEMA_TEXT_PATH,
 };
 
@@ -97,7 +97,7 @@ struct schema_row {
     const char *name;    // YAML key of one value, XML attribute; snake_case
     const char *element; // XML child element, PascalCase; NULL: an attribute only
     const char *plural;  // YAML key of the list or map; NULL: as `name`
-    const char *also; // what other programs call it, separated by blanks: for "did you mean"; NULL: nothing
+    const char *also; // what other programs call it, separated by spaces: for "did you mean"; NULL: nothing
     enum schema_kind kind;
     uint32_t offset; // of the field in the element's struct
     uint32_t size;   // of the field in bytes
@@ -106,8 +106,8 @@ struct schema_row {
     enum schema_unit unit;
     enum schema_range range;
     const char *standard;     // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
-    const char *example;      // a value worth showing, as scene text; NULL where examples leave the row out
-    const char *example_next; // SCHEMA_FIXED: of the values behind the first
+    const char *example;      // a value worth showing, as scene text; NULL if examples leave the row out
+    const char *example_next; // SCHEMA_FIXED: of the values after the first
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;
     bool required;
@@ -149,12 +149,12 @@ extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_IMAGE, S
 extern const struct schema_element *const schema_elements[];
 
 const struct schema_range_info *schema_range_info(enum schema_range range);
-// Whether `value` lies in the range; never true for NaN and infinity.
+// Whether `value` is in the range; never true for NaN and infinity.
 bool schema_in_range(enum schema_range range, double value);
 
 // Index of the row of this name ("up"), or -1.
 int schema_find_row(const struct schema_element *element, str name);
-// Index of the row that a YAML key names: by plural where the row is many, by name otherwise, or by name
+// Index of the row that a YAML key names: by plural if the row is many, by name otherwise, or by name
 // for a named map with `single` (then *is_single is true). -1: none.
 int schema_find_yaml(const struct schema_element *element, str key, bool *is_single);
 // Index of the row that an XML child element names, or -1.
@@ -164,10 +164,10 @@ int schema_find_also(const struct schema_element *element, str name);
 // Index of the short row, or of the key row, or -1.
 int schema_short_row(const struct schema_element *element);
 int schema_key_row(const struct schema_element *element);
-// Whether XML can write the row as an attribute: scalars always, vectors and colours where one number or
-// #rrggbb says it all, references by name.
+// Whether XML can write the row as an attribute: scalars always, vectors and colours if one number or #rrggbb
+// is enough, references by name.
 bool schema_is_attribute(const struct schema_row *row);
-// The YAML key of a row: its plural where it has one.
+// The YAML key of a row: its plural if it has one.
 const char *schema_yaml_key(const struct schema_row *row);
 // Names of a kind's components: {"x","y","z"}, {"r","g","b"}, {"diffuse",...}; NULL at the end.
 const char *const *schema_components(enum schema_kind kind);

@@ -1,6 +1,6 @@
-// The table's names hashed, and each element's defaults ready to copy: for those who bind many elements.
+// The table's names hashed, and each element's defaults ready to copy: for binding many elements.
 //
-// Ownership: the arena given to schema_index_init, which must be guarded.
+// Ownership: the arena passed to schema_index_init, which must be guarded.
 // Thread safety: immutable once made.
 #ifndef GLINT_GRAMMAR_SCHEMA_INDEX_H
 #define GLINT_GRAMMAR_SCHEMA_INDEX_H
@@ -8,7 +8,7 @@
 #include "core/str_map.h"
 #include "grammar/schema.h"
 
-// The place where a name stands.
+// The place where a name is written.
 enum schema_name_kind {
     SCHEMA_NAME_KEY,       // YAML
     SCHEMA_NAME_ATTRIBUTE, // XML
@@ -33,13 +33,13 @@ struct schema_index {
 };
 
 void schema_index_init(struct schema_index *index, struct arena *arena);
-// As schema_find_yaml and schema_find_child; an XML attribute names the row that schema_find_row finds, where
-// that is one of attributes.
+// As schema_find_yaml and schema_find_child; an XML attribute names the row that schema_find_row finds, if
+// that can be an attribute.
 int schema_index_find(const struct schema_index *index, const struct schema_element *element,
                       enum schema_name_kind kind, str name, bool *is_single);
 const struct schema_facts *schema_index_facts(const struct schema_index *index,
                                               const struct schema_element *element);
-// As schema_init; what `memory` holds is overwritten.
+// As schema_init; the contents of `memory` are overwritten.
 void schema_index_defaults(const struct schema_index *index, const struct schema_element *element,
                            void *memory);
 

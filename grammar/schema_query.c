@@ -1,4 +1,4 @@
-// Questions to the table: rows by name, ranges, defaults.
+// Queries on the table: rows by name, ranges, defaults.
 #include "grammar/schema.h"
 
 #include "core/number.h"

@@ -61,7 +61,7 @@ static void add_fix(const struct request *request, const struct diag *diag, json
     json_array_append_new(list, action);
 }
 
-// All fixes that leave no doubt, in one.
+// All safe fixes, in one.
 static void add_fix_all(const struct request *request, uint32_t source, json_t *list) {
     const struct session *session = request->session;
     json_t *edits = json_array();
@@ -205,7 +205,7 @@ static void offer_names(struct completing *c, const struct schema_element *targe
     }
 }
 
-// Files and folders that lie where the path typed so far leads, beside the document.
+// Files and folders where the path typed so far leads, from the document's folder.
 static void offer_files(struct completing *c, enum schema_file kind) {
     struct arena *arena = c->request->arena;
     str typed = c->typed.word;
@@ -226,7 +226,7 @@ static void offer_files(struct completing *c, enum schema_file kind) {
     }
 }
 
-// The text is seldom whole while one types: every attribute of the key's name counts.
+// The text is seldom complete while the user types: every attribute with the key's name counts.
 static void offer_for(struct completing *c, const struct schema_row *row) {
     if (!str_equal_cstr(c->typed.key, row->name) &&
         !(row->plural && str_equal_cstr(c->typed.key, row->plural)))
@@ -272,7 +272,7 @@ json_t *server_completion(const struct request *request) {
 
 // ---- formatting
 
-// The text as a whole: what the layout leaves alone stays, so that the editor's own diff is small.
+// The text as a whole: what the layout does not change stays, so that the editor's own diff is small.
 json_t *server_formatting(const struct request *request) {
     struct server *server = request->server;
     struct arena *arena = request->arena;

@@ -52,7 +52,7 @@ struct path_search {
     str path;
 };
 
-// As the sessions know it.
+// The path as the sessions know it.
 static void find_path(void *context) {
     struct path_search *search = context;
     struct files files;
@@ -138,7 +138,7 @@ bool document_change(struct document *document, enum position_encoding encoding,
             end = position_read(now, encoding, json_object_get(range, "end"), &hint);
             begin = position_read(now, encoding, json_object_get(range, "start"), &hint);
         }
-        // What is put behind a lone "\r" may be the other half of its line end.
+        // What is inserted after a single "\r" may be the other half of its line end.
         bool joins = begin == hint.begin && begin > 0 && document->text[begin - 1] == '\r';
         if (begin < hint.begin || joins)
             hint = (struct position_hint){0};

@@ -1,6 +1,6 @@
-// The texts that the editor has open: they stand for the files of their names.
+// The text that the editor has open: it replaces the files of the same names.
 //
-// Ownership: the list owns texts and names. Thread safety: one thread.
+// Ownership: the list owns text and names. Thread safety: one thread.
 #ifndef GLINT_LSP_DOCUMENT_H
 #define GLINT_LSP_DOCUMENT_H
 
@@ -15,8 +15,8 @@ struct document {
     char *text;
     size_t length, capacity;
     json_int_t version;
-    bool is_placed; // scenes that might include it were looked for
-    bool is_scene;  // its name or its text was found to be a scene's
+    bool is_placed; // scenes that might include it were searched for
+    bool is_scene;  // its name or its text showed that it is a scene
 };
 
 struct documents {
@@ -30,11 +30,11 @@ void documents_finish(struct documents *documents);
 // NULL: it is not open.
 struct document *documents_find(struct documents *documents, const char *uri);
 struct document *documents_find_path(struct documents *documents, str path);
-// Opens it, or replaces the text of an open one. NULL: the URI is of no file, or memory ends.
+// Opens it, or replaces the text of an open one. NULL: the URI is not of a file, or memory ran out.
 struct document *documents_open(struct documents *documents, const char *uri, const char *text, size_t length,
                                 json_int_t version);
 void documents_close(struct documents *documents, const char *uri);
-// Applies the events of a didChange notification, in order. false: they are malformed, or memory ends.
+// Applies the events of a didChange notification, in order. false: they are malformed, or memory ran out.
 bool document_change(struct document *document, enum position_encoding encoding, const json_t *changes);
 str document_text(const struct document *document);
 

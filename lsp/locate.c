@@ -25,7 +25,7 @@ uint32_t locate_source(struct session *session, str path) {
     return SOURCE_DEFAULT;
 }
 
-// ---- what stands at a place
+// ---- what is at a place
 
 struct search {
     const struct session *session;
@@ -68,7 +68,7 @@ struct located locate(struct session *session, str path, size_t offset) {
     if (!session->scene || search.source == SOURCE_DEFAULT)
         return search.found;
     locate_walk(&SCHEMA_SCENE, session->scene, search_element, &search);
-    // The merged scene has no includes any more.
+    // The merged scene no longer has includes.
     for (uint32_t i = 0; i < session->origin.files.count; i++) {
         const struct ir_file_origin *file = &session->origin.files.items[i];
         if (file->source == search.source && file->scene)
@@ -108,7 +108,7 @@ static void note_users(void *context, const struct schema_element *schema, const
     }
 }
 
-// Where the name of an element stands: in a map of YAML it is the key, elsewhere the key row's value.
+// Where the name of an element is: in a map of YAML it is the key, elsewhere the key row's value.
 static span name_place(const struct session *session, const struct schema_element *schema,
                        const void *element) {
     int key = schema_key_row(schema);

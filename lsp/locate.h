@@ -1,6 +1,6 @@
-// What stands at a place of a text: element, attribute, name or reference; and where a name is defined and
+// What is at a place of the text: element, attribute, name or reference; and where a name is defined and
 // used. Walks the table and the places beside the IR; knows no element's name.
-// Thread safety: pure but for the sessions' line maps.
+// Thread safety: pure except for the sessions' line maps.
 #ifndef GLINT_LSP_LOCATE_H
 #define GLINT_LSP_LOCATE_H
 
@@ -15,7 +15,7 @@ struct located {
     span at;                      // of that key or value, or the element's label
 };
 
-// The innermost thing that stands at byte `offset` of the file `path` (canonical).
+// The innermost thing at byte `offset` of the file `path` (canonical).
 struct located locate(struct session *session, str path, size_t offset);
 // The source of a file that the session read (canonical path), or SOURCE_DEFAULT.
 uint32_t locate_source(struct session *session, str path);
@@ -23,15 +23,15 @@ uint32_t locate_source(struct session *session, str path);
 // Something with a name that others refer to, and its places.
 struct located_name {
     str name;
-    const struct schema_element *schema; // of what has it
+    const struct schema_element *schema; // of what has the name
     span definition;
     struct {
         span *items;
         uint32_t count, capacity;
     } uses;
 };
-// The name at a located place: the definition's own, or the one a reference has. Uses lie in `arena`, which
-// must be guarded. false: no name stands there, or nothing has it.
+// The name at a located place: the definition's own, or the one a reference has. Uses are in `arena`, which
+// must be guarded. false: no name is there, or nothing has it.
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out);
 

@@ -41,7 +41,7 @@ static bool is_path(const struct located *at) {
     return at->row && at->row->kind == SCHEMA_TEXT && at->row->text == SCHEMA_TEXT_PATH && at->in_value;
 }
 
-// The file that a path in the document names; the empty string where it is not found.
+// The file that a path in the document names; the empty string if it is not found.
 static str resolve(const struct request *request, str path) {
     struct files *files = &request->session->files;
     str found;
@@ -50,7 +50,7 @@ static str resolve(const struct request *request, str path) {
     return files_canonical(files, found);
 }
 
-// The line of a mesh in which its first face of a material stands.
+// The line of a mesh with its first face of a material.
 static json_t *mesh_group_location(const struct request *request, const struct located *at) {
     struct session *session = request->session;
     const str *name = schema_field_const(at->row, at->element);
@@ -104,7 +104,7 @@ json_t *server_references(const struct request *request) {
 
 // ---- renaming
 
-// The name inside a place, without the quotes that may stand around it.
+// The name inside a place, without the quotes that may be around it.
 static span bare(const struct session *session, span at) {
     str text = source_text(&session->sources, at);
     if (text.len >= 2 && (text.ptr[0] == '"' || text.ptr[0] == '\'') && text.ptr[text.len - 1] == text.ptr[0])
@@ -122,8 +122,8 @@ static bool is_of_xml(const struct session *session, uint32_t source) {
 static void add_edit(const struct request *request, json_t *changes, span at, str name, const char *text) {
     const struct session *session = request->session;
     span inner = bare(session, at);
-    // In quotes a name may be spelled with escapes, and in an attribute with entities; a name never needs
-    // any. What else is not spelled there comes through an anchor.
+    // In quotes a name may be written with escapes, and in an attribute with entities; a name never needs
+    // any. A name that is not written at its place at all comes through an anchor.
     bool whole = inner.begin != at.begin || is_of_xml(session, at.source);
     if (!whole && !str_equal(source_text(&session->sources, inner), name))
         return;
@@ -151,7 +151,7 @@ json_t *server_prepare_rename(const struct request *request) {
     return server_range(request->server, request->session, bare(request->session, at.at));
 }
 
-// Whether something else of the kind has the name.
+// Whether something else of the same kind has the name.
 static bool is_taken(const struct session *session, const struct schema_element *schema, str name) {
     const struct schema_row *pool = ir_walk_pool(schema);
     if (!pool)
@@ -194,7 +194,7 @@ static void add_definition(const struct request *request, const struct located *
     if (!at->in_value || !name_at(request, at, &name))
         return;
     str text = source_text(&session->sources, name.definition);
-    // The whole element, from where its name stands.
+    // The whole element, from the place of its name.
     const void *named = ir_walk_referent(session->scene, at->row, schema_field_const(at->row, at->element));
     const struct ir_head *head = named ? ir_walk_head(named) : NULL;
     if (head && head->origin < session->origin.elements.count)
@@ -252,7 +252,7 @@ static str symbol_name(struct arena *arena, const struct schema_element *schema,
     str key = ir_walk_key(schema, element);
     if (key.len)
         return key;
-    // What tells entries of a list apart: the file they name, else their place in the list.
+    // What distinguishes entries of a list: the file they name, else their place in the list.
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         const str *text = schema_field_const(row, element);

@@ -28,7 +28,7 @@ static size_t line_before(str text, size_t at) {
     return at;
 }
 
-// Walks from the place where the last search ended, or from the beginning where that is nearer.
+// Walks from the place where the last search ended, or from the beginning if that is nearer.
 static size_t line_begin(str text, uint32_t line, struct position_hint *hint) {
     if (line < hint->line / 2)
         *hint = (struct position_hint){0};
@@ -111,7 +111,7 @@ void position_index_finish(struct position_index *index) {
 
 void position_of(const struct position_index *index, size_t offset, uint32_t *line, uint32_t *character) {
     size_t low = 0;
-    size_t high = index->count; // marks before `low` are not behind the offset, those from `high` on are
+    size_t high = index->count; // marks before `low` are not after the offset, those from `high` on are
     while (low < high) {
         size_t middle = low + (high - low) / 2;
         if (index->marks[middle].offset <= offset)
@@ -207,7 +207,7 @@ str position_path(struct arena *arena, const char *uri) {
     static const char scheme[] = "file://";
     if (strncmp(uri, scheme, sizeof scheme - 1) != 0)
         return STR("");
-    const char *from = strchr(uri + sizeof scheme - 1, '/'); // behind a host, if there is one
+    const char *from = strchr(uri + sizeof scheme - 1, '/'); // after a host, if there is one
     if (!from)
         return STR("");
     char *path = arena_alloc(arena, strlen(from) + 1);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum {
-    DIAGNOSTICS_MOST = 1000, // a file: editors grow slow with more
+    DIAGNOSTICS_MOST = 1000, // per file: editors get slow with more
 };
 
 static int severity(enum diag_severity severity) {
@@ -40,8 +40,8 @@ static str uri_of(struct session *session, struct arena *arena, uint32_t source)
     return position_uri(arena, files_canonical(&session->files, session->sources.items[source].path));
 }
 
-// The URI under which the client has opened the file, where it has; valid until the next call. Findings come
-// file by file: the last one is kept, since asking the system for a path costs more than all else here.
+// The URI under which the client has opened the file, if it has; valid until the next call. Findings come
+// file by file: the last URI is kept, since asking the system for a path costs more than all else here.
 static const char *client_uri(struct server *server, struct session *session, struct arena *arena,
                               uint32_t source) {
     if (server->uri.text && server->uri.session == session && server->uri.source == source)
@@ -154,7 +154,7 @@ static void collect(void *context) {
     const struct document *main_document = documents_find_path(&server->documents, scene->path);
     const char *main = main_document ? main_document->uri : main_uri.ptr;
     list_of(all, main);
-    // Open documents without findings are told so.
+    // For open documents without findings an empty list is sent.
     for (uint32_t i = 0; i < scene->file_count; i++) {
         const struct document *document = documents_find_path(&server->documents, scene->files[i]);
         if (document)
@@ -203,7 +203,7 @@ void server_publish(struct server *server) {
     const char *uri;
     json_t *list;
     json_object_foreach(all, uri, list) {
-        // Open documents are told even so: they wait for an answer to their new version.
+        // For open documents it is sent anyway: their new version waits for an answer.
         if (documents_find(&server->documents, uri) ||
             !json_equal(list, json_object_get(server->published, uri)))
             tell(server, uri, list);

@@ -27,7 +27,7 @@ static str unread(const struct rpc *rpc) {
     return str_slice(all, rpc->taken, all.len);
 }
 
-// Bytes that were taken make room for new ones.
+// Bytes that were read make room for new ones.
 static void compact(struct rpc *rpc) {
     if (rpc->taken == 0)
         return;
@@ -50,7 +50,7 @@ static bool receive(struct rpc *rpc) {
     return !rpc->received.failed;
 }
 
-// Bytes of the header with its empty line, or 0 where that has not come yet.
+// Bytes of the header with its empty line, or 0 if that has not come yet.
 static size_t header_length(str text) {
     for (size_t i = 0; i + 4 <= text.len; i++)
         if (memcmp(text.ptr + i, "\r\n\r\n", 4) == 0)

@@ -1,9 +1,9 @@
 // JSON-RPC 2.0 in the frames of the Language Server Protocol 3.17 ("Base Protocol"): Content-Length headers
 // and a JSON body, over two file descriptors.
 //
-// Ownership: rpc_read gives a new reference; functions that take a json_t take over its reference, but for
-// ids. Errors: a peer that hangs up or sends no frames ends the connection (RPC_END); a body that is no JSON
-// is answered here with ParseError, and reading goes on.
+// Ownership: rpc_read returns a new reference; functions that take a json_t take over its reference, except
+// for ids. Errors: a peer that hangs up or does not send frames ends the connection (RPC_END); a body that is
+// not JSON is answered here with ParseError, and reading continues.
 // Thread safety: one thread.
 #ifndef GLINT_LSP_RPC_H
 #define GLINT_LSP_RPC_H
@@ -28,7 +28,7 @@ enum rpc_state {
 
 struct rpc {
     int in, out;
-    struct strbuf received; // bytes not yet taken apart
+    struct strbuf received; // bytes not yet parsed
     size_t taken;           // of them
     bool broken;            // writing failed: the client is gone
 };
@@ -37,12 +37,12 @@ void rpc_init(struct rpc *rpc, int in, int out);
 void rpc_finish(struct rpc *rpc);
 // Waits for a message.
 enum rpc_state rpc_read(struct rpc *rpc, json_t **message);
-// Whether, within so many milliseconds, rpc_read does not have to wait for bytes.
+// Whether, within that many milliseconds, rpc_read no longer has to wait for bytes.
 bool rpc_pending(const struct rpc *rpc, int wait_ms);
 void rpc_reply(struct rpc *rpc, json_t *id, json_t *result);
 void rpc_refuse(struct rpc *rpc, json_t *id, enum rpc_error_code code, const char *message);
 void rpc_notify(struct rpc *rpc, const char *method, json_t *params);
-// A request; what the client answers to it is read as any message.
+// A request; the client's answer is read like any message.
 void rpc_ask(struct rpc *rpc, const char *id, const char *method, json_t *params);
 
 #endif

@@ -1,11 +1,11 @@
 // The scenes that the open documents belong to, each loaded as `glint check` loads it, with the editor's
 // texts in place of the files.
 //
-// A document that another scene includes is checked as a part of that scene, and not by itself: alone it
-// would lack what the others define. Among scenes count open documents, and scene files beside the document
-// or in the folders above it, up to the scene's root.
+// A document that another scene includes is checked as a part of that scene, and not by itself: it would lack
+// what the others define. Candidates for scenes are open documents, and scene files beside the document or in
+// the folders above it, up to the scene's root.
 // A document counts as a scene by its name (`*.glint.*`) or by its text, so that other YAML and XML files are
-// left alone; `.glintrc.yaml` is checked as the settings that it is.
+// ignored; `.glintrc.yaml` is checked as settings.
 // Ownership: scenes_finish frees all. Thread safety: one thread.
 #ifndef GLINT_LSP_SCENE_H
 #define GLINT_LSP_SCENE_H
@@ -17,12 +17,12 @@ struct lsp_scene {
     struct arena arena; // for what belongs to the scene but to no load of it
     str path;           // of the main file, canonical
     struct session session;
-    bool loaded;         // the session is to be finished
+    bool loaded;         // the session must be finished
     bool is_fresh;       // it was loaded since scenes_refresh last said so
     bool is_stale;       // a text has changed since it was loaded
     bool is_wanted;      // an open document is its main file, or belongs to it
     bool lacks_lint;     // the rules about light did not run at the last load
-    double lint_seconds; // that they took when they last ran
+    double lint_seconds; // that they took in their last run
     str *files;          // canonical, of the main file and its includes as of the last load that got so far
     uint32_t file_count;
     json_t *names; // element: the names that it had when the text was last without errors of syntax
@@ -38,14 +38,14 @@ struct scenes {
 
 void scenes_init(struct scenes *scenes, struct documents *documents);
 void scenes_finish(struct scenes *scenes);
-// Marks the scenes that a changed text may matter to; all of them where `path` is empty.
+// Marks the scenes that changed text may affect; all of them if `path` is empty.
 void scenes_touch(struct scenes *scenes, str path);
 
 // Whether SCENES_WHOLE would have something to add.
 bool scenes_lack_lint(const struct scenes *scenes);
 // The scene that the document at `path` belongs to, up to date, or NULL.
 struct lsp_scene *scenes_of(struct scenes *scenes, str path);
-// The scene with this main file; added where it is new. NULL: no memory.
+// The scene with this main file; added if it is new. NULL: no memory.
 struct lsp_scene *scenes_add(struct scenes *scenes, str path);
 struct lsp_scene *scenes_find(struct scenes *scenes, str path);
 void scenes_forget(struct scenes *scenes, struct lsp_scene *scene);
@@ -54,7 +54,7 @@ bool lsp_scene_has_file(const struct lsp_scene *scene, str path);
 // Takes the list of files from a loaded session.
 void lsp_scene_note_files(struct lsp_scene *scene, struct session *session);
 void lsp_scene_forget_files(struct lsp_scene *scene);
-// The texts of the open documents, for session_options; to be freed. NULL: no memory.
+// The text of the open documents, for session_options; the caller frees it. NULL: no memory.
 struct file_overlay *scenes_overlays(const struct scenes *scenes);
 
 // ---- scene_find.c: which scene a document belongs to
@@ -62,17 +62,17 @@ struct file_overlay *scenes_overlays(const struct scenes *scenes);
 // Looks, once for each time that it is opened, for scenes around the document that include it, and adds them.
 void scenes_place(struct scenes *scenes, struct document *document);
 bool scenes_is_settings(str path);
-// Whether the document is to be checked as a scene.
+// Whether the document must be checked as a scene.
 bool scenes_is_scene(struct document *document);
 
 // ---- scene_refresh.c
 
 enum scenes_effort {
-    SCENES_QUICK, // without the rules about light, where they took long the last time
+    SCENES_QUICK, // without the rules about light, if they took long the last time
     SCENES_WHOLE,
 };
 // Decides which scenes the open documents belong to, and loads those that are stale, or lack what the effort
-// asks for. Scenes that no open document needs any more are forgotten. Whether anything has changed.
+// asks for. Scenes that no open document needs any more are forgotten. Returns whether anything has changed.
 bool scenes_refresh(struct scenes *scenes, enum scenes_effort effort);
 
 #endif

@@ -1,4 +1,4 @@
-// Keeping the scenes up with the open documents: loading them, and which are wanted.
+// Keeping the scenes up to date with the open documents: loading them, and which are needed.
 #include "grammar/schema.h"
 #include "lsp/scene.h"
 
@@ -9,9 +9,9 @@
 #include <string.h>
 
 enum {
-    ROUNDS_MOST = 4, // until every document has its scene: what one load finds may need another
+    ROUNDS_MOST = 4, // rounds until every document has its scene: what one load finds may need another
 };
-// Rules about light that take longer wait until no one types.
+// Rules about light that take longer wait until nobody types.
 #define LINT_SECONDS_QUICK 0.1
 
 // ---- loading
@@ -23,7 +23,7 @@ static bool has_syntax_error(const struct session *session) {
     return false;
 }
 
-// A text is seldom whole while one types; names that it had a moment ago are still the likely ones.
+// Text is seldom complete while the user types; names that it had a moment ago are still the likely ones.
 static void note_names(struct lsp_scene *scene) {
     if (!scene->session.scene || has_syntax_error(&scene->session))
         return;
@@ -70,7 +70,7 @@ static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_eff
         session_load_settings(&scene->session, &options);
     else
         load_scene(scene, &options, scenes->store);
-    // The texts are the session's by now.
+    // The text belongs to the session by now.
     scene->session.options.overlays = NULL;
     scene->session.options.overlay_count = 0;
     free(overlays);
@@ -79,7 +79,7 @@ static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_eff
     scene->is_fresh = true;
 }
 
-// ---- keeping up
+// ---- keeping up to date
 
 static bool is_part_of_another(const struct scenes *scenes, str path) {
     for (uint32_t i = 0; i < scenes->count; i++) {
@@ -99,7 +99,7 @@ static void want_owners(struct scenes *scenes, str path) {
     }
 }
 
-// Every document that is a scene gets one; whether there were some without.
+// Every document that is a scene gets one; returns whether some had none.
 static bool add_missing(struct scenes *scenes) {
     bool added = false;
     for (uint32_t i = 0; i < scenes->documents->count; i++) {

@@ -5,12 +5,12 @@
 #include <string.h>
 
 enum {
-    IDLE_MS = 400, // without a message: no one types
+    IDLE_MS = 400, // without a message: nobody types
 };
 
 // ---- capabilities
 
-// Of the client's encodings the first that we know; UTF-16 where it says nothing.
+// Of the client's encodings the first that we know; UTF-16 if it names none.
 static enum position_encoding choose_encoding(const json_t *params) {
     const json_t *general = json_object_get(json_object_get(params, "capabilities"), "general");
     const json_t *offered = json_object_get(general, "positionEncodings");
@@ -111,7 +111,7 @@ static void initialized(struct server *server, const json_t *params) {
 
 // ---- dispatch
 
-// What is answered where the document belongs to no scene that could be loaded.
+// The answer if the document does not belong to a scene that could be loaded.
 enum without_scene {
     ANSWER_NULL,
     ANSWER_EMPTY, // a list
@@ -163,7 +163,7 @@ static void run_answer(void *context) {
     a->result = a->answer(&a->request);
 }
 
-// What a request allocates in a session's arena, and in its own, ends the request alone where memory does.
+// When memory runs out in a session's arena, or in the request's own, only the request ends.
 static json_t *answer(struct server *server, const struct method *method, const json_t *params, bool *good) {
     struct arena arena;
     struct document *document = documents_find(&server->documents, uri_of(params));
@@ -231,7 +231,7 @@ static bool take(struct server *server, json_t *message) {
     json_t *id = json_object_get(message, "id");
     const json_t *params = json_object_get(message, "params");
     if (!method && id && (json_object_get(message, "result") || json_object_get(message, "error")))
-        return true; // an answer: nothing was asked
+        return true; // an answer: the server asked nothing
     if (!method) {
         rpc_refuse(&server->rpc, id, RPC_INVALID_REQUEST, "the message has no method");
         return true;

@@ -1,8 +1,9 @@
 // `glint lsp`: a server of the Language Server Protocol 3.17 for scenes, over two file descriptors.
 //
-// What a schema cannot know: every diagnostic of `glint check` while one types, with its fixes; definitions
-// and uses of names, over includes and spellings; meshes, images and includes as links; names, words and
-// files as completions; the outline; formatting. It reads files and writes none: changes go to the editor.
+// What a schema cannot offer: every diagnostic of `glint check` while the user types, with its fixes;
+// definitions and uses of names, over includes and spellings; meshes, images and includes as links; names,
+// words and files as completions; the outline; formatting. It reads files and writes none: changes are sent
+// to the editor.
 // Thread safety: one thread.
 #ifndef GLINT_LSP_SERVER_H
 #define GLINT_LSP_SERVER_H

@@ -14,10 +14,10 @@ struct server {
     const char *version;
     enum position_encoding encoding;
     bool initialized, shut_down;
-    bool may_watch;    // the client tells of files that change on the disk where it is asked to
+    bool may_watch;    // the client reports files that change on the disk if it is asked to
     bool was_saved;    // since the last check
     json_t *published; // URI: its diagnostics, as the client knows them
-    // What was asked for last, of the texts and files of loaded scenes.
+    // What was asked for last, about the text and files of loaded scenes.
     struct position_index index;
     struct {
         const struct session *session;
@@ -30,7 +30,7 @@ struct server {
 // A request about an open document, or a place in it.
 struct request {
     struct server *server;
-    struct arena *arena; // for the request alone; paths that the session's `files` makes lie in it too
+    struct arena *arena; // only for the request; paths that the session's `files` makes are in it too
     const json_t *params;
     struct document *document;
     struct lsp_scene *scene; // that the document belongs to, up to date
@@ -38,15 +38,15 @@ struct request {
     size_t offset;           // of the place in the document
 };
 
-// The Location of a span; NULL where it has no file.
+// The Location of a span; NULL if it has no file.
 json_t *server_location(struct server *server, struct session *session, struct arena *arena, span at);
 // The text that positions in a source refer to.
 str server_text(const struct session *session, uint32_t source);
 json_t *server_range(struct server *server, const struct session *session, span at);
-// To be called whenever scenes may have been loaded again.
+// Must be called whenever scenes may have been loaded again.
 void server_forget(struct server *server);
 
-// Diagnostics of all scenes, to the client where they have changed (lsp/publish.c).
+// Diagnostics of all scenes, to the client if they have changed (lsp/publish.c).
 void server_publish(struct server *server);
 json_t *server_diagnostic(struct server *server, struct session *session, struct arena *arena,
                           const struct diag *diag);

@@ -1,21 +1,21 @@
 // From a scene file to the IR. All diagnostics of all stages in one run.
 //
-// There are eight stages (stages/parser.c). After each holds what is said of it and of those before:
-// 1 read      The file is a tree of its tokens, each with its place. No name of the language was asked for.
+// There are eight stages (stages/parser.c). After each, what is said of it and of those before holds:
+// 1 read      The file is a tree of its tokens, each with its place. No name of the language was looked up.
 //             What is wrong in the syntax is reported, and marked TREE_BAD or TREE_CUT.
 // 2 bind      The file is an IR of its own. Each value is right by its row of the table; or it is reported,
-//             marked in ir_head.poisoned, and stands at its default.
+//             marked in ir_head.poisoned, and has its default.
 // 3 resolve   Every file that is included is read and bound, once. loader->order has each before the one that
-//             includes it; where one is missing, loader->incomplete is set.
+//             includes it; if one is missing, loader->incomplete is set.
 // 4 merge     There is one scene. Lists are joined; of elements that are there once the including file's
 //             attributes win. The IR of each file stays in origin.files.
 // 5 override  The --set options are applied, in their order, and bound by the same rules.
 // 6 names     No two things share a name, and each reference has its index; else it is reported.
-// 7 compact   Anonymous elements that no reference means are gone. The IR changes no more.
+// 7 compact   Anonymous elements that no reference uses are gone. The IR no longer changes.
 // 8 validate  The rules that a table cannot say hold; else it is reported.
-// What is said of an included file then tells where it is included. parser_load_file runs the first two.
+// Diagnostics about an included file then say where it is included. parser_load_file runs the first two.
 //
-// Ownership: IR and places live in `arena`; sources keep the texts. The caller owns everything in
+// Ownership: IR and places live in `arena`; sources keep the text. The caller owns everything in
 // struct parser_input, and has added the scene's root to `files`.
 // Thread safety: one call belongs to one thread.
 #ifndef GLINT_PARSER_PARSER_H
@@ -36,20 +36,20 @@ struct parser_input {
     struct arena *arena; // guarded inside parser_load
     const str *sets;     // --set options, "PATH=VALUE", in order
     uint32_t set_count;
-    bool whole; // nothing is bound before its file is read: slower, and the same result
+    bool whole; // nothing is bound before its file is read: slower, with the same result
 };
 
 struct parser_output {
     struct ir_scene *scene;  // merged, resolved; with every poisoned value at its default
-    struct ir_origin origin; // origin.files[0].scene is the main file alone
+    struct ir_origin origin; // origin.files[0].scene is only the main file
 };
 
 // Loads the source `main_source` (already read) and all that it includes.
-// false: there is no scene at all (the sink says why). true does not mean that there were no errors:
-// ask the sink.
+// false: there is no scene at all (the sink says why). true does not mean that there were no errors: check
+// the sink.
 bool parser_load(const struct parser_input *input, uint32_t main_source, struct parser_output *output);
 
-// One file alone, without its includes, overrides and rules between files: what `convert` writes.
+// Only one file, without its includes, overrides and rules between files: what `convert` writes.
 bool parser_load_file(const struct parser_input *input, uint32_t source, struct parser_output *output);
 
 #endif

@@ -19,7 +19,7 @@ struct binder {
     str folder; // of the configuration
 };
 
-// ---- saying what is wrong
+// ---- reporting what is wrong
 
 // Text from the file, short and without what a terminal might obey.
 static str shown(const struct binder *b, tree_index node) {
@@ -45,7 +45,7 @@ static void did_you_mean(const struct binder *b, tree_index node, const struct n
     diag_fix(b->input->sink, false, tree_span(b->tree, node), best);
 }
 
-// There is no such key in the table: what is meant, else what there is.
+// There is no such key in the table: reports what may be meant, else what there is.
 static void unknown_key(const struct binder *b, const struct key_table *table, enum diag_code code,
                         tree_index node, const struct nearest *search, str otherwise) {
     if (key_report_unknown(table, b->input->sink, code, tree_span(b->tree, node), shown(b, node), search))
@@ -230,8 +230,8 @@ static void bind(struct binder *b) {
     }
 }
 
-// The reader knows scenes: what it says of a file without anything, and of one that is no map, has other
-// words here.
+// The reader's messages are about scenes: those for an empty file, and for one that is not a map, are
+// replaced here.
 static bool keep_for_config(void *context, struct diag *item) {
     (void)context;
     if (item->code == DIAG_NOT_A_SCENE) {
@@ -276,7 +276,7 @@ static void read_and_bind(struct binder *b, uint32_t source, const struct limits
     b->tree = NULL;
 }
 
-// How a user who names the scene so would name the configuration.
+// The path of the configuration, as a user who wrote this `scene_path` would write it.
 static str path_shown(const struct config_input *input, str scene_path, str config_path) {
     str wanted = path_folder(config_path);
     str base = path_base(config_path);

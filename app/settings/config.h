@@ -8,8 +8,8 @@
 //     max_messages: 20
 //     limits: {mesh-bytes: 1000000}
 //
-// An empty file is one that only marks its folder as the root. What is wrong in it is reported at its place,
-// and the rest counts. Ownership: everything lies in the arena given, which must be guarded. Thread
+// An empty file only marks its folder as the root. What is wrong in it is reported at its place,
+// and the rest counts. Ownership: everything is in the given arena, which must be guarded. Thread
 // safety: one call belongs to one thread.
 #ifndef GLINT_APP_SETTINGS_CONFIG_H
 #define GLINT_APP_SETTINGS_CONFIG_H
@@ -26,7 +26,7 @@ struct config {
         uint32_t count, capacity;
     } asset_paths; // absolute
     struct diag_policy policy;
-    struct limits limits; // those given
+    struct limits limits; // those that are set
 };
 
 struct config_input {
@@ -40,7 +40,7 @@ struct config_input {
 void config_read(const struct config_input *input, uint32_t source, str path, struct config *config);
 // Reads those at `path`, absolute, which diagnostics call `shown`.
 void config_read_file(const struct config_input *input, str path, str shown, struct config *config);
-// Finds and reads it; a zeroed config where there is none.
+// Finds and reads it; a zeroed config if there is none.
 void config_load(const struct config_input *input, str scene_path, struct config *config);
 
 #endif

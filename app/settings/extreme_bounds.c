@@ -74,7 +74,7 @@ static void take_axis(struct binder *b, tree_index key) {
         bad_value(b, list, "an axis must have a list of bounds, such as [{off: 0.0005}]");
 }
 
-// The reader knows scenes: what it says of a file that is no map has other words here.
+// The reader knows scenes: its message about a file that is not a map is replaced here.
 static bool keep_for_bounds(void *context, struct diag *item) {
     (void)context;
     if (item->code == DIAG_NOT_A_SCENE) {

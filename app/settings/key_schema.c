@@ -5,7 +5,7 @@
 #include "core/limits.h"
 #include "diag/diag_policy.h"
 
-// The depth from which on all stands on one line.
+// From this depth on all is on one line.
 enum {
     FLAT_DEPTH = 4
 };
@@ -87,7 +87,7 @@ static void put_value(struct json_writer *json, const struct key_row *row) {
     }
 }
 
-// A key without a value has an empty list or map.
+// A key without a value means an empty list or map.
 static void put_row(struct json_writer *json, const struct key_row *row) {
     json_open_object(json, row->name);
     put_word(json, "description", row->doc);
@@ -113,7 +113,7 @@ static void put_properties(struct json_writer *json, const struct key_table *tab
     json_write_boolean(json, "additionalProperties", false);
 }
 
-// A table inside another: a line a row.
+// A table inside another: a line per row.
 static void put_lines(struct json_writer *json, const struct key_table *table) {
     json->flat_depth++;
     put_properties(json, table);

@@ -1,5 +1,5 @@
 // JSON Schema (draft 7) of the files that have tables of keys, for editors. Ownership: the caller's buffer,
-// whose `failed` flag tells of memory. Thread safety: pure.
+// whose `failed` flag is set when memory runs out. Thread safety: pure.
 #ifndef GLINT_APP_SETTINGS_KEY_SCHEMA_H
 #define GLINT_APP_SETTINGS_KEY_SCHEMA_H
 

@@ -1,8 +1,8 @@
-// Tables of the keys that small YAML files beside scenes may hold: settings, limits, bounds.
+// Tables of the keys that the small YAML files beside scenes may have: settings, limits, bounds.
 //
-// One row a key, as in the table of the scene language (grammar/schema.h): its name, what it takes, its
-// range, one sentence. What is read, "did you mean" and the JSON Schema come from the rows; no other file
-// lists the names. Thread safety: constant data.
+// One row per key, as in the table of the scene language (grammar/schema.h): its name, its kind of value, its
+// range, one sentence. The reader, "did you mean" and the JSON Schema come from the rows; no other file lists
+// the names. Thread safety: constant data.
 #ifndef GLINT_APP_SETTINGS_KEYS_H
 #define GLINT_APP_SETTINGS_KEYS_H
 
@@ -54,11 +54,11 @@ extern const struct key_table LIMIT_KEYS;   // in the order of enum limit
 extern const struct key_table AXIS_KEYS;    // of a file of bounds
 extern const struct key_table BOUND_KEYS;   // of one bound
 
-// The row of a name; where it is NULL, `search` holds the nearest one.
+// The row of a name; if it is NULL, `search` holds the nearest one.
 const struct key_row *key_find(const struct key_table *table, str name, struct nearest *search);
 // "a, b and c", in the arena, whose guard the caller sets.
 str key_list(const struct key_table *table, struct arena *arena);
-// Reports that there is none of this name, and the one that may be meant; false: no other is near.
+// Reports that there is no key of this name, and the one that may be meant; false: no other is near.
 bool key_report_unknown(const struct key_table *table, struct diag_sink *sink, enum diag_code code, span at,
                         str name, const struct nearest *search);
 

@@ -1,7 +1,7 @@
 // Files made from the table: for editors and readers. The committed copies (docs/schema/, docs/reference.md)
 // are kept equal by a test.
 //
-// Errors: none but memory; ask `out->failed`. Thread safety: pure but for `out`.
+// Errors: only lack of memory; check `out->failed`. Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EMIT_H
 #define GLINT_GRAMMAR_EMIT_EMIT_H
 

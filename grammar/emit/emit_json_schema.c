@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Letters of the language's names as a class of what they are not, so that no Unicode properties are
-// needed: ASCII but letters, '_' and '-', then the blocks of blanks, punctuation, symbols, private use.
+// Letters of the language's names as a negated class, so that no Unicode properties are needed: ASCII except
+// letters, '_' and '-', then the blocks of spaces, punctuation, symbols, private use.
 #define NOT_IN_NAMES                                                                                         \
     "\\u0000-,./:-@\\[-\\^`{-\\u00a9\\u00ab-\\u00b4\\u00b6-\\u00b9\\u00bb-\\u00bf\\u00d7\\u00f7"             \
     "\\u2000-\\u2bff\\u3000-\\u3004\\u3008-\\u3020\\ue000-\\uf8ff\\ufe00-\\ufe6f\\uff00-\\uff20"
@@ -197,7 +197,7 @@ static json_t *row_schema(const struct schema_element *schema, uint32_t i) {
     if (row->many == SCHEMA_FIXED)
         value = json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", value, "minItems",
                           (int)row->fixed_count, "maxItems", (int)row->fixed_count);
-    // Draft-07 ignores what stands beside a $ref.
+    // Draft-07 ignores what is written beside a $ref.
     if (json_object_get(value, "$ref"))
         value = json_pack("{s:[o]}", "allOf", value);
     json_object_set_new(value, "description", json_string(row->doc));
@@ -215,7 +215,7 @@ static json_t *required_alone(const struct schema_row *row) {
     return json_pack("{s:[s]}", "required", row->name);
 }
 
-// Appends to `rules` what keeps the rows of choice `c` apart.
+// Appends to `rules` what makes the rows of choice `c` exclude each other.
 static void add_choice(const struct schema_element *schema, uint8_t c, json_t *rules) {
     enum schema_choice_rule rule = schema->choices[c - 1].rule;
     json_t *single = json_array();

@@ -1,6 +1,6 @@
 // What the schemas of the XML spelling have in common: indented lines, tags, patterns. Private to grammar/.
 //
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EMIT_LINES_H
 #define GLINT_GRAMMAR_EMIT_EMIT_LINES_H
 
@@ -17,7 +17,7 @@ struct emit_lines {
     uint32_t depth;
 };
 
-// The blanks before a line.
+// The indentation of a line.
 void emit_indent(const struct emit_lines *w);
 void emit_line(const struct emit_lines *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 // A start tag on a line, and what follows is deeper; the end tag on a line.

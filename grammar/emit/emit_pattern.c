@@ -8,7 +8,7 @@ enum {
 
 struct builder {
     struct arena *arena;
-    struct pattern spare; // what hangs there, where memory has ended, is not printed
+    struct pattern spare; // what is appended there when memory has run out is not printed
     bool failed;
 };
 
@@ -94,7 +94,7 @@ static void add_components(struct builder *b, struct pattern *parent, const stru
 
 // ---- elements
 
-// What stands inside the element of a row with a child: its rows, or the components of its short row alone.
+// What is inside the element of a row with a child: its rows, or only the components of its short row.
 static void add_content(struct builder *b, struct pattern *parent, const struct schema_row *row) {
     const int only = schema_short_row(row->child);
     const int key = row->many == SCHEMA_NAMED_MAP ? schema_key_row(row->child) : -1;
@@ -152,7 +152,7 @@ static void add_rows(struct builder *b, struct pattern *parent, const struct sch
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         const bool may_lack = !row->required && row->kind != SCHEMA_LIST;
-        // A key stands where the element is one of a list; an element in place has none.
+        // An element of a list has a key; an element in place has none.
         if (row->key)
             continue;
         if (!row->choice)

@@ -1,8 +1,8 @@
 // What elements of the XML spelling hold, as patterns in the sense of RELAX NG: made from the table, in one
 // walk, for every schema that prints them. Private to this folder.
 //
-// Ownership: patterns live while they are printed. Errors: none but memory; ask `out->failed`.
-// Thread safety: pure but for `out`.
+// Ownership: patterns live while they are printed. Errors: only lack of memory; check `out->failed`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EMIT_PATTERN_H
 #define GLINT_GRAMMAR_EMIT_EMIT_PATTERN_H
 
@@ -11,7 +11,7 @@
 enum pattern_kind {
     PATTERN_INTERLEAVE, // all children, in any order: what an element of the table holds
     PATTERN_ELEMENT,    // an element `name` that holds the children, in their order
-    PATTERN_ATTRIBUTE,  // an attribute `name`; its only child says which values
+    PATTERN_ATTRIBUTE,  // an attribute `name`; its only child is its values
     PATTERN_OPTIONAL,   // the only child, or nothing
     PATTERN_MANY,       // the only child, any number of times
     PATTERN_CHOICE,     // one of the children

@@ -70,7 +70,7 @@ static void print_all(struct emit_lines *w, const struct pattern *parent) {
             print(w, p);
 }
 
-// The element that stands for a pattern, around the patterns inside.
+// The RELAX NG element of a pattern, around the patterns inside.
 static void print_around(struct emit_lines *w, const struct pattern *p) {
     static const char *const tags[] = {
         [PATTERN_INTERLEAVE] = "interleave", [PATTERN_ELEMENT] = "element", [PATTERN_ATTRIBUTE] = "attribute",

@@ -11,7 +11,7 @@ static void documentation(struct emit_lines *w, const char *doc) {
     emit_line(w, "## %s", doc);
 }
 
-// A definition's name; the syntax' own words need a mark (RELAX NG Compact Syntax, OASIS 2002, section 2.5).
+// A definition's name; the syntax's own words need a mark (RELAX NG Compact Syntax, OASIS 2002, section 2.5).
 static void definition_name(struct emit_lines *w, const char *name) {
     static const char *const words[] = {"attribute", "default",    "datatypes", "div",     "element",
                                         "empty",     "external",   "grammar",   "include", "list",

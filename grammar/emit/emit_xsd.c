@@ -1,7 +1,7 @@
-// XML Schema 1.0 for the XML spelling, for editors that know no RELAX NG: completion and hovering.
+// XML Schema 1.0 for the XML spelling, for editors that do not know RELAX NG: completion and hovering.
 //
 // XML Schema cannot say "an attribute or a child" or "these children in any order, this one once": the schema
-// accepts every scene, and some files that are none. RELAX NG and `glint check` tell those.
+// accepts every scene, and some files that are not scenes. RELAX NG and `glint check` report those.
 #include "grammar/emit/emit.h"
 
 #include "grammar/emit/emit_pattern.h"
@@ -70,7 +70,7 @@ static void words(struct emit_lines *w, const struct pattern *choice) {
     emit_close(w, "xs:simpleType");
 }
 
-// The type of an attribute's values, but for words, which are listed in place.
+// The type of an attribute's values, except words, which are listed in place.
 static void type_of(struct emit_lines *w, const struct pattern *values) {
     const bool is_color = values->kind == PATTERN_CHOICE;
     const struct pattern *p = is_color ? values->first : values;
@@ -96,7 +96,7 @@ static void attribute(struct emit_lines *w, const struct pattern *p, bool requir
     emit_close(w, "xs:attribute");
 }
 
-// Those of a pattern, but not of the elements inside. What is part of a choice may be absent.
+// Those of a pattern, but not of the elements inside. Those that are part of a choice may be absent.
 static void attributes(struct emit_lines *w, const struct pattern *parent, bool required) {
     required = required && parent->kind != PATTERN_CHOICE && parent->kind != PATTERN_OPTIONAL;
     for (const struct pattern *p = parent->first; p; p = p->next)
@@ -108,7 +108,7 @@ static void attributes(struct emit_lines *w, const struct pattern *parent, bool 
 
 // ---- elements
 
-// What the elements of a pattern hold; NULL: nothing of the table.
+// The table's element that the elements of a pattern hold; NULL: none.
 static const char *content_of(const struct pattern *element) {
     const struct pattern *p = element->first;
     p = p->kind == PATTERN_CHOICE ? p->first : p;

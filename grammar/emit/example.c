@@ -73,7 +73,7 @@ static void fill(const struct schema_element *schema, void *element, struct aren
     }
 }
 
-// The rows that lead from the scene to the element; their number, -1 if there is no way.
+// The rows that lead from the scene to the element; returns their number, -1 if there is no way.
 static int find_path(const struct schema_element *from, const struct schema_element *to,
                      uint32_t path[PATH_MAX_ROWS], int depth) {
     if (from == to)

@@ -198,7 +198,7 @@ static void put_example(struct explainer *e, const char *title, struct strbuf *e
     strbuf_clear(example);
 }
 
-// Where the element stands: under its own name, or as the value of an attribute of another.
+// Where the element is written: under its own name, or as the value of an attribute of another.
 static void put_spellings(struct explainer *e, const struct schema_element *schema) {
     const struct schema_row *holder = NULL;
     const struct schema_element *owner = NULL;
@@ -280,7 +280,7 @@ static int find_row(const struct schema_element *schema, str name) {
     return -1;
 }
 
-// The element that alone has this attribute, and its row; NULL: none, or several.
+// The only element that has this attribute, and its row; NULL: none, or several.
 static const struct schema_element *find_alone(str name, int *row) {
     const struct schema_element *only = NULL;
     for (const struct schema_element *const *s = schema_elements; *s; s++) {
@@ -345,7 +345,7 @@ static bool explain_path(struct explainer *e, str what) {
     return true;
 }
 
-// A word of other programs, where it means one thing only.
+// A word of other programs, if it has only one meaning.
 static bool explain_other_word(struct explainer *e, str what) {
     const struct schema_element *only = NULL;
     for (const struct schema_element *const *s = schema_elements; *s; s++) {
@@ -382,7 +382,7 @@ static bool explain_alone(struct explainer *e, str what, bool *known) {
     return false;
 }
 
-// The nearest of all that can be explained.
+// The nearest name of all that can be explained.
 static str suggest(str what, struct arena *arena) {
     struct nearest search = nearest_begin(what);
     bool dotted = memchr(what.ptr, '.', what.len) != NULL;

@@ -2,16 +2,16 @@
 //
 // Codes: title, meaning, remedy, and where they can occur. Elements: every attribute with both spellings,
 // and an example in both. Attributes: type, range, unit, default, words. Nothing here is written by hand.
-// Thread safety: pure but for `out`.
+// Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EXPLAIN_H
 #define GLINT_GRAMMAR_EMIT_EXPLAIN_H
 
 #include "core/str.h"
 #include "core/strbuf.h"
 
-// `what`: "E206", "material", "material.albedo" or "Material" (case of codes does not matter; an
-// attribute alone will do where it is unique). `color`: ANSI colours.
-// false: there is no such thing; `out` then holds one sentence that names the nearest thing there is.
+// `what`: "E206", "material", "material.albedo" or "Material" (case of codes does not matter; an attribute by
+// itself will do if it is unique). `color`: ANSI colours.
+// false: there is no such thing; `out` then holds one sentence that names the nearest thing.
 bool explain(str what, bool color, struct strbuf *out);
 
 #endif

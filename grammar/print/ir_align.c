@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 enum {
-    PAIRS_MAX = 250000 // that are compared one by one; beyond, what is left pairs in order
+    PAIRS_MAX = 250000 // that are compared one by one; beyond that, the rest pairs in order
 };
 
 void ir_align_init(struct ir_align *align, struct arena *arena, uint32_t a_count, uint32_t b_count) {

@@ -1,5 +1,5 @@
 // Which entries of two lists are the same entry: part of ir_diff.
-// Ownership: the arena given, which must be guarded. Thread safety: pure but for the arena.
+// Ownership: the given arena, which must be guarded. Thread safety: pure except for the arena.
 #ifndef GLINT_GRAMMAR_PRINT_IR_ALIGN_H
 #define GLINT_GRAMMAR_PRINT_IR_ALIGN_H
 
@@ -18,11 +18,11 @@ struct ir_align {
 void ir_align_init(struct ir_align *align, struct arena *arena, uint32_t a_count, uint32_t b_count);
 // Pairs free entries whose keys are equal, in order; empty keys pair with nothing.
 void ir_align_keys(struct ir_align *align, const str *a_keys, const str *b_keys);
-// Pairs the free entries that are left by how alike they are. `likeness` gives a number from 0 (nothing in
-// common) to 1; below a third two entries pair only where each is the last one of its list.
+// Pairs the free entries that are left by how alike they are. `likeness` returns a number from 0 (nothing in
+// common) to 1; below a third two entries pair only if each is the last one left in its list.
 typedef double ir_align_likeness(void *context, uint32_t a, uint32_t b);
 void ir_align_rest(struct ir_align *align, ir_align_likeness *likeness, void *context);
-// Sets moved[a] for the fewest pairs that do not stand in the same order in both lists.
+// Sets moved[a] for the fewest pairs that are not in the same order in both lists.
 void ir_align_moved(const struct ir_align *align, bool *moved);
 
 #endif

@@ -32,7 +32,7 @@ struct pair {
 
 static void diff_rows(struct differ *d, const struct pair *pair);
 
-// ---- texts and places
+// ---- text and places
 
 static str take(struct differ *d, struct strbuf *text) {
     str kept = arena_copy(d->arena, strbuf_view(text));
@@ -70,7 +70,7 @@ static str join_path(struct differ *d, str path, str key) {
     return path.len ? arena_format(d->arena, "%.*s.%.*s", STR_ARG(path), STR_ARG(key)) : key;
 }
 
-// The short row of an element is meant by the element's own path.
+// The element's own path refers to its short row.
 static str row_path(struct differ *d, const struct schema_element *schema, uint32_t i, str path) {
     bool is_short = schema_short_row(schema) == (int)i && path.len;
     return is_short ? path : join_path(d, path, str_from(schema_yaml_key(&schema->rows[i])));
@@ -264,7 +264,7 @@ static double likeness(void *context, uint32_t a, uint32_t b) {
     unsigned equal = 0, all = 0;
     str name_a = name_of(l->row->child, pair.a), name_b = name_of(l->row->child, pair.b);
     quiet.quiet = true;
-    // In a map each entry has a name, and only equal content tells that it was renamed.
+    // In a map each entry has a name, and only equal content shows that it was renamed.
     if (l->row->many == SCHEMA_NAMED_MAP)
         return same_element(l->d, l->row->child, pair.a, pair.b) ? 1 : -1;
     if (name_a.len && name_b.len)
@@ -346,7 +346,7 @@ static bool is_referenced(const struct schema_element *target) {
     return false;
 }
 
-// Of named things the order has no meaning, but that the first camera is the one to look through.
+// The order of named things has no meaning, except that the first camera is the one to look through.
 static bool first_moved(const struct lists *l, uint32_t b) {
     bool in_scene = l->owner->schema == &SCHEMA_SCENE && !is_referenced(l->row->child);
     return in_scene && b == 0 && l->align.a_count > 0 && l->align.a_of_b[0] > 0;

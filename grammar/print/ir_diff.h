@@ -1,11 +1,11 @@
 // What differs in meaning between two scenes, found by walking the table over both.
 //
-// A value that was written and one that holds by default are the same where they are equal; comments,
-// spelling, order of keys and of named things are no meaning. Entries of lists are matched by name, else by
-// equal content, else by the most equal attributes; entries that stand elsewhere in the list are told as
-// moved (of two surfaces at one place the earlier one is seen). Ownership: everything is made in the arena
-// given, which must be guarded; spans point into the sources of their side. Errors: none but memory.
-// Thread safety: pure but for the arena and the callbacks.
+// A value that was written and a default are the same if they are equal; comments, spelling, order of keys
+// and of named things are not part of the meaning. Entries of lists are matched by name, else by equal
+// content, else by the most equal attributes; entries that are elsewhere in the list are reported as moved
+// (of two surfaces at one place the earlier one is seen). Ownership: everything is made in the given arena,
+// which must be guarded; spans point into the sources of their side. Errors: only lack of memory.
+// Thread safety: pure except for the arena and the callbacks.
 #ifndef GLINT_GRAMMAR_PRINT_IR_DIFF_H
 #define GLINT_GRAMMAR_PRINT_IR_DIFF_H
 
@@ -24,7 +24,7 @@ enum ir_change_kind {
 
 struct ir_change {
     enum ir_change_kind kind;
-    str path_before, path_after; // as --set takes them; empty: it is not there
+    str path_before, path_after; // as --set accepts them; empty: it is not there
     span before, after;          // SPAN_NONE: no place
     str value_before,
         value_after; // scene text, as YAML on one line; empty: it is not there, or did not change
@@ -39,7 +39,8 @@ struct ir_changes {
 struct ir_diff_side {
     const struct ir_scene *scene; // merged and without errors
     const struct ir_origin *origin;
-    // The file that a path names, in a form that is equal for one file; `at` is where the path stands.
+    // The file that a path names, in a form that is the same for every path of one file; `at` is where the
+    // path is written.
     str (*file)(void *context, struct arena *arena, span at, str path);
     void *context;
 };

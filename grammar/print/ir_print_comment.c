@@ -93,7 +93,7 @@ static str trim_end(str s) {
     return s;
 }
 
-// Between two dashes stand `count` backslashes; one more or one less stays.
+// Between two dashes are `count` backslashes; one more or one less is written.
 static void put_dashes(struct strbuf *out, str text, bool escape) {
     for (size_t i = 0; i < text.len; i++) {
         strbuf_char(out, text.ptr[i]);
@@ -179,7 +179,7 @@ static void neutral_from_xml(str text, struct strbuf *out) {
     }
 }
 
-// Fills `lines` with the neutral form; false where there is nothing to write.
+// Fills `lines` with the neutral form; false if there is nothing to write.
 static bool neutral(struct print_places *places, span comments, struct strbuf *lines) {
     if (span_is_none(comments) || !places->sources || span_equal(comments, places->last))
         return false;
@@ -231,7 +231,7 @@ void print_xml_comments(struct print_places *places, span comments, uint32_t ind
     strbuf_finish(&lines);
 }
 
-// The text behind `mark`, to the end of the line or to the quote that stands before it.
+// The text after `mark`, to the end of the line or to the quote before it.
 static str behind(str line, str mark) {
     for (size_t i = 0; i + mark.len <= line.len; i++) {
         if (!str_starts_with(str_slice(line, i, line.len), mark))
@@ -249,7 +249,7 @@ static str behind(str line, str mark) {
     return (str){"", 0};
 }
 
-// The two schemas lie side by side: the address of one tells that of the other.
+// The two schemas are side by side: the address of one gives that of the other.
 static void put_address(struct strbuf *out, str address, const char *from, const char *to) {
     if (str_ends_with_nocase(address, from)) {
         strbuf_str(out, str_slice(address, 0, address.len - strlen(from)));

@@ -19,7 +19,7 @@ enum {
     XML_STEP = 2
 };
 
-// An element that is to be written, apart from where it stands.
+// An element to write, without its place.
 struct xml_node {
     const char *tag;
     const struct schema_element *schema;
@@ -48,7 +48,7 @@ static bool value_is_attribute(const struct xml_writer *w, const struct schema_r
     }
 }
 
-// Whether a written row stands in the start tag; the others are child elements.
+// Whether a written row goes into the start tag; the others are child elements.
 static bool is_attribute(const struct xml_writer *w, const struct schema_row *row, const void *element) {
     return schema_is_attribute(row) && value_is_attribute(w, row, schema_field_const(row, element));
 }
@@ -172,7 +172,7 @@ static bool has_children(const struct xml_writer *w, const struct xml_node *node
     return false;
 }
 
-// Opens the tag; true where it was closed at once.
+// Opens the tag; true if it was closed at once.
 static bool begin_element(struct xml_writer *w, const struct xml_node *node, struct strbuf *out) {
     const struct schema_row *own = own_components(w, node);
     strbuf_char(out, '<');
@@ -229,7 +229,7 @@ static void node_comments(struct xml_writer *w, const struct xml_node *node, uin
     }
 }
 
-// Whether comments stand before what becomes a child of the element, so that it needs lines of its own.
+// Whether there are comments before what becomes a child of the element, so that it needs lines of its own.
 static bool child_has_comments(const struct xml_writer *w, const struct xml_node *node) {
     for (uint32_t i = 0; i < node->schema->row_count; i++)
         if (ir_walk_written(node->schema, i, node->element) &&

@@ -159,7 +159,7 @@ static bool is_empty(const struct schema_element *schema, const void *element) {
 static void block_rows(struct yaml_writer *w, const struct schema_element *schema, const void *element,
                        uint32_t indent, bool first_is_placed);
 
-// Empties `flow`, with room for what is left of the line.
+// Empties `flow`, and limits it to what is left of the line.
 static size_t begin_flow(struct yaml_writer *w) {
     size_t column = print_column(w->out) + 1;
     strbuf_clear(&w->flow);
@@ -170,7 +170,7 @@ static size_t begin_flow(struct yaml_writer *w) {
 
 static bool end_flow(struct yaml_writer *w, size_t column) {
     str text = strbuf_view(&w->flow);
-    // A line of braces is harder to read than a line of text: it has less room.
+    // A line of braces is harder to read than a line of text: it is given less room.
     if (w->flow.failed || column + utf8_count(text) > w->width * 4 / 5)
         return false;
     strbuf_char(w->out, ' ');
@@ -179,7 +179,7 @@ static bool end_flow(struct yaml_writer *w, size_t column) {
     return true;
 }
 
-// What follows "key:" or "-": on the same line where it is short enough, else below.
+// What follows "key:" or "-": on the same line if it is short enough, else below.
 static void block_body(struct yaml_writer *w, const struct schema_element *schema, const void *element,
                        uint32_t indent, bool in_sequence) {
     int only = ir_walk_short(w->scene, schema, element);
@@ -256,7 +256,7 @@ static void block_list(struct yaml_writer *w, const struct schema_row *row, cons
     }
 }
 
-// The only item of a named map, if it may stand under the key of one: `camera: {...}`.
+// The only item of a named map, if it may be written under the singular key: `camera: {...}`.
 static const void *single_item(const struct yaml_writer *w, const struct schema_row *row,
                                const void *element) {
     struct ir_any_list list = ir_walk_list(row, element);

@@ -2,8 +2,8 @@
 //
 // The binder knows kinds of rows and never an element's name. Every mistake is reported once; a row whose
 // value fails keeps its default and is marked in ir_head.poisoned. Nodes that the reader has reported
-// (TREE_BAD) poison their row without a word.
-// Ownership: IR, texts and places go into `arena`; `scratch` lives until the file is bound.
+// (TREE_BAD) poison their row silently.
+// Ownership: IR, text and places go into `arena`; `scratch` lives until the file is bound.
 // Thread safety: one context belongs to one thread.
 #ifndef GLINT_PARSER_BIND_BIND_H
 #define GLINT_PARSER_BIND_BIND_H
@@ -16,7 +16,7 @@
 
 struct ir_scene;
 
-// Texts that were copied lately: entries that follow each other name the same meshes and materials.
+// Recently copied strings: consecutive entries name the same meshes and materials.
 enum {
     BIND_TEXTS = 256
 };
@@ -38,7 +38,7 @@ struct bind_context {
     bool other_version; // the file says that it is written in a version that this program does not know
 };
 
-// One element while it is bound, and how it is reached.
+// One element while it is being bound, and the way to it.
 struct bind_frame {
     const struct bind_frame *parent; // NULL: the scene
     const struct schema_element *schema;
@@ -47,8 +47,8 @@ struct bind_frame {
     str name;                     // as written; empty: none
     span label;                   // what a diagnostic about the element points at
     span comments;                // before an entry of a list
-    bool bare;                    // its value stands without the name of the short row
-    uint64_t seen;                // rows that were given, right or wrong
+    bool bare;                    // its value is written without the name of the short row
+    uint64_t seen;                // rows that are given, right or wrong
     uint64_t guessed;             // rows that an unknown name was probably meant to be
 };
 
@@ -77,14 +77,14 @@ static inline uint64_t bind_bit(uint32_t row) {
 static inline void bind_poison(struct bind_frame *frame, uint32_t row) {
     bind_head(frame)->poisoned |= bind_bit(row);
 }
-// A row of an element, or the element itself where `row` is NULL.
+// A row of an element, or the element itself if `row` is NULL.
 static inline struct bind_subject bind_subject(const struct bind_frame *frame, const struct schema_row *row) {
     return (struct bind_subject){.frame = frame, .row = row, .index = -1};
 }
 static inline bool bind_is_bad(const struct bind_context *context, tree_index node) {
     return (tree_node(context->tree, node)->flags & TREE_BAD) != 0;
 }
-// What the reader has reported, or broke off in: its value cannot be judged.
+// Whether the reader has reported the node, or broke off in it: its value cannot be judged.
 static inline bool bind_is_known(const struct bind_context *context, tree_index node) {
     return (tree_node(context->tree, node)->flags & (TREE_BAD | TREE_CUT)) != 0;
 }
@@ -113,10 +113,10 @@ struct bind_values {
     bool repeated; // XML
     bool named;    // a YAML map
     uint32_t row;
-    tree_index at; // a key where repeated or named, else an item; 0: no more
+    tree_index at; // a key if repeated or named, else an item; 0: no more
 };
 
-// Entries that are recognised in spite of a mistake.
+// Entries that are recognised despite a mistake.
 struct bind_found {
     str name; // empty: none
     struct bind_given given;
@@ -126,13 +126,13 @@ struct bind_entries {
     uint32_t count, capacity;
 };
 
-// What a name that an element does not have was meant to be, where that is clear.
+// What a name that an element does not have was meant to be, if that is clear.
 struct bind_meant {
     enum {
         BIND_MEANT_NOTHING,
         BIND_MEANT_ROW,     // `row`, in another style
         BIND_MEANT_ITSELF,  // the element, around its own rows once more
-        BIND_MEANT_ENTRIES, // a list, around entries that stand without one
+        BIND_MEANT_ENTRIES, // a list, around entries that are written without one
     } what;
     uint32_t row;
 };
@@ -140,19 +140,19 @@ struct bind_meant {
 // bind_file.c
 // A scene at its defaults.
 struct ir_scene *bind_new_scene(struct bind_context *context);
-// The scene of a tree, alone; NULL where the tree is no scene, or one of another version (reported).
+// The scene of only this tree; NULL if the tree is not a scene, or one of another version (reported).
 struct ir_scene *bind_file(struct bind_context *context);
 
-// bind_element.c: the only file of the binder that comes back to itself; it calls those below, and none of
-// them calls it. Binds all rows that `node` gives into frame->memory, and checks that what is required is
-// there. false: the node has not the shape of the element (reported, or known to the reader).
+// bind_element.c: the only recursive file of the binder; it calls those below, and none of them calls it.
+// Binds all rows that `node` has into frame->memory, and checks that what is required is there. false: the
+// node does not have the shape of the element (reported, or known to the reader).
 bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node);
 // Binds all pairs of a map as rows of the element: names first, so that messages can use them.
 void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_index node);
-// Those rows that come first, or the others.
+// The rows that come first, or the others.
 void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_index node, bool first,
                struct bind_key_rows *known);
-// Binds one row; `single` as schema_find_yaml gives it.
+// Binds one row; `single` as schema_find_yaml returns it.
 void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t row, bool single,
               struct bind_given given);
 // An entry of a list, bound into memory of its own and appended to the parent's row; `name`: its key.
@@ -163,7 +163,7 @@ bool bind_entry(struct bind_context *context, struct bind_frame *parent, const s
 bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given);
 
 // bind_row.c
-// The row that a key names at its place, or -1. The key of a named map's entry is none.
+// The row that a key names at its place, or -1. The key of a named map's entry is not a row.
 int bind_find_row(const struct bind_context *context, const struct schema_element *schema, tree_index key,
                   bool *is_single);
 // Where a key's value comes from.
@@ -173,7 +173,7 @@ void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint3
                    struct bind_given given);
 void bind_report_twice(struct bind_context *context, struct bind_frame *frame, uint32_t row,
                        struct bind_given given);
-// A copy in the scene's arena, the same one for many that are equal.
+// A copy in the scene's arena, shared by equal strings.
 str bind_copy_once(struct bind_context *context, str text);
 // A frame for values that cannot be kept, yet may have mistakes of their own.
 struct bind_frame bind_aside(struct bind_context *context, const struct bind_frame *frame);
@@ -185,21 +185,21 @@ void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
                          const struct schema_row *row);
 
 // bind_fixed.c
-// The value behind values->at; 0: it was the last.
+// The value after values->at; 0: it was the last.
 tree_index bind_next_value(const struct bind_context *context, const struct bind_frame *frame,
                            const struct bind_values *values);
 // A row with a fixed number of values. `may_be_cut`: the file broke off, so that some may be missing.
 void bind_fixed(struct bind_context *context, struct bind_frame *frame, uint32_t row, struct bind_given given,
                 struct bind_values values, bool may_be_cut);
 
-// bind_loose.c: what is recognised in spite of a mistake that was reported is read on, so that its own
-// mistakes show in the same run and names in it are known. Rows touched are poisoned by the caller.
-// The entries that a value of the wrong shape holds, in scratch; replaces the last diagnostic's help where
-// there is a better one than an example (`reported`).
+// bind_loose.c: what is recognised despite a reported mistake is still read, so that its own mistakes show in
+// the same run and names in it are known. Rows touched are poisoned by the caller.
+// The entries that a value of the wrong shape holds, in scratch; replaces the last diagnostic's help if there
+// is a better one than an example (`reported`).
 struct bind_entries bind_loose_entries(struct bind_context *context, const struct schema_row *row,
                                        tree_index value, bool reported);
-// Keys behind `key` that belong into its value, one column further right: `outer` (NULL: none) does not know
-// them, the elements of `row` do. Reports and marks them, and what they are missed by.
+// Keys after `key` that belong in its value, one column further right: `outer` (NULL: none) does not know
+// them, the elements of `row` do. Reports and marks them, and the element that lacks them.
 void bind_loose_columns(struct bind_context *context, const struct bind_frame *outer,
                         const struct schema_row *row, tree_index key);
 
@@ -207,9 +207,9 @@ void bind_loose_columns(struct bind_context *context, const struct bind_frame *o
 // An entry at its defaults, in scratch.
 struct bind_frame bind_entry_begin(struct bind_context *context, const struct bind_frame *parent,
                                    const struct schema_row *row, str name, struct bind_given given);
-// Gives an entry of a named map the key that it stands behind.
+// Gives an entry of a named map the key that it is written after.
 void bind_entry_key(struct bind_context *context, struct bind_frame *child, struct bind_given given);
-// Gives an element that has no key the standard one of its list, where that has one.
+// Gives an element that has no key the standard one of its list, if that has one.
 void bind_default_key(struct bind_context *context, struct bind_frame *child);
 // Whether the parent's list has an entry of this key already; reports it. (Names of the scene's own things
 // are compared over all files, later.)
@@ -217,7 +217,7 @@ bool bind_is_second(struct bind_context *context, const struct bind_frame *paren
                     const struct bind_frame *child);
 
 // bind_list.c
-// Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; gives its
+// Appends a copy of `item` to the list in `field`, whose items have `size` bytes and may move; returns its
 // index.
 uint32_t bind_list_push(struct arena *arena, void *field, const void *item, uint32_t size);
 void *bind_list_item(void *field, uint32_t index, uint32_t size);
@@ -234,7 +234,7 @@ uint32_t bind_home_row(const struct schema_element *schema);
 // bind_composite.c: one value of a row that holds neither elements nor lists. false: reported or known.
 bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
 
-// bind_scalar.c: a value that is no vector, colour or weights.
+// bind_scalar.c: a value that is not a vector, colour or weights.
 bool bind_scalar(struct bind_context *context, struct bind_subject subject, tree_index node, void *out);
 bool bind_number(struct bind_context *context, struct bind_subject subject, tree_index node, double *out);
 bool bind_name_text(struct bind_context *context, struct bind_subject subject, str text, span at);
@@ -242,29 +242,29 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
 bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
 // Adds an example of the value to the diagnostic that was reported last.
 void bind_help_example(struct bind_context *context, struct bind_subject subject);
-// Adds how the value must be written: with the author's own numbers, where these are told apart, else an
+// Adds how the value must be written: with the author's own numbers, if they can be told apart, else an
 // example.
 void bind_help_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
-// The same, and nothing where they are not told apart. Of a list the text is taken. false: nothing.
+// The same, but nothing if they are not told apart. For a list its text is used. false: nothing was added.
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node);
 bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node);
 
 // bind_color.c
-// A colour from a text: #rrggbb, or one number.
+// A colour from text: #rrggbb, or one number.
 bool bind_color_text(struct bind_context *context, struct bind_subject subject, tree_index node,
                      struct ir_color *out);
-// Reports a text that is no colour, with the colour that other programs would take it for. Always false.
+// Reports text that is not a colour, with the colour that other programs would read it as. Always false.
 bool bind_bad_color(struct bind_context *context, struct bind_subject subject, tree_index node);
 // Asks whether three numbers are bytes.
 void bind_check_bytes(struct bind_context *context, struct bind_subject subject, tree_index node,
                       const double rgb[3]);
 
 // bind_child.c
-// Proposes `child`, an element, in the place of the attribute with this value.
+// Proposes `child`, an element, in place of the attribute with this value.
 void bind_fix_as_child(struct bind_context *context, tree_index value, str child);
 
 // bind_names.c
-// The row that a key names in another style ('LookAt', 'lookAt', 'look-at'), or in the plural where one is
+// The row that a key names in another style ('LookAt', 'lookAt', 'look-at'), or in the plural if one is
 // meant; -1: none.
 int bind_find_style(struct bind_context *context, const struct bind_frame *frame, tree_index key);
 // Proposes another name for an element of XML, in its end tag too.

@@ -1,5 +1,4 @@
-// An attribute of XML that must be an element: the fix takes it out of its tag and puts the element behind
-// it.
+// An attribute of XML that must be an element: the fix takes it out of its tag and puts the element after it.
 #include "parser/bind/bind.h"
 #include "parser/tree/mend.h"
 #include "parser/tree/xml_scan.h"
@@ -7,9 +6,9 @@
 // The tag around an attribute.
 struct tag {
     uint32_t name_begin, name_end;
-    uint32_t begin;    // of the attribute, blanks before it included
-    uint32_t rest_end; // behind the last attribute
-    bool others;       // one behind it is several numbers, too
+    uint32_t begin;    // of the attribute, spaces before it included
+    uint32_t rest_end; // after the last attribute
+    bool others;       // one after it is several numbers, too
     enum xml_tag_end end;
     uint32_t behind; // the '>'
 };
@@ -39,7 +38,7 @@ static bool find_tag(str text, uint32_t value, struct tag *tag) {
     }
 }
 
-// Of several such attributes of a tag the last one goes first, so that the fixes do not lie over each other.
+// Of several such attributes of a tag the last one comes first, so that the fixes do not overlap.
 void bind_fix_as_child(struct bind_context *context, tree_index value, str child) {
     span at = tree_span(context->tree, value);
     str text = context->sources->items[at.source].text;

@@ -1,4 +1,4 @@
-// Colours as text: #rrggbb, one number, and what people write who come from other programs.
+// Colours as text: #rrggbb, one number, and what users of other programs write.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
@@ -52,7 +52,7 @@ static bool are_bytes(const double rgb[3]) {
     return largest >= 32;
 }
 
-// What stands in the place of a list, or of an element without children.
+// Text written instead of a list, or of an element without children.
 static str hex_like(struct bind_context *context, tree_index node, uint32_t rgb) {
     if (!context->tree->is_xml)
         return arena_format(context->scratch, "\"#%06" PRIx32 "\"", rgb);
@@ -80,7 +80,7 @@ void bind_check_bytes(struct bind_context *context, struct bind_subject subject,
     }
 }
 
-// Whether a text that is no number and not #rrggbb was meant as a colour.
+// Whether text that is neither a number nor #rrggbb was meant as a colour.
 static bool looks_like_color(str text, enum number_status status, bool is_quoted) {
     uint32_t ignored;
     str bare = mend_quotes(text);

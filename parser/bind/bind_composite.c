@@ -1,5 +1,5 @@
 // Values of several components: vectors, colours, weights; as a list, by name, or as one number or #rrggbb.
-// All others are bind_scalar.c's.
+// All others are in bind_scalar.c.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
@@ -22,14 +22,14 @@ static struct bind_subject component_of(struct bind_subject subject, uint32_t i)
     return subject;
 }
 
-// Whether an item stands for more or less than one number, so that its list has another length than it seems.
+// Whether an item is more or less than one number, so that its list is longer or shorter than it seems.
 static bool is_several(const struct bind_context *context, tree_index item) {
     enum tree_kind kind = bind_kind(context, item);
     return kind == TREE_LIST || kind == TREE_MAP || bind_is_bad(context, item) ||
            (kind == TREE_SCALAR && mend_is_numbers(tree_text(context->tree, item)));
 }
 
-// Red, green, blue and what other programs have behind them.
+// Red, green, blue and what other programs write after them.
 static void help_without_alpha(struct bind_context *context, tree_index node) {
     tree_index r = tree_first(context->tree, node);
     tree_index g = tree_next(context->tree, r), b = tree_next(context->tree, g);
@@ -100,7 +100,7 @@ static void unknown_component(struct bind_context *context, struct bind_subject 
     diag_fix(context->sink, mend_is_safe(&search), at, str_from(search.best));
 }
 
-// What is given, with 0 for the rest, in the form of the file.
+// What is given, with 0 for the rest, in the spelling of the file.
 static void help_with_zeros(struct bind_context *context, struct bind_subject subject, tree_index node) {
     const struct tree *tree = context->tree;
     const char *const *names = schema_components(subject.row->kind);
@@ -192,7 +192,7 @@ static void store(enum schema_kind kind, const double n[COMPONENTS_MAX], void *o
         *(struct ir_weights *)out = (struct ir_weights){n[0], n[1], n[2], n[3]};
 }
 
-// XML: the value of `<Color hex="#rrggbb"/>`; 0 where the element has other attributes.
+// XML: the value of `<Color hex="#rrggbb"/>`; 0 if the element has other attributes.
 static tree_index hex_attribute(const struct bind_context *context, const struct schema_row *row,
                                 tree_index node) {
     const struct tree_node *n = tree_node(context->tree, node);
@@ -231,7 +231,7 @@ static bool bind_composite(struct bind_context *context, struct bind_subject sub
     } else {
         return bind_wrong_shape(context, subject, node);
     }
-    // A list or map that the reader has reported is looked into, and not believed.
+    // A list or map that the reader has reported is checked, but its value is not used.
     if (n->flags & TREE_BAD)
         return false;
     if (row->kind == SCHEMA_COLOR)

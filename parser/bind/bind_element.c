@@ -1,4 +1,4 @@
-// Elements, their rows and the entries of these: what calls itself for what stands inside.
+// Elements, their rows and the entries of these: what calls itself for what is inside.
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
@@ -66,12 +66,12 @@ static bool is_excluded(struct bind_context *context, struct bind_frame *frame, 
     return false;
 }
 
-// Several of a row: lists and maps in YAML, repeated children in XML, gathered where the first one stands.
+// Several of a row: lists and maps in YAML, repeated children in XML, gathered at the place of the first one.
 
 bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given) {
     bind_entry_key(context, child, given);
     bool good = bind_element(context, child, given.value);
-    // An entry that could not be read stays where it has a name: others may refer to it.
+    // An entry that could not be read stays if it has a name: others may refer to it.
     if (!good)
         bind_head(child)->poisoned = ~(uint64_t)0;
     return good || child->name.len;
@@ -118,7 +118,7 @@ static void bind_entries(struct bind_context *context, struct bind_frame *frame,
         bind_head(frame)->written |= bind_bit(row);
 }
 
-// A list or map that is there and holds nothing is the same as none.
+// An empty list or map is the same as none.
 static bool is_nothing(const struct bind_context *context, const struct schema_row *row, tree_index value) {
     const struct tree_node *node = tree_node(context->tree, value);
     enum tree_kind wanted = row->many == SCHEMA_NAMED_MAP ? TREE_MAP : TREE_LIST;
@@ -216,9 +216,9 @@ void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t r
         bind_poison(frame, row);
 }
 
-// What is read in spite of a mistake that was reported.
+// What is read despite a reported mistake.
 
-// Whether a value has the shape of the row: what has not would be reported for the same mistake.
+// Whether a value has the shape of the row: one without it would be reported for the same mistake.
 static bool fits(const struct bind_context *context, const struct schema_row *row, bool single,
                  tree_index value) {
     enum tree_kind kind = bind_kind(context, value);
@@ -253,7 +253,7 @@ static void loose_row(struct bind_context *context, struct bind_frame *frame, ui
     bind_poison(frame, row);
 }
 
-// Reports a name that the element does not have, and reads what it holds where that is clear.
+// Reports a name that the element does not have, and reads its contents if their meaning is clear.
 static void unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     struct bind_meant meant = bind_unknown_name(context, frame, key);
     uint64_t seen = frame->seen;
@@ -268,7 +268,7 @@ static void unknown_name(struct bind_context *context, struct bind_frame *frame,
         frame->seen |= seen;
         return;
     case BIND_MEANT_ENTRIES:
-        frame->seen = 0; // <Sphere> may stand inside and outside
+        frame->seen = 0; // <Sphere> may be inside and outside
         bind_pairs(context, frame, tree_value(context->tree, key));
         frame->seen = seen;
         return;
@@ -361,7 +361,7 @@ void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_ind
     bind_keys(context, frame, node, false, &known);
 }
 
-// Whether a map is the short row's value and not the element: its keys are those of the short row alone.
+// Whether a map is the short row's value and not the element: all its keys are those of the short row.
 static bool is_bare_map(const struct bind_context *context, const struct bind_frame *frame,
                         const struct schema_row *bare, tree_index node) {
     const char *const *names = schema_components(bare->kind);

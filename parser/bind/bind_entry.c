@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-// What to show for an entry without a name: all of it where it fits a line, else its first key.
+// What to show for an entry without a name: all of it if it fits on a line, else its first key.
 static span label_of(const struct bind_context *context, struct bind_given given) {
     if (given.key)
         return given.key_span;

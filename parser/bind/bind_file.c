@@ -39,7 +39,7 @@ static bool is_scene(struct bind_context *context, const struct bind_frame *fram
     bool known = tree->broken || (tree->root && bind_is_bad(context, tree->root));
     if (!good && !known)
         report_no_scene(context, frame, is_map ? tree->root_name : (span){tree->source, 0, 0});
-    // In another style it is a scene all the same, whose other mistakes are told too.
+    // In another style it is still a scene, and its other mistakes are reported too.
     return good || (is_map && tree->is_xml && str_equal_cstr(tag, frame->schema->name));
 }
 

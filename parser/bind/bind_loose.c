@@ -1,5 +1,5 @@
-// What is recognised in spite of a mistake that has been reported: it is read on, so that its own mistakes
-// show in the same run, and names in it are known.
+// What is recognised despite a reported mistake: it is still read, so that its own mistakes show in the same
+// run, and names in it are known.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
@@ -57,7 +57,7 @@ static void map_for_list(struct bind_context *context, struct bind_entries *entr
             add_entry(context, entries, STR(""), bind_given_by(context, key));
 }
 
-// The name that an item of a list gives itself, for a map that has names as keys; its pair is then taken.
+// The name that an item of a list gives itself, for a map that has names as keys; its pair is then skipped.
 static str take_name(const struct bind_context *context, const struct schema_row *row, tree_index item,
                      struct bind_given *given) {
     const struct tree *tree = context->tree;
@@ -91,7 +91,7 @@ static void list_for_map(struct bind_context *context, struct bind_entries *entr
     }
 }
 
-// One value where a list of values belongs that need no more than that.
+// One value where a list belongs, whose entries need no more than that.
 static void value_for_list(struct bind_context *context, struct bind_entries *entries,
                            const struct schema_row *row, tree_index value, bool reported) {
     str written = source_text(context->sources, tree_span(context->tree, value));
@@ -120,7 +120,7 @@ struct bind_entries bind_loose_entries(struct bind_context *context, const struc
     return entries;
 }
 
-// Whether a key belongs to the elements of `row`, and to nothing where it stands.
+// Whether a key belongs to the elements of `row`, and to nothing where it is written.
 static bool is_out_of_column(const struct bind_context *context, const struct bind_frame *outer,
                              const struct schema_row *row, tree_index key) {
     bool single;

@@ -1,4 +1,4 @@
-// What an element cannot do without.
+// What an element must have.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 
@@ -22,7 +22,7 @@ static void report_choice(struct bind_context *context, struct bind_frame *frame
     diag_help(context->sink, "for example %.*s", STR_ARG(example));
 }
 
-// There is one version, so that it can be written in front of the rest.
+// There is only one version, so a fix can write it before the rest.
 static void fix_version(struct bind_context *context, const struct schema_row *row) {
     const struct tree *tree = context->tree;
     str written = say_example(context->scratch, row, tree->is_xml);

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-// How a row is spelled at the place of a key of this kind; NULL: not at all, the row has another form there.
+// How a row is written as a key of this kind; NULL: not at all, the row has another form there.
 static const char *spelling(const struct schema_row *row, enum tree_key kind, bool singular) {
     if (kind == TREE_KEY_CHILD)
         return row->element;
@@ -26,7 +26,7 @@ static void offer_row(struct mend_search *search, const struct schema_row *row, 
         mend_offer(search, row->element, id);
 }
 
-// Of rows that are as near, one that is not given yet was probably meant.
+// Of equally near rows, one that is not given yet was probably meant.
 static struct mend_search search_rows(struct bind_context *context, const struct bind_frame *frame,
                                       str text) {
     struct mend_search search = mend_begin(context->scratch, text);
@@ -137,7 +137,7 @@ static void did_you_mean(struct bind_context *context, struct bind_frame *frame,
     fix_key(context, key, style_only || (search->distance > 0 && mend_is_safe(search)), str_from(right));
 }
 
-// The row of another element that has this name, or one a letter off where `near`.
+// The row of another element that has this name, or, with `near`, one a letter off.
 static const struct schema_row *row_elsewhere(struct bind_context *context,
                                               const struct schema_element *element, str snake, bool near) {
     for (uint32_t i = 0; i < element->row_count; i++) {
@@ -150,7 +150,7 @@ static const struct schema_row *row_elsewhere(struct bind_context *context,
     return NULL;
 }
 
-// What the author knows the element by: its own name, or that of the row where it stands.
+// What the author knows the element by: its own name, or that of its row.
 static str element_in_words(struct bind_context *context, const struct schema_element *element) {
     if (element == &SCHEMA_SCENE)
         return STR("the scene itself");
@@ -263,7 +263,7 @@ static bool is_wrapper(struct bind_context *context, struct bind_frame *frame, t
     return true;
 }
 
-// The key of the map that gives another row of the short row's choice: the one given before, or one behind
+// The key of the map that gives another row of the short row's choice: the one given before, or one after
 // `key`. SPAN_NONE: none.
 static span excluding_key(const struct bind_context *context, const struct bind_frame *frame, uint32_t bare,
                           tree_index key, const char **name) {
@@ -284,7 +284,8 @@ static span excluding_key(const struct bind_context *context, const struct bind_
     return SPAN_NONE;
 }
 
-// A component of the value that may stand alone, beside a row that excludes it: r, g, b beside a checker.
+// A component of the value that may be written by itself, beside a row that excludes it: r, g, b beside a
+// checker.
 static bool is_mixed(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     int bare = schema_short_row(frame->schema);
     if (bare < 0 || frame->schema->rows[bare].choice == 0)
@@ -313,7 +314,7 @@ static bool is_mixed(struct bind_context *context, struct bind_frame *frame, tre
     return true;
 }
 
-// "x" beside what has components of its own: <Light x="1" y="2" z="3"/>. Told once.
+// "x" beside rows that have components of their own: <Light x="1" y="2" z="3"/>. Reported once.
 static bool is_component(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     str text = tree_text(context->tree, key);
     for (uint32_t i = 0; i < frame->schema->row_count; i++) {
@@ -335,7 +336,7 @@ static bool is_component(struct bind_context *context, struct bind_frame *frame,
     return false;
 }
 
-// <Material ref="red"/> where the name of a material belongs.
+// <Material ref="red"/> instead of the name of a material.
 static bool is_reference(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     static const char *const words[] = {"ref", "id", "idref", "href", "use", "link"};
     tree_index value = tree_value(context->tree, key);
@@ -369,7 +370,7 @@ static bool is_rest(struct bind_context *context, tree_index key) {
         begin++;
     str before = str_slice(all, begin, at.begin);
     if (before.len && before.ptr[0] == '(')
-        return true; // told with the first
+        return true; // reported with the first
     int64_t whole;
     bool digits = number_parse_integer(tree_text(tree, key), &whole) == NUMBER_OK;
     bool comma = before.len > 1 && before.ptr[before.len - 1] == ',';

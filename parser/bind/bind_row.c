@@ -1,5 +1,5 @@
-// What there is to know of a row before it is bound: which one a key names, where it stands, whether it is
-// given twice.
+// What must be known of a row before it is bound: which one a key names, where it is, whether it is given
+// twice.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 

@@ -1,5 +1,5 @@
-// One value of one row: numbers, words, booleans, texts. Each mistake gets its message and, where the right
-// text is known, a fix.
+// One value of one row: numbers, words, booleans, text. Each mistake gets its message and, if the right text
+// is known, a fix.
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
@@ -38,14 +38,14 @@ static void fix_scalar(struct bind_context *context, const struct schema_row *ro
     if (row->kind != SCHEMA_VECTOR || context->tree->is_xml || number_parse(text, &ignored) != NUMBER_OK ||
         tree_node(context->tree, node)->style != TREE_PLAIN)
         return;
-    // What is turned by one angle is turned about the axis that stands upright.
+    // A turn by a single angle is about the vertical axis.
     str all = row->unit == SCHEMA_UNIT_DEGREES ? arena_format(context->scratch, "[0, %.*s, 0]", STR_ARG(text))
                                                : arena_format(context->scratch, "[%.*s, %.*s, %.*s]",
                                                               STR_ARG(text), STR_ARG(text), STR_ARG(text));
     diag_fix(context->sink, false, tree_span(context->tree, node), all);
 }
 
-// "(0, 0, 2)": YAML parts it at its commas. The span of all of it, where it ends on its line.
+// "(0, 0, 2)": YAML splits it at its commas. The span of all of it, if it ends on its line.
 static span with_parenthesis(const struct bind_context *context, tree_index node) {
     span at = tree_span(context->tree, node);
     str rest = context->sources->items[at.source].text;
@@ -104,7 +104,7 @@ static str found(struct bind_context *context, tree_index node) {
     return n->count ? STR("a group of attributes") : STR("an empty group");
 }
 
-// Lines of "radius:1" with a blank behind each ':'; empty where one of them is not of that kind.
+// Lines of "radius:1" with a space after each ':'; empty if one of them is not of that kind.
 static str with_blanks(struct arena *arena, const struct schema_element *schema, str lines) {
     str all = STR("");
     while (lines.len) {
@@ -123,7 +123,7 @@ static str with_blanks(struct arena *arena, const struct schema_element *schema,
     return all;
 }
 
-// "position [0, 5, 5]" or "radius:1" where a map belongs: a key without its ':', or without the blank behind
+// "position [0, 5, 5]" or "radius:1" where a map belongs: a key without its ':', or without the space after
 // it.
 static bool help_pair(struct bind_context *context, struct bind_subject subject, tree_index node) {
     const struct schema_element *schema = subject.row ? subject.row->child : subject.frame->schema;
@@ -248,8 +248,8 @@ static bool is_scalar(struct bind_context *context, struct bind_subject subject,
 
 #define PI 3.14159265358979323846
 
-// How many multiples of pi/12, which are 15 degrees, the text writes to all of its decimals; 0: it is none.
-// With fewer than three decimals only the best known count.
+// How many multiples of pi/12, which are 15 degrees, the text writes to all of its decimals; 0: it is not
+// one. With fewer than three decimals only the best known ones count.
 static int written_radians(str text, double value) {
     double size = fabs(value), parts = nearbyint(size * 12 / PI);
     double error = fabs(size - parts * PI / 12);
@@ -354,7 +354,7 @@ static bool bind_word(struct bind_context *context, struct bind_subject subject,
     return false;
 }
 
-// Texts.
+// Text.
 
 bool bind_name_text(struct bind_context *context, struct bind_subject subject, str text, span at) {
     enum schema_text kind = subject.row->text;

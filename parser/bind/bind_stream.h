@@ -1,8 +1,8 @@
 // Binding entries of the root's lists while the file is still being read. Private to parser/.
 //
-// What is wrong within an entry is said of it as it would be otherwise. At a diagnostic of the reader, or of
-// the root, which may change what is to be said of entries, the caller forgets all of it and has the file
-// read whole: what is said about a file never depends on how it was read. Ownership: as in bind.h. Thread
+// Mistakes within an entry are reported as they would be otherwise. After a diagnostic of the reader, or of
+// the root, which may change what must be reported about entries, the caller forgets all of it and reads the
+// file whole: what is reported about a file never depends on how it was read. Ownership: as in bind.h. Thread
 // safety: one stream belongs to one thread.
 #ifndef GLINT_PARSER_BIND_BIND_STREAM_H
 #define GLINT_PARSER_BIND_BIND_STREAM_H
@@ -14,14 +14,14 @@ struct bind_stream {
     struct reader_taker taker;
     struct bind_context *context; // its scene takes the entries
     struct bind_frame root;
-    struct diag_sink sink;             // what was said of entries
-    struct arena entry;                // emptied behind each entry
-    uint32_t elements_mark, rows_mark; // of the places
+    struct diag_sink sink;             // what was reported about entries
+    struct arena entry;                // emptied after each entry
+    uint32_t elements_mark, rows_mark; // places
 };
 
-// `context` is that of the file, complete but for its scene.
+// `context` is that of the file, complete except for its scene.
 void bind_stream_begin(struct bind_stream *stream, struct bind_context *context, size_t memory_bytes);
-// Forgets what was bound, and said.
+// Forgets what was bound, and reported.
 void bind_stream_forget(struct bind_stream *stream);
 void bind_stream_finish(struct bind_stream *stream);
 

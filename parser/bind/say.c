@@ -42,7 +42,7 @@ str say_text(struct arena *arena, str text) {
 }
 
 // Whether messages name the element by the row that holds it, before its own rows: 'material.albedo' of
-// this sphere, 'image.width'. Entries of lists and the scene stand for themselves.
+// this sphere, 'image.width'. Entries of lists and the scene are named by themselves.
 static bool is_part(const struct bind_frame *frame) {
     return frame->parent && frame->via->many == SCHEMA_ONE;
 }

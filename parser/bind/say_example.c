@@ -23,7 +23,7 @@ static bool is_composite(enum schema_kind kind) {
     return kind == SCHEMA_VECTOR || kind == SCHEMA_COLOR || kind == SCHEMA_WEIGHTS;
 }
 
-// Whether an example of an element shows this row: what it cannot do without; of a choice the first.
+// Whether an example of an element shows this row: those that it must have; of a choice the first.
 static bool is_shown(const struct schema_element *element, uint32_t i) {
     const struct schema_row *row = &element->rows[i];
     if (row->required && !row->key)
@@ -36,7 +36,7 @@ static bool is_shown(const struct schema_element *element, uint32_t i) {
     return true;
 }
 
-// Where nothing is needed, one row stands for the others: the first with an example.
+// If no row is required, the first with an example is shown.
 static uint32_t telling_row(const struct schema_element *element) {
     uint32_t first = element->row_count;
     for (uint32_t i = 0; i < element->row_count; i++) {
@@ -69,7 +69,7 @@ static str yaml_value(struct arena *arena, const struct schema_row *row) {
     return is_composite(row->kind) ? yaml_list(arena, text) : str_from(text);
 }
 
-// What stands behind the key of an element: its short form, or a map with one row.
+// What is written after the key of an element: its short form, or a map with one row.
 static str yaml_body(struct arena *arena, const struct schema_element *element) {
     int bare = schema_short_row(element);
     if (bare >= 0)

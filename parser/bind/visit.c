@@ -2,7 +2,7 @@
 
 #include "parser/bind/bind.h"
 
-// Rows that are references, or hold some.
+// Rows that are references, or contain some.
 static uint64_t rows_with_references(const struct schema_element *schema) {
     uint64_t rows = 0;
     for (uint32_t i = 0; i < schema->row_count; i++) {

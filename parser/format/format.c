@@ -11,7 +11,7 @@ static bool ends_line(str text) {
 
 struct layout {
     str text;
-    uint32_t begin; // behind a byte order mark
+    uint32_t begin; // after a byte order mark
     bool is_xml, found;
     struct format_lines lines;
 };
@@ -56,7 +56,7 @@ static void read_again(void *context) {
               format_same(r->tree, r->text, &again, r->written);
 }
 
-// Reads what was written once more, and compares.
+// Reads the output again, and compares.
 static bool is_safe(const struct reader_context *context, const struct tree *tree, str text, str written) {
     struct source_set sources;
     struct diag_sink sink;
@@ -93,5 +93,5 @@ enum format_status format_source(const struct reader_context *context, uint32_t 
     if (is_safe(context, &tree, text, str_slice(strbuf_view(out), before, out->len)))
         return FORMAT_DONE;
     out->len = before;
-    return errors ? FORMAT_REFUSED : FORMAT_UNSAFE; // what the reader has mended cannot always be laid out
+    return errors ? FORMAT_REFUSED : FORMAT_UNSAFE; // what the reader has repaired cannot always be laid out
 }

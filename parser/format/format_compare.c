@@ -1,6 +1,6 @@
 #include "parser/format/format_parts.h"
 
-// Whether two texts are equal but for white space.
+// Whether two texts are equal except for white space.
 static bool same_words(str a, str b) {
     size_t i = 0, j = 0;
     for (;;) {
@@ -19,9 +19,8 @@ static bool same_span(str a_text, span a, str b_text, span b) {
     return same_words(str_slice(a_text, a.begin, a.end), str_slice(b_text, b.begin, b.end));
 }
 
-// The comments before an entry are the same ones, and a comment behind it is still there. One that stood
-// behind the last line of an entry, where no other begins, may now be behind its first, since lines were
-// joined.
+// The comments before an entry are the same ones, and a comment after it is still there. One that was after
+// the last line of an entry, where no other begins, may now be after its first, since lines were joined.
 static bool same_comments(const struct tree *a, uint32_t i, str a_text, const struct tree *b, uint32_t j,
                           str b_text) {
     struct tree_comment c = a->comments.items[i], d = b->comments.items[j];

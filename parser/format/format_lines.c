@@ -48,7 +48,7 @@ str format_take_line(str text, size_t *at) {
     return str_slice(text, begin, end);
 }
 
-// The same without trailing blanks. *last: the comment ends here.
+// The same without trailing spaces. *last: the comment ends here.
 static str take_comment_line(str comment, size_t *at, bool *last) {
     str line = format_take_line(comment, at);
     *last = line.ptr + line.len == comment.ptr + comment.len;
@@ -66,7 +66,7 @@ uint32_t format_column(str text, struct format_place *last, uint32_t at) {
     return last->column;
 }
 
-// Where a further line of a comment stands that began at `from` and now begins at `to`: as far right or left
+// The column of a further line of a comment that began at `from` and now begins at `to`: as far right or left
 // as the comment was moved, but never where it would be the mark of a merge conflict. Lines that are indented
 // by tabs stay.
 static uint32_t moved_indent(str line, uint32_t from, uint32_t to, size_t *skip) {
@@ -102,7 +102,7 @@ static uint32_t width(const struct format_lines *lines, const struct format_line
     return (uint32_t)utf8_count(str_slice(strbuf_view(&lines->body), line->begin, line->end));
 }
 
-// How many lines from `first` on have a comment behind them that stood in one column, and where it goes.
+// How many lines from `first` on have a comment after them that was in the same column, and its new column.
 static uint32_t comment_run(const struct format_lines *lines, uint32_t first, uint32_t *column) {
     const struct format_line *all = lines->lines.items;
     uint32_t n = 0;

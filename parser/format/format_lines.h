@@ -1,7 +1,7 @@
-// The lines that the formatter writes, each with the comment behind it: comments that stood in one column do
-// so again. Private to parser/format*.c.
+// The lines that the formatter writes, each with the comment after it: comments that were in one column are
+// aligned again. Private to parser/format*.c.
 //
-// Ownership: lists in the arena (which must be guarded), texts in the strbuf; both the caller's.
+// Ownership: lists in the arena (which must be guarded), text in the strbuf; both the caller's.
 // Thread safety: one thread.
 #ifndef GLINT_PARSER_FORMAT_FORMAT_LINES_H
 #define GLINT_PARSER_FORMAT_FORMAT_LINES_H
@@ -11,8 +11,8 @@
 
 struct format_line {
     size_t begin, end; // in `body`
-    str comment;       // behind the text on this line; may hold line ends; empty: none
-    uint32_t column;   // where the comment stood in the source, in characters
+    str comment;       // after the text on this line; may hold line ends; empty: none
+    uint32_t column;   // column of the comment in the source, in characters
 };
 
 struct format_lines {
@@ -22,7 +22,7 @@ struct format_lines {
         struct format_line *items;
         uint32_t count, capacity;
     } lines;
-    uint32_t comment_gap; // spaces before a comment behind a line
+    uint32_t comment_gap; // spaces before a comment after a line
     uint32_t column;      // of what comes next, in characters
     bool begun;           // something was written
     bool is_open;         // the source ends within the last line, which a line end would change
@@ -33,15 +33,15 @@ void format_lines_finish(struct format_lines *lines);
 // Begins a line, `blank` empty ones before it; the first line of all begins at once.
 void format_lines_next(struct format_lines *lines, uint32_t blank, uint32_t indent);
 void format_lines_text(struct format_lines *lines, str text);
-// A comment behind the line that was begun last. One of several lines is moved as a whole. A further comment
-// there must follow the first in the same text, with nothing but blanks between.
+// A comment after the line that was begun last. One of several lines is moved as a whole. A further comment
+// there must follow the first in the same text, with only spaces between.
 void format_lines_comment(struct format_lines *lines, str comment, uint32_t column);
-// A comment of one or several lines that stood at `column` and now begins where the line stands.
+// A comment of one or several lines that was at `column` and now begins at the line's column.
 void format_lines_moved(struct format_lines *lines, str comment, uint32_t column);
-// All lines, each ended by `line_end`, the last one only where `last_end` says so.
+// All lines, each ended by `line_end`, the last one only if `last_end` is set.
 void format_lines_write(const struct format_lines *lines, str line_end, bool last_end, struct strbuf *out);
 
-// The part of `text` from *at to its line's end, blanks included; *at moves behind the line end (LF, CRLF or
+// The part of `text` from *at to its line's end, spaces included; *at moves past the line end (LF, CRLF or
 // CR).
 str format_take_line(str text, size_t *at);
 // A place in a text and its column, from which the next one is counted.

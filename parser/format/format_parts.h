@@ -7,12 +7,12 @@
 
 enum {
     FORMAT_INDENT = 2,
-    FORMAT_WIDTH = 110,   // of a line of XML, where tags and elements can be broken
+    FORMAT_WIDTH = 110,   // of a line of XML, for tags and elements that can be broken
     FORMAT_BLANK_MOST = 2 // empty lines one after the other
 };
 
-// format_yaml.c, format_xml.c: the lines of the text behind `begin` (a byte order mark). false: the text has
-// a form that the reader has to speak about, or that cannot be laid out.
+// format_yaml.c, format_xml.c: the lines of the text after `begin` (a byte order mark). false: the text has a
+// form that the reader must report, or that cannot be laid out.
 bool format_yaml(struct arena *arena, str text, uint32_t begin, struct format_lines *lines);
 bool format_xml(struct arena *arena, str text, uint32_t begin, struct format_lines *lines);
 

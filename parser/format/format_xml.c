@@ -11,7 +11,7 @@ enum piece_kind {
     PIECE_OTHER, // an instruction, a DOCTYPE, text between elements
 };
 
-// What stands between blanks on the level of elements.
+// What is between spaces on the level of elements.
 struct piece {
     uint32_t kind; // piece_kind
     uint32_t begin, end;
@@ -124,7 +124,7 @@ struct attribute {
     str name, value; // the value with its quotes
 };
 
-// The next attribute from *at on, which moves behind it; false: the tag ends.
+// The next attribute from *at on, which moves past it; false: the tag ends.
 static bool next_attribute(const struct printer *p, uint32_t *at, struct attribute *attribute) {
     struct xml_attribute place;
     if (xml_next_attribute(p->text, at, &place) != XML_TAG_MORE)
@@ -146,7 +146,7 @@ static const char *tag_end(const struct piece *piece) {
     return piece->kind == PIECE_LEAF ? "/>" : ">";
 }
 
-// Columns of a tag on one line; UINT32_MAX where a value holds a line end.
+// Columns of a tag on one line; UINT32_MAX if a value holds a line end.
 static uint32_t tag_width(const struct printer *p, const struct piece *piece) {
     uint32_t at = name_end(p, piece);
     str name = str_slice(p->text, piece->begin, at);
@@ -160,7 +160,7 @@ static uint32_t tag_width(const struct printer *p, const struct piece *piece) {
     return (uint32_t)width;
 }
 
-// A value as it stands, line ends and blanks included.
+// A value as written, line ends and spaces included.
 static void put_value(struct printer *p, str value) {
     size_t begin = 0;
     for (size_t i = 0; i < value.len; i++) {
@@ -174,7 +174,7 @@ static void put_value(struct printer *p, str value) {
     format_lines_text(p->lines, str_slice(value, begin, value.len));
 }
 
-// A tag; attributes that do not fit into the line go on below the first one, where they fit at all.
+// A tag; attributes that do not fit into the line continue below the first one, if they fit at all.
 static void put_tag(struct printer *p, const struct piece *piece) {
     uint32_t at = name_end(p, piece);
     uint32_t ending = (uint32_t)strlen(tag_end(piece));
@@ -246,8 +246,8 @@ static void put_comment(struct printer *p, const struct piece *piece, uint32_t i
     format_lines_moved(p->lines, comment, column);
 }
 
-// The pieces from `first` to before `last`, each on lines of its own. Nesting is told by the indentation
-// alone, so that depth costs no stack.
+// The pieces from `first` to before `last`, each on lines of its own. Nesting is only a number, the
+// indentation, so that depth costs no stack.
 static void put_pieces(struct printer *p) {
     uint32_t depth = 0;
     for (uint32_t i = 0; i < p->pieces.count; i++) {

@@ -3,7 +3,7 @@
 #include "parser/yaml/yaml_tokens.h"
 
 enum join {
-    JOIN_NONE,  // directly behind what stands before
+    JOIN_NONE,  // directly after what comes before
     JOIN_SPACE, // on its line
     JOIN_LINE,  // on a line of its own
 };
@@ -20,7 +20,7 @@ struct printer {
     uint32_t at;  // the next token
     uint32_t gap; // where the last one ended
     enum yaml_token_kind last;
-    bool keeps_breaks; // the last token is block text whose empty lines at the end count
+    bool keeps_breaks; // the last token is block text whose trailing empty lines count
     struct format_lines *lines;
     struct format_place place; // of the last comment
     struct {
@@ -46,7 +46,7 @@ static bool breaks_before(const struct printer *p, const struct yaml_token *toke
     return has_break(p, p->gap, token->begin);
 }
 
-// ---- what stands between tokens
+// ---- what is between tokens
 
 // Where a comment on a line of its own goes: it stays with the block that it was indented with.
 static uint32_t comment_indent(const struct printer *p, uint32_t column, uint32_t indent) {
@@ -66,7 +66,7 @@ struct gap {
     bool comment;    // one was found
 };
 
-// How many empty lines stay in front of what comes next.
+// How many empty lines stay before what comes next.
 static uint32_t blank_lines(const struct printer *p, const struct gap *gap) {
     uint32_t blank = gap->breaks > 1 ? gap->breaks - 1 : 0;
     return blank > FORMAT_BLANK_MOST && !p->keeps_breaks ? FORMAT_BLANK_MOST : blank;
@@ -129,7 +129,7 @@ static str skip_blanks(str line) {
     return str_slice(line, i, line.len);
 }
 
-// A token as it stands; of several lines, each further one begins at `indent`.
+// A token as written; of several lines, each further one begins at `indent`.
 static void put(struct printer *p, enum join join, uint32_t indent) {
     const struct yaml_token *token = peek(p);
     begin_token(p, token, join, indent);
@@ -220,7 +220,7 @@ static void close_block(struct printer *p, struct level outer) {
 static void put_list(struct printer *p, enum join join, uint32_t indent) {
     struct level outer = p->level;
     const struct yaml_token *token = peek(p);
-    bool indented = token->kind == YAML_TOKEN_LIST; // else its items stand in the column of the map around it
+    bool indented = token->kind == YAML_TOKEN_LIST; // else its items are in the column of the map around it
     p->level = (struct level){indented ? token->column : outer.source, indent};
     p->at += indented;
     while (peek(p)->kind == YAML_TOKEN_ITEM) {
@@ -232,7 +232,7 @@ static void put_list(struct printer *p, enum join join, uint32_t indent) {
     close_block(p, outer);
 }
 
-// Whether a colon directly behind such a token would be a part of it.
+// Whether a colon directly after such a token would be a part of it.
 static bool takes_colon(enum yaml_token_kind kind) {
     return kind == YAML_TOKEN_ALIAS || kind == YAML_TOKEN_PROPERTY;
 }
@@ -267,8 +267,8 @@ static void put_map(struct printer *p, enum join join, uint32_t indent) {
     close_block(p, outer);
 }
 
-// Of line ends in brackets those stay that their author put there, so that a comment behind a line keeps
-// standing behind the entries of that line; those before a comma or a colon move behind it.
+// Line ends that the author put into brackets stay, so that a comment after a line stays after the entries of
+// that line; those before a comma or a colon move after it.
 static enum join flow_join(const struct printer *p, enum join otherwise) {
     return breaks_before(p, peek(p)) ? JOIN_LINE : otherwise;
 }
@@ -294,8 +294,8 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     put_node(p, value, value == JOIN_LINE ? indent + FORMAT_INDENT : indent);
 }
 
-// What separates entries or is only said of a value stays at the beginning of its line where a comment
-// follows: on the line before, that would be of the entry there.
+// A separator of entries, or a property of a value, stays at the beginning of its line if a comment follows:
+// on the line before, the comment would belong to the entry there.
 static enum join join_before_comment(const struct printer *p, enum join otherwise) {
     uint32_t behind = peek(p)->end;
     while (behind < p->text.len && char_is_blank(p->text.ptr[behind]))
@@ -308,8 +308,8 @@ static void put_comma(struct printer *p, uint32_t indent) {
     put(p, join_before_comment(p, p->last == YAML_TOKEN_COLON ? JOIN_SPACE : JOIN_NONE), indent);
 }
 
-// A list or map in brackets. Where the first entry stands on a line of its own, entries are indented; else
-// they stand below the first one.
+// A list or map in brackets. If the first entry is on a line of its own, entries are indented; else they are
+// aligned with the first one.
 static void put_flow(struct printer *p, enum join join, uint32_t indent) {
     put(p, join, indent);
     bool expanded = breaks_before(p, peek(p));
@@ -328,15 +328,15 @@ static void put_flow(struct printer *p, enum join join, uint32_t indent) {
         put_flow_entry(p, broken ? JOIN_LINE : next, inner);
         broken = false;
         if (p->at == before)
-            return; // no grammar of YAML's: what is left over tells the caller
+            return; // not YAML's grammar: what is left over shows the caller
     }
     enum join close = p->last == YAML_TOKEN_COLON ? JOIN_SPACE : JOIN_NONE;
     if (peek(p)->kind == YAML_TOKEN_FLOW_CLOSE)
         put(p, flow_join(p, close), expanded ? indent : open);
 }
 
-// A node, or nothing where a value is empty. Lists and maps by indentation begin on a line of their own where
-// the first of their tokens cannot follow what stands before.
+// A node, or nothing if a value is empty. Lists and maps by indentation begin on a line of their own if the
+// first of their tokens cannot follow what comes before.
 static void put_node(struct printer *p, enum join join, uint32_t indent) {
     bool after_colon = p->last == YAML_TOKEN_COLON;
     bool after_item = p->last == YAML_TOKEN_ITEM;
@@ -376,7 +376,7 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
 // ---- the file
 
 // Whether a key at the beginning of a line would be more than that: a mark of a document or of a merge
-// conflict, which are words. (A key of one word has its colon directly behind it.)
+// conflict, which are words. (A key of one word has its colon directly after it.)
 static bool is_mark(str key) {
     size_t word = 0;
     while (word < key.len && !char_is_space(key.ptr[word]))
@@ -387,7 +387,7 @@ static bool is_mark(str key) {
     return marks && word < key.len;
 }
 
-// 0, unless a key could not stand there.
+// 0, unless a key could not be there.
 static uint32_t root_indent(const struct printer *p) {
     if (peek(p)->kind != YAML_TOKEN_MAP)
         return 0;

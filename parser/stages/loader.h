@@ -11,7 +11,7 @@
 struct loader_file {
     str path; // canonical
     uint32_t source;
-    struct ir_scene *scene; // alone; NULL: could not be read
+    struct ir_scene *scene; // this file only; NULL: could not be read
     uint32_t parent;        // the file that includes it; its own index for the main scene
     span include;           // the path in the parent
     bool open;              // its includes are being read
@@ -38,13 +38,13 @@ struct loader {
 };
 
 // loader.c
-// Reads and binds a source; gives its place in loader->files. The main scene has itself as its parent.
+// Reads and binds a source; returns its index in loader->files. The main scene has itself as its parent.
 uint32_t loader_add_file(struct loader *loader, uint32_t source, uint32_t parent, span include);
 
 // resolve.c
 // Reads all that loader->files[file] includes.
 void resolve_includes(struct loader *loader, uint32_t file);
-// Tells for each file that is included, at its first diagnostic, from where.
+// Says for each included file, at its first diagnostic, where it is included.
 void resolve_note_includes(struct loader *loader);
 
 // merge.c

@@ -1,4 +1,4 @@
-// One scene out of several files: elements that are there once merge by attribute, lists are joined.
+// One scene out of several files: elements that occur once merge by attribute, lists are joined.
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/visit.h"
@@ -96,7 +96,7 @@ static void merge_element(const struct merging *merging, const struct schema_ele
             take_row(merging, schema, into, copy, i);
 }
 
-// The entry that is there once, whichever file writes it; NULL where there is none.
+// The entry that is there once, whichever file writes it; NULL if there is none.
 static void *find_single(const struct schema_row *row, void *list, const void *item) {
     int key = row->single ? schema_key_row(row->child) : -1;
     if (key < 0)
@@ -137,7 +137,7 @@ static void merge_scene_row(const struct merging *merging, struct ir_scene *from
     if (r->child == &SCHEMA_INCLUDE)
         return;
     if (r->kind == SCHEMA_LIST) {
-        join_lists(merging, r, into_field, from_field); // anonymous entries too, which no one wrote there
+        join_lists(merging, r, into_field, from_field); // anonymous entries too, which nobody wrote there
     } else if (!given) {
         return;
     } else if (r->kind == SCHEMA_ELEMENT) {

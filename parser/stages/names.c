@@ -61,7 +61,7 @@ static void add_names(const struct loader *loader, struct named_list *list, cons
     int name_row = visit_name_row(row->child);
     for (uint32_t i = 0; name_row >= 0 && i < bind_list_count(field); i++) {
         const void *item = bind_list_item(field, i, row->child->size);
-        // With the quotes of typesetting around it a name is none, and was reported: what it means is clear.
+        // With typographic quotes around it, a name is not valid, and was reported: what it means is clear.
         str name = mend_quotes(*(const str *)schema_field_const(&row->child->rows[name_row], item));
         if (name.len == 0)
             continue;

@@ -12,7 +12,7 @@ static struct ir_origin *origin_of(const struct override *o) {
     return &o->loader->output->origin;
 }
 
-// The element and all that it lies in become written, with places of their own in the option.
+// The element and all that contain it count as written, with places of their own in the option.
 static void mark_written(struct override *o, struct bind_frame *frame) {
     struct ir_head *head = bind_head(frame);
     merge_own_places(origin_of(o), head, head);
@@ -188,7 +188,7 @@ static bool is_hex(struct override *o, const struct override_target *target) {
     return true;
 }
 
-// "#aabbcc" alone: in a file it would be a comment, here it can mean one thing only.
+// "#aabbcc" by itself: in a file it would be a comment, here it has only one meaning.
 static bool read_color(struct override *o, struct arena *arena, struct tree *tree) {
     str rest = str_slice(o->text, o->value_begin, o->text.len);
     str text = str_trim(rest);

@@ -7,7 +7,7 @@
 #include "parser/stages/loader.h"
 
 enum override_step_kind {
-    OVERRIDE_KEY,   // a key behind a point, or the first
+    OVERRIDE_KEY,   // a key after a point, or the first
     OVERRIDE_INDEX, // [0]
     OVERRIDE_NAME,  // [name]
 };
@@ -29,7 +29,7 @@ struct override {
     struct bind_context context;
     uint32_t source; // the option's text
     str text;
-    uint32_t value_begin; // behind '='
+    uint32_t value_begin; // after '='
     span path;            // all of it
     struct override_step steps[OVERRIDE_STEPS_MAX];
     uint32_t step_count;

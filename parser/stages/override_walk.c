@@ -173,7 +173,7 @@ static bool is_taken(const struct bind_frame *frame, const struct schema_row *ro
     return tag == row->alternative;
 }
 
-// Finds the entry that a step behind a list names. A new entry of a named map may be set as a whole.
+// Finds the entry that a step after a list names. A new entry of a named map may be set as a whole.
 static bool find_entry(struct override *o, struct override_target *target, uint32_t step, str name) {
     const struct schema_row *row = &target->frame->schema->rows[target->row];
     const struct override_step *s = &o->steps[step];

@@ -5,7 +5,7 @@
 #include "parser/stages/loader.h"
 #include "parser/tree/reader_text.h"
 
-// Runs the stages; false where there is no scene.
+// Runs the stages; false if there is no scene.
 static bool run(struct loader *loader, uint32_t main_source, bool alone) {
     struct parser_output *output = loader->output;
     ir_origin_init(&output->origin, loader->input->arena);

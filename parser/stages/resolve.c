@@ -1,4 +1,4 @@
-// Includes: which files belong to the scene, in which order, and what stands in the way.
+// Includes: which files belong to the scene, in which order, and why one cannot be read.
 #include "grammar/ir.h"
 #include "parser/stages/loader.h"
 #include "parser/tree/reader_text.h"
@@ -100,7 +100,7 @@ static uint32_t depth_of(const struct loader *loader, uint32_t file) {
     return depth;
 }
 
-// Whether the file at `tried` still is to be read.
+// Whether the file at `tried` must still be read.
 static bool is_new(struct loader *loader, uint32_t from, str tried, span at) {
     str canonical = files_canonical(loader->input->files, tried);
     for (uint32_t i = 0; i < loader->files.count; i++) {

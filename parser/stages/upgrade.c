@@ -22,7 +22,7 @@ static void replace(struct upgrader *u, span at, str text) {
     *edit = (struct text_edit){at.begin, at.end, text, u->edits.count - 1};
 }
 
-// The closing tag's name as well, where the element has one.
+// The closing tag's name as well, if the element has one.
 static void replace_closing(struct upgrader *u, tree_index key, str text, str source) {
     span at = tree_span(u->tree, tree_value(u->tree, key));
     at.begin = xml_end_name(source, at.begin, at.end);
@@ -35,7 +35,7 @@ static const char *old_name(const struct upgrade_rule *rule, bool is_child) {
     return is_child ? rule->old_element : rule->old_key;
 }
 
-// Renames a key as far as the rules say, then its word; gives the name it has today.
+// Renames a key as far as the rules say, then its word; returns the name it has today.
 static str upgrade_key(struct upgrader *u, const struct schema_element *element, tree_index key, str source) {
     bool is_child = tree_node(u->tree, key)->key == TREE_KEY_CHILD;
     tree_index value = tree_value(u->tree, key);
@@ -98,7 +98,7 @@ static void upgrade_map(struct upgrader *u, const struct schema_element *element
     }
 }
 
-// The value of the key that tells the version; 0: there is none.
+// The value of the key that holds the version; 0: there is none.
 static tree_index find_version(const struct tree *tree) {
     for (tree_index key = tree_first(tree, tree->root); key; key = tree_next_key(tree, key)) {
         int row = schema_find_row(&SCHEMA_SCENE, tree_text(tree, key));

@@ -1,9 +1,9 @@
-// What older versions of the format wrote otherwise, and how `glint format --upgrade` rewrites it.
+// What older versions of the format wrote differently, and how `glint format --upgrade` rewrites it.
 //
-// A table of rules, each for one key or word of one element. A file that says the table's version, or none,
-// is not touched; of an older one only the names that rules tell and the version are replaced. Ownership: the
-// new text lies in the context's arena, which must be guarded. Thread safety: one call belongs to one
-// thread; tables are constant data.
+// A table of rules, each for one key or word of one element. A file with the table's version, or without one,
+// is not touched; in an older one only the names in rules and the version are replaced. Ownership: the new
+// text is in the context's arena, which must be guarded. Thread safety: one call belongs to one thread;
+// tables are constant data.
 #ifndef GLINT_PARSER_STAGES_UPGRADE_H
 #define GLINT_PARSER_STAGES_UPGRADE_H
 
@@ -24,10 +24,10 @@ struct upgrade_table {
     uint32_t count;
 };
 
-// Of the versions that there have been: one, so that it has no rules yet.
+// For the versions so far: there is only one, so the table has no rules yet.
 extern const struct upgrade_table UPGRADE_STANDARD;
 
-// The text as today's version writes it; false: it stays as it is.
+// The text as today's version writes it; false: it stays unchanged.
 bool upgrade_text(const struct reader_context *context, const struct upgrade_table *table,
                   const struct tree *tree, str text, str *upgraded);
 

@@ -63,7 +63,7 @@ static bool check_direction(const struct rules *rules, const struct schema_eleme
 
 // Cameras.
 
-// The direction of view; false where it cannot be told.
+// The direction of view; false if it is unknown.
 static bool view_direction(const struct rules *rules, const struct ir_camera *camera, vec3 *view,
                            const char **row) {
     const struct schema_element *schema = &SCHEMA_CAMERA;

@@ -70,13 +70,13 @@ static str mend_integer(struct arena *arena, str text) {
     return arena_copy(arena, (str){digits, length});
 }
 
-// A dash of typesetting in front, three bytes long, as '-'.
+// A typographic dash in front, three bytes long, as '-'.
 static str with_minus(struct arena *arena, str text) {
     size_t length = utf8_sequence_length(text, 0);
     return arena_format(arena, "-%.*s", STR_ARG(str_slice(text, length, text.len)));
 }
 
-// U+2018 to U+201F are quotes of typesetting, three bytes long.
+// U+2018 to U+201F are typographic quotes, three bytes long.
 static bool is_quote(str text, size_t at) {
     return text.len >= at + 3 && memcmp(text.ptr + at, "\xE2\x80", 2) == 0 &&
            (unsigned char)text.ptr[at + 2] >= 0x98 && (unsigned char)text.ptr[at + 2] <= 0x9F;
@@ -117,12 +117,12 @@ str mend_number(struct arena *arena, enum number_status status, str text) {
     }
 }
 
-// What may stand between numbers, or around them.
+// What may be between numbers, or around them.
 static bool is_between(char c) {
     return memchr(" ,;\t\r\n[](){}<>", c, 14) != NULL;
 }
 
-// The next number of a text, and what follows it; the empty string where there is none.
+// The next number of the text, and what follows it; the empty string if there is none.
 static str next_number(str *rest) {
     size_t begin = 0;
     while (begin < rest->len && is_between(rest->ptr[begin]))

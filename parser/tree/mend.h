@@ -1,5 +1,5 @@
 // What was probably meant: mended numbers, booleans and names, and the nearest of several words.
-// Thread safety: pure but for the arena.
+// Thread safety: pure except for the arena.
 #ifndef GLINT_PARSER_TREE_MEND_H
 #define GLINT_PARSER_TREE_MEND_H
 
@@ -8,22 +8,22 @@
 
 // The number that a wrong spelling means, or the empty string.
 str mend_number(struct arena *arena, enum number_status status, str text);
-// Whether the text is several numbers with blanks or commas between them.
+// Whether the text is several numbers with spaces or commas between them.
 bool mend_is_numbers(str text);
-// Exactly `count` such numbers as "1, 2, 3"; the empty string where it is not that.
+// Exactly `count` such numbers as "1, 2, 3"; the empty string if it is not that.
 str mend_numbers(struct arena *arena, str text, uint32_t count);
-// The text without the blanks and typographic quotes around it.
+// The text without the spaces and typographic quotes around it.
 str mend_quotes(str text);
-// "true" or "false" for yes, On, TRUE, 1 ...; the empty string where it is neither.
+// "true" or "false" for yes, On, TRUE, 1 ...; the empty string if it is neither.
 str mend_boolean(str text);
-// The colour as "#rrggbb" that a text means elsewhere: #rgb, 0xrrggbb, rgb(...), "red"; the empty string
-// where it is none. *safe: nothing else can be meant.
+// The colour, as "#rrggbb", that the text means in other programs: #rgb, 0xrrggbb, rgb(...), "red"; the empty
+// string if it is not one. *safe: nothing else can be meant.
 str mend_color(struct arena *arena, str text, bool *safe);
-// false: not hexadecimal digits alone.
+// false: not only hexadecimal digits.
 bool mend_hex_digits(str digits, uint32_t *value);
-// Letters that a name must not have become '_'; a digit in front gets one before it.
+// Characters that a name must not have become '_'; a leading digit gets one before it.
 str mend_name(struct arena *arena, str text);
-// `replacement` in the quotes that `written`, the text of the file, has.
+// `replacement` in the same quotes as `written`, the text of the file.
 str mend_like(struct arena *arena, str written, str replacement);
 // "DiffuseColor", "diffuseColor", "diffuse-color" as diffuse_color.
 str mend_snake(struct arena *arena, str text);

@@ -20,7 +20,7 @@ bool mend_hex_digits(str digits, uint32_t *value) {
     return true;
 }
 
-// The sixteen names of HTML 4, and some that are as well known.
+// The sixteen names of HTML 4, and some that are equally well known.
 static str named_color(struct arena *arena, str text) {
     static const struct {
         const char *name;

@@ -1,11 +1,11 @@
 // The two readers: text to neutral tree. They know syntax and no element's name.
 //
 // Input: a source that is already in the set. Output: a tree; diagnostics E1xx and limits (E5xx) in the
-// sink. What libyaml or expat refuses ends the file, and what stands before it is in the tree
+// sink. What libyaml or expat refuses ends the file, and what comes before it is in the tree
 // (tree.broken is set); what glint itself finds (tags, duplicate keys, tabs, text between elements ...)
 // does not: it is overwritten in a copy of equal length, and what it touches is marked TREE_BAD.
-// Memory: where the arena ends, the library is put away first; then the jump goes on to the caller,
-// who must have guarded it. Never is there a jump through a library's frames.
+// Memory: when the arena runs out, the library is freed first; then the jump goes on to the caller, who must
+// have guarded it. There is never a jump through a library's frames.
 #ifndef GLINT_PARSER_TREE_READER_H
 #define GLINT_PARSER_TREE_READER_H
 
@@ -14,10 +14,10 @@
 #include "parser/tree/tree.h"
 
 // Takes the entries of the root's lists and named maps one by one as they are read, so that a large file
-// needs no large tree. What was taken is not in the tree: of a YAML list its count alone, of XML children the
+// needs no large tree. What was taken is not in the tree: of a YAML list only its count, of XML children the
 // first key of each name, marked TREE_TAKEN.
 struct reader_taker {
-    // Whether entries are to be taken: those of the list or map of the root's pair `key`, or, in XML, the
+    // Whether entries must be taken: those of the list or map of the root's pair `key`, or, in XML, the
     // children of the root that have this key.
     bool (*wants)(struct reader_taker *taker, const struct tree *tree, tree_index key, enum tree_kind kind);
     // Takes an entry of the pair `list_key`: an item of a list, or a key with its value. The nodes are gone
@@ -30,8 +30,8 @@ struct reader_context {
     struct diag_sink *sink;
     const struct limits *limits;
     struct arena *arena;        // for the tree; guarded by the caller
-    struct reader_taker *taker; // NULL: the tree keeps everything. Else the file is not repaired, the reading
-                                // ends (false) at the first diagnostic, and the file is to be read again.
+    struct reader_taker *taker; // NULL: the tree keeps everything. Else the file is not repaired, the reader
+                                // stops (false) at the first diagnostic, and the file must be read again.
 };
 
 // Checks what both spellings share: UTF-8, control characters, emptiness; then reads.
@@ -41,7 +41,7 @@ bool read_xml(const struct reader_context *context, uint32_t source, struct tree
 // A value of `--set` in YAML flow syntax; the tree's root is the value itself, of any kind.
 bool read_yaml_value(const struct reader_context *context, uint32_t source, uint32_t begin,
                      struct tree *tree);
-// By ending (.xml; .yaml .yml .json), else by the first character that is no blank ('<' is XML).
+// By ending (.xml; .yaml .yml .json), else by the first character that is not a space ('<' is XML).
 bool reader_is_xml(str path, str text);
 
 #endif

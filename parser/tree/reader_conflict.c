@@ -4,7 +4,7 @@
 #include <string.h>
 
 enum {
-    MARKER = 7 // equal characters, and a blank or the line's end behind them
+    MARKER = 7 // equal characters, and a space or the line's end after them
 };
 
 static uint32_t line_end(str text, uint32_t at) {
@@ -27,7 +27,7 @@ bool reader_begins_conflict(str line) {
     return is_marker(line, 0, '<');
 }
 
-// The first line from `at` on that is a marker of `c`; the text's length where there is none.
+// The first line from `at` on that is a marker of `c`; the text's length if there is none.
 static uint32_t find_marker(str text, uint32_t at, char c) {
     while (at < text.len && !is_marker(text, at, c)) {
         at = line_end(text, at);
@@ -55,13 +55,13 @@ void reader_conflicts(const struct reader_context *context, struct reader_text *
     for (uint32_t at = find_marker(all, text->begin, '<'); at < all.len; at = find_marker(all, at, '<')) {
         uint32_t middle = has_end ? find_marker(all, at, '=') : (uint32_t)all.len;
         uint32_t end = find_marker(all, middle, '>');
-        has_end = end < all.len; // where there is none, there is none behind it either
+        has_end = end < all.len; // if there is none, there is none after it either
         diag_add(sink, DIAG_MERGE_CONFLICT, marker_at(text, at),
                  "a merge conflict in these lines was not resolved");
         blank_out(context, text, at, line_end(all, at));
         at = line_end(all, at);
         if (end < all.len) {
-            // What both versions were made of.
+            // The common ancestor of both versions.
             uint32_t base = find_marker(str_slice(all, 0, middle), at, '|');
             diag_note(sink, marker_at(text, middle), "the second version begins here");
             diag_note(sink, marker_at(text, end), "it ends here");

@@ -85,7 +85,7 @@ static void overwrite(const struct reader_context *context, struct reader_text *
     reader_text_mark(context, text, (uint32_t)at, (uint32_t)(at + length));
 }
 
-// Finds and overwrites; false where there is so much that the file cannot be text.
+// Finds and overwrites; false if there is so much that the file cannot be text.
 static bool clean(const struct reader_context *context, struct reader_text *text, struct bad_bytes *bytes,
                   struct bad_bytes *controls) {
     str all = text->bytes;
@@ -121,7 +121,7 @@ bool reader_text_open(const struct reader_context *context, uint32_t source, uin
     struct bad_bytes bytes = {0}, controls = {0};
     bool is_text = clean(context, text, &bytes, &controls);
     text->is_binary = bytes.count + controls.count > 8;
-    // The places stand in the original, which the copy has overwritten.
+    // The places are those in the original, which the copy has overwritten.
     str read = text->bytes;
     text->bytes = all;
     if (bytes.count && !foreign_encoding)

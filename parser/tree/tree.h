@@ -1,12 +1,12 @@
-// The neutral tree: what both readers make of a file, before anyone knows an element's name.
+// The neutral tree: what both readers make of a file, before any element's name is looked up.
 //
 // A tree holds the tokens of one source. Nodes are 32 bytes, linked by indices; node 0 is "none".
 // A map's children alternate key, value. XML becomes maps too: each attribute is a key (TREE_KEY_ATTRIBUTE)
 // with a scalar, each child element a key (TREE_KEY_CHILD: its tag name) with a map; a child that is
 // repeated is a repeated key. YAML keys are TREE_KEY_PLAIN; merge keys and aliases are already resolved:
-// the copied nodes keep the places where the text stands.
-// Comments and blank lines stay in the source; a node's `comments` names those that stand before it.
-// Ownership: the arena given to tree_init. Thread safety: one thread while it is built, then immutable.
+// the copied nodes keep the places where the text is.
+// Comments and blank lines stay in the source; a node's `comments` names those before it. Ownership: the
+// arena passed to tree_init. Thread safety: one thread while it is built, then immutable.
 #ifndef GLINT_PARSER_TREE_TREE_H
 #define GLINT_PARSER_TREE_TREE_H
 
@@ -38,9 +38,9 @@ enum tree_key {
 
 enum tree_flag {
     TREE_BAD = 1,    // a diagnostic was given for this node; later stages stay silent about it
-    TREE_CUT = 2,    // the file broke off inside this list, map or element: what it lacks is not missing
+    TREE_CUT = 2,    // the file broke off inside this list, map or element: what it lacks may be after
     TREE_MERGED = 4, // YAML: a key that came by '<<'
-    TREE_SHARED = 8, // YAML: the node has an anchor, so that what it holds must not be moved
+    TREE_SHARED = 8, // YAML: the node has an anchor, so that its contents must not be moved
     TREE_TAKEN = 16, // XML: a key that stands for all children of its name, which were taken one by one
 };
 
@@ -51,7 +51,7 @@ struct tree_node {
     uint8_t style;       // tree_style
     uint8_t key;         // tree_key
     uint8_t flags;       // tree_flag
-    uint32_t begin, end; // span in the source: the token; lists, maps and elements in whole
+    uint32_t begin, end; // span in the source: the token; of lists, maps and elements the whole
     uint32_t value;      // scalar: offset in texts; list, map: first child
     uint32_t count;      // scalar: bytes; list: items; map: pairs
     tree_index next;     // sibling
@@ -60,7 +60,7 @@ struct tree_node {
 
 struct tree_comment {
     uint32_t begin, end;                   // before the entry: from the first comment to the end of the last
-    uint32_t trailing_begin, trailing_end; // behind it on its line; equal: none
+    uint32_t trailing_begin, trailing_end; // after it on its line; equal: none
 };
 
 struct tree {
@@ -80,17 +80,17 @@ struct tree {
         uint32_t count, capacity;
     } comments;
     struct {
-        struct tree_comment *items; // begin and end alone
+        struct tree_comment *items; // only begin and end
         uint32_t count, capacity;
     } directives;          // comments to glint itself: "glint: allow W401"
-    tree_index root;       // a map (a --set value: anything), or TREE_NONE (0) where there is nothing to bind
+    tree_index root;       // a map (a --set value: anything), or TREE_NONE (0) if there is nothing to bind
     span root_name;        // XML: the root's tag name; YAML: the map's first key
     str root_tag;          // XML: "Scene"; YAML: empty
     span schema_line;      // the editor's line, or SPAN_NONE
     str xsi_attributes;    // XML: the xsi attributes of the root, as text
-    span closing_comments; // comments behind the last entry, or SPAN_NONE; XML: </Scene> may lie inside
-    bool overwritten; // the source holds what is no text, or marks of conflicts: it was reported, and read as
-                      // blanks
+    span closing_comments; // comments after the last entry, or SPAN_NONE; XML: </Scene> may be inside
+    bool overwritten; // the source has bytes that are not text, or marks of conflicts: reported, and read as
+                      // spaces
     bool broken;      // libyaml or expat itself stopped: what follows was not read
 };
 
@@ -104,7 +104,7 @@ static inline tree_index tree_add(struct tree *tree, struct tree_node node) {
 }
 // Makes room for `bytes` more of decoded text.
 void tree_grow_texts(struct tree *tree, size_t bytes);
-// Copies decoded text; gives its offset.
+// Copies decoded text; returns its offset.
 static inline uint32_t tree_add_text(struct tree *tree, str text) {
     uint32_t offset = tree->texts.count;
     if (text.len > tree->texts.capacity - offset)
@@ -115,9 +115,9 @@ static inline uint32_t tree_add_text(struct tree *tree, str text) {
     return offset;
 }
 uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment);
-// Keeps a comment where its text, without what makes it a comment, begins with "glint:".
+// Keeps a comment if its text, without the comment's marks, begins with "glint:".
 void tree_add_directive(struct tree *tree, str comment, uint32_t begin, uint32_t end);
-// Gives an entry a comment behind it on its line, where it has none yet.
+// Gives an entry a comment after it on its line, if it has none yet.
 void tree_add_trailing(struct tree *tree, tree_index entry, uint32_t begin, uint32_t end);
 
 static inline struct tree_node *tree_node(const struct tree *tree, tree_index i) {
@@ -135,11 +135,10 @@ static inline span tree_span(const struct tree *tree, tree_index node) {
         return SPAN_NONE;
     return (span){tree->source, tree_node(tree, node)->begin, tree_node(tree, node)->end};
 }
-// The comments that belong to an entry (a key or an item of a list): those before it, or where there are none
-// the one behind it on its line; SPAN_NONE if there are none. The editor's schema line may lie inside the
-// span.
+// The comments that belong to an entry (a key or an item of a list): those before it, or if there are none
+// the one after it on its line; SPAN_NONE if there are none. The editor's schema line may be inside the span.
 span tree_comments(const struct tree *tree, tree_index node);
-// The comment behind the entry on its line, SPAN_NONE if there is none.
+// The comment after the entry on its line, SPAN_NONE if there is none.
 span tree_trailing_comment(const struct tree *tree, tree_index node);
 
 // Walks a map: for (key = tree_first(t, map); key; key = tree_next_key(t, key)) value = tree_value(t, key)

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-// A table: each byte of a name is looked at.
+// A table, since each byte of a name is checked.
 static bool ends_name(char c) {
     static const bool ends[256] = {
         [' '] = true, ['\t'] = true, ['\n'] = true, ['\r'] = true, ['='] = true, ['/'] = true,

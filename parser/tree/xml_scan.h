@@ -1,4 +1,4 @@
-// Walking over the tags of XML as they are written: the place of each attribute, which expat does not tell.
+// Walking over the tags of XML as they are written: the place of each attribute, which expat does not report.
 //
 // All places are bytes of the text. Thread safety: pure functions.
 #ifndef GLINT_PARSER_TREE_XML_SCAN_H
@@ -15,16 +15,15 @@ enum xml_tag_end {
     XML_TAG_MORE,      // an attribute was found
     XML_TAG_OPEN,      // '>'
     XML_TAG_EMPTY,     // '/>'
-    XML_TAG_SPLIT,     // '/', blanks, '>'
+    XML_TAG_SPLIT,     // '/', spaces, '>'
     XML_TAG_MALFORMED, // what expat will refuse
 };
 
-// The name behind '<', or behind the '/' of an end tag, at `at`; its end. Equal to `at` + 1 where there is
-// none.
+// The name after '<', or after the '/' of an end tag, at `at`; returns its end, `at` + 1 if there is none.
 uint32_t xml_name_end(str text, uint32_t at);
-// The next attribute from *at on, which moves behind it, or how the tag ends (*at is at its '/' or '>').
+// The next attribute from *at on, which moves past it, or how the tag ends (*at is at its '/' or '>').
 enum xml_tag_end xml_next_attribute(str text, uint32_t *at, struct xml_attribute *attribute);
-// Behind the first `what` from `at` on; 0: there is none.
+// After the first `what` from `at` on; 0: there is none.
 uint32_t xml_behind(str text, uint32_t at, const char *what);
 // Where the name begins in the end tag of an element that reaches from `begin` to before `end`; 0: it has
 // none.

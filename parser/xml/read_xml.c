@@ -6,7 +6,7 @@ enum {
     CHUNK_BYTES = 1 << 24
 };
 
-// What a callback has to work on.
+// What a callback works on.
 struct xml_event {
     struct xml_reader *reader;
     void (*body)(struct xml_reader *, const struct xml_event *);
@@ -144,7 +144,7 @@ static enum XML_Status feed(struct xml_reader *r) {
     return status;
 }
 
-// Behind the end of the file, or where the reading ended.
+// After the end of the file, or when the reader stopped.
 static void finish(struct xml_reader *r) {
     xml_end_text(r);
     for (uint32_t i = 0; i < r->depth; i++) {
@@ -221,7 +221,7 @@ static bool prepare(const struct reader_context *context, uint32_t source, struc
     return !context->taker || context->sink->count == 0;
 }
 
-// What is handed over entry by entry is not looked into by expat.
+// Entries that are handed over one by one are never read by expat.
 static bool read_plain(struct xml_reader *r) {
     if (!xml_read_plain(r))
         return false;

@@ -1,4 +1,5 @@
-// Links what stands in the file into the tree, whoever found it: read_xml.c with expat, or read_xml_plain.c.
+// Links what is in the file into the tree, whichever file found it: read_xml.c with expat, or
+// read_xml_plain.c.
 #include "parser/xml/xml_reader.h"
 
 #include "core/number.h"
@@ -35,7 +36,7 @@ static tree_index add_scalar(struct xml_reader *r, str text, span at, enum tree_
                                      .count = (uint32_t)text.len});
 }
 
-// Links a key and its value behind what the element holds.
+// Links a key and its value after what the element holds.
 static void link_pair(struct xml_reader *r, struct xml_frame *frame, tree_index key, tree_index value) {
     tree_node(r->tree, key)->next = value;
     if (frame->last)
@@ -57,7 +58,7 @@ static void take_comments(struct xml_reader *r, tree_index entry) {
 
 // ---- text between elements
 
-// <Radius>1</Radius>: what the author of other XML would write for an attribute.
+// <Radius>1</Radius>: what authors of other XML would write for an attribute.
 static void help_text(struct xml_reader *r, str text) {
     const struct xml_frame *frame = r->depth > 1 ? &r->frames[r->depth - 1] : NULL;
     struct diag_sink *sink = r->context->sink;
@@ -154,7 +155,7 @@ void xml_add_attribute(struct xml_reader *r, str name, str value, struct xml_att
         return;
     unsigned flags = 0;
     span at = xml_span(r, place.value_begin, place.value_end);
-    // What stands there as such was looked at before; a reference makes the text shorter.
+    // What is written there literally was checked before; a reference makes the text shorter.
     bool decoded = place.value_end - place.value_begin != value.len;
     if (decoded && reader_find_control(value) < value.len) {
         diag_add(r->context->sink, DIAG_CONTROL_CHARACTER, at,
@@ -168,7 +169,7 @@ void xml_add_attribute(struct xml_reader *r, str name, str value, struct xml_att
         add_scalar(r, name, xml_span(r, place.name_begin, place.name_end), TREE_KEY_ATTRIBUTE, 0);
     tree_index scalar = add_scalar(r, value, at, TREE_KEY_NONE, flags);
     if (r->depth == 1)
-        take_comments(r, key); // those before the root are its first attribute's
+        take_comments(r, key); // those before the root belong to its first attribute
     link_pair(r, frame, key, scalar);
 }
 
@@ -252,7 +253,7 @@ void xml_close(struct xml_reader *r, uint32_t end) {
             xml_stop(r);
         return;
     }
-    // Comments before a closing tag have no entry behind them.
+    // Comments before a closing tag have no entry after them.
     if (r->pending.begin != r->pending.end)
         tree_add_trailing(r->tree, frame->last_key ? frame->last_key : frame->key, r->pending.begin,
                           r->pending.end);

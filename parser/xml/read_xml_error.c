@@ -73,7 +73,7 @@ static void report_mismatch(struct xml_reader *r, uint32_t at) {
                   STR_ARG(reader_clip(expected)));
 }
 
-// Where the tag begins that the byte `at` stands in; `at` itself where it stands in none.
+// Where the tag that contains the byte `at` begins; `at` itself if it is not in a tag.
 static uint32_t tag_around(const struct xml_reader *r, uint32_t at) {
     str text = r->text->bytes;
     uint32_t begin = at;
@@ -210,7 +210,7 @@ static void report_token(struct xml_reader *r, uint32_t at) {
     }
 }
 
-// Errors that need no look at the text around.
+// Errors that are clear without the text around them.
 static void report_simple(struct xml_reader *r, enum XML_Error error, uint32_t at) {
     struct diag_sink *sink = r->context->sink;
     switch (error) {

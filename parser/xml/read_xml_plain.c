@@ -1,7 +1,7 @@
 // The plain part of XML, read without expat and several times faster: elements, attributes, comments.
 // Whatever is not surely well-formed and plain (DOCTYPE, CDATA, text, references by number, line ends in
-// values, names beyond ASCII ...) ends it without a word, and expat has the file. A fuzz target holds the two
-// to the same tree.
+// values, names beyond ASCII ...) ends it silently, and expat reads the file. A fuzz target checks that both
+// make the same tree.
 #include "parser/xml/xml_reader.h"
 
 #include <string.h>
@@ -30,7 +30,7 @@ static bool looking_at(const struct plain *p, const char *what) {
     return p->end - p->at >= length && memcmp(p->text + p->at, what, length) == 0;
 }
 
-// Gives whether there was a blank. Bytes that are neither are the caller's.
+// Returns whether there was a space. Other bytes are left to the caller.
 static bool skip_blanks(struct plain *p) {
     uint32_t begin = p->at;
     while (p->at < p->end && char_is_space(p->text[p->at]))
@@ -38,7 +38,7 @@ static bool skip_blanks(struct plain *p) {
     return p->at > begin;
 }
 
-// The empty string where there is no name.
+// The empty string if there is no name.
 static str read_name(struct plain *p) {
     uint32_t begin = p->at;
     if (p->at < p->end && is_name_start(p->text[p->at]))
@@ -49,7 +49,7 @@ static str read_name(struct plain *p) {
 
 // ---- attributes
 
-// The five entities; false for all other references, and where there is no room.
+// The five entities; false for all other references, and if there is no room.
 static bool decode(str raw, char *out, size_t *length) {
     static const struct {
         str name;
@@ -91,7 +91,7 @@ static bool add(struct plain *p, str name, struct xml_attribute place, bool has_
     return !p->reader->stopped;
 }
 
-// Ends behind the closing quote.
+// Ends after the closing quote.
 static bool read_attribute(struct plain *p, str name) {
     struct xml_attribute place = {.name_end = p->at, .name_begin = p->at - (uint32_t)name.len};
     if (p->end - p->at < 2 || p->text[p->at] != '=')
@@ -116,7 +116,7 @@ static bool read_attribute(struct plain *p, str name) {
 
 // ---- markup
 
-// From behind the name to the '>'; *empty: it was '/>'.
+// From after the name to the '>'; *empty: it was '/>'.
 static bool skip_to_tag_end(const struct plain *p, uint32_t *end, bool *empty) {
     char quote = '\0';
     for (uint32_t at = p->at; at < p->end; at++) {

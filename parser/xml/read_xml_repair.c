@@ -54,7 +54,7 @@ static bool in_entity(char c) {
            (c >= '0' && c <= '9') || memchr("_-.:#", c, 5) != NULL;
 }
 
-// The '&' at `at`; gives the offset behind it.
+// The '&' at `at`; returns the offset after it.
 static uint32_t check_entity(struct repairer *r, uint32_t at) {
     str text = r->text->bytes;
     uint32_t end = at + 1;
@@ -113,7 +113,7 @@ static void repair_split(struct repairer *r, uint32_t slash) {
     reader_text_put(r->context, r->text, end - 1, STR("/"));
 }
 
-// The opening tag at `at`; gives the offset behind it, the text's length where expat will stop.
+// The opening tag at `at`; returns the offset after it, the text's length if expat will stop.
 static uint32_t repair_tag(struct repairer *r, uint32_t at) {
     uint32_t tag = at;
     at = xml_name_end(r->text->bytes, at);
@@ -137,7 +137,7 @@ static uint32_t repair_tag(struct repairer *r, uint32_t at) {
     }
 }
 
-// A DOCTYPE without declarations of its own is blanked out; expat's handler refuses the others.
+// A DOCTYPE without declarations of its own is overwritten with spaces; expat's handler refuses the others.
 static uint32_t repair_doctype(struct repairer *r, uint32_t at) {
     str text = r->text->bytes;
     uint32_t end = at;

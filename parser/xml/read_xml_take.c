@@ -8,7 +8,7 @@ void xml_take_mark(struct xml_reader *r) {
     r->taken.comments_mark = r->tree->comments.count;
 }
 
-// What was read since the mark goes.
+// Drops what was read since the mark.
 static void forget(struct xml_reader *r) {
     r->taken.nodes += r->tree->nodes.count - r->taken.nodes_mark;
     r->tree->nodes.count = r->taken.nodes_mark;
@@ -32,7 +32,7 @@ bool xml_take_ready(struct xml_reader *r) {
     return true;
 }
 
-// The first child of this name stands in the tree for all of them.
+// The first child of this name represents all of them in the tree.
 static bool has_first(struct xml_reader *r, tree_index key) {
     str name = tree_text(r->tree, key);
     for (uint32_t i = 0; i < r->taken.first_count; i++)

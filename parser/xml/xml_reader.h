@@ -2,10 +2,10 @@
 //
 // read_xml_repair.c repairs beforehand what would otherwise end the file ('/ >', attributes given twice,
 // unknown entities). read_xml.c runs expat, with the places of attributes from xml_scan.h, read_xml_plain.c
-// reads what needs no expat, read_xml_build.c builds the tree for both, read_xml_take.c hands children of the
-// root over before the file is read to its end, read_xml_error.c puts expat's errors in words. Ownership: the
-// arena of the reader_context. Nothing ever jumps through expat's frames. Thread safety: one reader belongs
-// to one thread.
+// reads what does not need expat, read_xml_build.c builds the tree for both, read_xml_take.c hands children
+// of the root over before the file is read to its end, read_xml_error.c puts expat's errors in words.
+// Ownership: the arena of the reader_context. Nothing ever jumps through expat's frames. Thread safety: one
+// reader belongs to one thread.
 #ifndef GLINT_PARSER_XML_XML_READER_H
 #define GLINT_PARSER_XML_XML_READER_H
 
@@ -27,7 +27,7 @@ enum {
     XML_FIRST_MAX = 32
 };
 
-// Whether a child of the root is taken, and whether it is linked all the same.
+// Whether a child of the root is taken, and whether it is linked nevertheless.
 enum xml_taking {
     XML_NOT_TAKEN,
     XML_TAKEN_FIRST,
@@ -41,23 +41,23 @@ struct xml_reader {
     XML_Parser parser;
     struct xml_frame *frames;
     uint32_t depth;
-    bool stopped;           // a limit, a DOCTYPE or the memory ended the reading
+    bool stopped;           // a limit, a DOCTYPE or lack of memory ended the reading
     enum arena_fault fault; // set in a callback, handed on outside of expat
 
     struct reader_range run; // of text between elements; equal: none
     bool in_cdata;
     uint32_t cdata_begin;
-    struct tree_comment pending; // comments that wait for the element they stand before
+    struct tree_comment pending; // comments that wait for the element that they precede
     tree_index line_entry;       // the element whose tag ended last, on this line
     uint32_t tag_end;            // where the last tag or comment ended
     span xinclude;               // the declaration of XInclude's prefix, until an element uses it
-    bool uses_xinclude;          // an element did, which was reported
+    bool uses_xinclude;          // an element used it, which was reported
     span root_end;               // the tag that closed the root
 
     struct {
         tree_index open;                                // the key of a child that is being read
         tree_index entry;                               // the key of one that waits for the next
-        uint64_t nodes;                                 // that are gone
+        uint64_t nodes;                                 // already handed over
         uint32_t nodes_mark, texts_mark, comments_mark; // before the child
         tree_index first[XML_FIRST_MAX];                // of each name
         uint32_t first_count;
@@ -69,7 +69,7 @@ struct xml_reader {
 void xml_repair(const struct reader_context *context, struct reader_text *text);
 
 // ---- read_xml_build.c
-// An opening tag, from '<' to behind '>'; its attributes follow, then xml_opened. false: the reading ended.
+// An opening tag, from '<' to after '>'; its attributes follow, then xml_opened. false: the reader stopped.
 bool xml_open(struct xml_reader *reader, struct reader_range tag, str name);
 void xml_add_attribute(struct xml_reader *reader, str name, str value, struct xml_attribute place);
 void xml_opened(struct xml_reader *reader);
@@ -77,7 +77,7 @@ void xml_opened(struct xml_reader *reader);
 void xml_close(struct xml_reader *reader, uint32_t end);
 void xml_see_comment(struct xml_reader *reader, uint32_t begin, uint32_t end);
 void xml_see_instruction(struct xml_reader *reader, str target, uint32_t begin, uint32_t end);
-// Reports the text between elements that has come to its end.
+// Reports the text between elements that has just ended.
 void xml_end_text(struct xml_reader *reader);
 
 // ---- read_xml_plain.c
@@ -85,7 +85,7 @@ void xml_end_text(struct xml_reader *reader);
 bool xml_read_plain(struct xml_reader *reader);
 
 // ---- read_xml_take.c
-// What is read from here on goes when the next child has been taken.
+// What is read from here on is dropped when the next child has been taken.
 void xml_take_mark(struct xml_reader *reader);
 // A child of the root begins, or the root ends: hands over the child that waits. false: read the file whole.
 bool xml_take_ready(struct xml_reader *reader);

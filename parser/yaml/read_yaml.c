@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-// Each repair has the text read again from the start: often in a small file, seldom in a large one.
+// After each repair the text is read again from the start: often in a small file, seldom in a large one.
 enum {
     ATTEMPTS_MAX = 256,
     ATTEMPTS_FREE = 8,
@@ -57,12 +57,13 @@ static struct properties find_properties(struct yaml_reader *r, uint32_t begin, 
     return p;
 }
 
-// Tags of YAML's core say what the attribute decides anyway; a value with another tag would be misread.
+// Tags of YAML's core schema say what the attribute decides anyway; a value with another tag would be
+// misread.
 static bool is_core_tag(str tag) {
     return tag.len == 1 || str_starts_with(tag, STR("!!")) || str_starts_with(tag, STR("!<tag:yaml.org,"));
 }
 
-// Reports a tag; gives the flags of its node.
+// Reports a tag; returns the flags of its node.
 static uint8_t report_tag(struct yaml_reader *r, span tag) {
     if (span_is_none(tag))
         return 0;
@@ -101,7 +102,7 @@ static uint8_t check_escapes(struct yaml_reader *r, str value, span at) {
     return TREE_BAD;
 }
 
-// Where the text of a scalar ends: libyaml ends a block scalar at the token behind it.
+// Where the text of a scalar ends: libyaml ends a block scalar at the token after it.
 static uint32_t scalar_end(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
     while (end > begin && char_is_space(r->text->bytes.ptr[end - 1]))
         end--;
@@ -127,7 +128,7 @@ static void end_token(struct yaml_reader *r, uint32_t end) {
     r->seen_token = true;
 }
 
-// The unquoted colour that left a value empty. In brackets libyaml places an empty value behind the comment.
+// The unquoted colour that left a value empty. In brackets libyaml places an empty value after the comment.
 static bool find_swallowed(struct yaml_reader *r, uint32_t at, uint32_t token, struct reader_range *color) {
     if (yaml_comment_color(r, at, color))
         return true;
@@ -170,7 +171,7 @@ static void on_scalar(struct yaml_reader *r) {
     }
     if (r->event.data.scalar.style == YAML_DOUBLE_QUOTED_SCALAR_STYLE)
         node.flags |= check_escapes(r, value, at);
-    // Of a value that was nothing but bad bytes, blanks are left.
+    // A value of only bad bytes has become spaces.
     bool bad = absent ? reader_text_is_bad(r->text, token, skip_spaces(r, node.end))
                       : reader_text_is_bad(r->text, node.begin, node.end);
     if (bad)
@@ -199,7 +200,7 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
                           const yaml_char_t *tag) {
     uint32_t begin = yaml_byte(r, r->event.start_mark);
     uint32_t end = yaml_byte(r, r->event.end_mark);
-    // A block collection in a value's place is no token: comments before it are its first entry's.
+    // A block collection in a value's place is not a token: comments before it belong to its first entry.
     bool entry = yaml_at_entry(r);
     if (flow || entry) {
         yaml_gap(r, begin);
@@ -217,7 +218,7 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
     }
     uint8_t flags = tag ? report_tag(r, p.tag) : 0;
     if (r->depth == 0)
-        flags = 0; // what the root holds is checked all the same
+        flags = 0; // what the root holds is checked nevertheless
     tree_index added = yaml_add(r, (struct tree_node){.kind = (uint8_t)kind,
                                                       .style = flow ? TREE_FLOW : TREE_BLOCK,
                                                       .flags = flags,
@@ -393,7 +394,7 @@ static void run_attempts(void *context) {
         }
         if (outcome == READ_REFUSED)
             yaml_blame(r);
-        // Behind repaired tabs the columns are guesses, and in binary data all is.
+        // After repaired tabs the columns are guesses; in binary data all is.
         if (outcome == READ_REFUSED && !tabs_repaired && !(r->text->is_binary && r->documents))
             yaml_report(r);
         r->tree->broken = outcome != READ_WHOLE && r->document_end == 0;
@@ -402,7 +403,7 @@ static void run_attempts(void *context) {
     }
 }
 
-// What libyaml and the sink hold is given back, whether memory lasts or not.
+// What libyaml and the sink hold is freed, whether memory runs out or not.
 static void run_guarded(struct yaml_reader *r) {
     struct arena *arena = r->context->arena;
     enum arena_fault fault = arena_guarded(arena, run_attempts, r);
@@ -434,7 +435,7 @@ static void read_text(const struct reader_context *context, struct reader_text *
     }
 }
 
-// Where the root is no map, or not there, and nothing was said about it yet.
+// If the root is not a map, or missing, and that was not reported yet.
 static void report_root(const struct reader_context *context, struct tree *tree, bool silent) {
     const struct tree_node *root = tree_node(tree, tree->root);
     if (silent)

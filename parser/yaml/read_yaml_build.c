@@ -26,14 +26,14 @@ static bool lacks_colon(struct yaml_reader *r, const struct tree_node *node, str
     return true;
 }
 
-// "// remark" in brackets, where YAML takes it for a key.
+// "// remark" in brackets, which YAML reads as a key.
 static bool is_remark(struct yaml_reader *r, const struct tree_node *node, str text) {
     if (node->style != TREE_PLAIN || !str_starts_with(text, STR("//")))
         return false;
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, node->begin, node->begin + 2),
              "'//' does not begin a comment in YAML");
     diag_help(&r->sink, "a comment begins with '#' and ends with its line");
-    r->blamed = node->end; // of the last line that was taken for a part of it
+    r->blamed = node->end; // of the last line that was read as a part of it
     return true;
 }
 
@@ -75,7 +75,7 @@ static void take_value(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
         yaml_merge(r, frame, key, value);
         return;
     }
-    // The pair of a key that is none was reported; it is left out.
+    // The pair of an invalid key was reported; it is left out.
     if (tree_node(r->tree, key)->flags & TREE_BAD)
         return;
     if (r->taken.list_key) {

@@ -44,7 +44,7 @@ static void add_comment(struct yaml_reader *r, uint32_t begin, uint32_t end, boo
 void yaml_gap(struct yaml_reader *r, uint32_t end) {
     str text = r->text->bytes;
     uint32_t at = r->gap;
-    // A block scalar ends on the line behind it, and a value that is left out where the next token begins.
+    // A block scalar ends on the line after it, and a missing value where the next token begins.
     uint32_t last = at;
     while (last > r->text->begin && char_is_blank(text.ptr[last - 1]))
         last--;

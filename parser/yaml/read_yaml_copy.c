@@ -1,7 +1,7 @@
 // Copies of what aliases and merge keys stand for.
 #include "parser/yaml/yaml_reader.h"
 
-// Whether one more copied node is allowed at this depth; reports where not.
+// Whether one more copied node is allowed at this depth; reports if not.
 static bool may_copy(struct yaml_reader *r, uint64_t depth, span at) {
     const struct limits *limits = r->context->limits;
     if (r->stopped)

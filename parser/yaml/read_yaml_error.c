@@ -105,7 +105,7 @@ static span character_at(const struct yaml_reader *r, uint32_t at) {
     return yaml_span(r, at, at + length);
 }
 
-// From `at` to the blank or line end behind it.
+// From `at` to the space or line end after it.
 static span word_at(const struct yaml_reader *r, uint32_t at) {
     str text = r->text->bytes;
     uint32_t end = at;
@@ -114,7 +114,7 @@ static span word_at(const struct yaml_reader *r, uint32_t at) {
     return yaml_span(r, at, end);
 }
 
-// Whether nothing but blanks, line ends and comments follows.
+// Whether only spaces, line ends and comments follow.
 static bool at_end(const struct yaml_reader *r, uint32_t at) {
     str text = r->text->bytes;
     for (; at < text.len; at++) {
@@ -149,7 +149,7 @@ static tree_index last_child(const struct tree *tree, tree_index node) {
 }
 
 void yaml_blame(struct yaml_reader *r) {
-    // What these lack probably stands behind the mistake.
+    // What these lack probably comes after the mistake.
     for (tree_index node = r->closed; node; node = last_child(r->tree, node)) {
         if (tree_node(r->tree, node)->style != TREE_BLOCK)
             break;
@@ -169,7 +169,7 @@ static str rest_of_line(const struct yaml_reader *r, uint32_t at) {
     return str_slice(r->text->bytes, at, end);
 }
 
-// Whether `c` is the last character before `at`, blanks aside.
+// Whether `c` is the last character before `at`, not counting spaces.
 static bool precedes(const struct yaml_reader *r, uint32_t at, char c) {
     while (at > r->text->begin && char_is_blank(yaml_char(r, at - 1)))
         at--;
@@ -182,7 +182,7 @@ static uint32_t line_begin(const struct yaml_reader *r, uint32_t at) {
     return at;
 }
 
-// Where the text of the line with `at` begins, which is not behind it.
+// Where the text of the line with `at` begins, which is not after it.
 static uint32_t text_begin(const struct yaml_reader *r, uint32_t at) {
     uint32_t begin = line_begin(r, at);
     while (begin < at && char_is_blank(yaml_char(r, begin)))
@@ -190,7 +190,7 @@ static uint32_t text_begin(const struct yaml_reader *r, uint32_t at) {
     return begin;
 }
 
-// How a key and the value behind it are written.
+// How a key and the value after it are written.
 static void help_pair(struct yaml_reader *r, str key, str value) {
     static const char *const remarks[] = {"//", "/*", "--", ";"};
     for (size_t i = 0; i < sizeof remarks / sizeof *remarks; i++) {
@@ -206,7 +206,7 @@ static void help_pair(struct yaml_reader *r, str key, str value) {
               STR_ARG(reader_clip(value)));
 }
 
-// "glint:1" or "camera" on the line above: YAML takes it for the beginning of a text that goes on here.
+// "glint:1" or "camera" on the line above: YAML reads it as the beginning of text that continues here.
 static bool report_line_above(struct yaml_reader *r, uint32_t at) {
     uint32_t end = line_begin(r, at);
     while (end > r->text->begin && char_is_space(yaml_char(r, end - 1)))
@@ -230,7 +230,7 @@ static bool report_line_above(struct yaml_reader *r, uint32_t at) {
     return true;
 }
 
-// A ':' that begins no value: the second on its line, or that of a key in the wrong column.
+// A ':' that does not begin a value: the second on its line, or that of a key in the wrong column.
 static void report_colon(struct yaml_reader *r, uint32_t at) {
     if (report_line_above(r, at))
         return;
@@ -285,7 +285,7 @@ static void report_behind(struct yaml_reader *r, uint32_t at) {
     diag_help(&r->sink, "put the whole text in quotes; inside single quotes a quote is written ''");
 }
 
-// A character that begins no token.
+// A character that cannot begin a token.
 static void report_character(struct yaml_reader *r, uint32_t at) {
     char c = yaml_char(r, at);
     diag_add(&r->sink, DIAG_YAML_SYNTAX, character_at(r, at), "a value cannot begin with this character");
@@ -307,7 +307,7 @@ static bool report_unclosed(struct yaml_reader *r) {
     return true;
 }
 
-// "position:[0, 0, 8]" in brackets, where YAML takes "position:[" for a broken word.
+// "position:[0, 0, 8]" in brackets, where YAML reads "position:[" as a broken word.
 static bool report_glued(struct yaml_reader *r, uint32_t at) {
     uint32_t begin = at;
     while (begin > r->text->begin && !strchr(" \t\r\n,{[", yaml_char(r, begin - 1)))

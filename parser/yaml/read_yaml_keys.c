@@ -1,6 +1,6 @@
 #include "parser/yaml/yaml_reader.h"
 
-// Links the pairs of `map` behind the children of the frame.
+// Links the pairs of `map` after the children of the frame.
 static void move_pairs(struct yaml_reader *r, struct yaml_frame *frame, tree_index map) {
     tree_index first = tree_first(r->tree, map);
     if (!first)
@@ -17,13 +17,13 @@ static void move_pairs(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
     frame->has_merged = true;
 }
 
-// What a node holds, to be moved from there: of an anchored one, a copy.
+// The contents of a node, to be moved away: of an anchored one, a copy.
 static tree_index own(struct yaml_reader *r, tree_index node) {
     return tree_node(r->tree, node)->flags & TREE_SHARED ? yaml_copy(r, node, tree_span(r->tree, node))
                                                          : node;
 }
 
-// Merges a map; false: it is none (reported, unless the reader has).
+// Merges a map; false: it is not a map (reported, unless the reader has).
 static bool merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_index key, tree_index value) {
     const struct tree_node *node = tree_node(r->tree, value);
     if (node->kind == TREE_MAP) {
@@ -35,7 +35,7 @@ static bool merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_inde
     tree_node(r->tree, frame->node)->flags |= TREE_CUT; // what it lacks was to come from there
     if (node->flags & TREE_BAD)
         return false;
-    // What came by an alias has its place where it is anchored.
+    // What came by an alias has the place of its anchor.
     bool is_alias = node->begin < tree_node(r->tree, key)->begin;
     diag_add(&r->sink, DIAG_YAML_MERGE, tree_span(r->tree, is_alias ? key : value),
              "'<<' merges maps, and this is not a map");
@@ -64,8 +64,8 @@ enum {
     JOINS_MAX = 100
 };
 
-// What two values of one key hold, one after the other, where that cannot change what is right about
-// either: both are maps, or lists of maps.
+// What two values of one key hold, one after the other, if that cannot change what is right in either: both
+// are maps, or lists of maps.
 static bool joins(const struct tree *tree, tree_index a, tree_index b) {
     unsigned kind = tree_node(tree, a)->kind;
     if ((tree_node(tree, a)->flags | tree_node(tree, b)->flags) & TREE_SHARED)
@@ -111,7 +111,7 @@ static void report_twice(struct yaml_reader *r, tree_index first, tree_index sec
     diag_note(&r->sink, tree_span(r->tree, first), "it was given here first");
     tree_index a = tree_value(r->tree, first), b = tree_value(r->tree, second);
     if (r->sink.errors < JOINS_MAX && joins(r->tree, a, b)) {
-        // The entries of both are checked, and references to them hold: the mistake is reported once.
+        // The entries of both are checked, and references to them are valid: the mistake is reported once.
         join(r, a, b);
         diag_help(&r->sink, "put the contents of both under one key, or rename one of the two");
     } else {
@@ -128,7 +128,7 @@ static bool is_item(const struct tree *tree, tree_index value) {
 // One walk over the pairs; `merged` ones or those that the map itself holds.
 static void unique(struct yaml_reader *r, struct yaml_frame *frame, bool merged) {
     struct tree *tree = r->tree;
-    tree_index before = 0; // the value that stands before the pair
+    tree_index before = 0; // the value before the pair
     for (tree_index key = tree_first(tree, frame->node); key;) {
         tree_index value = tree_value(tree, key);
         tree_index next = tree_next(tree, value);

@@ -1,4 +1,4 @@
-// Where the reader stands, in the text and in the tree, and the nodes that it adds there.
+// Where the reader is, in the text and in the tree, and the nodes that it adds there.
 #include "parser/yaml/yaml_reader.h"
 
 span yaml_span(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
@@ -6,7 +6,7 @@ span yaml_span(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
     return (span){r->text->source, begin < size ? begin : size, end < size ? end : size};
 }
 
-// libyaml counts characters, from where it was asked last.
+// libyaml counts characters; counted on from the last place asked for.
 static uint32_t find_byte(struct yaml_reader *r, yaml_mark_t mark) {
     str text = r->text->bytes;
     uint32_t at = r->place_bytes;

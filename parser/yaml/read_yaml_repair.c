@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-// An unquoted colour that made a comment of the rest of its line, in text that libyaml has scanned and given
-// no event for.
+// An unquoted colour that made a comment of the rest of its line, in text that libyaml has scanned without an
+// event for it.
 static bool find_color(const struct yaml_reader *r, uint32_t begin, uint32_t end,
                        struct reader_range *color) {
     str text = r->text->bytes;
@@ -29,7 +29,7 @@ static bool repair_color(struct yaml_reader *r, struct diag_sink *sink, uint32_t
     return true;
 }
 
-// Puts a blank in the place of each tab before the first token of a line; counts the lines.
+// Puts a space in place of each tab before the first token of a line; counts the lines.
 static uint32_t replace_tabs(struct yaml_reader *r) {
     uint32_t lines = 0;
     str text = r->text->bytes;
@@ -50,8 +50,8 @@ static uint32_t replace_tabs(struct yaml_reader *r) {
     return lines;
 }
 
-// Two spaces for each tab before the first token of a line, from `begin`, inside such blanks, on; *end is
-// behind the last of these tabs.
+// Two spaces for each tab before the first token of a line, from `begin`, which is inside such white space,
+// on; *end is after the last of these tabs.
 static str with_spaces(struct yaml_reader *r, uint32_t begin, uint32_t *end) {
     str text = r->text->bytes;
     char *out = arena_alloc(r->context->arena, 2 * (text.len - begin) + 1);
@@ -91,7 +91,8 @@ static bool repair_tabs(struct yaml_reader *r, struct diag_sink *sink, uint32_t 
     return yaml_char(r, at) != '\t';
 }
 
-// A tag whose handle is not declared, or that is malformed: blanked out, and what it stands before is bad.
+// A tag whose handle is not declared, or that is malformed: overwritten with spaces, and what follows it is
+// bad.
 static bool repair_tag(struct yaml_reader *r, struct diag_sink *sink, uint32_t problem) {
     const yaml_parser_t *p = &r->parser;
     bool in_tag = p->context && (strstr(p->context, "scanning a tag") || strstr(p->context, "parsing a tag"));

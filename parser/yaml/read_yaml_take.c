@@ -1,5 +1,5 @@
 // Handing entries of the root's lists and maps to the taker as they are read. An entry is whole when the
-// token behind it was found: until then a comment on its line may belong to it.
+// token after it was found: until then a comment on its line may belong to it.
 #include "parser/yaml/yaml_reader.h"
 
 static void fail(struct yaml_reader *r) {
@@ -14,7 +14,7 @@ static void set_mark(struct yaml_reader *r) {
     r->taken.anchors_mark = r->anchors.count;
 }
 
-// What was read since the mark goes, unless an alias may still ask for it.
+// Drops what was read since the mark, unless an alias may still need it.
 static void forget(struct yaml_reader *r) {
     if (r->anchors.count != r->taken.anchors_mark)
         return;
@@ -23,7 +23,7 @@ static void forget(struct yaml_reader *r) {
     r->tree->texts.count = r->taken.texts_mark;
     r->tree->comments.count = r->taken.comments_mark;
     r->last_scalar = r->closed = 0;
-    // The next entry stands on the same line: a comment behind it would belong to the one that is gone.
+    // The next entry is on the same line: a comment after it would belong to the one that is gone.
     if (r->line_entry >= r->taken.nodes_mark)
         r->line_entry = YAML_LOST_ENTRY;
 }

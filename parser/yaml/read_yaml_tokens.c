@@ -8,7 +8,7 @@ struct scanner {
     uint32_t begin;
     uint32_t characters, bytes; // one place in both measures: libyaml counts characters
     struct yaml_tokens *tokens;
-    struct yaml_token token; // the one to be added
+    struct yaml_token token; // the one to add
 };
 
 static bool is_continuation(char c) {
@@ -100,7 +100,7 @@ static void open_parser(yaml_parser_t *parser, str text, uint32_t begin) {
     yaml_parser_set_input_string(parser, (const unsigned char *)text.ptr + begin, text.len - begin);
 }
 
-// The scanner alone takes tokens in any order.
+// The scanner by itself accepts tokens in any order.
 static bool is_grammatical(str text, uint32_t begin) {
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser))

@@ -5,7 +5,7 @@
 // stand for, read_yaml_copy.c copies it, read_yaml_keys.c merges maps and finds keys given twice,
 // read_yaml_comment.c finds comments between tokens, read_yaml_repair.c repairs what glint understands
 // better than libyaml, read_yaml_error.c puts libyaml's errors in words. They call read_yaml_place.c, which
-// knows where the reader stands, and none calls read_yaml.c. All places are bytes of the source.
+// knows where the reader is, and none calls read_yaml.c. All places are bytes of the source.
 // Ownership: the arena of the reader_context; libyaml's own memory is freed before any jump leaves.
 // Thread safety: one reader belongs to one thread.
 #ifndef GLINT_PARSER_YAML_YAML_READER_H
@@ -27,7 +27,7 @@ struct yaml_frame {
     tree_index last; // the child linked last
     tree_index key;  // map: the key that waits for its value
     uint32_t anchor; // the anchor of this collection; YAML_NO_ANCHOR: none
-    bool is_key;     // the collection stands where a key belongs
+    bool is_key;     // the collection is where a key belongs
     bool merges;     // the waiting key is '<<'
     bool has_merged; // pairs that came by '<<' are among the children
 };
@@ -47,7 +47,7 @@ struct yaml_reader {
     bool is_option;        // the value of a --set option: flow text only
     bool stopped;          // a limit or a second document ended the reading
     uint32_t documents;
-    uint32_t document_end; // behind the first one; 0 while it is read
+    uint32_t document_end; // after the first one; 0 while it is read
 
     yaml_parser_t parser;
     yaml_event_t event;
@@ -67,11 +67,11 @@ struct yaml_reader {
     struct str_map keys, joined_keys;
     uint64_t alias_nodes;
 
-    // Comments are looked for between tokens.
-    uint32_t gap; // what stands before was looked at
+    // Comments are searched for between tokens.
+    uint32_t gap; // what comes before was searched
     tree_index
         line_entry; // the first entry that begins on the line of the last token; YAML_LOST_ENTRY: taken
-    struct tree_comment pending; // comments that wait for the entry they stand before
+    struct tree_comment pending; // comments that wait for the entry that they precede
     bool seen_token;
     struct reader_range lost_color; // a colour that became a comment inside open brackets; equal: none
     tree_index last_scalar;
@@ -80,9 +80,9 @@ struct yaml_reader {
         bool on;
         bool failed;          // the file must be read whole
         tree_index list_key;  // of the list or map whose entries are taken; 0: none is open
-        tree_index entry;     // one that waits for the token behind it
-        tree_index entry_key; // its list's
-        uint64_t nodes;       // that are gone
+        tree_index entry;     // one that waits for the token after it
+        tree_index entry_key; // of its list
+        uint64_t nodes;       // already handed over
         uint32_t nodes_mark, texts_mark, comments_mark, anchors_mark; // before the entry
         struct str_map keys;                                          // of the map
     } taken;
@@ -95,11 +95,11 @@ span yaml_span(const struct yaml_reader *reader, uint32_t begin, uint32_t end);
 // Byte offset of a mark.
 uint32_t yaml_byte(struct yaml_reader *reader, yaml_mark_t mark);
 
-// NUL behind the text.
+// NUL after the text.
 static inline char yaml_char(const struct yaml_reader *reader, uint32_t at) {
     return at < reader->text->bytes.len ? reader->text->bytes.ptr[at] : '\0';
 }
-// A blank before the first token of a line, or the '-' of an item before that.
+// A space before the first token of a line, or the '-' of an item before that.
 static inline bool yaml_is_indent(const struct yaml_reader *reader, uint32_t at) {
     return char_is_blank(yaml_char(reader, at)) ||
            (yaml_char(reader, at) == '-' && char_is_blank(yaml_char(reader, at + 1)));
@@ -118,11 +118,11 @@ tree_index yaml_add(struct yaml_reader *reader, struct tree_node node);
 // ---- read_yaml_build.c
 // Puts a whole node in its place: as the root, the next item, a key or the value of the waiting key.
 void yaml_put(struct yaml_reader *reader, tree_index node);
-// Takes a node that is no key, and was reported, as one; its pair is left out.
+// Accepts a node that is not a key, and was reported, as one; its pair is left out.
 void yaml_put_bad_key(struct yaml_reader *reader, tree_index node);
 void yaml_open(struct yaml_reader *reader, tree_index node, uint32_t anchor);
 void yaml_close(struct yaml_reader *reader, uint32_t end);
-// Closes what is open when the reading ends early; marked TREE_CUT.
+// Closes what is open when the reader stops early; marked TREE_CUT.
 void yaml_close_cut(struct yaml_reader *reader);
 
 // ---- read_yaml_take.c
@@ -130,19 +130,19 @@ void yaml_close_cut(struct yaml_reader *reader);
 void yaml_take_open(struct yaml_reader *reader);
 // One was closed.
 void yaml_take_close(struct yaml_reader *reader);
-// A token was found, and what stands before it: hands over the entry that waits.
+// A token was found, and what comes before it: hands over the entry that waits.
 void yaml_take_ready(struct yaml_reader *reader);
 // Whether the entry, an item or a key with its value, is taken and not to be linked.
 bool yaml_take(struct yaml_reader *reader, tree_index entry);
 
 // ---- read_yaml_alias.c
-// Remembers a name for a node (0: one that is yet to be added); gives its number.
+// Remembers a name for a node (0: one that will be added next); returns its number.
 uint32_t yaml_anchor_add(struct yaml_reader *reader, str name, span at, tree_index node);
 void yaml_alias(struct yaml_reader *reader, str name, span at);
 
 // ---- read_yaml_copy.c
-// A copy of a node, within the budget of aliases; 0 where that is used up (reported `at` the alias, or where
-// the node stands).
+// A copy of a node, within the budget of aliases; 0 if that is used up (reported `at` the alias, or at the
+// node).
 tree_index yaml_copy(struct yaml_reader *reader, tree_index node, span at);
 
 // ---- read_yaml_keys.c
@@ -159,13 +159,13 @@ void yaml_begin_entry(struct yaml_reader *reader, tree_index entry);
 // Gives them to the waiting key, for a value on a line of its own.
 void yaml_begin_value(struct yaml_reader *reader);
 void yaml_end_comments(struct yaml_reader *reader);
-// The unquoted colour behind `at` on the same line that YAML takes for a comment; false: none.
+// The unquoted colour after `at` on the same line that YAML reads as a comment; false: none.
 bool yaml_comment_color(const struct yaml_reader *reader, uint32_t at, struct reader_range *color);
 void yaml_report_color(struct diag_sink *sink, str text, span at);
 
 // ---- read_yaml_repair.c
 // After the reading stopped: overwrites what glint understands better, reports it to `sink` and says that the
-// text is to be read again from the start.
+// text must be read again from the start.
 bool yaml_repair(struct yaml_reader *reader, struct diag_sink *sink, bool *tabs_repaired);
 
 // ---- read_yaml_error.c

@@ -1,10 +1,8 @@
 // The tokens of a YAML file as it is written: anchors, aliases, merge keys, indicators and quoting in place,
-// which the tree (parser/tree/tree.h) has resolved. For the formatter, which moves white space and nothing
-// else.
+// which the tree (parser/tree/tree.h) has resolved. For the formatter, which moves only white space.
 //
-// Ownership: the list lies in the caller's arena, which must be guarded. Errors: false where libyaml
-// refuses the text; what is wrong with it is the reader's to say. Thread safety: one call belongs to one
-// thread.
+// Ownership: the list is in the caller's arena, which must be guarded. Errors: false if libyaml refuses the
+// text; what is wrong with it is for the reader to report. Thread safety: one call belongs to one thread.
 #ifndef GLINT_PARSER_YAML_YAML_TOKENS_H
 #define GLINT_PARSER_YAML_YAML_TOKENS_H
 
@@ -43,7 +41,7 @@ struct yaml_tokens {
     uint32_t documents;
 };
 
-// `begin`: behind a byte order mark.
+// `begin`: after a byte order mark.
 bool yaml_tokens_read(struct arena *arena, str text, uint32_t begin, struct yaml_tokens *tokens);
 
 #endif

@@ -7,11 +7,11 @@
 #include "core/strbuf.h"
 #include "picture/metrics/metrics.h"
 
-// A bound a metric: the most it may be, or the least where higher is better.
+// One bound per metric: the most it may be, or the least if higher is better.
 struct measure_bounds {
     bool has[METRIC_COUNT];
     double bound[METRIC_COUNT];
-    uint64_t not_finite; // pixels that may be no number; 0 where no bound was given
+    uint64_t not_finite; // pixels that may be not a number; 0 if no bound was given
 };
 
 struct compare_report {
@@ -23,10 +23,10 @@ struct compare_report {
     const struct measure_bounds *bounds;
 };
 
-// Whether a metric keeps its bound; true where it has none. A value that is no number keeps none.
+// Whether a metric keeps its bound; true if it has none. NaN keeps no bound.
 bool measure_keeps(const struct measure_bounds *bounds, const struct measure_result *result,
                    enum metric metric);
-// All bounds together: with any of them, pixels that are no number are bounded too.
+// All bounds together: with any of them, pixels that are not a number are bounded too.
 bool compare_keeps_bounds(const struct compare_report *report);
 void compare_text(const struct compare_report *report, struct strbuf *out);
 void compare_json(const struct compare_report *report, struct strbuf *out);

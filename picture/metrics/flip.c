@@ -136,8 +136,8 @@ static void filter_channel(struct plane_size size, const struct sensitivity *s, 
     }
     memcpy(term, plane, count * sizeof *term);
     memset(plane, 0, count * sizeof *plane);
-    // The second Gaussian filters the channel anew: `planes` has room for one copy, which the first one
-    // leaves alone.
+    // The second Gaussian filters the original channel: `planes` has room for one copy, which the first one
+    // does not change.
     float *filtered = planes + PLANE_FEATURE * count;
     for (int k = 0; k < 2; k++) {
         if (share[k] == 0)
@@ -214,7 +214,7 @@ static void prepare(struct plane_size size, const float *picture, double pixels_
         find_features(size, pixels_per_degree, k == 1, planes, filters, planes + (PLANE_FEATURE + k) * count);
 }
 
-// Equation 6 and the piecewise linear redistribution behind it.
+// Equation 6 and the piecewise linear redistribution after it.
 static double color_error(double distance, double largest) {
     const double error = pow(distance, Q_COLOR), most = pow(largest, Q_COLOR), knee = P_COLOR * most;
     return error < knee ? P_SHOWN / knee * error : P_SHOWN + (error - knee) / (most - knee) * (1 - P_SHOWN);

@@ -1,4 +1,4 @@
-// Numbers as colours, on a map of evenly rising lightness: black, violet, red, orange, pale yellow.
+// Numbers as colours, on a map of evenly increasing lightness: black, violet, red, orange, pale yellow.
 //
 // The map is a path through OKLab (Ottosson 2020): lightness is the value itself, the hue turns from violet
 // to yellow, the chroma stays inside sRGB. Equal steps look equal, and the map is monotone in grey.
@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-// 0 black, 1 pale yellow; beyond is clamped, what is no number is cyan, which is not on the map.
+// 0 black, 1 pale yellow; values beyond are clamped; what is not a number is cyan, which is not on the map.
 void heatmap_color(double value, uint8_t rgb[3]);
 
 enum heatmap_scale {
@@ -18,7 +18,8 @@ enum heatmap_scale {
     HEATMAP_LOGARITHMIC, // 0.001 and below are black, then three decades up to 1
 };
 
-// Appends a PNG of a map of `width` x `height` values, rows from the top. out->failed where memory lacks.
+// Appends a PNG of a map of `width` x `height` values, rows from the top. Sets out->failed when memory runs
+// out.
 void heatmap_png(uint32_t width, uint32_t height, const float *values, enum heatmap_scale scale,
                  struct strbuf *out);
 

@@ -141,7 +141,7 @@ static bool sum_pixels(struct plane_size size, const float *picture, const float
 
 static float *displayed_copy(const float *picture, size_t pixels, const struct measure_options *options) {
     float *copy = malloc(3 * pixels * sizeof *copy);
-    // Displayed values only lose what is no number.
+    // In displayed values only what is not a number changes.
     const struct image_display none = {IR_TONE_CLIP, IR_TRANSFER_NONE};
     if (copy)
         image_to_displayed(picture, pixels, options->space == MEASURE_LINEAR ? options->display : none, copy);

@@ -1,13 +1,13 @@
 // How far one picture is from another: the metrics of `glint compare` and `glint tradeoff`.
 //
-// Two pictures of one size, three floats a pixel, rows from the top, in one space: displayed values (0..1, as
-// written to an 8-bit file, before rounding) or linear ones (as in the float formats). The second picture is
-// the reference; only relMSE is not symmetric. MAE, RMSE, relMSE, the largest difference, PSNR (peak 1) and
-// the share over the threshold are taken in the space given; SSIM and FLIP are defined on displayed values:
-// linear ones are clamped and encoded for them. Means are over pixels that are finite in both pictures, and
-// the others are counted; for SSIM and FLIP what is no number is 0.
-// Ownership: the caller's arrays. Errors: false where memory lacks. Thread safety: pure; uses all processors,
-// and the result does not depend on how many there are.
+// Two pictures of the same size, three floats per pixel, rows from the top, in the same space: displayed
+// values (0..1, as written to an 8-bit file, before rounding) or linear ones (as in the float formats). The
+// second picture is the reference; only relMSE is not symmetric. MAE, RMSE, relMSE, the largest difference,
+// PSNR (peak 1) and the share over the threshold are computed in the given space; SSIM and FLIP are defined
+// on displayed values: linear ones are clamped and encoded for them. Means are over pixels that are finite in
+// both pictures, and the others are counted; for SSIM and FLIP what is not a number is 0.
+// Ownership: the caller's arrays. Errors: false when memory runs out. Thread safety: pure; uses all
+// processors, and the result does not depend on how many there are.
 #ifndef GLINT_PICTURE_METRICS_METRICS_H
 #define GLINT_PICTURE_METRICS_METRICS_H
 
@@ -19,9 +19,9 @@ enum metric {
     METRIC_RMSE,    // root of the mean of (a - b)^2
     METRIC_RELMSE,  // mean of (a - b)^2 / (b^2 + 0.01), b the reference (Rousselle et al. 2011)
     METRIC_LARGEST, // largest |a - b| of a channel
-    METRIC_PSNR,    // 10 log10(1 / MSE) dB, peak 1; infinite where equal
-    METRIC_SSIM,    // Wang et al. 2004, of the luma; 1 where equal
-    METRIC_FLIP,    // LDR-FLIP's mean, Andersson et al. 2020; 0 where equal, 1 at most
+    METRIC_PSNR,    // 10 log10(1 / MSE) dB, peak 1; infinite if equal
+    METRIC_SSIM,    // Wang et al. 2004, of the luma; 1 if equal
+    METRIC_FLIP,    // LDR-FLIP's mean, Andersson et al. 2020; 0 if equal, 1 at most
     METRIC_SHARE,   // of pixels with a channel further than the threshold from the reference's
     METRIC_COUNT,
 };
@@ -52,7 +52,7 @@ struct measure_place {
 };
 
 struct measure_result {
-    double value[METRIC_COUNT]; // NaN where not asked for, or where no pixel is finite
+    double value[METRIC_COUNT]; // NaN if not asked for, or if no pixel is finite
     struct measure_place largest;
     uint64_t pixels;
     uint64_t over;          // pixels over the threshold
@@ -61,15 +61,15 @@ struct measure_result {
 };
 
 extern const struct metric_info metric_infos[METRIC_COUNT];
-// METRIC_COUNT where there is none.
+// METRIC_COUNT if there is none.
 enum metric metric_find(str name);
 // The metric's value as an error: lower is better.
 double metric_error(enum metric metric, double value);
 
 struct measure_options measure_options_default(void);
 
-// `difference` and `flip`, where not NULL, take a value a pixel: the largest |a - b| of its channels
-// (infinite where not finite), and FLIP's error.
+// `difference` and `flip`, if not NULL, get one value per pixel: the largest |a - b| of its channels
+// (infinite if not finite), and FLIP's error.
 bool measure_pictures(uint32_t width, uint32_t height, const float *picture, const float *reference,
                       const struct measure_options *options, struct measure_result *result, float *difference,
                       float *flip);

@@ -1,6 +1,6 @@
 // A finished picture read back from a file: PNG and JPEG (displayed values), PFM and HDR (linear floats).
 //
-// Ownership: picture_file_finish frees the pixels; NULL and zeroed ones are fine. Errors: a sentence.
+// Ownership: picture_file_finish frees the pixels; it accepts NULL and zeroed ones. Errors: a sentence.
 // Thread safety: pure.
 #ifndef GLINT_PICTURE_METRICS_PICTURE_FILE_H
 #define GLINT_PICTURE_METRICS_PICTURE_FILE_H
@@ -12,15 +12,15 @@ struct picture_file {
     uint32_t width, height;
     const char *kind; // "PNG"
     enum measure_space space;
-    float *rgb; // three a pixel, rows from the top
+    float *rgb; // three per pixel, rows from the top
 };
 
-// `most_pixels` is a cap; NULL, or what is wrong with the file. A file of another kind: *unknown.
+// `most_pixels` is a cap; NULL, or what is wrong with the file. *unknown is set for another kind of file.
 const char *picture_file_decode(str bytes, uint64_t most_pixels, struct picture_file *out, bool *unknown);
 void picture_file_finish(struct picture_file *picture);
 
 // Portable float maps ("PF" colour, "Pf" grey, either byte order); the scale's size is ignored, as other
-// readers do. Fills all of `out` but the kind.
+// readers do. Fills all of `out` except the kind.
 const char *pfm_decode(str bytes, uint64_t most_pixels, struct picture_file *out);
 
 #endif

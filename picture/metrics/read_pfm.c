@@ -1,4 +1,4 @@
-// Portable float maps: "PF", width, height, scale whose sign tells the byte order, then rows from the bottom.
+// Portable float maps: "PF", width, height, scale whose sign gives the byte order, then rows from the bottom.
 #include "core/number.h"
 #include "picture/metrics/picture_file.h"
 
@@ -10,7 +10,7 @@ enum {
     SIDE_MAX = 1 << 24,
 };
 
-// The next word of the header; one blank behind the last is all that parts it from the pixels.
+// The next word of the header; only one space after the last separates it from the pixels.
 static str next_word(str bytes, size_t *at) {
     while (*at < bytes.len && char_is_space(bytes.ptr[*at]))
         ++*at;

@@ -48,7 +48,7 @@ const char *picture_decode(str bytes, const struct picture_header *header, struc
                             .depth = depth,
                             .size_bytes = (uint64_t)header->width * header->height * 4 * channel_bytes,
                             .ignored = header->ignored};
-    // Zeroed, so that no file can make a picture of what lay in memory.
+    // Zeroed, so that no file can show old contents of memory.
     void *pixels = calloc(1, (size_t)out->size_bytes);
     if (!pixels)
         return "there is not enough memory";

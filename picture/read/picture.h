@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 enum picture_depth {
-    PICTURE_8,     // 4 x uint8_t a pixel; value / 255
+    PICTURE_8,     // 4 x uint8_t per pixel; value / 255
     PICTURE_16,    // 4 x uint16_t; value / 65535
     PICTURE_FLOAT, // 4 x float, linear always
 };
@@ -15,12 +15,12 @@ enum picture_depth {
 struct picture {
     uint32_t width, height;
     enum picture_depth depth;
-    void *pixels;        // RGBA, row 0 on top; alpha is to be ignored
+    void *pixels;        // RGBA, row 0 on top; alpha must be ignored
     uint64_t size_bytes; // of the pixels
     const char *ignored; // parts that glint does not use, as in "alpha is"; NULL: none
 };
 
-// A zeroed picture is fine.
+// Accepts a zeroed picture.
 void picture_finish(struct picture *picture);
 
 #endif

@@ -24,10 +24,10 @@ struct picture_header {
     const char *ignored; // as in struct picture
 };
 
-// Looks at the header alone. NULL where it is whole, else what is wrong with it; kind is NONE for files that
-// are no image of a kind that is read.
+// Reads only the header. NULL if it is whole, else what is wrong with it; kind is NONE for files that are not
+// an image of a supported kind.
 const char *picture_read_header(str bytes, struct picture_header *out);
-// Decodes; gives NULL, or what is wrong. On success picture_finish frees the pixels.
+// Decodes; returns NULL, or what is wrong. On success picture_finish frees the pixels.
 const char *picture_decode(str bytes, const struct picture_header *header, struct picture *out);
 
 #endif

@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum {
-    RLE_WIDTH_MIN = 8, // rows outside these widths have no run lengths by channel
+    RLE_WIDTH_MIN = 8, // rows outside these widths have no run lengths per channel
     RLE_WIDTH_MAX = 0x7FFF,
     EXPONENT_BIAS = 128 + 8,
 };
@@ -15,7 +15,7 @@ struct hdr_reader {
     const unsigned char *end;
 };
 
-// The next line without its end; false where the file ends before.
+// The next line without its end; false if the file ends before.
 static bool next_line(str bytes, size_t *at, str *line) {
     const char *end = memchr(bytes.ptr + *at, '\n', bytes.len - *at);
     if (!end)
@@ -27,7 +27,7 @@ static bool next_line(str bytes, size_t *at, str *line) {
     return true;
 }
 
-// A number of at most 9 digits at the beginning of *text, which is moved behind it.
+// A number of at most 9 digits at the beginning of *text, which is moved past it.
 static bool take_size(str *text, uint32_t *value) {
     size_t digits = 0;
     *value = 0;

@@ -25,11 +25,11 @@ enum marker {
 
 enum {
     COMPONENTS_MAX = 4,
-    SCANS_MAX = 500, // each one walks the whole picture, however few bytes it has
+    SCANS_MAX = 500, // each one passes over the whole picture, however few bytes it has
     BUDGET_SLACK = 16 << 20,
 };
 
-// ---- segments: all are there, and the frame's header tells the size
+// ---- segments: all are there, and the frame's header has the size
 
 struct walk {
     const unsigned char *data;
@@ -41,7 +41,7 @@ struct walk {
 };
 
 struct segment {
-    const unsigned char *data; // behind the length
+    const unsigned char *data; // after the length
     size_t size;
 };
 
@@ -63,7 +63,8 @@ static const char *read_frame(struct walk *w, struct segment s, unsigned marker)
     return NULL;
 }
 
-// Moves to the marker behind a scan's data; restart markers belong to them, and 0 behind 0xFF is no marker.
+// Moves to the marker after a scan's data; restart markers belong to the data, and 0 after 0xFF is not a
+// marker.
 static bool skip_scan_data(struct walk *w) {
     while (w->at + 1 < w->size) {
         const unsigned char *mark = memchr(w->data + w->at, 0xFF, w->size - 1 - w->at);
@@ -166,8 +167,8 @@ _Noreturn static void on_error(j_common_ptr decoder) {
     longjmp(job->jump, 1);
 }
 
-// What the library would go on with, a grey rest in place of what is lost, is a fault here. These are not:
-// bytes behind a scan's data, and what concerns no pixel.
+// Errors that the library would accept, with grey in place of what is lost, are faults here. These are not:
+// bytes after a scan's data, and what does not affect a pixel.
 static void on_message(j_common_ptr decoder, int level) {
     int code = decoder->err->msg_code;
     bool harmless = code == JWRN_EXTRANEOUS_DATA || code == JWRN_JFIF_MAJOR || code == JWRN_ADOBE_XFORM ||
@@ -180,8 +181,8 @@ static void on_output(j_common_ptr decoder) {
     (void)decoder;
 }
 
-// Four channels come out as C, M, Y, K, which Adobe's programs store inverted; a file that does not say it is
-// theirs has Y, Cb, Cr and a fourth one that is ignored.
+// Four channels come out as C, M, Y, K, which Adobe's programs store inverted; a file without their mark has
+// Y, Cb, Cr and a fourth one that is ignored.
 static bool choose_colors(j_decompress_ptr decoder) {
     bool inks = decoder->saw_Adobe_marker && (decoder->Adobe_transform == 0 || decoder->Adobe_transform == 2);
     decoder->out_color_space = JCS_EXT_RGBA;
@@ -207,7 +208,7 @@ static void rgba_of_four(uint8_t *row, uint32_t width, bool inks) {
     }
 }
 
-// The library takes the standard tables where a file has none; a file that was damaged is to be no picture.
+// The library uses the standard tables if a file has none; but a damaged file must not become a picture.
 static bool has_tables(j_decompress_ptr decoder) {
     for (int i = 0; i < decoder->comps_in_scan && !decoder->progressive_mode; i++) {
         int dc = decoder->cur_comp_info[i]->dc_tbl_no;
@@ -247,7 +248,7 @@ static void read_rows(str bytes, struct job *job) {
     jpeg_finish_decompress(decoder);
 }
 
-// The job lies outside of the function that calls setjmp, so that it is whole after a jump.
+// The job is outside the function that calls setjmp, so that it is defined after a jump.
 static void read_guarded(str bytes, struct job *job) {
     if (setjmp(job->jump) == 0)
         read_rows(bytes, job);

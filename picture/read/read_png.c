@@ -19,7 +19,7 @@ static uint32_t big_endian(const unsigned char *p, int bytes) {
     return value;
 }
 
-// ---- chunks: all are there, and the first tells the size
+// ---- chunks: all are there, and the first has the size
 
 static const char *name_ignored(bool alpha, bool profile) {
     return alpha && profile ? "alpha and colour profile are"
@@ -62,7 +62,7 @@ const char *picture_png_header(str bytes, struct picture_header *out) {
 }
 
 // The CRC-32 of each chunk (annex D), and how much compressed data there is: a byte inflates to a thousand,
-// so data beyond what the picture can need are refused before any time is spent on them.
+// so data beyond what the picture can need is refused before any time is spent on it.
 static const char *check_chunks(str bytes, uint64_t most_data) {
     const unsigned char *data = (const unsigned char *)bytes.ptr;
     uint64_t data_bytes = 0;
@@ -129,7 +129,7 @@ static void on_free(png_structp png, png_voidp memory) {
     free(memory);
 }
 
-// Of the chunks only those that hold the picture are read: no text, no profile, no correction of gamma. Their
+// Of the chunks only those that hold the picture are read: no text, no profile, no gamma correction. Their
 // checksums have been compared.
 static void set_up(png_structp png, struct job *job) {
     png_set_read_fn(png, job, on_read);
@@ -169,7 +169,7 @@ static void read_rows(png_structp png, png_infop info, struct job *job) {
     job->fault = NULL;
 }
 
-// The job lies outside of the function that calls setjmp, so that it is whole after a jump.
+// The job is outside the function that calls setjmp, so that it is defined after a jump.
 static void read_guarded(png_structp png, png_infop info, struct job *job) {
     if (setjmp(png_jmpbuf(png)) == 0)
         read_rows(png, info, job);

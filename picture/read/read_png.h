@@ -8,7 +8,7 @@
 
 // Walks all chunks. Fills width, height, is_16_bit and ignored. NULL, or what is wrong.
 const char *picture_png_header(str bytes, struct picture_header *out);
-// RGBA of 8 or 16 bits a channel, as the header says, for a file that picture_png_header found whole. NULL,
+// RGBA of 8 or 16 bits per channel, as the header says, for a file that picture_png_header found whole. NULL,
 // or what is wrong.
 const char *picture_png_pixels(str bytes, const struct picture_header *header, void *pixels);
 

@@ -1,5 +1,5 @@
-// Radiance pictures: three mantissas and a shared exponent a pixel (Ward 1991, "Real Pixels"), each row
-// as four run-length coded planes where its width allows.
+// Radiance pictures: three mantissas and a shared exponent per pixel (Ward 1991, "Real Pixels"), each row
+// as four run-length coded planes if its width allows.
 #include "picture/write/encode_parts.h"
 #include "picture/write/image.h"
 
@@ -14,7 +14,7 @@ enum {
     LITERAL_MAX = 128,
 };
 
-// Negative values have no form here; infinity is the greatest that has one.
+// Negative values cannot be written; infinity becomes the greatest value that can.
 static float storable(float c) {
     return c > 0 ? fminf(c, 0x1.fep126f) : 0;
 }

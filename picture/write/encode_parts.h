@@ -1,4 +1,4 @@
-// One writer a format: for image_encode, and for maps and thumbnails elsewhere.
+// One writer per format: for image_encode, and for maps and thumbnails elsewhere.
 #ifndef GLINT_PICTURE_WRITE_ENCODE_PARTS_H
 #define GLINT_PICTURE_WRITE_ENCODE_PARTS_H
 
@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-// `rgb`: three a pixel, row 0 on top.
+// `rgb`: three per pixel, row 0 on top.
 void encode_png(uint32_t width, uint32_t height, const uint8_t *rgb, struct strbuf *out);
 void encode_pfm(uint32_t width, uint32_t height, const float *rgb, struct strbuf *out);
 void encode_hdr(uint32_t width, uint32_t height, const float *rgb, struct strbuf *out);

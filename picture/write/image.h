@@ -2,9 +2,9 @@
 //
 // tone.c is the one place where tone, transfer and rounding to 8 bits happen (LANGUAGE "Output"):
 // mean -> tone -> transfer -> floor(255 * clamp(c) + 1/2). The float formats hold the mean before them.
-// A pixel with a channel that is no number is a fault of the renderer, and marked: magenta in bytes (whatever
-// tone and transfer) and in HDR; PFM keeps it.
-// Ownership: image_finish frees the pixels. Errors: writers set out->failed when memory ends.
+// A pixel with a channel that is not a number is a fault of the renderer, and marked: magenta in bytes
+// (whatever tone and transfer) and in HDR; PFM keeps it.
+// Ownership: image_finish frees the pixels. Errors: writers set out->failed when memory runs out.
 // Thread safety: an image is plain data; writers work on as many threads as there are processors.
 #ifndef GLINT_PICTURE_WRITE_IMAGE_H
 #define GLINT_PICTURE_WRITE_IMAGE_H
@@ -16,11 +16,11 @@
 
 struct image {
     uint32_t width, height;
-    float *rgb; // three a pixel, row 0 on top
+    float *rgb; // three per pixel, row 0 on top
 };
 
 enum image_format {
-    IMAGE_PNG, // 8 bits a channel, tone and transfer applied
+    IMAGE_PNG, // 8 bits per channel, tone and transfer applied
     IMAGE_PFM, // floats, little endian
     IMAGE_HDR, // Radiance, shared exponents
 };
@@ -35,21 +35,21 @@ struct image_display {
 bool image_init(struct image *image, uint32_t width, uint32_t height);
 void image_finish(struct image *image);
 
-// Whether a pixel's three channels mark a fault: one of them is no number.
+// Whether a pixel's three channels mark a fault: one of them is not a number.
 static inline bool image_is_marked(const float rgb[3]) {
     return isnan(rgb[0]) || isnan(rgb[1]) || isnan(rgb[2]);
 }
 
 // `bytes` has room for 3 * width * height.
 void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes);
-// The same before rounding: 0..1, what is no number 0. `displayed` may be `linear`.
+// The same before rounding: 0..1, what is not a number is 0. `displayed` may be `linear`.
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
 
-// By the ending of a path; false: none that is written.
+// By the ending of a path; false: not a supported one.
 bool image_format_of_path(str path, enum image_format *format);
 // ".png, .pfm or .hdr", for messages.
 const char *image_format_endings(void);
-// Appends the whole file to `out`. `display` is for PNG alone.
+// Appends the whole file to `out`. `display` is only for PNG.
 void image_encode(const struct image *image, enum image_format format, struct image_display display,
                   struct strbuf *out);
 

@@ -13,7 +13,7 @@ static uint8_t round_to_byte(double displayed) {
     return (uint8_t)floor(255 * displayed + 0.5);
 }
 
-// The least float of each byte under sRGB: looking one up costs a hundredth of a power.
+// The least float of each byte under sRGB: looking one up costs a hundredth of computing a power.
 struct thresholds {
     float least[256];
 };
@@ -63,7 +63,7 @@ static float tone_divisor(const float c[3], unsigned tone) {
 }
 
 static float toned(float c, float divisor) {
-    // Also where both are infinite: the largest channel is full.
+    // Also if both are infinite: the largest channel is full.
     return divisor > 1 && c == divisor ? 1 : clamped(c / divisor);
 }
 
