@@ -53,7 +53,7 @@ class Client {
   until(uri, test) {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => reject(new Error(`no such diagnostics of ${uri}: ${
-        JSON.stringify(this.diagnostics.get(uri))}`)), 60000);
+        JSON.stringify(this.diagnostics.get(uri))}`)), 600000);
       const look = () => {
         const list = this.diagnostics.get(uri);
         if (!list || !test(list)) return;

@@ -203,7 +203,7 @@ printf 'glint: 1\nmodels: [{mesh: large.obj}]\n' >large/scene.yaml
 "$glint" pack large/scene.yaml large.d 2>err.txt &
 pid=$!
 tries=0
-while [ $tries -lt 100 ] && [ ! -e large.d ] && ! ls -d .glint-* >/dev/null 2>&1; do
+while [ $tries -lt 2400 ] && [ ! -e large.d ] && ! ls -d .glint-* >/dev/null 2>&1; do
     tries=$((tries + 1))
     sleep 0.05
 done
