@@ -93,23 +93,13 @@ static void trace(const struct bvh *bvh, const struct gpu_word *words, double *n
     *items /= RAYS;
 }
 
-static void put_item(const struct gpu_word words[TRIANGLE_WORDS], uint32_t index, struct bvh_item *item) {
-    vec3 corners[3];
-    for (int k = 0; k < 3; k++) {
-        float place[3];
-        memcpy(place, &words[k], sizeof place);
-        corners[k] = (vec3){place[0], place[1], place[2]};
-    }
-    *item = bvh_triangle_item(corners, false, index);
-}
-
 static bool measure(const struct gpu_word *words, uint32_t count, enum bvh_method method) {
     struct bvh_item *items = malloc((size_t)count * sizeof *items);
     struct bvh bvh = {0};
     double best = INFINITY;
     for (int repeat = 0; repeat < REPEATS && items; repeat++) {
         for (uint32_t i = 0; i < count; i++)
-            put_item(words + (size_t)TRIANGLE_WORDS * i, i, &items[i]);
+            items[i] = traverse_item(words + (size_t)TRIANGLE_WORDS * i, i);
         bvh_finish(&bvh);
         double start = clock_seconds();
         if (!bvh_build(items, count, method, &bvh))

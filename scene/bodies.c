@@ -165,14 +165,15 @@ bool scene_is_body(const struct schema_element *element) {
 }
 
 void scene_build_bodies(struct scene *scene, struct arena *arena) {
-    const uint32_t most = ir_body_count(scene->ir);
-    struct building b = {scene, ARENA_ARRAY(arena, uint32_t, most)};
-    scene->bodies = ARENA_ARRAY(arena, struct scene_body, most);
-    for (int i = 0; i < KIND_COUNT; i++) {
-        const uint32_t count = ir_walk_list(ir_walk_pool(KINDS[i].element), scene->ir).count;
-        for (uint32_t k = 0; k < count; k++)
+    uint32_t counts[KIND_COUNT];
+    uint32_t total = 0;
+    for (int i = 0; i < KIND_COUNT; i++)
+        total += counts[i] = ir_walk_list(ir_walk_pool(KINDS[i].element), scene->ir).count;
+    struct building b = {scene, ARENA_ARRAY(arena, uint32_t, total)};
+    scene->bodies = ARENA_ARRAY(arena, struct scene_body, total);
+    for (int i = 0; i < KIND_COUNT; i++)
+        for (uint32_t k = 0; k < counts[i]; k++)
             KINDS[i].add(&b, k);
-    }
 }
 
 // ---- questions about bodies

@@ -3,6 +3,7 @@
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
 #include "tracer/bvh/bvh.h"
+#include "tracer/bvh/items.h"
 
 #include <math.h>
 #include <string.h>
@@ -203,4 +204,14 @@ bool traverse_closest(const struct traverse_scene *scene, const struct traverse_
 bool traverse_any(const struct traverse_scene *scene, const struct traverse_ray *ray) {
     struct traverse_hit hit;
     return traverse(scene, ray, true, &hit);
+}
+
+struct bvh_item traverse_item(const struct gpu_word *words, uint32_t index) {
+    vec3 corners[3];
+    for (int k = 0; k < 3; k++) {
+        float place[3];
+        memcpy(place, &words[k], sizeof place);
+        corners[k] = (vec3){place[0], place[1], place[2]};
+    }
+    return bvh_triangle_item(corners, false, index);
 }

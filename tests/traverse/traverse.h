@@ -6,6 +6,7 @@
 #ifndef GLINT_TESTS_TRAVERSE_TRAVERSE_H
 #define GLINT_TESTS_TRAVERSE_TRAVERSE_H
 
+#include "tracer/bvh/bvh.h"
 #include "tracer/gpu_word.h"
 
 #include <stdbool.h>
@@ -34,5 +35,8 @@ bool traverse_closest(const struct traverse_scene *scene, const struct traverse_
                       struct traverse_hit *hit);
 // Whether there is any hit; stops at the first that it finds.
 bool traverse_any(const struct traverse_scene *scene, const struct traverse_ray *ray);
+
+// The padded box of a triangle's record in single precision, for a tree over such records.
+struct bvh_item traverse_item(const struct gpu_word *words, uint32_t index);
 
 #endif

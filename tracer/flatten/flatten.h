@@ -1,4 +1,4 @@
-// From IR and assets to the buffers of shaders/gpu_scene.h: origin, scale, float rounding, trees.
+// From a scene (scene/scene.h) to the buffers of shaders/gpu_scene.h: origin, scale, float rounding, trees.
 //
 // The origin (the camera's position, or the first of several; in double precision the place of the bodies'
 // box that is nearest to it) is subtracted from the transforms in double before any vertex is touched; the
@@ -24,7 +24,7 @@ struct flat_strides {
 };
 
 struct flat_scene {
-    bool is_double; // for the kernels in double precision: records with 64 in their names
+    bool is_double; // for the kernels in double precision
     struct flat_strides strides;
     vec3 origin;
     int scale_exponent; // flat = (scene - origin) * 2^scale_exponent

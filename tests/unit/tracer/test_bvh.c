@@ -249,20 +249,10 @@ struct triangles {
     uint32_t count;
 };
 
-static void put_item(const struct gpu_word words[TRIANGLE_WORDS], uint32_t index, struct bvh_item *item) {
-    vec3 corners[3];
-    for (int k = 0; k < 3; k++) {
-        float place[3];
-        memcpy(place, &words[k], sizeof place);
-        corners[k] = (vec3){place[0], place[1], place[2]};
-    }
-    *item = bvh_triangle_item(corners, false, index);
-}
-
 static void triangles_build(struct triangles *t) {
     struct bvh_item *items = malloc(t->count * sizeof *items);
     for (uint32_t i = 0; i < t->count; i++)
-        put_item(t->words + (size_t)TRIANGLE_WORDS * i, i, &items[i]);
+        items[i] = traverse_item(t->words + (size_t)TRIANGLE_WORDS * i, i);
     assert_true(bvh_build(items, t->count, BVH_SAH, &t->bvh));
     free(items);
     t->leaves = malloc((size_t)TRIANGLE_WORDS * t->count * sizeof *t->leaves);
@@ -331,8 +321,7 @@ static void test_closest(void **state) {
     triangles_build(&t);
     struct bvh singles[COUNT];
     for (uint32_t i = 0; i < COUNT; i++) {
-        struct bvh_item item;
-        put_item(t.words + (size_t)TRIANGLE_WORDS * i, i, &item);
+        struct bvh_item item = traverse_item(t.words + (size_t)TRIANGLE_WORDS * i, i);
         assert_true(bvh_build(&item, 1, BVH_SAH, &singles[i]));
     }
     struct traverse_scene scene = {t.bvh.nodes, t.leaves};
