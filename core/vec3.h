@@ -44,6 +44,13 @@ static inline vec3 vec3_min(vec3 a, vec3 b) {
 static inline vec3 vec3_max(vec3 a, vec3 b) {
     return (vec3){fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)};
 }
+// The same of coordinates that are never NaN, by plain comparisons: fmin and fmax are function calls.
+static inline vec3 vec3_least(vec3 a, vec3 b) {
+    return (vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
+}
+static inline vec3 vec3_greatest(vec3 a, vec3 b) {
+    return (vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
+}
 static inline double vec3_max_abs(vec3 a) {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
@@ -77,6 +84,10 @@ static inline vec3 mat3_apply(mat3 a, vec3 v) {
     return (vec3){a.m[0][0] * v.x + a.m[0][1] * v.y + a.m[0][2] * v.z,
                   a.m[1][0] * v.x + a.m[1][1] * v.y + a.m[1][2] * v.z,
                   a.m[2][0] * v.x + a.m[2][1] * v.y + a.m[2][2] * v.z};
+}
+
+static inline vec3 mat3_column(mat3 a, int i) {
+    return (vec3){a.m[0][i], a.m[1][i], a.m[2][i]};
 }
 
 static inline mat3 mat3_mul(mat3 a, mat3 b) {

@@ -25,23 +25,16 @@ struct lint_box {
     vec3 lower, upper;
 };
 
-// Coordinates are never NaN here, so that plain comparisons are enough (fmin and fmax are calls).
-static inline vec3 lint_least(vec3 a, vec3 b) {
-    return (vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
-}
-static inline vec3 lint_greatest(vec3 a, vec3 b) {
-    return (vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
-}
 // The empty box, which any point makes its own.
 static inline struct lint_box lint_box_empty(void) {
     return (struct lint_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 }
 static inline struct lint_box lint_box_join(struct lint_box a, struct lint_box b) {
-    return (struct lint_box){lint_least(a.lower, b.lower), lint_greatest(a.upper, b.upper)};
+    return (struct lint_box){vec3_least(a.lower, b.lower), vec3_greatest(a.upper, b.upper)};
 }
 static inline struct lint_box lint_box_of(const struct lint_triangle *t) {
-    return (struct lint_box){lint_least(lint_least(t->p[0], t->p[1]), t->p[2]),
-                             lint_greatest(lint_greatest(t->p[0], t->p[1]), t->p[2])};
+    return (struct lint_box){vec3_least(vec3_least(t->p[0], t->p[1]), t->p[2]),
+                             vec3_greatest(vec3_greatest(t->p[0], t->p[1]), t->p[2])};
 }
 static inline struct lint_box lint_box_grow(struct lint_box box, double by) {
     vec3 margin = {by, by, by};

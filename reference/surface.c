@@ -32,11 +32,11 @@ static vec3 checker_place(const struct scene_body *body, const struct surface *s
     if (body->shape == SCENE_SPHERE)
         return arm;
     if (body->shape == SCENE_PARALLELOGRAM) {
-        const double(*m)[3] = body->object_to_world.linear.m;
+        const mat3 edges = body->object_to_world.linear;
         double along_u = s->triangle ? b[1] : b[1] + b[2];
         double along_v = s->triangle ? b[1] + b[2] : b[2];
-        return (vec3){along_u * vec3_length((vec3){m[0][0], m[1][0], m[2][0]}),
-                      along_v * vec3_length((vec3){m[0][1], m[1][1], m[2][1]}), 0};
+        return (vec3){along_u * vec3_length(mat3_column(edges, 0)),
+                      along_v * vec3_length(mat3_column(edges, 1)), 0};
     }
     vec3 corners[3];
     for (int k = 0; k < 3; k++)

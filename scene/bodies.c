@@ -12,14 +12,6 @@ enum {
 
 // ---- boxes
 
-// Coordinates are never NaN here, so that plain comparisons are enough (fmin and fmax are calls).
-static vec3 least(vec3 a, vec3 b) {
-    return (vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
-}
-static vec3 greatest(vec3 a, vec3 b) {
-    return (vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
-}
-
 struct box {
     vec3 lower, upper;
 };
@@ -27,8 +19,8 @@ struct box {
 static const struct box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
 static void include(struct box *box, vec3 point) {
-    box->lower = least(box->lower, point);
-    box->upper = greatest(box->upper, point);
+    box->lower = vec3_least(box->lower, point);
+    box->upper = vec3_greatest(box->upper, point);
 }
 
 static struct box sphere_box(vec3 center, double radius) {
@@ -102,10 +94,6 @@ static void take_material(struct building *b, struct scene_body *body, const str
 
 affine3 scene_parallelogram(vec3 corner, vec3 u, vec3 v) {
     return (affine3){{{{u.x, v.x, 0}, {u.y, v.y, 0}, {u.z, v.z, 0}}}, corner};
-}
-
-static vec3 column(const mat3 *m, int i) {
-    return (vec3){m->m[0][i], m->m[1][i], m->m[2][i]};
 }
 
 static void add_sphere(struct building *b, uint32_t i) {
@@ -184,8 +172,8 @@ uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle) {
 
 // Shared corners are computed in one way, so that both triangles hold the same bits.
 static void parallelogram_corners(const affine3 *map, uint32_t triangle, vec3 corners[3]) {
-    vec3 v = column(&map->linear, 1);
-    vec3 along_u = vec3_add(map->offset, column(&map->linear, 0));
+    vec3 v = mat3_column(map->linear, 1);
+    vec3 along_u = vec3_add(map->offset, mat3_column(map->linear, 0));
     vec3 opposite = vec3_add(along_u, v);
     corners[0] = map->offset;
     corners[1] = triangle ? opposite : along_u;

@@ -6,10 +6,6 @@
 
 #define DEGREE 0.017453292519943295769 // pi / 180
 
-static vec3 column(mat3 m, int j) {
-    return (vec3){m.m[0][j], m.m[1][j], m.m[2][j]};
-}
-
 // ---- the camera
 
 // Right and up for a direction of view. An up along the view was refused where it was written; the default
@@ -35,9 +31,9 @@ static struct view_camera written_camera(const struct ir_camera *ir) {
         .name = ir->name, .position = ir->position, .tan_half_fov = tan_half(ir->fov)};
     if (ir->view == IR_VIEW_ROTATION) {
         mat3 turn = transform_rotation(ir->rotation);
-        camera.right = column(turn, 0);
-        camera.up = column(turn, 1);
-        camera.forward = vec3_add(vec3_neg(column(turn, 2)), (vec3){0, 0, 0});
+        camera.right = mat3_column(turn, 0);
+        camera.up = mat3_column(turn, 1);
+        camera.forward = vec3_add(vec3_neg(mat3_column(turn, 2)), (vec3){0, 0, 0});
         return camera;
     }
     vec3 along = ir->view == IR_VIEW_LOOK_AT ? vec3_sub(ir->look_at, ir->position) : ir->direction;

@@ -37,9 +37,8 @@ static void put_map(const struct flattening *f, const struct scene_body *body, s
 }
 
 static void put_edge_lengths(const struct scene_body *body, struct gpu_body *record) {
-    const mat3 *m = &body->object_to_world.linear;
-    record->row_x = (vec3){vec3_length((vec3){m->m[0][0], m->m[1][0], m->m[2][0]}),
-                           vec3_length((vec3){m->m[0][1], m->m[1][1], m->m[2][1]}), 0};
+    const mat3 edges = body->object_to_world.linear;
+    record->row_x = (vec3){vec3_length(mat3_column(edges, 0)), vec3_length(mat3_column(edges, 1)), 0};
 }
 
 enum flatten_fault flatten_body_records(struct flattening *f) {

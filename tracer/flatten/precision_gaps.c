@@ -37,13 +37,10 @@ struct plane {
     vec3 corner, u, v, normal; // unit normal
 };
 
-static vec3 column(const affine3 *map, int i) {
-    return (vec3){map->linear.m[0][i], map->linear.m[1][i], map->linear.m[2][i]};
-}
-
 static struct plane plane_of(const struct scene_body *body) {
     const affine3 *map = &body->object_to_world;
-    struct plane p = {.corner = map->offset, .u = column(map, 0), .v = column(map, 1)};
+    struct plane p = {
+        .corner = map->offset, .u = mat3_column(map->linear, 0), .v = mat3_column(map->linear, 1)};
     p.normal = vec3_unit(vec3_cross(p.u, p.v));
     return p;
 }
@@ -109,7 +106,7 @@ static double gap_of(const struct scene *scene, const struct precision_body *a,
 static double longest_diagonal(const struct scene_body *body) {
     if (body->shape != SCENE_PARALLELOGRAM)
         return 0;
-    vec3 u = column(&body->object_to_world, 0), v = column(&body->object_to_world, 1);
+    vec3 u = mat3_column(body->object_to_world.linear, 0), v = mat3_column(body->object_to_world.linear, 1);
     return fmax(vec3_length(vec3_add(u, v)), vec3_length(vec3_sub(u, v)));
 }
 
