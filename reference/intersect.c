@@ -1,4 +1,5 @@
 // What a ray hits: boxes, triangles, spheres.
+#include "reference/exact.h"
 #include "reference/parts.h"
 
 #include <assert.h>
@@ -6,6 +7,9 @@
 // A box is entered a little earlier and left a little later than its planes say: more than the rounding of
 // (plane - origin) / direction, as Ize 2013, "Robust BVH Ray Traversal", but wider, because it costs nothing.
 #define BOX_SLACK 0x1p-48
+// Of a place on a triangle, as a part of its coordinates: its rounding and the way that the start is moved
+// from it (ray_offset.c).
+#define START_ERROR 0x1p-47
 
 // ---- triangles
 
@@ -14,10 +18,11 @@ struct sheared {
     double sx, sy, sz;
     double origin[3];
     double direction[3];
+    double slack; // bound of the origin's error, by component
 };
 
 static struct sheared shear(const struct ray *ray) {
-    struct sheared s = {.origin = {ray->origin.x, ray->origin.y, ray->origin.z},
+    struct sheared s = {.origin = {ray->start.at.x, ray->start.at.y, ray->start.at.z},
                         .direction = {ray->direction.x, ray->direction.y, ray->direction.z}};
     const double *d = s.direction;
     s.kz = fabs(d[0]) > fabs(d[1]) ? (fabs(d[0]) > fabs(d[2]) ? 0 : 2) : (fabs(d[1]) > fabs(d[2]) ? 1 : 2);
@@ -26,6 +31,8 @@ static struct sheared shear(const struct ray *ray) {
     s.sz = 1 / d[s.kz];
     s.sx = d[s.kx] * s.sz;
     s.sy = d[s.ky] * s.sz;
+    if (ray->start.left != NO_PRIMITIVE)
+        s.slack = START_ERROR * vec3_max_abs(ray->start.at);
     return s;
 }
 
@@ -34,9 +41,10 @@ static double largest_of(double a, double b, double c) {
 }
 
 // Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"; the bound of t: Pharr, Jakob, Humphreys
-// 2023, section 6.8.7, without its factor for the ray's length, which double does not need.
-static bool intersect_watertight(const struct sheared *s, const struct primitive *p,
-                                 struct intersection *out) {
+// 2023, section 6.8.7, without its factor for the ray's length, which double does not need. *open: double
+// leaves open whether the hit lies before the ray's start or behind it, or where on the ray.
+static bool intersect_watertight(const struct sheared *s, const struct primitive *p, struct intersection *out,
+                                 bool *open) {
     double x[3], y[3], z[3];
     for (int k = 0; k < 3; k++) {
         double depth = p->v[k][s->kz] - s->origin[s->kz];
@@ -47,26 +55,33 @@ static bool intersect_watertight(const struct sheared *s, const struct primitive
     double u = x[2] * y[1] - y[2] * x[1];
     double v = x[0] * y[2] - y[0] * x[2];
     double w = x[1] * y[0] - y[1] * x[0];
-    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0))
-        return false;
-    double det = u + v + w;
-    if (det == 0)
-        return false;
     double x_most = largest_of(x[0], x[1], x[2]);
     double y_most = largest_of(y[0], y[1], y[2]);
     double z_most = largest_of(z[0], z[1], z[2]) * fabs(s->direction[s->kz]);
-    double x_error = REFERENCE_GAMMA(5) * (x_most + z_most);
-    double y_error = REFERENCE_GAMMA(5) * (y_most + z_most);
+    double x_error = REFERENCE_GAMMA(5) * (x_most + z_most) + 2 * s->slack;
+    double y_error = REFERENCE_GAMMA(5) * (y_most + z_most) + 2 * s->slack;
     double edge_error = 2 * (REFERENCE_GAMMA(2) * x_most * y_most + y_error * x_most + x_error * y_most);
+    *open = false;
+    if ((u < -edge_error || v < -edge_error || w < -edge_error) &&
+        (u > edge_error || v > edge_error || w > edge_error))
+        return false;
+    bool inside = !((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0));
+    double det = u + v + w;
+    double first = reference_smaller(z[0], reference_smaller(z[1], z[2]));
+    double last = reference_larger(z[0], reference_larger(z[1], z[2]));
+    double depth_error = (6 * REFERENCE_GAMMA(3) * z_most + s->slack) * fabs(s->sz);
+    bool edge_on = !(fabs(det) > 3 * edge_error);
+    if (edge_on) {
+        *open = last + depth_error >= 0;
+        return false;
+    }
     // An error of the weights moves t by the spread of the corners at most.
-    double spread = reference_larger(z[0], reference_larger(z[1], z[2])) -
-                    reference_smaller(z[0], reference_smaller(z[1], z[2]));
-    double weight_error = reference_smaller(3 * edge_error / fabs(det), 1);
     out->t = (u * z[0] + v * z[1] + w * z[2]) / det;
     out->b1 = v / det;
     out->b2 = w / det;
-    out->t_error = 6 * REFERENCE_GAMMA(3) * z_most * fabs(s->sz) + spread * weight_error;
-    return out->t > out->t_error;
+    out->t_error = depth_error + (last - first) * (3 * edge_error / fabs(det));
+    *open = fabs(out->t) <= out->t_error;
+    return inside && out->t > out->t_error;
 }
 
 // Möller, Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection".
@@ -79,7 +94,7 @@ static bool intersect_moeller_trumbore(const struct ray *ray, const struct primi
     double det = vec3_dot(e1, h);
     if (det == 0)
         return false;
-    vec3 s = vec3_sub(ray->origin, v0);
+    vec3 s = vec3_sub(ray->start.at, v0);
     vec3 q = vec3_cross(s, e1);
     out->b1 = vec3_dot(s, h) / det;
     out->b2 = vec3_dot(ray->direction, q) / det;
@@ -93,7 +108,7 @@ static bool intersect_moeller_trumbore(const struct ray *ray, const struct primi
 // Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
 // Gems, chapter 7). A root that its own error reaches down to 0 is where the ray left the sphere.
 static bool intersect_sphere(const struct ray *ray, const struct primitive *p, struct intersection *out) {
-    vec3 f = vec3_sub(ray->origin, (vec3){p->v[0][0], p->v[0][1], p->v[0][2]});
+    vec3 f = vec3_sub(ray->start.at, (vec3){p->v[0][0], p->v[0][1], p->v[0][2]});
     vec3 d = ray->direction;
     double radius = p->v[1][0];
     double a = vec3_dot(d, d);
@@ -133,6 +148,8 @@ struct search {
     const struct reference *r;
     const struct ray *ray;
     struct sheared sheared;
+    struct exact_ray exact;
+    bool exact_begun;
     double inverse[3];
     bool any;
     struct intersection nearest;
@@ -179,13 +196,24 @@ static void take(struct search *s, const struct intersection *hit) {
         s->ties[i] = kept[i];
 }
 
+static bool intersect_triangle(struct search *s, const struct primitive *p, struct intersection *hit) {
+    bool open;
+    const bool is_hit = intersect_watertight(&s->sheared, p, hit, &open);
+    if (!open)
+        return is_hit;
+    if (!s->exact_begun)
+        exact_begin(s->r, s->ray, (const int[3]){s->sheared.kx, s->sheared.ky, s->sheared.kz}, &s->exact);
+    s->exact_begun = true;
+    return exact_intersect(&s->exact, p, hit);
+}
+
 static void test_primitive(struct search *s, uint32_t index) {
     const struct primitive *p = &s->r->primitives[index];
     struct intersection hit = {0};
     bool is_hit = p->is_sphere ? intersect_sphere(s->ray, p, &hit)
                   : s->r->input.test == REFERENCE_MOELLER_TRUMBORE
                       ? intersect_moeller_trumbore(s->ray, p, &hit)
-                      : intersect_watertight(&s->sheared, p, &hit);
+                      : index != s->ray->start.left && intersect_triangle(s, p, &hit);
     // What could be at t_max itself is not strictly before it.
     if (!is_hit || hit.t + hit.t_error >= s->ray->t_max)
         return;

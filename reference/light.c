@@ -46,7 +46,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
                      struct lighting *out) {
     const struct view *view = r->input.view;
     bool shadows = r->input.scene->ir->trace.shadows;
-    vec3 start = reference_ray_offset(s, s->geometric);
+    const struct start start = reference_leave(r, s, s->geometric);
     *out = (struct lighting){0};
     for (uint32_t i = 0; i < view->light_count; i++) {
         const struct view_light *light = &view->lights[i];
@@ -55,7 +55,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
             continue;
         uint32_t bit = i < 32 ? UINT32_C(1) << i : 0;
         out->considered |= bit;
-        vec3 way = vec3_sub(vec3_sub(light->position, r->origin), start);
+        vec3 way = vec3_sub(vec3_sub(light->position, r->origin), start.at);
         struct ray ray = {start, light->directional ? light->to_light : way,
                           light->directional ? INFINITY : 1};
         out->shadow_rays += shadows;

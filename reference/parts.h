@@ -88,8 +88,21 @@ bool reference_make_tree(struct reference *r);
 
 // ---- intersect.c
 
+// Where a ray starts.
+struct start {
+    vec3 at;
+    uint32_t
+        left; // the triangle that the ray leaves, which it cannot hit; NO_PRIMITIVE: none, and `at` is exact
+    double b1, b2; // the exact place on that triangle
+};
+
+static inline struct start reference_start(vec3 at) {
+    return (struct start){.at = at, .left = NO_PRIMITIVE};
+}
+
 struct ray {
-    vec3 origin, direction; // any length
+    struct start start;
+    vec3 direction; // any length
     double t_max;
 };
 
@@ -107,7 +120,7 @@ bool reference_blocks(const struct reference *r, const struct ray *ray);
 // ---- surface.c
 
 struct surface {
-    uint32_t body, triangle, material;
+    uint32_t primitive, body, triangle, material;
     double distance; // in lengths of the ray's direction
     double b1, b2;
     vec3 point, error;
@@ -125,8 +138,8 @@ bool reference_bent(const struct surface *s, vec3 direction, vec3 *out);
 
 // ---- ray_offset.c
 
-// Where rays start that leave on the side of `side`, a unit vector along the geometric normal.
-vec3 reference_ray_offset(const struct surface *s, vec3 side);
+// The start of rays that leave on the side of `side`, a unit vector along the geometric normal.
+struct start reference_leave(const struct reference *r, const struct surface *s, vec3 side);
 
 // ---- light.c
 
@@ -145,7 +158,8 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
 // ---- path.c
 
 struct branch {
-    vec3 origin, direction;
+    struct start start;
+    vec3 direction;
     double throughput;
     uint32_t depth;
     uint32_t parent; // in a log

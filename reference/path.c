@@ -96,12 +96,12 @@ static double send_rays(struct following *f, const struct branch *from, const st
     }
     double cut = 0;
     if (through.throughput > 0) {
-        through.origin = reference_ray_offset(s, vec3_neg(s->geometric));
+        through.start = reference_leave(f->r, s, vec3_neg(s->geometric));
         cut += send(f, &through);
     }
     back.throughput = from->throughput * reflection;
     if (back.throughput > 0) {
-        back.origin = reference_ray_offset(s, s->geometric);
+        back.start = reference_leave(f->r, s, s->geometric);
         back.direction = reference_mirrored(s, from->direction);
         cut += send(f, &back);
     }
@@ -117,7 +117,7 @@ static struct reference_segment *log_segment(struct following *f, const struct b
                                           .parent = b->parent,
                                           .depth = b->depth,
                                           .weight = b->throughput,
-                                          .origin = vec3_add(b->origin, f->r->origin),
+                                          .origin = vec3_add(b->start.at, f->r->origin),
                                           .direction = b->direction,
                                           .body = HIT_NONE,
                                           .material = IR_NO_INDEX};
@@ -142,7 +142,7 @@ static void log_surface(const struct following *f, struct reference_segment *seg
 }
 
 static void follow_ray(struct following *f, const struct branch *b) {
-    struct ray ray = {b->origin, b->direction, INFINITY};
+    struct ray ray = {b->start, b->direction, INFINITY};
     struct intersection hit;
     struct reference_segment *segment = log_segment(f, b);
     f->sample->rays[b->kind]++;
@@ -181,7 +181,10 @@ static uint64_t rays_of(const struct sample *s) {
 void reference_follow(const struct reference *r, const struct reference_settings *settings, vec3 direction,
                       struct queue *queue, struct log *log, struct sample *out) {
     struct following f = {r, settings, queue, log, out};
-    struct branch first = {.direction = direction, .throughput = 1, .parent = REFERENCE_NO_SEGMENT};
+    struct branch first = {.start = reference_start((vec3){0, 0, 0}),
+                           .direction = direction,
+                           .throughput = 1,
+                           .parent = REFERENCE_NO_SEGMENT};
     *out = (struct sample){.body = HIT_NONE};
     queue->count = 0;
     queue->heaviest_first = !settings->as_file;

@@ -3,7 +3,7 @@
 
 // Displaced by the point's error, then one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not
 // only by the error along the normal: that along the surface can carry the point across an edge.
-vec3 reference_ray_offset(const struct surface *s, vec3 side) {
+struct start reference_leave(const struct reference *r, const struct surface *s, vec3 side) {
     vec3 size = {fabs(side.x), fabs(side.y), fabs(side.z)};
     double distance = fmax(vec3_dot(size, s->error), vec3_max_abs(s->error));
     vec3 shift = vec3_mul(side, distance);
@@ -14,5 +14,7 @@ vec3 reference_ray_offset(const struct surface *s, vec3 side) {
         at.y = nextafter(at.y, shift.y > 0 ? INFINITY : -INFINITY);
     if (shift.z != 0)
         at.z = nextafter(at.z, shift.z > 0 ? INFINITY : -INFINITY);
-    return at;
+    if (r->primitives[s->primitive].is_sphere)
+        return reference_start(at);
+    return (struct start){at, s->primitive, s->b1, s->b2};
 }

@@ -70,7 +70,7 @@ vec3 reference_camera_ray(const struct reference *r, const struct reference_sett
 
 void reference_closest(const struct reference *r, vec3 origin, vec3 direction, double t_max,
                        struct reference_hit *hit) {
-    struct ray ray = {vec3_sub(origin, r->origin), direction, t_max};
+    struct ray ray = {reference_start(vec3_sub(origin, r->origin)), direction, t_max};
     struct intersection nearest;
     struct surface s;
     *hit = (struct reference_hit){.body = HIT_NONE, .material = IR_NO_INDEX};
@@ -78,7 +78,8 @@ void reference_closest(const struct reference *r, vec3 origin, vec3 direction, d
     if (nearest.primitive == NO_PRIMITIVE)
         return;
     reference_surface(r, &ray, &nearest, &s);
-    vec3 start_through = reference_ray_offset(&s, vec3_neg(s.geometric));
+    const vec3 start_through = reference_leave(r, &s, vec3_neg(s.geometric)).at;
+    const vec3 start_back = reference_leave(r, &s, s.geometric).at;
     *hit = (struct reference_hit){.body = s.body,
                                   .triangle = s.triangle,
                                   .t = s.distance,
@@ -89,12 +90,12 @@ void reference_closest(const struct reference *r, vec3 origin, vec3 direction, d
                                   .shading = s.shading,
                                   .enters = s.enters,
                                   .material = s.material,
-                                  .start_back = vec3_add(reference_ray_offset(&s, s.geometric), r->origin),
+                                  .start_back = vec3_add(start_back, r->origin),
                                   .start_through = vec3_add(start_through, r->origin)};
 }
 
 bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, double t_max) {
-    struct ray ray = {vec3_sub(origin, r->origin), direction, t_max};
+    struct ray ray = {reference_start(vec3_sub(origin, r->origin)), direction, t_max};
     return reference_blocks(r, &ray);
 }
 
@@ -201,8 +202,8 @@ static void draw_pixel(const struct work *w, uint32_t x, uint32_t y, struct queu
 }
 
 // The body that a ray from a surface hits.
-static uint32_t body_ahead(const struct reference *r, vec3 origin, vec3 direction) {
-    struct ray ray = {origin, direction, INFINITY};
+static uint32_t body_ahead(const struct reference *r, struct start start, vec3 direction) {
+    struct ray ray = {start, direction, INFINITY};
     struct intersection hit;
     reference_intersect(r, &ray, &hit);
     return hit.primitive == NO_PRIMITIVE ? HIT_NONE : r->primitives[hit.primitive].body;
@@ -210,7 +211,7 @@ static uint32_t body_ahead(const struct reference *r, vec3 origin, vec3 directio
 
 static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
-    struct ray ray = {{0, 0, 0}, direction, INFINITY};
+    struct ray ray = {reference_start((vec3){0, 0, 0}), direction, INFINITY};
     struct intersection nearest;
     struct surface s;
     struct lighting lighting;
@@ -228,11 +229,10 @@ static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     vec3 bent;
     bool comes_through = s.refraction > 0 && reference_bent(&s, direction, &bent);
     if (comes_through)
-        hit.refracted = body_ahead(r, reference_ray_offset(&s, vec3_neg(s.geometric)), bent);
+        hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), bent);
     // Under total reflection the mirrored ray has the refracted one's weight too.
     if (s.reflection > 0 || (s.refraction > 0 && !comes_through))
-        hit.reflected =
-            body_ahead(r, reference_ray_offset(&s, s.geometric), reference_mirrored(&s, direction));
+        hit.reflected = body_ahead(r, reference_leave(r, &s, s.geometric), reference_mirrored(&s, direction));
     return hit;
 }
 

@@ -1,4 +1,5 @@
 // What a ray hit, and where light comes from that leaves it (LANGUAGE "Hit", "Checker").
+#include "reference/exact.h"
 #include "reference/parts.h"
 
 static vec3 vertex(const struct primitive *p, int k) {
@@ -86,7 +87,7 @@ static void turn_to_ray(struct surface *s, vec3 outward, vec3 direction) {
 
 static void sphere_surface(const struct ray *ray, const struct primitive *p, struct surface *s, vec3 *arm) {
     vec3 centre = vertex(p, 0);
-    vec3 at = vec3_add(ray->origin, vec3_mul(ray->direction, s->distance));
+    vec3 at = vec3_add(ray->start.at, vec3_mul(ray->direction, s->distance));
     vec3 outward = vec3_unit(vec3_sub(at, centre));
     // Back onto the sphere: the error is then that of the radius, whatever the ray's length.
     *arm = vec3_mul(outward, p->v[1][0]);
@@ -105,7 +106,7 @@ static void triangle_surface(const struct body *body, const struct ray *ray, con
     const double positive[3] = {fabs(b[0]), fabs(b[1]), fabs(b[2])};
     s->point = weighted(corners, b);
     s->error = vec3_mul(weighted(sizes, positive), REFERENCE_GAMMA(7));
-    vec3 outward = vec3_unit(vec3_cross(vec3_sub(corners[1], corners[0]), vec3_sub(corners[2], corners[0])));
+    const vec3 outward = exact_normal(p);
     turn_to_ray(s, body->is->mirrored ? vec3_neg(outward) : outward, ray->direction);
     if (body->normals)
         s->shading = smooth_normal(body, s, b);
@@ -115,10 +116,14 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
                        struct surface *out) {
     const struct primitive *p = &r->primitives[hit->primitive];
     const struct body *body = &r->bodies[p->body];
-    const double b[3] = {1 - hit->b1 - hit->b2, hit->b1, hit->b2};
+    const double b[3] = {fmax(1 - hit->b1 - hit->b2, 0), hit->b1, hit->b2};
     vec3 arm = {0, 0, 0};
-    *out = (struct surface){
-        .body = p->body, .triangle = p->triangle, .distance = hit->t, .b1 = hit->b1, .b2 = hit->b2};
+    *out = (struct surface){.primitive = hit->primitive,
+                            .body = p->body,
+                            .triangle = p->triangle,
+                            .distance = hit->t,
+                            .b1 = hit->b1,
+                            .b2 = hit->b2};
     if (p->is_sphere)
         sphere_surface(ray, p, out, &arm);
     else

@@ -11,6 +11,8 @@ layout(constant_id = CONSTANT_ALTERNATIVE_OFFSET) const float ALTERNATIVE_OFFSET
 layout(constant_id = CONSTANT_ALTERNATIVE_DISTANCE) const float ALTERNATIVE_DISTANCE = 0.0;
 // Flat, squared; 0: glint's own test.
 layout(constant_id = CONSTANT_ALTERNATIVE_CUT) const float ALTERNATIVE_CUT = 0.0;
+// 1: a hit counts from t > 0 on, from glint's own starts; tests see what that lets through.
+layout(constant_id = CONSTANT_ALTERNATIVE_START) const uint ALTERNATIVE_START = 0u;
 
 bool alternative_moves() { return ALTERNATIVE_OFFSET > 0.0; }
 bool alternative_cuts() { return ALTERNATIVE_CUT > 0.0; }

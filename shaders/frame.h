@@ -71,13 +71,14 @@
 #define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT */
 
 /* State of a path, word k of slot s at k * slots + s: ray origin, throughput; direction, depth; radiance,
-   segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare: kept
-   between dispatches; then two words for each refracted ray that waits. In double precision places,
+   segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare;
+   what the ray leaves: error of its start, b1, b2, item: kept between dispatches; then three words for each
+   refracted ray that waits: origin, throughput; direction, depth; what it leaves. In double precision places,
    directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. */
-#define STATE_WORDS         6
-#define STACK_ENTRY_WORDS   2
-#define STATE64_WORDS       8
-#define STACK64_ENTRY_WORDS 4
+#define STATE_WORDS         7
+#define STACK_ENTRY_WORDS   3
+#define STATE64_WORDS       10
+#define STACK64_ENTRY_WORDS 6
 
 /* Counters, 32-bit each, then two lists of slots. */
 #define COUNTER_PENDING       0
@@ -110,6 +111,7 @@
 #define CONSTANT_ALTERNATIVE_OFFSET   4
 #define CONSTANT_ALTERNATIVE_DISTANCE 5
 #define CONSTANT_ALTERNATIVE_CUT      6
-#define CONSTANT_COUNT                8
+#define CONSTANT_ALTERNATIVE_START    8 /* a whole number */
+#define CONSTANT_COUNT                9
 
 #endif

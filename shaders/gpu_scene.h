@@ -49,6 +49,7 @@
 #define TRIANGLE_SECOND_HALF 0x08000000u /* and its second: corner, corner + u + v, corner + v */
 #define TRIANGLE_CHECKER     0x10000000u
 #define TRIANGLE_TURNED      0x20000000u /* v1 and v2 are exchanged against the file's order */
+#define TRIANGLE_CORNER_SHIFT 30         /* the corner, 0..2, whose edges tell the normal best */
 #define TRIANGLE_MATERIAL    0x00ffffffu
 
 /* Normals of smooth triangles: 3 records each, in object order of v0 v1 v2 as stored in the leaf, from

@@ -10,10 +10,13 @@
 #include "math.glsl"
 #include "camera.glsl"
 #include "tree.glsl"
+#include "wide.glsl"
 #include "triangles.glsl"
+#include "exact.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
+#include "trace_all.glsl"
 #include "lights.glsl"
 #include "bounce.glsl"
 #include "bits.glsl"
@@ -22,7 +25,8 @@
 layout(local_size_x = TILE_PIXELS) in;
 
 struct hits_ray {
-    REAL3 origin, direction;
+    ray_start start;
+    REAL3 direction;
     REAL end;
     bool any;
     bool sent;
@@ -33,19 +37,19 @@ hit_record load_hit(uint at) {
     return hit_record(number_of(a.xy), number_of(a.zw), number_of(b.xy), b.z, b.w);
 }
 
-hits_ray mirrored_ray(surface s, REAL3 direction) {
-    return hits_ray(ray_offset(s.point, s.error, s.geometric), reflected(direction, s), FAR_AWAY, false,
+hits_ray mirrored_ray(surface s, hit_record hit, REAL3 direction) {
+    return hits_ray(leave(s, hit, s.geometric), reflected(direction, s), FAR_AWAY, false,
                     scatter(direction, s).reflection > 0.0);
 }
 
-hits_ray refracted_ray(surface s, REAL3 direction) {
+hits_ray refracted_ray(surface s, hit_record hit, REAL3 direction) {
     scatter_rays rays = scatter(direction, s);
-    return hits_ray(ray_offset(s.point, s.error, -s.geometric), rays.bent, FAR_AWAY, false, rays.refraction > 0.0);
+    return hits_ray(leave(s, hit, -s.geometric), rays.bent, FAR_AWAY, false, rays.refraction > 0.0);
 }
 
-hits_ray shadow_ray(surface s, REAL3 direction, uint light) {
-    REAL3 start = ray_offset(s.point, s.error, s.geometric);
-    light_ray shadow = light_at(light, s, start, direction);
+hits_ray shadow_ray(surface s, hit_record hit, REAL3 direction, uint light) {
+    ray_start start = leave(s, hit, s.geometric);
+    light_ray shadow = light_at(light, s, start.at, direction);
     return hits_ray(start, shadow.direction, shadow.t_max, true, shadow.value != vec3(0.0));
 }
 
@@ -78,7 +82,7 @@ void main() {
     uint kind = dispatch.resume + OPAQUE_ZERO, at = slot * HITS_WORDS;
     bool first = kind == HITS_FIRST;
     REAL3 direction = camera_direction(pixel);
-    hits_ray ray = hits_ray(CAMERA(position), direction, FAR_AWAY, false, true);
+    hits_ray ray = hits_ray(exact_start(CAMERA(position)), direction, FAR_AWAY, false, true);
     surface s;
     if (!first) {
         hit_record before = load_hit(at);
@@ -86,29 +90,25 @@ void main() {
             return;
         make_surface(before, CAMERA(position), direction, s);
         if (kind == HITS_MIRRORED)
-            ray = mirrored_ray(s, direction);
+            ray = mirrored_ray(s, before, direction);
         else if (kind == HITS_REFRACTED)
-            ray = refracted_ray(s, direction);
+            ray = refracted_ray(s, before, direction);
         else
-            ray = shadow_ray(s, direction, kind - HITS_LIGHTS);
+            ray = shadow_ray(s, before, direction, kind - HITS_LIGHTS);
         if (!ray.sent)
             return;
     }
     hit_record hit = hit_record(ray.end, 0.0, 0.0, NO_ITEM, 0u);
     uint iterations = 0u;
     // Without shadows the tracer sends no shadow ray, and the light always counts.
-    if (kind < HITS_LIGHTS || (HAS_SHADOWS && wants(FEATURE_SHADOWS))) {
-        if (HAS_SPHERES)
-            trace_spheres(ray.origin, ray.direction, ray.any, hit, iterations);
-        if (HAS_TRIANGLES && !(ray.any && hit.item != NO_ITEM))
-            trace_triangles(ray.origin, ray.direction, ray.any, hit, iterations);
-    }
+    if (kind < HITS_LIGHTS || (HAS_SHADOWS && wants(FEATURE_SHADOWS)))
+        trace_all(ray.start, ray.direction, ray.any, hit, iterations);
     bool ended = iterations < ITERATION_LIMIT;
     if (!first) {
         write_later(at, kind, hit, ended);
         return;
     }
     if (hit.item != NO_ITEM)
-        make_surface(hit, ray.origin, direction, s);
+        make_surface(hit, ray.start.at, direction, s);
     write_first(at, hit, s, ended);
 }

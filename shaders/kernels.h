@@ -10,6 +10,10 @@
 KERNEL(trace)
 KERNEL(hits) // what every pixel's first ray hits
 KERNEL(log)  // what single rays hit, in full
+// In single precision, on devices without doubles.
+KERNEL(trace_pairs)
+KERNEL(hits_pairs)
+KERNEL(log_pairs)
 // In double precision.
 KERNEL(trace64)
 KERNEL(hits64)

@@ -8,10 +8,13 @@
 #include "math.glsl"
 #include "camera.glsl"
 #include "tree.glsl"
+#include "wide.glsl"
 #include "triangles.glsl"
+#include "exact.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
+#include "trace_all.glsl"
 #include "lights.glsl"
 #include "background.glsl"
 #include "bounce.glsl"
@@ -21,21 +24,24 @@
 layout(local_size_x = TILE_PIXELS) in;
 
 struct log_ray {
-    REAL3 origin, direction;
+    ray_start start;
+    REAL3 direction;
 };
 
 log_ray load_ray(uint at) {
-    uvec4 a = states[at], b = states[at + 1u], c = states[at + 2u], d = states[at + 3u];
-    return log_ray(REAL3(number_of(a.xy), number_of(a.zw), number_of(b.xy)),
-                   REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)));
+    uvec4 a = states[at], b = states[at + 1u], c = states[at + 2u], d = states[at + 3u], e = states[at + 4u];
+    ray_start start = ray_start(REAL3(number_of(a.xy), number_of(a.zw), number_of(b.xy)), number_of(d.zw), b.w,
+                                number_of(e.xy), number_of(e.zw));
+    return log_ray(start, REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)));
 }
 
 void write_camera_ray() {
     REAL3 o = CAMERA(position), d = camera_direction(uvec2(dispatch.read_list, dispatch.pending_base));
     states[0] = uvec4(bits_of(o.x), bits_of(o.y));
-    states[1] = uvec4(bits_of(o.z), 0u, 0u);
+    states[1] = uvec4(bits_of(o.z), 0u, NO_ITEM);
     states[2] = uvec4(bits_of(d.x), bits_of(d.y));
     states[3] = uvec4(bits_of(d.z), 0u, 0u);
+    states[4] = uvec4(0u);
 }
 
 hit_record load_hit(uint at) {
@@ -58,6 +64,12 @@ uint material_of(hit_record hit) {
     return shade & TRIANGLE_MATERIAL;
 }
 
+void write_ray(uint at, ray_start start, REAL3 direction) {
+    write3(at, start.at, uvec2(0u, start.left));
+    write3(at + 2u, direction, bits_of(start.slack));
+    pixels[at + 4u] = uvec4(bits_of(start.b1), bits_of(start.b2));
+}
+
 void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     scatter_rays rays = scatter(ray.direction, s);
     uint flags = (s.enters ? LOG_ENTERS : 0u) | (rays.total ? LOG_TOTAL : 0u);
@@ -66,18 +78,13 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     write3(at + 4u, s.point, uvec2(floatBitsToUint(rays.reflection), floatBitsToUint(rays.refraction)));
     write3(at + 6u, s.geometric, uvec2(0u));
     write3(at + 8u, s.shading, uvec2(0u));
-    write3(at + 10u, ray_offset(s.point, s.error, s.geometric), uvec2(0u));
-    write3(at + 12u, reflected(ray.direction, s), uvec2(0u));
-    write3(at + 14u, ray_offset(s.point, s.error, -s.geometric), uvec2(0u));
-    write3(at + 16u, rays.bent, uvec2(0u));
+    write_ray(at + 10u, leave(s, hit, s.geometric), reflected(ray.direction, s));
+    write_ray(at + 15u, leave(s, hit, -s.geometric), rays.bent);
 }
 
-bool trace(REAL3 origin, REAL3 direction, bool any, inout hit_record hit) {
+bool trace(ray_start start, REAL3 direction, bool any, inout hit_record hit) {
     uint iterations = 0u;
-    if (HAS_SPHERES)
-        trace_spheres(origin, direction, any, hit, iterations);
-    if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM))
-        trace_triangles(origin, direction, any, hit, iterations);
+    trace_all(start, direction, any, hit, iterations);
     return iterations < ITERATION_LIMIT;
 }
 
@@ -93,21 +100,21 @@ void main() {
     hit_record hit = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     surface s;
     light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY);
-    REAL3 origin = ray.origin;
+    ray_start start = ray.start;
     if (lights) {
         hit_record before = load_hit(at);
         if (before.item == NO_ITEM)
             return;
-        make_surface(before, ray.origin, ray.direction, s);
-        origin = ray_offset(s.point, s.error, s.geometric);
-        shadow = light_at(kind - LOG_LIGHTS, s, origin, ray.direction);
+        make_surface(before, ray.start.at, ray.direction, s);
+        start = leave(s, before, s.geometric);
+        shadow = light_at(kind - LOG_LIGHTS, s, start.at, ray.direction);
         hit.t = shadow.t_max;
         if (shadow.value == vec3(0.0))
             return;
     }
     bool ended = true, blind = states[index * LOG_RAY_WORDS + 1u].z == LOG_BLIND;
     if (lights ? (HAS_SHADOWS && wants(FEATURE_SHADOWS)) : !blind)
-        ended = trace(origin, shadow.direction, lights, hit);
+        ended = trace(start, shadow.direction, lights, hit);
     bool nothing = hit.item == NO_ITEM;
     if (lights) {
         uvec4 found = pixels[at + 2u], sum = pixels[at + 3u];
@@ -123,7 +130,7 @@ void main() {
     if (nothing) {
         pixels[at + 3u] = uvec4(floatBitsToUint(background(vec3(ray.direction))), LOG_NOTHING);
     } else {
-        make_surface(hit, ray.origin, ray.direction, s);
+        make_surface(hit, ray.start.at, ray.direction, s);
         write_surface(at, ray, hit, s);
     }
 }

@@ -3,8 +3,9 @@
 #ifndef GLINT_SHADERS_LOG_H
 #define GLINT_SHADERS_LOG_H
 
-/* STATE, a ray: its origin, LOG_BLIND or 0, one spare; its direction, unit, two spare. */
-#define LOG_RAY_WORDS 4
+/* STATE, a ray: its origin, LOG_BLIND or 0, item of the triangle that it leaves; its direction, unit, bound of
+   the origin's error; b1, b2 of the place on that triangle (ray_start). */
+#define LOG_RAY_WORDS 5
 #define LOG_BLIND     1u /* it is not traced, and sees the background */
 
 /* OUTPUT, a ray:
@@ -14,9 +15,9 @@
    3: sum over the lights, or the background, as bits of floats; material
    4: point; weights of the mirrored and of the refracted ray as bits of floats
    6: geometric normal   8: shading normal
-   10: origin of the mirrored ray    12: its direction
-   14: origin of the refracted ray   16: its direction */
-#define LOG_WORDS   18
+   10: the mirrored ray as in STATE
+   15: the refracted ray */
+#define LOG_WORDS   20
 #define LOG_NOTHING 0xffffffffu
 #define LOG_ENTERS  1u
 #define LOG_TOTAL   2u /* the ray would be refracted, and is turned back */

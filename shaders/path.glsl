@@ -5,7 +5,8 @@ const uint RAY_REFLECTED = 1u;
 const uint RAY_REFRACTED = 2u;
 
 struct path_state {
-    REAL3 origin, direction;
+    ray_start start;
+    REAL3 direction;
     float throughput; // share of what the ray sees that the sample gets
     uint depth; // max_depth + 1: only sees the background
     uint kind;
@@ -19,7 +20,7 @@ struct path_state {
 
 path_state begin_path(REAL3 direction) {
     path_state p;
-    p.origin = CAMERA(position);
+    p.start = exact_start(CAMERA(position));
     p.direction = direction;
     p.throughput = 1.0;
     p.depth = 0u;

@@ -21,20 +21,22 @@ dvec3 get_real3(uint slot, uint word, out uvec2 more) {
 }
 
 void put_path(uint slot, path_state p) {
-    put_real3(slot, 0u, p.origin, uvec2(floatBitsToUint(p.throughput), p.depth));
+    put_real3(slot, 0u, p.start.at, uvec2(floatBitsToUint(p.throughput), p.depth));
     put_real3(slot, 2u, p.direction, uvec2(p.stack_size, p.kind));
     states[state_word(slot, 4u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
     states[state_word(slot, 5u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
     put_real3(slot, 6u, dvec3(p.hit.t, p.hit.b1, p.hit.b2), uvec2(p.hit.item, p.hit.number));
+    put_real3(slot, 8u, dvec3(p.start.slack, p.start.b1, p.start.b2), uvec2(p.start.left, 0u));
 }
 
 path_state load_path(uint slot) {
     path_state p;
-    uvec2 a, b, c;
-    p.origin = get_real3(slot, 0u, a);
+    uvec2 a, b, c, d;
+    dvec3 at = get_real3(slot, 0u, a);
     p.direction = get_real3(slot, 2u, b);
     uvec4 w4 = states[state_word(slot, 4u)], w5 = states[state_word(slot, 5u)];
-    dvec3 hit = get_real3(slot, 6u, c);
+    dvec3 hit = get_real3(slot, 6u, c), left = get_real3(slot, 8u, d);
+    p.start = ray_start(at, left.x, d.x, left.y, left.z);
     p.throughput = uintBitsToFloat(a.x);
     p.depth = a.y;
     p.stack_size = b.x;
@@ -47,15 +49,18 @@ path_state load_path(uint slot) {
     return p;
 }
 
-void put_branch(uint slot, uint word, dvec3 origin, dvec3 direction, float throughput, uint depth) {
-    put_real3(slot, word, origin, uvec2(floatBitsToUint(throughput), depth));
+void put_branch(uint slot, uint word, ray_start start, dvec3 direction, float throughput, uint depth) {
+    put_real3(slot, word, start.at, uvec2(floatBitsToUint(throughput), depth));
     put_real3(slot, word + 2u, direction, uvec2(0u));
+    put_real3(slot, word + 4u, dvec3(start.slack, start.b1, start.b2), uvec2(start.left, 0u));
 }
 
 void get_branch(uint slot, uint word, inout path_state p) {
-    uvec2 more, none;
-    p.origin = get_real3(slot, word, more);
+    uvec2 more, none, left;
+    dvec3 at = get_real3(slot, word, more);
     p.direction = get_real3(slot, word + 2u, none);
+    dvec3 place = get_real3(slot, word + 4u, left);
+    p.start = ray_start(at, place.x, left.x, place.y, place.z);
     p.throughput = uintBitsToFloat(more.x);
     p.depth = more.y;
 }
@@ -63,13 +68,22 @@ void get_branch(uint slot, uint word, inout path_state p) {
 const uint PATH_WORDS = STATE_WORDS;
 const uint BRANCH_WORDS = STACK_ENTRY_WORDS;
 
+uvec4 left_word(ray_start start) {
+    return uvec4(floatBitsToUint(vec3(start.slack, start.b1, start.b2)), start.left);
+}
+ray_start start_of(uvec4 at, uvec4 left) {
+    vec3 place = uintBitsToFloat(left.xyz);
+    return ray_start(uintBitsToFloat(at.xyz), place.x, left.w, place.y, place.z);
+}
+
 void put_path(uint slot, path_state p) {
-    states[state_word(slot, 0u)] = uvec4(floatBitsToUint(p.origin), floatBitsToUint(p.throughput));
+    states[state_word(slot, 0u)] = uvec4(floatBitsToUint(p.start.at), floatBitsToUint(p.throughput));
     states[state_word(slot, 1u)] = uvec4(floatBitsToUint(p.direction), p.depth);
     states[state_word(slot, 2u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
     states[state_word(slot, 3u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
     states[state_word(slot, 4u)] = uvec4(floatBitsToUint(vec3(p.hit.t, p.hit.b1, p.hit.b2)), p.hit.item);
     states[state_word(slot, 5u)] = uvec4(p.hit.number, p.stack_size, p.kind, 0u);
+    states[state_word(slot, 6u)] = left_word(p.start);
 }
 
 path_state load_path(uint slot) {
@@ -77,7 +91,7 @@ path_state load_path(uint slot) {
     uvec4 w0 = states[state_word(slot, 0u)], w1 = states[state_word(slot, 1u)];
     uvec4 w2 = states[state_word(slot, 2u)], w3 = states[state_word(slot, 3u)];
     uvec4 w4 = states[state_word(slot, 4u)], w5 = states[state_word(slot, 5u)];
-    p.origin = uintBitsToFloat(w0.xyz);
+    p.start = start_of(w0, states[state_word(slot, 6u)]);
     p.throughput = uintBitsToFloat(w0.w);
     p.direction = uintBitsToFloat(w1.xyz);
     p.depth = w1.w;
@@ -91,14 +105,15 @@ path_state load_path(uint slot) {
     return p;
 }
 
-void put_branch(uint slot, uint word, vec3 origin, vec3 direction, float throughput, uint depth) {
-    states[state_word(slot, word)] = uvec4(floatBitsToUint(origin), floatBitsToUint(throughput));
+void put_branch(uint slot, uint word, ray_start start, vec3 direction, float throughput, uint depth) {
+    states[state_word(slot, word)] = uvec4(floatBitsToUint(start.at), floatBitsToUint(throughput));
     states[state_word(slot, word + 1u)] = uvec4(floatBitsToUint(direction), depth);
+    states[state_word(slot, word + 2u)] = left_word(start);
 }
 
 void get_branch(uint slot, uint word, inout path_state p) {
     uvec4 a = states[state_word(slot, word)], b = states[state_word(slot, word + 1u)];
-    p.origin = uintBitsToFloat(a.xyz);
+    p.start = start_of(a, states[state_word(slot, word + 2u)]);
     p.throughput = uintBitsToFloat(a.w);
     p.direction = uintBitsToFloat(b.xyz);
     p.depth = b.w;
@@ -114,8 +129,8 @@ void save_path(uint slot, path_state p) {
     counters[COUNTER_COUNT + (1u - dispatch.read_list) * slots + place] = slot;
 }
 
-void push_branch(uint slot, inout path_state p, REAL3 origin, REAL3 direction, float throughput, uint depth) {
-    put_branch(slot, PATH_WORDS + BRANCH_WORDS * p.stack_size, origin, direction, throughput, depth);
+void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction, float throughput, uint depth) {
+    put_branch(slot, PATH_WORDS + BRANCH_WORDS * p.stack_size, start, direction, throughput, depth);
     p.stack_size++;
 }
 

@@ -13,3 +13,17 @@ REAL3 ray_offset(REAL3 point, REAL3 error, REAL3 side) {
     REAL3 moved = point + shift;
     return REAL3(next_real(moved.x, shift.x), next_real(moved.y, shift.y), next_real(moved.z, shift.z));
 }
+
+// The start of a ray that leaves the surface of a hit on the side of `side`. A ray that leaves a sphere starts exactly
+// where it is moved to; one that leaves a triangle on it, and is moved only for the first tests.
+ray_start leave(surface s, hit_record hit, REAL3 side) {
+    REAL3 at = ray_offset(s.point, s.error, side);
+#ifdef ALTERNATIVES
+    if (alternative_moves())
+        return exact_start(at);
+#endif
+    if (!HAS_TRIANGLES || (HAS_SPHERES && (hit.item & ITEM_SPHERE) != 0u))
+        return exact_start(at);
+    // The error, the move of at most sqrt(3) times as much, and the rounding of both.
+    return ray_start(at, 4.25 * largest3(s.error), hit.item, hit.b1, hit.b2);
+}

@@ -42,20 +42,20 @@ void read_material(uint shade, uint body, REAL2 along, inout surface s) {
     s.refraction = material.weight_refraction;
 }
 
-// Unit; the edges are divided by a power of two first, so that the product of small ones does not vanish.
-// Flattening leaves out triangles for which this is not finite.
-REAL3 triangle_normal(REAL3 u, REAL3 v) {
-    REAL scale = inverse_power(max(largest3(abs(u)), largest3(abs(v))));
-    return unit3(cross3(u * scale, v * scale));
-}
-
 void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
     triangle_record triangle = load_triangle(hit.item);
-    REAL b0 = 1.0 - hit.b1 - hit.b2;
+    REAL b0 = max(1.0 - hit.b1 - hit.b2, 0.0);
     REAL3 q0 = triangle.v0 * b0, q1 = triangle.v1 * hit.b1, q2 = triangle.v2 * hit.b2;
     s.point = q0 + q1 + q2;
     s.error = (abs(q0) + abs(q1) + abs(q2)) * GAMMA_7;
-    REAL3 outward = triangle_normal(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
+#ifndef DOUBLE_PRECISION
+    // A triangle that reaches much farther than its point is from the camera.
+    bool is_coarse = largest3(s.error) > 1.5 * GAMMA_7 * largest3(abs(s.point));
+    vec3 spread = abs(q0) + abs(q1) + abs(q2);
+    s.point = is_coarse ? narrow3(exact_point(triangle, hit.b1, hit.b2)) : s.point;
+    s.error = is_coarse ? abs(s.point) * GAMMA_2 + spread * WIDE_STEP : s.error;
+#endif
+    REAL3 outward = triangle_normal(triangle);
     s.enters = dot3(outward, direction) <= 0.0;
     s.geometric = s.enters ? outward : -outward;
     s.shading = s.geometric;

@@ -3,7 +3,8 @@
 // One loop, a ray an iteration: the path's own ray, or a shadow ray of the last hit. lavapipe runs 8
 // invocations as a vector in which an `if` never skips and only the end of a loop does: so lanes whose
 // chain of reflections has ended wait after the inner loop, where the background is looked up once for
-// all, and then take up the refracted rays that wait on the stack.
+// all, and then take up the refracted rays that wait on the stack. There too rays are traced once more that
+// rounding leaves undecided.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -12,7 +13,9 @@
 #include "math.glsl"
 #include "camera.glsl"
 #include "tree.glsl"
+#include "wide.glsl"
 #include "triangles.glsl"
+#include "exact.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
@@ -36,6 +39,7 @@ const uint MISSED = 1u;    // the chain ends at the background
 const uint ENDED = 2u;     // the chain ends at a surface
 const uint SUSPENDED = 3u; // to be saved
 const uint STOPPED = 4u;   // a fault
+const uint UNDECIDED = 5u; // the ray is to be traced once more, exactly
 
 void count(uint counter, bool yes) {
     if (HAS_COUNTERS && yes)
@@ -80,16 +84,17 @@ bool is_followed(path_state p, float throughput) {
 }
 
 // Sends the rays that leave the surface: the path goes on with one, the other waits. false: none.
-bool send_rays(uint slot, inout path_state p, surface s, REAL3 start) {
+bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_start start_through) {
     scatter_rays rays = scatter(p.direction, s);
     count(COUNTER_TOTAL_REFLECT, HAS_REFRACTION && rays.total);
     float throughput = p.throughput;
     bool through = HAS_REFRACTION && is_followed(p, throughput * rays.refraction);
-    REAL3 start_through = ray_offset(s.point, s.error, -s.geometric);
     bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, throughput * rays.reflection);
     if (HAS_BRANCHES && back && through)
         push_branch(slot, p, start_through, rays.bent, throughput * rays.refraction, p.depth + 1u);
-    p.origin = back ? start : start_through;
+    p.start = start;
+    if (!back)
+        p.start = start_through;
     p.direction = back ? reflected(p.direction, s) : rays.bent;
     p.throughput = throughput * (back ? rays.reflection : rays.refraction);
     p.kind = back ? RAY_REFLECTED : RAY_REFRACTED;
@@ -120,12 +125,12 @@ uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint
 }
 
 // From light `p.light` on, the next one that would add something; adds those that need no shadow ray.
-bool find_light(inout path_state p, surface s, REAL3 start, inout light_ray shadow, inout uint iterations) {
+bool find_light(inout path_state p, surface s, ray_start start, inout light_ray shadow, inout uint iterations) {
     uint count = frame.light_count + OPAQUE_ZERO;
     bool found = false;
     while (p.light < count && !found && iterations < ITERATION_LIMIT) {
         iterations++;
-        shadow = light_at(p.light, s, start, p.direction);
+        shadow = light_at(p.light, s, start.at, p.direction);
         found = HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
         if (!(HAS_SHADOWS && wants(FEATURE_SHADOWS)))
             p.light_sum += shadow.value;
@@ -150,10 +155,11 @@ void take_light(inout path_state p, hit_record hit, light_ray shadow) {
 }
 
 // All lights of a surface are in: on with the rays that it sends.
-uint leave_surface(uint slot, inout path_state p, surface s, REAL3 start) {
+uint leave_surface(uint slot, inout path_state p, surface s, ray_start start) {
+    ray_start start_through = leave(s, p.hit, -s.geometric);
     p.radiance += p.light_sum * p.throughput;
     p.hit.item = NO_ITEM;
-    return send_rays(slot, p, s, start) ? GOES_ON : ENDED;
+    return send_rays(slot, p, s, start, start_through) ? GOES_ON : ENDED;
 }
 
 // Follows a path until it ends, or until its slice does.
@@ -162,24 +168,42 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
     bool fresh = true; // no ray was finished in this slice
     surface s;
-    REAL3 start = REAL3(0.0);
-    light_ray shadow = light_ray(vec3(0.0), start, 0.0);
-    while (state == GOES_ON) {
-        while (state == GOES_ON) {
+    ray_start start = exact_start(REAL3(0.0)); // of shadow rays
+    light_ray shadow = light_ray(vec3(0.0), start.at, 0.0);
+    hit_record held = p.hit; // UNDECIDED: the spheres' hit; `decided`: the ray's
+    bool decided = false;
+    do {
+        do {
             iterations += SEGMENT_ITERATIONS;
             bool own = phase == PHASE_RAY;
-            bool traced = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
+            bool wanted = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
+            bool traced = wanted && !decided;
             if (HAS_SLICES && traced && !fresh && iterations > frame.slice_iterations) {
                 state = SUSPENDED;
                 break;
             }
             hit_record hit = hit_record(!traced ? REAL(-1.0) : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
-            REAL3 origin = own ? p.origin : start, direction = own ? p.direction : shadow.direction;
+            ray_start from = start;
+            if (own)
+                from = p.start;
+            REAL3 direction = own ? p.direction : shadow.direction;
             if (HAS_SPHERES)
-                trace_spheres(origin, direction, !own, hit, iterations);
-            if (HAS_TRIANGLES && !(!own && hit.item != NO_ITEM))
-                trace_triangles(origin, direction, !own, hit, iterations);
-            if (traced) {
+                trace_spheres(from.at, direction, !own, hit, iterations);
+            if (HAS_TRIANGLES) {
+                hit_record sphere = hit;
+                bool open = false;
+                if (!(!own && hit.item != NO_ITEM))
+                    open = trace_triangles(from, direction, !own, hit, iterations);
+                if (traced && open && iterations < ITERATION_LIMIT) {
+                    held = sphere;
+                    state = UNDECIDED;
+                    break;
+                }
+                if (decided)
+                    hit = held;
+                decided = false;
+            }
+            if (wanted) {
                 state = after_ray(p, iterations, fresh, fault);
                 if (state != GOES_ON)
                     break;
@@ -190,9 +214,9 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             if (phase == PHASE_SHADOW)
                 take_light(p, hit, shadow);
             if (state == GOES_ON && phase != PHASE_SHADOW) {
-                make_surface(p.hit, p.origin, p.direction, s);
+                make_surface(p.hit, p.start.at, p.direction, s);
                 taint(p, true, s.point + s.shading, 0.0);
-                start = ray_offset(s.point, s.error, s.geometric);
+                start = leave(s, p.hit, s.geometric);
             }
             if (state == GOES_ON) {
                 phase = PHASE_SHADOW;
@@ -205,6 +229,15 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     state = leave_surface(slot, p, s, start);
                 }
             }
+        } while (state == GOES_ON);
+        if (HAS_TRIANGLES && state == UNDECIDED) {
+            ray_start from = start;
+            if (phase == PHASE_RAY)
+                from = p.start;
+            retrace_triangles(from, phase == PHASE_RAY ? p.direction : shadow.direction, phase != PHASE_RAY, held,
+                              iterations);
+            decided = true;
+            state = GOES_ON;
         }
         if (state == MISSED)
             p.radiance += background(vec3(p.direction)) * p.throughput;
@@ -213,7 +246,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             state = GOES_ON;
             phase = PHASE_RAY;
         }
-    }
+    } while (state == GOES_ON);
     return state;
 }
 

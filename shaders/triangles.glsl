@@ -2,6 +2,8 @@
 //
 // Test: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection". Bound of t: Pharr, Jakob,
 // Humphreys 2023, section 6.8.7. Equal t goes to the lower number, so that the tree never shows.
+// What that bound leaves open is only noted here: whether a hit lies before the ray's start or behind it, and
+// which of two hits is nearer. Such a ray is traced once more (exact.glsl).
 
 struct hit_record {
     REAL t;      // the ray's end before, where nothing was hit
@@ -12,6 +14,16 @@ struct hit_record {
 };
 const uint NO_ITEM = 0xffffffffu;
 const uint ITEM_SPHERE = 0x80000000u;
+
+// Where a ray starts.
+struct ray_start {
+    REAL3 at;    // rounded: what trees and the first tests begin at
+    REAL slack;  // bound of its error, by component
+    uint left;   // triangle that the ray leaves, which it cannot hit; NO_ITEM: none, and `at` is exact
+    REAL b1, b2; // the exact place on that triangle
+};
+
+ray_start exact_start(REAL3 at) { return ray_start(at, 0.0, NO_ITEM, 0.0, 0.0); }
 
 struct shear_ray {
     REAL3 origin;
@@ -56,8 +68,17 @@ bool test_moeller(triangle_record triangle, shear_ray ray, inout float v, inout 
 }
 #endif
 
-void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
+struct triangle_search {
+    shear_ray ray;
+    REAL slack; // as in ray_start
+    uint left;
+    REAL wrong; // bound of the error of the nearest hit's t
+    REAL doubt; // least t that rounding leaves open
+};
+
+void test_triangle(uint item, inout triangle_search search, inout hit_record hit) {
     triangle_record triangle = load_triangle(item);
+    shear_ray ray = search.ray;
     REAL3 a = turn(triangle.v0 - ray.origin, ray.along_x, ray.along_z);
     REAL3 b = turn(triangle.v1 - ray.origin, ray.along_x, ray.along_z);
     REAL3 c = turn(triangle.v2 - ray.origin, ray.along_x, ray.along_z);
@@ -68,43 +89,57 @@ void test_triangle(uint item, shear_ray ray, inout hit_record hit) {
     REAL v = ax * cy - ay * cx;
     REAL w = bx * ay - by * ax;
     REAL det = u + v + w;
-    bool inside = max(max(u, v), w) <= 0.0 || min(min(u, v), w) >= 0.0;
+    REAL highest = max(max(u, v), w), lowest = min(min(u, v), w);
+    bool inside = (highest <= 0.0 || lowest >= 0.0) && det != 0.0;
     REAL inverse = 1.0 / det;
     REAL t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
     REAL x_most = max(max(abs(ax), abs(bx)), abs(cx));
     REAL y_most = max(max(abs(ay), abs(by)), abs(cy));
     REAL z_most = max(max(abs(a.z), abs(b.z)), abs(c.z));
-    REAL delta_x = GAMMA_5 * (x_most + z_most);
-    REAL delta_y = GAMMA_5 * (y_most + z_most);
+    REAL delta_x = GAMMA_5 * (x_most + z_most) + 2.0 * search.slack;
+    REAL delta_y = GAMMA_5 * (y_most + z_most) + 2.0 * search.slack;
     REAL delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
-    // t is a mean of the vertices' z: an error of its weights moves it by their spread at most, not by their
-    // size. With the size, small triangles far away would all be refused; without the limit of 1, triangles
-    // seen edge-on.
-    REAL spread = max(max(a.z, b.z), c.z) - min(min(a.z, b.z), c.z);
-    REAL wrong = min(3.0 * delta_e * abs(inverse), 1.0);
-    REAL delta_t = (6.0 * GAMMA_3 * z_most + spread * wrong) * abs(ray.sz);
+    // t is a mean of the vertices' z: an error of its weights moves it by their spread at most. Seen edge-on, it
+    // may be anywhere among them.
+    REAL z_low = min(min(a.z, b.z), c.z) * ray.sz, z_high = max(max(a.z, b.z), c.z) * ray.sz;
+    REAL first = min(z_low, z_high), last = max(z_low, z_high);
+    bool edge_on = !(abs(det) > 3.0 * delta_e);
+    t = edge_on ? clamp(t, first, last) : t;
+    REAL delta_z = (6.0 * GAMMA_3 * z_most + search.slack) * abs(ray.sz);
+    REAL delta_t = delta_z + (edge_on ? last - first : (last - first) * (3.0 * delta_e * abs(inverse)));
+    bool starts_before = (edge_on ? first - delta_z : t - delta_t) > 0.0;
+    bool starts_behind = (edge_on ? last + delta_z : t + delta_t) < 0.0;
+    uint number = triangle.number + frame.sphere_count;
 #ifdef ALTERNATIVES
     if (alternative_cuts()) {
-        inside = test_moeller(triangle, ray, v, w, det, t);
+        inside = test_moeller(triangle, ray, v, w, det, t) && det != 0.0;
         inverse = 1.0 / det;
     }
-    delta_t = alternative_moves() ? 0.0 : delta_t;
+    starts_before = t > (alternative_moves() || ALTERNATIVE_START != 0u ? 0.0 : delta_t);
+#else
+    bool possible = highest <= delta_e || lowest >= -delta_e;
+    bool start_open = possible && !starts_before && !starts_behind && item != search.left;
+    bool order_open = inside && starts_before && abs(t - hit.t) <= delta_t + search.wrong;
+    REAL open = start_open ? 0.0 : order_open ? min(t, hit.t) : FAR_AWAY;
+    search.doubt = min(search.doubt, open);
 #endif
-    uint number = triangle.number + frame.sphere_count;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
-    if (inside && det != 0.0 && t > delta_t && nearer) {
+    if (inside && starts_before && nearer) {
         hit.t = t;
         hit.b1 = v * inverse;
         hit.b2 = w * inverse;
         hit.item = item;
         hit.number = number;
+        search.wrong = delta_t;
     }
 }
 
-// `any`: the first hit found ends the search. Stops unfinished at ITERATION_LIMIT.
-void trace_triangles(REAL3 origin, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
-    tree_ray ray = make_tree_ray(origin, direction);
-    shear_ray shear = make_shear_ray(origin, direction);
+// `any`: the first hit found ends the search. Stops unfinished at ITERATION_LIMIT. true: rounding leaves open what
+// is hit; retrace_triangles decides.
+bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
+    tree_ray ray = make_tree_ray(start.at, direction);
+    triangle_search search =
+        triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY);
     STACK(TRIANGLE_STACK)
     uvec2 group = root_group();
     bool more = true;
@@ -113,7 +148,7 @@ void trace_triangles(REAL3 origin, REAL3 direction, bool any, inout hit_record h
         if (HAS_COUNTERS)
             counted_nodes++;
         node_record node = load_triangle_node(next_node(group, ray.flip));
-        uint hits = node_hits(node, ray, hit.t);
+        uint hits = node_hits(node, ray, hit.t + search.wrong);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
         uint items = hits & 0x00ffffffu;
@@ -125,11 +160,12 @@ void trace_triangles(REAL3 origin, REAL3 direction, bool any, inout hit_record h
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_triangle(item, shear, hit);
+            test_triangle(item, search, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;
             }
         }
     } while (more && iterations < ITERATION_LIMIT);
+    return search.doubt <= hit.t && search.doubt < FAR_AWAY && !(any && hit.item != NO_ITEM);
 }

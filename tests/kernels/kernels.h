@@ -11,6 +11,8 @@ KERNEL(probe)  // traces single rays
 // In double precision.
 KERNEL(layout64)
 KERNEL(probe64)
+// By other ways.
+KERNEL(probe_alternative)
 
 #undef KERNEL
 

@@ -2,7 +2,8 @@
 //
 // In STATE three words a ray: origin, end; direction, -; direction of the second ray, -. In OUTPUT two: t, number
 // of the closest hit (NO_ITEM in `item` where none), item, 1 where the search for any hit found one too; then t,
-// number, item of the second ray's closest hit, and whether it left on the side that the first one came from.
+// number, item of the second ray's closest hit, and two bits: whether it left on the side that the first one came
+// from, and whether the search for any hit found one too.
 // In double precision six words a ray: each vector in two, the end in the rest of the second one; and three of
 // output: t, number, item of one ray, then of the other; then the two answers.
 #version 460
@@ -12,20 +13,20 @@
 #include "records.glsl"
 #include "math.glsl"
 #include "tree.glsl"
+#include "wide.glsl"
 #include "triangles.glsl"
+#include "exact.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
+#include "trace_all.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;
 
-hit_record trace(REAL3 origin, REAL3 direction, REAL end, bool any) {
+hit_record trace(ray_start start, REAL3 direction, REAL end, bool any) {
     hit_record hit = hit_record(end, 0.0, 0.0, NO_ITEM, 0u);
     uint iterations = 0u;
-    if (HAS_SPHERES)
-        trace_spheres(origin, direction, any, hit, iterations);
-    if (HAS_TRIANGLES)
-        trace_triangles(origin, direction, any, hit, iterations);
+    trace_all(start, direction, any, hit, iterations);
     return hit;
 }
 
@@ -46,9 +47,9 @@ void write_first(uint index, hit_record hit, bool any) {
     pixels[3u * index] = uvec4(unpackDouble2x32(hit.t), hit.number, hit.item);
     pixels[3u * index + 2u] = uvec4(any ? 1u : 0u, 0u, 0u, 0u);
 }
-void write_second(uint index, hit_record hit, bool same_side) {
+void write_second(uint index, hit_record hit, uint answers) {
     pixels[3u * index + 1u] = uvec4(unpackDouble2x32(hit.t), hit.number, hit.item);
-    pixels[3u * index + 2u].y = same_side ? 1u : 0u;
+    pixels[3u * index + 2u].y = answers;
 }
 #else
 probe_ray read_ray(uint index) {
@@ -59,8 +60,8 @@ probe_ray read_ray(uint index) {
 void write_first(uint index, hit_record hit, bool any) {
     pixels[2u * index] = uvec4(floatBitsToUint(hit.t), hit.number, hit.item, any ? 1u : 0u);
 }
-void write_second(uint index, hit_record hit, bool same_side) {
-    pixels[2u * index + 1u] = uvec4(floatBitsToUint(hit.t), hit.number, hit.item, same_side ? 1u : 0u);
+void write_second(uint index, hit_record hit, uint answers) {
+    pixels[2u * index + 1u] = uvec4(floatBitsToUint(hit.t), hit.number, hit.item, answers);
 }
 #endif
 
@@ -69,14 +70,15 @@ void main() {
     if (index >= dispatch.tile_count)
         return;
     probe_ray ray = read_ray(index);
-    hit_record hit = trace(ray.origin, ray.direction, ray.end, false);
-    hit_record any = trace(ray.origin, ray.direction, ray.end, true);
+    hit_record hit = trace(exact_start(ray.origin), ray.direction, ray.end, false);
+    hit_record any = trace(exact_start(ray.origin), ray.direction, ray.end, true);
     write_first(index, hit, any.item != NO_ITEM);
     if (hit.item == NO_ITEM)
         return;
     surface s;
     make_surface(hit, ray.origin, ray.direction, s);
     bool same_side = dot3(ray.next, s.geometric) > 0.0;
-    REAL3 start = ray_offset(s.point, s.error, same_side ? s.geometric : -s.geometric);
-    write_second(index, trace(start, ray.next, FAR_AWAY, false), same_side);
+    ray_start start = leave(s, hit, same_side ? s.geometric : -s.geometric);
+    bool blocked = trace(start, ray.next, FAR_AWAY, true).item != NO_ITEM;
+    write_second(index, trace(start, ray.next, FAR_AWAY, false), (same_side ? 1u : 0u) | (blocked ? 2u : 0u));
 }

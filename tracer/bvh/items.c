@@ -2,10 +2,12 @@
 
 #include <math.h>
 
-// Units in the last place of 1, as powers of two.
+// How much wider boxes are than what they hold, as powers of two of its farthest coordinate: more than the
+// error of a ray's start (shaders/ray_offset.glsl, `leave`), 45 units of 2^-24 or 2^-53, so that a ray from
+// there still meets the box of a triangle that it starts on.
 enum {
-    SINGLE_ULP = -23,
-    DOUBLE_ULP = -52,
+    SINGLE_PAD = -18,
+    DOUBLE_PAD = -47,
 };
 
 static float float_below(double value) {
@@ -17,7 +19,7 @@ static struct bvh_item padded(vec3 lower, vec3 upper, bool is_double, uint32_t i
     struct bvh_item item = {.index = index};
     const double low[3] = {lower.x, lower.y, lower.z}, high[3] = {upper.x, upper.y, upper.z};
     double largest = fmax(vec3_max_abs(lower), vec3_max_abs(upper));
-    double pad = ldexp(largest, (is_double ? DOUBLE_ULP : SINGLE_ULP) + 1);
+    double pad = ldexp(largest, is_double ? DOUBLE_PAD : SINGLE_PAD);
     for (int axis = 0; axis < 3; axis++) {
         item.lower[axis] = float_below(low[axis] - pad);
         item.upper[axis] = -float_below(-(high[axis] + pad));

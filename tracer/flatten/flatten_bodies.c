@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #define COORDINATE_MAX 1e18
+#define CORNER_FACTOR  8.0
 
 enum {
     PIECE = 8192,
@@ -163,14 +164,31 @@ void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_it
     }
 }
 
+// The corner whose edges tell the normal best. The cross product of two edges is wrong by about a unit in the
+// last place over the sine of their angle: the first corner serves, unless another's edges are much shorter.
+static uint32_t best_corner(const vec3 corners[3]) {
+    double product[3];
+    uint32_t best = 0;
+    for (int k = 0; k < 3; k++) {
+        const vec3 u = vec3_sub(corners[(k + 1) % 3], corners[k]);
+        const vec3 v = vec3_sub(corners[(k + 2) % 3], corners[k]);
+        product[k] = vec3_length(u) * vec3_length(v);
+        if (product[k] < product[best])
+            best = (uint32_t)k;
+    }
+    return product[0] > CORNER_FACTOR * product[best] ? best : 0;
+}
+
 // Whether the tracer finds a normal: the cross product of the rounded vertices' edges as it takes it, in
 // single precision, the edges divided by a power of two first.
-static bool has_area(const vec3 corners[3]) {
+static bool has_area(const vec3 corners[3], uint32_t corner) {
     float edge[2][3];
     float largest = 0;
-    for (int i = 0; i < 2; i++) {
-        const float from[3] = {(float)corners[0].x, (float)corners[0].y, (float)corners[0].z};
-        const float to[3] = {(float)corners[i + 1].x, (float)corners[i + 1].y, (float)corners[i + 1].z};
+    const vec3 p = corners[corner];
+    for (uint32_t i = 0; i < 2; i++) {
+        const vec3 q = corners[(corner + i + 1) % 3];
+        const float from[3] = {(float)p.x, (float)p.y, (float)p.z};
+        const float to[3] = {(float)q.x, (float)q.y, (float)q.z};
         for (int k = 0; k < 3; k++) {
             edge[i][k] = to[k] - from[k];
             largest = fmaxf(largest, fabsf(edge[i][k]));
@@ -191,8 +209,9 @@ static bool has_area(const vec3 corners[3]) {
 }
 
 // The same in double precision.
-static bool has_area64(const vec3 corners[3]) {
-    vec3 u = vec3_sub(corners[1], corners[0]), v = vec3_sub(corners[2], corners[0]);
+static bool has_area64(const vec3 corners[3], uint32_t corner) {
+    const vec3 p = corners[corner];
+    vec3 u = vec3_sub(corners[(corner + 1) % 3], p), v = vec3_sub(corners[(corner + 2) % 3], p);
     double largest = fmax(vec3_max_abs(u), vec3_max_abs(v));
     if (largest < DBL_MIN)
         return false;
@@ -207,12 +226,17 @@ static void put_triangle(const struct flattening *f, const vec3 corners[3], uint
     vec3 flat[3];
     for (int k = 0; k < 3; k++)
         flat[k] = rounded3(f, vec3_mul(corners[k], f->factor));
-    struct gpu_triangle record = {
-        .v0 = flat[0], .v1 = flat[1], .v2 = flat[2], .number = number, .body = body, .shade = shade};
+    const uint32_t corner = best_corner(flat);
+    struct gpu_triangle record = {.v0 = flat[0],
+                                  .v1 = flat[1],
+                                  .v2 = flat[2],
+                                  .number = number,
+                                  .body = body,
+                                  .shade = shade | corner << TRIANGLE_CORNER_SHIFT};
     struct bvh_item *item = &f->items[number];
     gpu_pack_triangle(&record, is_double, f->records + (size_t)f->out->strides.triangle * number);
     *item = bvh_triangle_item(flat, is_double, number);
-    item->spare = !(is_double ? has_area64(flat) : has_area(flat));
+    item->spare = !(is_double ? has_area64(flat, corner) : has_area(flat, corner));
 }
 
 struct filling {

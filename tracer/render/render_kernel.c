@@ -20,6 +20,7 @@ struct kernel_pair {
         [RENDERER_LOG] = KERNEL(log##way)                                                                    \
     }
 static const struct kernel_pair exact_kernels[RENDERER_KERNELS] = KERNELS();
+static const struct kernel_pair pairs_kernels[RENDERER_KERNELS] = KERNELS(_pairs);
 static const struct kernel_pair double_kernels[RENDERER_KERNELS] = KERNELS(64);
 static const struct kernel_pair alternative_kernels[RENDERER_KERNELS] = KERNELS(_alternative);
 static const struct kernel_pair fused_kernels[RENDERER_KERNELS] = KERNELS(_fused);
@@ -47,7 +48,7 @@ static const struct kernel_pair *pair_of(const struct renderer *renderer, enum r
         return &double_kernels[kernel];
     switch (renderer->settings.alternative) {
     case RENDER_ALTERNATIVE_NONE:
-        return &exact_kernels[kernel];
+        return gpu_info(renderer->gpu)->has_double ? &exact_kernels[kernel] : &pairs_kernels[kernel];
     case RENDER_ALTERNATIVE_FUSED:
         return &fused_kernels[kernel];
     default:

@@ -43,20 +43,29 @@ static uint32_t levels(uint32_t depth) {
 }
 
 bool probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed) {
+    return probe_init_way(probe, gpu, flat, packed, PROBE_EXACT);
+}
+
+bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed,
+                    enum probe_way way) {
     const struct frame_block frame = {.sphere_count = flat->sphere_count};
     const uint32_t constants[CONSTANT_COUNT] = {
         [CONSTANT_FEATURES] = flat->features & (FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_SMOOTH),
         [CONSTANT_TRIANGLE_STACK] = levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = levels(flat->sphere_depth),
-        [CONSTANT_PACKED_GROUPS] = packed};
+        [CONSTANT_PACKED_GROUPS] = packed,
+        [CONSTANT_ALTERNATIVE_START] = way == PROBE_POSITIVE};
     const struct kernel *const kernels[2][2] = {{&kernel_probe_storage, &kernel_probe_texels},
                                                 {&kernel_probe64_storage, &kernel_probe64_texels}};
+    const struct kernel *const other[2] = {&kernel_probe_alternative_storage,
+                                           &kernel_probe_alternative_texels};
     const bool texels = gpu_fetches_texels(gpu);
     *probe = (struct probe){.gpu = gpu, .is_double = flat->is_double};
-    probe->source = (struct gpu_program_source){.kernel = kernels[flat->is_double][texels],
-                                                .constants = constants,
-                                                .constant_count = CONSTANT_COUNT,
-                                                .push_bytes = sizeof(struct dispatch_block)};
+    probe->source = (struct gpu_program_source){
+        .kernel = way == PROBE_EXACT ? kernels[flat->is_double][texels] : other[texels],
+        .constants = constants,
+        .constant_count = CONSTANT_COUNT,
+        .push_bytes = sizeof(struct dispatch_block)};
     const uint64_t bytes = (uint64_t)PROBE_RAYS * MOST_WORDS * sizeof(struct gpu_word);
     bool good = fill_scene(probe, flat) && fill(probe, BINDING_FRAME, GPU_UNIFORM, &frame, sizeof frame) &&
                 fill(probe, BINDING_STATE, GPU_STORAGE, NULL, bytes) &&
@@ -102,14 +111,16 @@ static struct probe_hit read_hit(const struct probe *probe, const struct gpu_wor
         struct probe_hit hit = {.first = {a.w != NO_ITEM, number_of(a.x, a.y, true), a.z}, .any = words[2].x};
         if (hit.first.found) {
             hit.second = (struct probe_met){b.w != NO_ITEM, number_of(b.x, b.y, true), b.z};
-            hit.same_side = words[2].y;
+            hit.same_side = words[2].y & 1;
+            hit.blocked = words[2].y & 2;
         }
         return hit;
     }
     struct probe_hit hit = {.first = {a.z != NO_ITEM, number_of(a.x, 0, false), a.y}, .any = a.w};
     if (hit.first.found) {
         hit.second = (struct probe_met){b.z != NO_ITEM, number_of(b.x, 0, false), b.y};
-        hit.same_side = b.w;
+        hit.same_side = b.w & 1;
+        hit.blocked = b.w & 2;
     }
     return hit;
 }

@@ -29,6 +29,7 @@ struct probe_hit {
     struct probe_met first, second;
     bool any;       // the search for any hit found one too
     bool same_side; // the second ray left on the side that the first one came from
+    bool blocked;   // the search for any hit of the second ray found one
 };
 
 struct probe {
@@ -41,6 +42,15 @@ struct probe {
 
 // `packed`: keep waiting groups in one word, as for small trees. false: no memory on the device.
 bool probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed);
+// The ways in which the first search may end that the tracer does not use, in single precision, to see that a
+// test finds what they lose: hits beyond the bound of their error alone, or any before the ray's start.
+enum probe_way {
+    PROBE_EXACT,    // the tracer's own
+    PROBE_BOUND,    // t beyond the bound of its error, for all triangles
+    PROBE_POSITIVE, // t > 0
+};
+bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed,
+                    enum probe_way way);
 void probe_finish(struct probe *probe);
 vec3 probe_round(const struct probe *probe, vec3 v);
 bool probe_trace(struct probe *probe, const struct probe_ray *rays, uint32_t count, struct probe_hit *hits);

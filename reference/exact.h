@@ -1,0 +1,28 @@
+// What double precision leaves open about a ray and a triangle, decided with twice the digits. Private to
+// reference/.
+//
+// Begin with exact_begin, once a ray. Positions as in parts.h. Errors: none. Thread safety: pure.
+#ifndef GLINT_REFERENCE_EXACT_H
+#define GLINT_REFERENCE_EXACT_H
+
+#include "reference/parts.h"
+#include "reference/wide.h"
+
+struct exact_ray {
+    struct wide3 origin; // on the triangle that the ray leaves, if it leaves one
+    vec3 direction;
+    int axes[3]; // the last one: of the direction's largest component
+    struct wide sx, sy;
+    const struct primitive *left; // NULL: none
+    vec3 left_normal;
+};
+
+void exact_begin(const struct reference *r, const struct ray *ray, const int axes[3], struct exact_ray *out);
+
+// The hit at t > 0, without t_max. t_error: how far the rounding of the scene's own numbers moves t.
+bool exact_intersect(const struct exact_ray *ray, const struct primitive *p, struct intersection *out);
+
+// Unit, by the corners as stored.
+vec3 exact_normal(const struct primitive *p);
+
+#endif

@@ -1,0 +1,189 @@
+// A ray traced once more where rounding leaves open what it hits: from the exact place that it leaves, by tests with
+// twice the digits. Slow, and rare: a ray that starts within its error of another triangle than the one it
+// leaves, at an edge of a body for instance, or one that hits two triangles at a distance that is the same but for
+// rounding.
+//
+// Boxes are those of the first search: they are wide enough for the start's error (bvh/items.c).
+
+#if !defined(DOUBLE_PRECISION) && !defined(NO_DOUBLES)
+const REAL WIDE_STEP = 3.5527136788005009e-15; // 2^-48: above the error of a place in WIDE, as a part of its coordinates
+#elif !defined(DOUBLE_PRECISION)
+const REAL WIDE_STEP = 9.0949470177292824e-13; // 2^-40
+#else
+const REAL WIDE_STEP = 1.262177448353619e-29lf; // 2^-96
+#endif
+const REAL WIDE_INSET = 16384.0 * WIDE_STEP; // from a triangle's edges, as a part of it
+
+// Planes whose heights differ by no more than this part of their coordinates are the same but for the rounding of
+// the scene's numbers, where they are parallel too.
+const REAL SAME_HEIGHT = 4.0 * GAMMA_1;
+const REAL PARALLEL = 0.99993896484375; // 1 - 2^-14: cosine
+
+struct exact_search {
+    WIDE3 origin;
+    REAL3 direction;
+    bool along_x, along_z; // as in shear_ray
+    WIDE sx, sy;
+    uint left, left_body;
+    REAL3 left_normal; // 0: none
+    REAL least;        // least t found
+    REAL blur;         // of the hit: what SAME_HEIGHT is along the ray
+    REAL3 normal;      // of the hit
+};
+
+// The corners, the one first whose edges tell the normal best.
+struct exact_corners {
+    REAL3 p0, p1, p2;
+};
+
+exact_corners corners_of(triangle_record triangle) {
+    uint first = triangle.shade >> TRIANGLE_CORNER_SHIFT;
+    REAL3 v0 = triangle.v0, v1 = triangle.v1, v2 = triangle.v2;
+    return exact_corners(first == 0u ? v0 : first == 1u ? v1 : v2, first == 0u ? v1 : first == 1u ? v2 : v0,
+                         first == 0u ? v2 : first == 1u ? v0 : v1);
+}
+
+// Unit; the edges are divided by a power of two first, so that the product of small ones does not vanish.
+// Flattening leaves out triangles for which this is not finite.
+REAL3 triangle_normal(triangle_record triangle) {
+    exact_corners c = corners_of(triangle);
+    REAL3 u = c.p1 - c.p0, v = c.p2 - c.p0;
+    REAL scale = inverse_power(max(largest3(abs(u)), largest3(abs(v))));
+    return unit3(cross3(u * scale, v * scale));
+}
+
+// The place on a triangle: never outside, nor on its edge, whatever the rounding of b1 and b2.
+WIDE3 exact_point(triangle_record triangle, REAL b1, REAL b2) {
+    WIDE one = wide(1.0), w1 = wide(b1), w2 = wide(b2);
+    WIDE w0 = plus(one, minus(plus(w1, w2)));
+    bool outside = is_positive(minus(w0));
+    WIDE all = plus(w1, w2);
+    w1 = outside ? over(w1, all) : w1;
+    w2 = outside ? plus(one, minus(w1)) : w2;
+    w0 = outside ? wide(0.0) : w0;
+    WIDE inset = wide(WIDE_INSET), rest = plus(one, minus(wide(3.0 * WIDE_INSET)));
+    w1 = plus(times(w1, rest), inset);
+    w2 = plus(times(w2, rest), inset);
+    w0 = plus(one, minus(plus(w1, w2)));
+    return plus3(plus3(times3(wide3(triangle.v0), w0), times3(wide3(triangle.v1), w1)),
+                 times3(wide3(triangle.v2), w2));
+}
+
+REAL farthest_of(triangle_record triangle) {
+    return largest3(max(max(abs(triangle.v0), abs(triangle.v1)), abs(triangle.v2)));
+}
+
+// On the side of the triangle to which the ray leads, by more than the error of WIDE.
+exact_search begin_exact(ray_start start, REAL3 direction, hit_record hit) {
+    exact_search search;
+    shear_ray shear = make_shear_ray(start.at, direction);
+    REAL3 d = turn(direction, shear.along_x, shear.along_z);
+    search.origin = wide3(start.at);
+    search.direction = direction;
+    search.along_x = shear.along_x;
+    search.along_z = shear.along_z;
+    search.sx = over(wide(d.x), wide(d.z));
+    search.sy = over(wide(d.y), wide(d.z));
+    search.left = start.left;
+    search.left_body = NO_ITEM;
+    search.left_normal = REAL3(0.0);
+    search.least = hit.t;
+    search.blur = 0.0;
+    search.normal = REAL3(0.0);
+    if (start.left != NO_ITEM) {
+        triangle_record left = load_triangle(start.left);
+        search.left_body = left.body;
+        search.left_normal = triangle_normal(left);
+        REAL step = WIDE_STEP * farthest_of(left);
+        step = dot3(search.left_normal, direction) < 0.0 ? -step : step;
+        search.origin =
+            plus3(exact_point(left, start.b1, start.b2), times3(wide3(search.left_normal), wide(step)));
+    }
+    return search;
+}
+
+bool are_parallel(REAL3 a, REAL3 b) { return abs(dot3(a, b)) > PARALLEL; }
+
+// A corner as the ray sees it: its place across the ray, which is the same for all triangles around it.
+struct exact_place {
+    WIDE x, y;
+};
+
+exact_place place_of(REAL3 corner, exact_search search) {
+    WIDE3 p = minus3(wide3(corner), search.origin);
+    WIDE z = search.along_z ? p.z : search.along_x ? p.x : p.y;
+    WIDE x = search.along_z ? p.x : search.along_x ? p.y : p.z;
+    WIDE y = search.along_z ? p.y : search.along_x ? p.z : p.x;
+    return exact_place(plus(x, minus(times(search.sx, z))), plus(y, minus(times(search.sy, z))));
+}
+
+WIDE edge_of(exact_place a, exact_place b) { return wide_difference(a.x, b.y, a.y, b.x); }
+
+void test_exact(uint item, inout exact_search search, inout hit_record hit) {
+    triangle_record triangle = load_triangle(item);
+    exact_place a = place_of(triangle.v0, search), b = place_of(triangle.v1, search), c = place_of(triangle.v2, search);
+    WIDE u = edge_of(c, b), v = edge_of(a, c), w = edge_of(b, a);
+    bool above = is_positive(u) || is_positive(v) || is_positive(w);
+    bool below = is_positive(minus(u)) || is_positive(minus(v)) || is_positive(minus(w));
+    exact_corners corners = corners_of(triangle);
+    WIDE3 p0 = wide3(corners.p0);
+    WIDE3 normal = wide_cross(minus3(wide3(corners.p1), p0), minus3(wide3(corners.p2), p0));
+    WIDE height = wide_dot(normal, minus3(p0, search.origin)), along = wide_dot(normal, wide3(search.direction));
+    bool falls = is_positive(minus(along));
+    bool before = falls ? is_positive(minus(height)) : is_positive(along) && is_positive(height);
+    WIDE det = plus(plus(u, v), w);
+    REAL3 unit = triangle_normal(triangle);
+    REAL same = SAME_HEIGHT * farthest_of(triangle) * abs(narrow(wide_dot(normal, wide3(unit))));
+    bool is_left = item == search.left || (triangle.body != search.left_body && abs(narrow(height)) <= same &&
+                                           are_parallel(unit, search.left_normal));
+    bool is_hit = !(above && below) && (above || below) && before && !is_left;
+    REAL t = narrow(over(height, along)), blur = abs(same / narrow(along));
+    uint number = triangle.number + frame.sphere_count;
+    REAL tie = hit.item != NO_ITEM && are_parallel(unit, search.normal) ? blur + search.blur : 0.0;
+    bool first_found = hit.item == NO_ITEM && t < hit.t;
+    bool nearer = hit.item != NO_ITEM &&
+                  (t < search.least - tie || (abs(t - search.least) <= tie && number < hit.number));
+    if (is_hit && (first_found || nearer)) {
+        hit.t = t;
+        hit.b1 = max(narrow(over(v, det)), 0.0);
+        hit.b2 = max(narrow(over(w, det)), 0.0);
+        hit.item = item;
+        hit.number = number;
+        search.blur = blur;
+        search.normal = unit;
+    }
+    search.least = is_hit ? min(search.least, t) : search.least;
+}
+
+// As trace_triangles, with `hit` as it was before that.
+void retrace_triangles(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
+    tree_ray ray = make_tree_ray(start.at, direction);
+    exact_search search = begin_exact(start, direction, hit);
+    REAL margin = 4.0 * start.slack / largest3(abs(direction));
+    STACK(TRIANGLE_STACK)
+    uvec2 group = root_group();
+    bool more = true;
+    do {
+        iterations += 2u;
+        if (HAS_COUNTERS)
+            counted_nodes++;
+        node_record node = load_triangle_node(next_node(group, ray.flip));
+        uint hits = node_hits(node, ray, max(hit.t, search.least) + 2.0 * search.blur + margin);
+        uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
+        STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
+        uint items = hits & 0x00ffffffu;
+        while (items != 0u && iterations < ITERATION_LIMIT) {
+            iterations++;
+            if (HAS_COUNTERS)
+                counted_items++;
+            uint bit = items & (0u - items);
+            items ^= bit;
+            uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+            test_exact(item, search, hit);
+            if (any && hit.item != NO_ITEM) {
+                items = 0u;
+                more = false;
+            }
+        }
+    } while (more && iterations < ITERATION_LIMIT);
+}
