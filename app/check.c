@@ -46,7 +46,7 @@ enum session_state check_scene(struct session *session, const struct session_opt
                                struct asset_store *store) {
     struct session_options judged = *options;
     judged.judged = true;
-    judged.skip_pixels = true;
+    judged.pixels = options->pixels == ASSETS_SKIP_PIXELS ? ASSETS_SKIP_PIXELS : ASSETS_CHECK_PIXELS;
     judged.lint = options->skip_lint ? LINT_NONE : LINT_ALL;
     session_load(session, &judged, store);
     note_view(session);
