@@ -5,6 +5,7 @@
 //     test_agree [--device] mutants SEED COUNT FILE...  images, meshes and material files with mistakes
 //     test_agree [--device] generated SEED COUNT        random scenes of extreme values
 //     test_agree [--device] scenes FILE...              as they are
+//     test_agree [--device] limits                      scenes just within a limit, and just beyond it
 //     test_agree hostile                                those of tests/hostile, made in the current folder
 //
 // Small pictures by the reference, which runs where there is no device, and with --device by a device; then
@@ -43,8 +44,10 @@ struct agree_case {
     const char *name;
     struct session_options options;
     const char *message; // that the check must report; NULL: whatever it says
+    const char *limit;   // NAME=VALUE; NULL: none but those that are standard
     bool must_pass;
-    bool is_extreme; // light of any brightness: what no float holds is marked in the picture, and no fault
+    bool is_stricter; // the check takes more memory than rendering, and may refuse alone
+    bool is_extreme;  // light of any brightness: what no float holds is marked in the picture, and no fault
 };
 
 // ---- what is compared
@@ -79,24 +82,22 @@ static bool draw_by_device(struct agree *a, struct session *session, struct imag
     return good;
 }
 
-// What the device's way would do with the scene before a device is needed, and the picture.
+// The picture, and before it what the device's way does with the scene until a device is needed.
 static bool draw_by_reference(struct session *session, struct image *image) {
     struct exact exact;
     struct reference_statistics statistics;
     struct flat_scene flat;
-    struct view view;
-    bool good = session_view(session, 0, &view);
+    bool good =
+        exact_open(&exact, session, 0, (struct exact_options){.as_file = true, .no_cache = true}) == SHOT_OK;
     struct flat_input input = {.scene = &session->resolved,
-                               .view = &view,
-                               .origin = session_origin(session, &view),
+                               .view = &exact.view,
+                               .origin = session_origin(session, &exact.view),
                                .limits = &session->options.limits,
                                .sink = &session->sink};
-    if (!good || !flatten(&input, &flat))
-        return false;
-    flat_finish(&flat);
-    good = exact_open(&exact, session, 0, (struct exact_options){.as_file = true, .no_cache = true}) ==
-               SHOT_OK &&
-           exact_take(&exact, image, NULL, NULL, &statistics) == SHOT_OK;
+    good = good && flatten(&input, &flat);
+    if (good)
+        flat_finish(&flat);
+    good = good && exact_take(&exact, image, NULL, NULL, &statistics) == SHOT_OK;
     exact_close(&exact);
     return good;
 }
@@ -111,20 +112,14 @@ static bool only_marks_pixels(const struct session *session) {
     return session->sink.errors > 0;
 }
 
+// What goes wrong is in the session's sink, or said here.
 static void draw(struct agree *a, const struct agree_case *c, struct session *session) {
     struct image image;
-    struct strbuf text;
-    strbuf_init(&text);
     bool good = image_init(&image, WIDTH, HEIGHT) &&
                 (a->kit.gpu ? draw_by_device(a, session, &image) : draw_by_reference(session, &image));
-    put_errors(session, &text);
-    if (good && c->is_extreme && only_marks_pixels(session))
-        a->marked++;
-    else if (!good || session->sink.errors)
-        say(a, c, a->kit.gpu ? gpu_error(a->kit.gpu) : "the check passes what cannot be rendered", &text);
-    a->passed++;
+    if (!good && session->sink.errors == 0)
+        say(a, c, a->kit.gpu ? gpu_error(a->kit.gpu) : "no picture, and no reason", NULL);
     image_finish(&image);
-    strbuf_finish(&text);
 }
 
 // ---- one case
@@ -135,7 +130,12 @@ static void compare(struct agree *a, const struct agree_case *c, struct session 
     strbuf_init(&by_check);
     strbuf_init(&by_render);
     put_errors(checked, &by_check);
-    put_errors(rendered, &by_render);
+    if (c->is_extreme && only_marks_pixels(rendered))
+        a->marked++;
+    else
+        put_errors(rendered, &by_render);
+    if (c->is_stricter && checked->sink.errors && rendered->sink.errors == 0)
+        put_errors(checked, &by_render);
     strbuf_char(&by_check, '\0');
     strbuf_char(&by_render, '\0');
     if (strcmp(by_check.data, by_render.data) != 0) {
@@ -145,10 +145,8 @@ static void compare(struct agree *a, const struct agree_case *c, struct session 
         say(a, c, "the check says", &by_check);
     } else if (c->must_pass && checked->sink.errors) {
         say(a, c, "it is whole", &by_check);
-    } else if (checked->state == SESSION_LOADED && checked->sink.errors == 0) {
-        draw(a, c, rendered);
     } else {
-        a->refused++;
+        ++*(checked->sink.errors || checked->state != SESSION_LOADED ? &a->refused : &a->passed);
     }
     strbuf_finish(&by_check);
     strbuf_finish(&by_render);
@@ -157,13 +155,18 @@ static void compare(struct agree *a, const struct agree_case *c, struct session 
 static void judge(struct agree *a, const struct agree_case *c) {
     struct session checked, rendered;
     struct session_options options = c->options;
+    enum limit which;
     options.limits = limits_default();
+    if (c->limit)
+        limits_set(&options.limits, str_from(c->limit), &which);
     options.width = WIDTH;
     options.height = HEIGHT;
     options.samples = 1;
     check_scene(&checked, &options, a->kit.store);
     options.lint = LINT_CHEAP;
     session_load(&rendered, &options, a->kit.store);
+    if (rendered.state == SESSION_LOADED && rendered.sink.errors == 0)
+        draw(a, c, &rendered);
     compare(a, c, &checked, &rendered);
     session_finish(&checked);
     session_finish(&rendered);
@@ -181,6 +184,8 @@ static void judge_file(struct agree *a, const char *name, const char *scene, con
         .message = more ? more->message : NULL,
         .must_pass = more && more->must_pass,
         .is_extreme = more && more->is_extreme,
+        .limit = more ? more->limit : NULL,
+        .is_stricter = more && more->is_stricter,
         .options = {.path = str_from(scene_path), .overlays = overlays, .overlay_count = bytes.ptr ? 2 : 1}};
     judge(a, &c);
 }
@@ -203,6 +208,45 @@ static void run_damaged(struct agree *a) {
         judge_file(a, d->what, IMAGE_SCENE, "agree.image", strbuf_view(&file), &more);
     }
     strbuf_finish(&file);
+}
+
+static void judge_limit(struct agree *a, const char *name, const char *scene, const char *limit,
+                        const char *message) {
+    struct agree_case more = {.limit = limit, .message = message, .must_pass = !message};
+    judge_file(a, name, scene, "", (str){0}, &more);
+}
+
+// The scene's memory down to where it does not suffice: around that place each part of the work fails once.
+static void run_memory(struct agree *a, const char *scene) {
+    char limit[64];
+    uint64_t low = 1 << 20, high = 1 << 26; // refused, passed
+    while (high - low > 64) {
+        const uint64_t middle = low + (high - low) / 2;
+        const uint32_t refused = a->refused;
+        snprintf(limit, sizeof limit, "scene-memory=%llu", (unsigned long long)middle);
+        judge_file(a, limit, scene, "", (str){0}, &(struct agree_case){.limit = limit, .is_stricter = true});
+        *(a->refused > refused ? &low : &high) = middle;
+    }
+}
+
+static void run_limits(struct agree *a) {
+    static const char four[] =
+        "glint: 1\nrectangles:\n  - {corner: [0, 0, -2], edge_u: [1, 0, 0], edge_v: [0, 1, 0]}\n"
+        "  - {corner: [0, 0, -3], edge_u: [1, 0, 0], edge_v: [0, 1, 0]}\n";
+    static const char mesh[] = "glint: 1\nmodels: [{mesh: scenes/meshes/gem.obj}]\n"
+                               "rectangles: [{corner: [0, 0, -2], edge_u: [1, 0, 0], edge_v: [0, 1, 0]}]\n";
+    judge_limit(a, "four triangles", four, "scene-triangles=4", NULL);
+    judge_limit(a, "a triangle too many", four, "scene-triangles=3", "the limit scene-triangles is 3 [E501]");
+    judge_limit(a, "a mesh and a rectangle", mesh, "scene-triangles=1",
+                "the limit scene-triangles is 1 [E501]");
+    struct strbuf lights;
+    strbuf_init(&lights);
+    strbuf_cstr(&lights, "glint: 1\nlights:\n");
+    for (int i = 0; i < 3000; i++)
+        strbuf_format(&lights, "  - {position: [%d, 5, 5]}\n", i);
+    strbuf_char(&lights, '\0');
+    run_memory(a, lights.data);
+    strbuf_finish(&lights);
 }
 
 static bool read_file(const char *path, struct strbuf *out) {
@@ -291,6 +335,8 @@ static bool run(struct agree *a, int count, char **arguments) {
         return run_mutants(a, arguments + 1);
     else if (strcmp(mode, "generated") == 0 && count == 3)
         run_generated(a, arguments + 1);
+    else if (strcmp(mode, "limits") == 0)
+        run_limits(a);
     else if (strcmp(mode, "hostile") == 0)
         return run_hostile(a);
     else if (strcmp(mode, "scenes") == 0)
