@@ -2,6 +2,7 @@
 
 #include "app/check_allow.h"
 #include "app/check_path.h"
+#include "app/shot.h"
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
@@ -38,15 +39,15 @@ static void apply_policy(void *context) {
 // The notes about what replaces a camera or a light that is not written.
 static void note_view(struct session *session) {
     struct view view;
-    if (session->state == SESSION_LOADED && session->sink.errors == 0)
-        session_view(session, 0, &view);
+    if (session->state == SESSION_LOADED && session->sink.errors == 0 && !session_view(session, 0, &view))
+        shot_no_memory(session, "the view"); // as rendering says
 }
 
 enum session_state check_scene(struct session *session, const struct session_options *options,
                                struct asset_store *store) {
     struct session_options judged = *options;
     judged.judged = true;
-    judged.skip_pixels = true;
+    judged.pixels = options->pixels == ASSETS_SKIP_PIXELS ? ASSETS_SKIP_PIXELS : ASSETS_CHECK_PIXELS;
     judged.lint = options->skip_lint ? LINT_NONE : LINT_ALL;
     session_load(session, &judged, store);
     note_view(session);

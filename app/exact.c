@@ -10,7 +10,7 @@ enum shot_status exact_open(struct exact *exact, struct session *session, uint32
                             struct exact_options options) {
     *exact = (struct exact){.session = session};
     if (!session_view(session, camera, &exact->view))
-        return shot_no_memory(session, "the reference");
+        return shot_no_memory(session, "the view");
     struct reference_input input = {.scene = &session->resolved, .view = &exact->view};
     exact->settings =
         reference_settings_of(session->scene, session->image, &session->options.limits, options.as_file);

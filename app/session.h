@@ -31,7 +31,7 @@ struct session_options {
     const struct file_overlay *overlays; // text that replaces files; it is copied
     uint32_t overlay_count;
     bool text_only;                   // neither meshes nor images are opened
-    bool skip_pixels;                 // the background's header is checked, its pixels are not decoded
+    enum assets_pixels pixels;        // of the background
     int32_t width, height;            // 0: as the scene says
     int32_t samples;                  // 0: as the scene says
     enum lint_level lint;             // rules about light that run if the scene has no error; check_scene

@@ -113,9 +113,10 @@ static enum session_state open_source(struct session *session, uint32_t *source)
 static void load_assets(struct session *session, struct asset_store *store) {
     double start = clock_seconds();
     struct assets_input input = session_assets_input(session);
-    assets_load(store, &input, session->options.skip_pixels, &session->assets);
+    assets_load(store, &input, session->options.pixels, &session->assets);
     scene_build(session->scene, &session->assets, &session->arena, &session->resolved);
     scene_check_reach(&session->resolved, &session->sink);
+    scene_check_triangles(&session->resolved, &session->options.limits, &session->sink);
     session->assets_seconds = clock_seconds() - start;
 }
 

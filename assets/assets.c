@@ -202,21 +202,33 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
 
 // ---- the background
 
-static void report_pixels(struct asset_file *file, str name, const struct picture_header *header) {
-    const struct limit_info *info = limit_info(LIMIT_IMAGE_PIXELS);
-    uint64_t pixels = (uint64_t)header->width * header->height;
-    asset_report_named(file, DIAG_LIMIT, "the image '%.*s' claims %u x %u pixels; the limit %s is %llu",
-                       STR_ARG(name), header->width, header->height, info->name,
-                       (unsigned long long)file->input->limits->value[LIMIT_IMAGE_PIXELS]);
-    if (pixels <= info->greatest)
+// A device may get each pixel as four floats.
+enum {
+    TEXEL_BYTES = 16
+};
+
+static bool fits_memory(struct asset_file *file, str name, const struct store_entry *entry) {
+    const struct limit_info *info = limit_info(LIMIT_IMAGE_MEMORY);
+    const uint64_t bytes = entry->picture_bytes;
+    if (bytes <= file->input->limits->value[LIMIT_IMAGE_MEMORY])
+        return true;
+    asset_report_named(
+        file, DIAG_LIMIT,
+        "the image '%.*s' claims %u x %u pixels, which take %llu bytes of memory; the limit %s "
+        "is %llu",
+        STR_ARG(name), entry->picture.width, entry->picture.height, (unsigned long long)bytes, info->name,
+        (unsigned long long)file->input->limits->value[LIMIT_IMAGE_MEMORY]);
+    if (bytes <= info->greatest)
         diag_help(file->input->sink, "if the file is right, raise the limit: --limit %s=%llu", info->name,
-                  (unsigned long long)pixels);
+                  (unsigned long long)bytes);
     else
-        diag_help(file->input->sink, "no limit allows more than %llu pixels; make the image smaller",
+        diag_help(file->input->sink, "no limit allows more than %llu bytes; make the image smaller",
                   (unsigned long long)info->greatest);
+    return false;
 }
 
-static void decode_image(struct asset_file *file, str name, bool header_only, struct picture *out) {
+// What the file's bytes say; a fault of the decoder is left in the entry.
+static void decode_image(struct asset_file *file, str name, struct store_entry *entry) {
     struct picture_header header;
     const char *fault = picture_read_header(file->text, &header);
     if (header.kind == PICTURE_KIND_NONE) {
@@ -224,30 +236,47 @@ static void decode_image(struct asset_file *file, str name, bool header_only, st
                            STR_ARG(name));
         return;
     }
-    if (!fault && (uint64_t)header.width * header.height > file->input->limits->value[LIMIT_IMAGE_PIXELS]) {
-        report_pixels(file, name, &header);
+    entry->picture = picture_of_header(&header);
+    entry->picture_bytes = fault ? 0 : picture_memory(&header, TEXEL_BYTES);
+    if (!fits_memory(file, name, entry))
         return;
-    }
-    if (!fault && !header_only)
-        fault = picture_decode(file->text, &header, out);
-    if (fault)
-        asset_report_line(file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s", fault);
-    out->width = header.width;
-    out->height = header.height;
-    out->ignored = header.ignored;
+    if (!fault && entry->kind == STORE_PICTURE_KEPT)
+        fault = picture_decode(file->text, &header, &entry->picture);
+    else if (!fault && entry->kind == STORE_PICTURE_CHECKED)
+        fault = picture_check(file->text, &header);
+    if (fault == picture_no_memory)
+        asset_report_memory(file, ARENA_FAULT_SYSTEM);
+    else
+        entry->picture_fault = fault;
 }
 
-static void read_image(struct loader *loader, struct asset_file *file, str name, bool header_only,
-                       struct picture *out) {
+static void read_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry) {
     struct arena *scratch = &loader->hold->scratch;
     arena_init(scratch, (size_t)file->input->limits->value[LIMIT_IMAGE_BYTES] + TEXT_ROOM);
     if (asset_read(file, scratch))
-        decode_image(file, name, header_only, out);
+        decode_image(file, name, entry);
     file->text = STR("");
     arena_finish(scratch);
+    entry->is_whole = file->errors == 0;
 }
 
-static const struct picture *load_background(struct loader *loader, bool header_only, struct assets *out) {
+// An image of which at least as much is known as is asked for.
+static struct store_entry *find_image(struct loader *loader, enum assets_pixels pixels,
+                                      const struct file_read *identity) {
+    static const enum store_kind kinds[] = {[ASSETS_KEEP_PIXELS] = STORE_PICTURE_KEPT,
+                                            [ASSETS_CHECK_PIXELS] = STORE_PICTURE_CHECKED,
+                                            [ASSETS_SKIP_PIXELS] = STORE_PICTURE_SKIPPED};
+    for (enum assets_pixels known = ASSETS_KEEP_PIXELS; known < pixels; known++) {
+        struct store_entry *entry = store_find(loader->hold, kinds[known], identity);
+        if (entry)
+            return entry;
+    }
+    struct store_entry *entry = store_find(loader->hold, kinds[pixels], identity);
+    return entry ? entry : store_add(loader->hold, kinds[pixels], identity);
+}
+
+static const struct picture *load_background(struct loader *loader, enum assets_pixels pixels,
+                                             struct assets *out) {
     const struct assets_input *input = loader->input;
     const struct ir_background *background = &input->scene->background;
     span at = ir_place_value(input->origin, &background->head, &SCHEMA_BACKGROUND, "image");
@@ -255,21 +284,24 @@ static const struct picture *load_background(struct loader *loader, bool header_
     struct file_read identity;
     if (!asset_find(&file, base_of(input, at), background->image, &identity, NULL))
         return NULL;
-    struct store_entry *entry = store_find(loader->hold, STORE_PICTURE, &identity);
+    struct store_entry *entry = find_image(loader, pixels, &identity);
     if (!entry) {
-        entry = store_add(loader->hold, STORE_PICTURE, &identity);
-        if (!entry) {
-            asset_report_memory(&file, ARENA_FAULT_SYSTEM);
-            return NULL;
-        }
-        read_image(loader, &file, background->image, header_only, &entry->picture);
-        entry->is_whole = file.errors == 0 && !header_only;
+        asset_report_memory(&file, ARENA_FAULT_SYSTEM);
+        return NULL;
     }
-    if (file.errors == 0 && entry->picture.ignored)
+    if (!entry->is_whole)
+        read_image(loader, &file, background->image, entry);
+    else
+        fits_memory(&file, background->image, entry);
+    if (entry->picture_fault)
+        asset_report_line(&file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s",
+                          entry->picture_fault);
+    if (file.errors)
+        return NULL;
+    out->pixels_skipped = entry->kind == STORE_PICTURE_SKIPPED;
+    if (entry->picture.ignored)
         asset_report_line(&file, DIAG_IMAGE_CHUNKS, 0, "the image's %s ignored", entry->picture.ignored);
-    out->background_width = file.errors ? 0 : entry->picture.width;
-    out->background_height = file.errors ? 0 : entry->picture.height;
-    return entry->is_whole ? &entry->picture : NULL;
+    return &entry->picture;
 }
 
 // ---- all
@@ -281,7 +313,7 @@ static void add_scene_materials(struct loader *loader) {
     schema_init(&SCHEMA_MATERIAL, ARENA_PUSH(loader->input->arena, &loader->materials));
 }
 
-void assets_load(struct asset_store *store, const struct assets_input *given, bool geometry_only,
+void assets_load(struct asset_store *store, const struct assets_input *given, enum assets_pixels pixels,
                  struct assets *out) {
     assert(store);
     const struct ir_scene *scene = given->scene;
@@ -303,7 +335,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, bo
     const struct ir_background *background = &scene->background;
     if (background->kind == IR_BACKDROP_IMAGE && background->image.len &&
         !is_poisoned(&background->head, &SCHEMA_BACKGROUND, "image"))
-        out->background = load_background(&loader, geometry_only, out);
+        out->background = load_background(&loader, pixels, out);
     out->materials = loader.materials.items;
     out->material_count = loader.materials.count;
     store_sweep(store);

@@ -56,11 +56,10 @@ struct assets {
     uint32_t material_count;
     struct assets_model *models; // one per scene model
     uint32_t model_count;
-    const struct picture *background; // NULL: none, or not loaded
-    // Of the background, also if only its header was read; 0: none.
-    uint32_t background_width, background_height;
-    uint64_t triangle_count; // of all models
-    struct asset_uses uses;  // in the order of loading; text is in the arena of the scene
+    const struct picture *background; // NULL: none, or not loaded; without pixels unless they are kept
+    bool pixels_skipped;              // it has an image of which only the header was ever read
+    uint64_t triangle_count;          // of all models
+    struct asset_uses uses;           // in the order of loading; text is in the arena of the scene
 };
 
 struct assets_input {
@@ -74,10 +73,17 @@ struct assets_input {
     struct asset_uses *uses; // of the assets being loaded: set by assets_load
 };
 
-// Loads all; goes on after a fault. `geometry_only` skips decoding the background (its header is still
-// checked). When memory runs out, it jumps to the guards of input->arena and of the arenas of sources and
-// files; assets_finish(out) then still releases what was taken.
-void assets_load(struct asset_store *store, const struct assets_input *input, bool geometry_only,
+// What is done with the pixels of an image.
+enum assets_pixels {
+    ASSETS_KEEP_PIXELS,
+    ASSETS_CHECK_PIXELS, // they are decoded, so that every fault is found, and dropped
+    ASSETS_SKIP_PIXELS,  // only the header is read
+};
+
+// Loads all; goes on after a fault. Whatever is done with pixels, the limits are the same. When memory runs
+// out, it jumps to the guards of input->arena and of the arenas of sources and files; assets_finish(out) then
+// still releases what was taken.
+void assets_load(struct asset_store *store, const struct assets_input *input, enum assets_pixels pixels,
                  struct assets *out);
 // Accepts zeroed, half-loaded and finished assets.
 void assets_finish(struct assets *assets);

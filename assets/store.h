@@ -10,7 +10,9 @@
 
 enum store_kind {
     STORE_MESH,
-    STORE_PICTURE,
+    STORE_PICTURE_KEPT,
+    STORE_PICTURE_CHECKED, // decoded, and its pixels dropped
+    STORE_PICTURE_SKIPPED, // only its header was read
 };
 
 struct store_entry {
@@ -21,9 +23,11 @@ struct store_entry {
     uint64_t size_bytes;
     int64_t modified_ns;
     uint32_t references;
-    bool is_whole; // loaded without fault; others are never found and are freed by the next sweep
+    bool is_whole; // what is known will be found again; others never are, and are freed by the next sweep
     struct mesh mesh;
     struct picture picture;
+    uint64_t picture_bytes;    // that it takes at most, for the limit
+    const char *picture_fault; // why it cannot be decoded, which is known of the file too; NULL: it can
 };
 
 struct asset_hold {

@@ -55,7 +55,7 @@ static bool decode_stb(struct job *job) {
     int width, height, channels;
     free(job->stb);
     job->stb = stbi_load_from_memory((const unsigned char *)job->bytes.ptr, (int)job->bytes.len, &width,
-                                     &height, &channels, 4);
+                                     &height, &channels, 3);
     return job->stb != NULL;
 }
 
@@ -67,10 +67,10 @@ static bool decode_part(struct job *job) {
     jpeg_create_decompress(&decoder);
     jpeg_mem_src(&decoder, (const unsigned char *)job->bytes.ptr, job->bytes.len);
     jpeg_read_header(&decoder, TRUE);
-    decoder.out_color_space = JCS_EXT_RGBA;
+    decoder.out_color_space = JCS_EXT_RGB;
     decoder.scale_denom = (unsigned)job->part;
     jpeg_start_decompress(&decoder);
-    size_t row_bytes = (size_t)4 * decoder.output_width;
+    size_t row_bytes = (size_t)3 * decoder.output_width;
     unsigned char *pixels = malloc(row_bytes * decoder.output_height);
     while (pixels && decoder.output_scanline < decoder.output_height) {
         JSAMPROW row = pixels + row_bytes * decoder.output_scanline;
@@ -99,12 +99,12 @@ static void tell_difference(const struct job *job) {
     if (job->picture.depth != PICTURE_8 || !job->stb || !job->picture.pixels)
         return;
     const unsigned char *pixels = job->picture.pixels;
-    size_t count = (size_t)job->picture.size_bytes / 4;
+    size_t count = (size_t)job->picture.width * job->picture.height;
     size_t differ = 0;
     int most = 0;
     for (size_t i = 0; i < count; i++) {
         int here = 0;
-        for (size_t c = 4 * i; c < 4 * i + 4; c++)
+        for (size_t c = 3 * i; c < 3 * i + 3; c++)
             here = abs(pixels[c] - job->stb[c]) > here ? abs(pixels[c] - job->stb[c]) : here;
         differ += here > 0;
         most = here > most ? here : most;

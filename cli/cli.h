@@ -53,6 +53,7 @@ struct cli_options {
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
     bool as_file, no_cache;    // of the reference
+    bool skip_pixels;          // of images, when checking
     bool check, diff, upgrade; // of what changes files
     int fix;                   // enum fix_level
     int fix_arg;

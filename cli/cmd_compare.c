@@ -36,7 +36,7 @@ static int read_picture(struct comparison *c, int which) {
         return cannot_read(c, path, session_file_code(status), file_status_text(&c->files, status));
     bool unknown;
     const char *fault =
-        picture_file_decode(bytes, limits->value[LIMIT_IMAGE_PIXELS], &c->pictures[which], &unknown);
+        picture_file_decode(bytes, limits->value[LIMIT_IMAGE_MEMORY], &c->pictures[which], &unknown);
     return fault ? cannot_read(c, path, unknown ? DIAG_IMAGE_KIND : DIAG_IMAGE_BROKEN, fault) : CLI_OK;
 }
 

@@ -125,7 +125,7 @@ static int list_scene(struct listing *listing, struct asset_store *store, const 
     struct session session;
     struct inventory inventory = {0};
     struct session_options options = cli_session_options(listing->cli, path);
-    options.skip_pixels = true;
+    options.pixels = ASSETS_SKIP_PIXELS;
     session_load(&session, &options, store);
     if (!inventory_make(&session, &inventory))
         diag_add(&session.sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to list the files");

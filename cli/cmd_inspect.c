@@ -154,6 +154,8 @@ int cmd_inspect(struct cli *cli) {
     struct session_options options = cli_session_options(cli, cli->operands[0]);
     options.text_only = cli->options.ir;
     options.lint = LINT_ALL;
+    if (options.pixels == ASSETS_KEEP_PIXELS)
+        options.pixels = ASSETS_CHECK_PIXELS;
     strbuf_init(&text);
     session_load(&session, &options, store);
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0;

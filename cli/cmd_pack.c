@@ -39,7 +39,7 @@ int cmd_pack(struct cli *cli) {
     if (strcmp(cli->operands[1], "-") == 0)
         return cli_usage(cli, cli_operand_place(cli, 1), "a package cannot be written to standard output");
     struct asset_store *store = asset_store_create();
-    options.skip_pixels = true;
+    options.pixels = ASSETS_SKIP_PIXELS;
     session_load(&session, &options, store);
     int status = cli_report(cli, &session, false);
     if (status == CLI_OK)

@@ -30,6 +30,7 @@ enum option_id {
     OPTION_IR,
     OPTION_AS_FILE,
     OPTION_NO_CACHE,
+    OPTION_SKIP_PIXELS,
     OPTION_CHECK,
     OPTION_DIFF,
     OPTION_FIX,
@@ -83,6 +84,8 @@ static const struct option_row rows[] = {
      "the reference obeys max_depth, min_weight and depth_limit of the scene"},
     {OPTION_NO_CACHE, "no-cache", 0, NULL, "render tradeoff",
      "the reference neither reads nor writes its cache"},
+    {OPTION_SKIP_PIXELS, "skip-pixels", 0, NULL, "check inspect",
+     "read only the headers of images, which is faster; damaged pixels are not found"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR",
      "render pick check inspect convert deps pack tradeoff extremes",
      "another folder in which to look for files of the scene"},
@@ -288,6 +291,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->as_file;
     case OPTION_NO_CACHE:
         return &options->no_cache;
+    case OPTION_SKIP_PIXELS:
+        return &options->skip_pixels;
     default:
         return NULL;
     }

@@ -110,7 +110,8 @@ struct session_options cli_session_options(const struct cli *cli, const char *pa
                                     .limits = o->limits,
                                     .width = o->width,
                                     .height = o->height,
-                                    .samples = o->samples};
+                                    .samples = o->samples,
+                                    .pixels = o->skip_pixels ? ASSETS_SKIP_PIXELS : ASSETS_KEEP_PIXELS};
 }
 
 int cli_write(struct cli *cli, const char *path, str bytes) {

@@ -19,13 +19,13 @@ static double samples_per_radian(const struct lint *lint, const struct view_came
 
 void lint_oversized_image(struct lint *lint) {
     const struct ir_background *background = &lint->ir->background;
-    uint32_t width = lint->scene->assets->background_width;
-    if (background->kind != IR_BACKDROP_IMAGE || width == 0)
+    const struct picture *picture = lint->scene->assets->background;
+    if (background->kind != IR_BACKDROP_IMAGE || !picture)
         return;
     double finest = 0;
     for (uint32_t i = 0; i < lint->view_count; i++)
         finest = fmax(finest, samples_per_radian(lint, &lint->views[i].camera));
-    double texels = width / TURN;
+    double texels = picture->width / TURN;
     if (!(texels > EXCESS * finest))
         return;
     const struct ir_image *image = lint->input->image;
@@ -33,7 +33,7 @@ void lint_oversized_image(struct lint *lint) {
         lint->sink, DIAG_OVERSIZED_IMAGE,
         ir_place_value(lint->origin, &background->head, &SCHEMA_BACKGROUND, "image"),
         "the background of %u x %u pixels is at least %.3g times finer than a picture of %d x %d can show",
-        width, lint->scene->assets->background_height, texels / finest, image->width, image->height);
+        picture->width, picture->height, texels / finest, image->width, image->height);
     double enough = exp2(ceil(log2(TURN * finest)));
     diag_help(lint->sink, "an image %.0f pixels wide is enough for this picture", enough);
 }

@@ -140,9 +140,13 @@ void scenes_forget(struct scenes *scenes, struct lsp_scene *scene) {
     destroy(scene);
 }
 
-bool scenes_lack_lint(const struct scenes *scenes) {
+bool lsp_scene_lacks(const struct lsp_scene *scene) {
+    return scene->lacks_lint || scene->lacks_pixels;
+}
+
+bool scenes_are_partial(const struct scenes *scenes) {
     for (uint32_t i = 0; i < scenes->count; i++)
-        if (scenes->items[i]->lacks_lint)
+        if (lsp_scene_lacks(scenes->items[i]))
             return true;
     return false;
 }

@@ -22,6 +22,7 @@ struct lsp_scene {
     bool is_stale;       // a text has changed since it was loaded
     bool is_wanted;      // an open document is its main file, or belongs to it
     bool lacks_lint;     // the rules about light did not run at the last load
+    bool lacks_pixels;   // an image's pixels have not been decoded since it changed
     double lint_seconds; // that they took in their last run
     str *files;          // canonical, of the main file and its includes as of the last load that got so far
     uint32_t file_count;
@@ -42,7 +43,8 @@ void scenes_finish(struct scenes *scenes);
 void scenes_touch(struct scenes *scenes, str path);
 
 // Whether SCENES_WHOLE would have something to add.
-bool scenes_lack_lint(const struct scenes *scenes);
+bool scenes_are_partial(const struct scenes *scenes);
+bool lsp_scene_lacks(const struct lsp_scene *scene);
 // The scene that the document at `path` belongs to, up to date, or NULL.
 struct lsp_scene *scenes_of(struct scenes *scenes, str path);
 // The scene with this main file; added if it is new. NULL: no memory.
@@ -68,7 +70,8 @@ bool scenes_is_scene(struct document *document);
 // ---- scene_refresh.c
 
 enum scenes_effort {
-    SCENES_QUICK, // without the rules about light, if they took long the last time
+    SCENES_QUICK, // without the rules about light, if they took long the last time, and without the pixels
+                  // of images that are new or have changed
     SCENES_WHOLE,
 };
 // Decides which scenes the open documents belong to, and loads those that are stale, or lack what the effort

@@ -52,19 +52,20 @@ static void load_scene(struct lsp_scene *scene, const struct session_options *op
         lsp_scene_forget_files(scene);
     note_names(scene);
     scene->lacks_lint = options->skip_lint;
+    scene->lacks_pixels = scene->session.assets.pixels_skipped;
     if (!options->skip_lint)
         scene->lint_seconds = scene->session.lint_seconds;
 }
 
 static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_effort effort) {
     struct file_overlay *overlays = scenes_overlays(scenes);
-    struct session_options options = {.path = scene->path,
-                                      .limits = scenes->limits,
-                                      .skip_pixels = true,
-                                      .skip_lint =
-                                          effort == SCENES_QUICK && scene->lint_seconds > LINT_SECONDS_QUICK,
-                                      .overlays = overlays,
-                                      .overlay_count = overlays ? scenes->documents->count : 0};
+    struct session_options options = {
+        .path = scene->path,
+        .limits = scenes->limits,
+        .pixels = effort == SCENES_QUICK ? ASSETS_SKIP_PIXELS : ASSETS_CHECK_PIXELS,
+        .skip_lint = effort == SCENES_QUICK && scene->lint_seconds > LINT_SECONDS_QUICK,
+        .overlays = overlays,
+        .overlay_count = overlays ? scenes->documents->count : 0};
     lsp_scene_unload(scene);
     if (scenes_is_settings(scene->path))
         session_load_settings(&scene->session, &options);
@@ -136,7 +137,7 @@ bool scenes_refresh(struct scenes *scenes, enum scenes_effort effort) {
     for (int round = 0; round == 0 || (added && round < ROUNDS_MOST); round++) {
         for (uint32_t i = 0; i < scenes->count; i++) {
             struct lsp_scene *scene = scenes->items[i];
-            if (scene->is_stale || (effort == SCENES_WHOLE && scene->lacks_lint))
+            if (scene->is_stale || (effort == SCENES_WHOLE && lsp_scene_lacks(scene)))
                 load(scenes, scene, effort);
             changed |= scene->is_fresh;
             scene->is_fresh = false;

@@ -259,7 +259,7 @@ int lsp_serve(int in, int out, const char *version) {
         // Many keys may have been pressed since the last check: only the newest text counts.
         if (!rpc_pending(&server.rpc, 0))
             refresh(&server, server.was_saved ? SCENES_WHOLE : SCENES_QUICK);
-        if (scenes_lack_lint(&server.scenes) && !rpc_pending(&server.rpc, IDLE_MS))
+        if (scenes_are_partial(&server.scenes) && !rpc_pending(&server.rpc, IDLE_MS))
             refresh(&server, SCENES_WHOLE);
         json_t *message;
         goes_on = rpc_read(&server.rpc, &message) == RPC_MESSAGE;

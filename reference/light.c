@@ -68,17 +68,16 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
 
 // ---- background
 
-static double channel(const struct reference *r, const struct picture *picture, size_t at) {
-    if (picture->depth == PICTURE_FLOAT)
-        return (double)((const float *)picture->pixels)[at];
-    return r->decoded[picture->depth == PICTURE_8 ? ((const uint8_t *)picture->pixels)[at]
-                                                  : ((const uint16_t *)picture->pixels)[at]];
+static double channel(const struct reference *r, const struct picture *picture, size_t at, size_t c) {
+    if (picture->depth == PICTURE_RGBE)
+        return (double)picture_linear(picture, at, c);
+    return r->decoded[picture_stored(picture, at, c)];
 }
 
 static vec3 texel(const struct reference *r, size_t column, size_t row) {
     const struct picture *picture = r->input.scene->background.picture;
-    size_t at = 4 * (row * picture->width + column);
-    return (vec3){channel(r, picture, at), channel(r, picture, at + 1), channel(r, picture, at + 2)};
+    size_t at = row * picture->width + column;
+    return (vec3){channel(r, picture, at, 0), channel(r, picture, at, 1), channel(r, picture, at, 2)};
 }
 
 static vec3 mixed(vec3 a, vec3 b, double part) {
@@ -127,8 +126,8 @@ void reference_make_background(struct reference *r) {
     r->background_brightest = reference_brightest(background->color);
     if (!picture)
         return;
-    if (picture->depth != PICTURE_FLOAT) {
-        size_t greatest = picture->depth == PICTURE_8 ? UINT8_MAX : UINT16_MAX;
+    if (picture->depth != PICTURE_RGBE) {
+        size_t greatest = picture_greatest(picture->depth);
         r->decoded = ARENA_ARRAY(&r->arena, double, greatest + 1);
         for (size_t i = 0; i <= greatest; i++) {
             double value = (double)i / (double)greatest;

@@ -1,9 +1,11 @@
 // The bodies of a scene, from the IR's lists and the loaded meshes.
+#include "core/limits.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "scene/scene_parts.h"
 #include "scene/transform.h"
 
+#include <inttypes.h>
 #include <math.h>
 
 enum {
@@ -228,4 +230,24 @@ void scene_check_reach(const struct scene *scene, struct diag_sink *sink) {
                      "is allowed",
                      largest);
     }
+}
+
+bool scene_check_triangles(const struct scene *scene, const struct limits *limits, struct diag_sink *sink) {
+    const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
+    const uint64_t most = limits->value[LIMIT_SCENE_TRIANGLES];
+    const struct scene_body *first_over = NULL;
+    uint64_t total = 0;
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        total += scene->bodies[i].triangle_count;
+        if (total > most && !first_over)
+            first_over = &scene->bodies[i];
+    }
+    if (!first_over)
+        return true;
+    const struct ir_origin *places = scene->assets->origin;
+    diag_add(sink, DIAG_LIMIT, places ? ir_place_label(places, first_over->head) : SPAN_NONE,
+             "the scene has %" PRIu64 " triangles; the limit %s is %" PRIu64, total, info->name, most);
+    if (total <= info->greatest)
+        diag_help(sink, "if this is intended, raise the limit: --limit %s=%" PRIu64, info->name, total);
+    return false;
 }

@@ -11,12 +11,10 @@ void picture_file_finish(struct picture_file *picture) {
     *picture = (struct picture_file){0};
 }
 
-static float channel(const struct picture *picture, size_t at) {
-    if (picture->depth == PICTURE_8)
-        return (float)(((const uint8_t *)picture->pixels)[at] / 255.0);
-    if (picture->depth == PICTURE_16)
-        return (float)(((const uint16_t *)picture->pixels)[at] / 65535.0);
-    return ((const float *)picture->pixels)[at];
+static float channel(const struct picture *picture, size_t at, size_t k) {
+    if (picture->depth == PICTURE_RGBE)
+        return picture_linear(picture, at, k);
+    return (float)(picture_stored(picture, at, k) / (double)picture_greatest(picture->depth));
 }
 
 static const char *decode(str bytes, const struct picture_header *header, struct picture_file *out) {
@@ -27,16 +25,16 @@ static const char *decode(str bytes, const struct picture_header *header, struct
     const size_t pixels = (size_t)picture.width * picture.height;
     out->width = picture.width;
     out->height = picture.height;
-    out->space = picture.depth == PICTURE_FLOAT ? MEASURE_LINEAR : MEASURE_DISPLAYED;
+    out->space = picture.depth == PICTURE_RGBE ? MEASURE_LINEAR : MEASURE_DISPLAYED;
     out->rgb = malloc(3 * pixels * sizeof *out->rgb);
     for (size_t i = 0; out->rgb && i < pixels; i++)
         for (size_t k = 0; k < 3; k++)
-            out->rgb[3 * i + k] = channel(&picture, 4 * i + k);
+            out->rgb[3 * i + k] = channel(&picture, i, k);
     picture_finish(&picture);
-    return out->rgb ? NULL : "there is not enough memory";
+    return out->rgb ? NULL : picture_no_memory;
 }
 
-const char *picture_file_decode(str bytes, uint64_t most_pixels, struct picture_file *out, bool *unknown) {
+const char *picture_file_decode(str bytes, uint64_t most_bytes, struct picture_file *out, bool *unknown) {
     static const char *const kinds[] = {[PICTURE_KIND_NONE] = "",
                                         [PICTURE_KIND_PNG] = "PNG",
                                         [PICTURE_KIND_JPEG] = "JPEG",
@@ -45,7 +43,7 @@ const char *picture_file_decode(str bytes, uint64_t most_pixels, struct picture_
     *unknown = false;
     if (str_starts_with(bytes, STR("PF")) || str_starts_with(bytes, STR("Pf"))) {
         out->kind = "PFM";
-        return pfm_decode(bytes, most_pixels, out);
+        return pfm_decode(bytes, most_bytes, out);
     }
     struct picture_header header;
     const char *fault = picture_read_header(bytes, &header);
@@ -56,7 +54,7 @@ const char *picture_file_decode(str bytes, uint64_t most_pixels, struct picture_
         *unknown = true;
         return "it is not a PNG, JPEG, PFM or Radiance HDR picture";
     }
-    if ((uint64_t)header.width * header.height > most_pixels)
-        return "it has more pixels than the limit image-pixels";
+    if (picture_memory(&header, 3 * sizeof *out->rgb) > most_bytes)
+        return "it takes more memory than the limit image-memory";
     return decode(bytes, &header, out);
 }

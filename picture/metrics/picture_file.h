@@ -15,12 +15,13 @@ struct picture_file {
     float *rgb; // three per pixel, rows from the top
 };
 
-// `most_pixels` is a cap; NULL, or what is wrong with the file. *unknown is set for another kind of file.
-const char *picture_file_decode(str bytes, uint64_t most_pixels, struct picture_file *out, bool *unknown);
+// `most_bytes` of memory are a cap; NULL, or what is wrong with the file. *unknown is set for another kind of
+// file.
+const char *picture_file_decode(str bytes, uint64_t most_bytes, struct picture_file *out, bool *unknown);
 void picture_file_finish(struct picture_file *picture);
 
 // Portable float maps ("PF" colour, "Pf" grey, either byte order); the scale's size is ignored, as other
 // readers do. Fills all of `out` except the kind.
-const char *pfm_decode(str bytes, uint64_t most_pixels, struct picture_file *out);
+const char *pfm_decode(str bytes, uint64_t most_bytes, struct picture_file *out);
 
 #endif

@@ -37,7 +37,7 @@ static float read_float(const unsigned char *p, bool little) {
     return value;
 }
 
-const char *pfm_decode(str bytes, uint64_t most_pixels, struct picture_file *out) {
+const char *pfm_decode(str bytes, uint64_t most_bytes, struct picture_file *out) {
     size_t at = 2;
     const size_t channels = bytes.ptr[1] == 'F' ? 3 : 1;
     double scale = 0;
@@ -47,8 +47,8 @@ const char *pfm_decode(str bytes, uint64_t most_pixels, struct picture_file *out
     if (number_parse(next_word(bytes, &at), &scale) != NUMBER_OK || scale == 0)
         return "its scale, whose sign shows the byte order, is not a number";
     const uint64_t pixels = (uint64_t)out->width * out->height;
-    if (pixels > most_pixels)
-        return "it has more pixels than the limit image-pixels";
+    if (3 * pixels * sizeof *out->rgb > most_bytes)
+        return "it takes more memory than the limit image-memory";
     if (at >= bytes.len || (bytes.len - at - 1) / (FLOAT_BYTES * channels) < pixels)
         return "the file ends before its last pixel";
     out->space = MEASURE_LINEAR;

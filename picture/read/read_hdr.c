@@ -1,13 +1,10 @@
 #include "picture/read/read_hdr.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
     RLE_WIDTH_MIN = 8, // rows outside these widths have no run lengths per channel
     RLE_WIDTH_MAX = 0x7FFF,
-    EXPONENT_BIAS = 128 + 8,
 };
 
 struct hdr_reader {
@@ -125,31 +122,11 @@ static bool read_row(struct hdr_reader *r, unsigned char *row, uint32_t width) {
     return true;
 }
 
-// 255 * 2^(255 - 136) is a float: every pixel is finite.
-static void decode_row(const unsigned char *row, uint32_t width, const float scale[256], float *pixels) {
-    for (size_t x = 0; x < width; x++) {
-        float s = scale[row[4 * x + 3]];
-        for (size_t c = 0; c < 3; c++)
-            pixels[4 * x + c] = (float)row[4 * x + c] * s;
-        pixels[4 * x + 3] = 1;
-    }
-}
-
-const char *hdr_read_pixels(str bytes, const struct picture_header *header, float *pixels) {
+const char *hdr_read_rows(str bytes, const struct picture_header *header, struct picture_rows rows) {
     const unsigned char *data = (const unsigned char *)bytes.ptr;
     struct hdr_reader reader = {data + header->data_at, data + bytes.len};
-    unsigned char *row = malloc(4 * (size_t)header->width);
-    if (!row)
-        return "there is not enough memory";
-    float scale[256] = {0}; // exponent 0 is black
-    for (int e = 1; e < 256; e++)
-        scale[e] = ldexpf(1, e - EXPONENT_BIAS);
-    bool whole = true;
-    for (uint32_t y = 0; y < header->height && whole; y++) {
-        whole = read_row(&reader, row, header->width);
-        if (whole)
-            decode_row(row, header->width, scale, pixels + 4 * (size_t)y * header->width);
-    }
-    free(row);
-    return whole ? NULL : "its pixels are damaged, or the file ends before them";
+    for (uint32_t y = 0; y < header->height; y++)
+        if (!read_row(&reader, picture_row(&rows, y), header->width))
+            return "its pixels are damaged, or the file ends before them";
+    return NULL;
 }

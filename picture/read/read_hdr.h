@@ -6,10 +6,11 @@
 #define GLINT_PICTURE_READ_READ_HDR_H
 
 #include "picture/read/picture_read.h"
+#include "picture/read/picture_rows.h"
 
 // Fills width, height, data_at and ignored. NULL, or what is wrong.
 const char *hdr_read_header(str bytes, struct picture_header *out);
-// RGBA floats, finite and not negative, alpha 1. NULL, or what is wrong.
-const char *hdr_read_pixels(str bytes, const struct picture_header *header, float *pixels);
+// RGBE: the bytes of the format itself, runs expanded. NULL, or what is wrong.
+const char *hdr_read_rows(str bytes, const struct picture_header *header, struct picture_rows rows);
 
 #endif

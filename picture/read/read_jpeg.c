@@ -26,6 +26,9 @@ enum marker {
 enum {
     COMPONENTS_MAX = 4,
     SCANS_MAX = 500, // each one passes over the whole picture, however few bytes it has
+    FACTOR_MAX = 4,  // of sampling
+    BLOCK = 8,       // samples along its side
+    BLOCK_BYTES = BLOCK * BLOCK * 2,
     BUDGET_SLACK = 16 << 20,
 };
 
@@ -38,6 +41,12 @@ struct walk {
     unsigned scans;
     bool profile;
     uint32_t width, height; // 0: no frame yet
+    bool progressive;
+    struct {
+        unsigned across, down; // samples of a component in a unit of them
+    } factors[COMPONENTS_MAX];
+    unsigned components;
+    bool parted; // no scan has all components
 };
 
 struct segment {
@@ -58,8 +67,17 @@ static const char *read_frame(struct walk *w, struct segment s, unsigned marker)
     w->width = (uint32_t)s.data[3] << 8 | s.data[4];
     if (w->width == 0 || w->height == 0)
         return "its width or height is 0";
-    if (s.data[5] < 1 || s.data[5] > COMPONENTS_MAX)
+    w->components = s.data[5];
+    if (w->components < 1 || w->components > COMPONENTS_MAX)
         return "it does not have 1 to 4 channels";
+    for (unsigned i = 0; i < w->components; i++) {
+        w->factors[i].across = s.data[7 + 3 * i] >> 4;
+        w->factors[i].down = s.data[7 + 3 * i] & 15;
+        if (w->factors[i].across < 1 || w->factors[i].across > FACTOR_MAX || w->factors[i].down < 1 ||
+            w->factors[i].down > FACTOR_MAX)
+            return "its frame header is damaged";
+    }
+    w->progressive = marker == MARKER_SOF2;
     return NULL;
 }
 
@@ -87,6 +105,8 @@ static const char *read_segment(struct walk *w, unsigned marker, struct segment 
         return "it has no frame header";
     if (marker == MARKER_SOS && ++w->scans > SCANS_MAX)
         return "it has more than 500 scans";
+    if (marker == MARKER_SOS && w->scans == 1)
+        w->parted = s.size > 0 && s.data[0] < w->components;
     w->profile |= marker == MARKER_APP2 && s.size >= 12 && memcmp(s.data, "ICC_PROFILE", 12) == 0;
     return NULL;
 }
@@ -117,12 +137,33 @@ static const char *walk_file(struct walk *w) {
     }
 }
 
+static uint64_t rounded_up(uint64_t value, uint64_t step) {
+    return (value + step - 1) / step * step;
+}
+
+// All coefficients of a frame, two bytes each: what is kept of files whose scans have only a part of them.
+// Whole units of blocks, as the library counts them.
+static uint64_t coefficient_bytes(const struct walk *w) {
+    unsigned across_most = 1, down_most = 1;
+    for (unsigned i = 0; i < w->components; i++) {
+        across_most = w->factors[i].across > across_most ? w->factors[i].across : across_most;
+        down_most = w->factors[i].down > down_most ? w->factors[i].down : down_most;
+    }
+    const uint64_t units_x = rounded_up(w->width, (uint64_t)across_most * BLOCK) / (across_most * BLOCK);
+    const uint64_t units_y = rounded_up(w->height, (uint64_t)down_most * BLOCK) / (down_most * BLOCK);
+    uint64_t bytes = 0;
+    for (unsigned i = 0; i < w->components; i++)
+        bytes += units_x * w->factors[i].across * units_y * w->factors[i].down * BLOCK_BYTES;
+    return bytes;
+}
+
 const char *picture_jpeg_header(str bytes, struct picture_header *out) {
     struct walk w = {.data = (const unsigned char *)bytes.ptr, .size = bytes.len, .at = 2};
     const char *fault = walk_file(&w);
     out->width = w.width;
     out->height = w.height;
     out->ignored = w.profile ? "colour profile is" : NULL;
+    out->decoder_bytes = BUDGET_SLACK + (w.progressive || w.parted ? coefficient_bytes(&w) : 0);
     return fault;
 }
 
@@ -133,7 +174,8 @@ struct job {
     struct jpeg_error_mgr errors;
     jmp_buf jump;
     const struct picture_header *header;
-    uint8_t *pixels;
+    struct picture_rows rows;
+    uint8_t *inks;     // a row of four channels, where the file has them
     const char *fault; // NULL: all went well
 };
 
@@ -142,7 +184,7 @@ static const struct {
     int code;
     const char *fault;
 } faults[] = {
-    {JERR_OUT_OF_MEMORY, "there is not enough memory"},
+    {JERR_OUT_OF_MEMORY, picture_no_memory},
     {JERR_NO_BACKING_STORE, "it has more data than a picture of its size needs"},
     {JERR_IMAGE_TOO_BIG, "its width or height is above 65500"},
     {JERR_CONVERSION_NOTIMPL, "it has two channels; save it with one or three"},
@@ -185,7 +227,7 @@ static void on_output(j_common_ptr decoder) {
 // Y, Cb, Cr and a fourth one that is ignored.
 static bool choose_colors(j_decompress_ptr decoder) {
     bool inks = decoder->saw_Adobe_marker && (decoder->Adobe_transform == 0 || decoder->Adobe_transform == 2);
-    decoder->out_color_space = JCS_EXT_RGBA;
+    decoder->out_color_space = JCS_EXT_RGB;
     if (decoder->num_components < 4)
         return false;
     decoder->out_color_space = JCS_CMYK;
@@ -200,12 +242,10 @@ static uint8_t product(unsigned a, unsigned b) {
     return (uint8_t)((t + (t >> 8)) >> 8);
 }
 
-static void rgba_of_four(uint8_t *row, uint32_t width, bool inks) {
-    for (uint8_t *p = row, *end = row + 4 * (size_t)width; p < end; p += 4) {
+static void rgb_of_four(const uint8_t *row, uint32_t width, bool inks, uint8_t *to) {
+    for (const uint8_t *p = row, *end = row + 4 * (size_t)width; p < end; p += 4, to += 3)
         for (int c = 0; c < 3; c++)
-            p[c] = inks ? product(p[c], p[3]) : 255 - p[c];
-        p[3] = 255;
-    }
+            to[c] = inks ? product(p[c], p[3]) : 255 - p[c];
 }
 
 // The library uses the standard tables if a file has none; but a damaged file must not become a picture.
@@ -226,8 +266,8 @@ static void read_rows(str bytes, struct job *job) {
     const struct picture_header *header = job->header;
     jpeg_create_decompress(decoder);
     jpeg_mem_src(decoder, (const unsigned char *)bytes.ptr, bytes.len);
-    // The coefficients of several scans are kept, two bytes each; no header can make the library keep more.
-    decoder->mem->max_memory_to_use = (long)(16 * (uint64_t)header->width * header->height + BUDGET_SLACK);
+    // No header can make the library keep more than was counted.
+    decoder->mem->max_memory_to_use = (long)header->decoder_bytes;
     jpeg_read_header(decoder, TRUE);
     if (decoder->image_width != header->width || decoder->image_height != header->height) {
         job->fault = "its parts contradict each other about its size";
@@ -238,12 +278,13 @@ static void read_rows(str bytes, struct job *job) {
         return;
     }
     bool inks = choose_colors(decoder);
+    const bool is_four = decoder->num_components == 4;
     jpeg_start_decompress(decoder);
     for (uint32_t y = 0; y < header->height; y++) {
-        uint8_t *row = job->pixels + (size_t)y * 4 * header->width;
+        uint8_t *row = is_four ? job->inks : picture_row(&job->rows, y);
         jpeg_read_scanlines(decoder, &row, 1);
-        if (decoder->num_components == 4)
-            rgba_of_four(row, header->width, inks);
+        if (is_four)
+            rgb_of_four(row, header->width, inks, picture_row(&job->rows, y));
     }
     jpeg_finish_decompress(decoder);
 }
@@ -254,8 +295,10 @@ static void read_guarded(str bytes, struct job *job) {
         read_rows(bytes, job);
 }
 
-const char *picture_jpeg_pixels(str bytes, const struct picture_header *header, uint8_t *pixels) {
-    struct job job = {.header = header, .pixels = pixels};
+const char *picture_jpeg_rows(str bytes, const struct picture_header *header, struct picture_rows rows) {
+    struct job job = {.header = header, .rows = rows, .inks = malloc(4 * (size_t)header->width)};
+    if (!job.inks)
+        return picture_no_memory;
     job.decoder.err = jpeg_std_error(&job.errors);
     job.decoder.client_data = &job;
     job.errors.error_exit = on_error;
@@ -263,5 +306,6 @@ const char *picture_jpeg_pixels(str bytes, const struct picture_header *header, 
     job.errors.output_message = on_output;
     read_guarded(bytes, &job);
     jpeg_destroy_decompress(&job.decoder);
+    free(job.inks);
     return job.fault;
 }

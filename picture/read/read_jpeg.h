@@ -5,10 +5,12 @@
 #define GLINT_PICTURE_READ_READ_JPEG_H
 
 #include "picture/read/picture_read.h"
+#include "picture/read/picture_rows.h"
 
-// Walks the whole file to its end marker. Fills width, height and ignored. NULL, or what is wrong.
+// Walks the whole file to its end marker. Fills width, height, decoder_bytes and ignored. NULL, or what is
+// wrong.
 const char *picture_jpeg_header(str bytes, struct picture_header *out);
-// RGBA, alpha 255, for a file that picture_jpeg_header found whole. NULL, or what is wrong.
-const char *picture_jpeg_pixels(str bytes, const struct picture_header *header, uint8_t *pixels);
+// RGB, for a file that picture_jpeg_header found whole. NULL, or what is wrong.
+const char *picture_jpeg_rows(str bytes, const struct picture_header *header, struct picture_rows rows);
 
 #endif

@@ -10,6 +10,7 @@ enum {
     FRAME = 12, // length, type and checksum of a chunk
     DATA_SLACK = 64 << 10,
     MEMORY_SLACK = 1 << 20,
+    ROWS = 4, // that libpng has at a time, as wide as a row can be
 };
 
 static uint32_t big_endian(const unsigned char *p, int bytes) {
@@ -26,6 +27,11 @@ static const char *name_ignored(bool alpha, bool profile) {
            : alpha          ? "alpha is"
            : profile        ? "colour profile is"
                             : NULL;
+}
+
+// Four channels: alpha is decoded, and then taken off.
+static uint64_t widest_row(const struct picture_header *header) {
+    return (uint64_t)header->width * 4 * (header->is_16_bit ? 2 : 1);
 }
 
 const char *picture_png_header(str bytes, struct picture_header *out) {
@@ -56,6 +62,7 @@ const char *picture_png_header(str bytes, struct picture_header *out) {
         at += FRAME + length;
     }
     out->ignored = name_ignored(alpha, profile);
+    out->decoder_bytes = ROWS * widest_row(out) + MEMORY_SLACK;
     return out->width == 0 || out->height == 0 || out->width > INT32_MAX || out->height > INT32_MAX
                ? "its width or height is 0 or beyond the format's range"
                : NULL;
@@ -86,8 +93,8 @@ struct job {
     const char *at; // the next byte that libpng has not asked for
     size_t left;
     const struct picture_header *header;
-    unsigned char *pixels;
-    size_t row_bytes;     // of the pixels
+    struct picture_rows rows;
+    size_t row_bytes;     // of a row as it is kept
     uint64_t memory_left; // that libpng may still ask for
     const char *fault;    // what is wrong if libpng gives up now; NULL: all went well
 };
@@ -120,7 +127,7 @@ static png_voidp on_malloc(png_structp png, png_alloc_size_t count) {
     job->memory_left -= count;
     void *memory = malloc(count);
     if (!memory)
-        job->fault = "there is not enough memory";
+        job->fault = picture_no_memory;
     return memory;
 }
 
@@ -138,11 +145,11 @@ static void set_up(png_structp png, struct job *job) {
     png_set_user_limits(png, INT32_MAX, INT32_MAX);
 }
 
-static void ask_for_rgba(png_structp png) {
+static void ask_for_rgb(png_structp png) {
     static const uint16_t one = 1;
     png_set_expand(png); // palettes, fewer than 8 bits, tRNS
     png_set_gray_to_rgb(png);
-    png_set_add_alpha(png, UINT16_MAX, PNG_FILLER_AFTER);
+    png_set_strip_alpha(png);
     if (*(const uint8_t *)&one == 1)
         png_set_swap(png); // 16 bits are big-endian in the file
 }
@@ -153,7 +160,7 @@ static void read_rows(png_structp png, png_infop info, struct job *job) {
     set_up(png, job);
     job->fault = "its header or its palette is damaged";
     png_read_info(png, info);
-    ask_for_rgba(png);
+    ask_for_rgb(png);
     int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     if (png_get_image_width(png, info) != header->width ||
@@ -164,7 +171,7 @@ static void read_rows(png_structp png, png_infop info, struct job *job) {
     job->fault = "its pixels are damaged, or some are missing";
     for (int pass = 0; pass < passes; pass++)
         for (uint32_t y = 0; y < header->height; y++)
-            png_read_row(png, job->pixels + y * job->row_bytes, NULL);
+            png_read_row(png, picture_row(&job->rows, y), NULL);
     png_read_end(png, info);
     job->fault = NULL;
 }
@@ -175,19 +182,17 @@ static void read_guarded(png_structp png, png_infop info, struct job *job) {
         read_rows(png, info, job);
 }
 
-const char *picture_png_pixels(str bytes, const struct picture_header *header, void *pixels) {
-    const size_t row_bytes = (size_t)header->width * 4 * (header->is_16_bit ? 2 : 1);
-    const uint64_t size_bytes = (uint64_t)row_bytes * header->height;
-    const char *fault = check_chunks(bytes, 2 * size_bytes + DATA_SLACK);
+const char *picture_png_rows(str bytes, const struct picture_header *header, struct picture_rows rows) {
+    const char *fault = check_chunks(bytes, 2 * widest_row(header) * header->height + DATA_SLACK);
     if (fault)
         return fault;
     struct job job = {.at = bytes.ptr,
                       .left = bytes.len,
                       .header = header,
-                      .pixels = pixels,
-                      .row_bytes = row_bytes,
-                      .memory_left = 4 * (uint64_t)row_bytes + MEMORY_SLACK,
-                      .fault = "there is not enough memory"};
+                      .rows = rows,
+                      .row_bytes = header->width * picture_pixel_bytes(picture_depth_of(header)),
+                      .memory_left = header->decoder_bytes,
+                      .fault = picture_no_memory};
     png_structp png =
         png_create_read_struct_2(PNG_LIBPNG_VER_STRING, NULL, on_error, on_warning, &job, on_malloc, on_free);
     png_infop info = png ? png_create_info_struct(png) : NULL;

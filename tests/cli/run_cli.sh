@@ -57,6 +57,19 @@ expect "all cameras into one stream" 2 - "'--camera all' writes a file for each 
 expect "check is silent" 0 - - "$glint" check good.yaml
 expect "check finds the mistake" 1 - 'bad.yaml:2:39: error: .*\[E206\]' "$glint" check bad.yaml
 expect "the highest code of several" 3 - 'none.yaml:1:1: error: .*\[E601\]' "$glint" check bad.yaml none.yaml good.yaml
+# A byte of a chunk's checksum: only who decodes sees it.
+printf 'glint: 1\nimage: {width: 8, height: 6}\nbackground: {image: sky.png}\n' >sky.yaml
+cp "$source/tests/data/image/interlaced.png" sky.png
+expect "a whole image" 0 - - "$glint" check sky.yaml
+printf 'x' | dd of=sky.png bs=1 seek=30 conv=notrunc 2>dd.txt
+for command in check inspect "render --device reference"; do
+    expect "a damaged image: $command" 1 - "^sky.png:1:1: error: .*a chunk's checksum is wrong.*\[E620\]" "$glint" $command sky.yaml
+done
+expect "only the image's header" 0 - - "$glint" check sky.yaml --skip-pixels
+expect "only the image's header, of inspect" 0 'background' '' "$glint" inspect sky.yaml --skip-pixels
+expect "render needs the pixels" 2 - "unknown or ambiguous option '--skip-pixels'" "$glint" render sky.yaml --skip-pixels
+expect "the limit is one of bytes, however few pixels are read" 1 - '^sky.yaml:3:21: error: .*limit image-memory is 1 \[E501\]' \
+    "$glint" check sky.yaml --skip-pixels --limit image-memory=1
 cp bad.yaml also.yaml
 "$glint" check bad.yaml two.yaml none.yaml also.yaml bad.yaml >all.txt 2>&1
 printf 'bad.yaml:2:39\nnone.yaml:1:1\nalso.yaml:2:39\n' >wanted.txt

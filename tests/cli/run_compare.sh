@@ -49,7 +49,7 @@ expect "a cut picture" 3 - '^short\.pfm:1:1: error: the file ends before its las
 echo text >text.png
 expect "no picture" 3 - '^text\.png:1:1: error: .*E621' "$glint" compare half.pfm text.png
 expect "a folder" 3 - 'E603' "$glint" compare half.pfm .
-expect "too many pixels" 3 - 'image-pixels' "$glint" compare half.pfm half.pfm --limit image-pixels=1
+expect "too many pixels" 3 - 'image-memory' "$glint" compare half.pfm half.pfm --limit image-memory=1
 expect "one picture" 2 - 'needs PICTURE REFERENCE' "$glint" compare half.pfm
 expect "a bad bound" 2 - 'max-mae takes a number of at least 0' "$glint" compare half.pfm half.pfm --max-mae -1
 expect "a bad word" 2 - "space takes auto, displayed or linear, not 'log'" "$glint" compare half.pfm half.pfm --space log

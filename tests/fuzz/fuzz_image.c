@@ -20,9 +20,10 @@ static void require(bool holds, const char *what) {
 }
 
 static void check_floats(const struct picture *picture) {
-    const float *pixels = picture->pixels;
-    for (uint64_t i = 0; i < picture->size_bytes / sizeof *pixels; i++)
-        require(isfinite(pixels[i]) && pixels[i] >= 0, "pixels are finite and not negative");
+    for (size_t i = 0; i < (size_t)picture->width * picture->height; i++)
+        for (size_t c = 0; c < 3; c++)
+            require(isfinite(picture_linear(picture, i, c)) && picture_linear(picture, i, c) >= 0,
+                    "pixels are finite and not negative");
 }
 
 static uint32_t read32(const uint8_t *p) {
@@ -53,9 +54,12 @@ static void read_image(str bytes) {
     const char *fault = picture_read_header(bytes, &header);
     if (fault || header.kind == PICTURE_KIND_NONE || (uint64_t)header.width * header.height > PIXELS_MAX)
         return;
+    const char *checked = picture_check(bytes, &header);
     fault = picture_decode(bytes, &header, &picture);
+    require(!checked == !fault && (!fault || strcmp(checked, fault) == 0),
+            "the same fault whether pixels are kept or not");
     require(fault ? !picture.pixels : picture.pixels != NULL, "pixels, or a fault");
-    if (!fault && picture.depth == PICTURE_FLOAT)
+    if (!fault && picture.depth == PICTURE_RGBE)
         check_floats(&picture);
     picture_finish(&picture);
 }

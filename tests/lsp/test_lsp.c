@@ -429,6 +429,33 @@ static void tells_costly_findings_when_no_one_types(void **state) {
 }
 
 // What is quadratic takes minutes here.
+#define SKY      "glint: 1\nbackground: {image: sky.hdr}\n"
+#define HDR_HEAD "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 5\n\x80\x40\x20\x81\1\1\1"
+
+// What an image's pixels hide is looked for once nobody types, and from then on known with every key, until
+// the file changes.
+static void decodes_images_when_no_one_types(void **state) {
+    struct lsp_client *client = *state;
+    client_file(client, "sky.hdr", HDR_HEAD "\5");
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml", SKY);
+    while (!find_code(json_object_get(client->diagnostics, client_uri(client, "sky.hdr")), "E620")) {
+        json_t *message = client_receive(client);
+        assert_non_null(message);
+        json_decref(message);
+    }
+    change(client, "main.yaml", 2, SKY "description: more\n");
+    client_diagnostics(client, "main.yaml", 2);
+    // Whatever belongs to that version comes before this answer.
+    json_decref(client_request(client, "textDocument/hover", client_at(client, "main.yaml", 1, 1), NULL));
+    with_code(json_object_get(client->diagnostics, client_uri(client, "sky.hdr")), "E620");
+    client_file(client, "sky.hdr", HDR_HEAD "\4 ");
+    change(client, "main.yaml", 3, SKY);
+    client_diagnostics(client, "main.yaml", 3);
+    json_decref(client_request(client, "textDocument/hover", client_at(client, "main.yaml", 1, 1), NULL));
+    assert_int_equal(errors(json_object_get(client->diagnostics, client_uri(client, "sky.hdr"))), 0);
+}
+
 static void answers_large_documents(void **state) {
     struct lsp_client *client = *state;
     size_t size = (size_t)MANY * 64 + 64;
@@ -502,6 +529,7 @@ int main(int argc, char **argv) {
         TEST(honours_settings_and_checks_them),
         TEST(remembers_names_while_the_text_is_broken),
         TEST(tells_costly_findings_when_no_one_types),
+        TEST(decodes_images_when_no_one_types),
         TEST(answers_large_documents),
         TEST(refuses_what_it_does_not_know),
     };

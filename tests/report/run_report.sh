@@ -229,7 +229,7 @@ agree bad 'max_messages: [1]'
 agree bad 'limits: {mesh-byte: 1}'
 agree bad 'limits: {mesh-bytes: 0}'
 agree bad 'limits: {scene-depth: 2000}'
-agree good 'limits: {scene-depth: 1024, image-pixels: 1}'
+agree good 'limits: {scene-depth: 1024, image-memory: 1}'
 agree bad 'asset_path: [x]'
 for limit in $("$glint" check --limit help | sed 's/ .*//'); do
     ok "the schema knows the limit $limit" grep -q "\"$limit\"" "$schema"

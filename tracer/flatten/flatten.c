@@ -161,6 +161,6 @@ void flat_finish(struct flat_scene *flat) {
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i].words);
     free(flat->first_triangle);
-    free(flat->background_texels.owned);
+    free(flat->background_texels.decoded);
     *flat = (struct flat_scene){0};
 }

@@ -4,7 +4,8 @@
 // box that is nearest to it) is subtracted from the transforms in double before any vertex is touched; the
 // scale is 2^-ilogb(largest |coordinate - origin| of bodies), lights excluded; then values are rounded to
 // float, or stay double for the kernels in double precision, whose boxes alone are float. A point light
-// further than 2^40 after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double. Ownership:
+// further than 2^40 after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double. The
+// background stays as its file has it: flat_background makes a few texels at a time of it. Ownership:
 // flat_finish frees everything. Thread safety: immutable once made.
 #ifndef GLINT_TRACER_FLATTEN_FLATTEN_H
 #define GLINT_TRACER_FLATTEN_FLATTEN_H
@@ -31,10 +32,9 @@ struct flat_scene {
     struct flat_array triangle_nodes, triangles, normals, sphere_nodes, spheres, bodies, materials, lights;
     const struct picture *background; // not owned
     struct {
-        const void *texels;
-        uint64_t bytes;
-        bool is_float;
-        void *owned;
+        uint64_t bytes; // as texels of the device; 0: there is no image
+        bool is_float;  // four floats a texel, else four bytes of 1/255
+        float *decoded; // by stored value, where these are whole numbers that become floats
     } background_texels;
     uint32_t body_count, light_count, triangle_count, sphere_count;
     uint32_t *first_triangle;              // by body: the number of its first triangle
@@ -56,6 +56,8 @@ struct flat_input {
 
 // false: too large or no memory (the sink says which).
 bool flatten(const struct flat_input *input, struct flat_scene *out);
+// Makes texels [begin, end) of the background, whose picture must have its pixels, from `to` on.
+void flat_background(const struct flat_scene *flat, size_t begin, size_t end, void *to);
 void flat_finish(struct flat_scene *flat);
 
 #endif

@@ -5,7 +5,6 @@
 
 #include <assert.h>
 #include <float.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,32 +22,16 @@ static span place_of(const struct flattening *f, const struct scene_body *body) 
     return places ? ir_place_label(places, body->head) : SPAN_NONE;
 }
 
-static enum flatten_fault report_limit(const struct flattening *f, const struct scene_body *body,
-                                       uint64_t total) {
-    const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
-    diag_add(f->input->sink, DIAG_LIMIT, place_of(f, body),
-             "the scene has %" PRIu64 " triangles; the limit %s is %" PRIu64, total, info->name,
-             f->input->limits->value[LIMIT_SCENE_TRIANGLES]);
-    if (total <= info->greatest)
-        diag_help(f->input->sink, "if this is intended, raise the limit: --limit %s=%" PRIu64, info->name,
-                  total);
-    return FLATTEN_REPORTED;
-}
-
 enum flatten_fault flatten_count(struct flattening *f) {
-    uint64_t limit = f->input->limits->value[LIMIT_SCENE_TRIANGLES];
     uint64_t total = 0;
-    const struct scene_body *first_over = NULL;
+    if (!scene_check_triangles(f->scene, f->input->limits, f->input->sink))
+        return FLATTEN_REPORTED;
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
         f->out->first_triangle[i] = (uint32_t)total;
         f->out->sphere_count += body->shape == SCENE_SPHERE;
         total += body->triangle_count;
-        if (total > limit && !first_over)
-            first_over = body;
     }
-    if (first_over)
-        return report_limit(f, first_over, total);
     f->triangle_total = (uint32_t)total;
     return FLATTEN_DONE;
 }

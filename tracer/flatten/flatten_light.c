@@ -8,6 +8,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // A point light further than this, in flat units, counts as infinitely far away.
 #define LIGHT_DISTANCE_MAX 0x1p40
@@ -86,24 +87,48 @@ enum flatten_fault flatten_lights(struct flattening *f) {
 // ---- background
 
 struct texels {
-    const struct picture *picture;
-    const float *decoded; // by stored value, where these are whole numbers
-    float *to;
+    const struct flat_scene *flat;
+    size_t first;
+    void *to;
 };
 
-static void put_texels(void *context, size_t begin, size_t end) {
+static void put_bytes(void *context, size_t begin, size_t end) {
     const struct texels *t = context;
+    uint8_t *to = t->to;
     for (size_t i = begin; i < end; i++) {
-        for (size_t c = 4 * i; c < 4 * i + 3; c++) {
-            if (t->picture->depth == PICTURE_8)
-                t->to[c] = t->decoded[((const uint8_t *)t->picture->pixels)[c]];
-            else if (t->picture->depth == PICTURE_16)
-                t->to[c] = t->decoded[((const uint16_t *)t->picture->pixels)[c]];
-            else
-                t->to[c] = ((const float *)t->picture->pixels)[c];
-        }
-        t->to[4 * i + 3] = 1;
+        memcpy(to + 4 * i, (const uint8_t *)t->flat->background->pixels + 3 * (t->first + i), 3);
+        to[4 * i + 3] = UINT8_MAX;
     }
+}
+
+static void put_decoded(void *context, size_t begin, size_t end) {
+    const struct texels *t = context;
+    float *to = t->to;
+    for (size_t i = begin; i < end; i++) {
+        for (size_t c = 0; c < 3; c++)
+            to[4 * i + c] =
+                t->flat->background_texels.decoded[picture_stored(t->flat->background, t->first + i, c)];
+        to[4 * i + 3] = 1;
+    }
+}
+
+static void put_linear(void *context, size_t begin, size_t end) {
+    const struct texels *t = context;
+    float *to = t->to;
+    for (size_t i = begin; i < end; i++) {
+        for (size_t c = 0; c < 3; c++)
+            to[4 * i + c] = picture_linear(t->flat->background, t->first + i, c);
+        to[4 * i + 3] = 1;
+    }
+}
+
+void flat_background(const struct flat_scene *flat, size_t begin, size_t end, void *to) {
+    struct texels texels = {flat, begin, to};
+    parallel_for(end - begin, PIECE_TEXELS,
+                 !flat->background_texels.is_float ? put_bytes
+                 : flat->background_texels.decoded ? put_decoded
+                                                   : put_linear,
+                 &texels);
 }
 
 enum flatten_fault flatten_background(struct flattening *f) {
@@ -112,29 +137,19 @@ enum flatten_fault flatten_background(struct flattening *f) {
     if (!picture)
         return FLATTEN_DONE;
     size_t count = (size_t)picture->width * picture->height;
-    if (picture->depth == PICTURE_8 && !is_srgb) {
-        f->out->background_texels.texels = picture->pixels;
-        f->out->background_texels.bytes = count * 4;
+    f->out->background_texels.is_float = is_srgb || picture->depth != PICTURE_8;
+    f->out->background_texels.bytes = count * (f->out->background_texels.is_float ? 4 * sizeof(float) : 4);
+    if (!f->out->background_texels.is_float || picture->depth == PICTURE_RGBE)
         return FLATTEN_DONE;
-    }
-    uint32_t greatest = picture->depth == PICTURE_8 ? UINT8_MAX : UINT16_MAX;
+    uint32_t greatest = picture_greatest(picture->depth);
     float *decoded = malloc(((size_t)greatest + 1) * sizeof *decoded);
-    float *to = malloc(count * 4 * sizeof *to);
-    if (!decoded || !to) {
-        free(decoded);
-        free(to);
+    if (!decoded)
         return FLATTEN_NO_MEMORY;
-    }
     for (uint32_t i = 0; i <= greatest; i++) {
         double value = (double)i / greatest;
         decoded[i] = (float)(is_srgb ? srgb_decode(value) : value);
     }
-    struct texels texels = {picture, decoded, to};
-    parallel_for(count, PIECE_TEXELS, put_texels, &texels);
-    free(decoded);
-    f->out->background_texels.texels = f->out->background_texels.owned = to;
-    f->out->background_texels.bytes = count * 4 * sizeof *to;
-    f->out->background_texels.is_float = true;
+    f->out->background_texels.decoded = decoded;
     return FLATTEN_DONE;
 }
 
@@ -162,7 +177,7 @@ void flatten_features(struct flattening *f) {
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
     mask |= out->sphere_count ? FEATURE_SPHERES : 0;
     mask |= out->normals.count ? FEATURE_SMOOTH : 0;
-    mask |= out->background_texels.texels ? FEATURE_BACKGROUND_IMAGE : 0;
+    mask |= out->background ? FEATURE_BACKGROUND_IMAGE : 0;
     mask |= used_material_features(f);
     mask |= f->light_features;
     if (!(mask & (FEATURE_DIFFUSE | FEATURE_SPECULAR)))

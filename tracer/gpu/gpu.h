@@ -86,6 +86,11 @@ void gpu_buffer_destroy(struct gpu *gpu, struct gpu_buffer *buffer);
 uint64_t gpu_buffer_bytes(const struct gpu_buffer *buffer);
 // Copies between this process and a buffer; the range must lie inside. They wait for the device.
 bool gpu_write(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, const void *data, uint64_t bytes);
+// The same for what is made on the way: `put` writes bytes [offset, offset + bytes) of the buffer to `to`,
+// whole words of 16, in pieces of ascending offsets.
+typedef void gpu_put(void *context, uint64_t offset, void *to, uint64_t bytes);
+bool gpu_fill(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, uint64_t bytes, gpu_put *put,
+              void *context);
 bool gpu_read(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, void *data, uint64_t bytes);
 // True where GPU_WORDS are texels: which variant of a kernel fits.
 bool gpu_fetches_texels(const struct gpu *gpu);

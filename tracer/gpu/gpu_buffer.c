@@ -178,26 +178,41 @@ static bool copy(struct gpu *gpu, VkBuffer from, uint64_t from_offset, VkBuffer 
     return gpu_submit(gpu) && gpu_wait(gpu, NULL);
 }
 
-bool gpu_write(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, const void *data,
-               uint64_t bytes) {
+bool gpu_fill(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, uint64_t bytes, gpu_put *put,
+              void *context) {
     if (bytes == 0)
         return true;
     if (!gpu_wait(gpu, NULL))
         return false;
     if (buffer->mapped) {
-        memcpy((char *)buffer->mapped + offset, data, bytes);
+        put(context, offset, (char *)buffer->mapped + offset, bytes);
         return true;
     }
     if (!make_staging(gpu))
         return false;
     for (uint64_t done = 0; done < bytes;) {
         const uint64_t piece = bytes - done < STAGING_BYTES ? bytes - done : STAGING_BYTES;
-        memcpy(gpu->staging->mapped, (const char *)data + done, piece);
+        put(context, offset + done, gpu->staging->mapped, piece);
         if (!copy(gpu, gpu->staging->buffer, 0, buffer->buffer, offset + done, piece))
             return false;
         done += piece;
     }
     return true;
+}
+
+struct written {
+    const char *data;
+    uint64_t offset;
+};
+
+static void put_written(void *context, uint64_t offset, void *to, uint64_t bytes) {
+    const struct written *written = context;
+    memcpy(to, written->data + (offset - written->offset), bytes);
+}
+
+bool gpu_write(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, const void *data,
+               uint64_t bytes) {
+    return gpu_fill(gpu, buffer, offset, bytes, put_written, &(struct written){data, offset});
 }
 
 bool gpu_read(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, void *data, uint64_t bytes) {

@@ -100,6 +100,21 @@ static bool upload(struct renderer *renderer, uint32_t binding, enum gpu_use use
     return buffer && (!data || gpu_write(renderer->gpu, buffer, 0, data, bytes));
 }
 
+static void put_background(void *context, uint64_t offset, void *to, uint64_t bytes) {
+    const struct flat_scene *flat = context;
+    const uint64_t texel = flat->background_texels.is_float ? 4 * sizeof(float) : 4;
+    flat_background(flat, (size_t)(offset / texel), (size_t)((offset + bytes) / texel), to);
+}
+
+// Texels are made where the device reads them: there is no second copy of the picture here.
+static bool upload_background(struct renderer *renderer) {
+    struct flat_scene flat = *renderer->flat;
+    const enum gpu_use use = flat.background_texels.is_float ? GPU_TEXELS_F32 : GPU_TEXELS_U8;
+    return upload(renderer, BINDING_BACKGROUND, use, NULL, flat.background_texels.bytes) &&
+           gpu_fill(renderer->gpu, renderer->buffers[BINDING_BACKGROUND], 0, flat.background_texels.bytes,
+                    put_background, &flat);
+}
+
 static bool upload_scene(struct renderer *renderer) {
     const struct flat_scene *flat = renderer->flat;
     const struct {
@@ -119,9 +134,7 @@ static bool upload_scene(struct renderer *renderer) {
         if (!upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
                     arrays[i].array->count * sizeof(struct gpu_word)))
             return false;
-    const enum gpu_use use = flat->background_texels.is_float ? GPU_TEXELS_F32 : GPU_TEXELS_U8;
-    return upload(renderer, BINDING_BACKGROUND, use, flat->background_texels.texels,
-                  flat->background_texels.bytes);
+    return upload_background(renderer);
 }
 
 static bool make_band(struct renderer *renderer) {

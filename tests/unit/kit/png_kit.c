@@ -1,6 +1,7 @@
 #include "png_kit.h"
 
-static uint32_t crc_of(const unsigned char *p, size_t n) {
+uint32_t png_checksum(const void *bytes, size_t n) {
+    const unsigned char *p = bytes;
     uint32_t crc = UINT32_MAX;
     for (size_t i = 0; i < n; i++) {
         crc ^= p[i];
@@ -20,7 +21,7 @@ void png_put_chunk(struct strbuf *out, const char *type, const void *data, size_
     size_t begin = out->len;
     strbuf_cstr(out, type);
     strbuf_add(out, data, size);
-    put32(out, crc_of((const unsigned char *)out->data + begin, out->len - begin));
+    put32(out, png_checksum(out->data + begin, out->len - begin));
 }
 
 void png_put_header(struct strbuf *out, uint32_t width, uint32_t height, char depth, char color,
@@ -35,19 +36,22 @@ void png_put_header(struct strbuf *out, uint32_t width, uint32_t height, char de
     strbuf_finish(&header);
 }
 
-void png_put_rows(struct strbuf *out, const void *rows, size_t size) {
-    struct strbuf data;
-    strbuf_init(&data);
-    strbuf_add(&data,
-               (unsigned char[7]){0x78, 0x01, 1, size & 0xFF, size >> 8, ~size & 0xFF, (~size >> 8) & 0xFF},
-               7);
-    strbuf_add(&data, rows, size);
+void png_put_stream(struct strbuf *out, const void *rows, size_t size) {
+    strbuf_add(
+        out, (unsigned char[7]){0x78, 0x01, 1, size & 0xFF, size >> 8, ~size & 0xFF, (~size >> 8) & 0xFF}, 7);
+    strbuf_add(out, rows, size);
     uint32_t a = 1, b = 0;
     for (size_t i = 0; i < size; i++) {
         a = (a + ((const unsigned char *)rows)[i]) % 65521;
         b = (b + a) % 65521;
     }
-    put32(&data, b << 16 | a);
+    put32(out, b << 16 | a);
+}
+
+void png_put_rows(struct strbuf *out, const void *rows, size_t size) {
+    struct strbuf data;
+    strbuf_init(&data);
+    png_put_stream(&data, rows, size);
     png_put_chunk(out, "IDAT", data.data, data.len);
     png_put_chunk(out, "IEND", NULL, 0);
     strbuf_finish(&data);

@@ -26,7 +26,7 @@ static void expect_fault(const struct strbuf *file, const char *message) {
 
 static void assert_pixel(const struct picture *picture, uint32_t x, uint32_t y, int r, int g, int b,
                          int tolerance) {
-    const uint8_t *p = (const uint8_t *)picture->pixels + 4 * ((size_t)y * picture->width + x);
+    const uint8_t *p = (const uint8_t *)picture->pixels + 3 * ((size_t)y * picture->width + x);
     if (abs(p[0] - r) > tolerance || abs(p[1] - g) > tolerance || abs(p[2] - b) > tolerance)
         fail_msg("pixel %u %u is %d %d %d, not %d %d %d", x, y, p[0], p[1], p[2], r, g, b);
 }
@@ -43,8 +43,8 @@ static void png_of_8_bits(void **state) {
     assert_int_equal(picture->width, 2);
     assert_int_equal(picture->height, 2);
     assert_int_equal(picture->depth, PICTURE_8);
-    assert_int_equal(picture->size_bytes, 16);
-    assert_memory_equal(picture->pixels, "\1\2\3\xFF\4\5\6\xFF\xFF\xFE\xFD\xFF\0\0\x80\xFF", 16);
+    assert_int_equal(picture->size_bytes, 12);
+    assert_memory_equal(picture->pixels, "\1\2\3\4\5\6\xFF\xFE\xFD\0\0\x80", 12);
     assets_scene_end(s);
     strbuf_finish(&file);
 }
@@ -59,7 +59,7 @@ static void png_of_16_bits(void **state) {
     const struct picture *picture = load(s, "sky.png", &file);
     assert_silent(s);
     assert_int_equal(picture->depth, PICTURE_16);
-    const uint16_t expected[] = {0x1234, 0x1234, 0x1234, 0xFFFF, 0xFFFF, 0xFFFF, 0xFFFF, 0xFFFF};
+    const uint16_t expected[] = {0x1234, 0x1234, 0x1234, 0xFFFF, 0xFFFF, 0xFFFF};
     assert_memory_equal(picture->pixels, expected, sizeof expected);
     assets_scene_end(s);
     strbuf_finish(&file);
@@ -162,24 +162,50 @@ static void broken_png_files(void **state) {
     strbuf_finish(&file);
 }
 
-static void too_many_pixels_are_refused_before_decoding(void **state) {
+// Three bytes a pixel, sixteen for the device; four rows of four channels and a megabyte for the decoder.
+static void too_many_bytes_are_refused_before_decoding(void **state) {
     (void)state;
-    static const uint32_t sizes[][2] = {{65535, 65535}, {INT32_MAX, INT32_MAX}, {8193, 8192}};
-    for (size_t i = 0; i < 3; i++) {
+    static const struct {
+        uint32_t width, height;
+        const char *bytes, *help;
+    } cases[] = {
+        {65535, 65535, "81603985411", "--limit image-memory=81603985411"},
+        {12000, 10000, "2281240576", "--limit image-memory=2281240576"},
+        {INT32_MAX, INT32_MAX, "18446744073709551615", "no limit allows more than 1099511627776 bytes"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct strbuf file;
         strbuf_init(&file);
-        png_put_header(&file, sizes[i][0], sizes[i][1], 8, 2, 0);
+        png_put_header(&file, cases[i].width, cases[i].height, 8, 2, 0);
         png_put_rows(&file, "\0\1\2\3", 4);
-        char message[128];
+        char message[256];
         snprintf(message, sizeof message,
-                 "scene.yaml:1:8: error: the image 'sky.png' claims %u x %u pixels; the limit image-pixels "
-                 "is 67108864 [E501]",
-                 sizes[i][0], sizes[i][1]);
+                 "scene.yaml:1:8: error: the image 'sky.png' claims %u x %u pixels, which take %s bytes of "
+                 "memory; the limit image-memory is 2147483648 [E501]",
+                 cases[i].width, cases[i].height, cases[i].bytes);
         expect_fault(&file, message);
-        expect_fault(&file,
-                     i == 2 ? "--limit image-pixels=67117056" : "no limit allows more than 134217728 pixels");
+        expect_fault(&file, cases[i].help);
         strbuf_finish(&file);
     }
+}
+
+// What is known of a file does not depend on the limit that it was read under.
+static void a_limit_holds_for_what_is_known(void **state) {
+    (void)state;
+    struct asset_store *store = asset_store_create();
+    struct strbuf file;
+    strbuf_init(&file);
+    png_put_header(&file, 1, 1, 8, 2, 0);
+    png_put_rows(&file, "\0\1\2\3", 4);
+    for (int lowered = 0; lowered < 2; lowered++) {
+        struct assets_scene *s = assets_scene_begin_in(store);
+        s->limits.value[LIMIT_IMAGE_MEMORY] = lowered ? 1000 : 2000000;
+        assert_true((load(s, "sky.png", &file) == NULL) == lowered);
+        assert_int_equal(assets_scene_count(s, DIAG_LIMIT), lowered);
+        assets_scene_end(s);
+    }
+    asset_store_destroy(store);
+    strbuf_finish(&file);
 }
 
 // Puts bits, lowest first; a Huffman code comes with its bits turned round.
@@ -287,7 +313,8 @@ static void other_files_are_no_images(void **state) {
 
 #define HDR_HEAD "#?RADIANCE\n# made by hand\nFORMAT=32-bit_rle_rgbe\n\n"
 
-static const float *load_hdr(struct assets_scene *s, const char *head, const void *pixels, size_t size) {
+static const struct picture *load_hdr(struct assets_scene *s, const char *head, const void *pixels,
+                                      size_t size) {
     struct strbuf file;
     strbuf_init(&file);
     strbuf_cstr(&file, head);
@@ -297,20 +324,22 @@ static const float *load_hdr(struct assets_scene *s, const char *head, const voi
     struct strbuf view = {.data = (char *)copy.ptr, .len = copy.len};
     const struct picture *picture = load(s, "sky.hdr", &view);
     if (picture)
-        assert_int_equal(picture->depth, PICTURE_FLOAT);
-    return picture ? picture->pixels : NULL;
+        assert_int_equal(picture->depth, PICTURE_RGBE);
+    return picture;
 }
 
 static void hdr_pixels_are_floats(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
     // 128 is 1/2 of the exponent's power; exponents count from 128.
-    const float *p =
+    const struct picture *p =
         load_hdr(s, HDR_HEAD "-Y 2 +X 2\n", "\x80\x40\x20\x81\xFF\0\0\x80\1\2\3\0\xFF\xFF\xFF\xFF", 16);
     assert_silent(s);
-    const float expected[] = {1, 0.5f, 0.25f, 1, 255.0f / 256, 0, 0, 1, 0, 0, 0, 1};
-    assert_memory_equal(p, expected, sizeof expected);
-    assert_true(p[12] == 255 * 0x1p119f && isfinite(p[12]));
+    const float expected[] = {1, 0.5f, 0.25f, 255.0f / 256, 0, 0, 0, 0, 0, 255 * 0x1p119f};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        assert_true(picture_linear(p, i / 3, i % 3) == expected[i]);
+    for (int exponent = 0; exponent < 256; exponent++)
+        assert_true(picture_rgbe_scale((uint8_t)exponent) == (exponent ? ldexpf(1, exponent - 136) : 0));
     assets_scene_end(s);
 }
 
@@ -318,19 +347,20 @@ static void hdr_runs_are_read(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
     // Width 8, by channel: a run of 8; then 3 different ones and a run of 5; a run of 8; the exponents.
-    const float *p =
+    const struct picture *p =
         load_hdr(s, HDR_HEAD "-Y 1 +X 8\n", "\2\2\0\x08\x88\x80\3\x10\x20\x40\x85\x80\x88\0\x88\x81", 16);
     assert_silent(s);
-    for (int x = 0; x < 8; x++) {
+    for (size_t x = 0; x < 8; x++) {
         static const float green[] = {0.125f, 0.25f, 0.5f, 1, 1, 1, 1, 1};
-        assert_true(p[4 * x] == 1 && p[4 * x + 1] == green[x] && p[4 * x + 2] == 0 && p[4 * x + 3] == 1);
+        assert_true(picture_linear(p, x, 0) == 1 && picture_linear(p, x, 1) == green[x] &&
+                    picture_linear(p, x, 2) == 0);
     }
     assets_scene_end(s);
     s = assets_scene_begin();
     // The older form: a pixel, and that it comes 4 times more, over the end of no row.
     p = load_hdr(s, HDR_HEAD "-Y 1 +X 5\n", "\x80\x40\x20\x81\1\1\1\4", 8);
     assert_silent(s);
-    assert_true(p[16] == 1 && p[17] == 0.5f && p[18] == 0.25f);
+    assert_memory_equal((const uint8_t *)p->pixels + 16, "\x80\x40\x20\x81", 4);
     assets_scene_end(s);
 }
 
@@ -380,7 +410,8 @@ static void broken_hdr_files(void **state) {
     assets_scene_end(s);
 }
 
-// Every prefix, and every byte changed, of each kind: an error or a picture, never a crash.
+// Every prefix, and every byte changed, of each kind: an error or a picture, never a crash, and the same
+// error whether pixels are kept or not.
 static void damaged_files_never_crash(void **state) {
     (void)state;
     static const char *const paths[] = {"tests/data/image/interlaced.png", "tests/data/image/palette.png",
@@ -401,8 +432,12 @@ static void damaged_files_never_crash(void **state) {
             struct picture picture = {0};
             const char *fault = picture_read_header((str){bytes, size}, &header);
             if (!fault && header.kind != PICTURE_KIND_NONE &&
-                (uint64_t)header.width * header.height < 1000000)
-                picture_decode((str){bytes, size}, &header, &picture);
+                (uint64_t)header.width * header.height < 1000000) {
+                const char *checked = picture_check((str){bytes, size}, &header);
+                fault = picture_decode((str){bytes, size}, &header, &picture);
+                assert_true(checked == fault || strcmp(checked, fault) == 0);
+                assert_true(!fault == (picture.pixels != NULL));
+            }
             picture_finish(&picture);
             free(bytes);
         }
@@ -417,7 +452,8 @@ int main(void) {
         cmocka_unit_test(real_files),
         cmocka_unit_test(what_is_ignored_is_one_note),
         cmocka_unit_test(broken_png_files),
-        cmocka_unit_test(too_many_pixels_are_refused_before_decoding),
+        cmocka_unit_test(too_many_bytes_are_refused_before_decoding),
+        cmocka_unit_test(a_limit_holds_for_what_is_known),
         cmocka_unit_test(a_small_file_does_not_become_large),
         cmocka_unit_test(broken_jpeg_files),
         cmocka_unit_test(a_jpeg_of_many_scans_is_refused),

@@ -420,23 +420,28 @@ static void test_features(void **state) {
 
 static void test_background(void **state) {
     (void)state;
-    uint8_t bytes[8] = {0, 51, 255, 7, 1, 2, 128, 0};
-    uint16_t words[8] = {0, 13107, 65535, 9, 1, 2, 32768, 0};
-    float floats[8] = {0, 0.5f, 1e6f, 1, 2, 3, 4, 5};
+    uint8_t bytes[6] = {0, 51, 255, 1, 2, 128};
+    uint16_t words[6] = {0, 13107, 65535, 1, 2, 32768};
+    uint8_t shared[8] = {0, 64, 128, 129, 3, 4, 5, 138};
     struct picture picture = {2, 1, PICTURE_8, bytes, sizeof bytes, NULL};
     struct kit kit;
     struct flat_scene flat;
+    uint8_t device[8];
+    float texels[8];
     kit_init(&kit);
     kit.assets.background = &picture;
     flatten_ok(&kit, &flat);
     assert_true(flat.features & FEATURE_BACKGROUND_IMAGE);
-    assert_ptr_equal(flat.background_texels.texels, bytes);
     assert_int_equal(flat.background_texels.bytes, 8);
     assert_false(flat.background_texels.is_float);
+    flat_background(&flat, 0, 2, device);
+    assert_memory_equal(device, "\0\x33\xFF\xFF\1\2\x80\xFF", 8);
+    flat_background(&flat, 1, 2, device);
+    assert_memory_equal(device, "\1\2\x80\xFF", 4);
     flat_finish(&flat);
     kit.scene.image.transfer = IR_TRANSFER_SRGB;
     flatten_ok(&kit, &flat);
-    const float *texels = flat.background_texels.texels;
+    flat_background(&flat, 0, 2, texels);
     assert_true(flat.background_texels.is_float);
     assert_int_equal(flat.background_texels.bytes, 32);
     assert_true(texels[0] == 0 && texels[2] == 1 && fabsf(texels[1] - 0.0331048f) < 1e-6f);
@@ -444,14 +449,29 @@ static void test_background(void **state) {
     kit.scene.image.transfer = IR_TRANSFER_NONE;
     picture = (struct picture){2, 1, PICTURE_16, words, sizeof words, NULL};
     flatten_ok(&kit, &flat);
-    texels = flat.background_texels.texels;
+    flat_background(&flat, 0, 2, texels);
     assert_true(texels[1] == 0.2f && texels[2] == 1 && texels[4] == (float)(1.0 / 65535));
     flat_finish(&flat);
     kit.scene.image.transfer = IR_TRANSFER_SRGB; // linear always
-    picture = (struct picture){2, 1, PICTURE_FLOAT, floats, sizeof floats, NULL};
+    picture = (struct picture){2, 1, PICTURE_RGBE, shared, sizeof shared, NULL};
     flatten_ok(&kit, &flat);
-    texels = flat.background_texels.texels;
-    assert_true(texels[1] == 0.5f && texels[2] == 1e6f && texels[6] == 4);
+    flat_background(&flat, 0, 2, texels);
+    assert_true(texels[1] == 0.5f && texels[2] == 1 && texels[6] == 20 && texels[7] == 1);
+    flat_finish(&flat);
+    kit_finish(&kit);
+}
+
+// What only asks for sizes and features, as `inspect` does, needs no pixels.
+static void test_background_without_pixels(void **state) {
+    (void)state;
+    struct picture picture = {2, 1, PICTURE_16, NULL, 12, NULL};
+    struct kit kit;
+    struct flat_scene flat;
+    kit_init(&kit);
+    kit.assets.background = &picture;
+    flatten_ok(&kit, &flat);
+    assert_true(flat.features & FEATURE_BACKGROUND_IMAGE);
+    assert_int_equal(flat.background_texels.bytes, 32);
     flat_finish(&flat);
     kit_finish(&kit);
 }
@@ -510,14 +530,23 @@ static void test_missing_mesh(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_empty),        cmocka_unit_test(test_rectangle),
-        cmocka_unit_test(test_mirrored),     cmocka_unit_test(test_turned_mesh),
-        cmocka_unit_test(test_right_angles), cmocka_unit_test(test_dropped),
-        cmocka_unit_test(test_slivers),      cmocka_unit_test(test_moved),
-        cmocka_unit_test(test_scaled),       cmocka_unit_test(test_normals),
-        cmocka_unit_test(test_checker),      cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_features),     cmocka_unit_test(test_background),
-        cmocka_unit_test(test_limits),       cmocka_unit_test(test_overflow),
+        cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_rectangle),
+        cmocka_unit_test(test_mirrored),
+        cmocka_unit_test(test_turned_mesh),
+        cmocka_unit_test(test_right_angles),
+        cmocka_unit_test(test_dropped),
+        cmocka_unit_test(test_slivers),
+        cmocka_unit_test(test_moved),
+        cmocka_unit_test(test_scaled),
+        cmocka_unit_test(test_normals),
+        cmocka_unit_test(test_checker),
+        cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_features),
+        cmocka_unit_test(test_background),
+        cmocka_unit_test(test_background_without_pixels),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_overflow),
         cmocka_unit_test(test_missing_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

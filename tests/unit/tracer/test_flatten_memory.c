@@ -50,7 +50,7 @@ static void build(struct kit *kit, struct picture *picture) {
 static void test_each_fails(void **state) {
     (void)state;
     struct kit kit;
-    uint16_t pixels[4] = {1, 2, 3, 4};
+    uint16_t pixels[3] = {1, 2, 3};
     struct picture picture = {1, 1, PICTURE_16, pixels, sizeof pixels, NULL};
     build(&kit, &picture);
     kit_resolve(&kit);
