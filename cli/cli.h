@@ -150,6 +150,7 @@ int cmd_compare(struct cli *cli);
 int cmd_tradeoff(struct cli *cli);
 int cmd_pick(struct cli *cli);
 int cmd_extremes(struct cli *cli);
+int cmd_extremes_random(struct cli *cli); // where --random was given
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);
 int cmd_lsp(struct cli *cli);
