@@ -1,21 +1,25 @@
 // Closed rooms, seen from inside: whatever shows the background has slipped through an edge.
 #include "measure/sweep/sweep_parts.h"
 
+// How bright a light outside is: what of it comes through a wall shows as the background does.
+static const double OUTSIDE = 1e6;
+
 // Along z from 0 to the length, seen from near its beginning.
 static void look_along(struct sweep_writer *w, double reach, double length) {
-    const vec3 from = {reach * sweep_from(w, -0.7, 0.7), reach * sweep_from(w, -0.7, 0.7),
-                       fmin(0.2 * length, sweep_magnitude(w, 0.1, 10) * reach)};
-    const vec3 aside = vec3_mul(sweep_direction(w), sweep_chance(w, 0.5) ? 0.02 : 0.6);
+    const double r = 0.7 * reach, z = fmin(0.2 * length, sweep_magnitude(w, 0.1, 10) * reach);
+    const vec3 from = sweep_box(w, -r, r, -r, r, z, z);
+    const double most = sweep_chance(w, 0.5) ? 0.02 : 0.6;
+    const vec3 aside = vec3_mul(sweep_direction(w), most);
     sweep_camera(w, from, vec3_add(from, vec3_add((vec3){0, 0, 1}, aside)), sweep_from(w, 30, 100));
 }
 
 static void light_along(struct sweep_writer *w, double reach, double length) {
     const uint32_t count = sweep_count(w, 1, 4);
-    for (uint32_t i = 0; i < count; i++)
-        sweep_light(w,
-                    (vec3){reach * sweep_from(w, -0.8, 0.8), reach * sweep_from(w, -0.8, 0.8),
-                           fmin(length * sweep_from(w, 0, 1), sweep_magnitude(w, 1, 100) * reach)},
-                    1.5 / count);
+    const double r = 0.8 * reach;
+    for (uint32_t i = 0; i < count; i++) {
+        const double z = fmin(0.9 * length, sweep_magnitude(w, 0.5, 100) * reach);
+        sweep_light(w, sweep_box(w, -r, r, -r, r, z, z), 1.5 / count);
+    }
 }
 
 static void make_corridor(struct sweep_writer *w, bool is_mesh) {
@@ -52,7 +56,8 @@ void sweep_make_pipe(struct sweep_writer *w) {
 
 // A closed shape about 0 in which a ball of radius 0.5 fits.
 static void any_room(struct sweep_writer *w, const struct sweep_paint *paint) {
-    const vec3 upper = sweep_inside(w, (vec3){1, 1, 1}, (vec3){4, 3, 4});
+    const vec3 upper = sweep_box(w, 1, 4, 1, 3, 1, 4);
+    uint32_t parallels;
     switch (sweep_count(w, 0, 5)) {
     case 0:
         sweep_tetrahedron(w, 2, paint);
@@ -61,7 +66,8 @@ static void any_room(struct sweep_writer *w, const struct sweep_paint *paint) {
         sweep_octahedron(w, (vec3){0, 0, 0}, 2, paint);
         break;
     case 2:
-        sweep_globe(w, (vec3){0, 0, 0}, 2, sweep_count(w, 3, 14), sweep_count(w, 3, 21), false, paint);
+        parallels = sweep_count(w, 3, 14);
+        sweep_globe(w, (vec3){0, 0, 0}, 2, parallels, sweep_count(w, 3, 21), false, paint);
         break;
     case 3:
         sweep_gem(w, (vec3){0, 0.2, 0}, 2.5, sweep_count(w, 4, 12), paint);
@@ -75,8 +81,8 @@ static void any_room(struct sweep_writer *w, const struct sweep_paint *paint) {
 }
 
 static void look_around(struct sweep_writer *w) {
-    const vec3 from = vec3_mul(sweep_direction(w), sweep_from(w, 0, 0.5));
-    sweep_camera(w, from, vec3_add(from, sweep_direction(w)), sweep_from(w, 40, 110));
+    const vec3 from = sweep_around(w, 0, 0.5), at = vec3_add(from, sweep_direction(w));
+    sweep_camera(w, from, at, sweep_from(w, 40, 110));
 }
 
 static void any_size(struct sweep_writer *w) {
@@ -91,7 +97,7 @@ void sweep_make_dark_room(struct sweep_writer *w) {
     look_around(w);
     const uint32_t count = sweep_count(w, 1, 4);
     for (uint32_t i = 0; i < count; i++)
-        sweep_light(w, vec3_mul(sweep_direction(w), sweep_magnitude(w, 10, 100)), 2);
+        sweep_light(w, sweep_around(w, 10, 100), OUTSIDE);
 }
 
 void sweep_make_mirror_room(struct sweep_writer *w) {
@@ -106,7 +112,7 @@ void sweep_make_mirror_room(struct sweep_writer *w) {
     if (sweep_chance(w, 0.5))
         sweep_light(w, vec3_mul(sweep_direction(w), 0.4), 1);
     else
-        sweep_light(w, vec3_mul(sweep_direction(w), 30), 1);
+        sweep_light(w, vec3_mul(sweep_direction(w), 30), OUTSIDE);
 }
 
 void sweep_make_full_room(struct sweep_writer *w) {

@@ -7,12 +7,12 @@ void sweep_make_telescope(struct sweep_writer *w) {
     sweep_floor(w, 12, &ground);
     sweep_bodies(w, sweep_count(w, 2, 5), 2);
     sweep_lights(w);
-    const vec3 along = vec3_unit((vec3){sweep_from(w, -1, 1), sweep_from(w, 0.1, 0.8), 1.5});
+    const vec3 along = vec3_unit(sweep_box(w, -1, 1, 0.1, 0.8, 1.5, 1.5));
     sweep_camera(w, vec3_mul(along, far), (vec3){0, 0.7, 0}, 2 * atan(2.5 / far) * 57.29577951308232);
 }
 
 void sweep_make_far_away(struct sweep_writer *w) {
-    w->offset = vec3_mul(sweep_direction(w), sweep_magnitude(w, 100, 1e10));
+    w->offset = sweep_around(w, 100, 1e10);
     sweep_still_life(w);
 }
 
@@ -35,7 +35,7 @@ void sweep_make_deep(struct sweep_writer *w) {
     for (uint32_t i = 0; i < count; i++, size *= step) {
         const struct sweep_paint paint = sweep_any_paint(w);
         z -= 4 * size;
-        const vec3 at = {1.5 * size * sweep_from(w, -1, 1), 1.2 * size * sweep_from(w, -1, 1), z};
+        const vec3 at = sweep_box(w, -1.5 * size, 1.5 * size, -1.2 * size, 1.2 * size, z, z);
         if (sweep_chance(w, 0.6))
             sweep_sphere(w, at, 0.6 * size, &paint);
         else if (sweep_chance(w, 0.5))
@@ -80,8 +80,9 @@ void sweep_make_smooth(struct sweep_writer *w) {
     const struct sweep_paint ground = sweep_matt(w);
     const struct sweep_paint paint = sweep_any_paint(w), other = sweep_any_paint(w);
     sweep_floor(w, 12, &ground);
-    sweep_globe(w, (vec3){-1.2, 1.1, 0}, 1, sweep_count(w, 3, 20), sweep_count(w, 3, 30), true, &paint);
-    sweep_globe(w, (vec3){1.2, 1.1, 0.3}, 1, sweep_count(w, 3, 9), sweep_count(w, 3, 9), true, &other);
+    const uint32_t fine = sweep_count(w, 3, 20), coarse = sweep_count(w, 3, 9);
+    sweep_globe(w, (vec3){-1.2, 1.1, 0}, 1, fine, sweep_count(w, 3, 30), true, &paint);
+    sweep_globe(w, (vec3){1.2, 1.1, 0.3}, 1, coarse, sweep_count(w, 3, 9), true, &other);
     sweep_lights(w);
     sweep_look(w);
 }
@@ -89,10 +90,12 @@ void sweep_make_smooth(struct sweep_writer *w) {
 void sweep_make_terrain(struct sweep_writer *w) {
     const double extent = sweep_magnitude(w, 5, 1e4);
     const struct sweep_paint paint = sweep_chance(w, 0.3) ? sweep_mirror(w) : sweep_matt(w);
-    sweep_hills(w, extent, extent * sweep_magnitude(w, 1e-4, 0.2), sweep_count(w, 8, 40),
-                sweep_chance(w, 0.5), &paint);
+    const uint32_t cells = sweep_count(w, 8, 40);
+    const bool smooth = sweep_chance(w, 0.5);
+    sweep_hills(w, extent, extent * sweep_magnitude(w, 1e-4, 0.2), cells, smooth, &paint);
     sweep_camera(w, (vec3){0, 0.25 * extent, 0.9 * extent}, (vec3){0, 0, 0}, sweep_from(w, 20, 60));
-    sweep_sun(w, (vec3){sweep_from(w, -1, 1), -sweep_magnitude(w, 0.01, 1), sweep_from(w, -1, 1)}, 1);
+    const double low = -sweep_magnitude(w, 0.01, 1);
+    sweep_sun(w, sweep_box(w, -1, 1, low, low, -1, 1), 1);
 }
 
 void sweep_make_still(struct sweep_writer *w) {
@@ -104,18 +107,19 @@ void sweep_make_mix(struct sweep_writer *w) {
     if (sweep_chance(w, 0.4))
         w->scale = sweep_magnitude(w, 1e-5, 1e5);
     if (sweep_chance(w, 0.4))
-        w->offset = vec3_mul(sweep_direction(w), w->scale * sweep_magnitude(w, 1, 1e5));
+        w->offset = sweep_around(w, w->scale, 1e5 * w->scale);
     const struct sweep_paint ground = sweep_checkered(w, sweep_magnitude(w, 0.01, 10));
     const double extent = sweep_magnitude(w, 5, 1e4);
     sweep_floor(w, extent, &ground);
     sweep_bodies(w, sweep_count(w, 1, 3), 3);
     const struct sweep_paint glass = sweep_glass(w, 1 + sweep_magnitude(w, 1e-4, 1));
-    sweep_sphere(w, (vec3){sweep_from(w, -2, 2), 1 + sweep_magnitude(w, 1e-7, 0.1), 2}, 1, &glass);
+    const double above = sweep_magnitude(w, 1e-7, 0.1);
+    sweep_sphere(w, sweep_box(w, -2, 2, 1 + above, 1 + above, 2, 2), 1, &glass);
     const struct sweep_paint tiles = sweep_checkered(w, sweep_magnitude(w, 1e-5, 1));
     sweep_sphere(w, (vec3){sweep_from(w, -2, 2), 1.4, -2}, 1.4, &tiles);
     sweep_lights(w);
     const double far = sweep_chance(w, 0.5) ? sweep_magnitude(w, 1, 1e3) : 1;
-    const vec3 from = {sweep_from(w, -4, 4), sweep_from(w, 1, 5), sweep_from(w, 6, 12)};
+    const vec3 from = sweep_box(w, -4, 4, 1, 5, 6, 12);
     sweep_camera(w, vec3_mul(from, far), (vec3){0, 0.8, 0}, 45 / far);
     w->depth = sweep_count(w, 2, 8);
 }

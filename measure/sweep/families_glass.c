@@ -16,8 +16,8 @@ void sweep_make_magnifier(struct sweep_writer *w) {
     sweep_sphere(w, (vec3){0.05, 0.03, 0}, 1, &glass);
     // A ball's focus is at index / (2 (index - 1)) of its radius.
     const double focus = index / (2 * (index - 1));
-    sweep_camera(w, (vec3){0, 0, fmax(1.05, focus * sweep_from(w, 0.8, 1.5))}, (vec3){0.02, 0.05, 0},
-                 sweep_from(w, 20, 80));
+    const double away = fmax(1.05, focus * sweep_from(w, 0.8, 1.5));
+    sweep_camera(w, (vec3){0, 0, away}, (vec3){0.02, 0.05, 0}, sweep_from(w, 20, 80));
     w->depth = sweep_count(w, 3, 8);
 }
 
@@ -31,11 +31,11 @@ void sweep_make_concave(struct sweep_writer *w) {
                     &ground);
     for (int i = 0; i < 3; i++) {
         const struct sweep_paint paint = sweep_any_paint(w);
-        const vec3 at = {far * sweep_from(w, -1, 1), sweep_from(w, 0, 1), far * sweep_from(w, 0.5, 1)};
+        const vec3 at = sweep_box(w, -far, far, 0, 1, 0.5 * far, far);
         sweep_sphere(w, at, sweep_magnitude(w, 0.1, 1) * far * 0.3, &paint);
     }
-    sweep_camera(w, (vec3){sweep_from(w, -0.5, 0.5), sweep_from(w, 0, 0.6), 1.5}, (vec3){0, 0, 0},
-                 sweep_from(w, 20, 60));
+    const vec3 from = sweep_box(w, -0.5, 0.5, 0, 0.6, 1.5, 1.5);
+    sweep_camera(w, from, (vec3){0, 0, 0}, sweep_from(w, 20, 60));
     sweep_sun(w, (vec3){0.4, -1, -0.7}, 1);
 }
 
@@ -47,11 +47,12 @@ void sweep_make_ball_chain(struct sweep_writer *w) {
             sweep_chance(w, 0.8) ? sweep_glass(w, sweep_from(w, 1.1, 2.4)) : sweep_mirror(w);
         const double radius = sweep_from(w, 0.5, 1.5);
         z -= radius * 1.1;
-        sweep_sphere(w, (vec3){sweep_from(w, -0.5, 0.5), sweep_from(w, -0.4, 0.4), z}, radius, &paint);
+        sweep_sphere(w, sweep_box(w, -0.5, 0.5, -0.4, 0.4, z, z), radius, &paint);
         z -= radius * 1.1;
     }
     any_target(w, -z + 5);
-    sweep_camera(w, (vec3){0.2, 0.1, sweep_from(w, 1, 5)}, (vec3){0, 0, -1}, sweep_from(w, 20, 60));
+    const vec3 from = sweep_box(w, 0.2, 0.2, 0.1, 0.1, 1, 5);
+    sweep_camera(w, from, (vec3){0, 0, -1}, sweep_from(w, 20, 60));
     sweep_light(w, (vec3){3, 4, 5}, 0.7);
     w->depth = sweep_count(w, 4, 12);
 }

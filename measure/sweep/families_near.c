@@ -9,8 +9,8 @@ void sweep_make_checker_ball(struct sweep_writer *w) {
         sweep_sphere(w, (vec3){radius * (2.2 * i - 1.1 * (count - 1)), radius, 0}, radius, &paint);
     }
     const double away = radius * sweep_from(w, 3, 6);
-    sweep_camera(w, (vec3){sweep_from(w, -0.5, 0.5) * away, sweep_from(w, 0.2, 0.6) * away, away},
-                 (vec3){0, radius, 0}, sweep_from(w, 20, 50));
+    const vec3 from = sweep_box(w, -0.5 * away, 0.5 * away, 0.2 * away, 0.6 * away, away, away);
+    sweep_camera(w, from, (vec3){0, radius, 0}, sweep_from(w, 20, 50));
     sweep_light(w, vec3_mul((vec3){-3, 6, 7}, radius), 1.2);
 }
 
@@ -52,7 +52,7 @@ void sweep_make_low_ball(struct sweep_writer *w) {
         sweep_sphere(w, vec3_mul((vec3){1, 0.7, 2}, height), 0.5 * height, &other);
     }
     look_low(w, height);
-    sweep_sun(w, (vec3){sweep_from(w, -1, 1), -0.5, sweep_from(w, -1, 1)}, 1);
+    sweep_sun(w, sweep_box(w, -1, 1, -0.5, -0.5, -1, 1), 1);
 }
 
 void sweep_make_low_plane(struct sweep_writer *w) {
@@ -67,7 +67,7 @@ void sweep_make_low_plane(struct sweep_writer *w) {
     }
     look_low(w, height);
     if (sweep_chance(w, 0.5))
-        sweep_sun(w, (vec3){sweep_from(w, -1, 1), -0.5, sweep_from(w, -1, 1)}, 1);
+        sweep_sun(w, sweep_box(w, -1, 1, -0.5, -0.5, -1, 1), 1);
     else
         sweep_light(w, vec3_mul((vec3){0.3, 0.2, 0.5}, extent), 1);
 }
@@ -99,7 +99,7 @@ void sweep_make_low_light(struct sweep_writer *w) {
     sweep_bodies(w, sweep_count(w, 1, 4), 3);
     const double height = sweep_magnitude(w, 1e-6, 0.1);
     if (sweep_chance(w, 0.5))
-        sweep_light(w, (vec3){sweep_from(w, -4, 4), height, sweep_from(w, 1, 5)}, 1);
+        sweep_light(w, sweep_box(w, -4, 4, height, height, 1, 5), 1);
     else
         sweep_sun(w, (vec3){1, -height, sweep_from(w, -1, 1)}, 1);
     sweep_light(w, (vec3){3, 9, 5}, 0.4);

@@ -18,9 +18,10 @@ void sweep_make_rails(struct sweep_writer *w) {
             sweep_box_rectangles(w, (vec3){x, 0.05, -length}, (vec3){x + width, 0.2, 0}, &iron);
     }
     const double height = sweep_magnitude(w, 0.3, 10);
-    sweep_camera(w, (vec3){sweep_from(w, -2, 2), height, 2}, (vec3){0, 0, -height * sweep_from(w, 2, 20)},
-                 sweep_from(w, 20, 70));
-    sweep_sun(w, (vec3){sweep_from(w, -1, 1), -1, sweep_from(w, -0.5, 0.5)}, 1);
+    const vec3 from = sweep_box(w, -2, 2, height, height, 2, 2),
+               at = sweep_box(w, 0, 0, 0, 0, -20 * height, -2 * height);
+    sweep_camera(w, from, at, sweep_from(w, 20, 70));
+    sweep_sun(w, sweep_box(w, -1, 1, -1, -1, -0.5, 0.5), 1);
     if (sweep_chance(w, 0.5))
         sweep_light(w, (vec3){3, 6, -5}, 0.6);
 }
@@ -35,24 +36,26 @@ void sweep_make_slivers(struct sweep_writer *w) {
     for (uint32_t i = 0; i < count; i++) {
         const double from = 2 * PI * i / count, to = from + fmin(wide, 2 * PI / count);
         const uint32_t a = sweep_vertex(w, (vec3){2 * cos(from), 2 * sin(from), 0});
-        sweep_face(w, middle, a, sweep_vertex(w, (vec3){2 * cos(to), 2 * sin(to), 0.01}));
+        const uint32_t b = sweep_vertex(w, (vec3){2 * cos(to), 2 * sin(to), 0.01});
+        sweep_face(w, middle, a, b);
     }
     sweep_mesh_end(w, false, &paint);
     sweep_rectangle(w, (vec3){-6, -6, -1}, (vec3){12, 0, 0}, (vec3){0, 12, 0}, &behind);
-    sweep_camera(w, (vec3){sweep_from(w, -2, 2), sweep_from(w, -2, 2), sweep_from(w, 3, 6)}, (vec3){0, 0, 0},
-                 sweep_from(w, 30, 60));
+    const vec3 from = sweep_box(w, -2, 2, -2, 2, 3, 6);
+    sweep_camera(w, from, (vec3){0, 0, 0}, sweep_from(w, 30, 60));
     sweep_light(w, (vec3){sweep_from(w, -4, 4), 5, 6}, 1);
 }
 
 void sweep_make_fan(struct sweep_writer *w) {
     const double reach = sweep_magnitude(w, 10, 1e6);
     const uint32_t count = sweep_count(w, 5, 300);
+    const double y = -0.137; // not where a checker's cells meet: there, any rounding is right
     const struct sweep_paint paint = sweep_chance(w, 0.5) ? sweep_matt(w) : sweep_checkered(w, 1);
     sweep_mesh_begin(w);
-    const uint32_t middle = sweep_vertex(w, (vec3){0.3, 0, -0.4});
+    const uint32_t middle = sweep_vertex(w, (vec3){0.3, y, -0.4});
     for (uint32_t i = 0; i < count; i++) {
         const double angle = 2 * PI * i / count;
-        sweep_vertex(w, (vec3){reach * cos(angle), 0, reach * sin(angle)});
+        sweep_vertex(w, (vec3){reach * cos(angle), y, reach * sin(angle)});
     }
     for (uint32_t i = 0; i < count; i++)
         sweep_face(w, middle, i + 2, (i + 1) % count + 2);
@@ -75,7 +78,8 @@ void sweep_make_gap(struct sweep_writer *w) {
     }
     const double angle = sweep_from(w, 0, 2 * PI);
     const vec3 along = {cos(angle), 0, sin(angle)};
-    sweep_camera(w, (vec3){0, gap * sweep_from(w, -0.3, 0.3), 0}, along, sweep_from(w, 30, 70));
+    const vec3 from = {0, gap * sweep_from(w, -0.3, 0.3), 0};
+    sweep_camera(w, from, along, sweep_from(w, 30, 70));
     sweep_light(w, vec3_add(vec3_mul(along, 0.4), (vec3){0, gap * sweep_from(w, -0.3, 0.3), 0}), 1);
     sweep_light(w, (vec3){0.2, 3, 0.3}, 1);
 }
@@ -87,16 +91,15 @@ void sweep_make_stack(struct sweep_writer *w) {
     const uint32_t plates = sweep_count(w, 1, 3);
     for (uint32_t i = 0; i < plates; i++) {
         const struct sweep_paint paint = sweep_matt(w);
-        const double x = sweep_from(w, -3, 1), z = sweep_from(w, -3, 1);
-        sweep_rectangle(w, (vec3){x, (i + 1) * gap, z}, (vec3){sweep_from(w, 1, 3), 0, 0.2},
-                        (vec3){0.1, 0, sweep_from(w, 1, 3)}, &paint);
+        const vec3 corner = sweep_box(w, -3, 1, (i + 1) * gap, (i + 1) * gap, -3, 1);
+        const vec3 u = {sweep_from(w, 1, 3), 0, 0.2}, v = {0.1, 0, sweep_from(w, 1, 3)};
+        sweep_rectangle(w, corner, u, v, &paint);
     }
     const uint32_t balls = sweep_count(w, 0, 3);
     for (uint32_t i = 0; i < balls; i++) {
         const struct sweep_paint paint = sweep_any_paint(w);
-        const double radius = sweep_from(w, 0.3, 0.8);
-        sweep_sphere(w, (vec3){sweep_from(w, -3, 3), radius + (plates + 1) * gap, sweep_from(w, -3, 3)},
-                     radius, &paint);
+        const double radius = sweep_from(w, 0.3, 0.8), y = radius + (plates + 1) * gap;
+        sweep_sphere(w, sweep_box(w, -3, 3, y, y, -3, 3), radius, &paint);
     }
     sweep_lights(w);
     sweep_look(w);
@@ -106,9 +109,9 @@ void sweep_make_coplanar(struct sweep_writer *w) {
     const uint32_t count = sweep_count(w, 2, 4);
     for (uint32_t i = 0; i < count; i++) {
         const struct sweep_paint paint = sweep_matt(w);
-        const double x = sweep_from(w, -3, 0), z = sweep_from(w, -3, 0);
-        sweep_rectangle(w, (vec3){x, 0, z}, (vec3){sweep_from(w, 2, 4), 0, 0},
-                        (vec3){0, 0, sweep_from(w, 2, 4)}, &paint);
+        const vec3 corner = sweep_box(w, -3, 0, 0, 0, -3, 0);
+        const vec3 u = {sweep_from(w, 2, 4), 0, 0}, v = {0, 0, sweep_from(w, 2, 4)};
+        sweep_rectangle(w, corner, u, v, &paint);
     }
     sweep_lights(w);
     sweep_look(w);

@@ -46,7 +46,10 @@ uint32_t sweep_count(struct sweep_writer *w, uint32_t least, uint32_t most);
 bool sweep_chance(struct sweep_writer *w, double probability);
 vec3 sweep_direction(struct sweep_writer *w); // unit
 vec3 sweep_inside(struct sweep_writer *w, vec3 lower, vec3 upper);
-vec3 sweep_color(struct sweep_writer *w); // 0.1 to 0.9 each
+// The same by coordinates, each from least to most.
+vec3 sweep_box(struct sweep_writer *w, double x0, double x1, double y0, double y1, double z0, double z1);
+vec3 sweep_around(struct sweep_writer *w, double least, double most); // at such a distance from 0
+vec3 sweep_color(struct sweep_writer *w);                             // 0.1 to 0.9 each
 mat3 sweep_rotation(struct sweep_writer *w);
 vec3 sweep_apply(const mat3 *m, vec3 v);
 

@@ -55,6 +55,15 @@ vec3 sweep_inside(struct sweep_writer *w, vec3 lower, vec3 upper) {
     return (vec3){x, y, sweep_from(w, lower.z, upper.z)};
 }
 
+vec3 sweep_box(struct sweep_writer *w, double x0, double x1, double y0, double y1, double z0, double z1) {
+    return sweep_inside(w, (vec3){x0, y0, z0}, (vec3){x1, y1, z1});
+}
+
+vec3 sweep_around(struct sweep_writer *w, double least, double most) {
+    const double distance = least > 0 ? sweep_magnitude(w, least, most) : sweep_from(w, least, most);
+    return vec3_mul(sweep_direction(w), distance);
+}
+
 vec3 sweep_color(struct sweep_writer *w) {
     return sweep_inside(w, (vec3){0.1, 0.1, 0.1}, (vec3){0.9, 0.9, 0.9});
 }
@@ -267,7 +276,7 @@ static void place(struct sweep_writer *w) {
     w->turn = sweep_chance(w, 0.33) ? as_it_is : turn;
     w->scale = 1;
     if (sweep_chance(w, 0.5))
-        w->offset = vec3_mul(sweep_direction(w), sweep_from(w, 0, 10));
+        w->offset = sweep_around(w, 0, 10);
 }
 
 void sweep_scene_make(struct sweep_scene *scene, uint64_t seed, enum sweep_family family, uint32_t number) {

@@ -179,11 +179,11 @@ void sweep_lights(struct sweep_writer *w) {
     for (uint32_t i = 0; i < count; i++)
         sweep_light(w, sweep_inside(w, (vec3){-9, 5, -9}, (vec3){9, 14, 12}), 1.2 / count);
     if (sweep_chance(w, 0.4))
-        sweep_sun(w, (vec3){sweep_from(w, -1, 1), -1.3, sweep_from(w, -1, 1)}, 0.4);
+        sweep_sun(w, sweep_box(w, -1, 1, -1.3, -1.3, -1, 1), 0.4);
 }
 
 void sweep_look(struct sweep_writer *w) {
-    const vec3 from = {sweep_from(w, -5, 5), sweep_from(w, 1, 5), sweep_from(w, 6, 12)};
+    const vec3 from = sweep_box(w, -5, 5, 1, 5, 6, 12);
     const vec3 at = sweep_inside(w, (vec3){-0.5, 0.3, -0.5}, (vec3){0.5, 1.1, 0.5});
     sweep_camera(w, from, at, sweep_from(w, 25, 60));
 }
