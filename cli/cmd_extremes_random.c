@@ -92,16 +92,13 @@ static int keep_scene(struct job *job, const struct sweep_scene *scene) {
     return status;
 }
 
-static bool is_worth_keeping(const struct sweep_item *item) {
-    return item->verdict != SWEEP_RIGHT || item->pictures[SWEEP_REFERENCE].wrong;
-}
-
 // ---- the run
 
 static int tell_failure(struct job *job, enum sweep_status status, const struct sweep_scene *scene) {
     if (status == SWEEP_DEVICE)
         return cli_device_failed(job->cli, job->gpu);
-    cli_error(job->cli, status == SWEEP_MEMORY ? DIAG_OUT_OF_MEMORY : DIAG_TRANSFORM_OVERFLOW, scene->name, NULL,
+    cli_error(job->cli, status == SWEEP_MEMORY ? DIAG_OUT_OF_MEMORY : DIAG_TRANSFORM_OVERFLOW, scene->name,
+              NULL,
               status == SWEEP_MEMORY ? "not enough memory for the scene"
                                      : "the scene's coordinates are too large to trace");
     return CLI_SCENE;
@@ -150,7 +147,7 @@ static int run_scene(struct job *job, uint32_t index) {
     sweep_scene_make(&made, job->input.seed, family, number);
     int status = made.text.failed ? tell_failure(job, SWEEP_MEMORY, &made) : judge_scene(job, &made);
     const bool keeps = status == CLI_OK && job->cli->options.measure.sweep.keep;
-    if (keeps && is_worth_keeping(&job->sweep.items[job->sweep.count - 1]))
+    if (keeps && (job->cli->options.verbose || sweep_is_noted(&job->sweep.items[job->sweep.count - 1])))
         status = keep_scene(job, &made);
     sweep_scene_finish(&made);
     return status;
@@ -177,7 +174,8 @@ static int tell(struct job *job, bool is_json) {
     const struct sweep_report report = {.sweep = &job->sweep,
                                         .input = &job->input,
                                         .max_wrong = o->max_wrong,
-                                        .max_needless = o->has_max_needless ? o->max_needless : MAX_NEEDLESS};
+                                        .max_needless = o->has_max_needless ? o->max_needless : MAX_NEEDLESS,
+                                        .all = cli->options.verbose};
     const char *output = cli->options.output;
     struct strbuf text;
     strbuf_init(&text);

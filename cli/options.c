@@ -108,6 +108,8 @@ static const struct option_row rows[] = {
     {OPTION_QUIET, "quiet", 'q', NULL, "render extremes check tradeoff",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
+    {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
+     "list all random scenes, not only those that are not right, and --keep all"},
     {OPTION_FORMAT, "format", 0, "KIND", "check compare tradeoff extremes pick diff deps",
      "the format of the report; the text above lists the kinds"},
     {OPTION_POLICY + CLI_POLICY_SEVERITY, "severity", 0, "CODE=LEVEL", "check",

@@ -220,6 +220,10 @@ double sweep_needless(const struct sweep *sweep) {
     return sweep->doubles ? (double)sweep->verdicts[SWEEP_NEEDLESS] / sweep->doubles : 0;
 }
 
+bool sweep_is_noted(const struct sweep_item *item) {
+    return item->verdict != SWEEP_RIGHT || item->pictures[SWEEP_REFERENCE].wrong;
+}
+
 bool sweep_is_broken(const struct sweep_report *report) {
     return report->sweep->verdicts[SWEEP_WRONG] > report->max_wrong ||
            sweep_needless(report->sweep) > report->max_needless;

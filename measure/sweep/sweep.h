@@ -96,7 +96,10 @@ struct sweep_report {
     const struct sweep_input *input;
     uint32_t max_wrong;  // bounds
     double max_needless; // of sweep_needless
+    bool all;            // the text lists all scenes; else those that sweep_is_noted names
 };
+// Whether a scene is not right, or the reference itself sees the background through something closed.
+bool sweep_is_noted(const struct sweep_item *item);
 bool sweep_is_broken(const struct sweep_report *report);
 void sweep_text(const struct sweep_report *report, struct strbuf *out);
 void sweep_json(const struct sweep_report *report, struct strbuf *out);

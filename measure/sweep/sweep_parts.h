@@ -38,8 +38,9 @@ typedef void sweep_maker(struct sweep_writer *w);
 #include "measure/sweep/families.def"
 #undef X
 
-// ---- numbers
+// ---- numbers (sweep_write.c, as all that is not said to be elsewhere)
 
+uint64_t sweep_bits(struct sweep_writer *w);
 double sweep_from(struct sweep_writer *w, double least, double most);      // evenly
 double sweep_magnitude(struct sweep_writer *w, double least, double most); // evenly over magnitudes
 uint32_t sweep_count(struct sweep_writer *w, uint32_t least, uint32_t most);
@@ -62,6 +63,8 @@ struct sweep_paint sweep_glass(struct sweep_writer *w, double index);
 struct sweep_paint sweep_any_paint(struct sweep_writer *w); // matt, shiny, mirror or glass
 
 // ---- a scene's things
+
+void sweep_put_vector(struct strbuf *out, const char *key, vec3 v); // "key: [x, y, z]"
 
 void sweep_camera(struct sweep_writer *w, vec3 position, vec3 look_at, double fov);
 void sweep_light(struct sweep_writer *w, vec3 position, double intensity);

@@ -18,18 +18,16 @@ static void put_item(struct strbuf *out, const struct sweep_item *item) {
                   two->background, item->pictures[SWEEP_REFERENCE].background, item->steps);
 }
 
-static bool is_shown(const struct sweep_item *item) {
-    return item->verdict != SWEEP_RIGHT || item->pictures[SWEEP_REFERENCE].wrong;
-}
-
-static void put_items(struct strbuf *out, const struct sweep *sweep) {
-    strbuf_cstr(out,
-                "\nScenes that are not right: their verdict, the precision chosen, the share of pixels off "
-                "and the pixels that\nshow the background through something closed, in single and in "
-                "double precision and in the reference, and the\nsteps of the feature that decides\n");
-    for (uint32_t i = 0; i < sweep->count; i++)
-        if (is_shown(&sweep->items[i]))
-            put_item(out, &sweep->items[i]);
+static void put_items(struct strbuf *out, const struct sweep_report *report) {
+    strbuf_format(
+        out,
+        "\n%s: their verdict, the precision chosen, the share of pixels off and the pixels that\n"
+        "show the background through something closed, in single and in double precision and in the\n"
+        "reference, and the steps of the feature that decides\n",
+        report->all ? "All scenes" : "Scenes that are not right");
+    for (uint32_t i = 0; i < report->sweep->count; i++)
+        if (report->all || sweep_is_noted(&report->sweep->items[i]))
+            put_item(out, &report->sweep->items[i]);
 }
 
 static void put_family(struct strbuf *out, const struct sweep *sweep, enum sweep_family family) {
@@ -61,7 +59,7 @@ void sweep_text(const struct sweep_report *report, struct strbuf *out) {
                   "needless", "beyond", "worst", "s each");
     for (int i = 0; i < SWEEP_FAMILIES; i++)
         put_family(out, s, (enum sweep_family)i);
-    put_items(out, s);
+    put_items(out, report);
     strbuf_format(out, "\n%u scenes, %.1f s\n", s->count, s->seconds);
     strbuf_format(out, "chosen wrong: %u, at most %u\n", s->verdicts[SWEEP_WRONG], report->max_wrong);
     strbuf_format(out, "doubles not needed: %u of %u (%.2f %%), at most %.2f %%\n",
