@@ -52,7 +52,10 @@ struct cli_options {
     struct cli_measure measure;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
-    bool as_file, no_cache;    // of the reference
+    bool as_file, no_cache; // of the reference
+    bool audit, has_max_off;
+    double max_off;            // share of pixels
+    int audit_arg;             // the place of either
     bool check, diff, upgrade; // of what changes files
     int fix;                   // enum fix_level
     int fix_arg;

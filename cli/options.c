@@ -40,6 +40,7 @@ enum option_id {
     OPTION_ALTERNATIVE,
     OPTION_SCHEMA,
     OPTION_MAX_MESSAGES,
+    OPTION_AUDIT,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -105,6 +106,10 @@ static const struct option_row rows[] = {
      "render N times and show the median time of a frame and its spread"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
      "show times, rays, memory and the device: text on standard error, JSON on standard output"},
+    {OPTION_AUDIT, "audit", 0, NULL, "render",
+     "say at most what share of the picture's pixels is off, in the file too; --stats does so as well"},
+    {OPTION_MEASURE + CLI_MEASURE_MAX_OFF, "max-off", 0, "X", "render",
+     "fail if the audit cannot say that at most this share of the pixels is off"},
     {OPTION_QUIET, "quiet", 'q', NULL, "render extremes check tradeoff",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
@@ -302,6 +307,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->as_file;
     case OPTION_NO_CACHE:
         return &options->no_cache;
+    case OPTION_AUDIT:
+        return &options->audit;
     default:
         return NULL;
     }
@@ -338,6 +345,7 @@ static void keep_place(struct cli_options *options, int id, int arg) {
                  : id == OPTION_FORMAT      ? &options->format_arg
                  : id == OPTION_SAMPLE      ? &options->sample_arg
                  : id == OPTION_FIX         ? &options->fix_arg
+                 : id == OPTION_AUDIT       ? &options->audit_arg
                                             : NULL;
     if (place)
         *place = arg;

@@ -151,6 +151,9 @@ bool cli_measure_apply(struct cli *cli, int arg, enum cli_measure_option option,
         return read_number(cli, arg, name, value, 1e-6, 1e9, &m->max_time_ms);
     case CLI_MEASURE_BUDGET:
         return read_number(cli, arg, name, value, 1, 1e6, &m->budget_s);
+    case CLI_MEASURE_MAX_OFF:
+        cli->options.audit_arg = arg;
+        return cli->options.has_max_off = read_number(cli, arg, name, value, 0, 1, &cli->options.max_off);
     default:
         return read_choice(cli, arg, option, name, value);
     }

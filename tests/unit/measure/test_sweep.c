@@ -17,7 +17,7 @@
 // ---- scenes
 
 enum {
-    NUMBERS = 12, // of each family
+    NUMBERS = 6, // of each family
 };
 
 static bool is_same(const struct sweep_scene *a, const struct sweep_scene *b) {
