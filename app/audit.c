@@ -10,10 +10,11 @@
 #include <stdlib.h>
 
 enum {
-    CELLS = 3000,      // of the grid: if none is off, at most 0.1 % of the picture is, with 95 %
-    WHOLE_MAX = 4096,  // pictures of as many pixels are traced again whole
-    PIECE = 16,        // pixels
-    CHUNK = 64 * PIECE // pixels between two reports of the progress
+    CELLS = 3700,       // of the first look: if none is off, at most 0.1 % of the picture is
+    MORE_CELLS = 14800, // of the second
+    MORE_BELOW = 16,    // there is one where some pixels, but fewer, are off
+    PIECE = 16,         // pixels
+    CHUNK = 64 * PIECE, // pixels between two reports of the progress
 };
 
 // ---- which pixels
@@ -27,15 +28,15 @@ static uint32_t at_least(uint32_t pixels, uint32_t cells) {
     return pixels < cells ? pixels : cells;
 }
 
-// Cells that are about square, CELLS or a few more of them.
-static struct grid make_grid(uint32_t width, uint32_t height) {
+// `cells` or a few more, about square; the whole picture where that is not much more.
+static struct grid make_grid(uint32_t width, uint32_t height, uint32_t cells) {
     struct grid grid = {width, height, width, height};
-    if ((uint64_t)width * height <= WHOLE_MAX)
+    if ((uint64_t)width * height <= 2 * (uint64_t)cells)
         return grid;
-    const double across = sqrt((double)CELLS * width / height);
+    const double across = sqrt((double)cells * width / height);
     grid.columns = at_least(width, (uint32_t)fmax(1, ceil(across)));
-    grid.lines = at_least(height, (CELLS + grid.columns - 1) / grid.columns);
-    grid.columns = at_least(width, (CELLS + grid.lines - 1) / grid.lines);
+    grid.lines = at_least(height, (cells + grid.columns - 1) / grid.columns);
+    grid.columns = at_least(width, (cells + grid.lines - 1) / grid.lines);
     return grid;
 }
 
@@ -47,15 +48,15 @@ static uint64_t scramble(uint64_t z) {
     return z ^ z >> 31;
 }
 
-// A pixel of cell `index` of `cells` along one side of the picture.
+// A pixel of cell `index` of `cells` along one side of the picture. The place is drawn before it is rounded
+// to a pixel: cells of two and of three pixels would not give all pixels the same chance.
 static uint32_t pixel_in(uint32_t index, uint32_t cells, uint32_t pixels, uint32_t random) {
-    const uint32_t begin = (uint32_t)((uint64_t)index * pixels / cells);
-    const uint32_t end = (uint32_t)((uint64_t)(index + 1) * pixels / cells);
-    return begin + random % (end - begin);
+    const double place = (index + random * 0x1p-32) * pixels / cells;
+    return place < pixels ? (uint32_t)place : pixels - 1;
 }
 
 static void pixel_of(const struct grid *grid, uint32_t cell, uint32_t *x, uint32_t *y) {
-    const uint64_t random = scramble(cell);
+    const uint64_t random = scramble((uint64_t)grid->columns << 32 | cell);
     *x = pixel_in(cell % grid->columns, grid->columns, grid->width, (uint32_t)random);
     *y = pixel_in(cell / grid->columns, grid->lines, grid->height, (uint32_t)(random >> 32));
 }
@@ -107,22 +108,39 @@ static void trace_piece(void *context, size_t begin, size_t end) {
     }
 }
 
-static enum shot_status trace(struct work *w, uint32_t cells, const struct render_progress *progress) {
-    for (w->first = 0; w->first < cells; w->first += CHUNK) {
-        const uint32_t left = cells - w->first;
+// One look: a pixel of each cell.
+static enum shot_status look(struct work *w, uint32_t cells, const struct render_progress *progress,
+                             struct audit *out) {
+    w->grid = make_grid(w->image->width, w->image->height, cells);
+    const uint32_t count = w->grid.columns * w->grid.lines;
+    for (w->first = 0; w->first < count; w->first += CHUNK) {
+        const uint32_t left = count - w->first;
         parallel_for(left < CHUNK ? left : CHUNK, PIECE, trace_piece, w);
-        if (progress && progress->report && !progress->report(progress->context, (double)w->first / cells))
+        if (progress && progress->report && !progress->report(progress->context, (double)w->first / count))
             return SHOT_CANCELLED;
     }
+    out->whole = w->grid.columns == w->image->width && w->grid.lines == w->image->height;
+    out->pixels += count;
     return SHOT_OK;
 }
 
-static void conclude(struct work *w, uint32_t cells, struct audit *out) {
-    const uint64_t pixels = (uint64_t)w->image->width * w->image->height;
-    out->pixels = cells;
+static enum shot_status look_twice(struct work *w, const struct render_progress *progress,
+                                   struct audit *out) {
+    enum shot_status status = look(w, CELLS, progress, out);
+    const uint32_t off = atomic_load(&w->off);
+    if (status != SHOT_OK || out->whole || off == 0 || off >= MORE_BELOW)
+        return status;
+    const struct grid whole = make_grid(w->image->width, w->image->height, MORE_CELLS);
+    if (whole.columns == w->image->width && whole.lines == w->image->height) {
+        out->pixels = 0; // each pixel counts once
+        atomic_store(&w->off, 0);
+    }
+    return look(w, MORE_CELLS, progress, out);
+}
+
+static void conclude(struct work *w, struct audit *out) {
     out->off = atomic_load(&w->off);
-    out->whole = cells == pixels;
-    out->bound = out->whole ? (double)out->off / cells : audit_bound(out->off, cells);
+    out->bound = out->whole ? (double)out->off / out->pixels : audit_bound(out->off, out->pixels);
     const uint32_t first = out->off ? atomic_load(&w->first_off) : 0;
     out->x = first % w->image->width;
     out->y = first / w->image->width;
@@ -136,15 +154,14 @@ enum shot_status audit_take(struct session *session, const struct view *view, co
     struct work work = {.reference = reference,
                         .image = image,
                         .display = {session->image->tone, session->image->transfer},
-                        .grid = make_grid(image->width, image->height),
                         .first_off = UINT32_MAX};
     work.settings = reference_settings_of(session->scene, session->image, &session->options.limits, true);
-    const uint32_t cells = work.grid.columns * work.grid.lines;
     *out = (struct audit){0};
-    enum shot_status status = reference ? trace(&work, cells, progress) : SHOT_SCENE;
+    enum shot_status status = reference ? look_twice(&work, progress, out) : SHOT_SCENE;
     if (!reference || atomic_load(&work.failed))
         status = shot_no_memory(session, "the audit");
-    conclude(&work, cells, out);
+    if (status == SHOT_OK)
+        conclude(&work, out);
     reference_destroy(reference);
     out->seconds = clock_seconds() - start;
     return status;
@@ -169,7 +186,7 @@ double audit_bound(uint32_t off, uint32_t pixels) {
         return 1;
     for (int i = 0; i < 60; i++) {
         const double middle = 0.5 * (low + high);
-        if (at_most(off, pixels, middle) > 1 - AUDIT_CONFIDENCE)
+        if (at_most(off, pixels, middle) > 0.5 * (1 - AUDIT_CONFIDENCE))
             low = middle;
         else
             high = middle;

@@ -73,14 +73,14 @@ static void spoil(struct image *image, uint32_t x, uint32_t y, float by) {
 static void test_bound(void **state) {
     (void)state;
     for (uint32_t n = 1; n < 100000; n *= 7) {
-        assert_true(fabs(audit_bound(0, n) - (1 - pow(0.05, 1.0 / n))) < 1e-12);
+        assert_true(fabs(audit_bound(0, n) - (1 - pow(0.025, 1.0 / n))) < 1e-12);
         assert_true(audit_bound(n, n) == 1);
     }
-    assert_true(fabs(audit_bound(9, 10) - pow(0.95, 0.1)) < 1e-12);
-    // One of n: (1 - p)^n + n p (1 - p)^(n - 1) is 0.05.
+    assert_true(fabs(audit_bound(9, 10) - pow(0.975, 0.1)) < 1e-12);
+    // One of n: (1 - p)^n + n p (1 - p)^(n - 1) is 0.025.
     const double p = audit_bound(1, 3000);
-    assert_true(fabs(pow(1 - p, 3000) + 3000 * p * pow(1 - p, 2999) - 0.05) < 1e-9);
-    assert_true(audit_bound(0, 3000) < 0.001 && audit_bound(1, 3000) > 0.001);
+    assert_true(fabs(pow(1 - p, 3000) + 3000 * p * pow(1 - p, 2999) - 0.025) < 1e-9);
+    assert_true(audit_bound(0, 3700) < 0.001 && audit_bound(1, 3700) > 0.001);
     for (uint32_t k = 1; k < 3000; k += k)
         assert_true(audit_bound(k, 3000) > audit_bound(k - 1, 3000) && audit_bound(k, 3000) > k / 3000.0);
 }
@@ -89,14 +89,14 @@ static void test_bound(void **state) {
 
 static void test_right(void **state) {
     (void)state;
-    static const int32_t sizes[][3] = {{64, 48, 1}, {160, 120, 2}, {3000, 2, 1}, {2, 2500, 1}};
+    static const int32_t sizes[][3] = {{64, 48, 1}, {160, 120, 2}, {4000, 3, 1}, {3, 4500, 1}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         struct fixture f;
         open_picture(&f, sizes[i][0], sizes[i][1], sizes[i][2]);
         const struct audit audit = take(&f);
         assert_int_equal(audit.off, 0);
-        assert_int_equal(audit.whole, sizes[i][0] * sizes[i][1] <= 4096);
-        assert_in_range(audit.pixels, 3000, 3300);
+        assert_int_equal(audit.whole, sizes[i][0] * sizes[i][1] <= 7400);
+        assert_in_range(audit.pixels, audit.whole ? 3072 : 3700, audit.whole ? 3072 : 4500);
         assert_true(audit.whole ? audit.bound == 0 : audit.bound > 0 && audit.bound < 0.001);
         close_picture(&f);
     }
@@ -131,7 +131,7 @@ static void test_spread(void **state) {
         for (uint32_t i = 0; i < 40 * 30; i++)
             spoil(&f.image, left + i % 40, top + i / 40, 1);
         const struct audit audit = take(&f);
-        assert_in_range(audit.off, 160, 225); // 3000 / 16 is 188
+        assert_in_range(audit.off, 200, 270); // 3700 / 16 is 231
         assert_in_range(audit.x, left, left + 39);
         assert_in_range(audit.y, top, top + 29);
         assert_true(audit.bound > 0.0625 && audit.bound < 0.09);
@@ -150,11 +150,35 @@ static void test_jitter(void **state) {
         for (uint32_t i = 0; i < 160 * 120; i++)
             if (i % 160 % 8 == line)
                 spoil(&f.image, i % 160, i / 160, 1);
-        assert_in_range(take(&f).off, 300, 450); // an eighth of 3000 is 375
+        assert_in_range(take(&f).off, 390, 540); // an eighth of 3700 is 463
         for (uint32_t i = 0; i < 160 * 120; i++)
             if (i % 160 % 8 == line)
                 spoil(&f.image, i % 160, i / 160, -1);
     }
+    close_picture(&f);
+}
+
+// Where a few pixels are off more are taken; of a picture that is not large, all.
+static void test_second_look(void **state) {
+    (void)state;
+    struct fixture f;
+    open_picture(&f, 160, 120, 1);
+    for (uint32_t i = 0; i < 160 * 120; i += 500)
+        spoil(&f.image, i % 160, i / 160, 1);
+    struct audit audit = take(&f);
+    assert_true(audit.whole);
+    assert_int_equal(audit.pixels, 160 * 120);
+    assert_int_equal(audit.off, 39);
+    assert_true(audit.bound == 39 / 19200.0);
+    close_picture(&f);
+    open_picture(&f, 240, 180, 1);
+    for (uint32_t i = 0; i < 240 * 180; i += 500)
+        spoil(&f.image, i % 240, i / 240, 1);
+    audit = take(&f);
+    assert_false(audit.whole);
+    assert_in_range(audit.pixels, 18500, 19200);
+    assert_in_range(audit.off, 15, 70); // a five hundredth of 18500 is 37
+    assert_true(audit.bound > 0.002 && audit.bound < 0.005);
     close_picture(&f);
 }
 
@@ -193,9 +217,9 @@ static void test_words(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bound),  cmocka_unit_test(test_right),  cmocka_unit_test(test_small),
-        cmocka_unit_test(test_spread), cmocka_unit_test(test_jitter), cmocka_unit_test(test_cancelled),
-        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_bound),  cmocka_unit_test(test_right),       cmocka_unit_test(test_small),
+        cmocka_unit_test(test_spread), cmocka_unit_test(test_jitter),      cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_words),  cmocka_unit_test(test_second_look),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
