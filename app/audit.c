@@ -11,7 +11,7 @@
 
 enum {
     CELLS = 3700,       // of the first look: if none is off, at most 0.1 % of the picture is
-    MORE_CELLS = 14800, // of the second
+    MORE_CELLS = 7400,  // of the second
     MORE_BELOW = 16,    // there is one where some pixels, but fewer, are off
     PIECE = 16,         // pixels
     CHUNK = 64 * PIECE, // pixels between two reports of the progress

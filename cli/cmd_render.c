@@ -18,15 +18,6 @@ static int open_device(struct render_job *job) {
     return status;
 }
 
-int render_failed(struct render_job *job, enum shot_status status) {
-    progress_end(&job->progress);
-    if (status == SHOT_CANCELLED)
-        return render_interrupted(job);
-    if (status == SHOT_SCENE)
-        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
-    return cli_device_failed(job->cli, job->gpu);
-}
-
 static int take_frames(struct render_job *job) {
     int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
     double *times = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);

@@ -162,23 +162,23 @@ static void test_jitter(void **state) {
 static void test_second_look(void **state) {
     (void)state;
     struct fixture f;
-    open_picture(&f, 160, 120, 1);
-    for (uint32_t i = 0; i < 160 * 120; i += 500)
-        spoil(&f.image, i % 160, i / 160, 1);
+    open_picture(&f, 120, 100, 1);
+    for (uint32_t i = 0; i < 120 * 100; i += 500)
+        spoil(&f.image, i % 120, i / 120, 1);
     struct audit audit = take(&f);
     assert_true(audit.whole);
-    assert_int_equal(audit.pixels, 160 * 120);
-    assert_int_equal(audit.off, 39);
-    assert_true(audit.bound == 39 / 19200.0);
+    assert_int_equal(audit.pixels, 120 * 100);
+    assert_int_equal(audit.off, 24);
+    assert_true(audit.bound == 24 / 12000.0);
     close_picture(&f);
     open_picture(&f, 240, 180, 1);
     for (uint32_t i = 0; i < 240 * 180; i += 500)
         spoil(&f.image, i % 240, i / 240, 1);
     audit = take(&f);
     assert_false(audit.whole);
-    assert_in_range(audit.pixels, 18500, 19200);
-    assert_in_range(audit.off, 15, 70); // a five hundredth of 18500 is 37
-    assert_true(audit.bound > 0.002 && audit.bound < 0.005);
+    assert_in_range(audit.pixels, 11100, 11600);
+    assert_in_range(audit.off, 8, 45); // a five hundredth of 11100 is 22
+    assert_true(audit.bound > 0.001 && audit.bound < 0.006);
     close_picture(&f);
 }
 
