@@ -52,8 +52,11 @@ struct cli_options {
     struct cli_measure measure;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
-    bool as_file, no_cache;    // of the reference
-    bool skip_pixels;          // of images, when checking
+    bool as_file, no_cache; // of the reference
+    bool skip_pixels;       // of images, when checking
+    bool audit, has_max_off;
+    double max_off;            // share of pixels
+    int audit_arg;             // the place of either
     bool check, diff, upgrade; // of what changes files
     int fix;                   // enum fix_level
     int fix_arg;
@@ -151,6 +154,7 @@ int cmd_compare(struct cli *cli);
 int cmd_tradeoff(struct cli *cli);
 int cmd_pick(struct cli *cli);
 int cmd_extremes(struct cli *cli);
+int cmd_extremes_random(struct cli *cli); // where --random was given
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);
 int cmd_lsp(struct cli *cli);

@@ -18,15 +18,6 @@ static int open_device(struct render_job *job) {
     return status;
 }
 
-static int shot_failed(struct render_job *job, enum shot_status status) {
-    progress_end(&job->progress);
-    if (status == SHOT_CANCELLED)
-        return render_interrupted(job);
-    if (status == SHOT_SCENE)
-        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
-    return cli_device_failed(job->cli, job->gpu);
-}
-
 static int take_frames(struct render_job *job) {
     int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
     double *times = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);
@@ -39,7 +30,7 @@ static int take_frames(struct render_job *job) {
         enum shot_status status = shot_take(&job->shot, &job->image, &callback, &job->stats.last);
         times[i] = clock_seconds() - start;
         if (status != SHOT_OK)
-            return shot_failed(job, status);
+            return render_failed(job, status);
         if (i == 0)
             job->stats.first_frame_seconds = times[i];
         if (job->session.sink.errors > errors)
@@ -59,7 +50,7 @@ static int report_stats(struct render_job *job) {
     enum render_result result =
         renderer_count(job->shot.renderer, &job->shot.view.camera, &callback, &s->rays);
     if (result != RENDER_DONE)
-        return shot_failed(job, result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE);
+        return render_failed(job, result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE);
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     s->peak_memory_bytes = usage.ru_maxrss * 1024;
@@ -92,11 +83,15 @@ static int report_stats(struct render_job *job) {
 static int render_camera(struct render_job *job, const char *path) {
     progress_begin(&job->progress, job->cli->options.quiet);
     int status = take_frames(job);
+    if (status == CLI_OK)
+        status = render_audit(job);
     progress_end(&job->progress);
     if (status == CLI_OK)
         status = render_write_picture(job, path);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
+    if (status == CLI_OK)
+        status = render_tell_audit(job);
     if (status != CLI_OK || job->cli->options.quiet)
         return status;
     if (job->cli->options.repeat)
@@ -115,10 +110,10 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
         return status;
     enum shot_status opened = shot_open(&job->shot, &job->session, job->gpu, first);
     if (opened != SHOT_OK)
-        return shot_failed(job, opened);
+        return render_failed(job, opened);
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
-            return shot_failed(job, opened);
+            return render_failed(job, opened);
         status = render_camera(job, render_output_of(job, i));
     }
     int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
@@ -167,13 +162,18 @@ int cmd_render(struct cli *cli) {
     }
     if (cli->options.as_file && !cli_device_is_reference(cli))
         return cli_usage(cli, cli->options.as_file_arg, "'--as-file' works only with '--device reference'");
+    if ((cli->options.audit || cli->options.has_max_off) && cli_device_is_reference(cli))
+        return cli_usage(cli, cli->options.audit_arg,
+                         "an audit compares a device's picture with the reference: choose a device");
     interrupt_catch();
+    strbuf_init(&job.note);
     struct asset_store *store = asset_store_create();
     int status = cli_has_study(cli) ? cli_choose_settings(cli, store) : CLI_OK;
     if (status == CLI_OK)
         status = run_job(&job, store);
     shot_close(&job.shot);
     image_finish(&job.image);
+    strbuf_finish(&job.note);
     gpu_destroy(job.gpu);
     session_finish(&job.session);
     asset_store_destroy(store);

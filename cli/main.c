@@ -86,15 +86,18 @@ const struct cli_command cli_commands[] = {
      "is text or json. The exit status is 1 if a value is beyond its bound.\n\n"
      "  glint compare picture.png reference.png --max-share 0.001 --heatmap errors.png\n",
      2, 2, cmd_compare},
-    {"extremes", "SCENE", "push a scene to its extremes, and show what breaks",
+    {"extremes", "[SCENE]", "push a scene to its extremes, and show what breaks",
      "Moves and scales the scene, moves the camera far away, changes refractive indices and specular\n"
      "exponents, adds slivers, coplanar rectangles and narrow gaps, and puts light and camera onto\n"
      "surfaces. Each variant is traced by the device and by the double-precision reference, which shows\n"
      "wrong hits, self-hits, leaks, holes, values that are not a number, and image error. --format is text\n"
      "or json; -o writes a report with the matrix. The exit status is 1 if a bound is broken\n"
      "(docs/accuracy.md; --thresholds uses other bounds).\n\n"
-     "  glint extremes scenes/showcase.glint.yaml -o report.html\n",
-     1, 1, cmd_extremes},
+     "With --random N it makes N scenes of families that are hard to trace instead, and says for how many\n"
+     "of them precision 'auto' chose wrongly; --keep writes those into a folder.\n\n"
+     "  glint extremes scenes/showcase.glint.yaml -o report.html\n"
+     "  glint extremes --random 2000 --seed 1 --keep wrong -o report.html\n",
+     0, 1, cmd_extremes},
     {"pick", "SCENE X,Y", "show what is seen at a pixel, and why",
      "Body, material, the lines of scene and mesh, distance and normal, then the path of the ray: each\n"
      "ray's weight, what it hits, which lights shine there, what it adds; as the device traces it and as\n"

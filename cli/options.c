@@ -41,6 +41,7 @@ enum option_id {
     OPTION_ALTERNATIVE,
     OPTION_SCHEMA,
     OPTION_MAX_MESSAGES,
+    OPTION_AUDIT,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -67,6 +68,18 @@ static const struct option_row rows[] = {
     {OPTION_AXIS, "axis", 0, "NAME,...", "extremes", "only these axes: move, scale, distance ..."},
     {OPTION_THRESHOLDS, "thresholds", 0, "FILE", "extremes",
      "bounds from FILE (YAML) instead of glint's own"},
+    {OPTION_MEASURE + CLI_MEASURE_RANDOM, "random", 0, "N", "extremes",
+     "instead of a scene: N random ones of families that are hard to trace"},
+    {OPTION_MEASURE + CLI_MEASURE_SEED, "seed", 0, "S", "extremes",
+     "the seed of the random scenes, instead of 0"},
+    {OPTION_MEASURE + CLI_MEASURE_FAMILY, "family", 0, "NAME,...", "extremes",
+     "random scenes of these families only: corridor, pipe, rails ..."},
+    {OPTION_MEASURE + CLI_MEASURE_KEEP, "keep", 0, "FOLDER", "extremes",
+     "write the random scenes that are not right into FOLDER"},
+    {OPTION_MEASURE + CLI_MEASURE_MAX_WRONG, "max-wrong", 0, "N", "extremes",
+     "fail if single precision is chosen for more random scenes where it is wrong, instead of 0"},
+    {OPTION_MEASURE + CLI_MEASURE_MAX_NEEDLESS, "max-needless", 0, "X", "extremes",
+     "fail if a larger share of the double precision chosen is not needed, instead of 0.05"},
     {OPTION_SIZE, "size", 0, "WxH", "render inspect pick tradeoff extremes",
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render inspect tradeoff",
@@ -96,9 +109,15 @@ static const struct option_row rows[] = {
      "render N times and show the median time of a frame and its spread"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
      "show times, rays, memory and the device: text on standard error, JSON on standard output"},
+    {OPTION_AUDIT, "audit", 0, NULL, "render",
+     "say at most what share of the picture's pixels is off, in the file too; --stats does so as well"},
+    {OPTION_MEASURE + CLI_MEASURE_MAX_OFF, "max-off", 0, "X", "render",
+     "fail if the audit cannot say that at most this share of the pixels is off"},
     {OPTION_QUIET, "quiet", 'q', NULL, "render extremes check tradeoff",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
+    {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
+     "list all random scenes, not only those that are not right, and --keep all"},
     {OPTION_FORMAT, "format", 0, "KIND", "check compare tradeoff extremes pick diff deps",
      "the format of the report; the text above lists the kinds"},
     {OPTION_POLICY + CLI_POLICY_SEVERITY, "severity", 0, "CODE=LEVEL", "check",
@@ -293,6 +312,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->no_cache;
     case OPTION_SKIP_PIXELS:
         return &options->skip_pixels;
+    case OPTION_AUDIT:
+        return &options->audit;
     default:
         return NULL;
     }
@@ -329,6 +350,7 @@ static void keep_place(struct cli_options *options, int id, int arg) {
                  : id == OPTION_FORMAT      ? &options->format_arg
                  : id == OPTION_SAMPLE      ? &options->sample_arg
                  : id == OPTION_FIX         ? &options->fix_arg
+                 : id == OPTION_AUDIT       ? &options->audit_arg
                                             : NULL;
     if (place)
         *place = arg;

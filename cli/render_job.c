@@ -1,5 +1,6 @@
 #include "cli/render_job.h"
 
+#include "cli/device.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
 
@@ -22,6 +23,15 @@ const char *render_output_of(struct render_job *job, uint32_t camera) {
 int render_interrupted(struct render_job *job) {
     progress_end(&job->progress);
     return cli_interrupted(job->cli);
+}
+
+int render_failed(struct render_job *job, enum shot_status status) {
+    progress_end(&job->progress);
+    if (status == SHOT_CANCELLED)
+        return render_interrupted(job);
+    if (status == SHOT_SCENE)
+        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
+    return cli_device_failed(job->cli, job->gpu);
 }
 
 int render_write_picture(struct render_job *job, const char *path) {

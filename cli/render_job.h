@@ -2,6 +2,7 @@
 #ifndef GLINT_CLI_RENDER_JOB_H
 #define GLINT_CLI_RENDER_JOB_H
 
+#include "app/audit.h"
 #include "app/shot.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
@@ -18,6 +19,7 @@ struct render_job {
     enum image_format format;
     const char *output; // without the camera's name
     bool all_cameras;
+    struct strbuf note; // what the audit says of the picture; empty without
 };
 
 // Where a camera's picture goes.
@@ -25,6 +27,14 @@ const char *render_output_of(struct render_job *job, uint32_t camera);
 // These return an exit code.
 int render_interrupted(struct render_job *job);
 int render_write_picture(struct render_job *job, const char *path);
+// Ends the progress and reports why there is no picture.
+int render_failed(struct render_job *job, enum shot_status status);
+
+// render_audit.c: the picture's own error, where the command line asks for it; an exit code. It is in the
+// statistics and in the picture's note.
+int render_audit(struct render_job *job);
+// After the picture was written: says what was found, and whether it is within --max-off; an exit code.
+int render_tell_audit(const struct render_job *job);
 
 // render_reference.c: session and output are ready; `first` to before `end` are the cameras. Returns an exit
 // code.

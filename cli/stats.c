@@ -17,6 +17,15 @@ static void bytes(struct strbuf *out, const char *name, uint64_t value) {
     strbuf_format(out, "  %-16s %10.1f MiB\n", name, (double)value / (1 << 20));
 }
 
+static void put_audit(const struct audit *audit, struct strbuf *out) {
+    strbuf_cstr(out, "error\n  ");
+    audit_words(audit, out);
+    if (audit->off)
+        strbuf_format(out, ", the first at %u,%u", audit->x, audit->y);
+    strbuf_char(out, '\n');
+    seconds(out, "traced again in", audit->seconds);
+}
+
 void stats_text(const struct stats *s, struct strbuf *out) {
     strbuf_format(out, "device: %s\npicture: %u x %u, %u sample%s, in %s precision\ntimes\n", s->device,
                   s->width, s->height, s->samples, s->samples == 1 ? "" : "s",
@@ -60,6 +69,8 @@ void stats_text(const struct stats *s, struct strbuf *out) {
     bytes(out, "scene, device", s->scene_bytes);
     bytes(out, "band, device", s->band_bytes);
     bytes(out, "process, peak", (uint64_t)s->peak_memory_bytes);
+    if (s->has_audit)
+        put_audit(&s->audit, out);
 }
 
 static void put_times(struct json_writer *w, const struct stats *s) {
@@ -97,6 +108,21 @@ static void put_rays(struct json_writer *w, const struct render_rays *r) {
     json_close_object(w);
 }
 
+static void json_audit(struct json_writer *w, const struct audit *audit) {
+    json_open_object(w, "audit");
+    json_write_integer(w, "pixels", audit->pixels);
+    json_write_integer(w, "off", audit->off);
+    json_write_boolean(w, "whole", audit->whole);
+    json_write_real(w, "share_at_most", audit->bound);
+    json_write_real(w, "confidence", audit->whole ? 1 : AUDIT_CONFIDENCE);
+    if (audit->off) {
+        json_write_integer(w, "first_x", audit->x);
+        json_write_integer(w, "first_y", audit->y);
+    }
+    json_write_real(w, "seconds", audit->seconds);
+    json_close_object(w);
+}
+
 static void put_features(struct json_writer *w, uint32_t mask) {
     json_open_list(w, "features");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++)
@@ -127,6 +153,8 @@ void stats_json(const struct stats *s, struct strbuf *out) {
     json_write_integer(&w, "scene_bytes", s->scene_bytes);
     json_write_integer(&w, "band_bytes", s->band_bytes);
     json_write_integer(&w, "peak_memory_bytes", (uint64_t)s->peak_memory_bytes);
+    if (s->has_audit)
+        json_audit(&w, &s->audit);
     json_close_object(&w);
     json_end(&w);
 }

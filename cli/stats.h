@@ -2,6 +2,7 @@
 #ifndef GLINT_CLI_STATS_H
 #define GLINT_CLI_STATS_H
 
+#include "app/audit.h"
 #include "app/shot.h"
 #include "cli/cli.h"
 
@@ -19,6 +20,8 @@ struct stats {
     long peak_memory_bytes; // of the process
     char device[256];
     uint32_t width, height, samples;
+    bool has_audit;
+    struct audit audit;
 };
 
 void stats_text(const struct stats *stats, struct strbuf *out);

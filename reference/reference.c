@@ -170,17 +170,16 @@ static void add_sample(struct tile_sum *t, const struct sample *s) {
     t->sum.brightest = fmax(t->sum.brightest, s->brightest);
 }
 
-static void draw_pixel(const struct work *w, uint32_t x, uint32_t y, struct queue *queue,
-                       struct tile_sum *tile) {
-    const struct reference_settings *settings = w->settings;
+static void draw_pixel(const struct reference *r, const struct reference_settings *settings, uint32_t x,
+                       uint32_t y, struct queue *queue, struct tile_sum *tile, double rgb[3]) {
     vec3 sum = {0, 0, 0};
     double left = 0;
     bool not_finite = false;
     bool over_segments = false;
     struct sample sample;
     for (uint32_t n = 0; n < settings->samples && !queue->failed; n++) {
-        vec3 direction = reference_camera_ray(w->r, settings, x, y, n);
-        reference_follow(w->r, settings, direction, queue, NULL, &sample);
+        vec3 direction = reference_camera_ray(r, settings, x, y, n);
+        reference_follow(r, settings, direction, queue, NULL, &sample);
         bool bad = !is_finite(sample.radiance);
         sum = bad ? (vec3){NAN, NAN, NAN} : vec3_add(sum, sample.radiance);
         if (bad && !not_finite)
@@ -195,10 +194,19 @@ static void draw_pixel(const struct work *w, uint32_t x, uint32_t y, struct queu
     left /= settings->samples;
     tile->left_weight_most = fmax(tile->left_weight_most, left);
     tile->left_weight += left;
-    double *rgb = w->rgb + 3 * ((size_t)y * settings->width + x);
     rgb[0] = sum.x / settings->samples;
     rgb[1] = sum.y / settings->samples;
     rgb[2] = sum.z / settings->samples;
+}
+
+bool reference_pixel(const struct reference *r, const struct reference_settings *settings, uint32_t x,
+                     uint32_t y, double rgb[3]) {
+    struct queue queue = {0};
+    struct tile_sum sum = {0};
+    draw_pixel(r, settings, x, y, &queue, &sum, rgb);
+    const bool failed = queue.failed;
+    reference_queue_finish(&queue);
+    return !failed;
 }
 
 // The body that a ray from a surface hits.
@@ -252,7 +260,8 @@ static void do_tile(struct work *w, size_t index) {
                 w->hits[(size_t)y * width + x] =
                     first_hit(w->r, reference_camera_ray(w->r, w->settings, x, y, 0));
             else
-                draw_pixel(w, x, y, &queue, &w->tiles[index]);
+                draw_pixel(w->r, w->settings, x, y, &queue, &w->tiles[index],
+                           w->rgb + 3 * ((size_t)y * width + x));
         }
         tell(w, right - left);
     }

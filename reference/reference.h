@@ -108,6 +108,10 @@ enum reference_result reference_hits(const struct reference *reference,
                                      const struct reference_settings *settings, struct hit_pixel *hits,
                                      const struct reference_progress *progress);
 
+// What reference_render gives one pixel: three values to `rgb`. false: no memory.
+bool reference_pixel(const struct reference *reference, const struct reference_settings *settings, uint32_t x,
+                     uint32_t y, double rgb[3]);
+
 // ---- single rays
 
 struct reference_hit {

@@ -52,6 +52,6 @@ void heatmap_png(uint32_t width, uint32_t height, const float *values, enum heat
                                               : 0,
                       bytes + 3 * i);
     }
-    encode_png(width, height, bytes, out);
+    encode_png(width, height, bytes, NULL, out);
     free(bytes);
 }

@@ -9,12 +9,12 @@ void image_encode(const struct image *image, enum image_format format, struct im
     if (format == IMAGE_PFM) {
         encode_pfm(image->width, image->height, image->rgb, out);
     } else if (format == IMAGE_HDR) {
-        encode_hdr(image->width, image->height, image->rgb, out);
+        encode_hdr(image->width, image->height, image->rgb, image->note, out);
     } else {
         uint8_t *bytes = malloc((size_t)3 * image->width * image->height);
         if (bytes) {
             image_to_bytes(image, display, bytes);
-            encode_png(image->width, image->height, bytes, out);
+            encode_png(image->width, image->height, bytes, image->note, out);
         } else {
             out->failed = true;
         }

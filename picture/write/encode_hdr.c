@@ -62,8 +62,11 @@ static void put_plane(const uint8_t *plane, size_t width, struct strbuf *out) {
     }
 }
 
-void encode_hdr(uint32_t width, uint32_t height, const float *rgb, struct strbuf *out) {
-    strbuf_format(out, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
+void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const char *note, struct strbuf *out) {
+    strbuf_cstr(out, "#?RADIANCE\n");
+    if (note)
+        strbuf_format(out, "# %s: %s\n", IMAGE_NOTE_KEYWORD, note);
+    strbuf_format(out, "FORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
     uint8_t *planes = malloc((size_t)4 * width);
     if (!planes) {
         out->failed = true;

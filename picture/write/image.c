@@ -3,7 +3,8 @@
 #include <stdlib.h>
 
 bool image_init(struct image *image, uint32_t width, uint32_t height) {
-    *image = (struct image){width, height, calloc((size_t)width * height, 3 * sizeof *image->rgb)};
+    *image = (struct image){.width = width, .height = height};
+    image->rgb = calloc((size_t)width * height, 3 * sizeof *image->rgb);
     return image->rgb != NULL;
 }
 

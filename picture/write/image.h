@@ -16,7 +16,8 @@
 
 struct image {
     uint32_t width, height;
-    float *rgb; // three per pixel, row 0 on top
+    float *rgb;       // three per pixel, row 0 on top
+    const char *note; // a line of ASCII for the file's head; not owned; NULL: none
 };
 
 enum image_format {
@@ -49,6 +50,8 @@ void image_to_displayed(const float *linear, size_t pixels, struct image_display
 bool image_format_of_path(str path, enum image_format *format);
 // ".png, .pfm or .hdr", for messages.
 const char *image_format_endings(void);
+// What a note is filed under: a PNG's tEXt chunk, a comment in the head of an HDR; a PFM has no room for one.
+#define IMAGE_NOTE_KEYWORD "Accuracy"
 // Appends the whole file to `out`. `display` is only for PNG.
 void image_encode(const struct image *image, enum image_format format, struct image_display display,
                   struct strbuf *out);

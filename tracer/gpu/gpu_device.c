@@ -145,6 +145,7 @@ void gpu_destroy(struct gpu *gpu) {
     if (gpu->device) {
         gpu->vk.vkDeviceWaitIdle(gpu->device);
         gpu_buffer_destroy(gpu, gpu->staging);
+        gpu_pipelines_destroy(gpu);
         gpu->vk.vkDestroyPipelineCache(gpu->device, gpu->cache, NULL);
         gpu->vk.vkDestroyQueryPool(gpu->device, gpu->queries, NULL);
         gpu->vk.vkDestroyFence(gpu->device, gpu->fence, NULL);

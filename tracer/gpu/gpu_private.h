@@ -32,6 +32,7 @@ struct gpu {
     VkFence fence;
     VkQueryPool queries; // 0: first start, 1: last end
     VkPipelineCache cache;
+    struct gpu_pipeline *pipelines; // all of them, the one used last first
     bool recording, submitted, timed;
     uint32_t recorded;          // dispatches since the recording began
     struct gpu_buffer *staging; // grown as needed; NULL at first
@@ -49,13 +50,28 @@ struct gpu_buffer {
     void *mapped;   // NULL: reached through the staging buffer
 };
 
-struct gpu_program {
+enum {
+    GPU_CONSTANTS = 32,     // of a kernel, at most
+    GPU_PIPELINES_IDLE = 64 // kept although no program uses them
+};
+
+// A compiled kernel: what programs of the same kernel, constants and kinds of buffers share.
+struct gpu_pipeline {
+    struct gpu_pipeline *next; // in the order in which they were used last
+    const struct kernel *kernel;
+    uint32_t constants[GPU_CONSTANTS];
+    uint32_t constant_count, push_bytes;
+    uint32_t types[GPU_BINDINGS]; // 1 + VkDescriptorType; 0: no such binding
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
+    VkPipeline pipeline;
+    uint32_t users; // programs
+};
+
+struct gpu_program {
+    struct gpu_pipeline *compiled;
     VkDescriptorPool pool;
     VkDescriptorSet set;
-    VkPipeline pipeline;
-    uint32_t push_bytes;
 };
 
 enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gpu_instance *out, char *error);
@@ -73,6 +89,13 @@ uint32_t gpu_compute_family(VkPhysicalDevice physical);
 bool gpu_check(struct gpu *gpu, VkResult result, const char *call);
 void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+// ---- gpu_pipeline.c
+
+// The kernel compiled for the source, now or before; NULL on failure. Goes back by gpu_pipeline_leave.
+struct gpu_pipeline *gpu_pipeline_use(struct gpu *gpu, const struct gpu_program_source *source);
+void gpu_pipeline_leave(struct gpu *gpu, struct gpu_pipeline *pipeline); // NULL does nothing
+void gpu_pipelines_destroy(struct gpu *gpu);                             // no program may be left
 
 // ---- gpu_run.c
 

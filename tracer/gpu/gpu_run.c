@@ -22,12 +22,12 @@ bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_
         gpu->vk.vkCmdResetQueryPool(gpu->commands, gpu->queries, 0, 2);
         gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, gpu->queries, 0);
     }
-    gpu->vk.vkCmdBindPipeline(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->pipeline);
-    gpu->vk.vkCmdBindDescriptorSets(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout, 0, 1,
-                                    &program->set, 0, NULL);
-    if (program->push_bytes)
-        gpu->vk.vkCmdPushConstants(gpu->commands, program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                   program->push_bytes, push);
+    gpu->vk.vkCmdBindPipeline(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->compiled->pipeline);
+    gpu->vk.vkCmdBindDescriptorSets(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->compiled->layout,
+                                    0, 1, &program->set, 0, NULL);
+    if (program->compiled->push_bytes)
+        gpu->vk.vkCmdPushConstants(gpu->commands, program->compiled->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                   program->compiled->push_bytes, push);
     gpu->vk.vkCmdDispatch(gpu->commands, groups_x, groups_y, 1);
     VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,

@@ -83,7 +83,7 @@ static void picture_thumbnail(const float *shown, uint32_t width, uint32_t heigh
         }
     }
     if (bytes)
-        encode_png(w, h, bytes, out);
+        encode_png(w, h, bytes, NULL, out);
     out->failed |= !bytes;
     free(bytes);
 }

@@ -22,7 +22,7 @@
 static const struct image_display plain = {IR_TONE_CLIP, IR_TRANSFER_NONE};
 
 static uint8_t byte_of(float value, struct image_display display) {
-    struct image image = {1, 1, (float[3]){value, 0, 0}};
+    struct image image = {.width = 1, .height = 1, .rgb = (float[3]){value, 0, 0}};
     uint8_t bytes[3];
     image_to_bytes(&image, display, bytes);
     assert_int_equal(bytes[1], 0);
@@ -49,7 +49,7 @@ static void test_marked(void **state) {
     (void)state;
     static const uint8_t magenta[6] = {255, 0, 255, 255, 0, 255};
     float rgb[6] = {NAN, 0.25f, INFINITY, 1, 9, NAN};
-    struct image image = {2, 1, rgb};
+    struct image image = {.width = 2, .height = 1, .rgb = rgb};
     for (unsigned tone = IR_TONE_CLIP; tone <= IR_TONE_NORMALIZE; tone++)
         for (unsigned transfer = IR_TRANSFER_NONE; transfer <= IR_TRANSFER_SRGB; transfer++) {
             uint8_t bytes[6] = {0};
@@ -69,10 +69,51 @@ static void test_marked(void **state) {
     strbuf_finish(&file);
 }
 
+static bool holds(const struct strbuf *file, const char *text, size_t length) {
+    for (size_t i = 0; i + length <= file->len; i++)
+        if (memcmp(file->data + i, text, length) == 0)
+            return true;
+    return false;
+}
+
+// A note is in the head of a file and changes no pixel.
+static void test_note(void **state) {
+    (void)state;
+    static const char chunk[] = "tEXtAccuracy\0at most 1 %", comment[] = "\n# Accuracy: at most 1 %\nFORMAT=";
+    float rgb[6] = {0.1f, 0.5f, 1, 0, 0.25f, 0.75f};
+    struct image image = {.width = 2, .height = 1, .rgb = rgb};
+    for (int format = IMAGE_PNG; format <= IMAGE_HDR; format++) {
+        struct strbuf files[2];
+        int width, height, channels;
+        float *read[2];
+        for (int i = 0; i < 2; i++) {
+            image.note = i ? "at most 1 %" : NULL;
+            strbuf_init(&files[i]);
+            image_encode(&image, (enum image_format)format, plain, &files[i]);
+            assert_int_equal(holds(&files[i], chunk, sizeof chunk - 1), i && format == IMAGE_PNG);
+            assert_int_equal(holds(&files[i], comment, sizeof comment - 1), i && format == IMAGE_HDR);
+        }
+        assert_int_equal(files[0].len == files[1].len, format == IMAGE_PFM);
+        for (int i = 0; i < 2 && format != IMAGE_PFM; i++) {
+            read[i] = stbi_loadf_from_memory((const uint8_t *)files[i].data, (int)files[i].len, &width,
+                                             &height, &channels, 3);
+            assert_non_null(read[i]);
+        }
+        if (format != IMAGE_PFM) {
+            assert_memory_equal(read[0], read[1], sizeof rgb);
+            stbi_image_free(read[0]);
+            stbi_image_free(read[1]);
+        }
+        strbuf_finish(&files[0]);
+        strbuf_finish(&files[1]);
+    }
+}
+
 static void test_normalize(void **state) {
     (void)state;
     const struct image_display normalize = {IR_TONE_NORMALIZE, IR_TRANSFER_NONE};
-    struct image image = {4, 1, (float[12]){4, 2, 1, 0.5f, 0.25f, 1, INFINITY, 3, INFINITY, 0, 2, 1}};
+    struct image image = {
+        .width = 4, .height = 1, .rgb = (float[12]){4, 2, 1, 0.5f, 0.25f, 1, INFINITY, 3, INFINITY, 0, 2, 1}};
     static const uint8_t expected[12] = {255, 128, 64, 128, 64, 255, 255, 0, 255, 0, 255, 128};
     uint8_t bytes[12];
     image_to_bytes(&image, normalize, bytes);
@@ -181,7 +222,8 @@ static void test_png_repeats(void **state) {
 
 static void test_pfm(void **state) {
     (void)state;
-    struct image image = {2, 2, (float[12]){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -1.5f, 0}};
+    struct image image = {
+        .width = 2, .height = 2, .rgb = (float[12]){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -1.5f, 0}};
     struct strbuf file;
     strbuf_init(&file);
     image_encode(&image, IMAGE_PFM, plain, &file);
@@ -252,9 +294,10 @@ static void test_formats(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_marked), cmocka_unit_test(test_rounding), cmocka_unit_test(test_normalize),
-        cmocka_unit_test(test_srgb),   cmocka_unit_test(test_png),      cmocka_unit_test(test_png_repeats),
-        cmocka_unit_test(test_pfm),    cmocka_unit_test(test_hdr),      cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_marked),      cmocka_unit_test(test_rounding), cmocka_unit_test(test_note),
+        cmocka_unit_test(test_normalize),   cmocka_unit_test(test_srgb),     cmocka_unit_test(test_png),
+        cmocka_unit_test(test_png_repeats), cmocka_unit_test(test_pfm),      cmocka_unit_test(test_hdr),
+        cmocka_unit_test(test_formats),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

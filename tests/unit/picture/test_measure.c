@@ -223,7 +223,7 @@ static void test_display_rounds_to_bytes(void **state) {
     for (unsigned tone = 0; tone < 2; tone++)
         for (unsigned transfer = 0; transfer < 2; transfer++) {
             const struct image_display display = {tone, transfer};
-            struct image image = {64, 1, linear};
+            struct image image = {.width = 64, .height = 1, .rgb = linear};
             image_to_bytes(&image, display, bytes);
             image_to_displayed(linear, 64, display, shown);
             for (size_t i = 0; i < 3 * 64; i++)
@@ -279,7 +279,7 @@ static void test_pfm(void **state) {
     for (size_t i = 0; i < 18; i++)
         rgb[i] = (float)i * 0.5f - 1;
     rgb[4] = NAN;
-    struct image image = {3, 2, rgb};
+    struct image image = {.width = 3, .height = 2, .rgb = rgb};
     strbuf_init(&file);
     image_encode(&image, IMAGE_PFM, (struct image_display){0}, &file);
     decode(strbuf_view(&file), &p);
@@ -293,7 +293,7 @@ static void test_png_and_hdr(void **state) {
     (void)state;
     struct picture_file p;
     float rgb[6] = {0, 0.5f, 1, 0.25f, 0.125f, 2};
-    struct image image = {2, 1, rgb};
+    struct image image = {.width = 2, .height = 1, .rgb = rgb};
     struct strbuf file;
     strbuf_init(&file);
     image_encode(&image, IMAGE_PNG, (struct image_display){0}, &file);

@@ -1,0 +1,211 @@
+// Compiled kernels, which a gpu keeps: another scene of the same features compiles nothing anew.
+#include "shaders/kernel.h"
+#include "tracer/gpu/gpu_private.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// Numbers of the SPIR-V specification, section 3.
+enum {
+    SPIRV_HEADER_WORDS = 5,
+    OP_EXTENSION = 10,
+    OP_EXECUTION_MODE = 16,
+    OP_CAPABILITY = 17,
+    CAPABILITY_SIGNED_ZERO_INF_NAN_PRESERVE = 4466,
+    MODE_SIGNED_ZERO_INF_NAN_PRESERVE = 4461,
+    DOUBLE_BITS = 64,
+};
+
+// Whether an instruction asks for what the device does not know: one width of floats, or all of it.
+static bool is_unknown(const struct gpu *gpu, const uint32_t *instruction) {
+    static const char extension[] = "SPV_KHR_float_controls";
+    const bool none = !gpu->preserves_nan && !gpu->preserves_nan64;
+    switch (instruction[0] & 0xffff) {
+    case OP_CAPABILITY:
+        return none && instruction[1] == CAPABILITY_SIGNED_ZERO_INF_NAN_PRESERVE;
+    case OP_EXECUTION_MODE:
+        return instruction[2] == MODE_SIGNED_ZERO_INF_NAN_PRESERVE &&
+               !(instruction[3] == DOUBLE_BITS ? gpu->preserves_nan64 : gpu->preserves_nan);
+    case OP_EXTENSION:
+        return none && strncmp((const char *)(instruction + 1), extension, sizeof extension) == 0;
+    default:
+        return false;
+    }
+}
+
+// Takes out of a module what it asks for and the device does not know; returns the number of words left.
+static size_t drop_unknown(const struct gpu *gpu, uint32_t *spirv, size_t words) {
+    size_t count = SPIRV_HEADER_WORDS;
+    for (size_t at = SPIRV_HEADER_WORDS, length; at < words; at += length) {
+        length = spirv[at] >> 16;
+        if (is_unknown(gpu, spirv + at))
+            continue;
+        memmove(spirv + count, spirv + at, length * sizeof *spirv);
+        count += length;
+    }
+    return count;
+}
+
+static bool create_module(struct gpu *gpu, const struct gpu_program_source *source, VkShaderModule *out) {
+    uint32_t *spirv = kernel_inflate(source->kernel);
+    if (!spirv) {
+        gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
+        return false;
+    }
+    const size_t words = drop_unknown(gpu, spirv, source->kernel->words);
+    VkShaderModuleCreateInfo create = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                       .codeSize = words * sizeof *spirv,
+                                       .pCode = spirv};
+    const bool ok =
+        gpu_check(gpu, gpu->vk.vkCreateShaderModule(gpu->device, &create, NULL, out), "vkCreateShaderModule");
+    free(spirv);
+    return ok;
+}
+
+static bool create_layout(struct gpu *gpu, struct gpu_pipeline *made,
+                          const struct gpu_program_source *source) {
+    VkDescriptorSetLayoutBinding bindings[GPU_BINDINGS];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < GPU_BINDINGS; i++)
+        if (source->buffers[i])
+            bindings[count++] = (VkDescriptorSetLayoutBinding){.binding = i,
+                                                               .descriptorType = source->buffers[i]->type,
+                                                               .descriptorCount = 1,
+                                                               .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT};
+    VkDescriptorSetLayoutCreateInfo set = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                           .bindingCount = count,
+                                           .pBindings = bindings};
+    if (!gpu_check(gpu, gpu->vk.vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &made->set_layout),
+                   "vkCreateDescriptorSetLayout"))
+        return false;
+    VkPushConstantRange push = {.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT, .size = source->push_bytes};
+    VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                         .setLayoutCount = 1,
+                                         .pSetLayouts = &made->set_layout,
+                                         .pushConstantRangeCount = source->push_bytes != 0,
+                                         .pPushConstantRanges = &push};
+    return gpu_check(gpu, gpu->vk.vkCreatePipelineLayout(gpu->device, &layout, NULL, &made->layout),
+                     "vkCreatePipelineLayout");
+}
+
+static bool create_pipeline(struct gpu *gpu, struct gpu_pipeline *made,
+                            const struct gpu_program_source *source) {
+    VkSpecializationMapEntry entries[GPU_CONSTANTS];
+    for (uint32_t i = 0; i < source->constant_count; i++)
+        entries[i] = (VkSpecializationMapEntry){i, i * (uint32_t)sizeof(uint32_t), sizeof(uint32_t)};
+    VkSpecializationInfo constants = {.mapEntryCount = source->constant_count,
+                                      .pMapEntries = entries,
+                                      .dataSize = source->constant_count * sizeof(uint32_t),
+                                      .pData = source->constants};
+    VkShaderModule module;
+    if (!create_module(gpu, source, &module))
+        return false;
+    VkComputePipelineCreateInfo pipeline = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main",
+                  .pSpecializationInfo = &constants},
+        .layout = made->layout};
+    const VkResult result =
+        gpu->vk.vkCreateComputePipelines(gpu->device, gpu->cache, 1, &pipeline, NULL, &made->pipeline);
+    gpu->vk.vkDestroyShaderModule(gpu->device, module, NULL);
+    return gpu_check(gpu, result, "vkCreateComputePipelines");
+}
+
+// What a source asks for, compared with `made`.
+static void describe(const struct gpu_program_source *source, struct gpu_pipeline *made) {
+    made->kernel = source->kernel;
+    made->constant_count = source->constant_count;
+    made->push_bytes = source->push_bytes;
+    if (source->constant_count)
+        memcpy(made->constants, source->constants, source->constant_count * sizeof *made->constants);
+    for (uint32_t i = 0; i < GPU_BINDINGS; i++)
+        made->types[i] = source->buffers[i] ? 1 + (uint32_t)source->buffers[i]->type : 0;
+}
+
+static bool is_same(const struct gpu_pipeline *a, const struct gpu_pipeline *b) {
+    return a->kernel == b->kernel && a->constant_count == b->constant_count &&
+           a->push_bytes == b->push_bytes && memcmp(a->constants, b->constants, sizeof a->constants) == 0 &&
+           memcmp(a->types, b->types, sizeof a->types) == 0;
+}
+
+static void destroy(struct gpu *gpu, struct gpu_pipeline *pipeline) {
+    gpu->vk.vkDestroyPipeline(gpu->device, pipeline->pipeline, NULL);
+    gpu->vk.vkDestroyPipelineLayout(gpu->device, pipeline->layout, NULL);
+    gpu->vk.vkDestroyDescriptorSetLayout(gpu->device, pipeline->set_layout, NULL);
+    free(pipeline);
+}
+
+// Takes out of the list what was made before and fits; NULL: nothing.
+static struct gpu_pipeline *take(struct gpu *gpu, const struct gpu_pipeline *wanted) {
+    for (struct gpu_pipeline **at = &gpu->pipelines; *at; at = &(*at)->next)
+        if (is_same(*at, wanted)) {
+            struct gpu_pipeline *found = *at;
+            *at = found->next;
+            return found;
+        }
+    return NULL;
+}
+
+// What is idle for longest goes.
+static void drop_idle(struct gpu *gpu) {
+    uint32_t idle = 0;
+    for (struct gpu_pipeline **at = &gpu->pipelines; *at;) {
+        struct gpu_pipeline *pipeline = *at;
+        if (pipeline->users || ++idle <= GPU_PIPELINES_IDLE) {
+            at = &pipeline->next;
+            continue;
+        }
+        *at = pipeline->next;
+        destroy(gpu, pipeline);
+    }
+}
+
+static struct gpu_pipeline *make(struct gpu *gpu, const struct gpu_program_source *source,
+                                 const struct gpu_pipeline *wanted) {
+    struct gpu_pipeline *made = malloc(sizeof *made);
+    if (!made) {
+        gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
+        return NULL;
+    }
+    *made = *wanted;
+    if (create_layout(gpu, made, source) && create_pipeline(gpu, made, source))
+        return made;
+    destroy(gpu, made);
+    return NULL;
+}
+
+struct gpu_pipeline *gpu_pipeline_use(struct gpu *gpu, const struct gpu_program_source *source) {
+    if (source->constant_count > GPU_CONSTANTS) {
+        gpu_fail(gpu, GPU_FAILED, "a kernel with more than %d constants", GPU_CONSTANTS);
+        return NULL;
+    }
+    struct gpu_pipeline wanted = {0};
+    describe(source, &wanted);
+    struct gpu_pipeline *pipeline = take(gpu, &wanted);
+    if (!pipeline)
+        pipeline = make(gpu, source, &wanted);
+    if (!pipeline)
+        return NULL;
+    pipeline->next = gpu->pipelines;
+    gpu->pipelines = pipeline;
+    pipeline->users++;
+    return pipeline;
+}
+
+void gpu_pipeline_leave(struct gpu *gpu, struct gpu_pipeline *pipeline) {
+    if (!pipeline)
+        return;
+    pipeline->users--;
+    drop_idle(gpu);
+}
+
+void gpu_pipelines_destroy(struct gpu *gpu) {
+    while (gpu->pipelines) {
+        struct gpu_pipeline *next = gpu->pipelines->next;
+        destroy(gpu, gpu->pipelines);
+        gpu->pipelines = next;
+    }
+}
