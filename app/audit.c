@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "grammar/ir.h"
 #include "reference/reference.h"
+#include "scene/spread.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -17,50 +18,6 @@ enum {
     CHUNK = 64 * PIECE, // pixels between two reports of the progress
 };
 
-// ---- which pixels
-
-struct grid {
-    uint32_t width, height;  // of the picture
-    uint32_t columns, lines; // of cells
-};
-
-static uint32_t at_least(uint32_t pixels, uint32_t cells) {
-    return pixels < cells ? pixels : cells;
-}
-
-// `cells` or a few more, about square; the whole picture where that is not much more.
-static struct grid make_grid(uint32_t width, uint32_t height, uint32_t cells) {
-    struct grid grid = {width, height, width, height};
-    if ((uint64_t)width * height <= 2 * (uint64_t)cells)
-        return grid;
-    const double across = sqrt((double)cells * width / height);
-    grid.columns = at_least(width, (uint32_t)fmax(1, ceil(across)));
-    grid.lines = at_least(height, (cells + grid.columns - 1) / grid.columns);
-    grid.columns = at_least(width, (cells + grid.lines - 1) / grid.lines);
-    return grid;
-}
-
-// SplitMix64 (Steele, Lea, Flood 2014).
-static uint64_t scramble(uint64_t z) {
-    z += UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ z >> 27) * UINT64_C(0x94D049BB133111EB);
-    return z ^ z >> 31;
-}
-
-// A pixel of cell `index` of `cells` along one side of the picture. The place is drawn before it is rounded
-// to a pixel: cells of two and of three pixels would not give all pixels the same chance.
-static uint32_t pixel_in(uint32_t index, uint32_t cells, uint32_t pixels, uint32_t random) {
-    const double place = (index + random * 0x1p-32) * pixels / cells;
-    return place < pixels ? (uint32_t)place : pixels - 1;
-}
-
-static void pixel_of(const struct grid *grid, uint32_t cell, uint32_t *x, uint32_t *y) {
-    const uint64_t random = scramble((uint64_t)grid->columns << 32 | cell);
-    *x = pixel_in(cell % grid->columns, grid->columns, grid->width, (uint32_t)random);
-    *y = pixel_in(cell / grid->columns, grid->lines, grid->height, (uint32_t)(random >> 32));
-}
-
 // ---- tracing them again
 
 struct work {
@@ -68,7 +25,7 @@ struct work {
     struct reference_settings settings;
     const struct image *image;
     struct image_display display;
-    struct grid grid;
+    struct spread grid;
     uint32_t first; // cell of the chunk
     atomic_uint off, first_off;
     atomic_bool failed;
@@ -99,7 +56,7 @@ static void trace_piece(void *context, size_t begin, size_t end) {
     for (size_t i = begin; i < end; i++) {
         uint32_t x, y;
         double exact[3];
-        pixel_of(&w->grid, w->first + (uint32_t)i, &x, &y);
+        spread_pixel(&w->grid, w->first + (uint32_t)i, &x, &y);
         const size_t place = (size_t)y * w->image->width + x;
         if (!reference_pixel(w->reference, &w->settings, x, y, exact))
             atomic_store(&w->failed, true);
@@ -111,7 +68,7 @@ static void trace_piece(void *context, size_t begin, size_t end) {
 // One look: a pixel of each cell.
 static enum shot_status look(struct work *w, uint32_t cells, const struct render_progress *progress,
                              struct audit *out) {
-    w->grid = make_grid(w->image->width, w->image->height, cells);
+    w->grid = spread_make(w->image->width, w->image->height, cells);
     const uint32_t count = w->grid.columns * w->grid.lines;
     for (w->first = 0; w->first < count; w->first += CHUNK) {
         const uint32_t left = count - w->first;
@@ -130,7 +87,7 @@ static enum shot_status look_twice(struct work *w, const struct render_progress 
     const uint32_t off = atomic_load(&w->off);
     if (status != SHOT_OK || out->whole || off == 0 || off >= MORE_BELOW)
         return status;
-    const struct grid whole = make_grid(w->image->width, w->image->height, MORE_CELLS);
+    const struct spread whole = spread_make(w->image->width, w->image->height, MORE_CELLS);
     if (whole.columns == w->image->width && whole.lines == w->image->height) {
         out->pixels = 0; // each pixel counts once
         atomic_store(&w->off, 0);

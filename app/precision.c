@@ -40,17 +40,24 @@ static void put_measure(const struct session *session, enum precision_feature fe
         strbuf_format(out, ", line %u of %.*s", where.mesh_line, STR_ARG(where.mesh));
 }
 
-void precision_words(const struct session *session, const struct precision_report *report,
-                     struct strbuf *out) {
-    static const char *const settings[] = {"auto", "single", "double"};
-    const unsigned setting = session->scene->trace.precision;
-    strbuf_format(out, "precision   %s", precision_is_double(session->scene, report) ? "double" : "single");
-    strbuf_format(out, ", the setting is %s; ", settings[setting]);
-    if (report->suffices)
+static void put_trial(const struct precision_choice *choice, struct strbuf *out) {
+    if (choice->traced)
+        strbuf_format(out, "%u of %u pixels traced in both precisions differ\n", choice->off, choice->pixels);
+    else if (choice->report.suffices)
         strbuf_cstr(out, "single precision suffices\n");
     else
         strbuf_format(out, "single precision does not suffice: the %s decides\n",
-                      feature_words[report->decides]);
+                      feature_words[choice->report.decides]);
+}
+
+void precision_words(const struct session *session, const struct precision_choice *choice,
+                     struct strbuf *out) {
+    static const char *const settings[] = {"auto", "single", "double"};
+    const unsigned setting = session->scene->trace.precision;
+    const struct precision_report *report = &choice->report;
+    strbuf_format(out, "precision   %s", precision_is_double(session->scene, choice) ? "double" : "single");
+    strbuf_format(out, ", the setting is %s; ", settings[setting]);
+    put_trial(choice, out);
     for (int i = 0; i < PRECISION_FEATURES; i++) {
         if (!report->least[i].any)
             continue;
@@ -58,14 +65,20 @@ void precision_words(const struct session *session, const struct precision_repor
         put_measure(session, (enum precision_feature)i, &report->least[i], out);
         strbuf_char(out, '\n');
     }
-    strbuf_format(out, "  a step is 2^-24 of the distance; %g steps are enough\n", PRECISION_STEPS);
+    strbuf_format(out, "  a step is 2^-24 of the distance\n");
     if (!report->all_pairs)
         strbuf_cstr(out, "  there are too many bodies close together to look for gaps between all of them\n");
 }
 
 // What decides, as a note to the warning before.
-static void note_measure(struct session *session, const struct precision_report *report) {
+static void note_measure(struct session *session, const struct precision_choice *choice) {
+    const struct precision_report *report = &choice->report;
     struct strbuf words;
+    if (choice->traced)
+        diag_note(&session->sink, SPAN_NONE, "%u of %u pixels traced in both precisions differ", choice->off,
+                  choice->pixels);
+    if (!report->least[report->decides].any)
+        return;
     strbuf_init(&words);
     put_measure(session, report->decides, &report->least[report->decides], &words);
     diag_note(&session->sink, SPAN_NONE, "%s %.*s", feature_words[report->decides],
@@ -73,13 +86,18 @@ static void note_measure(struct session *session, const struct precision_report 
     strbuf_finish(&words);
 }
 
-static void warn(struct session *session, const struct precision_report *report) {
-    const struct precision_measure *m = &report->least[report->decides];
+static void warn(struct session *session, const struct precision_choice *choice) {
+    const struct precision_measure *m = &choice->report.least[choice->report.decides];
     struct where where;
-    bool found = where_find(session, m->body, m->triangle, &where);
+    bool found = m->any && where_find(session, m->body, m->triangle, &where);
     diag_add(&session->sink, DIAG_SINGLE_ONLY, found ? where.at : SPAN_NONE,
              "the device computes only in single precision, but this scene needs double");
-    note_measure(session, report);
+    note_measure(session, choice);
+}
+
+static bool decide(const struct session *session, const struct flat_input *input,
+                   struct precision_choice *out) {
+    return precision_decide(input, (uint32_t)session->image->width, (uint32_t)session->image->height, out);
 }
 
 void precision_check(struct session *session) {
@@ -90,15 +108,13 @@ void precision_check(struct session *session) {
     view_build(&session->resolved, 0, session->image->width, session->image->height, &session->arena, NULL,
                &view);
     struct flat_input input = precision_input(session, &view);
-    struct precision_report report;
-    if (!precision_measure(&input, &report) || report.suffices)
+    struct precision_choice choice;
+    if (!decide(session, &input, &choice) || !choice.needs_double)
         return;
     diag_add(&session->sink, DIAG_SINGLE_PRECISION,
              ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
-             "'trace.precision' is 'single', but this scene needs double: something in it has only %.2g of "
-             "the %g steps that it needs",
-             report.least[report.decides].steps, PRECISION_STEPS);
-    note_measure(session, &report);
+             "'trace.precision' is 'single', but this scene needs double");
+    note_measure(session, &choice);
     diag_help(&session->sink,
               "leave 'precision' out: 'auto' computes in double precision when that is needed");
 }
@@ -112,7 +128,7 @@ struct flat_input precision_input(struct session *session, const struct view *vi
 }
 
 bool precision_choose(struct session *session, struct flat_input *input, bool has_double) {
-    struct precision_report report;
+    struct precision_choice choice;
     const struct ir_trace *trace = &session->scene->trace;
     input->is_double = trace->precision == IR_PRECISION_DOUBLE;
     if (input->is_double && !has_double) {
@@ -123,13 +139,13 @@ bool precision_choose(struct session *session, struct flat_input *input, bool ha
     }
     if (trace->precision != IR_PRECISION_AUTO)
         return true;
-    if (!precision_measure(input, &report)) {
+    if (!decide(session, input, &choice)) {
         diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory to measure the scene");
         return false;
     }
-    if (!report.suffices && !has_double)
-        warn(session, &report);
-    input->is_double = !report.suffices && has_double;
+    if (choice.needs_double && !has_double)
+        warn(session, &choice);
+    input->is_double = choice.needs_double && has_double;
     return true;
 }

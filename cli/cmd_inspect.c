@@ -134,8 +134,10 @@ static bool describe(struct session *session, struct strbuf *out) {
     if (!session_view(session, 0, &view))
         return false;
     struct flat_input input = precision_input(session, &view);
-    struct precision_report precision;
-    if (!precision_measure(&input, &precision) || !flatten(&input, &flat))
+    struct precision_choice precision;
+    if (!precision_decide(&input, (uint32_t)session->image->width, (uint32_t)session->image->height,
+                          &precision) ||
+        !flatten(&input, &flat))
         return false;
     counts(out, session);
     bounds(out, session);

@@ -54,7 +54,8 @@ void reference_make_bodies(struct reference *r) {
 
 // ---- primitives
 
-static void put(double out[3], vec3 v) {
+static void put(const struct reference *r, double out[3], vec3 v) {
+    v = reference_stored3(r, v);
     out[0] = v.x;
     out[1] = v.y;
     out[2] = v.z;
@@ -65,14 +66,14 @@ bool reference_make_primitive(const struct reference *r, const struct body *body
     *out = (struct primitive){.body = (uint32_t)(body - r->bodies), .triangle = triangle};
     if (body->is->shape == SCENE_SPHERE) {
         out->is_sphere = true;
-        put(out->v[0], body->object_to_world.offset);
-        out->v[1][0] = body->is->radius;
+        put(r, out->v[0], body->object_to_world.offset);
+        out->v[1][0] = reference_stored(r, body->is->radius);
         return true;
     }
     vec3 corners[3];
     scene_corners(body->is, &body->object_to_world, triangle, corners);
     for (int k = 0; k < 3; k++)
-        put(out->v[k], corners[k]);
+        put(r, out->v[k], corners[k]);
     vec3 u = vec3_sub(corners[1], corners[0]), v = vec3_sub(corners[2], corners[0]);
     return !vec3_is_zero(vec3_cross(u, v));
 }

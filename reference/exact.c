@@ -8,7 +8,7 @@
 #define STEP 0x1p-96
 // Planes whose heights differ by no more than this part of their coordinates are the same but for the
 // rounding of the scene's numbers, where they are parallel too.
-#define SAME_HEIGHT   (4 * REFERENCE_UNIT)
+#define SAME_HEIGHT   4.0 // units
 #define PARALLEL      (1 - 0x1p-14)
 #define CORNER_FACTOR 8.0
 
@@ -59,7 +59,8 @@ static struct wide3 place_on(const struct primitive *p, double b1, double b2) {
 
 void exact_begin(const struct reference *r, const struct ray *ray, const int axes[3], struct exact_ray *out) {
     const double d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
-    *out = (struct exact_ray){.origin = wide3_of(ray->start.at), .direction = ray->direction};
+    *out = (struct exact_ray){
+        .origin = wide3_of(ray->start.at), .direction = ray->direction, .unit = reference_unit(r)};
     for (int k = 0; k < 3; k++)
         out->axes[k] = axes[k];
     out->sx = wide_div(wide_of(d[axes[0]]), wide_of(d[axes[2]]));
@@ -93,10 +94,14 @@ static struct wide edge_of(struct across a, struct across b) {
     return wide_difference(a.x, b.y, a.y, b.x);
 }
 
+double exact_blur(const struct primitive *p, vec3 direction, double unit) {
+    return SAME_HEIGHT * unit * farthest(p) / fabs(vec3_dot(exact_normal(p), direction));
+}
+
 // Whether the triangle lies in the plane of the one that the ray leaves, in another body: then the ray leaves
 // both.
 static bool is_left_too(const struct exact_ray *ray, const struct primitive *p, vec3 unit, double height) {
-    return ray->left && ray->left->body != p->body && fabs(height) <= SAME_HEIGHT * farthest(p) &&
+    return ray->left && ray->left->body != p->body && fabs(height) <= SAME_HEIGHT * ray->unit * farthest(p) &&
            fabs(vec3_dot(unit, ray->left_normal)) > PARALLEL;
 }
 
@@ -124,6 +129,6 @@ bool exact_intersect(const struct exact_ray *ray, const struct primitive *p, str
     out->t = wide_div(height, along).high;
     out->b1 = fmax(wide_div(v, det).high, 0);
     out->b2 = fmax(wide_div(w, det).high, 0);
-    out->t_error = SAME_HEIGHT * farthest(p) * size / fabs(along.high);
+    out->t_error = SAME_HEIGHT * ray->unit * farthest(p) * size / fabs(along.high);
     return true;
 }

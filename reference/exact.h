@@ -13,6 +13,7 @@ struct exact_ray {
     vec3 direction;
     int axes[3]; // the last one: of the direction's largest component
     struct wide sx, sy;
+    double unit;                  // of the scene's numbers
     const struct primitive *left; // NULL: none
     vec3 left_normal;
 };
@@ -21,6 +22,9 @@ void exact_begin(const struct reference *r, const struct ray *ray, const int axe
 
 // The hit at t > 0, without t_max. t_error: how far the rounding of the scene's own numbers moves t.
 bool exact_intersect(const struct exact_ray *ray, const struct primitive *p, struct intersection *out);
+
+// How far the rounding of the scene's numbers moves the place where a ray meets the triangle, in its t.
+double exact_blur(const struct primitive *p, vec3 direction, double unit);
 
 // Unit, by the corners as stored.
 vec3 exact_normal(const struct primitive *p);

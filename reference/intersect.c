@@ -21,7 +21,7 @@ struct sheared {
     double slack; // bound of the origin's error, by component
 };
 
-static struct sheared shear(const struct ray *ray) {
+static struct sheared shear(const struct ray *ray, double unit) {
     struct sheared s = {.origin = {ray->start.at.x, ray->start.at.y, ray->start.at.z},
                         .direction = {ray->direction.x, ray->direction.y, ray->direction.z}};
     const double *d = s.direction;
@@ -32,7 +32,7 @@ static struct sheared shear(const struct ray *ray) {
     s.sx = d[s.kx] * s.sz;
     s.sy = d[s.ky] * s.sz;
     if (ray->start.left != NO_PRIMITIVE)
-        s.slack = START_ERROR * vec3_max_abs(ray->start.at);
+        s.slack = START_ERROR * unit * vec3_max_abs(ray->start.at);
     return s;
 }
 
@@ -107,7 +107,8 @@ static bool intersect_moeller_trumbore(const struct ray *ray, const struct primi
 
 // Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
 // Gems, chapter 7). A root that its own error reaches down to 0 is where the ray left the sphere.
-static bool intersect_sphere(const struct ray *ray, const struct primitive *p, struct intersection *out) {
+static bool intersect_sphere(const struct reference *r, const struct ray *ray, const struct primitive *p,
+                             struct intersection *out) {
     vec3 f = vec3_sub(ray->start.at, (vec3){p->v[0][0], p->v[0][1], p->v[0][2]});
     vec3 d = ray->direction;
     double radius = p->v[1][0];
@@ -124,8 +125,8 @@ static bool intersect_sphere(const struct ray *ray, const struct primitive *p, s
         return false;
     double length2 = vec3_dot(f, f);
     double c = length2 - radius * radius;
-    double c_error = REFERENCE_GAMMA(6) * length2 + REFERENCE_GAMMA(2) * radius * radius;
-    double b_error = REFERENCE_GAMMA(4) * (fabs(f.x * d.x) + fabs(f.y * d.y) + fabs(f.z * d.z));
+    double c_error = reference_gamma(r, 6) * length2 + reference_gamma(r, 2) * radius * radius;
+    double b_error = reference_gamma(r, 4) * (fabs(f.x * d.x) + fabs(f.y * d.y) + fabs(f.z * d.z));
     double t[2] = {c / q, q / a};
     double error[2] = {c_error / fabs(q), b_error / a};
     int order = t[0] <= t[1] ? 0 : 1;
@@ -199,6 +200,11 @@ static void take(struct search *s, const struct intersection *hit) {
 static bool intersect_triangle(struct search *s, const struct primitive *p, struct intersection *hit) {
     bool open;
     const bool is_hit = intersect_watertight(&s->sheared, p, hit, &open);
+    if (is_hit && s->r->input.as_single) {
+        const double blur = exact_blur(p, s->ray->direction, REFERENCE_SINGLE);
+        open = hit->t <= 2 * blur;
+        hit->t_error = fmax(hit->t_error, blur);
+    }
     if (!open)
         return is_hit;
     if (!s->exact_begun)
@@ -210,7 +216,7 @@ static bool intersect_triangle(struct search *s, const struct primitive *p, stru
 static void test_primitive(struct search *s, uint32_t index) {
     const struct primitive *p = &s->r->primitives[index];
     struct intersection hit = {0};
-    bool is_hit = p->is_sphere ? intersect_sphere(s->ray, p, &hit)
+    bool is_hit = p->is_sphere ? intersect_sphere(s->r, s->ray, p, &hit)
                   : s->r->input.test == REFERENCE_MOELLER_TRUMBORE
                       ? intersect_moeller_trumbore(s->ray, p, &hit)
                       : index != s->ray->start.left && intersect_triangle(s, p, &hit);
@@ -283,7 +289,8 @@ static void search_tree(struct search *s) {
 
 // At equal distance the lower (body, triangle): the first of the ties.
 static void search(const struct reference *r, const struct ray *ray, bool any, struct intersection *out) {
-    struct search s = {.r = r, .ray = ray, .sheared = shear(ray), .any = any, .end = ray->t_max};
+    struct search s = {
+        .r = r, .ray = ray, .sheared = shear(ray, reference_unit(r)), .any = any, .end = ray->t_max};
     s.nearest.primitive = NO_PRIMITIVE;
     for (int a = 0; a < 3; a++)
         s.inverse[a] = 1 / s.sheared.direction[a];

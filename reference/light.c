@@ -21,10 +21,14 @@ static vec3 scaled(vec3 a, vec3 b) {
     return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
+static vec3 place_of(const struct reference *r, const struct view_light *light) {
+    return reference_stored3(r, vec3_sub(light->position, r->origin));
+}
+
 // What the light adds where nothing blocks it.
 static vec3 unshadowed(const struct reference *r, const struct view_light *light, const struct surface *s,
                        vec3 direction) {
-    vec3 way = vec3_sub(vec3_sub(light->position, r->origin), s->point);
+    vec3 way = vec3_sub(place_of(r, light), s->point);
     double distance = vec3_length(way);
     vec3 l = light->directional ? light->to_light : vec3_unit(way);
     double facing = vec3_dot(s->shading, l);
@@ -55,7 +59,8 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
             continue;
         uint32_t bit = i < 32 ? UINT32_C(1) << i : 0;
         out->considered |= bit;
-        vec3 way = vec3_sub(vec3_sub(light->position, r->origin), start.at);
+        vec3 way = vec3_sub(place_of(r, light), start.at);
+        way = reference_rounded3(r, way, vec3_max_abs(way));
         struct ray ray = {start, light->directional ? light->to_light : way,
                           light->directional ? INFINITY : 1};
         out->shadow_rays += shadows;
@@ -106,8 +111,12 @@ static vec3 background_image(const struct reference *r, vec3 d) {
 }
 
 vec3 reference_background(const struct reference *r, vec3 direction) {
-    return r->input.scene->background.picture ? background_image(r, direction)
-                                              : r->input.scene->background.color;
+    const struct scene_background *background = &r->input.scene->background;
+    if (!background->picture)
+        return background->color;
+    if (r->input.gradient)
+        return vec3_mul(vec3_add(direction, (vec3){1, 1, 1}), 0.5 * background->intensity);
+    return background_image(r, direction);
 }
 
 static double image_brightest(const struct reference *r) {
@@ -124,7 +133,7 @@ void reference_make_background(struct reference *r) {
     const struct picture *picture = background->picture;
     bool srgb = r->input.scene->ir->image.transfer == IR_TRANSFER_SRGB;
     r->background_brightest = reference_brightest(background->color);
-    if (!picture)
+    if (!picture || r->input.gradient)
         return;
     if (picture->depth != PICTURE_RGBE) {
         size_t greatest = picture_greatest(picture->depth);

@@ -9,6 +9,7 @@
 
 // gamma(n) = n u / (1 - n u), u = 2^-53: bounds the relative error of n roundings (Higham 2002, section 3.1).
 #define REFERENCE_UNIT     0x1p-53
+#define REFERENCE_SINGLE   0x1p-24
 #define REFERENCE_GAMMA(n) ((n)*REFERENCE_UNIT / (1 - (n)*REFERENCE_UNIT))
 
 #define NO_PRIMITIVE UINT32_MAX
@@ -73,6 +74,24 @@ struct reference {
     struct tree_node *nodes;
 };
 
+// That of the numbers that places have.
+static inline double reference_unit(const struct reference *r) {
+    return r->input.as_single ? REFERENCE_SINGLE : REFERENCE_UNIT;
+}
+static inline double reference_gamma(const struct reference *r, int n) {
+    return n * reference_unit(r) / (1 - n * reference_unit(r));
+}
+
+// ---- rounding.c
+
+// With as_single: as a device in single precision has it, computed from numbers as large as `size`; else as
+// it is.
+double reference_rounded(const struct reference *r, double value, double size);
+vec3 reference_rounded3(const struct reference *r, vec3 v, double size);
+// With as_single: as a float; else as it is.
+double reference_stored(const struct reference *r, double value);
+vec3 reference_stored3(const struct reference *r, vec3 v);
+
 // ---- bodies.c
 
 // Fills bodies and materials; jumps to the arena's guard where memory ends.
@@ -132,9 +151,9 @@ struct surface {
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out);
-vec3 reference_mirrored(const struct surface *s, vec3 direction);
+vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction);
 // false: total reflection.
-bool reference_bent(const struct surface *s, vec3 direction, vec3 *out);
+bool reference_bent(const struct reference *r, const struct surface *s, vec3 direction, vec3 *out);
 
 // ---- ray_offset.c
 

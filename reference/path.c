@@ -87,7 +87,7 @@ static double send_rays(struct following *f, const struct branch *from, const st
     struct branch back = {.depth = from->depth + 1, .parent = segment, .kind = REFERENCE_REFLECTED};
     struct branch through = {.depth = from->depth + 1, .parent = segment, .kind = REFERENCE_REFRACTED};
     double reflection = s->reflection;
-    *total = s->refraction > 0 && !reference_bent(s, from->direction, &through.direction);
+    *total = s->refraction > 0 && !reference_bent(f->r, s, from->direction, &through.direction);
     if (*total) {
         reflection += s->refraction;
         f->sample->total_reflections++;
@@ -102,7 +102,7 @@ static double send_rays(struct following *f, const struct branch *from, const st
     back.throughput = from->throughput * reflection;
     if (back.throughput > 0) {
         back.start = reference_leave(f->r, s, s->geometric);
-        back.direction = reference_mirrored(s, from->direction);
+        back.direction = reference_mirrored(f->r, s, from->direction);
         cut += send(f, &back);
     }
     return cut;

@@ -65,7 +65,8 @@ vec3 reference_camera_ray(const struct reference *r, const struct reference_sett
     double right = (2 * (x + a) / settings->width - 1) * ((double)settings->width / settings->height);
     double up = 1 - 2 * (y + b) / settings->height;
     vec3 across = vec3_add(vec3_mul(camera->right, right), vec3_mul(camera->up, up));
-    return vec3_unit(vec3_add(camera->forward, vec3_mul(across, camera->tan_half_fov)));
+    return reference_rounded3(r, vec3_unit(vec3_add(camera->forward, vec3_mul(across, camera->tan_half_fov))),
+                              1);
 }
 
 void reference_closest(const struct reference *r, vec3 origin, vec3 direction, double t_max,
@@ -235,12 +236,13 @@ static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     hit.distance = s.distance;
     hit.normal = s.shading;
     vec3 bent;
-    bool comes_through = s.refraction > 0 && reference_bent(&s, direction, &bent);
+    bool comes_through = s.refraction > 0 && reference_bent(r, &s, direction, &bent);
     if (comes_through)
         hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), bent);
     // Under total reflection the mirrored ray has the refracted one's weight too.
     if (s.reflection > 0 || (s.refraction > 0 && !comes_through))
-        hit.reflected = body_ahead(r, reference_leave(r, &s, s.geometric), reference_mirrored(&s, direction));
+        hit.reflected =
+            body_ahead(r, reference_leave(r, &s, s.geometric), reference_mirrored(r, &s, direction));
     return hit;
 }
 

@@ -35,6 +35,11 @@ struct reference_input {
     const struct view *view;
     enum reference_test test;
     bool no_tree; // every primitive is tested; to test the tree against
+    // Numbers as a device in single precision has them: places, directions and normals are rounded to floats
+    // and moved by about the error of the operations that made them, the same in every run. What it draws is
+    // wrong about where and as often as that device's picture is.
+    bool as_single;
+    bool gradient; // in place of a background's image, which need not be decoded: a smooth one
 };
 
 struct reference_settings {

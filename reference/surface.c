@@ -2,6 +2,8 @@
 #include "reference/exact.h"
 #include "reference/parts.h"
 
+#include "scene/transform.h"
+
 static vec3 vertex(const struct primitive *p, int k) {
     return (vec3){p->v[k][0], p->v[k][1], p->v[k][2]};
 }
@@ -45,13 +47,28 @@ static vec3 checker_place(const struct scene_body *body, const struct surface *s
     return weighted(corners, b);
 }
 
+// How large the numbers are from which a device computes a place of the checker: those of the hit, in the
+// checker's units; of a parallelogram, the length of its edges.
+static double checker_error(const struct reference *r, const struct scene_body *body, const struct surface *s,
+                            vec3 place) {
+    if (!r->input.as_single)
+        return 0;
+    if (body->shape == SCENE_PARALLELOGRAM)
+        return fmax(vec3_length(mat3_column(body->object_to_world.linear, 0)),
+                    vec3_length(mat3_column(body->object_to_world.linear, 1)));
+    const vec3 offset = vec3_sub(body->object_to_world.offset, r->origin);
+    const double reach = vec3_length(vec3_sub(s->point, offset));
+    return (vec3_max_abs(s->point) + vec3_max_abs(offset)) * (reach > 0 ? vec3_length(place) / reach : 1);
+}
+
 static void take_material(const struct reference *r, const struct scene_body *body, const double b[3],
                           vec3 arm, struct surface *s) {
     s->material = scene_body_material(body, s->triangle);
     const struct material *m = &r->materials[s->material];
     bool odd = false;
     if (m->checker) {
-        vec3 at = checker_place(body, s, b, arm);
+        const vec3 exact = checker_place(body, s, b, arm);
+        const vec3 at = reference_rounded3(r, exact, checker_error(r, body, s, exact));
         odd = is_odd(cell_of(at.x, m->cell) + cell_of(at.y, m->cell) + cell_of(at.z, m->cell));
     }
     s->diffuse = m->diffuse[odd];
@@ -85,31 +102,37 @@ static void turn_to_ray(struct surface *s, vec3 outward, vec3 direction) {
 
 // ---- surfaces
 
-static void sphere_surface(const struct ray *ray, const struct primitive *p, struct surface *s, vec3 *arm) {
+static void sphere_surface(const struct reference *r, const struct ray *ray, const struct primitive *p,
+                           struct surface *s, vec3 *arm) {
     vec3 centre = vertex(p, 0);
     vec3 at = vec3_add(ray->start.at, vec3_mul(ray->direction, s->distance));
-    vec3 outward = vec3_unit(vec3_sub(at, centre));
+    // A place on the ray is as wrong as it is far away.
+    at = reference_rounded3(r, at, vec3_max_abs(at));
+    vec3 outward = reference_rounded3(r, vec3_unit(vec3_sub(at, centre)), 1);
     // Back onto the sphere: the error is then that of the radius, whatever the ray's length.
     *arm = vec3_mul(outward, p->v[1][0]);
     s->point = vec3_add(centre, *arm);
-    s->error = vec3_add(vec3_mul(absolute(*arm), REFERENCE_GAMMA(5)),
-                        vec3_mul(absolute(s->point), REFERENCE_GAMMA(1)));
+    s->point = reference_rounded3(r, s->point, 0);
+    s->error = vec3_add(vec3_mul(absolute(*arm), reference_gamma(r, 5)),
+                        vec3_mul(absolute(s->point), reference_gamma(r, 1)));
     turn_to_ray(s, outward, ray->direction);
 }
 
-static void triangle_surface(const struct body *body, const struct ray *ray, const struct primitive *p,
-                             const double b[3], struct surface *s) {
+static void triangle_surface(const struct reference *r, const struct body *body, const struct ray *ray,
+                             const struct primitive *p, const double b[3], struct surface *s) {
     vec3 corners[3] = {vertex(p, 0), vertex(p, 1), vertex(p, 2)};
     vec3 sizes[3];
     for (int k = 0; k < 3; k++)
         sizes[k] = absolute(corners[k]);
     const double positive[3] = {fabs(b[0]), fabs(b[1]), fabs(b[2])};
     s->point = weighted(corners, b);
-    s->error = vec3_mul(weighted(sizes, positive), REFERENCE_GAMMA(7));
-    const vec3 outward = exact_normal(p);
+    s->point = reference_rounded3(r, s->point, vec3_max_abs(s->point));
+    s->error =
+        vec3_mul(r->input.as_single ? absolute(s->point) : weighted(sizes, positive), reference_gamma(r, 7));
+    const vec3 outward = reference_rounded3(r, exact_normal(p), 1);
     turn_to_ray(s, body->is->mirrored ? vec3_neg(outward) : outward, ray->direction);
     if (body->normals)
-        s->shading = smooth_normal(body, s, b);
+        s->shading = reference_rounded3(r, smooth_normal(body, s, b), 1);
 }
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
@@ -125,9 +148,9 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
                             .b1 = hit->b1,
                             .b2 = hit->b2};
     if (p->is_sphere)
-        sphere_surface(ray, p, out, &arm);
+        sphere_surface(r, ray, p, out, &arm);
     else
-        triangle_surface(body, ray, p, b, out);
+        triangle_surface(r, body, ray, p, b, out);
     take_material(r, body->is, b, arm, out);
 }
 
@@ -137,11 +160,11 @@ static vec3 mirror(vec3 d, vec3 n) {
     return vec3_sub(d, vec3_mul(n, 2 * vec3_dot(d, n)));
 }
 
-vec3 reference_mirrored(const struct surface *s, vec3 direction) {
+vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction) {
     vec3 out = mirror(direction, s->shading);
     if (vec3_dot(out, s->geometric) <= 0)
         out = mirror(direction, s->geometric);
-    return vec3_unit(out);
+    return reference_rounded3(r, vec3_unit(out), 1);
 }
 
 // k < 0: nothing comes through.
@@ -153,7 +176,7 @@ static double bend(vec3 d, vec3 n, double eta, vec3 *out) {
     return k;
 }
 
-bool reference_bent(const struct surface *s, vec3 direction, vec3 *out) {
+bool reference_bent(const struct reference *r, const struct surface *s, vec3 direction, vec3 *out) {
     double eta = s->enters ? 1 / s->index : s->index;
     *out = direction;
     if (!s->solid || eta == 1)
@@ -162,6 +185,6 @@ bool reference_bent(const struct surface *s, vec3 direction, vec3 *out) {
     double k = bend(direction, flat ? s->geometric : s->shading, eta, out);
     if (k >= 0 && vec3_dot(*out, s->geometric) >= 0)
         k = bend(direction, s->geometric, eta, out);
-    *out = vec3_unit(*out);
+    *out = reference_rounded3(r, vec3_unit(*out), 1);
     return k >= 0;
 }

@@ -19,9 +19,17 @@ const REAL WIDE_INSET = 16384.0 * WIDE_STEP; // from a triangle's edges, as a pa
 const REAL SAME_HEIGHT = 4.0 * GAMMA_1;
 const REAL PARALLEL = 0.99993896484375; // 1 - 2^-14: cosine
 
-struct exact_search {
-    WIDE3 origin;
+// Where a ray goes.
+struct exact_aim {
     REAL3 direction;
+    bool has_target; // the ray ends at `target`, at t = 1
+    REAL3 target;
+};
+
+exact_aim aim_along(REAL3 direction) { return exact_aim(direction, false, REAL3(0.0)); }
+
+struct exact_search {
+    WIDE3 origin, direction;
     bool along_x, along_z; // as in shear_ray
     WIDE sx, sy;
     uint left, left_body;
@@ -73,17 +81,23 @@ REAL farthest_of(triangle_record triangle) {
     return largest3(max(max(abs(triangle.v0), abs(triangle.v1)), abs(triangle.v2)));
 }
 
-// On the side of the triangle to which the ray leads, by more than the error of WIDE.
-exact_search begin_exact(ray_start start, REAL3 direction, hit_record hit) {
+// Components in the order of `turn`.
+WIDE3 turned(WIDE3 v, bool along_x, bool along_z) {
+    WIDE3 other = v;
+    if (!along_z)
+        other = WIDE3(along_x ? v.y : v.z, along_x ? v.z : v.x, along_x ? v.x : v.y);
+    return other;
+}
+
+// On the side of the triangle to which the ray leads, by more than the error of WIDE. A ray to a target ends there,
+// exactly.
+exact_search begin_exact(ray_start start, exact_aim aim, hit_record hit) {
     exact_search search;
+    REAL3 direction = aim.direction;
     shear_ray shear = make_shear_ray(start.at, direction);
-    REAL3 d = turn(direction, shear.along_x, shear.along_z);
     search.origin = wide3(start.at);
-    search.direction = direction;
     search.along_x = shear.along_x;
     search.along_z = shear.along_z;
-    search.sx = over(wide(d.x), wide(d.z));
-    search.sy = over(wide(d.y), wide(d.z));
     search.left = start.left;
     search.left_body = NO_ITEM;
     search.left_normal = REAL3(0.0);
@@ -99,6 +113,12 @@ exact_search begin_exact(ray_start start, REAL3 direction, hit_record hit) {
         search.origin =
             plus3(exact_point(left, start.b1, start.b2), times3(wide3(search.left_normal), wide(step)));
     }
+    search.direction = wide3(direction);
+    if (aim.has_target)
+        search.direction = minus3(wide3(aim.target), search.origin);
+    WIDE3 d = turned(search.direction, search.along_x, search.along_z);
+    search.sx = over(d.x, d.z);
+    search.sy = over(d.y, d.z);
     return search;
 }
 
@@ -110,11 +130,8 @@ struct exact_place {
 };
 
 exact_place place_of(REAL3 corner, exact_search search) {
-    WIDE3 p = minus3(wide3(corner), search.origin);
-    WIDE z = search.along_z ? p.z : search.along_x ? p.x : p.y;
-    WIDE x = search.along_z ? p.x : search.along_x ? p.y : p.z;
-    WIDE y = search.along_z ? p.y : search.along_x ? p.z : p.x;
-    return exact_place(plus(x, minus(times(search.sx, z))), plus(y, minus(times(search.sy, z))));
+    WIDE3 p = turned(minus3(wide3(corner), search.origin), search.along_x, search.along_z);
+    return exact_place(plus(p.x, minus(times(search.sx, p.z))), plus(p.y, minus(times(search.sy, p.z))));
 }
 
 WIDE edge_of(exact_place a, exact_place b) { return wide_difference(a.x, b.y, a.y, b.x); }
@@ -128,7 +145,7 @@ void test_exact(uint item, inout exact_search search, inout hit_record hit) {
     exact_corners corners = corners_of(triangle);
     WIDE3 p0 = wide3(corners.p0);
     WIDE3 normal = wide_cross(minus3(wide3(corners.p1), p0), minus3(wide3(corners.p2), p0));
-    WIDE height = wide_dot(normal, minus3(p0, search.origin)), along = wide_dot(normal, wide3(search.direction));
+    WIDE height = wide_dot(normal, minus3(p0, search.origin)), along = wide_dot(normal, search.direction);
     bool falls = is_positive(minus(along));
     bool before = falls ? is_positive(minus(height)) : is_positive(along) && is_positive(height);
     WIDE det = plus(plus(u, v), w);
@@ -156,10 +173,10 @@ void test_exact(uint item, inout exact_search search, inout hit_record hit) {
 }
 
 // As trace_triangles, with `hit` as it was before that.
-void retrace_triangles(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
-    tree_ray ray = make_tree_ray(start.at, direction);
-    exact_search search = begin_exact(start, direction, hit);
-    REAL margin = 4.0 * start.slack / largest3(abs(direction));
+void retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_record hit, inout uint iterations) {
+    tree_ray ray = make_tree_ray(start.at, aim.direction);
+    exact_search search = begin_exact(start, aim, hit);
+    REAL margin = 4.0 * start.slack / largest3(abs(aim.direction));
     STACK(TRIANGLE_STACK)
     uvec2 group = root_group();
     bool more = true;

@@ -26,7 +26,7 @@ layout(local_size_x = TILE_PIXELS) in;
 
 struct hits_ray {
     ray_start start;
-    REAL3 direction;
+    exact_aim aim;
     REAL end;
     bool any;
     bool sent;
@@ -38,19 +38,19 @@ hit_record load_hit(uint at) {
 }
 
 hits_ray mirrored_ray(surface s, hit_record hit, REAL3 direction) {
-    return hits_ray(leave(s, hit, s.geometric), reflected(direction, s), FAR_AWAY, false,
+    return hits_ray(leave(s, hit, s.geometric), aim_along(reflected(direction, s)), FAR_AWAY, false,
                     scatter(direction, s).reflection > 0.0);
 }
 
 hits_ray refracted_ray(surface s, hit_record hit, REAL3 direction) {
     scatter_rays rays = scatter(direction, s);
-    return hits_ray(leave(s, hit, -s.geometric), rays.bent, FAR_AWAY, false, rays.refraction > 0.0);
+    return hits_ray(leave(s, hit, -s.geometric), aim_along(rays.bent), FAR_AWAY, false, rays.refraction > 0.0);
 }
 
 hits_ray shadow_ray(surface s, hit_record hit, REAL3 direction, uint light) {
     ray_start start = leave(s, hit, s.geometric);
     light_ray shadow = light_at(light, s, start.at, direction);
-    return hits_ray(start, shadow.direction, shadow.t_max, true, shadow.value != vec3(0.0));
+    return hits_ray(start, aim_at(light, shadow), shadow.t_max, true, shadow.value != vec3(0.0));
 }
 
 void write_first(uint at, hit_record hit, surface s, bool ended) {
@@ -82,7 +82,7 @@ void main() {
     uint kind = dispatch.resume + OPAQUE_ZERO, at = slot * HITS_WORDS;
     bool first = kind == HITS_FIRST;
     REAL3 direction = camera_direction(pixel);
-    hits_ray ray = hits_ray(exact_start(CAMERA(position)), direction, FAR_AWAY, false, true);
+    hits_ray ray = hits_ray(exact_start(CAMERA(position)), aim_along(direction), FAR_AWAY, false, true);
     surface s;
     if (!first) {
         hit_record before = load_hit(at);
@@ -102,7 +102,7 @@ void main() {
     uint iterations = 0u;
     // Without shadows the tracer sends no shadow ray, and the light always counts.
     if (kind < HITS_LIGHTS || (HAS_SHADOWS && wants(FEATURE_SHADOWS)))
-        trace_all(ray.start, ray.direction, ray.any, hit, iterations);
+        trace_all(ray.start, ray.aim, ray.any, hit, iterations);
     bool ended = iterations < ITERATION_LIMIT;
     if (!first) {
         write_later(at, kind, hit, ended);

@@ -6,6 +6,12 @@ struct light_ray {
     REAL t_max;
 };
 
+exact_aim aim_at(uint index, light_ray ray) {
+    light_record light = load_light(index);
+    bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
+    return exact_aim(ray.direction, !directional, light.place);
+}
+
 light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction) {
     light_record light = load_light(index);
     vec3 emission = light.emission;

@@ -82,9 +82,9 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     write_ray(at + 15u, leave(s, hit, -s.geometric), rays.bent);
 }
 
-bool trace(ray_start start, REAL3 direction, bool any, inout hit_record hit) {
+bool trace(ray_start start, exact_aim aim, bool any, inout hit_record hit) {
     uint iterations = 0u;
-    trace_all(start, direction, any, hit, iterations);
+    trace_all(start, aim, any, hit, iterations);
     return iterations < ITERATION_LIMIT;
 }
 
@@ -101,6 +101,7 @@ void main() {
     surface s;
     light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY);
     ray_start start = ray.start;
+    exact_aim aim = aim_along(ray.direction);
     if (lights) {
         hit_record before = load_hit(at);
         if (before.item == NO_ITEM)
@@ -109,12 +110,13 @@ void main() {
         start = leave(s, before, s.geometric);
         shadow = light_at(kind - LOG_LIGHTS, s, start.at, ray.direction);
         hit.t = shadow.t_max;
+        aim = aim_at(kind - LOG_LIGHTS, shadow);
         if (shadow.value == vec3(0.0))
             return;
     }
     bool ended = true, blind = states[index * LOG_RAY_WORDS + 1u].z == LOG_BLIND;
     if (lights ? (HAS_SHADOWS && wants(FEATURE_SHADOWS)) : !blind)
-        ended = trace(start, shadow.direction, lights, hit);
+        ended = trace(start, aim, lights, hit);
     bool nothing = hit.item == NO_ITEM;
     if (lights) {
         uvec4 found = pixels[at + 2u], sum = pixels[at + 3u];

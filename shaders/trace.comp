@@ -234,8 +234,10 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             ray_start from = start;
             if (phase == PHASE_RAY)
                 from = p.start;
-            retrace_triangles(from, phase == PHASE_RAY ? p.direction : shadow.direction, phase != PHASE_RAY, held,
-                              iterations);
+            exact_aim aim = aim_along(p.direction);
+            if (phase != PHASE_RAY)
+                aim = aim_at(p.light, shadow);
+            retrace_triangles(from, aim, phase != PHASE_RAY, held, iterations);
             decided = true;
             state = GOES_ON;
         }

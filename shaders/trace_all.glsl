@@ -1,13 +1,14 @@
 // One ray through all that a scene has, for kernels that trace few.
 
-void trace_all(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
+void trace_all(ray_start start, exact_aim aim, bool any, inout hit_record hit, inout uint iterations) {
+    REAL3 direction = aim.direction;
     if (HAS_SPHERES)
         trace_spheres(start.at, direction, any, hit, iterations);
     if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM)) {
         hit_record before = hit;
         if (trace_triangles(start, direction, any, hit, iterations) && iterations < ITERATION_LIMIT) {
             hit = before;
-            retrace_triangles(start, direction, any, hit, iterations);
+            retrace_triangles(start, aim, any, hit, iterations);
         }
     }
 }

@@ -4,7 +4,7 @@
 #include "measure/hit_errors.h"
 #include "picture/metrics/metrics.h"
 #include "reference/reference.h"
-#include "tracer/flatten/precision.h"
+#include "precision/precision.h"
 #include "tracer/render/render.h"
 
 #include <math.h>
@@ -54,12 +54,12 @@ static struct image_display display_of(const struct ir_scene *scene) {
 // ---- the device's side
 
 static bool choose_precision(const struct run *run, const struct variant *v, struct flat_input *input) {
-    struct precision_report report = {.suffices = true};
+    struct precision_choice choice = {.needs_double = false};
     if (run->input->alternative != RENDER_ALTERNATIVE_NONE)
         return true;
-    if (v->ir.trace.precision == IR_PRECISION_AUTO && !precision_measure(input, &report))
+    if (v->ir.trace.precision == IR_PRECISION_AUTO && !precision_decide(input, v->width, v->height, &choice))
         return false;
-    input->is_double = precision_is_double(&v->ir, &report) && gpu_info(run->input->gpu)->has_double;
+    input->is_double = precision_is_double(&v->ir, &choice) && gpu_info(run->input->gpu)->has_double;
     return true;
 }
 

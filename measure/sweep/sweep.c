@@ -4,9 +4,9 @@
 #include "grammar/ir.h"
 #include "measure/hit_errors.h"
 #include "picture/write/image.h"
+#include "precision/precision.h"
 #include "reference/reference.h"
 #include "shaders/features.h"
-#include "tracer/flatten/precision.h"
 #include "tracer/render/render.h"
 
 #include <math.h>
@@ -138,11 +138,13 @@ static enum sweep_status judge_pictures(struct judging *j) {
                                .origin = j->view.camera.position,
                                .limits = j->input->limits,
                                .sink = &j->sink};
-    struct precision_report report;
-    if (!precision_measure(&input, &report))
+    struct precision_choice choice;
+    if (!precision_decide(&input, j->input->width, j->input->height, &choice))
         return SWEEP_MEMORY;
-    j->item->is_double = precision_is_double(j->scene->ir, &report);
-    j->item->steps = report.least[report.decides].any ? report.least[report.decides].steps : (double)INFINITY;
+    const struct precision_measure *least = &choice.report.least[choice.report.decides];
+    j->item->is_double = precision_is_double(j->scene->ir, &choice);
+    j->item->steps = least->any ? least->steps : (double)INFINITY;
+    j->item->trial_off = (double)choice.off / (choice.pixels ? choice.pixels : 1);
     enum sweep_status status = trace_reference(j);
     if (status == SWEEP_DONE)
         take_picture(j, SWEEP_REFERENCE);

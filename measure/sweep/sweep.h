@@ -45,8 +45,9 @@ struct sweep_picture {
 struct sweep_item {
     enum sweep_family family;
     uint32_t number;
-    bool is_double; // what `auto` chose
-    double steps;   // of the feature that decides (tracer/flatten/precision.h); infinite: there is none
+    bool is_double;   // what `auto` chose
+    double trial_off; // share of the pixels that the choice found to differ
+    double steps;     // of the feature that decides (tracer/flatten/precision.h); infinite: there is none
     struct sweep_picture pictures[SWEEP_TRACERS];
     enum sweep_verdict verdict;
     double seconds;

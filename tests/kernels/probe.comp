@@ -26,7 +26,7 @@ layout(local_size_x = TILE_PIXELS) in;
 hit_record trace(ray_start start, REAL3 direction, REAL end, bool any) {
     hit_record hit = hit_record(end, 0.0, 0.0, NO_ITEM, 0u);
     uint iterations = 0u;
-    trace_all(start, direction, any, hit, iterations);
+    trace_all(start, aim_along(direction), any, hit, iterations);
     return hit;
 }
 

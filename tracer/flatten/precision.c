@@ -151,8 +151,3 @@ bool precision_measure(const struct flat_input *input, struct precision_report *
     }
     return good;
 }
-
-bool precision_is_double(const struct ir_scene *scene, const struct precision_report *report) {
-    return scene->trace.precision == IR_PRECISION_DOUBLE ||
-           (scene->trace.precision == IR_PRECISION_AUTO && !report->suffices);
-}

@@ -46,7 +46,4 @@ struct precision_report {
 
 bool precision_measure(const struct flat_input *input, struct precision_report *out);
 
-// What a scene is traced in: its own setting, or what the report says.
-bool precision_is_double(const struct ir_scene *ir, const struct precision_report *report);
-
 #endif
