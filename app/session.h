@@ -22,7 +22,9 @@ struct ir_image;
 struct ir_scene;
 
 struct session_options {
-    str path; // of the scene, or of a mesh, which is then a scene with that one model
+    str path;     // of the scene, or of a mesh, which is then a scene with that one model
+    str found_in; // the folder that was searched for it: a link must not lead out of what it may read; empty:
+                  // the user named the scene
     const str *asset_paths;
     uint32_t asset_path_count;
     const str *sets; // PATH=VALUE

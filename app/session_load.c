@@ -37,6 +37,8 @@ static enum session_state unreadable(struct session *session, str path, enum fil
     if (status == FILE_TOO_LARGE)
         diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
                   limit_info(LIMIT_SCENE_BYTES)->name);
+    if (status == FILE_OUTSIDE)
+        diag_help(&session->sink, "it is a link; to read what it leads to, name the file itself");
     return SESSION_UNREADABLE;
 }
 
@@ -93,6 +95,10 @@ static enum session_state open_source(struct session *session, uint32_t *source)
     }
     for (uint32_t i = 0; i < session->config.asset_paths.count; i++)
         files_add_root(&session->files, session->config.asset_paths.items[i]);
+    status = session->options.found_in.len ? files_confine(&session->files, path, session->options.found_in)
+                                           : FILE_OK;
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
     if (assets_is_mesh_path(path)) {
         struct file_read identity;
         status = files_identify(&session->files, path, &identity);

@@ -174,6 +174,15 @@ enum file_status files_resolve(struct files *files, str base_path, str path, str
     return FILE_MISSING;
 }
 
+enum file_status files_confine(struct files *files, str path, str folder) {
+    str canonical, rest;
+    if (!resolve_links(files, path, &canonical))
+        return status_of_errno(files, errno);
+    bool inside =
+        below_a_root(files, canonical) || path_is_below(canonical, files_canonical(files, folder), &rest);
+    return inside ? FILE_OK : FILE_OUTSIDE;
+}
+
 static void log_read(struct files *files, str path, const struct stat *info) {
     str canonical = files_canonical(files, path);
     for (uint32_t i = 0; i < files->log.count; i++)

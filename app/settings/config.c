@@ -307,8 +307,24 @@ void config_read_file(const struct config_input *input, str path, str shown, str
                  (span){source, 0, 0}, "the configuration %s", file_status_text(input->files, status));
 }
 
+// Nobody names this file: a link to another place must not make what is there be read and reported.
+static bool is_confined(const struct config_input *input, str path) {
+    struct files alone;
+    files_init(&alone, input->arena);
+    return files_confine(&alone, path, path_folder(path)) != FILE_OUTSIDE;
+}
+
 void config_load(const struct config_input *input, str scene_path, struct config *config) {
     *config = (struct config){.path = files_find_config(input->files, scene_path)};
-    if (config->path.len)
-        config_read_file(input, config->path, path_shown(input, scene_path, config->path), config);
+    if (!config->path.len)
+        return;
+    str shown = path_shown(input, scene_path, config->path);
+    if (is_confined(input, config->path)) {
+        config_read_file(input, config->path, shown, config);
+        return;
+    }
+    uint32_t source = source_add(input->sources, SOURCE_KIND_FILE, shown, STR(""));
+    diag_add(input->sink, DIAG_FILE_OUTSIDE, (span){source, 0, 0},
+             "the configuration is a link that leads out of its folder");
+    diag_help(input->sink, "put the settings into the file itself");
 }

@@ -119,6 +119,43 @@ command -v taskset >/dev/null && taskset -c 0 "$glint" check tree 2>alone.txt
 [ ! -e alone.txt ] || ok "one processor says the same" cmp order.txt alone.txt
 "$glint" check tree $(cut -d: -f1 places.txt) >/dev/null 2>again.txt
 ok "a scene that is named twice is checked once" cmp order.txt again.txt
+# What a link leads to is read only where the scene may read it anyway; else not one word of it is shown.
+mkdir -p outside links/in/deep
+printf 'password: hunter2\nglint: [1\n' >outside/secret
+printf 'glint: 1\nspheres: [{center: [0, 0, 0]}]\n' >links/in/real.glint.yaml
+ln -s ../../outside/secret links/in/leak.glint.yaml
+ln -s ../real.glint.yaml links/in/deep/inner.glint.yaml
+"$glint" check links >links.txt 2>&1
+ok "a folder with a link to elsewhere fails" test $? -eq 3
+ok "the link is named" grep -q '^links/in/leak.glint.yaml:1:1: error: the scene file lies outside .*\[E602\]' links.txt
+ok "and not what it leads to" test "$(grep -cE 'hunter2|password|E101' links.txt)" -eq 0
+ok "a link to a scene in the folder is checked" grep -q '^links/in/deep/inner.glint.yaml:2:11: error: .*\[E204\]' links.txt
+for format in json sarif github gitlab junit; do
+    "$glint" check links --format $format >links.$format 2>&1
+    ok "nor in $format" sh -c "grep -q E602 links.$format && ! grep -qE 'hunter2|password' links.$format"
+done
+"$glint" check links --fix=all --diff >links.txt 2>&1
+ok "nor as a patch" test "$(grep -cE 'hunter2|password' links.txt)" -eq 0
+"$glint" check links/in/leak.glint.yaml >links.txt 2>&1
+ok "who names the link has it read" grep -q 'leak.glint.yaml:1:1: error: .*E805\|leak.glint.yaml:[12]:' links.txt
+"$glint" check links links/in/leak.glint.yaml >links.txt 2>&1
+ok "in a folder that is named too as well" grep -q 'leak.glint.yaml:[12]:' links.txt
+rm links/in/leak.glint.yaml
+ln -s ../outside/secret links/.glintrc.yaml
+"$glint" check links >links.txt 2>&1
+ok "settings that are a link to elsewhere are an error of usage" test $? -eq 2
+ok "which is named" grep -q '^links/.glintrc.yaml:1:1: error: the configuration is a link .*\[E602\]' links.txt
+ok "and not quoted" test "$(grep -cE 'hunter2|password' links.txt)" -eq 0
+rm links/.glintrc.yaml
+mv links/in/real.glint.yaml outside
+printf 'severity: {W401: off}\n' >settings.yaml && mv settings.yaml links/in
+ln -s in/settings.yaml links/.glintrc.yaml
+ln -sf ../../../outside/real.glint.yaml links/in/deep/inner.glint.yaml
+tells "settings may be a link to a file below" 3 'inner.glint.yaml:1:1: error: .*\[E602\]' "$glint" check links
+printf '' >.glintrc.yaml && rm links/.glintrc.yaml
+tells "below a marked root links may lead to all of it" 1 'inner.glint.yaml:2:11: error: .*\[E204\]' "$glint" check links
+rm .glintrc.yaml
+
 mkdir -p empty
 tells "a folder without scenes" 2 'command-line:1:13: error: there is no scene in the folder' "$glint" check empty
 tells "text into a file" 1 - "$glint" check tree -o text.txt
