@@ -62,7 +62,8 @@ static struct config_input config_input(struct session *session) {
     return (struct config_input){.files = &session->files,
                                  .sources = &session->sources,
                                  .sink = &session->sink,
-                                 .arena = &session->arena};
+                                 .arena = &session->arena,
+                                 .runner = &session->options.limits};
 }
 
 static void load_config(struct session *session) {

@@ -67,7 +67,6 @@ static int status_of(const struct session *session) {
 static struct session_options options_of(const struct check *check, const struct check_file *file) {
     struct session_options options = cli_session_options(check->cli, file->path);
     options.found_in = str_from(file->folder);
-    options.policy = &check->cli->options.policy;
     return options;
 }
 
