@@ -40,6 +40,7 @@ struct session_options {
                                       // runs all, unless skip_lint
     const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
     bool skip_lint; // for check_scene: leaves the rules about light out, and the use of comments unjudged
+    bool ungrouped; // every finding is kept by itself, however many are alike: for who repairs them
     bool judged;    // the caller judges the findings by policy and comments (app/check.h): they are not yet
                     // grouped
 };

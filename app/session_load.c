@@ -221,7 +221,8 @@ static enum session_state guarded_load(struct session *session, const struct ses
 
 void session_group(struct session *session) {
     diag_sort(&session->sink);
-    diag_group(&session->sink, SAME_CODE_MAX);
+    if (!session->options.ungrouped)
+        diag_group(&session->sink, SAME_CODE_MAX);
 }
 
 enum session_state session_load(struct session *session, const struct session_options *options,

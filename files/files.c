@@ -109,8 +109,11 @@ enum file_status files_add_root(struct files *files, str directory) {
         return status_of_errno(files, errno);
     if (!S_ISDIR(info.st_mode))
         return FILE_NOT_REGULAR;
-    str *root = ARENA_PUSH(files->arena, &files->roots);
-    *root = files_canonical(files, directory);
+    str canonical = files_canonical(files, directory);
+    for (uint32_t i = 0; i < files->roots.count; i++)
+        if (str_equal(files->roots.items[i], canonical))
+            return FILE_OK;
+    *ARENA_PUSH(files->arena, &files->roots) = canonical;
     return FILE_OK;
 }
 
