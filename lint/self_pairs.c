@@ -10,7 +10,7 @@ enum {
     PIECE = 1 << 10,         // leaves of one piece of parallel work
     WORK_MAX = 1 << 28,      // for the mesh: boxes against boxes
     LEAF_WORK_MIN = 4096,    // for each leaf: some thousand in a good mesh, all of them in a fan of needles
-    LEAF_WORK_MAX = 65536,   // where all triangles lie on each other, a few thousand pairs tell enough
+    LEAF_WORK_MAX = 32768,   // where all triangles lie on each other, a few thousand pairs tell enough
     TRIANGLES_MAX = 1 << 23, // larger meshes are not searched: it would take gigabytes
     PAIR_WORK = 32,          // of two triangles, in boxes
 };
