@@ -1,5 +1,6 @@
 #include "app/check_allow.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 // A code that a comment allows.
@@ -10,13 +11,26 @@ struct allow {
     bool used;
 };
 
+// A part of a text that only has spaces and comments, and what follows it.
+struct gap {
+    uint32_t source;
+    size_t begin, end; // where content begins
+    size_t tag_end;    // of the XML tag there
+};
+
 struct allows {
     struct session *session;
     bool report; // what is wrong with the comments
     struct {
         struct allow *items;
         uint32_t count, capacity;
-    } list;
+    } list; // in the order of the texts once all have been read
+    struct answer {
+        uint32_t source, line;
+        bool known, allowed;
+    } answers[DIAG_CODE_COUNT]; // the last one for each code: a line may have thousands of findings
+    uint32_t *most;             // of each: the last line that it or one before it in its text applies to
+    struct gap last;            // comments after each other have one content in common
 };
 
 static bool at_comment(str text, size_t at, bool is_xml) {
@@ -24,7 +38,7 @@ static bool at_comment(str text, size_t at, bool is_xml) {
 }
 
 static uint32_t line_of(struct session *session, uint32_t source, size_t at) {
-    return source_locate(&session->sources, (span){source, (uint32_t)at, (uint32_t)at}).line;
+    return source_line(&session->sources, (span){source, (uint32_t)at, (uint32_t)at});
 }
 
 // After spaces and comments.
@@ -70,8 +84,20 @@ static bool has_content(str text, size_t end) {
     return false;
 }
 
+// What follows a comment.
+static const struct gap *content_after(struct allows *allows, span comment, str text, bool is_xml) {
+    struct gap *gap = &allows->last;
+    if (gap->source == comment.source && gap->begin <= comment.end && comment.end <= gap->end)
+        return gap;
+    *gap = (struct gap){.source = comment.source, .begin = comment.end};
+    gap->end = skip_to_content(text, comment.end, is_xml);
+    gap->tag_end = is_xml ? tag_end(text, gap->end) : gap->end;
+    return gap;
+}
+
 // The lines that a comment applies to: its own if something is before it, else the next one with content.
-static void find_lines(struct session *session, span comment, struct allow *allow) {
+static void find_lines(struct allows *allows, span comment, struct allow *allow) {
+    struct session *session = allows->session;
     const struct source *source = &session->sources.items[comment.source];
     str text = source->text;
     bool is_xml = comment.begin < text.len && text.ptr[comment.begin] == '<';
@@ -81,13 +107,12 @@ static void find_lines(struct session *session, span comment, struct allow *allo
     bool trailing = before > 0 && !char_is_break(text.ptr[before - 1]);
     if (trailing && !is_xml)
         trailing = has_content(text, before);
-    size_t first = trailing ? before - 1 : skip_to_content(text, comment.end, is_xml);
-    size_t last = first;
+    const struct gap *gap = trailing ? NULL : content_after(allows, comment, text, is_xml);
+    size_t first = gap ? gap->end : before - 1;
+    size_t last = gap ? gap->tag_end : first;
     if (is_xml && trailing)
         while (first > 0 && text.ptr[first] != '<')
             first--;
-    else if (is_xml)
-        last = tag_end(text, first);
     allow->first_line = line_of(session, comment.source, first);
     allow->last_line = line_of(session, comment.source, last);
 }
@@ -131,7 +156,7 @@ static void read_code(struct allows *allows, span comment, span word) {
     } else {
         struct allow *allow = ARENA_PUSH(&session->arena, &allows->list);
         *allow = (struct allow){.code = word, .comment = comment};
-        find_lines(session, comment, allow);
+        find_lines(allows, comment, allow);
     }
 }
 
@@ -163,46 +188,82 @@ static void read_comment(struct allows *allows, span comment) {
 
 // ---- using them
 
-// Whether a place is on the lines that a comment applies to.
-static bool speaks_for(struct allows *allows, const struct allow *allow, span at) {
-    if (at.source != allow->comment.source)
-        return false;
-    uint32_t line = source_locate(&allows->session->sources, at).line;
-    return line >= allow->first_line && line <= allow->last_line;
+static int compare_allows(const void *left, const void *right) {
+    const struct allow *a = left, *b = right;
+    if (a->comment.source != b->comment.source)
+        return a->comment.source < b->comment.source ? -1 : 1;
+    if (a->first_line != b->first_line)
+        return a->first_line < b->first_line ? -1 : 1;
+    return a->code.begin < b->code.begin ? -1 : a->code.begin > b->code.begin;
+}
+
+static void sort(struct allows *allows) {
+    struct allow *items = allows->list.items;
+    uint32_t count = allows->list.count;
+    qsort(items, count, sizeof *items, compare_allows);
+    allows->most = ARENA_ARRAY(&allows->session->arena, uint32_t, count);
+    for (uint32_t i = 0; i < count; i++) {
+        bool goes_on = i > 0 && items[i - 1].comment.source == items[i].comment.source;
+        uint32_t before = goes_on ? allows->most[i - 1] : 0;
+        allows->most[i] = before > items[i].last_line ? before : items[i].last_line;
+    }
+}
+
+// How many comments come before those that apply to a later line of the text only.
+static uint32_t count_up_to(const struct allows *allows, uint32_t source, uint32_t line) {
+    uint32_t low = 0, high = allows->list.count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        const struct allow *allow = &allows->list.items[middle];
+        bool before =
+            allow->comment.source < source || (allow->comment.source == source && allow->first_line <= line);
+        low = before ? middle + 1 : low;
+        high = before ? high : middle;
+    }
+    return low;
+}
+
+// Marks the comments that allow the code on a line; false: there is none.
+static bool allows_on(struct allows *allows, enum diag_code code, uint32_t source, uint32_t line) {
+    bool found = false;
+    for (uint32_t i = count_up_to(allows, source, line); i > 0; i--) {
+        struct allow *allow = &allows->list.items[i - 1];
+        if (allow->comment.source != source || allows->most[i - 1] < line)
+            break;
+        if (allow->last_line < line ||
+            !diag_code_matches(code, source_text(&allows->session->sources, allow->code)))
+            continue;
+        allow->used = true;
+        found = true;
+    }
+    return found;
+}
+
+static bool allows_at(struct allows *allows, enum diag_code code, span at) {
+    uint32_t line = source_line(&allows->session->sources, at);
+    struct answer *answer = &allows->answers[code];
+    if (!answer->known || answer->source != at.source || answer->line != line)
+        *answer = (struct answer){at.source, line, true, allows_on(allows, code, at.source, line)};
+    return answer->allowed;
 }
 
 // A finding is on the lines itself, or, in a mesh or image, the note is that says what names the file.
-static bool is_meant(struct allows *allows, const struct allow *allow, const struct diag *item) {
-    bool meant = speaks_for(allows, allow, item->at);
-    if (item->at.source != allow->comment.source)
-        for (const struct diag_related *n = item->notes; n && !meant; n = n->next)
-            meant = speaks_for(allows, allow, n->at);
-    return meant;
-}
-
 static bool keeps(void *context, struct diag *item) {
     struct allows *allows = context;
-    bool kept = true;
     if (diag_info(item->code)->severity == DIAG_ERROR)
         return true;
-    for (uint32_t i = 0; i < allows->list.count; i++) {
-        struct allow *allow = &allows->list.items[i];
-        if (!diag_code_matches(item->code, source_text(&allows->session->sources, allow->code)) ||
-            !is_meant(allows, allow, item))
-            continue;
-        allow->used = true;
-        kept = false;
-    }
-    return kept;
+    bool allowed = allows_at(allows, item->code, item->at);
+    for (const struct diag_related *n = item->notes; n; n = n->next)
+        if (n->at.source != item->at.source)
+            allowed = allows_at(allows, item->code, n->at) || allowed;
+    return !allowed;
 }
 
-static bool is_alone(const struct allows *allows, const struct allow *allow) {
-    for (uint32_t i = 0; i < allows->list.count; i++) {
-        const struct allow *other = &allows->list.items[i];
-        if (other != allow && span_equal(other->comment, allow->comment))
-            return false;
-    }
-    return true;
+// Whether a comment allows only one code: those of one comment are next to each other.
+static bool is_alone(const struct allows *allows, uint32_t i) {
+    const struct allow *items = allows->list.items;
+    bool before = i > 0 && span_equal(items[i - 1].comment, items[i].comment);
+    return !before && !(i + 1 < allows->list.count && span_equal(items[i + 1].comment, items[i].comment));
 }
 
 // Comments of the scene itself: what an included file allows may only be found in another scene. If there are
@@ -220,7 +281,7 @@ static void report_unused(struct allows *allows) {
                  "%.*s does not occur on %s %u: the comment silences nothing", STR_ARG(code),
                  allow->first_line == allow->last_line ? "line" : "the lines from", allow->first_line);
         diag_help(&session->sink, "remove it, or move it to the line before the finding");
-        if (is_alone(allows, allow))
+        if (is_alone(allows, i))
             diag_fix(&session->sink, false, allow->comment, STR(""));
     }
 }
@@ -230,6 +291,8 @@ static void apply(void *context) {
     struct session *session = allows->session;
     for (uint32_t i = 0; i < session->origin.directives.count; i++)
         read_comment(allows, session->origin.directives.items[i]);
+    if (allows->list.count)
+        sort(allows);
     if (allows->list.count)
         diag_filter(&session->sink, keeps, allows);
     if (allows->report)

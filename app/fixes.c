@@ -4,8 +4,10 @@
 #include "app/layout.h"
 #include "core/text_edit.h"
 
+#include <stdlib.h>
+
 enum {
-    ROUNDS_MAX = 100
+    ROUNDS_MAX = 8
 };
 
 struct fixer {
@@ -65,21 +67,43 @@ static struct fixed_file *find_file(struct fixer *f, struct session *session, ui
 
 // ---- one round
 
+// The changes of the last round to one file, which are in the order of its text: those that begin before
+// `end`.
+static uint32_t count_before(const struct fixer *f, uint32_t file, uint32_t end) {
+    uint32_t low = 0, high = f->tried.count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        const struct tried *tried = &f->tried.items[middle];
+        bool before = tried->file < file || (tried->file == file && tried->begin <= end);
+        low = before ? middle + 1 : low;
+        high = before ? high : middle;
+    }
+    return low;
+}
+
 // A finding of the same kind at a place that was changed for it: the change did not help.
 static void refuse_what_failed(struct fixer *f, struct session *session) {
-    for (uint32_t i = 0; i < session->sink.count; i++) {
+    for (uint32_t i = 0; i < session->sink.count && f->tried.count; i++) {
         const struct diag *item = &session->sink.items[i];
         if (!is_wanted(f, item) || !is_scene(session, item->fix_at.source))
             continue;
-        const struct fixed_file *file = find_file(f, session, item->fix_at.source);
-        for (uint32_t t = 0; t < f->tried.count; t++) {
-            const struct tried *tried = &f->tried.items[t];
-            bool same = file == &f->fixes->files.items[tried->file] && item->code == tried->code &&
-                        item->at.begin <= tried->end && item->at.end >= tried->begin;
-            f->fixes->files.items[tried->file].refused |= same;
+        struct fixed_file *file = find_file(f, session, item->fix_at.source);
+        uint32_t number = (uint32_t)(file - f->fixes->files.items);
+        for (uint32_t t = count_before(f, number, item->at.end); t > 0 && !file->refused; t--) {
+            const struct tried *tried = &f->tried.items[t - 1];
+            if (tried->file != number || tried->end < item->at.begin)
+                break;
+            file->refused = item->code == tried->code;
         }
     }
     f->tried.count = 0;
+}
+
+static int compare_tried(const void *left, const void *right) {
+    const struct tried *a = left, *b = right;
+    if (a->file != b->file)
+        return a->file < b->file ? -1 : 1;
+    return a->begin < b->begin ? -1 : a->begin > b->begin;
 }
 
 static void note_tried(struct fixer *f, const struct session *session, uint32_t file, uint32_t kept) {
@@ -137,6 +161,9 @@ static void change_files(void *context) {
     for (uint32_t source = 1; source < round->session.sources.count; source++)
         if (is_scene(&round->session, source))
             round->made += change_file(round->fixer, &round->session, source);
+    struct fixer *f = round->fixer;
+    if (f->tried.count)
+        qsort(f->tried.items, f->tried.count, sizeof *f->tried.items, compare_tried);
 }
 
 static bool round_of(struct fixer *f) {
@@ -192,6 +219,7 @@ void fixes_make(struct fixes *fixes, const struct session_options *options, enum
     *fixes = (struct fixes){0};
     arena_init(&fixes->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
     struct fixer f = {.fixes = fixes, .given = options, .options = *options, .level = level, .store = store};
+    f.options.ungrouped = true;
     if (arena_guarded(&fixes->arena, make_all, &f) != ARENA_FAULT_NONE)
         fixes->failed = true;
 }

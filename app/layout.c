@@ -5,7 +5,7 @@
 
 struct job {
     struct layout *layout;
-    str path;
+    str path, found_in;
     const struct limits *limits;
     bool upgrade;
     bool from_file;
@@ -16,6 +16,8 @@ static enum layout_status unreadable(struct job *job, enum file_status status) {
     uint32_t source = source_add(&layout->sources, SOURCE_KIND_FILE, job->path, STR(""));
     diag_add(&layout->sink, session_file_code(status), (span){source, 0, 0}, "the scene file %s",
              file_status_text(&layout->files, status));
+    if (status == FILE_OUTSIDE)
+        diag_help(&layout->sink, "it is a link; to format what it leads to, name the file itself");
     return LAYOUT_UNREADABLE;
 }
 
@@ -29,13 +31,24 @@ static enum layout_status failed(struct layout *layout, uint32_t source) {
     return LAYOUT_FAILED;
 }
 
+static enum file_status read_file(struct job *job) {
+    struct layout *layout = job->layout;
+    enum file_status status = FILE_OK;
+    if (job->found_in.len) {
+        files_add_scene_root(&layout->files, job->path);
+        status = files_confine(&layout->files, job->path, job->found_in);
+    }
+    return status == FILE_OK ? files_read(&layout->files, job->path, job->limits->value[LIMIT_SCENE_BYTES],
+                                          &layout->arena, &layout->text)
+                             : status;
+}
+
 static enum layout_status run(struct job *job) {
     struct layout *layout = job->layout;
     source_set_init(&layout->sources, &layout->arena);
     files_init(&layout->files, &layout->arena);
     if (job->from_file) {
-        enum file_status status = files_read(&layout->files, job->path, job->limits->value[LIMIT_SCENE_BYTES],
-                                             &layout->arena, &layout->text);
+        enum file_status status = read_file(job);
         if (status != FILE_OK)
             return unreadable(job, status);
     }
@@ -76,13 +89,14 @@ static enum layout_status guarded(struct job *job) {
 
 enum layout_status layout_text(struct layout *layout, str path, str text, const struct limits *limits,
                                bool upgrade) {
-    struct job job = {layout, path, limits, upgrade, false};
+    struct job job = {.layout = layout, .path = path, .limits = limits, .upgrade = upgrade};
     *layout = (struct layout){.text = text};
     return guarded(&job);
 }
 
-enum layout_status layout_file(struct layout *layout, str path, const struct limits *limits, bool upgrade) {
-    struct job job = {layout, path, limits, upgrade, true};
+enum layout_status layout_file(struct layout *layout, str path, str found_in, const struct limits *limits,
+                               bool upgrade) {
+    struct job job = {layout, path, found_in, limits, upgrade, true};
     *layout = (struct layout){.text = STR("")};
     return guarded(&job);
 }

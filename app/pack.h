@@ -3,7 +3,7 @@
 // The scene file is at the top under its own name, what it includes in includes/, meshes with their material
 // files in meshes/, the background in images/; of two files with the same name the second goes to meshes-2/
 // and so on. Paths in scene files are rewritten in place: no other byte of any file is changed.
-// Limits that were raised go into a `.glintrc.yaml`, so that the package loads without options. Before it
+// Limits that were raised go into settings for --config (limits.yaml). Before it
 // gets its name, the packed scene is loaded and compared: same meaning, same files. Thread safety: the
 // session's thread.
 #ifndef GLINT_APP_PACK_H
@@ -24,6 +24,7 @@ struct pack_plan {
     const struct inventory *inventory; // of the scene
     struct pack_file *items;           // the scene first
     uint32_t count, capacity;
+    str limits; // the target of the raised limits; empty: there are none
 };
 
 enum pack_status {

@@ -162,7 +162,8 @@ static void place(struct planner *p, const struct inventory_use *use, const char
     }
 }
 
-// Limits that were raised, by options or settings: without them the package might be refused elsewhere.
+// Limits that were raised: without them the package might be refused elsewhere. They are settings for
+// --config, since what lies beside a scene cannot raise limits.
 static void add_limits(struct planner *p) {
     const struct limits *limits = &p->session->options.limits;
     struct strbuf text;
@@ -173,9 +174,14 @@ static void add_limits(struct planner *p) {
             strbuf_format(&text, "%s  %s: %llu\n", text.len ? "" : "limits:\n", info->name,
                           (unsigned long long)limits->value[i]);
     }
-    if (text.len)
-        *ARENA_PUSH(&p->session->arena, p->plan) = (struct pack_file){
-            .target = STR(FILES_CONFIG_NAME), .text = arena_copy(&p->session->arena, strbuf_view(&text))};
+    if (text.len) {
+        str target = STR("limits.yaml");
+        for (int number = 2; find_target(p->plan, target); number++)
+            target = arena_format(&p->session->arena, "limits-%d.yaml", number);
+        p->plan->limits = target;
+        *ARENA_PUSH(&p->session->arena, p->plan) =
+            (struct pack_file){.target = target, .text = arena_copy(&p->session->arena, strbuf_view(&text))};
+    }
     strbuf_finish(&text);
 }
 

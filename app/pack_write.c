@@ -184,7 +184,7 @@ static bool verify(struct session *session, const struct pack_plan *plan, const 
     if (!store)
         return fail(error, "there is not enough memory to load the package");
     struct session_options options = {
-        .path = str_from(path), .limits = limits_default(), .pixels = ASSETS_SKIP_PIXELS};
+        .path = str_from(path), .limits = session->options.limits, .pixels = ASSETS_SKIP_PIXELS};
     session_load(&packed, &options, store);
     bool same = compare(session, &packed, plan, folder);
     session_finish(&packed);

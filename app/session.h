@@ -22,7 +22,9 @@ struct ir_image;
 struct ir_scene;
 
 struct session_options {
-    str path; // of the scene, or of a mesh, which is then a scene with that one model
+    str path;     // of the scene, or of a mesh, which is then a scene with that one model
+    str found_in; // the folder that was searched for it: a link must not lead out of what it may read; empty:
+                  // the user named the scene
     const str *asset_paths;
     uint32_t asset_path_count;
     const str *sets; // PATH=VALUE
@@ -38,6 +40,7 @@ struct session_options {
                                       // runs all, unless skip_lint
     const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
     bool skip_lint; // for check_scene: leaves the rules about light out, and the use of comments unjudged
+    bool ungrouped; // every finding is kept by itself, however many are alike: for who repairs them
     bool judged;    // the caller judges the findings by policy and comments (app/check.h): they are not yet
                     // grouped
 };

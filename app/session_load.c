@@ -37,6 +37,8 @@ static enum session_state unreadable(struct session *session, str path, enum fil
     if (status == FILE_TOO_LARGE)
         diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
                   limit_info(LIMIT_SCENE_BYTES)->name);
+    if (status == FILE_OUTSIDE)
+        diag_help(&session->sink, "it is a link; to read what it leads to, name the file itself");
     return SESSION_UNREADABLE;
 }
 
@@ -60,7 +62,8 @@ static struct config_input config_input(struct session *session) {
     return (struct config_input){.files = &session->files,
                                  .sources = &session->sources,
                                  .sink = &session->sink,
-                                 .arena = &session->arena};
+                                 .arena = &session->arena,
+                                 .runner = &session->options.limits};
 }
 
 static void load_config(struct session *session) {
@@ -93,6 +96,10 @@ static enum session_state open_source(struct session *session, uint32_t *source)
     }
     for (uint32_t i = 0; i < session->config.asset_paths.count; i++)
         files_add_root(&session->files, session->config.asset_paths.items[i]);
+    status = session->options.found_in.len ? files_confine(&session->files, path, session->options.found_in)
+                                           : FILE_OK;
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
     if (assets_is_mesh_path(path)) {
         struct file_read identity;
         status = files_identify(&session->files, path, &identity);
@@ -215,7 +222,8 @@ static enum session_state guarded_load(struct session *session, const struct ses
 
 void session_group(struct session *session) {
     diag_sort(&session->sink);
-    diag_group(&session->sink, SAME_CODE_MAX);
+    if (!session->options.ungrouped)
+        diag_group(&session->sink, SAME_CODE_MAX);
 }
 
 enum session_state session_load(struct session *session, const struct session_options *options,

@@ -16,7 +16,8 @@ struct loaded_mesh {
     const struct mesh *mesh; // NULL: it could not be loaded
     struct str_map groups;   // of the mesh: 1 + index; made when first needed
     bool libraries_read;
-    bool library_missing; // so that what it would have defined is not reported as missing again
+    bool library_missing;         // so that what it would have defined is not reported as missing again
+    struct str_map library_paths; // of the material files that were read: each is read once
     struct mtl_materials materials;
     uint32_t *group_material; // from the material files; IR_NO_INDEX: not asked for yet
     struct loaded_mesh *next;

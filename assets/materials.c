@@ -9,7 +9,8 @@
 #include <string.h>
 
 enum {
-    NAMES_SHOWN = 12
+    NAMES_SHOWN = 12,
+    SEARCHES_MAX = 50, // errors up to which the names that a mesh has are listed
 };
 
 static bool is_written(const struct ir_material_ref *ref) {
@@ -41,6 +42,8 @@ static bool read_library(struct loader *loader, struct loaded_mesh *loaded, str 
     }
     if (missing)
         return false;
+    if (found && (*str_map_at(&loaded->library_paths, identity.path))++)
+        return true;
     struct arena *scratch = &loader->hold->scratch;
     arena_init(scratch, (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY]);
     if (found && asset_read(&file, scratch))
@@ -108,6 +111,7 @@ static void read_library_line(struct loader *loader, struct loaded_mesh *loaded,
 static void read_libraries(struct loader *loader, struct loaded_mesh *loaded) {
     loaded->libraries_read = true;
     mtl_init(&loaded->materials, loader->input->arena);
+    str_map_init(&loaded->library_paths, loader->input->arena);
     for (uint32_t i = 0; i < loaded->mesh->library_count; i++)
         read_library_line(loader, loaded, &loaded->mesh->libraries[i]);
 }
@@ -157,6 +161,8 @@ static void report_unknown(struct loader *loader, const struct ir_map_entry *ent
     span at = ir_place_value(input->origin, &entry->head, &SCHEMA_MAP_ENTRY, "from");
     diag_add(input->sink, DIAG_UNKNOWN_MESH_MATERIAL, at,
              "no face of the mesh '%.*s' has the material '%.*s'", STR_ARG(mesh->path), STR_ARG(entry->from));
+    if (input->sink->errors > SEARCHES_MAX)
+        return;
     struct nearest search = nearest_begin(entry->from);
     struct strbuf names;
     strbuf_init(&names);

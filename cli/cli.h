@@ -45,6 +45,7 @@ struct cli_options {
     const char *alternative; // NULL: not given
     int alternative_arg;
     const char *schema; // NULL: not given
+    const char *config; // NULL: not given
     int format_arg;
     struct cli_list sets, asset_paths;
     struct limits limits;
@@ -104,6 +105,9 @@ enum cli_policy_option {
 };
 // One of these options; false: a mistake went to cli->sink.
 bool cli_policy_apply(struct cli *cli, int arg, enum cli_policy_option option, const char *value);
+// Reads the settings that --config names, and lays the other options over them. false: a mistake in the file
+// went to cli->sink.
+bool cli_take_config(struct cli *cli);
 // The options of a command (NULL: of the program), one line each.
 void cli_option_help(struct strbuf *out, const struct cli_command *command);
 

@@ -37,6 +37,7 @@ struct check_store {
 
 struct check_file {
     const char *path;
+    const char *folder; // that it was found in; NULL: it was named
     struct strbuf text; // CHECK_TEXT
     struct report_scene record;
     int status;
@@ -63,11 +64,16 @@ static int status_of(const struct session *session) {
     return status == CLI_OK && check_failed(session) ? CLI_SCENE : status;
 }
 
+static struct session_options options_of(const struct check *check, const struct check_file *file) {
+    struct session_options options = cli_session_options(check->cli, file->path);
+    options.found_in = str_from(file->folder);
+    return options;
+}
+
 static void check_one(struct check *check, struct check_file *file, struct asset_store *store) {
     const struct cli *cli = check->cli;
     struct session session;
-    struct session_options options = cli_session_options(cli, file->path);
-    options.policy = &cli->options.policy;
+    struct session_options options = options_of(check, file);
     check_scene(&session, &options, store);
     file->status = status_of(&session);
     if (check->format == CHECK_TEXT) {
@@ -113,11 +119,16 @@ static bool check_all(struct check *check) {
 // ---- the files
 
 // A file that is named twice, or is in a folder that is named too, is checked once.
-static void add_file(struct check *check, const char *path) {
-    if ((*str_map_at(&check->paths, str_from(path)))++)
+static void add_file(struct check *check, const char *path, const char *folder) {
+    uint32_t *place = str_map_at(&check->paths, str_from(path));
+    if (*place) {
+        check->files.items[*place - 1].folder = folder ? check->files.items[*place - 1].folder : NULL;
         return;
+    }
     struct check_file *file = ARENA_PUSH(&check->cli->arena, &check->files);
+    *place = check->files.count;
     file->path = path;
+    file->folder = folder;
     strbuf_init(&file->text);
 }
 
@@ -130,7 +141,7 @@ static int add_folder(struct check *check, int operand) {
         return CLI_FILE;
     }
     for (uint32_t i = 0; i < found.paths.count; i++)
-        add_file(check, found.paths.items[i].ptr);
+        add_file(check, found.paths.items[i].ptr, path);
     if (found.paths.count)
         return CLI_OK;
     cli_usage(cli, cli_operand_place(cli, operand), "there is no scene in the folder '%s'", path);
@@ -147,7 +158,7 @@ static int add_operands(struct check *check) {
         if (files_is_folder(str_from(path)))
             status = add_folder(check, i);
         else
-            add_file(check, path);
+            add_file(check, path, NULL);
         worst = status > worst ? status : worst;
     }
     return worst;
@@ -207,8 +218,7 @@ static int fix_files(struct check *check) {
     int worst = store ? CLI_OK : CLI_FILE;
     strbuf_init(&patch);
     for (uint32_t i = 0; store && i < check->files.count; i++) {
-        struct session_options options = cli_session_options(cli, check->files.items[i].path);
-        options.policy = &cli->options.policy;
+        struct session_options options = options_of(check, &check->files.items[i]);
         int status = cli_fix(cli, &options, store, &patch);
         worst = status > worst ? status : worst;
     }

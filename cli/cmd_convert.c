@@ -1,51 +1,27 @@
 // glint convert IN OUT: what the scene means, in the other spelling.
+#include "app/convert.h"
 #include "cli/cli.h"
-
-#include "grammar/print/ir_print.h"
 
 #include <string.h>
 #include <sys/stat.h>
 
-enum spelling {
-    SPELLING_YAML,
-    SPELLING_XML,
-    SPELLING_JSON,
-};
-
-static enum spelling wanted_spelling(struct session *session, const char *out) {
+static enum convert_spelling wanted_spelling(struct session *session, const char *out) {
     str path = str_from(out);
     if (str_ends_with_nocase(path, ".xml"))
-        return SPELLING_XML;
+        return CONVERT_XML;
     if (str_ends_with_nocase(path, ".json"))
-        return SPELLING_JSON;
+        return CONVERT_JSON;
     if (str_ends_with_nocase(path, ".yaml") || str_ends_with_nocase(path, ".yml"))
-        return SPELLING_YAML;
-    return session->origin.files.items[0].is_xml ? SPELLING_YAML : SPELLING_XML;
+        return CONVERT_YAML;
+    return session->origin.files.items[0].is_xml ? CONVERT_YAML : CONVERT_XML;
 }
 
-static void write_as(struct session *session, enum spelling spelling, struct strbuf *text) {
-    struct ir_write_options options = {0};
-    if (spelling == SPELLING_XML)
-        ir_write_xml(session->scene, &session->origin, &session->sources, options, text);
-    else if (spelling == SPELLING_JSON)
-        ir_write_json(session->scene, text);
-    else
-        ir_write_yaml(session->scene, &session->origin, &session->sources, options, text);
-}
-
-static int write_scene(struct cli *cli, struct session *session) {
-    struct strbuf text;
-    strbuf_init(&text);
-    write_as(session, wanted_spelling(session, cli->operands[1]), &text);
-    int status = CLI_OK;
-    if (text.failed) {
-        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory to convert this scene");
-        status = CLI_SCENE;
-    } else {
-        status = cli_write(cli, cli->operands[1], strbuf_view(&text));
-    }
-    strbuf_finish(&text);
-    return status;
+// Made before anything is reported, since what is wrong with it is a finding too. false: no memory.
+static bool make_text(struct cli *cli, struct session *session, struct strbuf *text) {
+    const char *out = cli->operands[1];
+    if (strcmp(out, "-") != 0 && !session_rebase(session, str_from(out)))
+        return false;
+    return convert_write(session, wanted_spelling(session, out), text) != CONVERT_NO_MEMORY;
 }
 
 // Anchors, and comments inside entries, would be lost for good.
@@ -66,13 +42,16 @@ int cmd_convert(struct cli *cli) {
                   "a converted scene loses its anchors and some of its comments; choose another name");
         return status;
     }
+    struct strbuf text;
+    strbuf_init(&text);
     session_load_text(&session, &options);
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
-    if (good && strcmp(out, "-") != 0 && !session_rebase(&session, str_from(out)))
+    if (good && !make_text(cli, &session, &text))
         diag_add(&session.sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to convert this scene");
     int status = cli_report(cli, &session, false);
     if (status == CLI_OK)
-        status = write_scene(cli, &session);
+        status = cli_write(cli, out, strbuf_view(&text));
+    strbuf_finish(&text);
     session_finish(&session);
     return status;
 }

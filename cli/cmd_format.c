@@ -90,9 +90,10 @@ static void format_stream(struct formatter *f) {
     strbuf_finish(&text);
 }
 
-static void format_file(struct formatter *f, const char *path) {
+// `folder`: that it was found in; NULL: it was named.
+static void format_file(struct formatter *f, const char *path, const char *folder) {
     struct layout layout;
-    layout_file(&layout, str_from(path), &f->cli->options.limits, f->cli->options.upgrade);
+    layout_file(&layout, str_from(path), str_from(folder), &f->cli->options.limits, f->cli->options.upgrade);
     take(f, path, &layout);
     layout_finish(&layout);
 }
@@ -104,7 +105,7 @@ static void format_folder(struct formatter *f, const char *path) {
         worsen(f, CLI_FILE);
     }
     for (uint32_t i = 0; i < found.paths.count; i++)
-        format_file(f, found.paths.items[i].ptr);
+        format_file(f, found.paths.items[i].ptr, path);
 }
 
 int cmd_format(struct cli *cli) {
@@ -121,7 +122,7 @@ int cmd_format(struct cli *cli) {
         else if (files_is_folder(str_from(path)))
             format_folder(&f, path);
         else
-            format_file(&f, path);
+            format_file(&f, path, NULL);
     }
     if (f.out.failed) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, "format", NULL, "not enough memory for the report");

@@ -6,6 +6,6 @@
 #include <unistd.h>
 
 int cmd_lsp(struct cli *cli) {
-    (void)cli;
-    return lsp_serve(STDIN_FILENO, STDOUT_FILENO, GLINT_VERSION);
+    struct session_options settings = cli_session_options(cli, NULL);
+    return lsp_serve(STDIN_FILENO, STDOUT_FILENO, GLINT_VERSION, &settings);
 }

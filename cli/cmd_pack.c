@@ -10,6 +10,18 @@ static bool is_stopped(void) {
     return interrupt_signal() != 0;
 }
 
+// Who gets the package must know that it needs more than the defaults.
+static void tell_limits(const struct pack_plan *plan, const char *out) {
+    struct strbuf text;
+    if (!plan->limits.len)
+        return;
+    strbuf_init(&text);
+    strbuf_format(&text, "%s: needs limits that were raised: use it with --config and its %.*s\n", out,
+                  STR_ARG(plan->limits));
+    cli_write_error(strbuf_view(&text));
+    strbuf_finish(&text);
+}
+
 static int pack(struct cli *cli, struct session *session) {
     struct inventory inventory;
     struct pack_plan plan;
@@ -22,8 +34,10 @@ static int pack(struct cli *cli, struct session *session) {
         return cli_report(cli, session, false);
     interrupt_catch();
     enum pack_status status = pack_write(session, &plan, out, is_stopped, &error);
-    if (status == PACK_OK)
+    if (status == PACK_OK) {
+        tell_limits(&plan, out);
         return CLI_OK;
+    }
     if (status == PACK_STOPPED)
         return cli_interrupted(cli);
     cli_error(cli, DIAG_OUTPUT, out, NULL, "%s", error.text);

@@ -24,8 +24,9 @@ const struct cli_command cli_commands[] = {
     {"check", "SCENE|FOLDER...", "find every mistake in scene files",
      "Reads each scene with every file that it names and reports every mistake with its line and column.\n"
      "In folders it checks the files named *.glint.yaml, *.glint.yml and *.glint.xml. The exit status is 0\n"
-     "if there are no errors. Settings come from the nearest .glintrc.yaml above each scene; options\n"
-     "override them. A comment 'glint: allow W401' silences a warning on the next line. --format is one of\n"
+     "if there are no errors. Settings come from the nearest .glintrc.yaml above each scene; --config FILE\n"
+     "and options override them. A comment 'glint: allow W401' silences a warning on the next line. --format "
+     "is one of\n"
      "text, json, sarif, github, gitlab and junit; notes are shown with --verbose and in reports.\n\n"
      "  glint check scenes\n"
      "  glint check scenes --format sarif -o glint.sarif --fail-on warning\n",
@@ -227,6 +228,8 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
         return show_limits(cli);
     if (cli->options.help)
         return show_help(cli, command);
+    if (cli->options.config && !cli_take_config(cli))
+        return CLI_USAGE;
     if (cli->operand_count < command->least_operands)
         return cli_usage(cli, 1, "'glint %s' needs %s", command->name, command->operands);
     if (command->most_operands >= 0 && cli->operand_count > command->most_operands)

@@ -23,6 +23,7 @@ enum option_id {
     OPTION_DEVICE,
     OPTION_ASSET_PATH,
     OPTION_LIMIT,
+    OPTION_CONFIG,
     OPTION_REPEAT,
     OPTION_STATS,
     OPTION_QUIET,
@@ -103,8 +104,11 @@ static const struct option_row rows[] = {
      "render pick check inspect convert deps pack tradeoff extremes",
      "another folder in which to look for files of the scene"},
     {OPTION_LIMIT, "limit", 0, "NAME=VALUE",
-     "render pick check inspect format diff convert deps pack compare tradeoff extremes",
+     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp",
      "change a limit on the size of inputs; '--limit help' lists them"},
+    {OPTION_CONFIG, "config", 0, "FILE",
+     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp",
+     "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
@@ -328,6 +332,8 @@ static const char **text_of(struct cli_options *options, int id) {
         return &options->device;
     case OPTION_SCHEMA:
         return &options->schema;
+    case OPTION_CONFIG:
+        return &options->config;
     case OPTION_AXIS:
         return &options->axes;
     case OPTION_ALTERNATIVE:

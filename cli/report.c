@@ -108,6 +108,7 @@ struct session_options cli_session_options(const struct cli *cli, const char *pa
                                     .sets = o->sets.items,
                                     .set_count = o->sets.count,
                                     .limits = o->limits,
+                                    .policy = &o->policy,
                                     .width = o->width,
                                     .height = o->height,
                                     .samples = o->samples,

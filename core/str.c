@@ -46,6 +46,21 @@ str str_trim(str s) {
     return s;
 }
 
+size_t str_yaml_break_length(str s, size_t at) {
+    if (char_is_break(s.ptr[at]))
+        return str_break_length(s, at);
+    const unsigned char *p = (const unsigned char *)s.ptr + at;
+    if (p[0] == 0xC2)
+        return at + 1 < s.len && p[1] == 0x85 ? 2 : 0;
+    return p[0] == 0xE2 && at + 2 < s.len && p[1] == 0x80 && (p[2] == 0xA8 || p[2] == 0xA9) ? 3 : 0;
+}
+
+bool str_yaml_break_before(str s, size_t end) {
+    return (end >= 1 && char_is_break(s.ptr[end - 1])) ||
+           (end >= 2 && str_yaml_break_length(s, end - 2) == 2) ||
+           (end >= 3 && str_yaml_break_length(s, end - 3) == 3);
+}
+
 str str_line_end(str text) {
     size_t lf = 0, crlf = 0, cr = 0;
     for (size_t i = 0; i < text.len; i++) {

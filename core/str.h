@@ -34,6 +34,12 @@ static inline size_t str_break_length(str s, size_t at) {
     return s.ptr[at] == '\r' && at + 1 < s.len && s.ptr[at + 1] == '\n' ? 2 : 1;
 }
 
+// Bytes of the line end at `at` as YAML 1.1 has them, 0 if there is none: those above, and NEL, LS and PS
+// (U+0085, U+2028, U+2029).
+size_t str_yaml_break_length(str s, size_t at);
+// Whether such a line end is directly before `end`.
+bool str_yaml_break_before(str s, size_t end);
+
 str str_from(const char *cstring); // NULL becomes the empty string
 static inline bool str_equal(str a, str b) {
     return a.len == b.len && (a.len == 0 || memcmp(a.ptr, b.ptr, a.len) == 0);

@@ -4,7 +4,8 @@
 #include <string.h>
 
 enum {
-    CONTEXT = 3
+    CONTEXT = 3,
+    STEPS_PER_LINE = 128 // that the search may take: it grows with the square of the lines that differ
 };
 
 struct line {
@@ -113,8 +114,16 @@ static void mark_all(const struct middle *mid) {
         mid->b[i].changed = true;
 }
 
+// How many lines may differ before all of them are replaced.
+static int32_t most_differences(int64_t lines) {
+    int32_t most = 0;
+    while (most < lines && most < TEXT_DIFF_MOST && (int64_t)most * most / 2 < STEPS_PER_LINE * lines)
+        most++;
+    return most;
+}
+
 static bool mark(const struct middle *mid) {
-    int32_t most = mid->n + mid->m < TEXT_DIFF_MOST ? mid->n + mid->m : TEXT_DIFF_MOST;
+    int32_t most = most_differences((int64_t)mid->n + mid->m);
     struct rows rows = {.items = calloc((size_t)most + 1, sizeof *rows.items)};
     bool failed = !rows.items, found = false;
     for (int32_t d = 0; !failed && !found && d <= most; d++)

@@ -37,13 +37,22 @@ static uint32_t settle_cluster(struct text_edit *edits, uint32_t count) {
     return kept;
 }
 
+// Whether an edit may collide with those before it, which end at `end`. Ranges that only touch do not, and
+// are a thousand in a row where a line is all comments; an insertion between them may.
+static bool joins(const struct text_edit *edits, uint32_t i, uint32_t end) {
+    const struct text_edit *edit = &edits[i];
+    bool touches = edit->begin == end;
+    bool insertion = edit->end == edit->begin || edits[i - 1].begin == edit->begin;
+    return edit->begin < end || (touches && insertion);
+}
+
 uint32_t text_edits_settle(struct text_edit *edits, uint32_t count) {
     uint32_t kept = 0;
     if (count > 1)
         qsort(edits, count, sizeof *edits, by_place);
     for (uint32_t i = 0, n; i < count; i += n) {
         uint32_t end = edits[i].end;
-        for (n = 1; i + n < count && edits[i + n].begin <= end; n++)
+        for (n = 1; i + n < count && joins(edits, i + n, end); n++)
             end = edits[i + n].end > end ? edits[i + n].end : end;
         uint32_t stay = settle_cluster(edits + i, n);
         for (uint32_t j = 0; j < stay; j++)

@@ -115,6 +115,17 @@ struct source_place source_locate(struct source_set *set, span at) {
     return place;
 }
 
+uint32_t source_line(struct source_set *set, span at) {
+    struct source *source =
+        set->count ? &set->items[at.source < set->count ? at.source : SOURCE_DEFAULT] : NULL;
+    if (!source || source->text.len == 0 || source->kind == SOURCE_KIND_GENERATED)
+        return 1;
+    if (!source->line_starts)
+        map_lines(set, source);
+    uint32_t size = (uint32_t)source->text.len;
+    return find_line(source, at.begin < size ? at.begin : size).index + 1;
+}
+
 str source_text(const struct source_set *set, span at) {
     if (at.source >= set->count)
         return STR("");

@@ -62,6 +62,8 @@ void source_set_init(struct source_set *set, struct arena *arena);
 // Adds a source and returns its index. `text` is not copied and must be shorter than 4 GiB; `path` is copied.
 uint32_t source_add(struct source_set *set, enum source_kind kind, str path, str text);
 struct source_place source_locate(struct source_set *set, span at);
+// Only the line: it does not depend on how long that is.
+uint32_t source_line(struct source_set *set, span at);
 // The text of a span; the empty string for spans without text.
 str source_text(const struct source_set *set, span at);
 // From the beginning of `a` to the end of `b`; both of one source.

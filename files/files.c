@@ -109,8 +109,11 @@ enum file_status files_add_root(struct files *files, str directory) {
         return status_of_errno(files, errno);
     if (!S_ISDIR(info.st_mode))
         return FILE_NOT_REGULAR;
-    str *root = ARENA_PUSH(files->arena, &files->roots);
-    *root = files_canonical(files, directory);
+    str canonical = files_canonical(files, directory);
+    for (uint32_t i = 0; i < files->roots.count; i++)
+        if (str_equal(files->roots.items[i], canonical))
+            return FILE_OK;
+    *ARENA_PUSH(files->arena, &files->roots) = canonical;
     return FILE_OK;
 }
 
@@ -172,6 +175,15 @@ enum file_status files_resolve(struct files *files, str base_path, str path, str
     }
     *out = first;
     return FILE_MISSING;
+}
+
+enum file_status files_confine(struct files *files, str path, str folder) {
+    str canonical, rest;
+    if (!resolve_links(files, path, &canonical))
+        return status_of_errno(files, errno);
+    bool inside =
+        below_a_root(files, canonical) || path_is_below(canonical, files_canonical(files, folder), &rest);
+    return inside ? FILE_OK : FILE_OUTSIDE;
 }
 
 static void log_read(struct files *files, str path, const struct stat *info) {

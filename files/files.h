@@ -69,6 +69,9 @@ str files_find_config(struct files *files, str scene_path);
 // for FILE_OUTSIDE *out is where it led. A path that exists but is outside is FILE_OUTSIDE; a device or pipe
 // there is FILE_NOT_REGULAR, since no root could allow it.
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out);
+// Whether a file that was found in a folder, and that nobody named, may be read: links followed, it must be
+// below a root or below that `folder`. FILE_OUTSIDE if it is not.
+enum file_status files_confine(struct files *files, str path, str folder);
 // Reads a file that was resolved, or one that the user named (roots are not checked here). A NUL byte
 // follows the contents, not counted. `cap_bytes` is checked before memory is taken.
 enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,

@@ -1,8 +1,9 @@
 // Faces that lie in one plane and cover each other: which one is seen is decided by rounding.
 //
 // Within a mesh: lint_find_pairs. Between bodies: those at equal places first, then each pair whose boxes
-// overlap, the faces of the smaller body against the tree of the larger one. Two faces count only where a
-// camera could see both: the bottom of a box on a floor is hidden by the box.
+// overlap (body_pairs.c), the faces of the smaller body against the tree of the larger one. Two faces count
+// only where a camera could see both: the bottom of a box on a floor is hidden by the box.
+#include "lint/body_pairs.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
@@ -14,7 +15,6 @@
 #define NEAR 0x1p-22
 
 enum {
-    PAIRS_MAX = 50000000, // boxes against boxes
     FACES_MAX = 10000000, // faces against faces
 };
 
@@ -220,34 +220,29 @@ static void check_pair(struct lint *lint, const struct lint_body *a, const struc
         report(&s);
 }
 
-static int compare_bodies(const void *a, const void *b) {
-    const struct lint_body *x = *(const struct lint_body *const *)a;
-    const struct lint_body *y = *(const struct lint_body *const *)b;
-    if (x->box.lower.x != y->box.lower.x)
-        return x->box.lower.x < y->box.lower.x ? -1 : 1;
-    return x < y ? -1 : x > y;
+struct work {
+    struct lint *lint;
+    uint64_t left; // faces
+};
+
+static bool take_pair(void *context, const struct lint_body *a, const struct lint_body *b) {
+    struct work *work = context;
+    check_pair(work->lint, a, b, &work->left);
+    return work->left > 0;
 }
 
 void lint_coincident(struct lint *lint) {
     for (uint32_t i = 0; i < lint->meshes.count; i++)
         check_mesh(lint, lint->meshes.items[i]);
     const bool *repeats = find_repeats(lint);
-    const struct lint_body **flat = ARENA_ARRAY(lint->arena, const struct lint_body *, lint->body_count);
+    struct lint_box_item *flat = ARENA_ARRAY(lint->arena, struct lint_box_item, lint->body_count);
     uint32_t count = 0;
     for (uint32_t i = 0; i < lint->body_count; i++) {
         const struct lint_body *body = &lint->bodies[i];
         if (!repeats[i] && body->is->triangle_count)
-            flat[count++] = body;
+            flat[count++] =
+                (struct lint_box_item){lint_box_grow(body->box, NEAR * farthest(lint, &body->box)), body};
     }
-    qsort(flat, count, sizeof *flat, compare_bodies);
-    uint64_t pairs_left = PAIRS_MAX;
-    uint64_t work_left = FACES_MAX;
-    for (uint32_t i = 0; i < count && work_left > 0; i++) {
-        struct lint_box box = lint_box_grow(flat[i]->box, NEAR * farthest(lint, &flat[i]->box));
-        for (uint32_t k = i + 1; k < count && flat[k]->box.lower.x <= box.upper.x && pairs_left > 0; k++) {
-            pairs_left--;
-            if (lint_boxes_overlap(&box, &flat[k]->box) && work_left > 0)
-                check_pair(lint, flat[i], flat[k], &work_left);
-        }
-    }
+    struct work work = {lint, FACES_MAX};
+    lint_body_pairs(lint->arena, flat, count, take_pair, &work);
 }

@@ -10,6 +10,7 @@ enum {
     PIECE = 1 << 10,         // leaves of one piece of parallel work
     WORK_MAX = 1 << 28,      // for the mesh: boxes against boxes
     LEAF_WORK_MIN = 4096,    // for each leaf: some thousand in a good mesh, all of them in a fan of needles
+    LEAF_WORK_MAX = 32768,   // where all triangles lie on each other, a few thousand pairs tell enough
     TRIANGLES_MAX = 1 << 23, // larger meshes are not searched: it would take gigabytes
     PAIR_WORK = 32,          // of two triangles, in boxes
 };
@@ -89,6 +90,7 @@ static void search_leaf(const struct self *self, uint32_t at) {
     struct leaf leaf = {
         .self = self, .first = at * LINT_LEAF, .work_left = WORK_MAX / self->tree->leaf_count};
     leaf.work_left = leaf.work_left > LEAF_WORK_MIN ? leaf.work_left : LEAF_WORK_MIN;
+    leaf.work_left = leaf.work_left < LEAF_WORK_MAX ? leaf.work_left : LEAF_WORK_MAX;
     uint32_t left = self->tree->count - leaf.first;
     leaf.count = left < LINT_LEAF ? left : LINT_LEAF;
     struct lint_box all = lint_box_empty();

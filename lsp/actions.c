@@ -284,7 +284,7 @@ json_t *server_formatting(const struct request *request) {
     strbuf_init(&text);
     str old = arena_copy(arena, document_text(request->document));
     struct reader_context context = {
-        .sources = &sources, .sink = &sink, .limits = &server->scenes.limits, .arena = arena};
+        .sources = &sources, .sink = &sink, .limits = &server->scenes.settings.limits, .arena = arena};
     uint32_t source = source_add(&sources, SOURCE_KIND_OVERLAY, request->document->path, old);
     enum format_status status = format_source(&context, source, NULL, &text);
     json_t *edits = NULL;

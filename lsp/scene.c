@@ -7,9 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-void scenes_init(struct scenes *scenes, struct documents *documents) {
-    *scenes =
-        (struct scenes){.store = asset_store_create(), .documents = documents, .limits = limits_default()};
+void scenes_init(struct scenes *scenes, struct documents *documents, const struct session_options *settings) {
+    *scenes = (struct scenes){.store = asset_store_create(), .documents = documents, .settings = *settings};
 }
 
 void lsp_scene_unload(struct lsp_scene *scene) {

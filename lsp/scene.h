@@ -32,12 +32,12 @@ struct lsp_scene {
 struct scenes {
     struct asset_store *store;
     struct documents *documents;
-    struct limits limits;
+    struct session_options settings; // of every session: limits, folders, policy
     struct lsp_scene **items;
     uint32_t count, capacity;
 };
 
-void scenes_init(struct scenes *scenes, struct documents *documents);
+void scenes_init(struct scenes *scenes, struct documents *documents, const struct session_options *settings);
 void scenes_finish(struct scenes *scenes);
 // Marks the scenes that changed text may affect; all of them if `path` is empty.
 void scenes_touch(struct scenes *scenes, str path);

@@ -53,11 +53,12 @@ static bool may_include(struct files *files, struct arena *arena, str candidate,
 static void try_scene(struct scenes *scenes, str path, str document) {
     struct session session;
     struct file_overlay *overlays = scenes_overlays(scenes);
-    struct session_options options = {.path = path,
-                                      .limits = scenes->limits,
-                                      .overlays = overlays,
-                                      .overlay_count = overlays ? scenes->documents->count : 0,
-                                      .text_only = true};
+    struct session_options options = scenes->settings;
+    options.path = path;
+    options.found_in = path_folder(path);
+    options.overlays = overlays;
+    options.overlay_count = overlays ? scenes->documents->count : 0;
+    options.text_only = true;
     struct lsp_scene probe = {0};
     session_load(&session, &options, scenes->store);
     lsp_scene_note_files(&probe, &session);

@@ -59,13 +59,12 @@ static void load_scene(struct lsp_scene *scene, const struct session_options *op
 
 static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_effort effort) {
     struct file_overlay *overlays = scenes_overlays(scenes);
-    struct session_options options = {
-        .path = scene->path,
-        .limits = scenes->limits,
-        .pixels = effort == SCENES_QUICK ? ASSETS_SKIP_PIXELS : ASSETS_CHECK_PIXELS,
-        .skip_lint = effort == SCENES_QUICK && scene->lint_seconds > LINT_SECONDS_QUICK,
-        .overlays = overlays,
-        .overlay_count = overlays ? scenes->documents->count : 0};
+    struct session_options options = scenes->settings;
+    options.path = scene->path;
+    options.pixels = effort == SCENES_QUICK ? ASSETS_SKIP_PIXELS : ASSETS_CHECK_PIXELS;
+    options.skip_lint = effort == SCENES_QUICK && scene->lint_seconds > LINT_SECONDS_QUICK;
+    options.overlays = overlays;
+    options.overlay_count = overlays ? scenes->documents->count : 0;
     lsp_scene_unload(scene);
     if (scenes_is_settings(scene->path))
         session_load_settings(&scene->session, &options);

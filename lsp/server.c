@@ -249,11 +249,11 @@ static bool take(struct server *server, json_t *message) {
     return true;
 }
 
-int lsp_serve(int in, int out, const char *version) {
+int lsp_serve(int in, int out, const char *version, const struct session_options *settings) {
     struct server server = {.version = version, .published = json_object()};
     rpc_init(&server.rpc, in, out);
     documents_init(&server.documents);
-    scenes_init(&server.scenes, &server.documents);
+    scenes_init(&server.scenes, &server.documents, settings);
     bool goes_on = server.scenes.store != NULL;
     while (goes_on && !server.rpc.broken) {
         // Many keys may have been pressed since the last check: only the newest text counts.

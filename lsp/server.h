@@ -8,8 +8,10 @@
 #ifndef GLINT_LSP_SERVER_H
 #define GLINT_LSP_SERVER_H
 
-// Serves until the client says `exit` or hangs up. The exit status that the protocol asks for: 0 after
-// `shutdown`, else 1.
-int lsp_serve(int in, int out, const char *version);
+struct session_options;
+
+// Serves until the client says `exit` or hangs up. `settings`: the limits, folders and policy of every scene.
+// The exit status that the protocol asks for: 0 after `shutdown`, else 1.
+int lsp_serve(int in, int out, const char *version, const struct session_options *settings);
 
 #endif

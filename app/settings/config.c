@@ -141,13 +141,34 @@ static void take_fail_on(struct binder *b, tree_index key, tree_index value) {
         diag_help(b->input->sink, "fail_on: warning makes warnings fail too");
 }
 
-static void set_limit(struct binder *b, tree_index key, tree_index value, enum limit which) {
-    if (limits_set_value(&b->config->limits, which, tree_text(b->tree, value)))
-        return;
-    const struct limit_info *info = limit_info(which);
+// Whether the limit would be raised by who may not do that. What the runner has set counts anyway.
+static bool is_raised(const struct binder *b, enum limit which, uint64_t value) {
+    const struct limits *runner = b->input->runner;
+    return runner && !(runner->given >> which & 1) && value > limit_info(which)->standard;
+}
+
+static void refuse_to_raise(const struct binder *b, tree_index value, const struct limit_info *info) {
+    str wanted = shown(b, value);
     diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, value),
-             "'%.*s' takes a whole number from %llu to %llu", STR_ARG(shown(b, key)),
-             (unsigned long long)info->least, (unsigned long long)info->greatest);
+             "a file beside the scenes can only lower limits, and '%s' is %llu: it was not raised",
+             info->name, (unsigned long long)info->standard);
+    diag_help(b->input->sink,
+              "who runs glint can raise it: --limit %s=%.*s, or a settings file with --config", info->name,
+              STR_ARG(wanted));
+}
+
+static void set_limit(struct binder *b, tree_index key, tree_index value, enum limit which) {
+    const struct limit_info *info = limit_info(which);
+    struct limits limits = b->config->limits;
+    if (!limits_set_value(&limits, which, tree_text(b->tree, value)))
+        diag_add(b->input->sink, DIAG_CONFIG_VALUE, tree_span(b->tree, value),
+                 "'%.*s' takes a whole number from %llu to %llu", STR_ARG(shown(b, key)),
+                 (unsigned long long)info->least,
+                 (unsigned long long)(b->input->runner ? info->standard : info->greatest));
+    else if (is_raised(b, which, limits.value[which]))
+        refuse_to_raise(b, value, info);
+    else
+        b->config->limits = limits;
 }
 
 static void take_limit(struct binder *b, tree_index key, tree_index value) {
@@ -292,12 +313,14 @@ static str path_shown(const struct config_input *input, str scene_path, str conf
 void config_read(const struct config_input *input, uint32_t source, str path, struct config *config) {
     struct limits limits = limits_default();
     *config = (struct config){.path = path, .limits = limits};
-    struct binder binder = {.input = input, .config = config, .folder = path_folder(path)};
+    str folder = files_canonical(input->files, path_folder(path));
+    struct binder binder = {.input = input, .config = config, .folder = folder};
     read_and_bind(&binder, source, &limits);
 }
 
 void config_read_file(const struct config_input *input, str path, str shown, struct config *config) {
     str text = STR("");
+    *config = (struct config){.path = path, .limits = limits_default()};
     enum file_status status = files_read(input->files, path, CONFIG_BYTES_MAX, input->arena, &text);
     uint32_t source = source_add(input->sources, SOURCE_KIND_FILE, shown, text);
     if (status == FILE_OK)
@@ -307,8 +330,24 @@ void config_read_file(const struct config_input *input, str path, str shown, str
                  (span){source, 0, 0}, "the configuration %s", file_status_text(input->files, status));
 }
 
+// Nobody names this file: a link to another place must not make what is there be read and reported.
+static bool is_confined(const struct config_input *input, str path) {
+    struct files alone;
+    files_init(&alone, input->arena);
+    return files_confine(&alone, path, path_folder(path)) != FILE_OUTSIDE;
+}
+
 void config_load(const struct config_input *input, str scene_path, struct config *config) {
     *config = (struct config){.path = files_find_config(input->files, scene_path)};
-    if (config->path.len)
-        config_read_file(input, config->path, path_shown(input, scene_path, config->path), config);
+    if (!config->path.len)
+        return;
+    str shown = path_shown(input, scene_path, config->path);
+    if (is_confined(input, config->path)) {
+        config_read_file(input, config->path, shown, config);
+        return;
+    }
+    uint32_t source = source_add(input->sources, SOURCE_KIND_FILE, shown, STR(""));
+    diag_add(input->sink, DIAG_FILE_OUTSIDE, (span){source, 0, 0},
+             "the configuration is a link that leads out of its folder");
+    diag_help(input->sink, "put the settings into the file itself");
 }

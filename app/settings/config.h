@@ -8,9 +8,10 @@
 //     max_messages: 20
 //     limits: {mesh-bytes: 1000000}
 //
-// An empty file only marks its folder as the root. What is wrong in it is reported at its place,
-// and the rest counts. Ownership: everything is in the given arena, which must be guarded. Thread
-// safety: one call belongs to one thread.
+// An empty file only marks its folder as the root. A file that lies beside the scenes may only lower limits:
+// whoever wrote the scenes may have written it. One that the runner names may raise them. What is wrong in it
+// is reported at its place, and the rest counts. Ownership: everything is in the given arena, which must be
+// guarded. Thread safety: one call belongs to one thread.
 #ifndef GLINT_APP_SETTINGS_CONFIG_H
 #define GLINT_APP_SETTINGS_CONFIG_H
 
@@ -34,11 +35,13 @@ struct config_input {
     struct source_set *sources;
     struct diag_sink *sink;
     struct arena *arena;
+    const struct limits
+        *runner; // the limits that whoever runs glint has set; NULL: the file is that one's own
 };
 
 // Takes the settings from a source that is in the set; `path` is absolute, for the folders in it.
 void config_read(const struct config_input *input, uint32_t source, str path, struct config *config);
-// Reads those at `path`, absolute, which diagnostics call `shown`.
+// Reads those at `path`, absolute or not, which diagnostics call `shown`.
 void config_read_file(const struct config_input *input, str path, str shown, struct config *config);
 // Finds and reads it; a zeroed config if there is none.
 void config_load(const struct config_input *input, str scene_path, struct config *config);

@@ -70,7 +70,7 @@ static void put_value(struct json_writer *json, const struct key_row *row) {
         put_lines(json, &LIMIT_KEYS);
         break;
     case KEY_MAX_MESSAGES:
-        put_range(json, messages->least, messages->greatest);
+        put_range(json, messages->least, messages->standard);
         json_write_integer(json, "default", messages->standard);
         break;
     case KEY_WHOLE_NUMBER:

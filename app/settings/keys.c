@@ -40,19 +40,21 @@ static const struct key_row settings[] = {
      .value = KEY_MAX_MESSAGES,
      .form = "a whole number",
      .example = "max_messages: 20",
-     .doc = "Findings reported for one scene; the rest are counted."},
+     .doc = "Findings reported for one scene; the rest are counted. Beside the scenes it can only lower the "
+            "limit."},
     {.name = "limits",
      .shape = KEY_MAP,
      .value = KEY_LIMIT,
      .form = "a map from limits to numbers",
      .example = "limits: {mesh-bytes: 1000000}",
-     .doc = "Limits on the size of inputs; 'glint check --limit help' lists them."},
+     .doc = "Limits on the size of inputs; 'glint check --limit help' lists them. Beside the scenes they can "
+            "only be lowered: the command line, and a file named by --config, can raise them."},
 };
 const struct key_table SETTING_KEYS = {"setting", settings, sizeof settings / sizeof *settings};
 
 static const struct key_row limits[] = {
 #define X(NAME, option, standard, from, to, text)                                                            \
-    {.name = option, .value = KEY_WHOLE_NUMBER, .least = from, .greatest = to, .doc = text},
+    {.name = option, .value = KEY_WHOLE_NUMBER, .least = from, .greatest = standard, .doc = text},
 #include "core/limits.def"
 #undef X
 };

@@ -50,9 +50,10 @@ struct key_table {
 };
 
 extern const struct key_table SETTING_KEYS; // of .glintrc.yaml
-extern const struct key_table LIMIT_KEYS;   // in the order of enum limit
-extern const struct key_table AXIS_KEYS;    // of a file of bounds
-extern const struct key_table BOUND_KEYS;   // of one bound
+extern const struct key_table
+    LIMIT_KEYS; // of it too, in the order of enum limit: from the least to the default
+extern const struct key_table AXIS_KEYS;  // of a file of bounds
+extern const struct key_table BOUND_KEYS; // of one bound
 
 // The row of a name; if it is NULL, `search` holds the nearest one.
 const struct key_row *key_find(const struct key_table *table, str name, struct nearest *search);

@@ -78,12 +78,13 @@ static bool is_from_xml(const struct print_places *places, uint32_t source) {
     return false;
 }
 
+// Up to what either spelling takes for a line end: what follows one would be content of a YAML scene.
 static str next_line(str *rest) {
     size_t end = 0;
-    while (end < rest->len && rest->ptr[end] != '\n')
+    while (end < rest->len && !str_yaml_break_length(*rest, end))
         end++;
     str line = str_slice(*rest, 0, end);
-    *rest = str_slice(*rest, end < rest->len ? end + 1 : end, rest->len);
+    *rest = str_slice(*rest, end < rest->len ? end + str_yaml_break_length(*rest, end) : end, rest->len);
     return line;
 }
 
@@ -160,15 +161,14 @@ static void neutral_from_xml(str text, struct strbuf *out) {
         str rest = str_slice(text, at, text.len);
         if (!str_starts_with(rest, STR("<!--"))) {
             // Two line ends in a row: an empty line between comments.
-            if (rest.ptr[0] == '\n' && out->len) {
-                str blank = str_slice(rest, 1, rest.len);
-                size_t n = 0;
-                while (n < blank.len && strchr(" \t\r", blank.ptr[n]))
+            size_t n = str_break_length(rest, 0);
+            at += n;
+            if (char_is_break(rest.ptr[0]) && out->len) {
+                while (n < rest.len && char_is_blank(rest.ptr[n]))
                     n++;
-                if (n < blank.len && blank.ptr[n] == '\n')
+                if (n < rest.len && char_is_break(rest.ptr[n]))
                     strbuf_char(out, '\n');
             }
-            at++;
             continue;
         }
         size_t end = 4;
@@ -249,6 +249,14 @@ static str behind(str line, str mark) {
     return (str){"", 0};
 }
 
+// A comment has one line: an address of several would go on as content.
+static bool is_one_line(str text) {
+    for (size_t at = 0; at < text.len; at++)
+        if (str_yaml_break_length(text, at))
+            return false;
+    return true;
+}
+
 // The two schemas are side by side: the address of one gives that of the other.
 static void put_address(struct strbuf *out, str address, const char *from, const char *to) {
     if (str_ends_with_nocase(address, from)) {
@@ -264,11 +272,14 @@ void print_yaml_schema_line(const struct print_places *places, const struct ir_f
     if (!file || !places->sources || span_is_none(file->schema_line))
         return;
     str line = str_trim(source_text(places->sources, file->schema_line));
+    str address = file->is_xml ? behind(line, STR("href=")) : line;
+    if (!is_one_line(address))
+        return;
     if (!file->is_xml) {
         strbuf_str(out, line);
     } else {
         strbuf_cstr(out, "# yaml-language-server: $schema=");
-        put_address(out, behind(line, STR("href=")), ".rng", ".schema.json");
+        put_address(out, address, ".rng", ".schema.json");
     }
     strbuf_char(out, '\n');
 }

@@ -59,6 +59,9 @@ static void put_attribute_value(const struct schema_row *row, const void *field,
     case SCHEMA_TEXT:
         print_xml_text(out, *(const str *)field);
         break;
+    case SCHEMA_REFERENCE: // to a name that need not be one: only this file is read
+        print_xml_text(out, ((const struct ir_material_ref *)field)->name);
+        break;
     case SCHEMA_COLOR:
     case SCHEMA_VECTOR:
         if (row->kind == SCHEMA_COLOR && ((const struct ir_color *)field)->is_hex) {

@@ -8,6 +8,7 @@
 #ifndef GLINT_PARSER_BIND_BIND_H
 #define GLINT_PARSER_BIND_BIND_H
 
+#include "core/str_map.h"
 #include "diag/diag.h"
 #include "grammar/ir_origin.h"
 #include "grammar/ir_value.h"
@@ -24,7 +25,15 @@ struct bind_texts {
     str items[BIND_TEXTS];
 };
 
+// The keys of the entries of one list.
+struct bind_list_keys {
+    const void *list;
+    uint32_t count;     // of its entries that are in the map
+    struct str_map map; // 1 + index
+};
+
 struct bind_context {
+    struct bind_list_keys keys;
     struct diag_sink *sink;
     const struct source_set *sources;
     struct ir_origin *origin;

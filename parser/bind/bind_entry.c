@@ -40,26 +40,43 @@ void bind_default_key(struct bind_context *context, struct bind_frame *child) {
     bind_head(child)->written |= bind_bit((uint32_t)row);
 }
 
+// 1 + the index of the entry that has a key, or 0. A list's entries are bound one after the other, so that
+// the map only has to know the last list: one that has fewer entries than the map is another.
+static uint32_t find_key(struct bind_context *context, void *list, const struct schema_element *schema,
+                         uint32_t row, str key) {
+    struct bind_list_keys *keys = &context->keys;
+    uint32_t count = bind_list_count(list);
+    if (!keys->map.arena)
+        str_map_init(&keys->map, context->arena);
+    if (keys->list != list || keys->count > count) {
+        str_map_clear(&keys->map);
+        *keys = (struct bind_list_keys){.list = list, .map = keys->map};
+    }
+    for (; keys->count < count; keys->count++) {
+        const void *item = bind_list_item(list, keys->count, schema->size);
+        uint32_t *number = str_map_at(&keys->map, *(const str *)schema_field_const(&schema->rows[row], item));
+        *number = *number ? *number : keys->count + 1;
+    }
+    return str_map_find(&keys->map, key);
+}
+
 bool bind_is_second(struct bind_context *context, const struct bind_frame *parent,
                     const struct bind_frame *child) {
     int row = child->via->many == SCHEMA_NAMED_MAP ? schema_key_row(child->schema) : -1;
     if (row < 0 || child->schema->rows[row].text == SCHEMA_TEXT_NAME ||
         key_field(child, (uint32_t)row)->len == 0)
         return false;
-    str key = *key_field(child, (uint32_t)row);
     void *list = schema_field(child->via, parent->memory);
-    for (uint32_t i = 0; i < bind_list_count(list); i++) {
-        char *item = bind_list_item(list, i, child->schema->size);
-        if (!str_equal(*(const str *)schema_field_const(&child->schema->rows[row], item), key))
-            continue;
-        diag_add(context->sink, DIAG_GIVEN_TWICE, child->label, "%.*s is given twice",
-                 STR_ARG(say_owner(context->scratch, child)));
-        diag_note(context->sink, ir_place_label(context->origin, (const struct ir_head *)item),
-                  "first given here");
-        diag_help(context->sink, "remove one of the two");
-        return true;
-    }
-    return false;
+    uint32_t first = find_key(context, list, child->schema, (uint32_t)row, *key_field(child, (uint32_t)row));
+    if (!first)
+        return false;
+    const char *item = bind_list_item(list, first - 1, child->schema->size);
+    diag_add(context->sink, DIAG_GIVEN_TWICE, child->label, "%.*s is given twice",
+             STR_ARG(say_owner(context->scratch, child)));
+    diag_note(context->sink, ir_place_label(context->origin, (const struct ir_head *)item),
+              "first given here");
+    diag_help(context->sink, "remove one of the two");
+    return true;
 }
 
 void bind_entry_key(struct bind_context *context, struct bind_frame *child, struct bind_given given) {

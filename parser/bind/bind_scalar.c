@@ -45,11 +45,16 @@ static void fix_scalar(struct bind_context *context, const struct schema_row *ro
     diag_fix(context->sink, false, tree_span(context->tree, node), all);
 }
 
+enum {
+    PARENTHESIS_MAX = 256 // bytes
+};
+
 // "(0, 0, 2)": YAML splits it at its commas. The span of all of it, if it ends on its line.
 static span with_parenthesis(const struct bind_context *context, tree_index node) {
     span at = tree_span(context->tree, node);
     str rest = context->sources->items[at.source].text;
-    for (uint32_t i = at.begin; i < rest.len && rest.ptr[at.begin] == '(' && rest.ptr[i] != '\n'; i++)
+    size_t most = at.begin + PARENTHESIS_MAX < rest.len ? at.begin + PARENTHESIS_MAX : rest.len;
+    for (uint32_t i = at.begin; i < most && rest.ptr[at.begin] == '(' && rest.ptr[i] != '\n'; i++)
         if (rest.ptr[i] == ')')
             return (span){at.source, at.begin, i + 1};
     return at;
@@ -106,7 +111,8 @@ static str found(struct bind_context *context, tree_index node) {
 
 // Lines of "radius:1" with a space after each ':'; empty if one of them is not of that kind.
 static str with_blanks(struct arena *arena, const struct schema_element *schema, str lines) {
-    str all = STR("");
+    char *all = arena_alloc(arena, 2 * lines.len + 1);
+    size_t length = 0;
     while (lines.len) {
         const char *line_end = memchr(lines.ptr, '\n', lines.len);
         str line = str_slice(lines, 0, line_end ? (size_t)(line_end - lines.ptr) + 1 : lines.len);
@@ -116,11 +122,13 @@ static str with_blanks(struct arena *arena, const struct schema_element *schema,
             schema_find_yaml(schema, str_trim(str_slice(line, 0, (size_t)(colon - line.ptr))), &single) < 0)
             return STR("");
         size_t end = (size_t)(colon - line.ptr) + 1;
-        all = arena_format(arena, "%.*s%.*s %.*s", STR_ARG(all), STR_ARG(str_slice(line, 0, end)),
-                           STR_ARG(str_slice(line, end, line.len)));
+        memcpy(all + length, line.ptr, end);
+        all[length + end] = ' ';
+        memcpy(all + length + end + 1, line.ptr + end, line.len - end);
+        length += line.len + 1;
         lines = str_slice(lines, line.len, lines.len);
     }
-    return all;
+    return (str){all, length};
 }
 
 // "position [0, 5, 5]" or "radius:1" where a map belongs: a key without its ':', or without the space after

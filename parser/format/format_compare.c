@@ -1,13 +1,17 @@
 #include "parser/format/format_parts.h"
 
+static size_t skip_space(str s, size_t at) {
+    while (at < s.len && (char_is_space(s.ptr[at]) || str_yaml_break_length(s, at)))
+        at += char_is_space(s.ptr[at]) ? 1 : str_yaml_break_length(s, at);
+    return at;
+}
+
 // Whether two texts are equal except for white space.
 static bool same_words(str a, str b) {
     size_t i = 0, j = 0;
     for (;;) {
-        while (i < a.len && char_is_space(a.ptr[i]))
-            i++;
-        while (j < b.len && char_is_space(b.ptr[j]))
-            j++;
+        i = skip_space(a, i);
+        j = skip_space(b, j);
         if (i == a.len || j == b.len)
             return i == a.len && j == b.len;
         if (a.ptr[i++] != b.ptr[j++])

@@ -37,7 +37,7 @@ static const struct yaml_token *peek(const struct printer *p) {
 // Whether a line ends between two places.
 static bool has_break(const struct printer *p, uint32_t begin, uint32_t end) {
     for (uint32_t i = begin; i < end; i++)
-        if (char_is_break(p->text.ptr[i]))
+        if (str_yaml_break_length(p->text, i))
             return true;
     return false;
 }
@@ -74,11 +74,12 @@ static uint32_t blank_lines(const struct printer *p, const struct gap *gap) {
 
 static void put_comment(struct printer *p, struct gap *gap, uint32_t indent) {
     uint32_t begin = gap->at;
-    while (gap->at < gap->end && !char_is_break(p->text.ptr[gap->at]))
+    while (gap->at < gap->end && !str_yaml_break_length(p->text, gap->at))
         gap->at++;
     str comment = str_trim(str_slice(p->text, begin, gap->at));
     uint32_t column = format_column(p->text, &p->place, begin);
-    bool own_line = gap->breaks > 0 || p->last == YAML_TOKEN_END;
+    bool after_separator = str_yaml_break_before(p->text, p->gap); // one that belongs to a block text
+    bool own_line = gap->breaks > 0 || after_separator || p->last == YAML_TOKEN_END;
     if (own_line) {
         format_lines_next(p->lines, blank_lines(p, gap), comment_indent(p, column, indent));
         format_lines_text(p->lines, comment);
@@ -94,12 +95,12 @@ static void put_comment(struct printer *p, struct gap *gap, uint32_t indent) {
 static struct gap put_gap(struct printer *p, uint32_t end, uint32_t indent) {
     struct gap gap = {.at = p->gap, .end = end};
     while (gap.at < end) {
-        char c = p->text.ptr[gap.at];
-        if (c == '#') {
+        size_t length = str_yaml_break_length(p->text, gap.at);
+        if (p->text.ptr[gap.at] == '#') {
             put_comment(p, &gap, indent);
         } else {
-            gap.breaks += char_is_break(c);
-            gap.at += (uint32_t)str_break_length(p->text, gap.at);
+            gap.breaks += length > 0;
+            gap.at += length ? (uint32_t)length : 1;
         }
     }
     return gap;
@@ -154,14 +155,37 @@ static uint32_t count_spaces(str line) {
     return n;
 }
 
+// A line of a block text. NEL is read as LF; LS and PS end a line too, but belong to the text.
+static str take_block_line(str text, size_t *at, bool at_separators) {
+    size_t begin = *at, end = *at, length = 0;
+    for (; end < text.len; end++) {
+        length = str_yaml_break_length(text, end);
+        if (length && (length < 3 || at_separators))
+            break;
+    }
+    *at = end < text.len ? end + length : end;
+    return str_slice(text, begin, end);
+}
+
+// A line that was indented by `from` spaces, and now is by `to`; so are those after an LS or PS in it.
+static void put_block_line(struct printer *p, str line, uint32_t from, uint32_t to) {
+    for (size_t at = 0, begin = 0; at < line.len; begin = at) {
+        str part = take_block_line(line, &at, true);
+        if (begin > 0 && part.len > from)
+            strbuf_repeat(&p->lines->body, ' ', to);
+        format_lines_text(p->lines, str_slice(part, from, part.len));
+        format_lines_text(p->lines, str_slice(line, begin + part.len, at));
+    }
+}
+
 // How far the lines of a block text are indented: as its first line, or by the digit in its header.
 static uint32_t block_text_indent(const struct printer *p, str text, uint32_t digit) {
     if (digit)
         return p->level.source + digit;
     size_t at = 0;
-    format_take_line(text, &at);
+    take_block_line(text, &at, true);
     while (at < text.len) {
-        str line = format_take_line(text, &at);
+        str line = take_block_line(text, &at, true);
         if (skip_blanks(line).len)
             return count_spaces(line);
     }
@@ -173,7 +197,7 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     begin_token(p, &token, join, indent);
     str text = str_slice(p->text, token.begin, token.end);
     size_t at = 0;
-    str whole = format_take_line(text, &at);
+    str whole = take_block_line(text, &at, true);
     size_t hash = 0;
     while (hash < whole.len && whole.ptr[hash] != '#')
         hash++;
@@ -193,13 +217,13 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     uint32_t to = digit ? p->level.written + digit : indent;
     uint32_t end = token.begin + (uint32_t)whole.len, empty = 0;
     while (at < text.len) {
-        str line = format_take_line(text, &at);
+        str line = take_block_line(text, &at, false);
         if (line.len <= from && !skip_blanks(line).len) {
             empty++;
             continue;
         }
         format_lines_next(p->lines, empty, to);
-        format_lines_text(p->lines, str_slice(line, from, line.len));
+        put_block_line(p, line, from, to);
         empty = 0;
         end = (uint32_t)(line.ptr + line.len - p->text.ptr);
     }

@@ -123,10 +123,17 @@ static void report_duplicates(struct loader *loader, const struct named_list *li
 
 // References.
 
+enum {
+    SEARCHES_MAX = 50, // names that are looked for among all others, as many as are reported one by one
+};
+
 struct resolving {
     struct loader *loader;
     const struct ir_scene *scene;
     struct named_list *by_row; // sorted names of the scene's rows that references can mean
+    struct mend_search searches[SEARCHES_MAX];
+    uint32_t search_count;
+    struct str_map searched; // 1 + index in `searches`, by name
 };
 
 static const struct named *find(const struct named_list *list, str name) {
@@ -155,8 +162,26 @@ static void list_names(struct loader *loader, const struct named_list *list, con
                   list->count > SHOWN ? ", ..." : "");
 }
 
-static void report_unknown(struct loader *loader, const struct named_list *list, struct visit_place place,
-                           str name) {
+// What may be meant by a name that is not there. Many uses of one name cost one search, and many names no
+// more than SEARCHES_MAX: NULL.
+static const struct mend_search *search_for(struct resolving *resolving, const struct named_list *list,
+                                            str name) {
+    uint32_t *number = str_map_at(&resolving->searched, name);
+    if (*number)
+        return &resolving->searches[*number - 1];
+    if (resolving->search_count == SEARCHES_MAX)
+        return NULL;
+    struct mend_search *search = &resolving->searches[resolving->search_count++];
+    *search = mend_begin(&resolving->loader->scratch, name);
+    for (uint32_t i = 0; i < list->count; i++)
+        mend_offer_str(search, list->items[i].name, (int)i);
+    *number = resolving->search_count;
+    return search;
+}
+
+static void report_unknown(struct resolving *resolving, const struct named_list *list,
+                           struct visit_place place, str name) {
+    struct loader *loader = resolving->loader;
     struct diag_sink *sink = loader->input->sink;
     const struct schema_row *row = &place.schema->rows[place.row];
     span at = ir_place_value(&loader->output->origin, place.memory, place.schema, row->name);
@@ -164,20 +189,18 @@ static void report_unknown(struct loader *loader, const struct named_list *list,
              STR_ARG(say_text(&loader->scratch, name)));
     if (diag_is_full(sink))
         return;
-    struct mend_search search = mend_begin(&loader->scratch, name);
-    for (uint32_t i = 0; i < list->count; i++)
-        mend_offer_str(&search, list->items[i].name, (int)i);
-    if (!search.best) {
+    const struct mend_search *search = search_for(resolving, list, name);
+    if (!search || !search->best) {
         list_names(loader, list, row->child->name);
         return;
     }
-    diag_help(sink, "did you mean '%s'?", search.best);
+    diag_help(sink, "did you mean '%s'?", search->best);
     str written = source_text(loader->input->sources, at);
-    diag_fix(sink, mend_is_safe(&search), at, mend_like(&loader->scratch, written, str_from(search.best)));
+    diag_fix(sink, mend_is_safe(search), at, mend_like(&loader->scratch, written, str_from(search->best)));
 }
 
 static void resolve(void *context, struct visit_place place, struct ir_material_ref *reference) {
-    const struct resolving *resolving = context;
+    struct resolving *resolving = context;
     const struct ir_head *head = place.memory;
     if (reference->name.len == 0 || (head->poisoned & bind_bit(place.row)))
         return;
@@ -188,7 +211,7 @@ static void resolve(void *context, struct visit_place place, struct ir_material_
     // What could not be read may hold the name.
     bool incomplete = resolving->loader->incomplete || (resolving->scene->head.poisoned & bind_bit(home));
     if (!named && !incomplete)
-        report_unknown(resolving->loader, list, place, reference->name);
+        report_unknown(resolving, list, place, reference->name);
 }
 
 void names_resolve(struct loader *loader, struct ir_scene *scene) {
@@ -196,6 +219,7 @@ void names_resolve(struct loader *loader, struct ir_scene *scene) {
         .loader = loader,
         .scene = scene,
         .by_row = ARENA_ARRAY(&loader->scratch, struct named_list, SCHEMA_SCENE.row_count)};
+    str_map_init(&resolving.searched, &loader->scratch);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (row->kind != SCHEMA_LIST || row->many != SCHEMA_NAMED_MAP)

@@ -4,14 +4,23 @@
 #include <string.h>
 
 enum {
-    MARKER = 7 // equal characters, and a space or the line's end after them
+    MARKER = 7, // equal characters, and a space or the line's end after them
+    LOOK_BYTES = 512
 };
 
+// Looks no further than it must: a text may have one kind of line end only.
 static uint32_t line_end(str text, uint32_t at) {
-    const char *feed = memchr(text.ptr + at, '\n', text.len - at);
-    uint32_t end = feed ? (uint32_t)(feed - text.ptr) : (uint32_t)text.len;
-    const char *carriage = memchr(text.ptr + at, '\r', end - at);
-    return carriage ? (uint32_t)(carriage - text.ptr) : end;
+    for (;;) {
+        uint32_t most = text.len - at < LOOK_BYTES ? (uint32_t)text.len : at + LOOK_BYTES;
+        const char *feed = memchr(text.ptr + at, '\n', most - at);
+        uint32_t end = feed ? (uint32_t)(feed - text.ptr) : most;
+        const char *carriage = memchr(text.ptr + at, '\r', end - at);
+        if (carriage)
+            return (uint32_t)(carriage - text.ptr);
+        if (feed || end == text.len)
+            return end;
+        at = end;
+    }
 }
 
 static bool is_marker(str text, uint32_t at, char c) {

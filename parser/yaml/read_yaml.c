@@ -45,10 +45,12 @@ static struct properties find_properties(struct yaml_reader *r, uint32_t begin, 
             p.tag = yaml_span(r, at, stop);
             at = p.end = stop;
         } else if (c == '#') {
-            while (at < end && text.ptr[at] != '\n' && text.ptr[at] != '\r')
+            while (at < end && !str_yaml_break_length(text, at))
                 at++;
-        } else if (char_is_space(c)) {
+        } else if (char_is_blank(c)) {
             at++;
+        } else if (str_yaml_break_length(text, at)) {
+            at += (uint32_t)str_yaml_break_length(text, at);
         } else {
             p.end = at;
             break;

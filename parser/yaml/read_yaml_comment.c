@@ -11,8 +11,9 @@ static bool is_schema_line(str comment) {
     return str_starts_with(body, STR("yaml-language-server:"));
 }
 
+// Where libyaml ends a comment, too: what follows NEL, LS and PS is content.
 static uint32_t line_end(str text, uint32_t at) {
-    while (at < text.len && !char_is_break(text.ptr[at]))
+    while (at < text.len && !str_yaml_break_length(text, at))
         at++;
     return at;
 }
@@ -48,13 +49,13 @@ void yaml_gap(struct yaml_reader *r, uint32_t end) {
     uint32_t last = at;
     while (last > r->text->begin && char_is_blank(text.ptr[last - 1]))
         last--;
-    bool same_line = r->seen_token && last > r->text->begin && !char_is_break(text.ptr[last - 1]);
+    bool same_line = r->seen_token && last > r->text->begin && !str_yaml_break_before(text, last);
     while (at < end) {
         char c = text.ptr[at];
         uint32_t stop = at + 1;
         bool directive =
-            c == '%' && !r->seen_token && (at == r->text->begin || char_is_break(text.ptr[at - 1]));
-        if (char_is_break(c)) {
+            c == '%' && !r->seen_token && (at == r->text->begin || str_yaml_break_before(text, at));
+        if (str_yaml_break_length(text, at)) {
             same_line = false;
             r->line_entry = 0;
         } else if (c == '#') {

@@ -152,6 +152,10 @@ expect "and the same" 0 - - cmp a.ir c.ir
 cp good.yaml itself.yaml
 expect "convert onto itself" 2 - 'command-line:1:27: error: OUT is the same file as IN' "$glint" convert itself.yaml ./itself.yaml
 expect "which stays" 0 - - cmp good.yaml itself.yaml
+printf '<Scene glint="1">\r<!-- key\r  - {position: [9, 9, 9]} -->\r<Light><Position x="1" y="1" z="1"/></Light>\r</Scene>\r' >cr.xml
+expect "convert a comment with a carriage return" 0 '^  # - .position' - "$glint" convert cr.xml -
+"$glint" convert cr.xml cr.yaml
+expect "in which it stays one" 0 - - "$glint" diff cr.xml cr.yaml
 expect "convert what is wrong" 1 - 'E206' "$glint" convert bad.yaml bad.xml
 expect "writes nothing" 2 - '' ls bad.xml
 expect "convert into no folder" 3 - 'none/x.xml:1:1: error: cannot be written' "$glint" convert good.yaml none/x.xml

@@ -8,6 +8,19 @@ printf 'glint:  1\n# a comment\nimage: { width: 3 }\n' >loose.glint.yaml
 printf 'glint: 1\n# a comment\nimage: {width: 3}\n' >tight.yaml
 cp loose.glint.yaml kept.yaml
 expect "format --check names a file" 1 '^loose.glint.yaml$' - "$glint" format --check loose.glint.yaml tight.yaml
+mkdir -p linked elsewhere
+printf 'glint:   1\n' >elsewhere/a.glint.yaml
+cp elsewhere/a.glint.yaml linked.yaml
+ln -s ../elsewhere/a.glint.yaml linked/a.glint.yaml
+printf 'secret:   [\n' >elsewhere/secret
+ln -s ../elsewhere/secret linked/b.glint.yaml
+expect "format of a folder with links out of it" 3 - 'linked/a.glint.yaml:1:1: error: the scene file lies outside .*E602' "$glint" format linked
+expect "quotes nothing of it" 1 - - grep -q secret: err.txt
+same "and writes nothing there" elsewhere/a.glint.yaml linked.yaml
+expect "nor shows it" 3 - E602 "$glint" format --diff linked
+expect "a link that is named is formatted" 0 - - "$glint" format linked/a.glint.yaml
+expect "in its place" 0 '^glint: 1$' - cat elsewhere/a.glint.yaml
+rm -r linked elsewhere
 expect "format --check of a folder" 1 '^./loose.glint.yaml$|^loose.glint.yaml$' - "$glint" format --check .
 expect "format --check of good files" 0 - - "$glint" format --check tight.yaml
 expect "format --diff" 0 '^-glint:  1$' - "$glint" format --diff loose.glint.yaml

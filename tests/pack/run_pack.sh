@@ -79,7 +79,7 @@ printf 'glint: 1\nmodels: [{mesh: gone.obj}]\n' >gone.yaml
 expect "deps of a scene with a missing mesh" 1 'gone.yaml$' 'gone.yaml:2:17: error: .*E601' "$glint" deps gone.yaml
 expect "deps knows its formats" 2 - make "$glint" deps --format mak gone.yaml
 
-mkdir linked && printf 'max_messages: 9\n' >settings && ln -s ../settings linked/.glintrc.yaml
+mkdir -p linked/conf && printf 'max_messages: 9\n' >linked/conf/settings && ln -s conf/settings linked/.glintrc.yaml
 cp in/two/more.yaml in/two/tri.obj in/two/tri.mtl linked/
 expect "deps tells settings that are a link" 0 '/linked/\.glintrc\.yaml$' - "$glint" deps linked/more.yaml
 
@@ -168,11 +168,16 @@ if command -v make >/dev/null 2>&1; then expect "make finds every odd name" 0 fi
     echo "skip make finds every odd name: make is not installed"
 fi
 mkdir limited
-printf 'limits: {mesh-corners: 70000}\n' >limited/.glintrc.yaml
+printf 'limits: {mesh-corners: 70000}\n' >limited.yaml
 cp in/two/more.yaml in/two/tri.obj in/two/tri.mtl limited/
-expect "pack with a limit that was raised" 0 - - "$glint" pack limited/more.yaml limited.d --limit include-files=300
+expect "pack with limits that were raised" 0 - '^limited.d: needs limits that were raised: use it with --config and its limits.yaml$' \
+    "$glint" pack limited/more.yaml limited.d --limit include-files=300 --config limited.yaml
 printf 'limits:\n  include-files: 300\n  mesh-corners: 70000\n' >wanted.txt
-same "raised limits go along" limited.d/.glintrc.yaml wanted.txt
+same "raised limits go along" limited.d/limits.yaml wanted.txt
+expect "to be used by who trusts them" 0 - - "$glint" check limited.d/more.yaml --config limited.d/limits.yaml
+mv limited/more.yaml limited/limits.yaml
+expect "pack a scene called limits.yaml" 0 - 'limits-2.yaml' "$glint" pack limited/limits.yaml limited.e --limit include-files=300
+expect "both are there" 0 'include-files: 300' - cat limited.e/limits-2.yaml
 
 mkdir -p shared/a shared/b
 cp in/one/tri.obj shared/a/ && cp in/two/tri.obj shared/b/ && cp in/one/tri.mtl shared/a/ && ln -s ../a/tri.mtl shared/b/tri.mtl

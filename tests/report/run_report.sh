@@ -119,6 +119,43 @@ command -v taskset >/dev/null && taskset -c 0 "$glint" check tree 2>alone.txt
 [ ! -e alone.txt ] || ok "one processor says the same" cmp order.txt alone.txt
 "$glint" check tree $(cut -d: -f1 places.txt) >/dev/null 2>again.txt
 ok "a scene that is named twice is checked once" cmp order.txt again.txt
+# What a link leads to is read only where the scene may read it anyway; else not one word of it is shown.
+mkdir -p outside links/in/deep
+printf 'password: hunter2\nglint: [1\n' >outside/secret
+printf 'glint: 1\nspheres: [{center: [0, 0, 0]}]\n' >links/in/real.glint.yaml
+ln -s ../../outside/secret links/in/leak.glint.yaml
+ln -s ../real.glint.yaml links/in/deep/inner.glint.yaml
+"$glint" check links >links.txt 2>&1
+ok "a folder with a link to elsewhere fails" test $? -eq 3
+ok "the link is named" grep -q '^links/in/leak.glint.yaml:1:1: error: the scene file lies outside .*\[E602\]' links.txt
+ok "and not what it leads to" test "$(grep -cE 'hunter2|password|E101' links.txt)" -eq 0
+ok "a link to a scene in the folder is checked" grep -q '^links/in/deep/inner.glint.yaml:2:11: error: .*\[E204\]' links.txt
+for format in json sarif github gitlab junit; do
+    "$glint" check links --format $format >links.$format 2>&1
+    ok "nor in $format" sh -c "grep -q E602 links.$format && ! grep -qE 'hunter2|password' links.$format"
+done
+"$glint" check links --fix=all --diff >links.txt 2>&1
+ok "nor as a patch" test "$(grep -cE 'hunter2|password' links.txt)" -eq 0
+"$glint" check links/in/leak.glint.yaml >links.txt 2>&1
+ok "who names the link has it read" grep -q 'leak.glint.yaml:1:1: error: .*E805\|leak.glint.yaml:[12]:' links.txt
+"$glint" check links links/in/leak.glint.yaml >links.txt 2>&1
+ok "in a folder that is named too as well" grep -q 'leak.glint.yaml:[12]:' links.txt
+rm links/in/leak.glint.yaml
+ln -s ../outside/secret links/.glintrc.yaml
+"$glint" check links >links.txt 2>&1
+ok "settings that are a link to elsewhere are an error of usage" test $? -eq 2
+ok "which is named" grep -q '^links/.glintrc.yaml:1:1: error: the configuration is a link .*\[E602\]' links.txt
+ok "and not quoted" test "$(grep -cE 'hunter2|password' links.txt)" -eq 0
+rm links/.glintrc.yaml
+mv links/in/real.glint.yaml outside
+printf 'severity: {W401: off}\n' >settings.yaml && mv settings.yaml links/in
+ln -s in/settings.yaml links/.glintrc.yaml
+ln -sf ../../../outside/real.glint.yaml links/in/deep/inner.glint.yaml
+tells "settings may be a link to a file below" 3 'inner.glint.yaml:1:1: error: .*\[E602\]' "$glint" check links
+printf '' >.glintrc.yaml && rm links/.glintrc.yaml
+tells "below a marked root links may lead to all of it" 1 'inner.glint.yaml:2:11: error: .*\[E204\]' "$glint" check links
+rm .glintrc.yaml
+
 mkdir -p empty
 tells "a folder without scenes" 2 'command-line:1:13: error: there is no scene in the folder' "$glint" check empty
 tells "text into a file" 1 - "$glint" check tree -o text.txt
@@ -173,6 +210,37 @@ printf 'max_messages: 1\nlimits: {mesh-bytes: 3}\n' >.glintrc.yaml
 tells "limits by configuration" 1 'E501' "$glint" check w.glint.yaml
 tells "limits by option first" 0 '' "$glint" check w.glint.yaml --limit mesh-bytes=1000
 tells "max_messages by configuration" 1 '2 more messages not shown' "$glint" check bad.glint.yaml
+# Limits belong to who runs glint: what lies beside the scenes can only lower them.
+printf 'limits:\n  mesh-corners: 65537\n  scene-depth: 9\nmax_messages: 101\n' >.glintrc.yaml
+"$glint" check w.glint.yaml >limits.txt 2>&1
+ok "a limit cannot be raised beside the scenes" test $? -eq 2
+ok "which is said at its place" grep -q "^.glintrc.yaml:2:17: error: .* only lower limits, and 'mesh-corners' is 65536: .*\[E806\]" limits.txt
+ok "with what does" grep -q 'help: .*--limit mesh-corners=65537, or a settings file with --config' limits.txt
+ok "nor can the number of messages" grep -q "^.glintrc.yaml:4:15: error: .*'messages' is 100" limits.txt
+"$glint" check w.glint.yaml --format sarif >limits.sarif
+ok "reports say so too" grep -q 'only lower limits' limits.sarif
+"$glint" render w.glint.yaml -o none.png --device reference >limits.txt 2>&1
+ok "every command refuses" test $? -eq 2
+tells "the command line overrides it" 2 'messages' "$glint" check w.glint.yaml --limit mesh-corners=65538
+tells "all of it" 0 '' "$glint" check w.glint.yaml --limit mesh-corners=65538 --max-messages 102
+tells "a file that is named may raise limits" 0 '' "$glint" check w.glint.yaml --config .glintrc.yaml
+printf 'glint: 1\nx-a: &a [1, 1, 1, 1]\nx-b: [*a, *a, *a, *a]\n' >alias.glint.yaml
+printf 'limits: {alias-nodes: 15}\n' >trusted.yaml
+tells "or lower them" 1 'alias.glint.yaml:.*alias-nodes.*E501' "$glint" check alias.glint.yaml --config trusted.yaml --max-messages 1 --limit mesh-corners=65538
+rm .glintrc.yaml
+tells "options go before it" 0 - "$glint" check alias.glint.yaml --config trusted.yaml --limit alias-nodes=100
+printf 'limits: {alias-nodes: 20}\nseverity: {W401: error}\n' >trusted.yaml
+printf 'limits: {alias-nodes: 15}\nseverity: {W401: off}\n' >.glintrc.yaml
+tells "it goes before what lies beside the scenes" 0 - "$glint" check alias.glint.yaml --config trusted.yaml
+tells "in severities too" 1 'error: .*\[W401\]' "$glint" check w.glint.yaml --config trusted.yaml
+rm .glintrc.yaml
+tells "settings that are not there" 2 'none.yaml:1:1: error: the configuration does not exist' "$glint" check w.glint.yaml --config none.yaml
+printf 'limitss: {}\nlimits: {mesh-corners: 99999999}\n' >trusted.yaml
+tells "settings that are wrong" 2 "trusted.yaml:1:1: error: there is no setting 'limitss'" "$glint" check w.glint.yaml --config trusted.yaml
+tells "beyond what can be" 2 "trusted.yaml:2:24: error: 'mesh-corners' takes a whole number from 3 to 16777216" "$glint" check w.glint.yaml --config trusted.yaml
+printf 'limits: {image-bytes: 1}\n' >trusted.yaml
+tells "of a command that is not about scenes" 3 'E501' "$glint" compare "$source/tests/golden/minimal.png" "$source/tests/golden/minimal.png" --config trusted.yaml
+
 mkdir -p meshes
 mv open.obj meshes
 printf 'asset_paths: [meshes]\n' >.glintrc.yaml
@@ -229,7 +297,9 @@ agree bad 'max_messages: [1]'
 agree bad 'limits: {mesh-byte: 1}'
 agree bad 'limits: {mesh-bytes: 0}'
 agree bad 'limits: {scene-depth: 2000}'
-agree good 'limits: {scene-depth: 1024, image-memory: 1}'
+agree bad 'limits: {scene-depth: 65}'
+agree bad 'max_messages: 101'
+agree good 'limits: {scene-depth: 64, image-memory: 1}'
 agree bad 'asset_path: [x]'
 for limit in $("$glint" check --limit help | sed 's/ .*//'); do
     ok "the schema knows the limit $limit" grep -q "\"$limit\"" "$schema"
