@@ -2,10 +2,12 @@
 #include "app/pack.h"
 
 #include "core/arena.h"
+#include "core/heap.h"
 #include "files/files.h"
 #include "files/output.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <minizip/zip.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -20,21 +22,59 @@ enum {
     COMPRESSION_LEVEL = 6,
 };
 
+// Where minizip or the system lacked memory, errno says so.
 static void fail(struct pack_error *error, const char *what, const char *path) {
+    if (errno == ENOMEM)
+        heap_exhausted(0);
     snprintf(error->text, sizeof error->text, "%s '%s': %s", what, path,
              errno ? strerror(errno) : "the archive cannot be written");
 }
 
-// minizip opens and closes what core/output opened and will rename.
-static voidpf give_stream(voidpf opaque, const void *name, int mode) {
+// ---- minizip writes to what files/output opened and will rename
+
+static voidpf open_output(voidpf opaque, const void *name, int mode) {
     (void)name;
     (void)mode;
-    return ((struct output *)opaque)->stream;
+    return opaque;
+}
+
+static uLong read_nothing(voidpf opaque, voidpf stream, void *bytes, uLong count) {
+    (void)opaque;
+    (void)stream;
+    (void)bytes;
+    (void)count;
+    return 0;
+}
+
+static uLong write_output(voidpf opaque, voidpf stream, const void *bytes, uLong count) {
+    struct output *output = stream;
+    (void)opaque;
+    output_write(output, bytes, count);
+    return output->error ? 0 : count;
+}
+
+static ZPOS64_T tell_output(voidpf opaque, voidpf stream) {
+    (void)opaque;
+    return output_place(stream);
+}
+
+// minizip goes to places that it has told, from the beginning.
+static long seek_output(voidpf opaque, voidpf stream, ZPOS64_T offset, int origin) {
+    struct output *output = stream;
+    (void)opaque;
+    output_move(output, origin == ZLIB_FILEFUNC_SEEK_CUR ? output_place(output) + offset : offset);
+    return output->error || origin == ZLIB_FILEFUNC_SEEK_END ? -1 : 0;
 }
 
 static int keep_open(voidpf opaque, voidpf stream) {
     (void)opaque;
-    return fflush(stream);
+    (void)stream;
+    return 0;
+}
+
+static int error_of(voidpf opaque, voidpf stream) {
+    (void)opaque;
+    return ((const struct output *)stream)->error;
 }
 
 static bool put(zipFile zip, const char *name, str bytes) {
@@ -84,22 +124,20 @@ static bool add_file(zipFile zip, const char *folder, str target, struct pack_er
 bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out, pack_is_stopped *is_stopped,
               struct pack_error *error) {
     struct output output;
-    zlib_filefunc64_def functions;
+    zlib_filefunc64_def functions = {open_output, read_nothing, write_output, tell_output,
+                                     seek_output, keep_open,    error_of,     &output};
     if (!output_open(&output, out)) {
         errno = output.error;
         fail(error, "cannot write", out);
         return false;
     }
-    fill_fopen64_filefunc(&functions);
-    functions.zopen64_file = give_stream;
-    functions.zclose_file = keep_open;
-    functions.opaque = &output;
     errno = 0;
     zipFile zip = zipOpen2_64(out, APPEND_STATUS_CREATE, NULL, &functions);
     bool good = zip != NULL;
     for (uint32_t i = 0; good && i < plan->count; i++)
         good = !(is_stopped && is_stopped()) && add_file(zip, folder, plan->items[i].target, error);
     if (!zip || (zipClose(zip, NULL) != ZIP_OK && good)) {
+        errno = output.error ? output.error : errno;
         fail(error, "cannot write", out);
         good = false;
     }

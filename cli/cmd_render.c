@@ -8,6 +8,7 @@
 #include "grammar/ir.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 

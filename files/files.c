@@ -1,5 +1,6 @@
 #include "files/files.h"
 
+#include "core/heap.h"
 #include "core/nearest.h"
 
 #include <dirent.h>
@@ -96,6 +97,8 @@ void files_add_overlay(struct files *files, str path, str text) {
 }
 
 static enum file_status status_of_errno(struct files *files, int error) {
+    if (error == ENOMEM)
+        heap_exhausted(0);
     files->system_error = error;
     return error == ENOENT || error == ENOTDIR ? FILE_MISSING : FILE_UNREADABLE;
 }

@@ -1,7 +1,9 @@
 #include "lsp/server.h"
 
+#include "core/heap.h"
 #include "lsp/server_private.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -250,6 +252,7 @@ static bool take(struct server *server, json_t *message) {
 }
 
 int lsp_serve(int in, int out, const char *version) {
+    json_set_alloc_funcs(heap_alloc, free);
     struct server server = {.version = version, .published = json_object()};
     rpc_init(&server.rpc, in, out);
     documents_init(&server.documents);

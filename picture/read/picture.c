@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "picture/read/picture_read.h"
 
 #include "picture/read/read_hdr.h"
@@ -49,7 +50,7 @@ const char *picture_decode(str bytes, const struct picture_header *header, struc
                             .size_bytes = (uint64_t)header->width * header->height * 4 * channel_bytes,
                             .ignored = header->ignored};
     // Zeroed, so that no file can show old contents of memory.
-    void *pixels = calloc(1, (size_t)out->size_bytes);
+    void *pixels = heap_zeroed(1, (size_t)out->size_bytes);
     if (!pixels)
         return "there is not enough memory";
     const char *fault = read_pixels(bytes, header, pixels);

@@ -1,5 +1,7 @@
 #include "picture/read/read_hdr.h"
 
+#include "core/heap.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -138,7 +140,7 @@ static void decode_row(const unsigned char *row, uint32_t width, const float sca
 const char *hdr_read_pixels(str bytes, const struct picture_header *header, float *pixels) {
     const unsigned char *data = (const unsigned char *)bytes.ptr;
     struct hdr_reader reader = {data + header->data_at, data + bytes.len};
-    unsigned char *row = malloc(4 * (size_t)header->width);
+    unsigned char *row = heap_alloc(4 * (size_t)header->width);
     if (!row)
         return "there is not enough memory";
     float scale[256] = {0}; // exponent 0 is black

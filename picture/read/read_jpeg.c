@@ -1,5 +1,8 @@
 #include "picture/read/read_jpeg.h"
 
+#include "core/heap.h"
+
+#include <errno.h>
 #include <setjmp.h>
 #include <stdio.h> // which jpeglib.h needs
 #include <stdlib.h>
@@ -160,6 +163,9 @@ static const struct {
 
 _Noreturn static void on_error(j_common_ptr decoder) {
     struct job *job = decoder->client_data;
+    // The library says so of what is too large for it, too.
+    if (decoder->err->msg_code == JERR_OUT_OF_MEMORY && errno == ENOMEM)
+        heap_exhausted(0);
     job->fault = "its pixels are damaged, or some are missing";
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
         if (faults[i].code == decoder->err->msg_code)
@@ -261,6 +267,7 @@ const char *picture_jpeg_pixels(str bytes, const struct picture_header *header, 
     job.errors.error_exit = on_error;
     job.errors.emit_message = on_message;
     job.errors.output_message = on_output;
+    errno = 0;
     read_guarded(bytes, &job);
     jpeg_destroy_decompress(&job.decoder);
     return job.fault;

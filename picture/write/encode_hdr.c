@@ -1,5 +1,6 @@
 // Radiance pictures: three mantissas and a shared exponent per pixel (Ward 1991, "Real Pixels"), each row
 // as four run-length coded planes if its width allows.
+#include "core/heap.h"
 #include "picture/write/encode_parts.h"
 #include "picture/write/image.h"
 
@@ -64,7 +65,7 @@ static void put_plane(const uint8_t *plane, size_t width, struct strbuf *out) {
 
 void encode_hdr(uint32_t width, uint32_t height, const float *rgb, struct strbuf *out) {
     strbuf_format(out, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
-    uint8_t *planes = malloc((size_t)4 * width);
+    uint8_t *planes = heap_alloc((size_t)4 * width);
     if (!planes) {
         out->failed = true;
         return;

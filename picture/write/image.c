@@ -1,9 +1,11 @@
 #include "picture/write/image.h"
 
+#include "core/heap.h"
+
 #include <stdlib.h>
 
 bool image_init(struct image *image, uint32_t width, uint32_t height) {
-    *image = (struct image){width, height, calloc((size_t)width * height, 3 * sizeof *image->rgb)};
+    *image = (struct image){width, height, heap_zeroed((size_t)width * height, 3 * sizeof *image->rgb)};
     return image->rgb != NULL;
 }
 

@@ -1,4 +1,5 @@
 // Materials, lights, the background, and which features of the tracer they need.
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "core/srgb.h"
 #include "grammar/ir_features.h"
@@ -118,8 +119,8 @@ enum flatten_fault flatten_background(struct flattening *f) {
         return FLATTEN_DONE;
     }
     uint32_t greatest = picture->depth == PICTURE_8 ? UINT8_MAX : UINT16_MAX;
-    float *decoded = malloc(((size_t)greatest + 1) * sizeof *decoded);
-    float *to = malloc(count * 4 * sizeof *to);
+    float *decoded = heap_alloc(((size_t)greatest + 1) * sizeof *decoded);
+    float *to = heap_alloc(count * 4 * sizeof *to);
     if (!decoded || !to) {
         free(decoded);
         free(to);

@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <ctype.h>
@@ -116,7 +117,7 @@ static bool create_device(struct gpu *gpu) {
 
 enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, char error[GPU_ERROR_BYTES]) {
     *out = NULL;
-    struct gpu *gpu = calloc(1, sizeof *gpu);
+    struct gpu *gpu = heap_zeroed(1, sizeof *gpu);
     if (!gpu) {
         snprintf(error, GPU_ERROR_BYTES, "not enough memory");
         return GPU_NO_MEMORY;

@@ -1,4 +1,5 @@
 // What went wrong on a device: the status and the words of the call that failed last.
+#include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <stdarg.h>
@@ -15,6 +16,8 @@ void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...) 
 bool gpu_check(struct gpu *gpu, VkResult result, const char *call) {
     if (result >= VK_SUCCESS)
         return true;
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        heap_exhausted(0);
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
         gpu_fail(gpu, GPU_NO_MEMORY, "%s: not enough memory on %s", call, gpu->info.name);
     else if (result == VK_ERROR_DEVICE_LOST)

@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <stdio.h>
@@ -22,7 +23,7 @@ static bool has_validation(void) {
     uint32_t count = 0;
     if (vkEnumerateInstanceLayerProperties(&count, NULL) != VK_SUCCESS || count == 0)
         return false;
-    VkLayerProperties *layers = calloc(count, sizeof *layers);
+    VkLayerProperties *layers = heap_zeroed(count, sizeof *layers);
     bool found = false;
     if (layers && vkEnumerateInstanceLayerProperties(&count, layers) >= VK_SUCCESS)
         for (uint32_t i = 0; i < count; i++)
@@ -60,6 +61,8 @@ enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gp
                                    .enabledExtensionCount = layered && messages,
                                    .ppEnabledExtensionNames = extensions};
     VkResult result = vkCreateInstance(&create, NULL, &out->handle);
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        heap_exhausted(0);
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
         snprintf(error, GPU_ERROR_BYTES, "not enough memory to start Vulkan");
         return GPU_NO_MEMORY;
@@ -150,8 +153,8 @@ uint32_t gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDev
     uint32_t count = 0, usable = 0;
     if (vkEnumeratePhysicalDevices(instance->handle, &count, NULL) != VK_SUCCESS || count == 0)
         return 0;
-    *handles = calloc(count, sizeof **handles);
-    *infos = calloc(count, sizeof **infos);
+    *handles = heap_zeroed(count, sizeof **handles);
+    *infos = heap_zeroed(count, sizeof **infos);
     if (!*handles || !*infos || vkEnumeratePhysicalDevices(instance->handle, &count, *handles) < VK_SUCCESS)
         return 0;
     for (uint32_t i = 0; i < count; i++) {

@@ -1,0 +1,94 @@
+#define _GNU_SOURCE // syscall, DT_DIR; getdents64 needs no memory, opendir does
+
+#include "files/temporary.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+enum {
+    LIST_BYTES = 4096,
+    DEPTH_MAX = 64, // as deep as folders of scenes are followed
+};
+
+// The list belongs to the process, as the files do.
+static struct temporary *noted;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+void temporary_note(struct temporary *entry, const char *path) {
+    pthread_mutex_lock(&lock);
+    *entry = (struct temporary){path, noted};
+    noted = entry;
+    pthread_mutex_unlock(&lock);
+}
+
+void temporary_forget(struct temporary *entry) {
+    pthread_mutex_lock(&lock);
+    for (struct temporary **at = &noted; *at; at = &(*at)->next)
+        if (*at == entry) {
+            *at = entry->next;
+            break;
+        }
+    pthread_mutex_unlock(&lock);
+}
+
+// As the system writes it (getdents64(2)).
+struct listed {
+    uint64_t inode;
+    int64_t offset;
+    unsigned short length;
+    unsigned char type;
+    char name[];
+};
+
+static void remove_at(int folder, const char *name, int depth);
+
+// What is removed moves the rest of the folder's list, which is therefore read from its beginning each time.
+static void empty(int folder, int depth) {
+    _Alignas(struct listed) char list[LIST_BYTES];
+    for (;;) {
+        bool removed = false;
+        if (lseek(folder, 0, SEEK_SET) != 0)
+            return;
+        long bytes = syscall(SYS_getdents64, folder, list, sizeof list);
+        for (long at = 0; at < bytes;) {
+            const struct listed *entry = (const struct listed *)(list + at);
+            at += entry->length;
+            if (strcmp(entry->name, ".") == 0 || strcmp(entry->name, "..") == 0)
+                continue;
+            remove_at(folder, entry->name, depth + 1);
+            removed |= faccessat(folder, entry->name, F_OK, AT_SYMLINK_NOFOLLOW) != 0;
+        }
+        if (!removed)
+            return;
+    }
+}
+
+static void remove_at(int folder, const char *name, int depth) {
+    if (unlinkat(folder, name, 0) == 0 || (errno != EISDIR && errno != EPERM) || depth > DEPTH_MAX)
+        return;
+    int inside = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (inside < 0)
+        return;
+    empty(inside, depth);
+    close(inside);
+    unlinkat(folder, name, AT_REMOVEDIR);
+}
+
+void temporary_remove(const char *path) {
+    remove_at(AT_FDCWD, path, 0);
+}
+
+void temporary_remove_all(void) {
+    pthread_mutex_lock(&lock);
+    for (const struct temporary *entry = noted; entry; entry = entry->next)
+        temporary_remove(entry->path);
+    noted = NULL;
+    pthread_mutex_unlock(&lock);
+}
