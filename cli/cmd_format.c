@@ -100,7 +100,8 @@ static void format_file(struct formatter *f, const char *path) {
 static void format_folder(struct formatter *f, const char *path) {
     struct files_found found = {.arena = &f->cli->arena, .endings = endings};
     if (files_walk(&found, str_from(path)) != FILE_OK) {
-        cli_error(f->cli, DIAG_FILE_UNREADABLE, path, NULL, "the folder cannot be read: %s", strerror(errno));
+        cli_error(f->cli, DIAG_FILE_UNREADABLE, found.unreadable.ptr, NULL, "the folder cannot be read: %s",
+                  strerror(errno));
         worsen(f, CLI_FILE);
     }
     for (uint32_t i = 0; i < found.paths.count; i++)

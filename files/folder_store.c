@@ -1,9 +1,9 @@
 #include "files/folder_store.h"
 
 #include "core/heap.h"
+#include "files/folder.h"
 #include "files/output.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -109,7 +109,7 @@ static int compare_entries(const void *a, const void *b) {
 static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total) {
     size_t count = 0;
     uint32_t capacity = 0;
-    for (struct dirent *item = readdir(folder); item; item = readdir(folder)) {
+    for (struct dirent *item = folder_next(folder); item; item = folder_next(folder)) {
         struct stat info;
         if (fstatat(dirfd(folder), item->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(info.st_mode))
             continue;
@@ -128,7 +128,7 @@ static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total)
 }
 
 static void evict(const struct folder_store *store) {
-    DIR *folder = opendir(store->path);
+    DIR *folder = folder_open(store->path);
     struct entry *entries = NULL;
     uint64_t total = 0;
     if (!folder)
