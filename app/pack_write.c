@@ -159,6 +159,14 @@ static bool compare(struct session *session, struct session *packed, const struc
     return same;
 }
 
+// The system's fault, and not the package's. NULL: there is none.
+static const struct diag *what_is_unreadable(const struct session *packed) {
+    for (uint32_t i = 0; i < packed->sink.count; i++)
+        if (packed->sink.items[i].code == DIAG_FILE_UNREADABLE)
+            return &packed->sink.items[i];
+    return NULL;
+}
+
 // Loads the package from its folder and compares it with what was packed.
 static bool verify(struct session *session, const struct pack_plan *plan, const char *folder,
                    struct pack_error *error) {
@@ -173,10 +181,14 @@ static bool verify(struct session *session, const struct pack_plan *plan, const 
         .path = str_from(path), .limits = limits_default(), .skip_pixels = true};
     session_load(&packed, &options, store);
     bool same = compare(session, &packed, plan, folder);
+    const struct diag *unread = same ? NULL : what_is_unreadable(&packed);
+    if (unread)
+        fail(error, "the package cannot be read back: %.*s", STR_ARG(unread->message));
     session_finish(&packed);
     asset_store_destroy(store);
-    return same || fail(error, "a path in the scene is written in a way that cannot be changed in place; "
-                               "write each path on one line, without a YAML tag or a block");
+    return same ||
+           (!unread && fail(error, "a path in the scene is written in a way that cannot be changed in place; "
+                                   "write each path on one line, without a YAML tag or a block"));
 }
 
 // ---- all
@@ -247,8 +259,9 @@ enum pack_status pack_write(struct session *session, const struct pack_plan *pla
     if (good && !stopped)
         good = zips ? pack_zip(plan, folder, out, is_stopped, error) : name_folder(folder, out, error);
     stopped = stopped || (!good && is_stopped && is_stopped());
-    if (!good || stopped || zips)
-        temporary_remove(folder);
+    bool removed = (good && !stopped && !zips) || temporary_remove(folder);
+    if (!removed && good)
+        good = fail(error, "the temporary folder '%s' cannot be removed: %s", folder, strerror(errno));
     temporary_forget(&entry);
     if (stopped)
         return PACK_STOPPED;

@@ -7,9 +7,9 @@
 #include "files/output.h"
 
 #include <errno.h>
-#include <stdio.h>
 #include <minizip/zip.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,11 +23,12 @@ enum {
 };
 
 // Where minizip or the system lacked memory, errno says so.
-static void fail(struct pack_error *error, const char *what, const char *path) {
-    if (errno == ENOMEM)
+static void fail(struct pack_error *error, const struct output *output, const char *what, const char *path) {
+    int reason = output->error ? output->error : errno;
+    if (reason == ENOMEM)
         heap_exhausted(0);
     snprintf(error->text, sizeof error->text, "%s '%s': %s", what, path,
-             errno ? strerror(errno) : "the archive cannot be written");
+             reason ? strerror(reason) : "the archive cannot be written");
 }
 
 // ---- minizip writes to what files/output opened and will rename
@@ -93,9 +94,11 @@ static bool put(zipFile zip, const char *name, str bytes) {
 
 struct packing {
     zipFile zip;
+    struct output *output;
     const char *folder;
     str target;
     struct arena arena;
+    struct pack_error *error;
     bool good;
 };
 
@@ -105,18 +108,24 @@ static void read_and_put(void *context) {
     str bytes;
     str path = arena_format(&p->arena, "%s/%.*s", p->folder, STR_ARG(p->target));
     files_init(&files, &p->arena);
+    enum file_status status = files_read(&files, path, UINT64_MAX / 4, &p->arena, &bytes);
+    if (status != FILE_OK) {
+        snprintf(p->error->text, sizeof p->error->text, "'%s' %s", path.ptr,
+                 file_status_text(&files, status));
+        return;
+    }
     errno = 0;
-    p->good = files_read(&files, path, UINT64_MAX / 4, &p->arena, &bytes) == FILE_OK &&
-              put(p->zip, arena_copy(&p->arena, p->target).ptr, bytes);
+    p->good = put(p->zip, arena_copy(&p->arena, p->target).ptr, bytes);
+    if (!p->good)
+        fail(p->error, p->output, "cannot pack", path.ptr);
 }
 
-static bool add_file(zipFile zip, const char *folder, str target, struct pack_error *error) {
-    struct packing packing = {.zip = zip, .folder = folder, .target = target};
+static bool add_file(struct packing packing) {
     arena_init(&packing.arena, SIZE_MAX / 2);
-    errno = ENOMEM;
-    arena_guarded(&packing.arena, read_and_put, &packing);
-    if (!packing.good)
-        fail(error, "cannot pack", folder);
+    if (arena_guarded(&packing.arena, read_and_put, &packing) != ARENA_FAULT_NONE) {
+        errno = ENOMEM;
+        fail(packing.error, packing.output, "cannot pack", packing.folder);
+    }
     arena_finish(&packing.arena);
     return packing.good;
 }
@@ -127,25 +136,26 @@ bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out,
     zlib_filefunc64_def functions = {open_output, read_nothing, write_output, tell_output,
                                      seek_output, keep_open,    error_of,     &output};
     if (!output_open(&output, out)) {
-        errno = output.error;
-        fail(error, "cannot write", out);
+        fail(error, &output, "cannot write", out);
         return false;
     }
     errno = 0;
     zipFile zip = zipOpen2_64(out, APPEND_STATUS_CREATE, NULL, &functions);
     bool good = zip != NULL;
     for (uint32_t i = 0; good && i < plan->count; i++)
-        good = !(is_stopped && is_stopped()) && add_file(zip, folder, plan->items[i].target, error);
+        good = !(is_stopped && is_stopped()) && add_file((struct packing){.zip = zip,
+                                                                          .output = &output,
+                                                                          .folder = folder,
+                                                                          .target = plan->items[i].target,
+                                                                          .error = error});
     if (!zip || (zipClose(zip, NULL) != ZIP_OK && good)) {
-        errno = output.error ? output.error : errno;
-        fail(error, "cannot write", out);
+        fail(error, &output, "cannot write", out);
         good = false;
     }
     if (!good) {
         output_abandon(&output);
     } else if (!output_commit(&output)) {
-        errno = output.error;
-        fail(error, "cannot write", out);
+        fail(error, &output, "cannot write", out);
         good = false;
     }
     return good;

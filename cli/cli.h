@@ -68,6 +68,7 @@ struct cli {
     struct diag_sink sink;     // of the command line itself
     uint32_t *arg_begin;       // byte offset of each argument in the command line's text
     bool color;                // standard error accepts colours
+    bool stuck;                // a device may still be at work
     struct cli_options options;
     char **operands; // what is left after the options
     int operand_count;

@@ -175,7 +175,7 @@ int cmd_render(struct cli *cli) {
         status = run_job(&job, store);
     shot_close(&job.shot);
     image_finish(&job.image);
-    gpu_destroy(job.gpu);
+    cli_close_device(cli, job.gpu);
     session_finish(&job.session);
     asset_store_destroy(store);
     return status;

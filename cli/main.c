@@ -285,5 +285,9 @@ int main(int argc, char **argv) {
         cli_print_sink(&cli, &cli.sink);
     diag_sink_finish(&cli.sink);
     arena_finish(&cli.arena);
+    // What a driver does at the end of the process would pull the memory from under its own threads. All that
+    // was written is written: standard output and error are not buffered.
+    if (cli.stuck)
+        _exit(status);
     return status;
 }

@@ -47,42 +47,41 @@ struct listed {
     char name[];
 };
 
-static void remove_at(int folder, const char *name, int depth);
+static bool remove_at(int folder, const char *name, int depth);
 
-// What is removed moves the rest of the folder's list, which is therefore read from its beginning each time.
-static void empty(int folder, int depth) {
+// Removes what one reading of the list shows. true: something was there, and is gone.
+static bool empty(int folder, int depth) {
     _Alignas(struct listed) char list[LIST_BYTES];
-    for (;;) {
-        bool removed = false;
-        if (lseek(folder, 0, SEEK_SET) != 0)
-            return;
-        long bytes = syscall(SYS_getdents64, folder, list, sizeof list);
-        for (long at = 0; at < bytes;) {
-            const struct listed *entry = (const struct listed *)(list + at);
-            at += entry->length;
-            if (strcmp(entry->name, ".") == 0 || strcmp(entry->name, "..") == 0)
-                continue;
-            remove_at(folder, entry->name, depth + 1);
-            removed |= faccessat(folder, entry->name, F_OK, AT_SYMLINK_NOFOLLOW) != 0;
-        }
-        if (!removed)
-            return;
+    bool removed = false;
+    long bytes = syscall(SYS_getdents64, folder, list, sizeof list);
+    for (long at = 0; at < bytes;) {
+        const struct listed *entry = (const struct listed *)(list + at);
+        at += entry->length;
+        if (strcmp(entry->name, ".") != 0 && strcmp(entry->name, "..") != 0)
+            removed |= remove_at(folder, entry->name, depth + 1);
     }
+    return removed;
 }
 
-static void remove_at(int folder, const char *name, int depth) {
-    if (unlinkat(folder, name, 0) == 0 || (errno != EISDIR && errno != EPERM) || depth > DEPTH_MAX)
-        return;
-    int inside = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (inside < 0)
-        return;
-    empty(inside, depth);
-    close(inside);
-    unlinkat(folder, name, AT_REMOVEDIR);
+// What is removed moves the rest of the folder's list: it is opened and read again until nothing more goes.
+static bool remove_at(int folder, const char *name, int depth) {
+    if (unlinkat(folder, name, 0) == 0)
+        return true;
+    bool more = (errno == EISDIR || errno == EPERM) && depth <= DEPTH_MAX;
+    while (more) {
+        int inside = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        if (inside < 0 && errno == EINTR)
+            continue;
+        if (inside < 0)
+            return false;
+        more = empty(inside, depth);
+        close(inside);
+    }
+    return unlinkat(folder, name, AT_REMOVEDIR) == 0;
 }
 
-void temporary_remove(const char *path) {
-    remove_at(AT_FDCWD, path, 0);
+bool temporary_remove(const char *path) {
+    return remove_at(AT_FDCWD, path, 0) || errno == ENOENT;
 }
 
 void temporary_remove_all(void) {

@@ -251,7 +251,7 @@ static bool take(struct server *server, json_t *message) {
     return true;
 }
 
-int lsp_serve(int in, int out, const char *version) {
+int lsp_serve(int in, int out, const char *version, struct lsp_fault *fault) {
     json_set_alloc_funcs(heap_alloc, free);
     struct server server = {.version = version, .published = json_object()};
     rpc_init(&server.rpc, in, out);
@@ -276,6 +276,7 @@ int lsp_serve(int in, int out, const char *version) {
     json_decref(server.published);
     server_forget(&server);
     position_index_finish(&server.index);
+    *fault = (struct lsp_fault){server.rpc.error, server.rpc.input_failed};
     rpc_finish(&server.rpc);
     return server.shut_down ? 0 : 1;
 }

@@ -8,8 +8,16 @@
 #ifndef GLINT_LSP_SERVER_H
 #define GLINT_LSP_SERVER_H
 
-// Serves until the client says `exit` or hangs up. The exit status that the protocol asks for: 0 after
-// `shutdown`, else 1.
-int lsp_serve(int in, int out, const char *version);
+#include <stdbool.h>
+
+// Why a stream of the server could not be read or written.
+struct lsp_fault {
+    int error;     // an errno; 0: there was none
+    bool is_input; // else the output
+};
+
+// Serves until the client says `exit` or hangs up, or a stream fails. The exit status that the protocol asks
+// for: 0 after `shutdown`, else 1.
+int lsp_serve(int in, int out, const char *version, struct lsp_fault *fault);
 
 #endif

@@ -22,10 +22,14 @@ static bool is_equal(const struct bytes *a, const struct bytes *b) {
     return a->size == b->size && is_start(a, a->size, b);
 }
 
-// Standard output: nothing, all of it, or whole messages.
-static bool is_whole(const struct task *task, const struct bytes *got, const struct bytes *wanted) {
+// Standard output: nothing, all of it, or whole messages. What cannot read a file may say what it knows:
+// whole lines.
+static bool is_whole(const struct task *task, const struct faults *plan, const struct bytes *got,
+                     const struct bytes *wanted) {
     if (got->size == 0 || is_equal(got, wanted) || task->marks & TIMED)
         return true;
+    if (plan->kind == FAULTS_FILES)
+        return task->marks & LSP || got->data[got->size - 1] == '\n';
     return task->marks & LSP && is_start(got, got->size, wanted) &&
            strncmp(wanted->data + got->size, "Content-Length", 14) == 0;
 }
@@ -49,11 +53,39 @@ static bool says_memory(const struct outcome *good, const struct outcome *outcom
     return strncmp(text->data + line, message, sizeof message - 1) == 0 && is_start(text, line, &good->error);
 }
 
+// The text without the lines that only help: a hint that is looked for in a folder is not a finding.
+static size_t next_line(const struct bytes *text, size_t at) {
+    static const char help[] = "       = help: ";
+    for (;;) {
+        size_t end = at + strcspn(text->data + at, "\n") + 1;
+        if (end > text->size || strncmp(text->data + at, help, sizeof help - 1) != 0)
+            return at;
+        at = end;
+    }
+}
+
+static bool is_equal_without_help(const struct bytes *a, const struct bytes *b) {
+    size_t at = next_line(a, 0), other = next_line(b, 0);
+    while (at < a->size && other < b->size) {
+        size_t length = strcspn(a->data + at, "\n") + 1;
+        if (strncmp(a->data + at, b->data + other, length) != 0)
+            return false;
+        at = next_line(a, at + length);
+        other = next_line(b, other + length);
+    }
+    return at >= a->size && other >= b->size;
+}
+
+static bool is_of_folder(const struct outcome *outcome) {
+    return strcmp(outcome->call, "opendir") == 0 || strcmp(outcome->call, "readdir") == 0;
+}
+
 static bool is_same(const struct task *task, const struct outcome *good, const struct outcome *outcome,
                     bool silenced) {
     bool timed = task->marks & TIMED;
     return outcome->status == good->status && (timed || is_equal(&outcome->out, &good->out)) &&
-           (silenced || is_equal(&outcome->error, &good->error)) &&
+           (silenced || is_equal(&outcome->error, &good->error) ||
+            (is_of_folder(outcome) && is_equal_without_help(&outcome->error, &good->error))) &&
            (timed || is_equal(&outcome->folder, &good->folder));
 }
 
@@ -63,6 +95,15 @@ static bool ends_with(const struct outcome *outcome, int status) {
 
 static bool has(const struct outcome *outcome, const char *text) {
     return strstr(outcome->error.data, text) != NULL;
+}
+
+// A report is whole and tells the error itself.
+static bool reports_file(const struct task *task, const struct faults *plan, const struct outcome *outcome) {
+    static const char end[] = "}\n";
+    const struct bytes *report = &outcome->report;
+    return task->marks & REPORT && report->size > sizeof end &&
+           strcmp(report->data + report->size - sizeof end + 1, end) == 0 &&
+           strstr(report->data, strerror(plan->error)) != NULL;
 }
 
 // The system's words for the error; a stream that cannot be written cannot say why.
@@ -86,9 +127,11 @@ enum verdict judge(const struct stage *stage, const struct task *task, const str
         return VERDICT_CRASH;
     if (is_same(task, good, outcome, silenced))
         return VERDICT_SAME;
+    if (plan->kind == FAULTS_FILES && reports_file(task, plan, outcome))
+        return VERDICT_TOLD;
     if (is_torn(stage, task, good, outcome))
         return VERDICT_TORN;
-    bool whole = cut || is_whole(task, &outcome->out, &good->out);
+    bool whole = cut || is_whole(task, plan, &outcome->out, &good->out);
     bool memory = plan->kind == FAULTS_MEMORY || (plan->kind == FAULTS_VULKAN && plan->error == HOST_MEMORY);
     if (memory && whole && ends_with(outcome, EXIT_FILE) && says_memory(good, outcome))
         return VERDICT_MEMORY;

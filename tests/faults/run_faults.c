@@ -16,8 +16,8 @@
 #include <vulkan/vulkan_core.h>
 
 enum {
-    SPREAD_RUNS = 12,  // faults of one kind in a task that takes long
-    SHOWN_MOST = 100,    // bad outcomes of a task that are shown
+    SPREAD_RUNS = 12,   // faults of one kind in a task that takes long
+    SHOWN_MOST = 100,   // bad outcomes of a task that are shown
     SHOWN_BYTES = 6000, // of the standard error
     EXIT_NO_DEVICE = 4,
     EXIT_SKIPPED = 77,
@@ -89,7 +89,7 @@ static uint32_t count(struct trial *t, struct faults plan) {
 }
 
 // Every call, or the first few and a spread of the rest.
-static uint32_t after(const struct trial *t, uint32_t number, uint32_t most, bool all) {
+static uint32_t after(uint32_t number, uint32_t most, bool all) {
     all = all || most <= SPREAD_RUNS;
     return number + (all || number < SPREAD_RUNS / 3 ? 1 : most / (SPREAD_RUNS - SPREAD_RUNS / 3) + 1);
 }
@@ -99,10 +99,10 @@ static uint32_t after(const struct trial *t, uint32_t number, uint32_t most, boo
 static void try_all(struct trial *t, struct faults plan, bool onward) {
     const bool all = t->whole || !(t->task->marks & SPREAD);
     const uint32_t most = count(t, plan);
-    for (plan.number = 1; plan.number <= most; plan.number = after(t, plan.number, most, all))
+    for (plan.number = 1; plan.number <= most; plan.number = after(plan.number, most, all))
         try(t, &plan);
     plan.onward = true;
-    for (plan.number = 1; onward && plan.number <= most; plan.number = after(t, plan.number, most, t->whole))
+    for (plan.number = 1; onward && plan.number <= most; plan.number = after(plan.number, most, t->whole))
         try(t, &plan);
 }
 

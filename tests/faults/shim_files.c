@@ -51,14 +51,6 @@ EXPORTED int open64(const char *path, int flags, ...) {
     return STRIKES(flags & O_CREAT ? "open to write" : "open") ? -1 : NEXT(open64)(path, flags, mode);
 }
 
-EXPORTED int openat64(int folder, const char *path, int flags, ...) {
-    va_list args;
-    va_start(args, flags);
-    mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(args, mode_t) : 0;
-    va_end(args);
-    return STRIKES("openat") ? -1 : NEXT(openat64)(folder, path, flags, mode);
-}
-
 EXPORTED ssize_t read(int fd, void *bytes, size_t count) {
     char text[32];
     if (strikes(with_descriptor(text, sizeof text, "read", fd), __builtin_return_address(0), count > 1)) {

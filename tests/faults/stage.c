@@ -143,6 +143,12 @@ static struct faults *share(const struct stage *stage, const struct faults *plan
     return shared;
 }
 
+static struct bytes read_report(const struct stage *stage) {
+    char path[PATH_BYTES];
+    snprintf(path, sizeof path, "%s/report.sarif", stage->folder);
+    return access(path, F_OK) == 0 ? read_whole(path) : (struct bytes){0};
+}
+
 struct outcome stage_run(const struct stage *stage, const struct task *task, const struct faults *plan) {
     struct faults *shared = share(stage, plan);
     struct outcome outcome = {0};
@@ -158,6 +164,8 @@ struct outcome stage_run(const struct stage *stage, const struct task *task, con
     outcome.out = read_whole(beside(stage, "out"));
     outcome.error = read_whole(beside(stage, "error"));
     outcome.folder = tell_folder(stage->folder);
+    if (task->marks & REPORT)
+        outcome.report = read_report(stage);
     return outcome;
 }
 
@@ -165,5 +173,6 @@ void outcome_finish(struct outcome *outcome) {
     free(outcome->out.data);
     free(outcome->error.data);
     free(outcome->folder.data);
+    free(outcome->report.data);
     *outcome = (struct outcome){0};
 }

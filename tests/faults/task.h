@@ -10,12 +10,13 @@
 #include <stddef.h>
 
 enum task_mark {
-    PARTS = 1,  // writes several files, each of which is whole or as it was
-    TIMED = 2,  // what it reports depends on time: only its exit status and its errors are compared
-    LSP = 4,    // its standard input is session.lsp, as messages
-    STREAM = 8, // its standard input is messy.glint.yaml
-    CACHE = 16, // uses the reference's cache, which is empty before
-    SPREAD = 32 // one run takes long: the suite's run makes only a spread of its calls fail
+    PARTS = 1,   // writes several files, each of which is whole or as it was
+    TIMED = 2,   // what it reports depends on time: only its exit status and its errors are compared
+    LSP = 4,     // its standard input is session.lsp, as messages
+    STREAM = 8,  // its standard input is messy.glint.yaml
+    CACHE = 16,  // uses the reference's cache, which is empty before
+    REPORT = 64, // writes report.sarif
+    SPREAD = 32  // one run takes long: the suite's run makes only a spread of its calls fail
 };
 
 enum {
@@ -40,6 +41,7 @@ struct bytes {
 struct outcome {
     int status; // as waitpid gives it
     struct bytes out, error;
+    struct bytes report; // of a task with that mark
     struct bytes folder; // what the folder holds: a line for each file
     uint32_t seen, failed;
     char call[64];

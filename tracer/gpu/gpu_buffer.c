@@ -135,6 +135,7 @@ failed:
 void gpu_buffer_destroy(struct gpu *gpu, struct gpu_buffer *buffer) {
     if (!buffer)
         return;
+    gpu_wait(gpu, NULL);
     gpu->vk.vkDestroyBufferView(gpu->device, buffer->view, NULL);
     gpu->vk.vkDestroyBuffer(gpu->device, buffer->buffer, NULL);
     gpu->vk.vkFreeMemory(gpu->device, buffer->memory, NULL);

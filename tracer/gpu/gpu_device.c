@@ -140,11 +140,11 @@ enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, 
     return status;
 }
 
-void gpu_destroy(struct gpu *gpu) {
+bool gpu_destroy(struct gpu *gpu) {
     if (!gpu)
-        return;
+        return true;
     if (gpu->device) {
-        gpu->vk.vkDeviceWaitIdle(gpu->device);
+        gpu_settle(gpu);
         gpu_buffer_destroy(gpu, gpu->staging);
         gpu->vk.vkDestroyPipelineCache(gpu->device, gpu->cache, NULL);
         gpu->vk.vkDestroyQueryPool(gpu->device, gpu->queries, NULL);
@@ -152,8 +152,11 @@ void gpu_destroy(struct gpu *gpu) {
         gpu->vk.vkDestroyCommandPool(gpu->device, gpu->pool, NULL);
         gpu->vk.vkDestroyDevice(gpu->device, NULL);
     }
-    gpu_instance_finish(&gpu->instance);
+    const bool rests = !gpu->stuck;
+    if (rests)
+        gpu_instance_finish(&gpu->instance);
     free(gpu);
+    return rests;
 }
 
 const struct gpu_device_info *gpu_info(const struct gpu *gpu) {

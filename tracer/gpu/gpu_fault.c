@@ -27,6 +27,49 @@ bool gpu_check(struct gpu *gpu, VkResult result, const char *call) {
     return false;
 }
 
+// ---- what is kept
+
+#define EACH_OBJECT(X)                                                                                       \
+    X(vkDestroyBuffer, VkBuffer)                                                                             \
+    X(vkDestroyBufferView, VkBufferView)                                                                     \
+    X(vkFreeMemory, VkDeviceMemory)                                                                          \
+    X(vkDestroyShaderModule, VkShaderModule)                                                                 \
+    X(vkDestroyPipeline, VkPipeline)                                                                         \
+    X(vkDestroyPipelineLayout, VkPipelineLayout)                                                             \
+    X(vkDestroyPipelineCache, VkPipelineCache)                                                               \
+    X(vkDestroyDescriptorPool, VkDescriptorPool)                                                             \
+    X(vkDestroyDescriptorSetLayout, VkDescriptorSetLayout)                                                   \
+    X(vkDestroyQueryPool, VkQueryPool)                                                                       \
+    X(vkDestroyFence, VkFence)                                                                               \
+    X(vkDestroyCommandPool, VkCommandPool)
+
+#define KEEP(call, type)                                                                                     \
+    static VKAPI_ATTR void VKAPI_CALL keep_##call(VkDevice device, type object,                              \
+                                                  const VkAllocationCallbacks *memory) {                     \
+        (void)device;                                                                                        \
+        (void)object;                                                                                        \
+        (void)memory;                                                                                        \
+    }
+EACH_OBJECT(KEEP)
+
+static VKAPI_ATTR void VKAPI_CALL keep_device(VkDevice device, const VkAllocationCallbacks *memory) {
+    (void)device;
+    (void)memory;
+}
+
+// Whoever destroys something asks this table for the function.
+static void keep_all(struct gpu *gpu) {
+#define EXCHANGE(call, type) gpu->vk.call = keep_##call;
+    EACH_OBJECT(EXCHANGE)
+    gpu->vk.vkDestroyDevice = keep_device;
+    gpu->stuck = true;
+}
+
+void gpu_settle(struct gpu *gpu) {
+    if (!gpu->stuck && gpu->vk.vkDeviceWaitIdle(gpu->device) != VK_SUCCESS)
+        keep_all(gpu);
+}
+
 const char *gpu_error(const struct gpu *gpu) {
     return gpu->error;
 }

@@ -33,6 +33,7 @@ struct gpu {
     VkQueryPool queries; // 0: first start, 1: last end
     VkPipelineCache cache;
     bool recording, submitted, timed;
+    bool stuck;                 // what was submitted may run for ever: all that it uses is kept
     uint32_t recorded;          // dispatches since the recording began
     struct gpu_buffer *staging; // grown as needed; NULL at first
     enum gpu_status status;
@@ -73,6 +74,9 @@ uint32_t gpu_compute_family(VkPhysicalDevice physical);
 bool gpu_check(struct gpu *gpu, VkResult result, const char *call);
 void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+// After a failure with work in flight: waits until the device does nothing more. Where that fails too,
+// nothing that the work may use is destroyed from then on; the end of the process frees it.
+void gpu_settle(struct gpu *gpu);
 
 // ---- gpu_run.c
 
