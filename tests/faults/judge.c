@@ -112,6 +112,13 @@ static bool tells_file(const struct faults *plan, const struct outcome *outcome,
     return status >= 1 && status <= EXIT_DEVICE && (silenced || has(outcome, strerror(plan->error)));
 }
 
+// The language server tells a file that cannot be read as a finding, and offers no names of a folder that
+// cannot.
+static bool serves_on(const struct faults *plan, const struct outcome *good, const struct outcome *outcome) {
+    return outcome->status == good->status && outcome->error.size == 0 &&
+           (is_of_folder(outcome) || strstr(outcome->out.data, strerror(plan->error)));
+}
+
 // The call, or what it was for.
 static bool tells_device(const struct faults *plan, const struct outcome *outcome) {
     (void)plan;
@@ -127,6 +134,8 @@ enum verdict judge(const struct stage *stage, const struct task *task, const str
         return VERDICT_CRASH;
     if (is_same(task, good, outcome, silenced))
         return VERDICT_SAME;
+    if (plan->kind == FAULTS_FILES && task->marks & LSP && serves_on(plan, good, outcome))
+        return VERDICT_TOLD;
     if (plan->kind == FAULTS_FILES && reports_file(task, plan, outcome))
         return VERDICT_TOLD;
     if (is_torn(stage, task, good, outcome))
