@@ -20,6 +20,7 @@ enum {
     FILE_MODE = 0100644,        // regular file
     LARGE_BYTES = 0x7fffffff,   // from here on ZIP64
     COMPRESSION_LEVEL = 6,
+    ENTRY_BYTES = 46 + 32, // of an entry in the archive's directory (APPNOTE 4.3.12), and what minizip adds
 };
 
 // Where minizip or the system lacked memory, errno says so.
@@ -78,11 +79,20 @@ static int error_of(voidpf opaque, voidpf stream) {
     return ((const struct output *)stream)->error;
 }
 
+// minizip does not look at whether it got memory for the header of an entry. What was freed last is given
+// again where as much is asked for.
+static bool has_room(const char *name) {
+    void *room = heap_alloc(ENTRY_BYTES + strlen(name));
+    free(room);
+    return room != NULL;
+}
+
 static bool put(zipFile zip, const char *name, str bytes) {
     zip_fileinfo info = {.tmz_date = {.tm_mday = 1, .tm_mon = 0, .tm_year = 1980},
                          .external_fa = (uLong)FILE_MODE << 16};
     bool large = bytes.len >= LARGE_BYTES;
-    bool good = zipOpenNewFileInZip4_64(zip, name, &info, NULL, 0, NULL, 0, NULL, Z_DEFLATED,
+    bool good = has_room(name) &&
+                zipOpenNewFileInZip4_64(zip, name, &info, NULL, 0, NULL, 0, NULL, Z_DEFLATED,
                                         COMPRESSION_LEVEL, 0, -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY,
                                         NULL, 0, MADE_BY_UNIX, NAMES_ARE_UTF8, large) == ZIP_OK;
     for (size_t at = 0; good && at < bytes.len; at += CHUNK_BYTES) {

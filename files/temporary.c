@@ -4,7 +4,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <pthread.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,23 +19,33 @@ enum {
 
 // The list belongs to the process, as the files do.
 static struct temporary *noted;
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static atomic_flag locked = ATOMIC_FLAG_INIT;
+
+// Held for a few steps, or until the program ends; no memory is asked for meanwhile.
+static void lock(void) {
+    while (atomic_flag_test_and_set(&locked))
+        ;
+}
+
+static void unlock(void) {
+    atomic_flag_clear(&locked);
+}
 
 void temporary_note(struct temporary *entry, const char *path) {
-    pthread_mutex_lock(&lock);
+    lock();
     *entry = (struct temporary){path, noted};
     noted = entry;
-    pthread_mutex_unlock(&lock);
+    unlock();
 }
 
 void temporary_forget(struct temporary *entry) {
-    pthread_mutex_lock(&lock);
+    lock();
     for (struct temporary **at = &noted; *at; at = &(*at)->next)
         if (*at == entry) {
             *at = entry->next;
             break;
         }
-    pthread_mutex_unlock(&lock);
+    unlock();
 }
 
 // As the system writes it (getdents64(2)).
@@ -85,9 +95,9 @@ bool temporary_remove(const char *path) {
 }
 
 void temporary_remove_all(void) {
-    pthread_mutex_lock(&lock);
+    lock();
     for (const struct temporary *entry = noted; entry; entry = entry->next)
         temporary_remove(entry->path);
     noted = NULL;
-    pthread_mutex_unlock(&lock);
+    unlock();
 }
