@@ -9,6 +9,7 @@ enum {
     EXIT_FILE = 3,
     EXIT_DEVICE = 4,
     HOST_MEMORY = -1, // VK_ERROR_OUT_OF_HOST_MEMORY
+    NO_DRIVER = -9,   // VK_ERROR_INCOMPATIBLE_DRIVER
 };
 
 const char *const verdict_names[VERDICT_COUNT] = {"same result",   "out of memory", "told",        "crashes",
@@ -119,11 +120,10 @@ static bool serves_on(const struct faults *plan, const struct outcome *good, con
            (is_of_folder(outcome) || strstr(outcome->out.data, strerror(plan->error)));
 }
 
-// The call, or what it was for.
+// The call that failed.
 static bool tells_device(const struct faults *plan, const struct outcome *outcome) {
-    (void)plan;
     return ends_with(outcome, EXIT_DEVICE) &&
-           (has(outcome, outcome->call) || (has(outcome, "Vulkan") && has(outcome, "error:")));
+           has(outcome, plan->error == NO_DRIVER ? "no Vulkan driver is installed" : outcome->call);
 }
 
 enum verdict judge(const struct stage *stage, const struct task *task, const struct faults *plan,
@@ -146,7 +146,7 @@ enum verdict judge(const struct stage *stage, const struct task *task, const str
         return VERDICT_MEMORY;
     if (plan->kind == FAULTS_FILES && whole && tells_file(plan, outcome, silenced))
         return VERDICT_TOLD;
-    if (plan->kind == FAULTS_VULKAN && whole && tells_device(plan, outcome))
+    if (plan->kind == FAULTS_VULKAN && !memory && whole && tells_device(plan, outcome))
         return VERDICT_TOLD;
     return outcome->status == good->status ? VERDICT_LOST : VERDICT_WRONG;
 }

@@ -19,6 +19,7 @@ enum {
     SPREAD_RUNS = 12,  // faults of one kind in a task that takes long
     SHOWN_MOST = 8,    // bad outcomes of a task that are shown
     SHOWN_BYTES = 600, // of the standard error
+    EXIT_FILE = 3,
     EXIT_NO_DEVICE = 4,
     EXIT_SKIPPED = 77,
 };
@@ -194,7 +195,10 @@ static void run_task(struct stage *stage, const struct task *task, enum faults_k
     const unsigned before = tally->runs;
     struct trial trial = {.stage = stage, .task = task, .tally = tally, .whole = whole};
     count(&trial, (struct faults){.kind = kind});
-    if (trial.good.status == EXIT_NO_DEVICE << 8) {
+    if (trial.good.status == EXIT_FILE << 8) {
+        printf("%-18s fails without a fault:\n%s\n", task->name, trial.good.error.data);
+        tally->bad_tasks++;
+    } else if (trial.good.status == EXIT_NO_DEVICE << 8) {
         printf("%-18s skipped: there is no device\n", task->name);
         tally->skipped++;
     } else {
@@ -245,7 +249,7 @@ int main(int argc, char **argv) {
     for (int i = 0; i < VERDICT_COUNT; i++)
         printf("%s %s=%u", i ? "," : "", verdict_names[i], tally.verdicts[i]);
     printf("\n");
-    if (tally.tasks == 0)
+    if (tally.tasks == 0 && tally.bad_tasks == 0)
         return EXIT_SKIPPED;
     return tally.bad_tasks != 0;
 }

@@ -42,16 +42,13 @@ static uint32_t choose(const char *wanted, const struct gpu_device_info *infos, 
 static enum gpu_status choose_device(struct gpu *gpu, const char *wanted, char *error) {
     VkPhysicalDevice *handles;
     struct gpu_device_info *infos;
-    enum gpu_status status = GPU_OK;
-    const uint32_t count = gpu_instance_devices(&gpu->instance, &handles, &infos);
+    uint32_t count;
+    enum gpu_status status = gpu_instance_devices(&gpu->instance, &handles, &infos, &count, error);
     const uint32_t chosen = choose(wanted, infos, count);
-    if (count == 0) {
-        snprintf(error, GPU_ERROR_BYTES, "no Vulkan driver offers a device that can compute");
-        status = GPU_NO_DRIVER;
-    } else if (chosen == count) {
+    if (status == GPU_OK && chosen == count) {
         snprintf(error, GPU_ERROR_BYTES, "no Vulkan device matches '%s'", wanted);
         status = GPU_NO_DEVICE;
-    } else {
+    } else if (status == GPU_OK) {
         gpu->physical = handles[chosen];
         gpu->info = infos[chosen];
     }

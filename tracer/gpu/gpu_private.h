@@ -61,12 +61,17 @@ struct gpu_program {
 
 enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gpu_instance *out, char *error);
 void gpu_instance_finish(struct gpu_instance *instance);
-// Devices that can compute, in the loader's order, and their descriptions; the caller frees both.
-// Returns how many there are.
-uint32_t gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
-                              struct gpu_device_info **infos);
+// Devices that can compute, in the loader's order, and their descriptions; the caller frees both, whatever
+// comes. GPU_OK: *count, of at least one. Else `error` gets text.
+enum gpu_status gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
+                                     struct gpu_device_info **infos, uint32_t *count, char *error);
 // Family of a queue that computes; UINT32_MAX where there is none.
 uint32_t gpu_compute_family(VkPhysicalDevice physical);
+
+// ---- gpu_memory.c
+
+// For what is created with the instance; destroyed with the same.
+extern const VkAllocationCallbacks gpu_memory;
 
 // ---- gpu_fault.c
 
