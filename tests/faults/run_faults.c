@@ -212,7 +212,10 @@ static void run_task(struct stage *stage, const struct task *task, enum faults_k
     outcome_finish(&trial.good);
 }
 
-static bool is_asked(const struct task *task, char **names) {
+static bool is_asked(const struct task *task, enum faults_kind kind, bool whole, char **names) {
+    const bool rare = task->marks & WHOLE || (task->marks & RARE && kind == FAULTS_VULKAN);
+    if (!(task->kinds & 1u << kind) || (rare && !whole))
+        return false;
     for (char **name = names; *name; name++)
         if (strcmp(*name, task->name) == 0)
             return true;
@@ -241,8 +244,7 @@ int main(int argc, char **argv) {
     struct stage stage;
     stage_open(&stage, argv[1], argv[2], argv[3], argv[4]);
     for (size_t i = 0; i < task_count; i++)
-        if (tasks[i].kinds & 1u << kind && is_asked(&tasks[i], names) &&
-            (whole || kind != FAULTS_VULKAN || !(tasks[i].marks & RARE)))
+        if (is_asked(&tasks[i], (enum faults_kind)kind, whole, names))
             run_task(&stage, &tasks[i], (enum faults_kind)kind, whole, &tally);
     stage_close(&stage);
     printf("%s: %u faults in %u commands:", argv[5], tally.runs, tally.tasks);

@@ -16,6 +16,7 @@ enum task_mark {
     STREAM = 8,  // its standard input is messy.glint.yaml
     CACHE = 16,  // uses the reference's cache, which is empty before
     REPORT = 64, // writes report.sarif
+    WHOLE = 256, // one run takes several seconds: only a whole run makes its calls fail
     RARE = 128,  // its calls of Vulkan are those of another task: only a whole run makes them fail
     SPREAD = 32  // one run takes long: the suite's run makes only a spread of its calls fail
 };
