@@ -1,6 +1,7 @@
 #include "app/exact.h"
 
 #include "app/where.h"
+#include "core/heap.h"
 
 #include <float.h>
 #include <math.h>
@@ -65,7 +66,7 @@ enum shot_status exact_take(struct exact *exact, struct image *image, double *rg
                             const struct reference_progress *progress,
                             struct reference_statistics *statistics) {
     size_t count = (size_t)exact->settings.width * exact->settings.height * 3;
-    double *values = rgb ? rgb : malloc(count * sizeof *values);
+    double *values = rgb ? rgb : heap_alloc(count * sizeof *values);
     if (!values)
         return shot_no_memory(exact->session, "the reference");
     enum reference_result result =

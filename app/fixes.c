@@ -157,6 +157,13 @@ struct round {
 
 static void change_files(void *context) {
     struct round *round = context;
+    const struct session *session = &round->session;
+    if (session->state == SESSION_UNREADABLE && session->sink.count &&
+        session->sink.items[0].code == DIAG_FILE_UNREADABLE) {
+        struct fixes *fixes = round->fixer->fixes;
+        fixes->unreadable = arena_copy(&fixes->arena, session->sink.items[0].message);
+        return;
+    }
     refuse_what_failed(round->fixer, &round->session);
     for (uint32_t source = 1; source < round->session.sources.count; source++)
         if (is_scene(&round->session, source))

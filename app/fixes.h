@@ -33,6 +33,7 @@ struct fixes {
         uint32_t count, capacity;
     } files;
     bool failed;
+    str unreadable; // why the system could not read the scene, which has no fixes then; else empty
 };
 
 void fixes_make(struct fixes *fixes, const struct session_options *options, enum fix_level level,

@@ -1,16 +1,14 @@
 // A package on the disk: made under a temporary name, loaded again and compared, then named.
-#define _XOPEN_SOURCE 700 // nftw
-
 #include "app/pack.h"
 
 #include "core/strbuf.h"
 #include "files/files_walk.h"
 #include "files/output.h"
+#include "files/temporary.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print.h"
 
 #include <errno.h>
-#include <ftw.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +18,6 @@
 
 enum {
     PATH_BYTES = 4096,
-    FOLDERS_OPEN = 16,
 };
 
 static bool fail(struct pack_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -33,17 +30,6 @@ static bool fail(struct pack_error *error, const char *format, ...) {
 }
 
 // ---- files
-
-static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *place) {
-    (void)info;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-static void remove_folder(const char *path) {
-    nftw(path, remove_one, FOLDERS_OPEN, FTW_DEPTH | FTW_PHYS);
-}
 
 // The folders above a file of the package.
 static bool make_folders(char *path, size_t from) {
@@ -173,6 +159,14 @@ static bool compare(struct session *session, struct session *packed, const struc
     return same;
 }
 
+// The system's fault, and not the package's. NULL: there is none.
+static const struct diag *what_is_unreadable(const struct session *packed) {
+    for (uint32_t i = 0; i < packed->sink.count; i++)
+        if (packed->sink.items[i].code == DIAG_FILE_UNREADABLE)
+            return &packed->sink.items[i];
+    return NULL;
+}
+
 // Loads the package from its folder and compares it with what was packed.
 static bool verify(struct session *session, const struct pack_plan *plan, const char *folder,
                    struct pack_error *error) {
@@ -187,10 +181,14 @@ static bool verify(struct session *session, const struct pack_plan *plan, const 
         .path = str_from(path), .limits = session->options.limits, .pixels = ASSETS_SKIP_PIXELS};
     session_load(&packed, &options, store);
     bool same = compare(session, &packed, plan, folder);
+    const struct diag *unread = same ? NULL : what_is_unreadable(&packed);
+    if (unread)
+        fail(error, "the package cannot be read back: %.*s", STR_ARG(unread->message));
     session_finish(&packed);
     asset_store_destroy(store);
-    return same || fail(error, "a path in the scene is written in a way that cannot be changed in place; "
-                               "write each path on one line, without a YAML tag or a block");
+    return same ||
+           (!unread && fail(error, "a path in the scene is written in a way that cannot be changed in place; "
+                                   "write each path on one line, without a YAML tag or a block"));
 }
 
 // ---- all
@@ -248,6 +246,8 @@ enum pack_status pack_write(struct session *session, const struct pack_plan *pla
     }
     if (!make_folder_beside(out, length, folder, error))
         return PACK_OUTPUT;
+    struct temporary entry;
+    temporary_note(&entry, folder);
     bool stopped = false;
     bool good = true;
     for (uint32_t i = 0; good && i < plan->count; i++) {
@@ -259,8 +259,10 @@ enum pack_status pack_write(struct session *session, const struct pack_plan *pla
     if (good && !stopped)
         good = zips ? pack_zip(plan, folder, out, is_stopped, error) : name_folder(folder, out, error);
     stopped = stopped || (!good && is_stopped && is_stopped());
-    if (!good || stopped || zips)
-        remove_folder(folder);
+    bool removed = (good && !stopped && !zips) || temporary_remove(folder);
+    if (!removed && good)
+        good = fail(error, "the temporary folder '%s' cannot be removed: %s", folder, strerror(errno));
+    temporary_forget(&entry);
     if (stopped)
         return PACK_STOPPED;
     return good ? PACK_OK : PACK_OUTPUT;

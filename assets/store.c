@@ -11,7 +11,7 @@ struct asset_store {
 };
 
 struct asset_store *asset_store_create(void) {
-    return calloc(1, sizeof(struct asset_store));
+    return heap_zeroed(1, sizeof(struct asset_store));
 }
 
 static void free_entry(struct store_entry *entry) {
@@ -35,7 +35,7 @@ void asset_store_destroy(struct asset_store *store) {
 }
 
 struct asset_hold *store_hold(struct asset_store *store) {
-    struct asset_hold *hold = calloc(1, sizeof *hold);
+    struct asset_hold *hold = heap_zeroed(1, sizeof *hold);
     if (!hold)
         return NULL;
     hold->store = store;
@@ -86,8 +86,8 @@ struct store_entry *store_find(struct asset_hold *hold, enum store_kind kind,
 
 struct store_entry *store_add(struct asset_hold *hold, enum store_kind kind,
                               const struct file_read *identity) {
-    struct store_entry *entry = calloc(1, sizeof *entry);
-    char *path = malloc(identity->path.len + 1);
+    struct store_entry *entry = heap_zeroed(1, sizeof *entry);
+    char *path = heap_alloc(identity->path.len + 1);
     if (!entry || !path || !take(hold, entry)) {
         free(entry);
         free(path);

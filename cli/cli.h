@@ -14,7 +14,7 @@ enum cli_exit {
     CLI_OK = 0,
     CLI_SCENE = 1, // errors in the scene or in a file that it names
     CLI_USAGE = 2,
-    CLI_FILE = 3,   // the scene file cannot be read, or an output cannot be written
+    CLI_FILE = 3,   // the scene file cannot be read, an output cannot be written, or memory ran out
     CLI_DEVICE = 4, // no usable device
     CLI_INTERRUPTED = 130,
     CLI_TERMINATED = 143,
@@ -73,6 +73,7 @@ struct cli {
     struct diag_sink sink;     // of the command line itself
     uint32_t *arg_begin;       // byte offset of each argument in the command line's text
     bool color;                // standard error accepts colours
+    bool stuck;                // a device may still be at work
     struct cli_options options;
     char **operands; // what is left after the options
     int operand_count;

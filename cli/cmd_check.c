@@ -137,7 +137,8 @@ static int add_folder(struct check *check, int operand) {
     struct files_found found = {.arena = &cli->arena, .endings = endings};
     const char *path = cli->operands[operand];
     if (files_walk(&found, str_from(path)) != FILE_OK) {
-        cli_error(cli, DIAG_FILE_UNREADABLE, path, NULL, "the folder cannot be read: %s", strerror(errno));
+        cli_error(cli, DIAG_FILE_UNREADABLE, found.unreadable.ptr, NULL, "the folder cannot be read: %s",
+                  strerror(errno));
         return CLI_FILE;
     }
     for (uint32_t i = 0; i < found.paths.count; i++)

@@ -1,5 +1,6 @@
 // glint compare A B: how far one picture is from another, and whether that is near enough.
 #include "cli/cli.h"
+#include "core/heap.h"
 
 #include "files/files.h"
 #include "picture/metrics/compare_report.h"
@@ -49,7 +50,7 @@ static int no_memory(struct comparison *c) {
 static bool keep_linear(struct comparison *c, int which) {
     const struct picture_file *p = &c->pictures[which];
     const size_t size = (size_t)p->width * p->height * 3 * sizeof *c->linear;
-    c->linear = malloc(size);
+    c->linear = heap_alloc(size);
     if (c->linear)
         memcpy(c->linear, p->rgb, size);
     return c->linear;
@@ -171,7 +172,7 @@ static int compare(struct comparison *c) {
         return status;
     const struct picture_file *p = c->pictures;
     if (m->heatmap)
-        c->map = malloc((size_t)p[0].width * p[0].height * sizeof *c->map);
+        c->map = heap_alloc((size_t)p[0].width * p[0].height * sizeof *c->map);
     if ((m->heatmap && !c->map) ||
         !measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &c->options, &c->result,
                           m->heatmap_flip ? NULL : c->map, m->heatmap_flip ? c->map : NULL))
@@ -193,7 +194,7 @@ int cmd_compare(struct cli *cli) {
     int format;
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;
-    struct comparison *c = calloc(1, sizeof *c);
+    struct comparison *c = heap_zeroed(1, sizeof *c);
     if (!c) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory");
         return CLI_SCENE;

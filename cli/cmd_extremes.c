@@ -217,7 +217,7 @@ int cmd_extremes(struct cli *cli) {
     const bool good = job.session.state == SESSION_LOADED && job.session.sink.errors == 0;
     status = good ? run_scene(&job, (enum kind)kind) : cli_report(cli, &job.session, !cli->options.quiet);
     extremes_finish(&job.extremes);
-    gpu_destroy(job.gpu);
+    cli_close_device(cli, job.gpu);
     session_finish(&job.session);
     asset_store_destroy(store);
     return status;

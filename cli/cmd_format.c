@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *const endings[] = {".glint.yaml", ".glint.yml", ".glint.xml", NULL};
 
@@ -63,29 +64,41 @@ static void take(struct formatter *f, const char *path, struct layout *layout) {
         worsen(f, CLI_SCENE);
 }
 
-static bool read_stream(struct cli *cli, struct strbuf *text) {
+// 0 or an errno; text->failed: it is too large.
+static int read_stream(struct cli *cli, struct strbuf *text) {
     char block[65536];
-    size_t count;
+    ssize_t count;
     text->cap_bytes = (size_t)cli->options.limits.value[LIMIT_SCENE_BYTES] + 1;
-    while ((count = fread(block, 1, sizeof block, stdin)) > 0)
-        strbuf_add(text, block, count);
-    return !ferror(stdin) && !text->failed;
+    do {
+        count = read(STDIN_FILENO, block, sizeof block);
+        if (count > 0)
+            strbuf_add(text, block, (size_t)count);
+    } while ((count > 0 && !text->failed) || (count < 0 && errno == EINTR));
+    return count < 0 ? errno : 0;
+}
+
+static void refuse_stream(struct formatter *f, bool too_large, int error) {
+    if (too_large)
+        cli_error(f->cli, DIAG_LIMIT, "standard input", NULL,
+                  "standard input is larger than the limit scene-bytes");
+    else
+        cli_error(f->cli, DIAG_FILE_UNREADABLE, "standard input", NULL, "standard input cannot be read: %s",
+                  strerror(error));
+    worsen(f, CLI_FILE);
 }
 
 static void format_stream(struct formatter *f) {
     struct strbuf text;
     struct layout layout;
     strbuf_init(&text);
-    if (read_stream(f->cli, &text)) {
+    int error = read_stream(f->cli, &text);
+    if (!error && !text.failed) {
         layout_text(&layout, STR("standard input"), strbuf_view(&text), &f->cli->options.limits,
                     f->cli->options.upgrade);
         take(f, "-", &layout);
         layout_finish(&layout);
     } else {
-        cli_error(f->cli, text.failed ? DIAG_LIMIT : DIAG_FILE_UNREADABLE, "standard input", NULL,
-                  "standard input %s",
-                  text.failed ? "is larger than the limit scene-bytes" : "cannot be read");
-        worsen(f, CLI_FILE);
+        refuse_stream(f, text.failed, error);
     }
     strbuf_finish(&text);
 }
@@ -101,7 +114,8 @@ static void format_file(struct formatter *f, const char *path, const char *folde
 static void format_folder(struct formatter *f, const char *path) {
     struct files_found found = {.arena = &f->cli->arena, .endings = endings};
     if (files_walk(&found, str_from(path)) != FILE_OK) {
-        cli_error(f->cli, DIAG_FILE_UNREADABLE, path, NULL, "the folder cannot be read: %s", strerror(errno));
+        cli_error(f->cli, DIAG_FILE_UNREADABLE, found.unreadable.ptr, NULL, "the folder cannot be read: %s",
+                  strerror(errno));
         worsen(f, CLI_FILE);
     }
     for (uint32_t i = 0; i < found.paths.count; i++)

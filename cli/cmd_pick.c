@@ -70,7 +70,7 @@ static int pick_from(struct cli *cli, struct session *session, struct place plac
                                         : reported;
     }
     pick_finish(&pick);
-    gpu_destroy(gpu);
+    cli_close_device(cli, gpu);
     return status;
 }
 

@@ -8,6 +8,7 @@
 #include "grammar/ir.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 
@@ -174,7 +175,7 @@ int cmd_render(struct cli *cli) {
     shot_close(&job.shot);
     image_finish(&job.image);
     strbuf_finish(&job.note);
-    gpu_destroy(job.gpu);
+    cli_close_device(cli, job.gpu);
     session_finish(&job.session);
     asset_store_destroy(store);
     return status;

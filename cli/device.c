@@ -30,6 +30,10 @@ int cli_open_device(struct cli *cli, struct gpu **gpu) {
     return CLI_DEVICE;
 }
 
+void cli_close_device(struct cli *cli, struct gpu *gpu) {
+    cli->stuck |= !gpu_destroy(gpu);
+}
+
 int cli_device_failed(struct cli *cli, const struct gpu *gpu) {
     bool memory = gpu_last_status(gpu) == GPU_NO_MEMORY;
     cli_error(cli, memory ? DIAG_DEVICE_MEMORY : DIAG_DEVICE_FAILED, cli->operands[0],

@@ -52,6 +52,11 @@ int cli_fix(struct cli *cli, const struct session_options *options, struct asset
                   "not enough memory for its fixes");
         status = CLI_FILE;
     }
+    if (fixes.unreadable.len) {
+        cli_error(cli, DIAG_FILE_UNREADABLE, arena_copy(&cli->arena, options->path).ptr, NULL,
+                  "no fixes were made: %.*s", STR_ARG(fixes.unreadable));
+        status = CLI_FILE;
+    }
     if (!cli->options.quiet)
         cli_write_error(strbuf_view(&text));
     strbuf_finish(&text);

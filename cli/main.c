@@ -1,6 +1,7 @@
 // glint: the command line. Finds the command, parses its options, runs it.
 #include "cli/cli.h"
 
+#include "cli/memory.h"
 #include "core/nearest.h"
 
 #include <ctype.h>
@@ -161,7 +162,7 @@ static void program_help(struct strbuf *out) {
     strbuf_cstr(out, "\n'glint COMMAND --help' shows more about a command.\n"
                      "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
                      "line cannot be\n"
-                     "read or written; 4 no usable device; 130 or 143 interrupted.\n");
+                     "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted.\n");
 }
 
 static void command_help(struct strbuf *out, const struct cli_command *command) {
@@ -283,11 +284,16 @@ int main(int argc, char **argv) {
     // A closed pipe and a full disk are errors of the write, with a message, not the end of the process.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
+    memory_catch();
     init(&cli, argc, argv);
     int status = run(&cli);
     if (cli.sink.count)
         cli_print_sink(&cli, &cli.sink);
     diag_sink_finish(&cli.sink);
     arena_finish(&cli.arena);
+    // What a driver does at the end of the process would pull the memory from under its own threads. All that
+    // was written is written: standard output and error are not buffered.
+    if (cli.stuck)
+        _exit(status);
     return status;
 }

@@ -121,7 +121,7 @@ int cli_study(struct cli *cli, struct session *session, const struct tradeoff_op
         status = cli_open_device(cli, &gpu);
     if (status == CLI_OK)
         status = run(cli, session, gpu, camera, options, study);
-    gpu_destroy(gpu);
+    cli_close_device(cli, gpu);
     return status;
 }
 

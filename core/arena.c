@@ -1,5 +1,7 @@
 #include "core/arena.h"
 
+#include "core/heap.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -96,7 +98,7 @@ static size_t rounded(size_t size) {
 }
 
 static struct arena_block *new_block(size_t size) {
-    struct arena_block *block = calloc(1, sizeof(struct arena_block) + size);
+    struct arena_block *block = heap_zeroed(1, sizeof(struct arena_block) + size);
     if (block) {
         block->size = size;
         POISON(block + 1, size);
@@ -230,7 +232,11 @@ str arena_format(struct arena *arena, const char *format, ...) {
     va_start(args, format);
     int length = vsnprintf(NULL, 0, format, args);
     va_end(args);
-    size_t size = length < 0 ? 0 : (size_t)length;
+    if (length < 0) {
+        heap_exhausted(0); // of a format that is right, only memory can be lacking
+        arena_raise(arena, ARENA_FAULT_SYSTEM);
+    }
+    size_t size = (size_t)length;
     char *text = arena_alloc(arena, size + 1);
     va_start(args, format);
     vsnprintf(text, size + 1, format, args);
@@ -259,7 +265,7 @@ static void *move_block(struct arena *arena, void *items, size_t need) {
     if (arena->used_bytes - had > arena->cap_bytes - need)
         arena_raise(arena, ARENA_FAULT_CAP);
     unlink_block(arena, block);
-    struct arena_block *moved = realloc(block, sizeof *moved + need);
+    struct arena_block *moved = heap_resize(block, sizeof *moved + need);
     struct arena_block *kept = moved ? moved : block;
     link_block(arena, kept, true);
     if (!moved)

@@ -1,6 +1,51 @@
 #include "core/heap.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+// Set once, before there are threads.
+static heap_handler *on_exhausted;
+
+void heap_on_exhausted(heap_handler *handler) {
+    on_exhausted = handler;
+}
+
+void heap_exhausted(size_t size_bytes) {
+    if (on_exhausted)
+        on_exhausted(size_bytes);
+}
+
+// A request for nothing may be answered by NULL.
+static void *checked(void *memory, size_t size) {
+    if (!memory && size)
+        heap_exhausted(size);
+    return memory;
+}
+
+void *heap_alloc(size_t size) {
+    return checked(malloc(size), size);
+}
+
+void *heap_zeroed(size_t count, size_t size) {
+    return checked(calloc(count, size), size && count > SIZE_MAX / size ? SIZE_MAX : count * size);
+}
+
+void *heap_resize(void *memory, size_t size) {
+    return checked(realloc(memory, size), size);
+}
+
+char *heap_text(const char *text) {
+    return heap_text_of(text, strlen(text));
+}
+
+char *heap_text_of(const char *text, size_t length) {
+    char *copy = heap_alloc(length + 1);
+    if (!copy)
+        return NULL;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
 
 void *heap_grow(void *items, size_t count, uint32_t *capacity, size_t item_size) {
     if (count < *capacity)
@@ -8,7 +53,7 @@ void *heap_grow(void *items, size_t count, uint32_t *capacity, size_t item_size)
     if (*capacity > UINT32_MAX / 2)
         return NULL;
     uint32_t wanted = *capacity ? *capacity * 2 : 8;
-    void *moved = realloc(items, wanted * item_size);
+    void *moved = heap_resize(items, wanted * item_size);
     if (moved)
         *capacity = wanted;
     return moved;

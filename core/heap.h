@@ -1,11 +1,32 @@
-// Arrays on the heap that grow item by item, for owners without an arena.
+// Memory on the heap for owners without an arena, and what happens where the system has none left.
 //
-// Ownership: the caller's, to be freed by `free`. Errors: NULL when memory runs out. Thread safety: pure.
+// A program may name a handler (`heap_on_exhausted`): it is called where memory ends, and does not return, so
+// that no caller can mistake a missing answer for another one. Without a handler, as in tests and in programs
+// that embed glint, these calls return NULL and their callers report that. Libraries that allocate by
+// themselves and then say that memory ended are answered by `heap_exhausted`.
+//
+// Ownership: the caller's, to be freed by `free`. Errors: the handler, or NULL. Thread safety: all calls but
+// heap_on_exhausted, which belongs at the beginning of the program, are safe on any thread; the handler is
+// called on the thread that got no memory.
 #ifndef GLINT_CORE_HEAP_H
 #define GLINT_CORE_HEAP_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+// Told how much was asked for, 0 if that is not known. It must neither return nor allocate.
+typedef void heap_handler(size_t size_bytes);
+// NULL: none.
+void heap_on_exhausted(heap_handler *handler);
+// The system refused memory to a library, or to a system call. Returns only where there is no handler.
+void heap_exhausted(size_t size_bytes);
+
+// As malloc, calloc, realloc, strdup and strndup.
+void *heap_alloc(size_t size);
+void *heap_zeroed(size_t count, size_t size);
+void *heap_resize(void *memory, size_t size);
+char *heap_text(const char *text);
+char *heap_text_of(const char *text, size_t length);
 
 // As arena_grow: makes room for one more item; `items` (NULL: none yet) holds `count` of `*capacity` items.
 // Returns the array, moved to twice the room if it was full; on NULL the old one is unchanged.

@@ -1,5 +1,7 @@
 #include "core/strbuf.h"
 
+#include "core/heap.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,7 +39,7 @@ static bool reserve(struct strbuf *buffer, size_t more) {
         wanted = need;
     if (buffer->cap_bytes && wanted > buffer->cap_bytes)
         wanted = buffer->cap_bytes;
-    char *moved = realloc(buffer->data, wanted);
+    char *moved = heap_resize(buffer->data, wanted);
     if (!moved) {
         buffer->failed = true;
         return false;
@@ -96,9 +98,10 @@ void strbuf_vformat(struct strbuf *buffer, const char *format, va_list args) {
     va_list again;
     va_copy(again, args);
     int length = vsnprintf(NULL, 0, format, args);
-    if (length < 0)
+    if (length < 0) {
+        heap_exhausted(0); // of a format that is right, only memory can be lacking
         buffer->failed = true;
-    else if (reserve(buffer, (size_t)length)) {
+    } else if (reserve(buffer, (size_t)length)) {
         vsnprintf(buffer->data + buffer->len, (size_t)length + 1, format, again);
         buffer->len += (size_t)length;
     }

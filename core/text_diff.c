@@ -1,5 +1,7 @@
 #include "core/text_diff.h"
 
+#include "core/heap.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,7 +31,7 @@ static bool split(str text, struct side *side) {
     for (size_t at = 0; at < text.len; at = line_end(text, at))
         count++;
     side->count = count;
-    side->lines = calloc(count + 1, sizeof *side->lines);
+    side->lines = heap_zeroed(count + 1, sizeof *side->lines);
     if (!side->lines)
         return false;
     size_t begin = 0;
@@ -69,7 +71,7 @@ static bool came_down(const struct rows *rows, int32_t d, int32_t k) {
 
 // One more edit; true: both ends are reached. *failed: no memory.
 static bool next_row(const struct middle *mid, struct rows *rows, int32_t d, bool *failed) {
-    int32_t *row = malloc(sizeof *row * (2 * (size_t)d + 1));
+    int32_t *row = heap_alloc(sizeof *row * (2 * (size_t)d + 1));
     *failed = !row;
     if (*failed)
         return false;
@@ -124,7 +126,7 @@ static int32_t most_differences(int64_t lines) {
 
 static bool mark(const struct middle *mid) {
     int32_t most = most_differences((int64_t)mid->n + mid->m);
-    struct rows rows = {.items = calloc((size_t)most + 1, sizeof *rows.items)};
+    struct rows rows = {.items = heap_zeroed((size_t)most + 1, sizeof *rows.items)};
     bool failed = !rows.items, found = false;
     for (int32_t d = 0; !failed && !found && d <= most; d++)
         found = next_row(mid, &rows, d, &failed);

@@ -1,5 +1,7 @@
 #include "diag/diag.h"
 
+#include "core/heap.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -215,8 +217,8 @@ void diag_sort(struct diag_sink *sink) {
     size_t slot_count = 4;
     while (slot_count < (size_t)sink->count * 2)
         slot_count *= 2;
-    struct diag *spare = malloc(sink->count * sizeof *spare);
-    uint32_t *slots = calloc(slot_count, sizeof *slots);
+    struct diag *spare = heap_alloc(sink->count * sizeof *spare);
+    uint32_t *slots = heap_zeroed(slot_count, sizeof *slots);
     if (spare)
         sort_items(sink->items, spare, sink->count);
     if (slots)

@@ -1,5 +1,6 @@
 #include "diag/diag_report.h"
 
+#include "core/heap.h"
 #include "diag/source.h"
 #include "files/files.h"
 
@@ -234,8 +235,8 @@ bool report_list_all(const struct report *report, struct report_list *list) {
     struct slots slots = {.count = 16};
     while (slots.count < total * 2)
         slots.count *= 2;
-    slots.items = calloc(slots.count, sizeof *slots.items);
-    list->items = calloc(total + 1, sizeof *list->items);
+    slots.items = heap_zeroed(slots.count, sizeof *slots.items);
+    list->items = heap_zeroed(total + 1, sizeof *list->items);
     bool good = slots.items && list->items;
     for (uint32_t i = 0; i < report->scene_count && good; i++)
         for (uint32_t k = 0; k < report->scenes[i].findings.count; k++)

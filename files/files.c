@@ -1,8 +1,9 @@
 #include "files/files.h"
 
+#include "core/heap.h"
 #include "core/nearest.h"
+#include "files/folder.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -65,8 +66,11 @@ static bool resolve_links(struct files *files, str path, str *resolved) {
     char text[PATH_MAX];
     if (!name)
         errno = ENOENT;
-    if (!name || !realpath(name, text))
+    if (!name || !realpath(name, text)) {
+        if (errno == ENOMEM)
+            heap_exhausted(0);
         return false;
+    }
     *resolved = arena_copy(files->arena, str_from(text));
     return true;
 }
@@ -96,6 +100,8 @@ void files_add_overlay(struct files *files, str path, str text) {
 }
 
 static enum file_status status_of_errno(struct files *files, int error) {
+    if (error == ENOMEM)
+        heap_exhausted(0);
     files->system_error = error;
     return error == ENOENT || error == ENOTDIR ? FILE_MISSING : FILE_UNREADABLE;
 }
@@ -287,7 +293,7 @@ static bool has_ending(str name, const char *const *endings) {
 str files_suggest(struct files *files, str path, const char *const *endings) {
     str folder = files_canonical(files, path_folder(path));
     const char *system = below_a_root(files, folder) ? system_path(files, folder) : NULL;
-    DIR *directory = system ? opendir(system) : NULL;
+    DIR *directory = system ? folder_open(system) : NULL;
     if (!directory)
         return STR("");
     // Endings that are equal would make any two short names look alike.
@@ -297,7 +303,7 @@ str files_suggest(struct files *files, str path, const char *const *endings) {
     struct nearest names = nearest_begin(name);
     char best[NAME_MAX + 1] = "";
     struct dirent *entry;
-    for (int left = SUGGEST_ENTRIES_MAX; left > 0 && (entry = readdir(directory)); left--) {
+    for (int left = SUGGEST_ENTRIES_MAX; left > 0 && (entry = folder_next(directory)); left--) {
         str candidate = str_from(entry->d_name);
         if (!has_ending(candidate, endings))
             continue;

@@ -1,6 +1,7 @@
 #include "files/files_walk.h"
 
-#include <dirent.h>
+#include "files/folder.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,18 +33,20 @@ struct listing {
     DIR *directory;
     struct arena *arena;
     struct files_names *names;
+    int error; // errno of what could not be read
 };
 
 static void take_names(void *context) {
-    const struct listing *listing = context;
-    for (struct dirent *entry; (entry = readdir(listing->directory));)
+    struct listing *listing = context;
+    for (struct dirent *entry; (entry = folder_next(listing->directory));)
         if (entry->d_name[0] != '.')
             *ARENA_PUSH(listing->arena, listing->names) = arena_copy(listing->arena, str_from(entry->d_name));
+    listing->error = errno;
 }
 
 // The names in a folder are read before anything is done with them, so that the folder is closed at once.
 bool files_list_folder(struct arena *arena, str folder, struct files_names *names) {
-    struct listing listing = {opendir(folder.ptr), arena, names};
+    struct listing listing = {folder_open(folder.ptr), arena, names, 0};
     if (!listing.directory)
         return false;
     enum arena_fault fault = arena_guarded(arena, take_names, &listing);
@@ -52,25 +55,37 @@ bool files_list_folder(struct arena *arena, str folder, struct files_names *name
         arena_raise(arena, fault);
     if (names->count)
         qsort(names->items, names->count, sizeof *names->items, compare);
-    return true;
+    errno = listing.error;
+    return listing.error == 0;
+}
+
+// What this user may not see is left out, and so are links that lead nowhere and what was removed meanwhile.
+static bool is_left_out(void) {
+    return errno == EACCES || errno == ENOENT || errno == ENOTDIR || errno == ELOOP;
+}
+
+static enum file_status unreadable(struct files_found *found, str path) {
+    found->unreadable = path;
+    return FILE_UNREADABLE;
 }
 
 enum file_status files_walk(struct files_found *found, str folder) {
     struct files_names names = {0};
+    enum file_status status = FILE_OK;
     if (!files_list_folder(found->arena, folder, &names))
-        return FILE_UNREADABLE;
+        return unreadable(found, folder);
     found->depth++;
-    for (uint32_t i = 0; i < names.count; i++) {
+    for (uint32_t i = 0; status == FILE_OK && i < names.count; i++) {
         str path = path_join(found->arena, folder, names.items[i]);
         struct stat link;
         struct stat target;
         if (lstat(path.ptr, &link) != 0 || stat(path.ptr, &target) != 0)
-            continue;
-        if (S_ISREG(target.st_mode) && has_ending(found, names.items[i]))
+            status = is_left_out() ? FILE_OK : unreadable(found, path);
+        else if (S_ISREG(target.st_mode) && has_ending(found, names.items[i]))
             *ARENA_PUSH(found->arena, &found->paths) = path;
         else if (S_ISDIR(link.st_mode) && found->depth < DEPTH_MAX)
-            files_walk(found, path);
+            status = files_walk(found, path) == FILE_OK || is_left_out() ? FILE_OK : FILE_UNREADABLE;
     }
     found->depth--;
-    return FILE_OK;
+    return status;
 }

@@ -15,6 +15,7 @@ struct files_found {
         uint32_t count, capacity;
     } paths;        // sorted by their bytes, folder by folder
     uint32_t depth; // folders that are open
+    str unreadable; // what FILE_UNREADABLE is about
 };
 
 bool files_is_folder(str path);
@@ -23,11 +24,11 @@ struct files_names {
     uint32_t count, capacity;
 };
 // The names in a folder, sorted by their bytes, except those that begin with a dot. false: errno says why it
-// cannot be opened.
+// cannot be read.
 bool files_list_folder(struct arena *arena, str folder, struct files_names *names);
 // Adds the regular files below `folder` whose names have one of the endings. Names that begin with a dot are
-// left out, and so are links to folders. FILE_UNREADABLE: errno says why `folder` could not be opened;
-// folders below it that cannot be opened are left out.
+// left out, and so are links to folders. FILE_UNREADABLE: errno says why `folder`, or something
+// below it, could not be read; folders below it that this user may not open are left out.
 enum file_status files_walk(struct files_found *found, str folder);
 
 #endif

@@ -1,9 +1,9 @@
 #include "files/folder_store.h"
 
 #include "core/heap.h"
+#include "files/folder.h"
 #include "files/output.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@ static bool is_usable(const struct folder_store *store) {
 
 static char *joined(const char *folder, const char *name) {
     size_t size = strlen(folder) + strlen(name) + 2;
-    char *path = malloc(size);
+    char *path = heap_alloc(size);
     if (path)
         snprintf(path, size, "%s/%s", folder, name);
     return path;
@@ -26,7 +26,7 @@ static char *joined(const char *folder, const char *name) {
 
 // The folder and those above it.
 static bool make_folders(const char *path) {
-    char *copy = strdup(path);
+    char *copy = heap_text(path);
     if (!copy)
         return false;
     for (char *p = copy + 1; *p; p++) {
@@ -60,7 +60,7 @@ static char *read_file(int fd, size_t most_bytes, size_t *count) {
     struct stat info;
     if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode) || (uintmax_t)info.st_size > most_bytes)
         return NULL;
-    char *bytes = malloc((size_t)info.st_size + 1);
+    char *bytes = heap_alloc((size_t)info.st_size + 1);
     if (!bytes)
         return NULL;
     *count = (size_t)info.st_size;
@@ -109,7 +109,7 @@ static int compare_entries(const void *a, const void *b) {
 static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total) {
     size_t count = 0;
     uint32_t capacity = 0;
-    for (struct dirent *item = readdir(folder); item; item = readdir(folder)) {
+    for (struct dirent *item = folder_next(folder); item; item = folder_next(folder)) {
         struct stat info;
         if (fstatat(dirfd(folder), item->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(info.st_mode))
             continue;
@@ -118,7 +118,7 @@ static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total)
             break;
         *entries = grown;
         struct entry *entry = &(*entries)[count];
-        *entry = (struct entry){strdup(item->d_name), info.st_mtim, (uint64_t)info.st_size};
+        *entry = (struct entry){heap_text(item->d_name), info.st_mtim, (uint64_t)info.st_size};
         if (!entry->name)
             break;
         *total += entry->size_bytes;
@@ -128,7 +128,7 @@ static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total)
 }
 
 static void evict(const struct folder_store *store) {
-    DIR *folder = opendir(store->path);
+    DIR *folder = folder_open(store->path);
     struct entry *entries = NULL;
     uint64_t total = 0;
     if (!folder)
@@ -178,7 +178,7 @@ char *folder_store_path(const char *name) {
     const char *base = has_cache ? cache : home;
     const char *middle = has_cache ? "glint" : ".cache/glint";
     size_t size = strlen(base) + strlen(middle) + strlen(name) + 3;
-    char *path = malloc(size);
+    char *path = heap_alloc(size);
     if (path)
         snprintf(path, size, "%s/%s/%s", base, middle, name);
     return path;

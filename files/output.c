@@ -1,8 +1,11 @@
 #include "files/output.h"
 
+#include "core/heap.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -13,18 +16,53 @@ enum {
     LINKS_MAX = 40, // as many as Linux follows
 };
 
+// Lack of memory in a system call is lack of memory.
 static bool fail(struct output *output) {
+    if (errno == ENOMEM)
+        heap_exhausted(0);
     if (!output->error)
         output->error = errno ? errno : EIO;
     return false;
 }
 
-static void release(struct output *output) {
-    free(output->path);
+static int open_again(const char *path, int flags) {
+    int fd;
+    do
+        fd = open(path, flags | O_CLOEXEC, 0666);
+    while (fd < 0 && errno == EINTR);
+    return fd;
+}
+
+int output_descriptor(int fd, const void *bytes, size_t count) {
+    const char *at = bytes;
+    while (count) {
+        ssize_t done = write(fd, at, count);
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done <= 0)
+            return done < 0 && errno ? errno : EIO;
+        at += done;
+        count -= (size_t)done;
+    }
+    return 0;
+}
+
+// The system closes the descriptor of a close that is interrupted, too.
+static bool close_once(int fd) {
+    return close(fd) == 0 || errno == EINTR;
+}
+
+static void forget_temporary(struct output *output) {
+    temporary_forget(&output->entry);
     free(output->temporary);
-    output->path = NULL;
     output->temporary = NULL;
-    output->stream = NULL;
+}
+
+static void release(struct output *output) {
+    forget_temporary(output);
+    free(output->path);
+    output->path = NULL;
+    output->fd = -1;
 }
 
 // Owner and permissions of the file that is replaced, as far as the system allows.
@@ -44,44 +82,38 @@ static int create_beside(struct output *output) {
     const char *slash = strrchr(output->path, '/');
     int folder = slash ? (int)(slash - output->path) + 1 : 0;
     size_t size = (size_t)folder + 64;
-    output->temporary = malloc(size);
+    output->temporary = heap_alloc(size);
     if (!output->temporary)
         return -1;
     for (unsigned attempt = 0; attempt < TEMPORARY_NAMES; attempt++) {
         snprintf(output->temporary, size, "%.*s.glint-%ld-%u.tmp", folder, output->path, (long)getpid(),
                  attempt);
-        int fd = open(output->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd >= 0)
+        int fd = open_again(output->temporary, O_WRONLY | O_CREAT | O_EXCL);
+        if (fd >= 0) {
+            temporary_note(&output->entry, output->temporary);
             return fd;
+        }
         if (errno != EEXIST)
             break;
     }
     int error = errno;
-    free(output->temporary);
-    output->temporary = NULL;
+    forget_temporary(output);
     errno = error;
     return -1;
 }
 
 static void open_temporary(struct output *output, const struct stat *old) {
-    int fd = create_beside(output);
-    if (fd < 0) {
+    output->fd = create_beside(output);
+    if (output->fd < 0)
         fail(output);
-        return;
-    }
-    if (old)
-        take_mode(fd, old);
-    output->stream = fdopen(fd, "wb");
-    if (!output->stream) {
-        fail(output);
-        close(fd);
-    }
+    else if (old)
+        take_mode(output->fd, old);
 }
 
 // Where the last of a chain of links leads, even if nothing is there yet: a link is replaced at its
 // target, so that the link stays. NULL: errno says why.
 static char *follow_links(const char *path) {
-    char *at = strdup(path);
+    char *at = heap_text(path);
     char next[PATH_MAX];
     for (int links = 0; at && links < LINKS_MAX; links++) {
         ssize_t length = readlink(at, next, sizeof next - 1);
@@ -91,7 +123,7 @@ static char *follow_links(const char *path) {
         const char *slash = next[0] == '/' ? NULL : strrchr(at, '/');
         int folder = slash ? (int)(slash - at) + 1 : 0;
         size_t size = (size_t)folder + (size_t)length + 1;
-        char *joined = malloc(size);
+        char *joined = heap_alloc(size);
         if (joined)
             snprintf(joined, size, "%.*s%s", folder, at, next);
         free(at);
@@ -110,8 +142,9 @@ static void open_target(struct output *output) {
         errno = EISDIR;
         fail(output);
     } else if (exists && !S_ISREG(info.st_mode)) {
-        output->stream = fopen(output->path, "wb");
-        if (!output->stream)
+        // A pipe that nobody reads is waited for: a signal ends that.
+        output->fd = open(output->path, O_WRONLY | O_CLOEXEC);
+        if (output->fd < 0)
             fail(output);
     } else if (exists && access(output->path, W_OK) != 0) {
         fail(output); // renaming would replace a file that its owner protects
@@ -121,10 +154,10 @@ static void open_target(struct output *output) {
 }
 
 bool output_open(struct output *output, const char *path) {
-    *output = (struct output){0};
+    *output = (struct output){.fd = -1};
     errno = 0;
     if (strcmp(path, "-") == 0) {
-        output->stream = stdout;
+        output->fd = STDOUT_FILENO;
         return true;
     }
     if (path[0] == '\0')
@@ -141,30 +174,41 @@ bool output_open(struct output *output, const char *path) {
 }
 
 void output_write(struct output *output, const void *bytes, size_t count) {
-    if (output->error || !output->stream || count == 0)
+    if (output->error || output->fd < 0)
         return;
-    errno = 0;
-    if (fwrite(bytes, 1, count, output->stream) != count)
+    output->error = output_descriptor(output->fd, bytes, count);
+    if (output->error == ENOMEM)
+        heap_exhausted(0);
+}
+
+uint64_t output_place(struct output *output) {
+    off_t place = output->fd < 0 ? 0 : lseek(output->fd, 0, SEEK_CUR);
+    if (place < 0)
+        fail(output);
+    return place < 0 ? 0 : (uint64_t)place;
+}
+
+void output_move(struct output *output, uint64_t place) {
+    if (output->fd >= 0 && lseek(output->fd, (off_t)place, SEEK_SET) < 0)
         fail(output);
 }
 
+// On the disk, and not in the system's memory alone. Some file systems cannot.
+static bool settle(int fd) {
+    int result;
+    do
+        result = fsync(fd);
+    while (result != 0 && errno == EINTR);
+    return result == 0 || errno == EINVAL;
+}
+
 bool output_commit(struct output *output) {
-    if (!output->stream) {
-        release(output);
-        return !output->error;
-    }
+    bool own = output->fd >= 0 && output->fd != STDOUT_FILENO;
     errno = 0;
-    if (fflush(output->stream) != 0)
+    if (own && !output->error && output->temporary && !settle(output->fd))
         fail(output);
-    if (output->stream == stdout) {
-        release(output);
-        return !output->error;
-    }
-    if (!output->error && output->temporary && fsync(fileno(output->stream)) != 0 && errno != EINVAL)
+    if (own && !close_once(output->fd))
         fail(output);
-    if (fclose(output->stream) != 0)
-        fail(output);
-    output->stream = NULL;
     if (!output->error && output->temporary && rename(output->temporary, output->path) != 0)
         fail(output);
     if (output->error && output->temporary)
@@ -174,8 +218,8 @@ bool output_commit(struct output *output) {
 }
 
 void output_abandon(struct output *output) {
-    if (output->stream && output->stream != stdout)
-        fclose(output->stream);
+    if (output->fd >= 0 && output->fd != STDOUT_FILENO)
+        close(output->fd);
     if (output->temporary)
         unlink(output->temporary);
     release(output);
@@ -192,10 +236,11 @@ int output_whole(const char *path, const void *bytes, size_t count) {
 
 int output_part(const char *path, const void *bytes, size_t count) {
     errno = 0;
-    FILE *stream = fopen(path, "wbx");
-    bool good = stream && (count == 0 || fwrite(bytes, 1, count, stream) == count);
-    int error = good ? 0 : errno ? errno : EIO;
-    if (stream && fclose(stream) != 0 && good)
+    int fd = open_again(path, O_WRONLY | O_CREAT | O_EXCL);
+    if (fd < 0)
+        return errno ? errno : EIO;
+    int error = output_descriptor(fd, bytes, count);
+    if (!close_once(fd) && !error)
         error = errno ? errno : EIO;
     return error;
 }

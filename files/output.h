@@ -2,25 +2,31 @@
 //
 // A failed or abandoned run leaves the old file as it was. Permissions are kept, and links: their target is
 // replaced. A target that exists and is not a regular file (a device, a pipe) is written to directly; "-" is
-// standard output. The program ignores SIGPIPE and SIGXFSZ, so that they come back as errors here.
-// Thread safety: one output belongs to one thread. After an error every later call does nothing.
+// standard output. The program ignores SIGPIPE and SIGXFSZ, so that they come back as errors here. A call
+// that a signal interrupts is made again, and a write that took less than was given goes on with the rest. An
+// open output stays where it is (temporary.h). Thread safety: one output belongs to one thread. After an
+// error every later call does nothing.
 #ifndef GLINT_FILES_OUTPUT_H
 #define GLINT_FILES_OUTPUT_H
 
 #include "core/str.h"
-
-#include <stdio.h>
+#include "files/temporary.h"
 
 struct output {
-    FILE *stream;
+    int fd; // -1: closed
     char *path;
     char *temporary; // NULL if the target is written directly
-    int error;       // errno of the first failure, 0 if none
+    struct temporary entry;
+    int error; // errno of the first failure, 0 if none
 };
 
 // Opens the temporary file. false: output.error says why; nothing else needs to be called.
 bool output_open(struct output *output, const char *path);
 void output_write(struct output *output, const void *bytes, size_t count);
+// Where the next byte goes, and another place: for formats whose beginning is written last. Not for what is
+// not a file.
+uint64_t output_place(struct output *output);
+void output_move(struct output *output, uint64_t place);
 // Flushes, closes and renames. false: output.error says why; the old file is as it was.
 bool output_commit(struct output *output);
 // Removes the temporary file. Does nothing after output_commit.
@@ -30,5 +36,7 @@ int output_whole(const char *path, const void *bytes, size_t count);
 // A new file in a folder that is temporary itself: written in place, without waiting until it is on the disk,
 // which takes milliseconds each. 0 or an errno.
 int output_part(const char *path, const void *bytes, size_t count);
+// All bytes to a descriptor that is open. 0 or an errno.
+int output_descriptor(int fd, const void *bytes, size_t count);
 
 #endif

@@ -34,7 +34,7 @@ struct document *documents_find_path(struct documents *documents, str path) {
 }
 
 static bool set_text(struct document *document, const char *text, size_t length) {
-    char *copy = malloc(length + 1);
+    char *copy = heap_alloc(length + 1);
     if (!copy)
         return false;
     memcpy(copy, text, length);
@@ -69,7 +69,7 @@ static struct document *add(struct documents *documents, const char *uri) {
     documents->items = items;
     struct path_search search = {&documents->arena, uri, STR("")};
     arena_guarded(&documents->arena, find_path, &search);
-    struct document document = {.uri = strdup(uri), .path = search.path};
+    struct document document = {.uri = heap_text(uri), .path = search.path};
     if (!document.uri || search.path.len == 0) {
         free(document.uri);
         return NULL;
@@ -107,7 +107,7 @@ static bool splice(struct document *document, size_t begin, size_t end, const ch
     size_t whole = begin + length + tail;
     if (whole + 1 > document->capacity) {
         size_t capacity = whole + whole / 2 + 1;
-        char *larger = realloc(document->text, capacity);
+        char *larger = heap_resize(document->text, capacity);
         if (!larger)
             return false;
         document->text = larger;

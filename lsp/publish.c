@@ -1,4 +1,5 @@
 // Diagnostics of the scenes, as the client gets them.
+#include "core/heap.h"
 #include "lsp/server_private.h"
 
 #include "core/strbuf.h"
@@ -48,7 +49,7 @@ static const char *client_uri(struct server *server, struct session *session, st
         return server->uri.text;
     str path = files_canonical(&session->files, session->sources.items[source].path);
     const struct document *document = documents_find_path(&server->documents, path);
-    char *text = strdup(document ? document->uri : uri_of(session, arena, source).ptr);
+    char *text = heap_text(document ? document->uri : uri_of(session, arena, source).ptr);
     if (!text)
         return "";
     free(server->uri.text);

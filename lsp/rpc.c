@@ -37,12 +37,23 @@ static void compact(struct rpc *rpc) {
     rpc->taken = 0;
 }
 
+// A client that ends closes what we write to.
+static void fail(struct rpc *rpc, bool input) {
+    rpc->broken = true;
+    if (errno == EPIPE || rpc->error)
+        return;
+    rpc->error = errno ? errno : EIO;
+    rpc->input_failed = input;
+}
+
 static bool receive(struct rpc *rpc) {
     char bytes[READ_BYTES];
     ssize_t count;
     do
         count = read(rpc->in, bytes, sizeof bytes);
     while (count < 0 && errno == EINTR);
+    if (count < 0)
+        fail(rpc, true);
     if (count <= 0)
         return false;
     compact(rpc);
@@ -109,7 +120,8 @@ static void write_all(struct rpc *rpc, const char *bytes, size_t count) {
         ssize_t done = write(rpc->out, bytes, count);
         if (done < 0 && errno == EINTR)
             continue;
-        rpc->broken = done <= 0;
+        if (done <= 0)
+            fail(rpc, false);
         bytes += done > 0 ? done : 0;
         count -= done > 0 ? (size_t)done : 0;
     }

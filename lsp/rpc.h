@@ -30,7 +30,9 @@ struct rpc {
     int in, out;
     struct strbuf received; // bytes not yet parsed
     size_t taken;           // of them
-    bool broken;            // writing failed: the client is gone
+    bool broken;            // a stream failed, or the client is gone
+    int error;              // errno of that; 0: the client ended
+    bool input_failed;      // else the output
 };
 
 void rpc_init(struct rpc *rpc, int in, int out);

@@ -71,7 +71,7 @@ static void note_paths(void *context) {
     for (; n->count < session->origin.files.count; n->count++) {
         uint32_t source = session->origin.files.items[n->count].source;
         str path = files_canonical(&session->files, session->sources.items[source].path);
-        char *copy = strndup(path.ptr, path.len);
+        char *copy = heap_text_of(path.ptr, path.len);
         n->files[n->count] = (str){copy, copy ? path.len : 0};
     }
 }
@@ -79,7 +79,7 @@ static void note_paths(void *context) {
 // What the scene consists of; kept if the new text could not be read that far.
 void lsp_scene_note_files(struct lsp_scene *scene, struct session *session) {
     uint32_t count = session->origin.files.count;
-    struct noting noting = {session, count ? calloc(count, sizeof *noting.files) : NULL, 0};
+    struct noting noting = {session, count ? heap_zeroed(count, sizeof *noting.files) : NULL, 0};
     if (!noting.files)
         return;
     arena_guarded(&session->arena, note_paths, &noting);
@@ -90,7 +90,7 @@ void lsp_scene_note_files(struct lsp_scene *scene, struct session *session) {
 
 struct file_overlay *scenes_overlays(const struct scenes *scenes) {
     struct documents *documents = scenes->documents;
-    struct file_overlay *overlays = calloc(documents->count + 1, sizeof *overlays);
+    struct file_overlay *overlays = heap_zeroed(documents->count + 1, sizeof *overlays);
     for (uint32_t i = 0; overlays && i < documents->count; i++)
         overlays[i] = (struct file_overlay){documents->items[i].path, document_text(&documents->items[i])};
     return overlays;
@@ -118,7 +118,7 @@ struct lsp_scene *scenes_add(struct scenes *scenes, str path) {
     if (!items)
         return NULL;
     scenes->items = items;
-    struct lsp_scene *scene = calloc(1, sizeof *scene);
+    struct lsp_scene *scene = heap_zeroed(1, sizeof *scene);
     if (!scene)
         return NULL;
     arena_init(&scene->arena, SIZE_MAX / 2);

@@ -1,7 +1,9 @@
 #include "lsp/server.h"
 
+#include "core/heap.h"
 #include "lsp/server_private.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -249,7 +251,9 @@ static bool take(struct server *server, json_t *message) {
     return true;
 }
 
-int lsp_serve(int in, int out, const char *version, const struct session_options *settings) {
+int lsp_serve(int in, int out, const char *version, const struct session_options *settings,
+              struct lsp_fault *fault) {
+    json_set_alloc_funcs(heap_alloc, free);
     struct server server = {.version = version, .published = json_object()};
     rpc_init(&server.rpc, in, out);
     documents_init(&server.documents);
@@ -273,6 +277,7 @@ int lsp_serve(int in, int out, const char *version, const struct session_options
     json_decref(server.published);
     server_forget(&server);
     position_index_finish(&server.index);
+    *fault = (struct lsp_fault){server.rpc.error, server.rpc.input_failed};
     rpc_finish(&server.rpc);
     return server.shut_down ? 0 : 1;
 }

@@ -1,6 +1,7 @@
 #include "reference/reference.h"
 
 #include "core/clock.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "grammar/ir.h"
 #include "reference/parts.h"
@@ -21,7 +22,7 @@ static void fill(void *context) {
 }
 
 struct reference *reference_create(const struct reference_input *input) {
-    struct reference *r = malloc(sizeof *r);
+    struct reference *r = heap_alloc(sizeof *r);
     if (!r)
         return NULL;
     *r = (struct reference){.input = *input, .origin = input->view->camera.position};
@@ -320,7 +321,7 @@ static enum reference_result run(struct work *w, struct reference_statistics *st
     w->tiles_x = (w->settings->width + TILE - 1) / TILE;
     size_t count = (size_t)w->tiles_x * ((w->settings->height + TILE - 1) / TILE);
     w->pixels = (size_t)w->settings->width * w->settings->height;
-    w->tiles = calloc(count, sizeof *w->tiles);
+    w->tiles = heap_zeroed(count, sizeof *w->tiles);
     if (!w->tiles)
         return REFERENCE_NO_MEMORY;
     atomic_flag_clear(&w->reporting);

@@ -299,7 +299,7 @@ static bool build(struct building *b, size_t count) {
 static bool make(struct building *b) {
     struct reference *r = b->r;
     uint32_t total = r->primitive_count;
-    b->items = malloc(total * sizeof *b->items);
+    b->items = heap_alloc(total * sizeof *b->items);
     if (!b->items)
         return false;
     parallel_for(total, PIECE, make_items, b);
@@ -310,10 +310,10 @@ static bool make(struct building *b) {
     r->primitive_count = count;
     if (count == 0)
         return true;
-    r->nodes = b->nodes = malloc(2 * (size_t)count * sizeof *b->nodes);
+    r->nodes = b->nodes = heap_alloc(2 * (size_t)count * sizeof *b->nodes);
     if (!b->nodes || !build(b, count))
         return false;
-    r->primitives = malloc((size_t)count * sizeof *r->primitives);
+    r->primitives = heap_alloc((size_t)count * sizeof *r->primitives);
     if (r->primitives)
         parallel_for(count, PIECE, gather, b);
     return r->primitives != NULL;

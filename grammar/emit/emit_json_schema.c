@@ -1,6 +1,7 @@
 // JSON Schema draft-07 for the YAML spelling.
 #include "grammar/emit/emit.h"
 
+#include "core/heap.h"
 #include "core/number.h"
 #include "grammar/emit/emit_lines.h"
 #include "grammar/emit/emit_words.h"
@@ -282,6 +283,7 @@ static json_t *element_schema(const struct schema_element *schema) {
 }
 
 void emit_json_schema(struct strbuf *out) {
+    json_set_alloc_funcs(heap_alloc, free);
     json_t *root = json_pack("{s:s, s:s}", "$schema", "http://json-schema.org/draft-07/schema#", "title",
                              "A glint scene");
     json_t *scene = element_schema(&SCHEMA_SCENE);

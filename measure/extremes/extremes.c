@@ -1,10 +1,11 @@
+#include "core/heap.h"
 #include "measure/extremes/extremes_parts.h"
 
 #include "core/clock.h"
 #include "measure/hit_errors.h"
 #include "picture/metrics/metrics.h"
-#include "reference/reference.h"
 #include "precision/precision.h"
+#include "reference/reference.h"
 #include "tracer/render/render.h"
 
 #include <math.h>
@@ -195,7 +196,7 @@ static enum extremes_status measure_cell(struct run *run, struct extreme_cell *c
 }
 
 static bool list_cells(struct extremes *out, uint32_t axes) {
-    out->cells = calloc((size_t)EXTREME_AXES * EXTREME_VALUES_MAX, sizeof *out->cells);
+    out->cells = heap_zeroed((size_t)EXTREME_AXES * EXTREME_VALUES_MAX, sizeof *out->cells);
     if (!out->cells)
         return false;
     for (int axis = 0; axis < EXTREME_AXES; axis++) {
@@ -259,7 +260,7 @@ static enum extremes_status make_rest(struct run *run) {
     enum extremes_status status = trace_device(run, &run->base_variant, &cell);
     if (status != EXTREMES_DONE || cell.left_out)
         return status;
-    float *rest = malloc(3 * pixels_of(run) * sizeof *rest);
+    float *rest = heap_alloc(3 * pixels_of(run) * sizeof *rest);
     if (!rest)
         return EXTREMES_MEMORY;
     image_to_displayed(run->rgb, pixels_of(run), display_of(run->input->scene->ir), rest);
@@ -272,11 +273,11 @@ static enum extremes_status make_rest(struct run *run) {
 static bool make_pictures(struct run *run) {
     const size_t count = pixels_of(run);
     for (int i = 0; i < 2; i++) {
-        run->hits[i] = malloc(count * sizeof *run->hits[i]);
-        run->shown[i] = malloc(3 * count * sizeof *run->shown[i]);
+        run->hits[i] = heap_alloc(count * sizeof *run->hits[i]);
+        run->shown[i] = heap_alloc(3 * count * sizeof *run->shown[i]);
     }
-    run->exact = malloc(3 * count * sizeof *run->exact);
-    run->rgb = malloc(3 * count * sizeof *run->rgb);
+    run->exact = heap_alloc(3 * count * sizeof *run->exact);
+    run->rgb = heap_alloc(3 * count * sizeof *run->rgb);
     return run->hits[0] && run->hits[1] && run->shown[0] && run->shown[1] && run->exact && run->rgb;
 }
 
@@ -324,7 +325,7 @@ enum extremes_status extremes_run(struct extremes *out, const struct extremes_in
                                   const struct extremes_progress *progress) {
     const double start = clock_seconds();
     *out = (struct extremes){0};
-    struct run *run = calloc(1, sizeof *run);
+    struct run *run = heap_zeroed(1, sizeof *run);
     if (!run)
         return EXTREMES_MEMORY;
     *run = (struct run){.input = input, .out = out, .progress = progress};

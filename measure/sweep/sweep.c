@@ -1,5 +1,7 @@
 #include "measure/sweep/sweep.h"
 
+#include "core/heap.h"
+
 #include "core/clock.h"
 #include "grammar/ir.h"
 #include "measure/hit_errors.h"
@@ -198,7 +200,7 @@ enum sweep_status sweep_judge(struct sweep *sweep, const struct sweep_input *inp
 
 bool sweep_init(struct sweep *sweep, const struct sweep_input *input) {
     *sweep = (struct sweep){0};
-    sweep->items = calloc((size_t)input->count + 1, sizeof *sweep->items);
+    sweep->items = heap_zeroed((size_t)input->count + 1, sizeof *sweep->items);
     snprintf(sweep->device, sizeof sweep->device, "%s", gpu_info(input->gpu)->name);
     return sweep->items != NULL;
 }

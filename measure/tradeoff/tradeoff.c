@@ -118,7 +118,7 @@ static bool bounces(const struct measuring *s) {
 // ---- the rows
 
 static enum tradeoff_status run_pairs(struct measuring *s) {
-    struct row *pairs = calloc(PLAN_ROWS_MAX, sizeof *pairs);
+    struct row *pairs = heap_zeroed(PLAN_ROWS_MAX, sizeof *pairs);
     if (!pairs)
         return TRADEOFF_MEMORY;
     const uint32_t count = plan_pairs(s->out->rows, s->out->count, s->out->options.metric, pairs_most(s),
@@ -137,7 +137,7 @@ static enum tradeoff_status run_pairs(struct measuring *s) {
 }
 
 static enum tradeoff_status run_rows(struct measuring *s) {
-    struct row *planned = calloc(PLAN_ROWS_MAX, sizeof *planned);
+    struct row *planned = heap_zeroed(PLAN_ROWS_MAX, sizeof *planned);
     if (!planned)
         return TRADEOFF_MEMORY;
     // The file's own settings are counted first: how deep paths go decides the ladders.
@@ -172,7 +172,7 @@ static enum tradeoff_status run_rows(struct measuring *s) {
 
 static enum tradeoff_status choose(struct tradeoff *t) {
     const enum metric metric = t->options.metric;
-    struct choice_row *choices = malloc(t->count * sizeof *choices);
+    struct choice_row *choices = heap_alloc(t->count * sizeof *choices);
     if (!choices)
         return TRADEOFF_MEMORY;
     for (uint32_t i = 0; i < t->count; i++) {
@@ -213,7 +213,7 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
                                   const struct tradeoff_options *options,
                                   const struct tradeoff_progress *progress) {
     *study = (struct tradeoff){.options = *options, .knee = CHOICE_NONE};
-    struct measuring *s = calloc(1, sizeof *s);
+    struct measuring *s = heap_zeroed(1, sizeof *s);
     if (!s)
         return TRADEOFF_MEMORY;
     s->input = input;

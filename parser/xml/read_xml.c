@@ -1,5 +1,8 @@
 #include "parser/xml/xml_reader.h"
 
+#include "core/heap.h"
+
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -240,7 +243,8 @@ bool read_xml(const struct reader_context *context, uint32_t source, struct tree
         ARENA_ARRAY(context->arena, struct xml_frame, context->limits->value[LIMIT_SCENE_DEPTH] + 1);
     if (context->taker)
         return read_plain(&reader);
-    reader.parser = XML_ParserCreate("UTF-8");
+    static const XML_Memory_Handling_Suite memory = {heap_alloc, heap_resize, free};
+    reader.parser = XML_ParserCreate_MM("UTF-8", &memory, NULL);
     if (!reader.parser) {
         diag_add(context->sink, DIAG_OUT_OF_MEMORY, (span){source, 0, 0},
                  "not enough memory to read the file");

@@ -1,3 +1,4 @@
+#include "parser/yaml/yaml_memory.h"
 #include "parser/yaml/yaml_reader.h"
 
 #include <string.h>
@@ -328,7 +329,7 @@ static enum outcome run_events(struct yaml_reader *r) {
     yaml_parser_set_encoding(&r->parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&r->parser, (const unsigned char *)input.ptr, input.len);
     for (bool end = false; !end;) {
-        if (!yaml_parser_parse(&r->parser, &r->event))
+        if (!yaml_memory_check(&r->parser, yaml_parser_parse(&r->parser, &r->event)))
             return READ_REFUSED;
         end = r->event.type == YAML_STREAM_END_EVENT;
         on_event(r);
@@ -380,7 +381,7 @@ static void run_attempts(void *context) {
     bool tabs_repaired = false;
     for (unsigned attempt = 0;; attempt++) {
         begin_attempt(r);
-        if (!yaml_parser_initialize(&r->parser)) {
+        if (!yaml_memory_begin(&r->parser)) {
             diag_add(&r->sink, DIAG_OUT_OF_MEMORY, yaml_span(r, 0, 0), "not enough memory to read the file");
             return;
         }

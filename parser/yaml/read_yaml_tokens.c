@@ -1,5 +1,7 @@
 #include "parser/yaml/yaml_tokens.h"
 
+#include "parser/yaml/yaml_memory.h"
+
 #include <yaml.h>
 
 struct scanner {
@@ -103,13 +105,13 @@ static void open_parser(yaml_parser_t *parser, str text, uint32_t begin) {
 // The scanner by itself accepts tokens in any order.
 static bool is_grammatical(str text, uint32_t begin) {
     yaml_parser_t parser;
-    if (!yaml_parser_initialize(&parser))
+    if (!yaml_memory_begin(&parser))
         return false;
     open_parser(&parser, text, begin);
     bool good = true;
     for (bool end = false; good && !end;) {
         yaml_event_t event;
-        good = yaml_parser_parse(&parser, &event) != 0;
+        good = yaml_memory_check(&parser, yaml_parser_parse(&parser, &event));
         end = good && (event.type == YAML_STREAM_END_EVENT || event.type == YAML_NO_EVENT);
         if (good)
             yaml_event_delete(&event);
@@ -122,13 +124,13 @@ bool yaml_tokens_read(struct arena *arena, str text, uint32_t begin, struct yaml
     yaml_parser_t parser;
     struct scanner s = {.arena = arena, .text = text, .begin = begin, .bytes = begin, .tokens = tokens};
     *tokens = (struct yaml_tokens){0};
-    if (!is_grammatical(text, begin) || !yaml_parser_initialize(&parser))
+    if (!is_grammatical(text, begin) || !yaml_memory_begin(&parser))
         return false;
     open_parser(&parser, text, begin);
     bool good = true;
     for (bool end = false; good && !end;) {
         yaml_token_t token;
-        good = yaml_parser_scan(&parser, &token) != 0;
+        good = yaml_memory_check(&parser, yaml_parser_scan(&parser, &token));
         if (!good)
             break;
         end = token.type == YAML_STREAM_END_TOKEN || token.type == YAML_NO_TOKEN;

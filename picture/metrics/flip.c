@@ -5,6 +5,7 @@
 // that can be shown, to L*a*b* with the Hunt effect, HyAB distance, redistributed to 0..1 (4.1.2, 4.1.3).
 // Features: edges and points of the luminance (4.2). Together: colour^(1 - feature) (4.3). Filters are sums
 // of products of one-dimensional ones, so that each is two passes.
+#include "core/heap.h"
 #include "picture/metrics/metrics_parts.h"
 
 #include "core/parallel.h"
@@ -250,8 +251,8 @@ static void compare_pixels(void *context, size_t begin, size_t end) {
 bool flip_measure(struct plane_size size, const float *picture, const float *reference,
                   double pixels_per_degree, double *mean, float *map) {
     const size_t count = (size_t)size.width * size.height;
-    float *planes = malloc(2 * PLANE_COUNT * count * sizeof *planes);
-    struct filter *filters = malloc(2 * sizeof *filters);
+    float *planes = heap_alloc(2 * PLANE_COUNT * count * sizeof *planes);
+    struct filter *filters = heap_alloc(2 * sizeof *filters);
     if (planes && filters) {
         struct comparing context = {
             .a = planes, .b = planes + PLANE_COUNT * count, .count = count, .map = map};

@@ -1,5 +1,6 @@
 #include "picture/metrics/heatmap.h"
 
+#include "core/heap.h"
 #include "core/srgb.h"
 #include "picture/write/encode_parts.h"
 
@@ -39,7 +40,7 @@ void heatmap_color(double value, uint8_t rgb[3]) {
 void heatmap_png(uint32_t width, uint32_t height, const float *values, enum heatmap_scale scale,
                  struct strbuf *out) {
     const size_t pixels = (size_t)width * height;
-    uint8_t *bytes = malloc(3 * pixels);
+    uint8_t *bytes = heap_alloc(3 * pixels);
     if (!bytes) {
         out->failed = true;
         return;

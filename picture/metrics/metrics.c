@@ -1,5 +1,6 @@
 #include "picture/metrics/metrics.h"
 
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "picture/metrics/metrics_parts.h"
 
@@ -126,7 +127,7 @@ static void fill(struct measure_result *r, const struct row_sums *total, uint64_
 
 static bool sum_pixels(struct plane_size size, const float *picture, const float *reference, double threshold,
                        struct measure_result *result, float *difference) {
-    struct row_sums *rows = malloc(size.height * sizeof *rows);
+    struct row_sums *rows = heap_alloc(size.height * sizeof *rows);
     if (!rows)
         return false;
     struct summing context = {size.width, picture, reference, threshold, rows, difference};
@@ -140,7 +141,7 @@ static bool sum_pixels(struct plane_size size, const float *picture, const float
 // ---- the metrics of displayed values
 
 static float *displayed_copy(const float *picture, size_t pixels, const struct measure_options *options) {
-    float *copy = malloc(3 * pixels * sizeof *copy);
+    float *copy = heap_alloc(3 * pixels * sizeof *copy);
     // In displayed values only what is not a number changes.
     const struct image_display none = {IR_TONE_CLIP, IR_TRANSFER_NONE};
     if (copy)
@@ -162,7 +163,7 @@ bool measure_pictures(uint32_t width, uint32_t height, const float *picture, con
     if (!good || !(ssim || wants_flip))
         return good;
     float *a = displayed_copy(picture, pixels, options), *b = displayed_copy(reference, pixels, options);
-    float *map = flip || !wants_flip ? flip : malloc(pixels * sizeof *map);
+    float *map = flip || !wants_flip ? flip : heap_alloc(pixels * sizeof *map);
     good = a && b && (map || !wants_flip);
     if (good && ssim)
         good = ssim_measure(size, a, b, &result->value[METRIC_SSIM]);

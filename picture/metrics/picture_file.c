@@ -1,5 +1,6 @@
 #include "picture/metrics/picture_file.h"
 
+#include "core/heap.h"
 #include "picture/read/picture_read.h"
 
 #include <stdlib.h>
@@ -26,7 +27,7 @@ static const char *decode(str bytes, const struct picture_header *header, struct
     out->width = picture.width;
     out->height = picture.height;
     out->space = picture.depth == PICTURE_RGBE ? MEASURE_LINEAR : MEASURE_DISPLAYED;
-    out->rgb = malloc(3 * pixels * sizeof *out->rgb);
+    out->rgb = heap_alloc(3 * pixels * sizeof *out->rgb);
     for (size_t i = 0; out->rgb && i < pixels; i++)
         for (size_t k = 0; k < 3; k++)
             out->rgb[3 * i + k] = channel(&picture, i, k);

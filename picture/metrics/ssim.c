@@ -1,5 +1,6 @@
 // Structural similarity: Wang, Bovik, Sheikh, Simoncelli 2004, "Image Quality Assessment: From Error
 // Visibility to Structural Similarity", equations 12 and 13 with the window and constants of section III-C.
+#include "core/heap.h"
 #include "picture/metrics/metrics_parts.h"
 
 #include <math.h>
@@ -52,8 +53,8 @@ static double mean_over_windows(struct plane_size size, const float *planes) {
 
 bool ssim_measure(struct plane_size size, const float *picture, const float *reference, double *mean) {
     const size_t count = (size_t)size.width * size.height;
-    float *planes = malloc(count * PLANES * sizeof *planes);
-    struct filter *filter = malloc(sizeof *filter);
+    float *planes = heap_alloc(count * PLANES * sizeof *planes);
+    struct filter *filter = heap_alloc(sizeof *filter);
     if (planes && filter) {
         for (size_t i = 0; i < count; i++) {
             const double a = luma(picture + 3 * i), b = luma(reference + 3 * i);

@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "picture/read/picture_read.h"
 
 #include <stdlib.h>

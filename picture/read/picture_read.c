@@ -1,5 +1,7 @@
 #include "picture/read/picture_read.h"
 
+#include "core/heap.h"
+
 #include "picture/read/read_hdr.h"
 #include "picture/read/read_jpeg.h"
 #include "picture/read/read_png.h"
@@ -35,7 +37,7 @@ static const char *read_rows(str bytes, const struct picture_header *header, str
 // It is zeroed, so that no file can show old contents of memory.
 static void *make_rows(str bytes, const struct picture_header *header, size_t size, size_t stride,
                        const char **fault) {
-    void *memory = calloc(1, size);
+    void *memory = heap_zeroed(1, size);
     *fault = memory ? read_rows(bytes, header, (struct picture_rows){memory, stride}) : picture_no_memory;
     if (!*fault)
         return memory;

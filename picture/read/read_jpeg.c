@@ -1,5 +1,8 @@
 #include "picture/read/read_jpeg.h"
 
+#include "core/heap.h"
+
+#include <errno.h>
 #include <setjmp.h>
 #include <stdio.h> // which jpeglib.h needs
 #include <stdlib.h>
@@ -202,6 +205,9 @@ static const struct {
 
 _Noreturn static void on_error(j_common_ptr decoder) {
     struct job *job = decoder->client_data;
+    // The library says so of what is too large for it, too.
+    if (decoder->err->msg_code == JERR_OUT_OF_MEMORY && errno == ENOMEM)
+        heap_exhausted(0);
     job->fault = "its pixels are damaged, or some are missing";
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
         if (faults[i].code == decoder->err->msg_code)
@@ -296,7 +302,7 @@ static void read_guarded(str bytes, struct job *job) {
 }
 
 const char *picture_jpeg_rows(str bytes, const struct picture_header *header, struct picture_rows rows) {
-    struct job job = {.header = header, .rows = rows, .inks = malloc(4 * (size_t)header->width)};
+    struct job job = {.header = header, .rows = rows, .inks = heap_alloc(4 * (size_t)header->width)};
     if (!job.inks)
         return picture_no_memory;
     job.decoder.err = jpeg_std_error(&job.errors);
@@ -304,6 +310,7 @@ const char *picture_jpeg_rows(str bytes, const struct picture_header *header, st
     job.errors.error_exit = on_error;
     job.errors.emit_message = on_message;
     job.errors.output_message = on_output;
+    errno = 0;
     read_guarded(bytes, &job);
     jpeg_destroy_decompress(&job.decoder);
     free(job.inks);

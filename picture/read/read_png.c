@@ -1,5 +1,7 @@
 #include "picture/read/read_png.h"
 
+#include "core/heap.h"
+
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -125,7 +127,7 @@ static png_voidp on_malloc(png_structp png, png_alloc_size_t count) {
         return NULL;
     }
     job->memory_left -= count;
-    void *memory = malloc(count);
+    void *memory = heap_alloc(count);
     if (!memory)
         job->fault = picture_no_memory;
     return memory;

@@ -2,8 +2,11 @@
 #include "picture/write/encode_parts.h"
 #include "picture/write/image.h"
 
+#include "core/heap.h"
+
 #include <png.h>
 #include <setjmp.h>
+#include <stdlib.h>
 
 static void on_write(png_structp png, png_bytep bytes, size_t count) {
     struct strbuf *out = png_get_io_ptr(png);
@@ -26,6 +29,16 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
+static png_voidp on_malloc(png_structp png, png_alloc_size_t count) {
+    (void)png;
+    return heap_alloc(count);
+}
+
+static void on_free(png_structp png, png_voidp memory) {
+    (void)png;
+    free(memory);
+}
+
 // Returns normally, or through libpng's jump to the caller's setjmp.
 static void write_all(png_structp png, png_infop info, uint32_t width, uint32_t height, const uint8_t *rgb,
                       const char *note) {
@@ -43,7 +56,8 @@ static void write_all(png_structp png, png_infop info, uint32_t width, uint32_t 
 }
 
 void encode_png(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note, struct strbuf *out) {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, on_error, on_warning);
+    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, NULL, on_error, on_warning, NULL,
+                                                on_malloc, on_free);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (info) {
         png_set_write_fn(png, out, on_write, on_flush);

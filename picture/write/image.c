@@ -1,10 +1,12 @@
 #include "picture/write/image.h"
 
+#include "core/heap.h"
+
 #include <stdlib.h>
 
 bool image_init(struct image *image, uint32_t width, uint32_t height) {
     *image = (struct image){.width = width, .height = height};
-    image->rgb = calloc((size_t)width * height, 3 * sizeof *image->rgb);
+    image->rgb = heap_zeroed((size_t)width * height, 3 * sizeof *image->rgb);
     return image->rgb != NULL;
 }
 

@@ -11,6 +11,8 @@ opens='fopen|freopen|open|openat|creat|opendir|mmap|realpath'
 # a jump may catch one. No more than six files in all.
 jumps='(sig|_|__builtin_)?(set|long)jmp'
 may_jump='core/arena\.c|picture/write/encode_png\.c|picture/read/read_(jpeg|png)\.c'
+# Where the system has no memory left is said in one place, whoever asked.
+allocates='malloc|calloc|realloc|reallocarray|strdup|strndup|aligned_alloc|posix_memalign|open_memstream|asprintf|vasprintf|getline'
 code=$(mktemp)
 trap 'rm -f "$code"' EXIT
 # A program that a library's folder holds may do as a program does.
@@ -24,6 +26,8 @@ ours "^(${rooms%|})/[^/]*\.[ch]\$" | grep -vE '(^|[/_])main\.c$' | code >"$code"
         sed 's/$/   <- a library does not end the program/' || true
     grep -E "$call($prints)[ ]*\(|$call(stdout|stderr)([^A-Za-z0-9_]|\$)" "$code" |
         grep -v '^files/output\.[ch]:' | sed 's/$/   <- a library does not print/' || true
+    grep -E "$call($allocates)[ ]*\(" "$code" | grep -vE '^(core/heap\.c|grammar/emit/emit_main\.c|tools/.*):' |
+        sed 's/$/   <- core\/heap.h is the one door to the heap/' || true
     grep -E "$call($opens)[ ]*\(" "$code" | grep -vE '^files/' |
         sed 's/$/   <- the room files is the one door to the file system/' || true
 } | verdict

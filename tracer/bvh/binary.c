@@ -199,7 +199,7 @@ static bool build_top(struct build *build, struct wide_cut *cut_memory) {
         }
         build->top[i] = node;
     }
-    build->small = malloc(build->top_count * sizeof *build->small);
+    build->small = heap_alloc(build->top_count * sizeof *build->small);
     if (!build->small)
         return false;
     for (uint32_t i = 0; i < build->top_count; i++)
@@ -223,11 +223,11 @@ bool binary_build(struct binary_tree *tree, enum bvh_method method) {
     struct build build = {.tree = tree, .method = method, .leaf_items = leaf_items};
     struct wide_cut wide = {0};
     bool done = false;
-    tree->nodes = malloc(count * sizeof *tree->nodes);
-    wide.middles = malloc(pieces * sizeof *wide.middles);
-    wide.bins = malloc(pieces * sizeof *wide.bins);
-    wide.lefts = malloc(pieces * sizeof *wide.lefts);
-    wide.sorted = count > SUBTREE_ITEMS ? malloc(count * sizeof *wide.sorted) : NULL;
+    tree->nodes = heap_alloc(count * sizeof *tree->nodes);
+    wide.middles = heap_alloc(pieces * sizeof *wide.middles);
+    wide.bins = heap_alloc(pieces * sizeof *wide.bins);
+    wide.lefts = heap_alloc(pieces * sizeof *wide.lefts);
+    wide.sorted = count > SUBTREE_ITEMS ? heap_alloc(count * sizeof *wide.sorted) : NULL;
     if (!tree->nodes || !wide.middles || !wide.bins || !wide.lefts || (count > SUBTREE_ITEMS && !wide.sorted))
         goto out;
     if (!build_top(&build, &wide))

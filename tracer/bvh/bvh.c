@@ -1,5 +1,6 @@
 #include "tracer/bvh/bvh.h"
 
+#include "core/heap.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
 #include "tracer/bvh/encode.h"
@@ -9,7 +10,7 @@
 
 static bool build_empty(struct bvh *out) {
     static const struct wide_child none[BVH_WIDTH];
-    out->nodes = malloc(NODE_WORDS * sizeof *out->nodes);
+    out->nodes = heap_alloc(NODE_WORDS * sizeof *out->nodes);
     if (!out->nodes)
         return false;
     encode_node(none, 0, 0, out->nodes);
@@ -23,7 +24,7 @@ bool bvh_build(struct bvh_item *items, uint32_t count, enum bvh_method method, s
     if (count == 0)
         return build_empty(out);
     struct binary_tree tree = {.items = items, .count = count};
-    out->order = malloc(count * sizeof *out->order);
+    out->order = heap_alloc(count * sizeof *out->order);
     bool done = out->order && binary_build(&tree, method) && wide_build(&tree, out);
     free(tree.nodes);
     if (!done)

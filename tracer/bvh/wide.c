@@ -1,6 +1,7 @@
 // From the binary tree to the wide one, level by level: children first gathered as the binary nodes
 // decided, then numbered, then written, so that threads share each level and the order is fixed.
 #include "tracer/bvh/wide.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
@@ -145,7 +146,7 @@ static uint32_t number_children(struct pending *nodes, uint32_t count, uint32_t 
 }
 
 static bool reserve_nodes(struct bvh *out, uint64_t count) {
-    struct gpu_word *moved = realloc(out->nodes, count * NODE_WORDS * sizeof *moved);
+    struct gpu_word *moved = heap_resize(out->nodes, count * NODE_WORDS * sizeof *moved);
     if (!moved)
         return false;
     out->nodes = moved;
@@ -156,7 +157,7 @@ bool wide_build(const struct binary_tree *tree, struct bvh *out) {
     struct level level = {.tree = tree, .out = out};
     uint32_t count = 1;
     uint32_t items = 0;
-    level.nodes = malloc(sizeof *level.nodes);
+    level.nodes = heap_alloc(sizeof *level.nodes);
     if (!level.nodes)
         return false;
     level.nodes[0].range = (struct binary_range){0, 0, tree->count};
@@ -164,7 +165,7 @@ bool wide_build(const struct binary_tree *tree, struct bvh *out) {
         parallel_for(count, PIECE_NODES, open_nodes, &level);
         level.next_first = level.first + count;
         uint32_t next_count = number_children(level.nodes, count, level.next_first, &items);
-        level.next = malloc((next_count ? next_count : 1) * sizeof *level.next);
+        level.next = heap_alloc((next_count ? next_count : 1) * sizeof *level.next);
         if (!level.next || !reserve_nodes(out, level.next_first)) {
             free(level.next);
             free(level.nodes);

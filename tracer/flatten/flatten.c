@@ -1,6 +1,7 @@
 #include "tracer/flatten/flatten.h"
 
 #include "core/clock.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
@@ -51,8 +52,8 @@ static bool make_tree(enum bvh_method method, struct bvh_item *items, uint32_t c
 static enum flatten_fault make_triangles(struct flattening *f) {
     struct flat_scene *out = f->out;
     size_t total = f->triangle_total;
-    f->records = malloc((total ? total : 1) * out->strides.triangle * sizeof *f->records);
-    f->items = malloc((total ? total : 1) * sizeof *f->items);
+    f->records = heap_alloc((total ? total : 1) * out->strides.triangle * sizeof *f->records);
+    f->items = heap_alloc((total ? total : 1) * sizeof *f->items);
     if (!f->records || !f->items)
         return FLATTEN_NO_MEMORY;
     enum flatten_fault fault = flatten_triangles(f);
@@ -70,8 +71,8 @@ static enum flatten_fault make_triangles(struct flattening *f) {
 static enum flatten_fault make_spheres(struct flattening *f) {
     struct flat_scene *out = f->out;
     uint32_t count = f->out->sphere_count;
-    struct gpu_word *words = malloc(((size_t)count + 1) * out->strides.sphere * sizeof *words);
-    struct bvh_item *items = malloc(((size_t)count + 1) * sizeof *items);
+    struct gpu_word *words = heap_alloc(((size_t)count + 1) * out->strides.sphere * sizeof *words);
+    struct bvh_item *items = heap_alloc(((size_t)count + 1) * sizeof *items);
     bool done = words && items;
     if (done) {
         flatten_spheres(f, words, items);
@@ -106,9 +107,9 @@ static enum flatten_fault run(struct flattening *f) {
     };
     size_t bodies = f->scene->body_count;
     f->out->body_count = (uint32_t)bodies;
-    f->out->first_triangle = calloc(bodies + 1, sizeof *f->out->first_triangle);
-    f->normal_base = calloc(bodies + 1, sizeof *f->normal_base);
-    f->material_used = calloc((size_t)f->scene->material_count + 1, sizeof *f->material_used);
+    f->out->first_triangle = heap_zeroed(bodies + 1, sizeof *f->out->first_triangle);
+    f->normal_base = heap_zeroed(bodies + 1, sizeof *f->normal_base);
+    f->material_used = heap_zeroed((size_t)f->scene->material_count + 1, sizeof *f->material_used);
     if (!f->out->first_triangle || !f->normal_base || !f->material_used)
         return FLATTEN_NO_MEMORY;
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {

@@ -1,4 +1,5 @@
 // Bodies: transforms in double with the origin taken off first, then scale, then rounding to float.
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
@@ -61,7 +62,7 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
                                        double *extent) {
     const struct mesh *mesh = body->mesh;
     size_t pieces = ((size_t)mesh->position_count + PIECE - 1) / PIECE;
-    double *largest = malloc(2 * (pieces + 1) * sizeof *largest);
+    double *largest = heap_alloc(2 * (pieces + 1) * sizeof *largest);
     if (!largest)
         return FLATTEN_NO_MEMORY;
     struct measuring m = {mesh, flatten_map(f, body), body->object_to_world.offset, largest,
@@ -259,7 +260,7 @@ static enum flatten_fault fill_body(struct flattening *f, uint32_t number) {
         fill_triangles(&fill, 0, body->triangle_count);
         return FLATTEN_DONE;
     }
-    uint32_t *shade = malloc((body->group_count + (size_t)1) * sizeof *shade);
+    uint32_t *shade = heap_alloc((body->group_count + (size_t)1) * sizeof *shade);
     if (!shade)
         return FLATTEN_NO_MEMORY;
     uint32_t flags = (body->smooth ? TRIANGLE_SMOOTH : 0) | (body->closed ? TRIANGLE_SOLID : 0) |

@@ -1,4 +1,5 @@
 // Materials, lights, the background, and which features of the tracer they need.
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "core/srgb.h"
 #include "grammar/ir_features.h"
@@ -142,7 +143,7 @@ enum flatten_fault flatten_background(struct flattening *f) {
     if (!f->out->background_texels.is_float || picture->depth == PICTURE_RGBE)
         return FLATTEN_DONE;
     uint32_t greatest = picture_greatest(picture->depth);
-    float *decoded = malloc(((size_t)greatest + 1) * sizeof *decoded);
+    float *decoded = heap_alloc(((size_t)greatest + 1) * sizeof *decoded);
     if (!decoded)
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i <= greatest; i++) {

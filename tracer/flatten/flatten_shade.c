@@ -1,4 +1,5 @@
 // What shading asks about a body: the coordinates of its checker, and its vertex normals.
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "tracer/flatten/flatten_parts.h"
 
@@ -78,7 +79,7 @@ static int compare_uses(const void *a, const void *b) {
 // The smooth bodies, those of one mesh together, and the normal base of each in IR order.
 static enum flatten_fault list_uses(struct flattening *f, struct smooth_use **uses, uint32_t *count) {
     *count = 0;
-    *uses = malloc(((size_t)f->scene->body_count + 1) * sizeof **uses);
+    *uses = heap_alloc(((size_t)f->scene->body_count + 1) * sizeof **uses);
     if (!*uses)
         return FLATTEN_NO_MEMORY;
     uint64_t normals = 0;

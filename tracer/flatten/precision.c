@@ -1,5 +1,6 @@
 #include "tracer/flatten/precision.h"
 
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "grammar/ir.h"
 #include "scene/transform.h"
@@ -83,7 +84,7 @@ static void keep_triangles(struct precision_report *out, const struct triangle_l
 static bool measure_triangles(const struct flat_input *input, const struct scene_body *body, uint32_t number,
                               const affine3 *map, struct precision_report *out) {
     size_t pieces = ((size_t)body->triangle_count + PIECE - 1) / PIECE;
-    struct measuring m = {body, *map, input, number, calloc(pieces, sizeof *m.pieces)};
+    struct measuring m = {body, *map, input, number, heap_zeroed(pieces, sizeof *m.pieces)};
     if (!m.pieces)
         return false;
     parallel_for(body->triangle_count, PIECE, measure_piece, &m);
@@ -130,7 +131,7 @@ static bool measure_body(const struct flat_input *input, uint32_t number, struct
 bool precision_measure(const struct flat_input *input, struct precision_report *out) {
     const uint32_t all = input->scene->body_count;
     *out = (struct precision_report){.suffices = true, .all_pairs = true};
-    struct precision_body *bodies = malloc(((size_t)all + 1) * sizeof *bodies);
+    struct precision_body *bodies = heap_alloc(((size_t)all + 1) * sizeof *bodies);
     if (!bodies)
         return false;
     uint32_t count = 0;

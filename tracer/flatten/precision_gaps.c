@@ -1,4 +1,5 @@
 // Gaps between bodies: pairs whose boxes come close, by a sweep along the axis in which they spread most.
+#include "core/heap.h"
 #include "tracer/flatten/precision_parts.h"
 
 #include "grammar/ir.h"
@@ -165,7 +166,7 @@ static int widest_axis(const struct precision_body *bodies, uint32_t count) {
 
 bool precision_gaps(const struct flat_input *input, const struct precision_body *bodies, uint32_t count,
                     struct precision_report *out) {
-    struct swept *order = malloc(((size_t)count + 1) * sizeof *order);
+    struct swept *order = heap_alloc(((size_t)count + 1) * sizeof *order);
     if (!order)
         return false;
     const int axis = widest_axis(bodies, count);

@@ -66,7 +66,9 @@ enum gpu_status gpu_list(struct gpu_device_info *items, uint32_t capacity, uint3
                          char error[GPU_ERROR_BYTES]);
 // On GPU_OK *out is a gpu; else NULL, with text in `error`.
 enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, char error[GPU_ERROR_BYTES]);
-void gpu_destroy(struct gpu *gpu);
+// false: the device was given work whose end could not be awaited. What that uses is never freed, and the
+// program must end without running what its libraries do at its end.
+bool gpu_destroy(struct gpu *gpu);
 const struct gpu_device_info *gpu_info(const struct gpu *gpu);
 // What failed last; the text lives until the next failure. Never NULL.
 const char *gpu_error(const struct gpu *gpu);

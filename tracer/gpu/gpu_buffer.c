@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <stdlib.h>
@@ -104,7 +105,7 @@ static bool fits(struct gpu *gpu, const struct gpu_buffer *buffer, enum gpu_use 
 }
 
 struct gpu_buffer *gpu_buffer_create(struct gpu *gpu, enum gpu_use use, uint64_t bytes) {
-    struct gpu_buffer *buffer = calloc(1, sizeof *buffer);
+    struct gpu_buffer *buffer = heap_zeroed(1, sizeof *buffer);
     if (!buffer) {
         gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
         return NULL;
@@ -134,6 +135,7 @@ failed:
 void gpu_buffer_destroy(struct gpu *gpu, struct gpu_buffer *buffer) {
     if (!buffer)
         return;
+    gpu_wait(gpu, NULL);
     gpu->vk.vkDestroyBufferView(gpu->device, buffer->view, NULL);
     gpu->vk.vkDestroyBuffer(gpu->device, buffer->buffer, NULL);
     gpu->vk.vkFreeMemory(gpu->device, buffer->memory, NULL);
@@ -147,7 +149,7 @@ uint64_t gpu_buffer_bytes(const struct gpu_buffer *buffer) {
 static bool make_staging(struct gpu *gpu) {
     if (gpu->staging)
         return true;
-    struct gpu_buffer *staging = calloc(1, sizeof *staging);
+    struct gpu_buffer *staging = heap_zeroed(1, sizeof *staging);
     if (!staging) {
         gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
         return false;

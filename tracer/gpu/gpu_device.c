@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <ctype.h>
@@ -41,16 +42,13 @@ static uint32_t choose(const char *wanted, const struct gpu_device_info *infos, 
 static enum gpu_status choose_device(struct gpu *gpu, const char *wanted, char *error) {
     VkPhysicalDevice *handles;
     struct gpu_device_info *infos;
-    enum gpu_status status = GPU_OK;
-    const uint32_t count = gpu_instance_devices(&gpu->instance, &handles, &infos);
+    uint32_t count;
+    enum gpu_status status = gpu_instance_devices(&gpu->instance, &handles, &infos, &count, error);
     const uint32_t chosen = choose(wanted, infos, count);
-    if (count == 0) {
-        snprintf(error, GPU_ERROR_BYTES, "no Vulkan driver offers a device that can compute");
-        status = GPU_NO_DRIVER;
-    } else if (chosen == count) {
+    if (status == GPU_OK && chosen == count) {
         snprintf(error, GPU_ERROR_BYTES, "no Vulkan device matches '%s'", wanted);
         status = GPU_NO_DEVICE;
-    } else {
+    } else if (status == GPU_OK) {
         gpu->physical = handles[chosen];
         gpu->info = infos[chosen];
     }
@@ -116,7 +114,7 @@ static bool create_device(struct gpu *gpu) {
 
 enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, char error[GPU_ERROR_BYTES]) {
     *out = NULL;
-    struct gpu *gpu = calloc(1, sizeof *gpu);
+    struct gpu *gpu = heap_zeroed(1, sizeof *gpu);
     if (!gpu) {
         snprintf(error, GPU_ERROR_BYTES, "not enough memory");
         return GPU_NO_MEMORY;
@@ -139,11 +137,11 @@ enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, 
     return status;
 }
 
-void gpu_destroy(struct gpu *gpu) {
+bool gpu_destroy(struct gpu *gpu) {
     if (!gpu)
-        return;
+        return true;
     if (gpu->device) {
-        gpu->vk.vkDeviceWaitIdle(gpu->device);
+        gpu_settle(gpu);
         gpu_buffer_destroy(gpu, gpu->staging);
         gpu_pipelines_destroy(gpu);
         gpu->vk.vkDestroyPipelineCache(gpu->device, gpu->cache, NULL);
@@ -152,8 +150,11 @@ void gpu_destroy(struct gpu *gpu) {
         gpu->vk.vkDestroyCommandPool(gpu->device, gpu->pool, NULL);
         gpu->vk.vkDestroyDevice(gpu->device, NULL);
     }
-    gpu_instance_finish(&gpu->instance);
+    const bool rests = !gpu->stuck;
+    if (rests)
+        gpu_instance_finish(&gpu->instance);
     free(gpu);
+    return rests;
 }
 
 const struct gpu_device_info *gpu_info(const struct gpu *gpu) {

@@ -1,5 +1,7 @@
+#include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
+#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +24,7 @@ static bool has_validation(void) {
     uint32_t count = 0;
     if (vkEnumerateInstanceLayerProperties(&count, NULL) != VK_SUCCESS || count == 0)
         return false;
-    VkLayerProperties *layers = calloc(count, sizeof *layers);
+    VkLayerProperties *layers = heap_zeroed(count, sizeof *layers);
     bool found = false;
     if (layers && vkEnumerateInstanceLayerProperties(&count, layers) >= VK_SUCCESS)
         for (uint32_t i = 0; i < count; i++)
@@ -31,10 +33,34 @@ static bool has_validation(void) {
     return found;
 }
 
+// What the system had no memory for, it could not open either.
+static bool open_loader(void) {
+    if (volkInitialize() == VK_SUCCESS)
+        return true;
+    void *library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+    const char *why = library ? NULL : dlerror();
+    if (library)
+        return volkInitialize() == VK_SUCCESS;
+    if (why && strstr(why, "memory")) // dlopen(3) has no other way to say so
+        heap_exhausted(0);
+    return false;
+}
+
+static enum gpu_status refuse(const char *call, VkResult result, char *error) {
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        heap_exhausted(0);
+    const bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (memory)
+        snprintf(error, GPU_ERROR_BYTES, "%s: not enough memory to start Vulkan", call);
+    else
+        snprintf(error, GPU_ERROR_BYTES, "%s failed (VkResult %d)", call, (int)result);
+    return memory ? GPU_NO_MEMORY : GPU_FAILED;
+}
+
 enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gpu_instance *out,
                                     char *error) {
     *out = (struct gpu_instance){.messages = messages};
-    if (volkInitialize() != VK_SUCCESS) {
+    if (!open_loader()) {
         snprintf(error, GPU_ERROR_BYTES, "the Vulkan loader (libvulkan.so.1) is not installed");
         return GPU_NO_LOADER;
     }
@@ -59,15 +85,13 @@ enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gp
                                    .ppEnabledLayerNames = layers,
                                    .enabledExtensionCount = layered && messages,
                                    .ppEnabledExtensionNames = extensions};
-    VkResult result = vkCreateInstance(&create, NULL, &out->handle);
-    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
-        snprintf(error, GPU_ERROR_BYTES, "not enough memory to start Vulkan");
-        return GPU_NO_MEMORY;
-    }
-    if (result != VK_SUCCESS) {
+    VkResult result = vkCreateInstance(&create, &gpu_memory, &out->handle);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
         snprintf(error, GPU_ERROR_BYTES, "no Vulkan driver is installed");
         return GPU_NO_DRIVER;
     }
+    if (result != VK_SUCCESS)
+        return refuse("vkCreateInstance", result, error);
     volkLoadInstanceOnly(out->handle);
     if (layered && messages) {
         out->destroy_messenger = vkDestroyDebugUtilsMessengerEXT;
@@ -82,7 +106,7 @@ void gpu_instance_finish(struct gpu_instance *instance) {
         return;
     if (instance->messenger)
         instance->destroy_messenger(instance->handle, instance->messenger, NULL);
-    vkDestroyInstance(instance->handle, NULL);
+    vkDestroyInstance(instance->handle, &gpu_memory);
     *instance = (struct gpu_instance){0};
 }
 
@@ -143,31 +167,45 @@ static bool can_compute(VkPhysicalDevice physical) {
     return properties.apiVersion >= VK_API_VERSION_1_1 && gpu_compute_family(physical) != UINT32_MAX;
 }
 
-uint32_t gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
-                              struct gpu_device_info **infos) {
+// All that the loader knows.
+static enum gpu_status list_all(const struct gpu_instance *instance, VkPhysicalDevice **handles,
+                                uint32_t *count, char *error) {
     *handles = NULL;
+    VkResult result = vkEnumeratePhysicalDevices(instance->handle, count, NULL);
+    if (result == VK_SUCCESS && *count) {
+        *handles = heap_zeroed(*count, sizeof **handles);
+        result = *handles ? vkEnumeratePhysicalDevices(instance->handle, count, *handles)
+                          : VK_ERROR_OUT_OF_HOST_MEMORY;
+    }
+    return result < VK_SUCCESS ? refuse("vkEnumeratePhysicalDevices", result, error) : GPU_OK;
+}
+
+enum gpu_status gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
+                                     struct gpu_device_info **infos, uint32_t *count, char *error) {
+    uint32_t all = 0, usable = 0, best = 0;
     *infos = NULL;
-    uint32_t count = 0, usable = 0;
-    if (vkEnumeratePhysicalDevices(instance->handle, &count, NULL) != VK_SUCCESS || count == 0)
-        return 0;
-    *handles = calloc(count, sizeof **handles);
-    *infos = calloc(count, sizeof **infos);
-    if (!*handles || !*infos || vkEnumeratePhysicalDevices(instance->handle, &count, *handles) < VK_SUCCESS)
-        return 0;
-    for (uint32_t i = 0; i < count; i++) {
+    *count = 0;
+    const enum gpu_status status = list_all(instance, handles, &all, error);
+    if (status != GPU_OK)
+        return status;
+    *infos = heap_zeroed(all + (size_t)1, sizeof **infos);
+    for (uint32_t i = 0; *infos && i < all; i++) {
         if (!can_compute((*handles)[i]))
             continue;
         (*handles)[usable] = (*handles)[i];
         describe((*handles)[i], usable, &(*infos)[usable]);
         usable++;
     }
-    uint32_t best = 0;
     for (uint32_t i = 1; i < usable; i++)
         if ((*infos)[i].kind < (*infos)[best].kind)
             best = i;
-    if (usable)
-        (*infos)[best].preferred = true;
-    return usable;
+    *count = usable;
+    if (usable == 0) {
+        snprintf(error, GPU_ERROR_BYTES, "no Vulkan driver offers a device that can compute");
+        return GPU_NO_DRIVER;
+    }
+    (*infos)[best].preferred = true;
+    return GPU_OK;
 }
 
 enum gpu_status gpu_list(struct gpu_device_info *items, uint32_t capacity, uint32_t *count,
@@ -179,13 +217,9 @@ enum gpu_status gpu_list(struct gpu_device_info *items, uint32_t capacity, uint3
         return status;
     VkPhysicalDevice *handles;
     struct gpu_device_info *infos;
-    *count = gpu_instance_devices(&instance, &handles, &infos);
+    status = gpu_instance_devices(&instance, &handles, &infos, count, error);
     for (uint32_t i = 0; i < *count && i < capacity; i++)
         items[i] = infos[i];
-    if (*count == 0) {
-        snprintf(error, GPU_ERROR_BYTES, "no Vulkan driver offers a device that can compute");
-        status = GPU_NO_DRIVER;
-    }
     free(handles);
     free(infos);
     gpu_instance_finish(&instance);

@@ -1,5 +1,7 @@
 // Compiled kernels, which a gpu keeps: another scene of the same features compiles nothing anew.
 #include "shaders/kernel.h"
+
+#include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <stdlib.h>
@@ -165,7 +167,7 @@ static void drop_idle(struct gpu *gpu) {
 
 static struct gpu_pipeline *make(struct gpu *gpu, const struct gpu_program_source *source,
                                  const struct gpu_pipeline *wanted) {
-    struct gpu_pipeline *made = malloc(sizeof *made);
+    struct gpu_pipeline *made = heap_alloc(sizeof *made);
     if (!made) {
         gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
         return NULL;

@@ -34,6 +34,7 @@ struct gpu {
     VkPipelineCache cache;
     struct gpu_pipeline *pipelines; // all of them, the one used last first
     bool recording, submitted, timed;
+    bool stuck;                 // what was submitted may run for ever: all that it uses is kept
     uint32_t recorded;          // dispatches since the recording began
     struct gpu_buffer *staging; // grown as needed; NULL at first
     enum gpu_status status;
@@ -76,12 +77,17 @@ struct gpu_program {
 
 enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gpu_instance *out, char *error);
 void gpu_instance_finish(struct gpu_instance *instance);
-// Devices that can compute, in the loader's order, and their descriptions; the caller frees both.
-// Returns how many there are.
-uint32_t gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
-                              struct gpu_device_info **infos);
+// Devices that can compute, in the loader's order, and their descriptions; the caller frees both, whatever
+// comes. GPU_OK: *count, of at least one. Else `error` gets text.
+enum gpu_status gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
+                                     struct gpu_device_info **infos, uint32_t *count, char *error);
 // Family of a queue that computes; UINT32_MAX where there is none.
 uint32_t gpu_compute_family(VkPhysicalDevice physical);
+
+// ---- gpu_memory.c
+
+// For what is created with the instance; destroyed with the same.
+extern const VkAllocationCallbacks gpu_memory;
 
 // ---- gpu_fault.c
 
@@ -89,6 +95,9 @@ uint32_t gpu_compute_family(VkPhysicalDevice physical);
 bool gpu_check(struct gpu *gpu, VkResult result, const char *call);
 void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+// After a failure with work in flight: waits until the device does nothing more. Where that fails too,
+// nothing that the work may use is destroyed from then on; the end of the process frees it.
+void gpu_settle(struct gpu *gpu);
 
 // ---- gpu_pipeline.c
 

@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <stdlib.h>
@@ -48,7 +49,7 @@ void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
 }
 
 struct gpu_program *gpu_program_create(struct gpu *gpu, const struct gpu_program_source *source) {
-    struct gpu_program *program = calloc(1, sizeof *program);
+    struct gpu_program *program = heap_zeroed(1, sizeof *program);
     if (!program) {
         gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
         return NULL;

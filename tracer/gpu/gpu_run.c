@@ -3,7 +3,7 @@
 bool gpu_record(struct gpu *gpu) {
     if (gpu->recording)
         return true;
-    if (!gpu_wait(gpu, NULL))
+    if (gpu->stuck || !gpu_wait(gpu, NULL))
         return false;
     VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                       .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
@@ -51,8 +51,10 @@ bool gpu_submit(struct gpu *gpu) {
         return false;
     VkSubmitInfo submit = {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &gpu->commands};
-    if (!gpu_check(gpu, gpu->vk.vkQueueSubmit(gpu->queue, 1, &submit, gpu->fence), "vkQueueSubmit"))
+    if (!gpu_check(gpu, gpu->vk.vkQueueSubmit(gpu->queue, 1, &submit, gpu->fence), "vkQueueSubmit")) {
+        gpu_settle(gpu); // a device that is lost may have begun
         return false;
+    }
     gpu->submitted = true;
     return true;
 }
@@ -76,8 +78,11 @@ bool gpu_wait(struct gpu *gpu, double *seconds) {
         return true;
     gpu->submitted = false;
     if (!gpu_check(gpu, gpu->vk.vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, UINT64_MAX),
-                   "vkWaitForFences") ||
-        !gpu_check(gpu, gpu->vk.vkResetFences(gpu->device, 1, &gpu->fence), "vkResetFences"))
+                   "vkWaitForFences")) {
+        gpu_settle(gpu);
+        return false;
+    }
+    if (!gpu_check(gpu, gpu->vk.vkResetFences(gpu->device, 1, &gpu->fence), "vkResetFences"))
         return false;
     return !seconds || !gpu->timed || read_times(gpu, seconds);
 }

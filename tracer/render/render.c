@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "tracer/render/render_private.h"
 
 #include "grammar/ir.h"
@@ -141,7 +142,7 @@ static bool make_band(struct renderer *renderer) {
     const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
     const uint64_t lists = renderer->features & FEATURE_SLICES ? 2 * slots : 0;
     const uint32_t zero[COUNTER_COUNT] = {0};
-    renderer->band = malloc(slots * SLOT_OUTPUT_BYTES);
+    renderer->band = heap_alloc(slots * SLOT_OUTPUT_BYTES);
     return renderer->band && upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, slots * SLOT_OUTPUT_BYTES) &&
            upload(renderer, BINDING_STATE, GPU_STORAGE, NULL, slots * slot_state_bytes(renderer)) &&
            upload(renderer, BINDING_COUNTERS, GPU_STORAGE, NULL,
@@ -193,7 +194,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
 
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
                                  const struct render_settings *settings) {
-    struct renderer *renderer = calloc(1, sizeof *renderer);
+    struct renderer *renderer = heap_zeroed(1, sizeof *renderer);
     if (!renderer)
         return NULL;
     renderer->gpu = gpu;

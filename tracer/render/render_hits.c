@@ -1,4 +1,5 @@
 // What every pixel's first ray hits: a dispatch a band and kind of ray, and the way to bodies and pixels.
+#include "core/heap.h"
 #include "tracer/render/render_private.h"
 
 #include "core/parallel.h"
@@ -22,13 +23,13 @@ struct renderer_hits {
 };
 
 static bool make(struct renderer *renderer) {
-    struct renderer_hits *hits = calloc(1, sizeof *hits);
+    struct renderer_hits *hits = heap_zeroed(1, sizeof *hits);
     if (!hits)
         return false;
     renderer->hits = hits;
     hits->band_tiles = renderer->tiles < BAND_TILES_MAX ? renderer->tiles : BAND_TILES_MAX;
     const size_t words = (size_t)hits->band_tiles * TILE_PIXELS * HITS_WORDS;
-    hits->words = malloc(words * sizeof *hits->words);
+    hits->words = heap_alloc(words * sizeof *hits->words);
     hits->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, words * sizeof *hits->words);
     const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
     if (hits->words && hits->output)

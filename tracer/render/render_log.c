@@ -1,5 +1,6 @@
 // One sample's path, logged ray by ray: the host decides which rays go on, as the tracer does, and the log
 // kernel follows all of a level at a time. Weights and sums are floats in the tracer's order.
+#include "core/heap.h"
 #include "tracer/render/render_private.h"
 
 #include "shaders/log.h"
@@ -36,7 +37,7 @@ struct walk {
 };
 
 static bool make(struct renderer *renderer) {
-    struct renderer_log *log = calloc(1, sizeof *log);
+    struct renderer_log *log = heap_zeroed(1, sizeof *log);
     if (!log)
         return false;
     renderer->log = log;
@@ -177,7 +178,7 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
 
 // Depth-first, mirrored rays before refracted ones: the order in which the tracer adds.
 static bool tell(const struct walk *walk, struct render_log *log) {
-    uint32_t *place = malloc(2 * (size_t)walk->count * sizeof *place);
+    uint32_t *place = heap_alloc(2 * (size_t)walk->count * sizeof *place);
     walk->nodes[0].segment.parent = UINT32_MAX;
     if (!place)
         return false;
@@ -220,7 +221,7 @@ enum render_result renderer_log(struct renderer *renderer, const struct view_cam
     log->whole = true;
     memset(log->rgb, 0, sizeof log->rgb);
     struct walk walk = {.renderer = renderer, .capacity = log->capacity, .whole = true};
-    walk.nodes = malloc((size_t)log->capacity * sizeof *walk.nodes);
+    walk.nodes = heap_alloc((size_t)log->capacity * sizeof *walk.nodes);
     if (!walk.nodes || (!renderer->log && !make(renderer)) || !renderer_write_frame(renderer, camera)) {
         free(walk.nodes);
         return RENDER_FAILED;

@@ -1,5 +1,6 @@
 #include "measure/tradeoff/choose/choose.h"
 
+#include "core/heap.h"
 #include "core/quantile.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@ static int compare_values(double a, double b) {
 
 // Three standard errors of the difference of two times, as a share of them, in the median row.
 static double pooled_noise(const struct choice_row *rows, uint32_t count) {
-    double *shares = malloc((count ? count : 1) * sizeof *shares);
+    double *shares = heap_alloc((count ? count : 1) * sizeof *shares);
     uint32_t known = 0;
     for (uint32_t i = 0; shares && i < count; i++)
         if (rows[i].choosable && rows[i].time_ms > 0)
@@ -69,7 +70,7 @@ static uint32_t cheapest(const struct search *s, uint32_t without) {
 }
 
 double choice_classify(struct choice_row *rows, uint32_t count) {
-    bool *taken = calloc(count ? count : 1, sizeof *taken);
+    bool *taken = heap_zeroed(count ? count : 1, sizeof *taken);
     struct search s = {.rows = rows, .count = count, .noise = pooled_noise(rows, count), .taken = taken};
     for (uint32_t i = 0; i < count; i++) {
         rows[i].time_class = rows[i].rank = CHOICE_NONE;

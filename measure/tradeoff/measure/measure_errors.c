@@ -1,3 +1,4 @@
+#include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/parallel.h"
@@ -70,7 +71,7 @@ static uint32_t thumbnail_height(uint32_t width, uint32_t height, uint32_t to_wi
 static void picture_thumbnail(const float *shown, uint32_t width, uint32_t height, struct strbuf *out) {
     const uint32_t w = width < THUMBNAIL_WIDTH ? width : THUMBNAIL_WIDTH,
                    h = thumbnail_height(width, height, w);
-    uint8_t *bytes = malloc((size_t)3 * w * h);
+    uint8_t *bytes = heap_alloc((size_t)3 * w * h);
     for (uint32_t i = 0; bytes && i < w * h; i++) {
         const struct box b = box_of(i % w, i / w, width, height, w, h);
         for (size_t k = 0; k < 3; k++) {
@@ -93,7 +94,7 @@ static void difference_thumbnail(const float *difference, uint32_t width, uint32
                                  struct strbuf *out) {
     const uint32_t w = width < THUMBNAIL_WIDTH ? width : THUMBNAIL_WIDTH,
                    h = thumbnail_height(width, height, w);
-    float *values = malloc((size_t)w * h * sizeof *values);
+    float *values = heap_alloc((size_t)w * h * sizeof *values);
     for (uint32_t i = 0; values && i < w * h; i++) {
         const struct box b = box_of(i % w, i / w, width, height, w, h);
         values[i] = 0;
@@ -114,7 +115,7 @@ static bool measure(struct measuring *s, struct row *row) {
     struct measure_options options = measure_options_default();
     struct measure_result result;
     float *difference =
-        s->out->options.thumbnails ? malloc((size_t)width * height * sizeof *difference) : NULL;
+        s->out->options.thumbnails ? heap_alloc((size_t)width * height * sizeof *difference) : NULL;
     options.threshold = s->out->options.threshold;
     options.pixels_per_degree = s->out->options.ppd;
     if (s->out->options.quick)

@@ -1,4 +1,5 @@
 // The ground truth of a study, and how much of the reference the budget allows.
+#include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/clock.h"
@@ -26,7 +27,7 @@ static uint64_t rays_of(const struct reference_statistics *r) {
 enum tradeoff_status ground_truth_picture(struct measuring *s, const struct reference_settings *settings,
                                           float *shown, struct reference_statistics *statistics) {
     const size_t pixels = (size_t)s->base.width * s->base.height;
-    double *rgb = malloc(3 * pixels * sizeof *rgb);
+    double *rgb = heap_alloc(3 * pixels * sizeof *rgb);
     if (!rgb)
         return TRADEOFF_MEMORY;
     const struct reference_progress progress = measuring_reference_progress(s);
@@ -61,7 +62,7 @@ static enum tradeoff_status run_pilots(struct measuring *s, struct plan_ground_t
     struct reference_statistics taken;
     enum reference_result result = REFERENCE_DONE;
     in->pilot_pixels = (uint64_t)settings.width * settings.height;
-    double *rgb = malloc(3 * in->pilot_pixels * sizeof *rgb);
+    double *rgb = heap_alloc(3 * in->pilot_pixels * sizeof *rgb);
     if (!rgb)
         return TRADEOFF_MEMORY;
     const struct reference_progress progress = measuring_reference_progress(s);
@@ -118,9 +119,9 @@ enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *o
     const bool lowered = planned.segments < s->full.segments;
     t->ground_truth_samples = s->full.samples = planned.samples;
     t->ground_truth_segments = s->full.segments = planned.segments;
-    s->ground_truth = malloc(values * sizeof *s->ground_truth);
-    s->shown = malloc(values * sizeof *s->shown);
-    s->picture = malloc(values * sizeof *s->picture);
+    s->ground_truth = heap_alloc(values * sizeof *s->ground_truth);
+    s->shown = heap_alloc(values * sizeof *s->shown);
+    s->picture = heap_alloc(values * sizeof *s->picture);
     if (!s->ground_truth || !s->shown || !s->picture)
         return TRADEOFF_MEMORY;
     status = ground_truth_picture(s, &s->full, s->ground_truth, &taken);

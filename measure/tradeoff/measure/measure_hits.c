@@ -1,7 +1,6 @@
 // A row's first hits, against the reference.
+#include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
-
-#include <stdlib.h>
 
 enum {
     RAYS_A_HIT = 4, // about: the first, to lights, mirrored and refracted
@@ -13,7 +12,7 @@ static enum tradeoff_status make_reference_hits(struct measuring *s) {
     if (s->hits[1])
         return TRADEOFF_DONE;
     for (int i = 0; i < 2; i++)
-        s->hits[i] = malloc(pixels * sizeof *s->hits[i]);
+        s->hits[i] = heap_alloc(pixels * sizeof *s->hits[i]);
     if (!s->hits[0] || !s->hits[1])
         return TRADEOFF_MEMORY;
     const struct reference_progress progress = measuring_reference_progress(s);

@@ -3,6 +3,7 @@
 // Whitted pictures are deterministic: between the device's picture and the ground truth lie pictures that the
 // reference can make, each different from the one before by one cause. They are made at some pixels only,
 // spread evenly.
+#include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/parallel.h"
@@ -102,7 +103,7 @@ static const float *probe(struct measuring *s, struct probe_set wanted) {
             return s->sets[i].values;
     const uint32_t count = probe_count(s);
     const struct reference *reference = reference_source_get(&s->source[!wanted.shadows]);
-    float *values = malloc((size_t)3 * count * sizeof *values);
+    float *values = heap_alloc((size_t)3 * count * sizeof *values);
     if (!values || !reference || s->set_count == PROBE_SETS_MAX) {
         free(values);
         return NULL;
@@ -143,7 +144,7 @@ static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) 
     if (!s->as_file) {
         const struct reference_settings settings =
             reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, true);
-        float *shown = malloc(3 * pixels * sizeof *shown);
+        float *shown = heap_alloc(3 * pixels * sizeof *shown);
         const enum tradeoff_status status =
             shown ? ground_truth_picture(s, &settings, shown, NULL) : TRADEOFF_MEMORY;
         if (status != TRADEOFF_DONE) {
@@ -170,7 +171,7 @@ enum tradeoff_status parts_measure(struct measuring *s, struct row *row) {
     const float *settings = probe(s, as_file), *paths = settings ? probe(s, full) : NULL;
     full.samples = s->out->ground_truth_samples;
     const float *samples = paths ? probe(s, full) : NULL;
-    float *own = malloc((size_t)6 * count * sizeof *own);
+    float *own = heap_alloc((size_t)6 * count * sizeof *own);
     if (!samples || !own) {
         free(own);
         return TRADEOFF_MEMORY;

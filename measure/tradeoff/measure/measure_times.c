@@ -1,4 +1,5 @@
 // What the rows take on the device's clock, in rounds, until the noise is low.
+#include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/quantile.h"
@@ -55,7 +56,7 @@ static void fill_times(struct tradeoff *t, double *times) {
 // Whether the noise has come down to the floor of the choice: further rounds would change nothing.
 static bool is_quiet(struct tradeoff *t, const double *times) {
     const size_t count = (size_t)t->rounds * t->count;
-    double *copy = malloc(count * sizeof *copy), *shares = malloc(t->count * sizeof *shares);
+    double *copy = heap_alloc(count * sizeof *copy), *shares = heap_alloc(t->count * sizeof *shares);
     bool quiet = false;
     if (copy && shares) {
         memcpy(copy, times, count * sizeof *copy);
@@ -73,7 +74,7 @@ static bool is_quiet(struct tradeoff *t, const double *times) {
 // Each round begins with another row.
 enum tradeoff_status times_measure(struct measuring *s) {
     struct tradeoff *t = s->out;
-    double *times = malloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
+    double *times = heap_alloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
     enum tradeoff_status status = times ? device_wake(s) : TRADEOFF_MEMORY;
     const double begun = measuring_seconds(s), budget = t->options.budget_s;
     // A single row is compared with none: its noise, which would go with the drift, decides nothing.

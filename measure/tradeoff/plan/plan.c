@@ -1,5 +1,6 @@
 #include "measure/tradeoff/plan/plan.h"
 
+#include "core/heap.h"
 #include "core/number.h"
 
 #include <math.h>
@@ -186,7 +187,7 @@ static bool is_part(const struct setting *a, const struct setting *b) {
 }
 
 bool plan_order_times(struct row *rows, uint32_t count) {
-    double *ordered = malloc((count ? count : 1) * sizeof *ordered);
+    double *ordered = heap_alloc((count ? count : 1) * sizeof *ordered);
     if (!ordered)
         return false;
     for (uint32_t i = 0; i < count; i++) {
@@ -307,7 +308,7 @@ static void count_better(const struct row *rows, uint32_t count, enum metric met
 uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, uint32_t most,
                     struct row *pairs, uint32_t *left_out) {
     static const uint32_t pairs_max = PLAN_ROWS_MAX * PLAN_ROWS_MAX / 2;
-    struct pair *found = malloc(pairs_max * sizeof *found);
+    struct pair *found = heap_alloc(pairs_max * sizeof *found);
     uint32_t found_count = 0, made = 0, knob_a, knob_b;
     *left_out = 0;
     for (uint32_t a = 1; found && a < count; a++)

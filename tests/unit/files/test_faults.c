@@ -35,22 +35,16 @@ static bool fails(const char *call) {
 // The core is compiled with 64-bit file offsets, where the name of open is open64.
 int __real_open64(const char *path, int flags, ...);
 int __wrap_open64(const char *path, int flags, ...);
-FILE *__real_fdopen(int fd, const char *mode);
-FILE *__wrap_fdopen(int fd, const char *mode);
-size_t __real_fwrite(const void *bytes, size_t size, size_t count, FILE *stream);
-size_t __wrap_fwrite(const void *bytes, size_t size, size_t count, FILE *stream);
-int __real_fflush(FILE *stream);
-int __wrap_fflush(FILE *stream);
+ssize_t __real_write(int fd, const void *bytes, size_t count);
+ssize_t __wrap_write(int fd, const void *bytes, size_t count);
 int __real_fsync(int fd);
 int __wrap_fsync(int fd);
-int __real_fclose(FILE *stream);
-int __wrap_fclose(FILE *stream);
+int __real_close(int fd);
+int __wrap_close(int fd);
 int __real_rename(const char *from, const char *to);
 int __wrap_rename(const char *from, const char *to);
 void *__real_malloc(size_t size);
 void *__wrap_malloc(size_t size);
-char *__real_strdup(const char *text);
-char *__wrap_strdup(const char *text);
 
 int __wrap_open64(const char *path, int flags, ...) {
     va_list args;
@@ -60,28 +54,23 @@ int __wrap_open64(const char *path, int flags, ...) {
     return fails("open") ? -1 : __real_open64(path, flags, mode);
 }
 
-FILE *__wrap_fdopen(int fd, const char *mode) {
-    return fails("fdopen") ? NULL : __real_fdopen(fd, mode);
-}
-
-size_t __wrap_fwrite(const void *bytes, size_t size, size_t count, FILE *stream) {
-    return fails("fwrite") ? 0 : __real_fwrite(bytes, size, count, stream);
-}
-
-int __wrap_fflush(FILE *stream) {
-    return fails("fflush") ? EOF : __real_fflush(stream);
+// Error 0: half of it is written.
+ssize_t __wrap_write(int fd, const void *bytes, size_t count) {
+    if (!fails("write"))
+        return __real_write(fd, bytes, count);
+    return fault.error ? -1 : __real_write(fd, bytes, (count + 1) / 2);
 }
 
 int __wrap_fsync(int fd) {
     return fails("fsync") ? -1 : __real_fsync(fd);
 }
 
-int __wrap_fclose(FILE *stream) {
-    if (!fails("fclose"))
-        return __real_fclose(stream);
-    __real_fclose(stream); // a failed fclose closes too
+int __wrap_close(int fd) {
+    if (!fails("close"))
+        return __real_close(fd);
+    __real_close(fd); // a failed close closes too
     errno = fault.error;
-    return EOF;
+    return -1;
 }
 
 int __wrap_rename(const char *from, const char *to) {
@@ -90,10 +79,6 @@ int __wrap_rename(const char *from, const char *to) {
 
 void *__wrap_malloc(size_t size) {
     return fails("malloc") ? NULL : __real_malloc(size);
-}
-
-char *__wrap_strdup(const char *text) {
-    return fails("strdup") ? NULL : __real_strdup(text);
 }
 
 // ---- fixtures
@@ -171,6 +156,27 @@ static void every_step_of_a_linked_file(void **state) {
     struct stat info;
     assert_int_equal(lstat(scratch_path(s, "link"), &info), 0);
     assert_true(S_ISLNK(info.st_mode));
+}
+
+// A signal, and a write that took less than it was given, end nothing.
+static void interrupted_and_short_calls(void **state) {
+    struct scratch *s = *state;
+    static const char *const calls[] = {"open", "write", "fsync", "close"};
+    unsigned seen = 0;
+    for (int step = 1; step == 1 || fault.failed; step++) {
+        int error = write_with_fault(scratch_path(s, "file"), step, EINTR);
+        for (unsigned i = 0; fault.failed && i < sizeof calls / sizeof *calls; i++)
+            if (strcmp(fault.failed, calls[i]) == 0) {
+                seen |= 1u << i;
+                assert_int_equal(error, 0);
+                assert_true(scratch_holds(s, "file", "new text"));
+            }
+        write_with_fault(scratch_path(s, "file"), step, 0);
+        if (fault.failed && strcmp(fault.failed, "write") == 0)
+            assert_true(scratch_holds(s, "file", "new text"));
+    }
+    assert_int_equal(seen, 0xf);
+    assert_int_equal(scratch_count(s, ""), 1);
 }
 
 // ---- refusals of the system itself
@@ -340,6 +346,7 @@ int main(void) {
         T(every_step_of_a_new_file),
         T(every_step_of_a_replaced_file),
         T(every_step_of_a_linked_file),
+        T(interrupted_and_short_calls),
         T(a_full_device),
         T(a_full_standard_output),
         T(a_disk_that_fills_up),

@@ -1,0 +1,46 @@
+#include "cli/memory.h"
+
+#include "cli/cli.h"
+#include "core/heap.h"
+#include "files/output.h"
+#include "files/temporary.h"
+
+#include <stdatomic.h>
+#include <unistd.h>
+
+static void say(const char *text, size_t count) {
+    // Whether it can be written or not, the exit status tells.
+    (void)output_descriptor(STDERR_FILENO, text, count);
+}
+
+static void say_number(size_t number) {
+    char digits[24];
+    size_t at = sizeof digits;
+    do
+        digits[--at] = (char)('0' + number % 10);
+    while (number /= 10);
+    say(digits + at, sizeof digits - at);
+}
+
+static void end(size_t size_bytes) {
+    static const char clear_line[] = "\r\033[K", message[] = "glint: out of memory",
+                      before[] = ": the system refused ", after[] = " bytes";
+    static atomic_flag ending = ATOMIC_FLAG_INIT;
+    while (atomic_flag_test_and_set(&ending)) // another thread came first, and ends this one too
+        pause();
+    temporary_remove_all();
+    if (isatty(STDERR_FILENO))
+        say(clear_line, sizeof clear_line - 1); // a progress bar
+    say(message, sizeof message - 1);
+    if (size_bytes) {
+        say(before, sizeof before - 1);
+        say_number(size_bytes);
+        say(after, sizeof after - 1);
+    }
+    say("\n", 1);
+    _exit(CLI_FILE);
+}
+
+void memory_catch(void) {
+    heap_on_exhausted(end);
+}

@@ -1,0 +1,15 @@
+// The entries of a folder, read one by one.
+//
+// Ownership: closedir closes. Errors: errno; lack of memory is said as core/heap.h does, and not as a folder
+// that cannot be read. Thread safety: a folder belongs to one thread.
+#ifndef GLINT_FILES_FOLDER_H
+#define GLINT_FILES_FOLDER_H
+
+#include <dirent.h>
+
+// NULL: errno says why.
+DIR *folder_open(const char *path);
+// NULL: there are no more, or, if errno is not 0, they could not be read.
+struct dirent *folder_next(DIR *folder);
+
+#endif
