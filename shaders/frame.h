@@ -52,9 +52,11 @@
     UINT(sample_index)                                                                                       \
     FLOAT(offset_x) /* of the sample inside the pixel */                                                     \
     FLOAT(offset_y)                                                                                          \
+    UINT(path_begin) /* slots of this dispatch, or places in the list that is read */                        \
+    UINT(path_end)                                                                                           \
     UINT(resume)       /* 0: paths begin; else how many saved ones go on */                                  \
     UINT(read_list)    /* which of the two lists of saved slots is read; the other is written */             \
-    UINT(pending_base) /* value of COUNTER_PENDING before this dispatch */
+    UINT(pending_base) /* value of COUNTER_PENDING when that list was begun */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8

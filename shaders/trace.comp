@@ -219,10 +219,10 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
-    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint index = dispatch.path_begin + group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     uint slots = dispatch.tile_count * TILE_PIXELS;
     bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
-    if (index >= (resumes ? dispatch.resume : slots))
+    if (index >= dispatch.path_end)
         return;
     uint slot = resumes ? counters[COUNTER_COUNT + dispatch.read_list * slots + index] : index;
     uvec2 pixel = pixel_of_slot(slot);

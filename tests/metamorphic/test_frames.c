@@ -149,6 +149,28 @@ static void test_slices(struct frames *f) {
     close_stage(&stage);
 }
 
+// Dispatches of few paths at a time, whose numbers are no multiples of anything.
+static void test_pieces(struct frames *f) {
+    static const uint32_t sizes[] = {64, 1000, 1937};
+    struct stage stage;
+    struct image whole, image;
+    struct render_statistics statistics;
+    if (!open_stage(f, &stage, 96, 72, 2))
+        return;
+    stage.shot.settings.slice_iterations = 300;
+    bool good = apply(&stage) && take(&stage, &whole, &statistics);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        stage.shot.settings.dispatch_paths = sizes[i];
+        good = apply(&stage) && take(&stage, &image, &statistics) && good &&
+               statistics.dispatches > 2 * 96 * 72 / sizes[i] &&
+               picture_differences(&whole, &image, "pieces") == 0;
+        image_finish(&image);
+    }
+    expect(f, good, "dispatches of few paths do not show");
+    image_finish(&whole);
+    close_stage(&stage);
+}
+
 // ---- a part of the picture
 
 // With sizes that are powers of two, half the field is the middle of the whole field without a rounding.
@@ -212,6 +234,7 @@ int main(int argc, char **argv) {
     test_cancel(&f);
     test_bands(&f);
     test_slices(&f);
+    test_pieces(&f);
     test_crop(&f);
     test_segments(&f);
     uint32_t messages = picture_kit_close(&f.kit);

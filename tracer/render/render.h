@@ -1,8 +1,8 @@
 // From a flat scene, a camera and a device to a picture of linear floats.
 //
 // A renderer holds the scene on the device and the compiled kernel, for as many frames as wanted. Pictures
-// are made in bands and slices (docs/architecture.md, "Tracing"), one sample a dispatch; neither shows in
-// the result. Input: the flat scene is copied to the device; it must outlive the renderer all the same.
+// are made in bands, samples, slices and pieces (docs/architecture.md, "Slices"); none shows in the
+// result. Input: the flat scene is copied to the device; it must outlive the renderer all the same.
 // Errors: RENDER_FAILED, with the text in gpu_error. Ownership: renderer_destroy takes NULL.
 // Thread safety: a renderer belongs to its gpu's thread.
 #ifndef GLINT_TRACER_RENDER_RENDER_H
@@ -44,6 +44,7 @@ struct render_settings {
     enum render_alternative alternative; // in single precision only
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
     uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
+    uint32_t dispatch_paths;             // most paths of a dispatch; 0: as many as are over soon
 };
 
 // What scene, flat scene and limits ask for.

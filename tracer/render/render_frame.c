@@ -11,7 +11,6 @@ static const double RADIANS = 3.14159265358979323846 / 180;
 
 enum {
     TILES_A_PIECE = 256,
-    GRID_WIDTH_MAX = 65535, // what every device allows; more workgroups go to further rows
 };
 
 bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
@@ -96,53 +95,51 @@ struct frame_run {
     uint64_t steps_done, steps; // a band's sample is a step
 };
 
-static bool run_once(struct frame_run *run, const struct dispatch_block *block, uint32_t groups) {
-    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
-    double seconds;
-    if (!gpu_dispatch(run->renderer->gpu, run->program, block->grid_width, height, block) ||
-        !gpu_submit(run->renderer->gpu) || !gpu_wait(run->renderer->gpu, &seconds))
-        return false;
-    run->statistics->device_seconds += seconds;
-    run->statistics->dispatches++;
-    return true;
-}
-
-// Rows of one length: empty workgroups at the end would all fall to one of a CPU's threads.
-uint32_t renderer_grid_width(uint32_t groups) {
-    const uint32_t rows = (groups + GRID_WIDTH_MAX - 1) / GRID_WIDTH_MAX;
-    return (groups + rows - 1) / rows;
-}
-
 static bool is_wanted(const struct frame_run *run, double part) {
     const struct render_progress *progress = run->progress;
     return !progress || !progress->report ||
            progress->report(progress->context, ((double)run->steps_done + part) / (double)run->steps);
 }
 
+static bool run_paths(struct frame_run *run, struct dispatch_block *block, uint32_t end) {
+    struct renderer *renderer = run->renderer;
+    double seconds;
+    if (!renderer_run_paths(renderer, run->program, block->resume ? RENDERER_RESUMES : RENDERER_BEGINS,
+                            renderer->settings.workgroup, block, end, &seconds))
+        return false;
+    run->statistics->device_seconds += seconds;
+    run->statistics->dispatches++;
+    return !(renderer->features & FEATURE_SLICES) ||
+           gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], COUNTER_PENDING * sizeof(uint32_t),
+                    &renderer->pending, sizeof renderer->pending);
+}
+
+// All paths from the camera, or all that were saved, until they end or are saved again.
+static enum render_result draw_pass(struct frame_run *run, struct dispatch_block *block) {
+    const uint32_t all = block->tile_count * TILE_PIXELS, end = block->resume ? block->resume : all;
+    block->pending_base = run->renderer->pending;
+    for (block->path_begin = 0; block->path_begin < end; block->path_begin = block->path_end) {
+        if (!run_paths(run, block, end))
+            return RENDER_FAILED;
+        const uint32_t saved = run->renderer->pending - block->pending_base;
+        const uint32_t open = end - block->path_end + saved;
+        if (open > 0 && !is_wanted(run, 1 - (double)open / all))
+            return RENDER_CANCELLED;
+    }
+    return RENDER_DONE;
+}
+
 // One sample of one band: all its paths to their ends.
 static enum render_result draw_sample(struct frame_run *run, struct dispatch_block block) {
-    struct renderer *renderer = run->renderer;
-    const bool slices = renderer->features & FEATURE_SLICES;
-    const uint32_t workgroup = renderer->settings.workgroup;
-    uint32_t groups = (block.tile_count * TILE_PIXELS + workgroup - 1) / workgroup;
     for (;;) {
-        block.grid_width = renderer_grid_width(groups);
-        block.pending_base = renderer->pending;
-        if (!run_once(run, &block, groups))
-            return RENDER_FAILED;
-        if (!slices)
-            break;
-        if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], COUNTER_PENDING * sizeof(uint32_t),
-                      &renderer->pending, sizeof renderer->pending))
-            return RENDER_FAILED;
-        block.resume = renderer->pending - block.pending_base;
+        const enum render_result result = draw_pass(run, &block);
+        if (result != RENDER_DONE)
+            return result;
+        block.resume = run->renderer->pending - block.pending_base;
         if (block.resume == 0)
             break;
         block.read_list = 1 - block.read_list;
-        groups = (block.resume + workgroup - 1) / workgroup;
         run->statistics->slices++;
-        if (!is_wanted(run, 1 - (double)block.resume / ((double)block.tile_count * TILE_PIXELS)))
-            return RENDER_CANCELLED;
     }
     run->steps_done++;
     return is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;

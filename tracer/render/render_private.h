@@ -37,6 +37,18 @@ enum {
     RENDERER_KEPT = 16
 };
 
+// How many paths a dispatch may take so that it is over soon, and a signal heard (render_pace.c).
+struct renderer_pace {
+    uint32_t paths; // of the next one; 0: nothing is known yet
+    double seconds; // of a path
+};
+enum renderer_pass {
+    RENDERER_BEGINS,  // paths from the camera
+    RENDERER_RESUMES, // saved ones
+    RENDERER_REPORTS, // first hits
+    RENDERER_PASSES,
+};
+
 struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
@@ -55,6 +67,7 @@ struct renderer {
     struct renderer_hits *hits; // made by the first renderer_hits
     struct renderer_log *log;   // made by the first renderer_log
     uint32_t pending;           // value of COUNTER_PENDING after the last dispatch
+    struct renderer_pace paces[RENDERER_PASSES];
 };
 
 // A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` take the place
@@ -75,8 +88,11 @@ float renderer_float(uint32_t bits);
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
 // The frame's uniforms for a camera.
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera);
-// Width of a grid of this many workgroups, in rows of equal length.
-uint32_t renderer_grid_width(uint32_t groups);
+// Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
+// than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
+// *seconds is the device's time. `workgroup` is the program's.
+bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
+                        uint32_t workgroup, struct dispatch_block *block, uint32_t end, double *seconds);
 // Body in IR order, and its triangle in file order, of a number as in FAULT_NUMBER.
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);
 void renderer_hits_destroy(struct renderer *renderer); // what renderer_hits made
