@@ -70,15 +70,17 @@
 #define FAULT_NONE       0u
 #define FAULT_NOT_FINITE 1u /* a value on the way was infinite or no number; the sample counts as 0 */
 #define FAULT_SEGMENTS   2u /* the sample exceeded path_segments */
-#define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT */
+#define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT; with FEATURE_LONG_RAYS none does */
 
 /* State of a path, word k of slot s at k * slots + s: ray origin, throughput; direction, depth; radiance,
    segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare: kept
    between dispatches; then two words for each refracted ray that waits. In double precision places,
-   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. */
+   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. With FEATURE_LONG_RAYS
+   the words of long_rays.glsl lie between the two. */
 #define STATE_WORDS         6
 #define STACK_ENTRY_WORDS   2
 #define STATE64_WORDS       8
+#define LONG_RAY_WORDS      3 /* and two entries of a tree's stack in each word after them */
 #define STACK64_ENTRY_WORDS 4
 
 /* Counters, 32-bit each, then two lists of slots. */
@@ -95,6 +97,7 @@
 #define COUNTER_TOTAL_REFLECT 10 /* total reflections */
 #define COUNTER_NODES         11 /* nodes of both trees tested, and the word above it */
 #define COUNTER_ITEMS         13 /* triangles and spheres tested, and the word above it */
+#define COUNTER_LONG_RAYS     15 /* samples with FAULT_ITERATIONS, counted whatever the features */
 #define COUNTER_COUNT         16
 
 /* lavapipe stops all loops of a vector of 8 invocations, silently, after 65535 iterations in sum over the

@@ -11,6 +11,8 @@
 #include "records.glsl"
 #include "math.glsl"
 #include "camera.glsl"
+#include "bits.glsl"
+#include "long_rays.glsl"
 #include "tree.glsl"
 #include "triangles.glsl"
 #include "spheres.glsl"
@@ -103,6 +105,8 @@ void write_sample(uint slot, path_state p, uint fault) {
     uvec4 before = dispatch.sample_index == OPAQUE_ZERO ? uvec4(0u) : pixels[slot];
     vec3 sum = uintBitsToFloat(before.xyz) + p.radiance;
     bool finite = is_finite3(sum);
+    if (fault >> FAULT_KIND_SHIFT == FAULT_ITERATIONS)
+        atomicAdd(counters[COUNTER_LONG_RAYS], 1u);
     fault = finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT | p.hit.number;
     pixels[slot] = uvec4(finite ? floatBitsToUint(sum) : before.xyz, before.w != 0u ? before.w : fault);
 }
@@ -156,6 +160,32 @@ uint leave_surface(uint slot, inout path_state p, surface s, REAL3 start) {
     return send_rays(slot, p, s, start) ? GOES_ON : ENDED;
 }
 
+// Whether a slice has no more room for a ray.
+bool is_late(bool fresh, uint iterations) {
+    bool late = !fresh && iterations > frame.slice_iterations;
+    // Looking for a light may have taken what the first ray was to have.
+    return late || (HAS_LONG_RAYS && iterations > SLICE_ITERATIONS);
+}
+
+// Both trees. A ray that stopped in the slice before goes on where it did; one may stop again: long_stopped.
+void trace_ray(REAL3 origin, REAL3 direction, bool traced, bool any, inout hit_record hit, inout uint iterations) {
+    bool before_triangles = true;
+    if (HAS_LONG_RAYS) {
+        long_resumes = traced && long_tree != TREE_NONE;
+        before_triangles = !(long_resumes && long_tree == TREE_TRIANGLES);
+        if (long_resumes)
+            hit = long_hit();
+    }
+    if (HAS_SPHERES && before_triangles)
+        trace_spheres(origin, direction, any, hit, iterations);
+    if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM) && !(HAS_LONG_RAYS && long_stopped != TREE_NONE))
+        trace_triangles(origin, direction, any, hit, iterations);
+    if (HAS_LONG_RAYS && traced)
+        long_tree = TREE_NONE;
+    if (HAS_LONG_RAYS && long_stopped != TREE_NONE)
+        put_long_ray(hit);
+}
+
 // Follows a path until it ends, or until its slice does.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON;
@@ -169,16 +199,17 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             iterations += SEGMENT_ITERATIONS;
             bool own = phase == PHASE_RAY;
             bool traced = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
-            if (HAS_SLICES && traced && !fresh && iterations > frame.slice_iterations) {
+            if (HAS_SLICES && traced && is_late(fresh, iterations)) {
                 state = SUSPENDED;
                 break;
             }
-            hit_record hit = hit_record(!traced ? REAL(-1.0) : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
+            hit_record hit = hit_record(!traced ? -FAR_AWAY : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
             REAL3 origin = own ? p.origin : start, direction = own ? p.direction : shadow.direction;
-            if (HAS_SPHERES)
-                trace_spheres(origin, direction, !own, hit, iterations);
-            if (HAS_TRIANGLES && !(!own && hit.item != NO_ITEM))
-                trace_triangles(origin, direction, !own, hit, iterations);
+            trace_ray(origin, direction, traced, !own, hit, iterations);
+            if (HAS_LONG_RAYS && long_stopped != TREE_NONE) {
+                state = SUSPENDED;
+                break;
+            }
             if (traced) {
                 state = after_ray(p, iterations, fresh, fault);
                 if (state != GOES_ON)
@@ -229,6 +260,9 @@ void main() {
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     path_state p;
+    long_slot = slot;
+    if (HAS_LONG_RAYS && resumes)
+        load_long_ray();
     if (resumes)
         p = load_path(slot);
     else

@@ -108,6 +108,7 @@ void trace_triangles(REAL3 origin, REAL3 direction, bool any, inout hit_record h
     STACK(TRIANGLE_STACK)
     uvec2 group = root_group();
     bool more = true;
+    STACK_RESUME(TRIANGLE_STACK, TREE_TRIANGLES, group)
     do {
         iterations += 2u; // this loop, and the inner one where no lane enters it
         if (HAS_COUNTERS)
@@ -131,5 +132,6 @@ void trace_triangles(REAL3 origin, REAL3 direction, bool any, inout hit_record h
                 more = false;
             }
         }
-    } while (more && iterations < ITERATION_LIMIT);
+    } while (more && iterations < TRAVERSAL_LIMIT);
+    STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)
 }

@@ -37,7 +37,7 @@ struct render_settings {
     double background_intensity;
     double background_rotation; // degrees about +y
     // FEATURE_ bits to compile in: at least those of the flat scene. Those of the renderer (slices,
-    // counters) are added where needed.
+    // counters, long rays) are added where needed.
     uint32_t features;
     uint64_t path_segments;              // LIMIT_PATH_SEGMENTS
     uint32_t slice_iterations;           // SLICE_ITERATIONS of shaders/frame.h; 0: slices of one ray
@@ -54,7 +54,6 @@ struct render_settings render_settings_of(const struct scene *scene, const struc
 enum render_fault_kind {
     RENDER_NOT_FINITE = 1, // a value on the way was infinite or no number; the pixel is NaN
     RENDER_SEGMENTS,       // more rays than path_segments; the rest of the sample is missing
-    RENDER_ITERATIONS,     // one ray did not end; the rest of the sample is missing
     RENDER_FAULT_KINDS,
 };
 

@@ -1,7 +1,6 @@
 // One frame: bands, samples, slices, and the way back from slots to pixels.
 #include "tracer/render/render_private.h"
 
-#include "core/clock.h"
 #include "core/parallel.h"
 
 #include <math.h>
@@ -86,22 +85,23 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
     return gpu_write(renderer->gpu, renderer->buffers[BINDING_FRAME], 0, &frame, sizeof frame);
 }
 
-// What one call of draw_frame works on.
-struct frame_run {
-    struct renderer *renderer;
-    struct gpu_program *program;
-    const struct render_progress *progress;
-    struct render_statistics *statistics;
-    uint64_t steps_done, steps; // a band's sample is a step
-};
-
-static bool is_wanted(const struct frame_run *run, double part) {
+static bool is_wanted(const struct renderer_frame *run, double part) {
     const struct render_progress *progress = run->progress;
     return !progress || !progress->report ||
            progress->report(progress->context, ((double)run->steps_done + part) / (double)run->steps);
 }
 
-static bool run_paths(struct frame_run *run, struct dispatch_block *block, uint32_t end) {
+static bool read_counters(struct renderer_frame *run) {
+    struct renderer *renderer = run->renderer;
+    uint32_t counters[COUNTER_COUNT];
+    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, counters, sizeof counters))
+        return false;
+    renderer->pending = counters[COUNTER_PENDING];
+    run->met_long_ray = counters[COUNTER_LONG_RAYS] != 0;
+    return true;
+}
+
+static bool run_paths(struct renderer_frame *run, struct dispatch_block *block, uint32_t end) {
     struct renderer *renderer = run->renderer;
     double seconds;
     if (!renderer_run_paths(renderer, run->program, block->resume ? RENDERER_RESUMES : RENDERER_BEGINS,
@@ -109,13 +109,11 @@ static bool run_paths(struct frame_run *run, struct dispatch_block *block, uint3
         return false;
     run->statistics->device_seconds += seconds;
     run->statistics->dispatches++;
-    return !(renderer->features & FEATURE_SLICES) ||
-           gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], COUNTER_PENDING * sizeof(uint32_t),
-                    &renderer->pending, sizeof renderer->pending);
+    return read_counters(run);
 }
 
 // All paths from the camera, or all that were saved, until they end or are saved again.
-static enum render_result draw_pass(struct frame_run *run, struct dispatch_block *block) {
+static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_block *block) {
     const uint32_t all = block->tile_count * TILE_PIXELS, end = block->resume ? block->resume : all;
     block->pending_base = run->renderer->pending;
     for (block->path_begin = 0; block->path_begin < end; block->path_begin = block->path_end) {
@@ -123,6 +121,8 @@ static enum render_result draw_pass(struct frame_run *run, struct dispatch_block
             return RENDER_FAILED;
         const uint32_t saved = run->renderer->pending - block->pending_base;
         const uint32_t open = end - block->path_end + saved;
+        if (run->met_long_ray)
+            return RENDER_CANCELLED;
         if (open > 0 && !is_wanted(run, 1 - (double)open / all))
             return RENDER_CANCELLED;
     }
@@ -130,7 +130,7 @@ static enum render_result draw_pass(struct frame_run *run, struct dispatch_block
 }
 
 // One sample of one band: all its paths to their ends.
-static enum render_result draw_sample(struct frame_run *run, struct dispatch_block block) {
+static enum render_result draw_sample(struct renderer_frame *run, struct dispatch_block block) {
     for (;;) {
         const enum render_result result = draw_pass(run, &block);
         if (result != RENDER_DONE)
@@ -214,7 +214,7 @@ static void note_faults(const struct renderer *renderer, uint32_t tile_begin, ui
     }
 }
 
-static enum render_result draw_band(struct frame_run *run, uint32_t tile_begin, uint32_t tile_count,
+static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                     float *rgb) {
     struct renderer *renderer = run->renderer;
     for (uint32_t sample = 0; sample < renderer->settings.samples; sample++) {
@@ -240,11 +240,12 @@ static enum render_result draw_band(struct frame_run *run, uint32_t tile_begin, 
     return RENDER_DONE;
 }
 
-static enum render_result draw_frame(struct frame_run *run, const struct view_camera *camera, float *rgb) {
+enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
+                                       float *rgb) {
     struct renderer *renderer = run->renderer;
     const uint32_t tiles = renderer->tiles;
-    const double start = clock_seconds();
-    *run->statistics = (struct render_statistics){0};
+    run->steps_done = 0;
+    run->met_long_ray = false;
     run->statistics->bands = (tiles + renderer->band_tiles - 1) / renderer->band_tiles;
     run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
     enum render_result result = renderer_write_frame(renderer, camera) ? RENDER_DONE : RENDER_FAILED;
@@ -252,46 +253,5 @@ static enum render_result draw_frame(struct frame_run *run, const struct view_ca
         const uint32_t left = tiles - begin;
         result = draw_band(run, begin, left < renderer->band_tiles ? left : renderer->band_tiles, rgb);
     }
-    run->statistics->wall_seconds = clock_seconds() - start;
-    return result;
-}
-
-enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
-                                   const struct render_progress *progress,
-                                   struct render_statistics *statistics) {
-    struct frame_run run = {renderer, renderer->program, progress, statistics, 0, 0};
-    return draw_frame(&run, camera, rgb);
-}
-
-static uint64_t wide(const uint32_t words[2]) {
-    return (uint64_t)words[1] << 32 | words[0];
-}
-
-enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
-                                  const struct render_progress *progress, struct render_rays *rays) {
-    struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
-    uint32_t values[COUNTER_COUNT] = {0};
-    if (!renderer->counting)
-        renderer->counting = renderer_keep_program(renderer, renderer->features | FEATURE_COUNTERS);
-    if (!renderer->counting || !gpu_write(renderer->gpu, counters, 0, values, sizeof values))
-        return RENDER_FAILED;
-    renderer->pending = 0;
-    struct render_statistics statistics;
-    struct frame_run run = {renderer, renderer->counting, progress, &statistics, 0, 0};
-    enum render_result result = draw_frame(&run, camera, NULL);
-    if (result == RENDER_DONE && !gpu_read(renderer->gpu, counters, 0, values, sizeof values))
-        result = RENDER_FAILED;
-    *rays = (struct render_rays){.primary = values[COUNTER_PRIMARY],
-                                 .reflected = values[COUNTER_REFLECTED],
-                                 .refracted = values[COUNTER_REFRACTED],
-                                 .shadow = values[COUNTER_SHADOW],
-                                 .cut_by_depth = values[COUNTER_CUT_DEPTH],
-                                 .cut_by_weight = values[COUNTER_CUT_WEIGHT],
-                                 .total_reflections = values[COUNTER_TOTAL_REFLECT],
-                                 .nodes = wide(values + COUNTER_NODES),
-                                 .items = wide(values + COUNTER_ITEMS),
-                                 .deepest = values[COUNTER_DEEPEST],
-                                 .lost_by_depth = renderer_float(values[COUNTER_LOST_DEPTH]),
-                                 .lost_by_weight = renderer_float(values[COUNTER_LOST_WEIGHT])};
     return result;
 }

@@ -53,7 +53,8 @@ struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
     struct render_settings settings;
-    uint32_t features;       // of the scene, and FEATURE_SLICES
+    uint32_t features;       // of the scene, FEATURE_SLICES and FEATURE_LONG_RAYS
+    bool has_long_rays;      // one was seen
     uint32_t path_stack;     // entries
     uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
@@ -88,6 +89,22 @@ float renderer_float(uint32_t bits);
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
 // The frame's uniforms for a camera.
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera);
+// What one frame works on.
+struct renderer_frame {
+    struct renderer *renderer;
+    struct gpu_program *program;
+    const struct render_progress *progress;
+    struct render_statistics *statistics;
+    uint64_t steps_done, steps; // a band's sample is a step
+    bool met_long_ray;          // the frame was given up: renderer_take_long_rays, and once more
+};
+// Adds to the statistics, which the caller has cleared. `rgb` NULL: no picture.
+enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
+                                       float *rgb);
+// Entries of the deeper tree's stack.
+uint32_t renderer_stack_levels(const struct renderer *renderer);
+// From now on with kernels that can save a ray in the middle of a tree. false: see gpu_error.
+bool renderer_take_long_rays(struct renderer *renderer);
 // Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
 // than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
 // *seconds is the device's time. `workgroup` is the program's.
