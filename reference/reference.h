@@ -18,7 +18,7 @@
 struct ir_image;
 
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
-#define REFERENCE_VERSION 3
+#define REFERENCE_VERSION 4
 
 // How far paths are followed where the file's own limits do not apply.
 #define REFERENCE_MIN_WEIGHT 1e-6
@@ -75,6 +75,7 @@ struct reference_statistics {
     double bound;
     struct reference_fault not_finite;    // the pixel is NaN
     struct reference_fault over_segments; // as_file: part of the pixel's light is missing
+    struct reference_fault cut_short;     // else: `segments` ended the pixel's paths
     double seconds;
 };
 
