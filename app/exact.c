@@ -82,5 +82,6 @@ enum shot_status exact_take(struct exact *exact, struct image *image, double *rg
     report_fault(exact->session, DIAG_NOT_FINITE, &statistics->not_finite, WHERE_NOT_FINITE);
     report_fault(exact->session, DIAG_NOT_FINITE, &too_large, "got a value that is too large for a float");
     report_fault(exact->session, DIAG_PATH_SEGMENTS, &statistics->over_segments, WHERE_OVER_SEGMENTS);
+    report_fault(exact->session, DIAG_REFERENCE_CUT, &statistics->cut_short, WHERE_CUT_SHORT);
     return SHOT_OK;
 }

@@ -28,7 +28,7 @@ enum shot_status exact_open(struct exact *exact, struct session *session, uint32
                             struct exact_options options);
 void exact_close(struct exact *exact);
 // A picture of settings.width x settings.height; `rgb` (may be NULL) gets it in double, three per pixel.
-// Faulty pixels become errors in the session's sink.
+// Faulty pixels become errors in the session's sink, and those whose paths `segments` ended a warning.
 enum shot_status exact_take(struct exact *exact, struct image *image, double *rgb,
                             const struct reference_progress *progress,
                             struct reference_statistics *statistics);

@@ -116,6 +116,13 @@ static uint32_t child_of(const struct pick_log *log, uint32_t parent, enum refer
     return UINT32_MAX;
 }
 
+// In what the pixel gets of it: another cell of a checker, or another place of the background.
+static bool has_other_color(const struct reference_segment *a, const struct reference_segment *b) {
+    const double apart =
+        vec3_max_abs(vec3_sub(vec3_mul(a->radiance, a->weight), vec3_mul(b->radiance, b->weight)));
+    return !(apart <= PICK_COLOR_ERROR * fmax(1, vec3_max_abs(b->radiance) * b->weight));
+}
+
 // Whether the two hit the same; if so, what leaves it can be compared too.
 static bool compare_segments(struct pick *pick, uint32_t device, uint32_t reference) {
     const struct reference_segment *a = &pick->logs[PICK_DEVICE].segments[device];
@@ -128,6 +135,8 @@ static bool compare_segments(struct pick *pick, uint32_t device, uint32_t refere
         differ(pick, PICK_OTHER_DISTANCE, device, reference);
     if (a->considered != b->considered || a->lit != b->lit)
         differ(pick, PICK_OTHER_LIGHTS, device, reference);
+    else if (has_other_color(a, b))
+        differ(pick, PICK_OTHER_COLOR, device, reference);
     return true;
 }
 

@@ -30,9 +30,11 @@ enum pick_difference_kind {
     PICK_OTHER_BODY, // or another triangle
     PICK_OTHER_LIGHTS,
     PICK_OTHER_DISTANCE, // by more than PICK_DISTANCE_ERROR of it
+    PICK_OTHER_COLOR,    // of the same lights or background, by more than PICK_COLOR_ERROR
     PICK_OTHER_RAYS,     // one sends a ray that the other, whose log is whole, does not
 };
 #define PICK_DISTANCE_ERROR 1e-4
+#define PICK_COLOR_ERROR    (1.0 / 255) // of 1, or of what the ray adds to the pixel where that is more
 
 struct pick_difference {
     enum pick_difference_kind kind;

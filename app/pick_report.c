@@ -114,10 +114,12 @@ static void put_seen(const struct pick *pick, struct strbuf *out) {
     strbuf_char(out, '\n');
 }
 
-static void put_side(const struct pick *pick, int side, uint32_t ray, struct strbuf *out) {
+static void put_side(const struct pick *pick, int side, uint32_t ray, bool in_color, struct strbuf *out) {
     const struct reference_segment *s = &pick->logs[side].segments[ray];
     put_target(pick, s, out);
     put_lights(pick, s, out);
+    if (in_color)
+        strbuf_format(out, ", colour %.6g %.6g %.6g", s->radiance.x, s->radiance.y, s->radiance.z);
 }
 
 static void put_difference(const struct pick *pick, const struct pick_difference *d, struct strbuf *out) {
@@ -127,14 +129,15 @@ static void put_difference(const struct pick *pick, const struct pick_difference
         strbuf_format(out, "  only the %s sends its ray %u (%s), which hits ",
                       side == PICK_DEVICE ? "device" : "reference", ray,
                       kind_words[pick->logs[side].segments[ray].kind]);
-        put_side(pick, side, ray, out);
+        put_side(pick, side, ray, false, out);
         strbuf_char(out, '\n');
         return;
     }
+    const bool in_color = d->kind == PICK_OTHER_COLOR;
     strbuf_format(out, "  ray %u: the device has ", d->device);
-    put_side(pick, PICK_DEVICE, d->device, out);
+    put_side(pick, PICK_DEVICE, d->device, in_color, out);
     strbuf_format(out, "\n    the reference, ray %u, has ", d->reference);
-    put_side(pick, PICK_REFERENCE, d->reference, out);
+    put_side(pick, PICK_REFERENCE, d->reference, in_color, out);
     strbuf_char(out, '\n');
 }
 
@@ -289,6 +292,7 @@ static void json_differences(struct json_writer *w, const struct pick *pick) {
     static const char *const words[] = {[PICK_OTHER_BODY] = "body",
                                         [PICK_OTHER_LIGHTS] = "lights",
                                         [PICK_OTHER_DISTANCE] = "distance",
+                                        [PICK_OTHER_COLOR] = "colour",
                                         [PICK_OTHER_RAYS] = "rays"};
     json_write_integer(w, "difference_count", pick->difference_count);
     json_open_list(w, "differences");

@@ -57,7 +57,6 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
     static const char *const words[RENDER_FAULT_KINDS] = {
         [RENDER_NOT_FINITE] = WHERE_NOT_FINITE,
         [RENDER_SEGMENTS] = WHERE_OVER_SEGMENTS,
-        [RENDER_ITERATIONS] = "had a ray that did not end",
     };
     struct session *s = shot->session;
     where_report_fault(

@@ -31,6 +31,7 @@ void where_material_words(const struct where *where, struct strbuf *out);
 // What either tracer may report about pixels.
 #define WHERE_NOT_FINITE    "got a value that is infinite or not a number"
 #define WHERE_OVER_SEGMENTS "needed more rays than the limit path-segments"
+#define WHERE_CUT_SHORT     "needed more rays than the limit reference-segments"
 
 // Reports in the sink that pixels have a fault, with the body (HIT_NONE: none) that the first one's path hit
 // last: its material, and the lines of scene and mesh.

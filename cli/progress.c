@@ -15,6 +15,7 @@ static void on_signal(int number) {
 
 void interrupt_catch(void) {
     struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+    caught = 0;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
@@ -38,8 +39,17 @@ static void bar(double done, double left) {
     for (int i = 0; i < CELLS; i++)
         cells[i] = i < (int)(done * CELLS) ? '#' : '.';
     cells[CELLS] = '\0';
-    fprintf(stderr, "\r[%s] %3.0f %%  %.0f s left ", cells, 100 * done, left);
+    fprintf(stderr, "\r[%s] %3.0f %% ", cells, 100 * done);
+    if (isfinite(left))
+        fprintf(stderr, " %.0f s left ", left);
     fflush(stderr);
+}
+
+static void line(double done, double left) {
+    if (isfinite(left))
+        fprintf(stderr, "glint: %.0f %% done, %.0f s left\n", 100 * done, left);
+    else
+        fprintf(stderr, "glint: %.0f %% done\n", 100 * done);
 }
 
 static bool report(void *context, double fraction) {
@@ -50,12 +60,13 @@ static bool report(void *context, double fraction) {
     double now = clock_seconds();
     double done = fmin(p->base + p->share * fraction, 0.99); // nothing is done before its end
     // The first half second shows nothing: most pictures are done by then.
-    if (!p->quiet && now - p->start > 0.5 && now - p->last > (p->terminal ? 0.1 : LINE_SECONDS) && done > 0) {
-        double left = (now - p->start) * (1 - done) / done;
+    if (!p->quiet && now - p->start > 0.5 && now - p->last > (p->terminal ? 0.1 : LINE_SECONDS)) {
+        // Before anything is done nobody knows how long it takes.
+        double left = done > 0 ? (now - p->start) * (1 - done) / done : INFINITY;
         if (p->terminal)
             bar(done, left);
         else
-            fprintf(stderr, "glint: %.0f %% done, %.0f s left\n", 100 * done, left);
+            line(done, left);
         p->shown = true;
         p->last = now;
     }

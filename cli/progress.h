@@ -17,7 +17,7 @@ struct render_progress progress_callback(struct progress *progress);
 // Erases the bar.
 void progress_end(struct progress *progress);
 
-// SIGINT and SIGTERM end the work at the next dispatch; a second one ends the process at once.
+// From now on SIGINT and SIGTERM end the work at the next dispatch; a second one ends the process at once.
 void interrupt_catch(void);
 // 0, or the signal that came.
 int interrupt_signal(void);

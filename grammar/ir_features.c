@@ -228,6 +228,7 @@ static const struct feature_name {
     {FEATURE_DEPTH_BLACK, "depth_black"},
     {FEATURE_SLICES, "slices"},
     {FEATURE_COUNTERS, "counters"},
+    {FEATURE_LONG_RAYS, "long_rays"},
 };
 static_assert(sizeof feature_names / sizeof feature_names[0] == FEATURE_COUNT, "every feature has a name");
 

@@ -165,8 +165,10 @@ void lint_opposing_normals(struct lint *lint) {
         for (uint32_t t = 0; t < mesh->mesh->triangle_count; t++)
             if (mesh->mesh->zero_area == 0 || mesh_has_area(mesh->mesh, t))
                 look_at(mesh->mesh, t, &torn);
-        // Where all point to the back the whole mesh is turned, which shading does not see.
-        if (torn.count || (torn.opposed && torn.opposed < torn.seen))
+        // Where all point to the back, a sheet or a mesh that was turned at load is only seen from there; but
+        // the normals of a closed body point into it.
+        bool all_back = torn.opposed == torn.seen && !(mesh->mesh->closed && !mesh->mesh->turned);
+        if (torn.count || (torn.opposed && !all_back))
             report_torn(lint, mesh, &torn);
     }
 }

@@ -191,6 +191,10 @@ struct queue {
     uint32_t count, capacity;
     bool heaviest_first; // by throughput; else last in, first out
     bool failed;         // no memory
+    // Asked now and then while a sample is followed: false ends it. May be NULL.
+    bool (*goes_on)(void *context);
+    void *context;
+    uint64_t rays; // followed since somebody set it to 0
 };
 void reference_queue_finish(struct queue *queue);
 
@@ -202,6 +206,7 @@ struct sample {
     uint32_t deepest;
     double left_weight, brightest;
     bool over_segments;
+    bool cancelled;
     uint32_t body, triangle; // last hit
 };
 

@@ -6,6 +6,10 @@
 
 // ---- rays that wait
 
+enum {
+    RAYS_A_QUESTION = 16, // so few because a ray may have to visit thousands of bodies
+};
+
 void reference_queue_finish(struct queue *queue) {
     free(queue->items);
     *queue = (struct queue){0};
@@ -189,8 +193,10 @@ void reference_follow(const struct reference *r, const struct reference_settings
     queue->count = 0;
     queue->heaviest_first = !settings->as_file;
     push(queue, &first);
-    while (queue->count && !queue->failed) {
+    while (queue->count && !queue->failed && !out->cancelled) {
         struct branch next = pop(queue);
+        out->cancelled =
+            queue->goes_on && ++queue->rays % RAYS_A_QUESTION == 0 && !queue->goes_on(queue->context);
         if (rays_of(out) < settings->segments) {
             follow_ray(&f, &next);
             continue;

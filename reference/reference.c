@@ -10,7 +10,8 @@
 #include <stdlib.h>
 
 enum {
-    TILE = 16 // pixels a side
+    TILE = 16,            // pixels a side
+    RAYS_A_REPORT = 2048, // of a tile's pixels, before they count as done
 };
 
 // ---- making
@@ -121,7 +122,7 @@ uint32_t reference_log(const struct reference *r, const struct reference_setting
 struct tile_sum {
     struct sample sum; // of the counts; largest of `deepest` and `brightest`
     double left_weight_most, left_weight;
-    struct reference_fault not_finite, over_segments;
+    struct reference_fault not_finite, over_segments, cut_short;
 };
 
 struct work {
@@ -136,6 +137,7 @@ struct work {
     atomic_size_t done;
     atomic_bool cancelled, failed;
     atomic_flag reporting;
+    double told; // by who holds it
 };
 
 // One thread at a time reports how far the work is; the others go on.
@@ -143,11 +145,19 @@ static void tell(struct work *w, size_t pixels) {
     atomic_fetch_add(&w->done, pixels);
     if (!w->progress || atomic_flag_test_and_set(&w->reporting))
         return;
-    // Read here, so that the progress reported never goes back.
-    size_t done = atomic_load(&w->done);
-    if (!w->progress->report(w->progress->context, (double)done / (double)w->pixels))
+    // In the middle of a pixel, half of one more is done. Never back.
+    double done = (double)atomic_load(&w->done) + (pixels ? 0 : 0.5);
+    w->told = fmax(w->told, done / (double)w->pixels);
+    if (!w->progress->report(w->progress->context, fmin(w->told, 1)))
         atomic_store(&w->cancelled, true);
     atomic_flag_clear(&w->reporting);
+}
+
+// In the middle of a pixel, which may take long.
+static bool goes_on(void *context) {
+    struct work *w = context;
+    tell(w, 0);
+    return !atomic_load_explicit(&w->cancelled, memory_order_relaxed);
 }
 
 static void note_fault(struct reference_fault *fault, uint32_t x, uint32_t y, const struct sample *s) {
@@ -178,8 +188,9 @@ static void draw_pixel(const struct reference *r, const struct reference_setting
     double left = 0;
     bool not_finite = false;
     bool over_segments = false;
-    struct sample sample;
-    for (uint32_t n = 0; n < settings->samples && !queue->failed; n++) {
+    bool cut_short = false;
+    struct sample sample = {0};
+    for (uint32_t n = 0; n < settings->samples && !queue->failed && !sample.cancelled; n++) {
         vec3 direction = reference_camera_ray(r, settings, x, y, n);
         reference_follow(r, settings, direction, queue, NULL, &sample);
         bool bad = !is_finite(sample.radiance);
@@ -188,7 +199,10 @@ static void draw_pixel(const struct reference *r, const struct reference_setting
             note_fault(&tile->not_finite, x, y, &sample);
         if (sample.over_segments && !over_segments)
             note_fault(&tile->over_segments, x, y, &sample);
+        if (!settings->as_file && sample.cut_by_segments && !cut_short)
+            note_fault(&tile->cut_short, x, y, &sample);
         not_finite |= bad;
+        cut_short |= sample.cut_by_segments > 0;
         over_segments |= sample.over_segments;
         left += sample.left_weight;
         add_sample(tile, &sample);
@@ -254,9 +268,15 @@ static void do_tile(struct work *w, size_t index) {
     uint32_t top = (uint32_t)(index / w->tiles_x) * TILE;
     uint32_t right = width - left < TILE ? width : left + TILE;
     uint32_t bottom = height - top < TILE ? height : top + TILE;
-    struct queue queue = {0};
+    struct queue queue = {.goes_on = goes_on, .context = w};
+    size_t untold = 0;
     for (uint32_t y = top; y < bottom; y++) {
         for (uint32_t x = left; x < right; x++) {
+            if (queue.rays >= RAYS_A_REPORT) {
+                tell(w, untold);
+                untold = 0;
+                queue.rays = 0;
+            }
             if (atomic_load_explicit(&w->cancelled, memory_order_relaxed) || queue.failed)
                 break;
             if (w->hits)
@@ -265,9 +285,10 @@ static void do_tile(struct work *w, size_t index) {
             else
                 draw_pixel(w->r, w->settings, x, y, &queue, &w->tiles[index],
                            w->rgb + 3 * ((size_t)y * width + x));
+            untold++;
         }
-        tell(w, right - left);
     }
+    tell(w, untold);
     if (queue.failed)
         atomic_store(&w->failed, true);
     reference_queue_finish(&queue);
@@ -296,6 +317,7 @@ static struct reference_statistics join_tiles(const struct work *w, size_t count
         all.left_weight += t->left_weight;
         join_fault(&all.not_finite, &t->not_finite);
         join_fault(&all.over_segments, &t->over_segments);
+        join_fault(&all.cut_short, &t->cut_short);
     }
     const struct sample *s = &all.sum;
     double brightest = fmax(s->brightest, w->r->background_brightest);
@@ -313,7 +335,8 @@ static struct reference_statistics join_tiles(const struct work *w, size_t count
                                          .brightest = brightest,
                                          .bound = all.left_weight_most * brightest,
                                          .not_finite = all.not_finite,
-                                         .over_segments = all.over_segments};
+                                         .over_segments = all.over_segments,
+                                         .cut_short = all.cut_short};
 }
 
 static enum reference_result run(struct work *w, struct reference_statistics *statistics) {

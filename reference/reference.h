@@ -80,6 +80,7 @@ struct reference_statistics {
     double bound;
     struct reference_fault not_finite;    // the pixel is NaN
     struct reference_fault over_segments; // as_file: part of the pixel's light is missing
+    struct reference_fault cut_short;     // else: `segments` ended the pixel's paths
     double seconds;
 };
 

@@ -20,8 +20,9 @@
 #define FEATURE_DEPTH_BLACK      (1u << 13) /* rays cut at max_depth see 0, not the background */
 #define FEATURE_SLICES           (1u << 14) /* paths may be saved and resumed in a later dispatch */
 #define FEATURE_COUNTERS         (1u << 15) /* count rays for --stats */
-#define FEATURE_COUNT            16
-/* What only a scene can switch on; the two last bits are the renderer's. */
+#define FEATURE_LONG_RAYS        (1u << 16) /* a ray may be saved and resumed in the middle of a tree */
+#define FEATURE_COUNT            17
+/* What only a scene can switch on; the last bits are the renderer's. */
 #define FEATURE_SCENE_MASK ((1u << 14) - 1u)
 
 #endif

@@ -52,9 +52,11 @@
     UINT(sample_index)                                                                                       \
     FLOAT(offset_x) /* of the sample inside the pixel */                                                     \
     FLOAT(offset_y)                                                                                          \
+    UINT(path_begin) /* slots of this dispatch, or places in the list that is read */                        \
+    UINT(path_end)                                                                                           \
     UINT(resume)       /* 0: paths begin; else how many saved ones go on */                                  \
     UINT(read_list)    /* which of the two lists of saved slots is read; the other is written */             \
-    UINT(pending_base) /* value of COUNTER_PENDING before this dispatch */
+    UINT(pending_base) /* value of COUNTER_PENDING when that list was begun */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8
@@ -68,16 +70,18 @@
 #define FAULT_NONE       0u
 #define FAULT_NOT_FINITE 1u /* a value on the way was infinite or no number; the sample counts as 0 */
 #define FAULT_SEGMENTS   2u /* the sample exceeded path_segments */
-#define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT */
+#define FAULT_ITERATIONS 3u /* one ray alone exceeded ITERATION_LIMIT; with FEATURE_LONG_RAYS none does */
 
 /* State of a path, word k of slot s at k * slots + s: ray origin, throughput; direction, depth; radiance,
    segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare;
    what the ray leaves: error of its start, b1, b2, item: kept between dispatches; then three words for each
    refracted ray that waits: origin, throughput; direction, depth; what it leaves. In double precision places,
-   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. */
+   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. With FEATURE_LONG_RAYS
+   the words of long_rays.glsl lie between the two. */
 #define STATE_WORDS         7
 #define STACK_ENTRY_WORDS   3
 #define STATE64_WORDS       10
+#define LONG_RAY_WORDS      4 /* and two entries of a tree's stack in each word after them */
 #define STACK64_ENTRY_WORDS 6
 
 /* Counters, 32-bit each, then two lists of slots. */
@@ -94,6 +98,7 @@
 #define COUNTER_TOTAL_REFLECT 10 /* total reflections */
 #define COUNTER_NODES         11 /* nodes of both trees tested, and the word above it */
 #define COUNTER_ITEMS         13 /* triangles and spheres tested, and the word above it */
+#define COUNTER_LONG_RAYS     15 /* samples with FAULT_ITERATIONS, counted whatever the features */
 #define COUNTER_COUNT         16
 
 /* lavapipe stops all loops of a vector of 8 invocations, silently, after 65535 iterations in sum over the

@@ -75,9 +75,10 @@ void write_later(uint at, uint kind, hit_record hit, bool ended) {
 }
 
 void main() {
-    uint slot = (gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x) * TILE_PIXELS + gl_LocalInvocationID.x;
+    uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
+    uint slot = dispatch.path_begin + group * TILE_PIXELS + gl_LocalInvocationID.x;
     uvec2 pixel = pixel_of_slot(slot);
-    if (slot >= dispatch.tile_count * TILE_PIXELS || pixel.x >= frame.width || pixel.y >= frame.height)
+    if (slot >= dispatch.path_end || pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     uint kind = dispatch.resume + OPAQUE_ZERO, at = slot * HITS_WORDS;
     bool first = kind == HITS_FIRST;

@@ -6,7 +6,6 @@
 uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TILE_PIXELS) + slot; }
 
 #ifdef DOUBLE_PRECISION
-const uint PATH_WORDS = STATE64_WORDS;
 const uint BRANCH_WORDS = STACK64_ENTRY_WORDS;
 
 // Two numbers in a word, the third in the next with two more components.
@@ -65,7 +64,6 @@ void get_branch(uint slot, uint word, inout path_state p) {
     p.depth = more.y;
 }
 #else
-const uint PATH_WORDS = STATE_WORDS;
 const uint BRANCH_WORDS = STACK_ENTRY_WORDS;
 
 uvec4 left_word(ray_start start) {
@@ -120,8 +118,33 @@ void get_branch(uint slot, uint word, inout path_state p) {
 }
 #endif
 
+// The ray that stopped in the middle of a tree, and what it has hit until then.
+void put_long_ray(hit_record hit) {
+    states[long_word(0u)] = uvec4(long_stopped, long_group, hit.number);
+    states[long_word(1u)] = uvec4(bits_of(hit.t), bits_of(hit.b1));
+    states[long_word(2u)] = uvec4(bits_of(hit.b2), hit.item, long_size);
+    states[long_word(3u)] = uvec4(bits_of(long_wrong), bits_of(long_doubt));
+}
+
+void load_long_ray() {
+    uvec4 a = states[long_word(0u)];
+    long_tree = a.x;
+    long_group = a.yz;
+    long_size = states[long_word(2u)].w;
+    uvec4 d = states[long_word(3u)];
+    long_wrong = number_of(d.xy);
+    long_doubt = number_of(d.zw);
+}
+
+hit_record long_hit() {
+    uvec4 a = states[long_word(1u)], b = states[long_word(2u)];
+    return hit_record(number_of(a.xy), number_of(a.zw), number_of(b.xy), b.z, states[long_word(0u)].w);
+}
+
 void save_path(uint slot, path_state p) {
     put_path(slot, p);
+    if (HAS_LONG_RAYS && long_stopped == TREE_NONE)
+        states[long_word(0u)] = uvec4(long_tree, long_group, states[long_word(0u)].w);
     // Each saved path takes a place in the list that the next dispatch reads. Their order may differ from
     // run to run; the picture does not know it.
     uint slots = dispatch.tile_count * TILE_PIXELS;
@@ -130,12 +153,12 @@ void save_path(uint slot, path_state p) {
 }
 
 void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction, float throughput, uint depth) {
-    put_branch(slot, PATH_WORDS + BRANCH_WORDS * p.stack_size, start, direction, throughput, depth);
+    put_branch(slot, PATH_WORDS + LONG_WORDS + BRANCH_WORDS * p.stack_size, start, direction, throughput, depth);
     p.stack_size++;
 }
 
 void pop_branch(uint slot, inout path_state p) {
     p.stack_size--;
-    get_branch(slot, PATH_WORDS + BRANCH_WORDS * p.stack_size, p);
+    get_branch(slot, PATH_WORDS + LONG_WORDS + BRANCH_WORDS * p.stack_size, p);
     p.kind = RAY_REFRACTED;
 }

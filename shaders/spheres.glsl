@@ -41,6 +41,7 @@ void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit
     STACK(SPHERE_STACK)
     uvec2 group = root_group();
     bool more = true;
+    STACK_RESUME(SPHERE_STACK, TREE_SPHERES, group)
     do {
         iterations += 2u; // this loop, and the inner one where no lane enters it
         if (HAS_COUNTERS)
@@ -64,5 +65,6 @@ void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit
                 more = false;
             }
         }
-    } while (more && iterations < ITERATION_LIMIT);
+    } while (more && iterations < TRAVERSAL_LIMIT);
+    STACK_SUSPEND(SPHERE_STACK, TREE_SPHERES, group, more)
 }

@@ -12,6 +12,8 @@
 #include "records.glsl"
 #include "math.glsl"
 #include "camera.glsl"
+#include "bits.glsl"
+#include "long_rays.glsl"
 #include "tree.glsl"
 #include "wide.glsl"
 #include "triangles.glsl"
@@ -108,6 +110,8 @@ void write_sample(uint slot, path_state p, uint fault) {
     uvec4 before = dispatch.sample_index == OPAQUE_ZERO ? uvec4(0u) : pixels[slot];
     vec3 sum = uintBitsToFloat(before.xyz) + p.radiance;
     bool finite = is_finite3(sum);
+    if (fault >> FAULT_KIND_SHIFT == FAULT_ITERATIONS)
+        atomicAdd(counters[COUNTER_LONG_RAYS], 1u);
     fault = finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT | p.hit.number;
     pixels[slot] = uvec4(finite ? floatBitsToUint(sum) : before.xyz, before.w != 0u ? before.w : fault);
 }
@@ -162,6 +166,37 @@ uint leave_surface(uint slot, inout path_state p, surface s, ray_start start) {
     return send_rays(slot, p, s, start, start_through) ? GOES_ON : ENDED;
 }
 
+// Whether a slice has no more room for a ray.
+bool is_late(bool fresh, uint iterations) {
+    bool late = !fresh && iterations > frame.slice_iterations;
+    // Looking for a light may have taken what the first ray was to have.
+    return late || (HAS_LONG_RAYS && iterations > SLICE_ITERATIONS);
+}
+
+// Both trees. A ray that stopped in the slice before goes on where it did; one may stop again: long_stopped. true:
+// rounding leaves open what is hit; `sphere` is what is known of it without triangles.
+bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hit_record hit, inout hit_record sphere,
+               inout uint iterations) {
+    bool before_triangles = true, open = false;
+    if (HAS_LONG_RAYS) {
+        long_resumes = traced && long_tree != TREE_NONE;
+        before_triangles = !(long_resumes && long_tree == TREE_TRIANGLES);
+        if (long_resumes)
+            hit = long_hit();
+    }
+    if (HAS_SPHERES && before_triangles)
+        trace_spheres(start.at, direction, any, hit, iterations);
+    if (hit.item == NO_ITEM || (hit.item & ITEM_SPHERE) != 0u)
+        sphere = hit;
+    if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM) && !(HAS_LONG_RAYS && long_stopped != TREE_NONE))
+        open = trace_triangles(start, direction, any, hit, iterations);
+    if (HAS_LONG_RAYS && traced)
+        long_tree = TREE_NONE;
+    if (HAS_LONG_RAYS && long_stopped != TREE_NONE)
+        put_long_ray(hit);
+    return open;
+}
+
 // Follows a path until it ends, or until its slice does.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON;
@@ -178,31 +213,29 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             bool own = phase == PHASE_RAY;
             bool wanted = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
             bool traced = wanted && !decided;
-            if (HAS_SLICES && traced && !fresh && iterations > frame.slice_iterations) {
+            if (HAS_SLICES && traced && is_late(fresh, iterations)) {
                 state = SUSPENDED;
                 break;
             }
-            hit_record hit = hit_record(!traced ? REAL(-1.0) : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
+            hit_record hit = hit_record(!traced ? -FAR_AWAY : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
             ray_start from = start;
             if (own)
                 from = p.start;
             REAL3 direction = own ? p.direction : shadow.direction;
-            if (HAS_SPHERES)
-                trace_spheres(from.at, direction, !own, hit, iterations);
-            if (HAS_TRIANGLES) {
-                hit_record sphere = hit;
-                bool open = false;
-                if (!(!own && hit.item != NO_ITEM))
-                    open = trace_triangles(from, direction, !own, hit, iterations);
-                if (traced && open && iterations < ITERATION_LIMIT) {
-                    held = sphere;
-                    state = UNDECIDED;
-                    break;
-                }
-                if (decided)
-                    hit = held;
-                decided = false;
+            hit_record sphere = hit;
+            bool open = trace_ray(from, direction, traced, !own, hit, sphere, iterations);
+            if (HAS_LONG_RAYS && long_stopped != TREE_NONE) {
+                state = SUSPENDED;
+                break;
             }
+            if (HAS_TRIANGLES && traced && open && iterations < ITERATION_LIMIT) {
+                held = sphere;
+                state = UNDECIDED;
+                break;
+            }
+            if (decided)
+                hit = held;
+            decided = false;
             if (wanted) {
                 state = after_ray(p, iterations, fresh, fault);
                 if (state != GOES_ON)
@@ -254,16 +287,19 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
-    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint index = dispatch.path_begin + group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     uint slots = dispatch.tile_count * TILE_PIXELS;
     bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
-    if (index >= (resumes ? dispatch.resume : slots))
+    if (index >= dispatch.path_end)
         return;
     uint slot = resumes ? counters[COUNTER_COUNT + dispatch.read_list * slots + index] : index;
     uvec2 pixel = pixel_of_slot(slot);
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     path_state p;
+    long_slot = slot;
+    if (HAS_LONG_RAYS && resumes)
+        load_long_ray();
     if (resumes)
         p = load_path(slot);
     else

@@ -155,6 +155,13 @@ uvec2 unpacked_group(uint word, uint base) {
             STACK_MOVE(levels, bases, rest.x, push, pop)                                                     \
         more = has_nodes(group);                                                                             \
     }
+#define STACK_GET(i) uvec2(stack[i], PACKED_GROUPS ? 0u : bases[i])
+#define STACK_PUT(i, entry)                                                                                  \
+    stack[i] = entry.x;                                                                                      \
+    if (!PACKED_GROUPS)                                                                                      \
+        bases[i] = entry.y;
+#define STACK_TAKE_SIZE
+#define STACK_KEEP_SIZE
 #else
 #define STACK(levels)                                                                                        \
     uvec2 stack[levels];                                                                                     \
@@ -169,4 +176,17 @@ uvec2 unpacked_group(uint word, uint base) {
         stack[size++] = rest;                                                                                \
     }                                                                                                        \
     more = has_nodes(group);
+#define STACK_GET(i)        stack[i]
+#define STACK_PUT(i, entry) stack[i] = entry;
+#define STACK_TAKE_SIZE     size = long_size;
+#define STACK_KEEP_SIZE     long_size = size;
+#endif
+
+// Kernels that keep no rays: what a ray has not found at ITERATION_LIMIT it does not find.
+#ifndef TRAVERSAL_LIMIT
+#define TRAVERSAL_LIMIT ITERATION_LIMIT
+#define STACK_RESUME(levels, tree, group)
+#define STACK_SUSPEND(levels, tree, group, more)
+#define LONG_TAKE(wrong, doubt)
+#define LONG_KEEP(wrong, doubt)
 #endif

@@ -143,6 +143,8 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
     STACK(TRIANGLE_STACK)
     uvec2 group = root_group();
     bool more = true;
+    STACK_RESUME(TRIANGLE_STACK, TREE_TRIANGLES, group)
+    LONG_TAKE(search.wrong, search.doubt)
     do {
         iterations += 2u; // this loop, and the inner one where no lane enters it
         if (HAS_COUNTERS)
@@ -166,6 +168,8 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
                 more = false;
             }
         }
-    } while (more && iterations < ITERATION_LIMIT);
+    } while (more && iterations < TRAVERSAL_LIMIT);
+    STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)
+    LONG_KEEP(search.wrong, search.doubt)
     return search.doubt <= hit.t && search.doubt < FAR_AWAY && !(any && hit.item != NO_ITEM);
 }

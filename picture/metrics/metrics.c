@@ -55,11 +55,18 @@ static bool finite_pixel(const float *c) {
     return isfinite(c[0]) && isfinite(c[1]) && isfinite(c[2]);
 }
 
+// Bytes are floats here, each rounded by half a unit in the last place: levels that are one apart must not be
+// over 1/255 for some values and below it for others.
+static bool is_over(const struct summing *s, double value, double reference) {
+    return fabs(value - reference) > s->threshold + 0x1p-24 * (fabs(value) + fabs(reference));
+}
+
 static void sum_pixel(const struct summing *s, struct row_sums *row, uint32_t x, uint32_t y) {
     const size_t at = (size_t)y * s->width + x;
     const float *a = s->picture + 3 * at, *b = s->reference + 3 * at;
     const bool finite_a = finite_pixel(a), finite_b = finite_pixel(b);
     double most = finite_a && finite_b ? 0 : (double)INFINITY;
+    bool over = false;
     row->not_finite[0] += !finite_a;
     row->not_finite[1] += !finite_b;
     row->not_finite_together += !(finite_a && finite_b);
@@ -73,8 +80,9 @@ static void sum_pixel(const struct summing *s, struct row_sums *row, uint32_t x,
             row->largest = (struct measure_place){x, y, k, value, reference};
         }
         most = d > most ? d : most;
+        over = over || is_over(s, value, reference);
     }
-    row->over += isfinite(most) && most > s->threshold;
+    row->over += over;
     if (s->difference)
         s->difference[at] = (float)most;
 }

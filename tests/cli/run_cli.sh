@@ -243,6 +243,7 @@ if "$glint" devices >devices.txt 2>/dev/null; then
     # then mirrors whose weights grow beyond what a float holds.
     printf 'glint: 1\nimage: {width: 16, height: 16}\ncamera: {}\nbackground: {color: 0.5}\nmaterials: {mirror: {albedo: [0, 0, 0.9, 0]}}\nrectangles:\n  - {corner: [-9, -9, -1], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: mirror}\n  - {corner: [-9, -9, 1], edge_u: [18, 0, 0], edge_v: [0, 18, 0], material: mirror}\n' >mirrors.yaml
     expect "mirrors within the limit" 0 - 'mirrors\.png' "$glint" render mirrors.yaml --limit path-segments=18
+    expect "rays that the reference left out" 0 - 'mirrors.yaml:[78]:5: warning: [0-9]+ pixels needed more rays than the limit reference-segments, the first at [0-9]+,[0-9]+.*\[W702\]' "$glint" render mirrors.yaml --device reference --no-cache --limit reference-segments=5 -o faulty.png
     expect "more rays than the limit" 1 - 'mirrors.yaml:[78]:5: error: [0-9]+ pixels needed more rays than the limit path-segments, the first at [0-9]+,[0-9]+.*\[E705\]' "$glint" render mirrors.yaml --limit path-segments=5 -o faulty.png
     expect "what helps" 1 - 'help: .*--limit path-segments=' "$glint" render mirrors.yaml --limit path-segments=5 -o faulty.png
     expect "the picture is written all the same" 0 'PNG' '' head -c 4 faulty.png

@@ -72,6 +72,22 @@ rectangles:
 END
     expect "another light" 0 "the reference, ray 0, .*; 'lamp' in shadow" - "$glint" pick lid.yaml 32,32
     expect "that is a difference of lights" 0 '"of": "lights"' - "$glint" pick lid.yaml 32,32 --format json
+    # Cells that single precision cannot tell apart: the same place and the same light, but another colour.
+    cat >cells.yaml <<'END'
+glint: 1
+image: {width: 8, height: 8}
+camera: {position: [0, 0, 10000.3], fov: 1}
+trace: {precision: single}
+lights: [{direction: [0, 0, -1]}]
+rectangles:
+  - corner: [-900, -900, 0]
+    edge_u: [1800, 0, 0]
+    edge_v: [0, 1800, 0]
+    material: {diffuse_color: {checker: {colors: [1, 0.25], size: 0.000001}}}
+END
+    for x in 0 1 2 3 4 5 6 7; do "$glint" pick cells.yaml $x,1; done >cells.txt 2>/dev/null
+    expect "another colour" 0 'ray 0: the device has rectangles\[0\].*, colour (1 1 1|0.25 0.25 0.25)$' - cat cells.txt
+    also "and the reference's" '^    the reference, ray 0, has rectangles\[0\].*, colour (1 1 1|0.25 0.25 0.25)$' -
     expect "JSON" 0 '"difference_count": 0' - "$glint" pick scene.yaml 32,32 --format json
     expect "JSON's mesh line" 0 '"mesh_line": 7' - "$glint" pick scene.yaml 20,10 --format json
 

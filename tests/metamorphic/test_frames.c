@@ -2,6 +2,7 @@
 // picture that is asked for.
 //
 // Usage: test_frames SCENE, a scene in which paths branch and none is deeper than 20 levels by weight.
+#include "shaders/features.h"
 #include "tests/pictures/picture_kit.h"
 
 #include <stdio.h>
@@ -76,6 +77,7 @@ static void test_cancel(struct frames *f) {
     if (!open_stage(f, &stage, 96, 72, 3))
         return;
     stage.shot.settings.slice_iterations = 40; // many dispatches, so that many places can be cancelled
+    stage.shot.settings.dispatch_paths = 2000; // the same places each time
     bool good = apply(&stage) && take(&stage, &whole, &statistics) && picture_variety(&whole) > 1000;
     expect(f, good && statistics.slices > 10, "a frame of many slices");
     struct countdown all = {.left = 1 << 30, .ordered = true};
@@ -145,6 +147,37 @@ static void test_slices(struct frames *f) {
         image_finish(&image);
     }
     expect(f, good, "slices do not show");
+    // A slice of 0 ends at each node of a tree, others in the middle of one.
+    stage.shot.settings.features |= FEATURE_LONG_RAYS;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        stage.shot.settings.slice_iterations = sizes[i];
+        good = apply(&stage) && take(&stage, &image, &statistics) && statistics.slices > least && good &&
+               picture_differences(&whole, &image, "long rays") == 0;
+        image_finish(&image);
+    }
+    expect(f, good, "slices inside of rays do not show");
+    image_finish(&whole);
+    close_stage(&stage);
+}
+
+// Dispatches of few paths at a time, whose numbers are no multiples of anything.
+static void test_pieces(struct frames *f) {
+    static const uint32_t sizes[] = {64, 1000, 1937};
+    struct stage stage;
+    struct image whole, image;
+    struct render_statistics statistics;
+    if (!open_stage(f, &stage, 96, 72, 2))
+        return;
+    stage.shot.settings.slice_iterations = 300;
+    bool good = apply(&stage) && take(&stage, &whole, &statistics);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        stage.shot.settings.dispatch_paths = sizes[i];
+        good = apply(&stage) && take(&stage, &image, &statistics) && good &&
+               statistics.dispatches > 2 * 96 * 72 / sizes[i] &&
+               picture_differences(&whole, &image, "pieces") == 0;
+        image_finish(&image);
+    }
+    expect(f, good, "dispatches of few paths do not show");
     image_finish(&whole);
     close_stage(&stage);
 }
@@ -212,6 +245,7 @@ int main(int argc, char **argv) {
     test_cancel(&f);
     test_bands(&f);
     test_slices(&f);
+    test_pieces(&f);
     test_crop(&f);
     test_segments(&f);
     uint32_t messages = picture_kit_close(&f.kit);

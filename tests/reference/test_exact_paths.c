@@ -242,6 +242,7 @@ static void test_what_is_left_bounds_the_error(void **state) {
             error = fmax(error, fabs(some[i] - best[i]));
         print_message("%llu rays: error %.3g, bound %.3g\n", (unsigned long long)budgets[b], error, s.bound);
         assert_true(s.cut_by_segments > 0 && s.over_segments.pixels == 0);
+        assert_true(s.cut_short.pixels > 0 && s.cut_short.pixels < 40 * 30);
         // The brightest thing in view is known once enough was followed.
         assert_true(error > 0 && error <= s.left_weight_most * whole.brightest);
         assert_true(s.left_weight_most < before);
@@ -372,6 +373,33 @@ static void test_cancelled(void **state) {
     kit_finish(&kit);
 }
 
+// One pixel of thousands of rays: whoever cancels it is not kept waiting for its end.
+static bool stop_at_once(void *context, double fraction) {
+    double *last = context;
+    *last = fraction;
+    return false;
+}
+
+static void test_cancelled_inside_of_a_pixel(void **state) {
+    (void)state;
+    struct kit kit;
+    double rgb[3], fraction;
+    struct reference_progress progress = {stop_at_once, &fraction};
+    struct reference_settings settings = follow_all();
+    struct reference_statistics statistics;
+    glass_pile(&kit);
+    settings.width = settings.height = settings.samples = 1;
+    struct reference *r = reference_kit_make(&kit, REFERENCE_WATERTIGHT, false);
+    assert_int_equal(reference_render(r, &settings, rgb, NULL, &statistics), REFERENCE_DONE);
+    const uint64_t whole = statistics.reflected + statistics.refracted;
+    assert_int_equal(reference_render(r, &settings, rgb, &progress, &statistics), REFERENCE_CANCELLED);
+    print_message("%llu of %llu rays\n", (unsigned long long)(statistics.reflected + statistics.refracted),
+                  (unsigned long long)whole);
+    assert_true(whole > 64 && statistics.reflected + statistics.refracted <= 16);
+    reference_destroy(r);
+    kit_finish(&kit);
+}
+
 static void test_nothing_in_view(void **state) {
     (void)state;
     struct kit kit;
@@ -399,6 +427,7 @@ int main(void) {
         cmocka_unit_test(test_values_that_are_not_finite_are_told),
         cmocka_unit_test(test_faults_of_one_pixel_keep_apart),
         cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_cancelled_inside_of_a_pixel),
         cmocka_unit_test(test_nothing_in_view),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

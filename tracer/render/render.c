@@ -64,7 +64,10 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
     const bool is_double = renderer->flat->is_double;
     const uint64_t state = is_double ? STATE64_WORDS : STATE_WORDS;
     const uint64_t entry = is_double ? STACK64_ENTRY_WORDS : STACK_ENTRY_WORDS;
-    return (state + renderer->path_stack * entry) * WORD_BYTES;
+    const uint64_t ray = renderer->features & FEATURE_LONG_RAYS
+                             ? LONG_RAY_WORDS + (renderer_stack_levels(renderer) + 1) / 2
+                             : 0;
+    return (state + ray + renderer->path_stack * entry) * WORD_BYTES;
 }
 
 static void plan(struct renderer *renderer) {
@@ -73,6 +76,10 @@ static void plan(struct renderer *renderer) {
     renderer->features = settings->features;
     // Without shadow rays the lights are scanned in one go, however many there are.
     if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
+        renderer->features |= FEATURE_SLICES;
+    if (renderer->has_long_rays)
+        renderer->features |= FEATURE_LONG_RAYS;
+    if (renderer->features & FEATURE_LONG_RAYS)
         renderer->features |= FEATURE_SLICES;
     // A surface at the last level leaves its refracted ray, which sees the background, on the stack too.
     renderer->path_stack = (renderer->features & bounces) == bounces ? settings->max_depth + 1 : 0;
@@ -171,6 +178,12 @@ static void drop_frame(struct renderer *renderer) {
     free(renderer->band);
     renderer->band = NULL;
     renderer->pending = 0;
+}
+
+bool renderer_take_long_rays(struct renderer *renderer) {
+    renderer->has_long_rays = true;
+    drop_frame(renderer);
+    return make_frame(renderer);
 }
 
 static void take_settings(struct renderer *renderer, const struct render_settings *settings) {

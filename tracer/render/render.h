@@ -1,8 +1,8 @@
 // From a flat scene, a camera and a device to a picture of linear floats.
 //
 // A renderer holds the scene on the device and the compiled kernel, for as many frames as wanted. Pictures
-// are made in bands and slices (docs/architecture.md, "Tracing"), one sample a dispatch; neither shows in
-// the result. Input: the flat scene is copied to the device; it must outlive the renderer all the same.
+// are made in bands, samples, slices and pieces (docs/architecture.md, "Slices"); none shows in the
+// result. Input: the flat scene is copied to the device; it must outlive the renderer all the same.
 // Errors: RENDER_FAILED, with the text in gpu_error. Ownership: renderer_destroy takes NULL.
 // Thread safety: a renderer belongs to its gpu's thread.
 #ifndef GLINT_TRACER_RENDER_RENDER_H
@@ -37,13 +37,14 @@ struct render_settings {
     double background_intensity;
     double background_rotation; // degrees about +y
     // FEATURE_ bits to compile in: at least those of the flat scene. Those of the renderer (slices,
-    // counters) are added where needed.
+    // counters, long rays) are added where needed.
     uint32_t features;
     uint64_t path_segments;              // LIMIT_PATH_SEGMENTS
     uint32_t slice_iterations;           // SLICE_ITERATIONS of shaders/frame.h; 0: slices of one ray
     enum render_alternative alternative; // in single precision only
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
     uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
+    uint32_t dispatch_paths;             // most paths of a dispatch; 0: as many as are over soon
 };
 
 // What scene, flat scene and limits ask for.
@@ -53,7 +54,6 @@ struct render_settings render_settings_of(const struct scene *scene, const struc
 enum render_fault_kind {
     RENDER_NOT_FINITE = 1, // a value on the way was infinite or no number; the pixel is NaN
     RENDER_SEGMENTS,       // more rays than path_segments; the rest of the sample is missing
-    RENDER_ITERATIONS,     // one ray did not end; the rest of the sample is missing
     RENDER_FAULT_KINDS,
 };
 

@@ -1,7 +1,6 @@
 // One frame: bands, samples, slices, and the way back from slots to pixels.
 #include "tracer/render/render_private.h"
 
-#include "core/clock.h"
 #include "core/parallel.h"
 
 #include <math.h>
@@ -11,7 +10,6 @@ static const double RADIANS = 3.14159265358979323846 / 180;
 
 enum {
     TILES_A_PIECE = 256,
-    GRID_WIDTH_MAX = 65535, // what every device allows; more workgroups go to further rows
 };
 
 bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
@@ -87,62 +85,61 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
     return gpu_write(renderer->gpu, renderer->buffers[BINDING_FRAME], 0, &frame, sizeof frame);
 }
 
-// What one call of draw_frame works on.
-struct frame_run {
-    struct renderer *renderer;
-    struct gpu_program *program;
-    const struct render_progress *progress;
-    struct render_statistics *statistics;
-    uint64_t steps_done, steps; // a band's sample is a step
-};
-
-static bool run_once(struct frame_run *run, const struct dispatch_block *block, uint32_t groups) {
-    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
-    double seconds;
-    if (!gpu_dispatch(run->renderer->gpu, run->program, block->grid_width, height, block) ||
-        !gpu_submit(run->renderer->gpu) || !gpu_wait(run->renderer->gpu, &seconds))
-        return false;
-    run->statistics->device_seconds += seconds;
-    run->statistics->dispatches++;
-    return true;
-}
-
-// Rows of one length: empty workgroups at the end would all fall to one of a CPU's threads.
-uint32_t renderer_grid_width(uint32_t groups) {
-    const uint32_t rows = (groups + GRID_WIDTH_MAX - 1) / GRID_WIDTH_MAX;
-    return (groups + rows - 1) / rows;
-}
-
-static bool is_wanted(const struct frame_run *run, double part) {
+static bool is_wanted(const struct renderer_frame *run, double part) {
     const struct render_progress *progress = run->progress;
     return !progress || !progress->report ||
            progress->report(progress->context, ((double)run->steps_done + part) / (double)run->steps);
 }
 
-// One sample of one band: all its paths to their ends.
-static enum render_result draw_sample(struct frame_run *run, struct dispatch_block block) {
+static bool read_counters(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
-    const bool slices = renderer->features & FEATURE_SLICES;
-    const uint32_t workgroup = renderer->settings.workgroup;
-    uint32_t groups = (block.tile_count * TILE_PIXELS + workgroup - 1) / workgroup;
+    uint32_t counters[COUNTER_COUNT];
+    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, counters, sizeof counters))
+        return false;
+    renderer->pending = counters[COUNTER_PENDING];
+    run->met_long_ray = counters[COUNTER_LONG_RAYS] != 0;
+    return true;
+}
+
+static bool run_paths(struct renderer_frame *run, struct dispatch_block *block, uint32_t end) {
+    struct renderer *renderer = run->renderer;
+    double seconds;
+    if (!renderer_run_paths(renderer, run->program, block->resume ? RENDERER_RESUMES : RENDERER_BEGINS,
+                            renderer->settings.workgroup, block, end, &seconds))
+        return false;
+    run->statistics->device_seconds += seconds;
+    run->statistics->dispatches++;
+    return read_counters(run);
+}
+
+// All paths from the camera, or all that were saved, until they end or are saved again.
+static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_block *block) {
+    const uint32_t all = block->tile_count * TILE_PIXELS, end = block->resume ? block->resume : all;
+    block->pending_base = run->renderer->pending;
+    for (block->path_begin = 0; block->path_begin < end; block->path_begin = block->path_end) {
+        if (!run_paths(run, block, end))
+            return RENDER_FAILED;
+        const uint32_t saved = run->renderer->pending - block->pending_base;
+        const uint32_t open = end - block->path_end + saved;
+        if (run->met_long_ray)
+            return RENDER_CANCELLED;
+        if (open > 0 && !is_wanted(run, 1 - (double)open / all))
+            return RENDER_CANCELLED;
+    }
+    return RENDER_DONE;
+}
+
+// One sample of one band: all its paths to their ends.
+static enum render_result draw_sample(struct renderer_frame *run, struct dispatch_block block) {
     for (;;) {
-        block.grid_width = renderer_grid_width(groups);
-        block.pending_base = renderer->pending;
-        if (!run_once(run, &block, groups))
-            return RENDER_FAILED;
-        if (!slices)
-            break;
-        if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], COUNTER_PENDING * sizeof(uint32_t),
-                      &renderer->pending, sizeof renderer->pending))
-            return RENDER_FAILED;
-        block.resume = renderer->pending - block.pending_base;
+        const enum render_result result = draw_pass(run, &block);
+        if (result != RENDER_DONE)
+            return result;
+        block.resume = run->renderer->pending - block.pending_base;
         if (block.resume == 0)
             break;
         block.read_list = 1 - block.read_list;
-        groups = (block.resume + workgroup - 1) / workgroup;
         run->statistics->slices++;
-        if (!is_wanted(run, 1 - (double)block.resume / ((double)block.tile_count * TILE_PIXELS)))
-            return RENDER_CANCELLED;
     }
     run->steps_done++;
     return is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;
@@ -217,7 +214,7 @@ static void note_faults(const struct renderer *renderer, uint32_t tile_begin, ui
     }
 }
 
-static enum render_result draw_band(struct frame_run *run, uint32_t tile_begin, uint32_t tile_count,
+static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                     float *rgb) {
     struct renderer *renderer = run->renderer;
     for (uint32_t sample = 0; sample < renderer->settings.samples; sample++) {
@@ -243,11 +240,12 @@ static enum render_result draw_band(struct frame_run *run, uint32_t tile_begin, 
     return RENDER_DONE;
 }
 
-static enum render_result draw_frame(struct frame_run *run, const struct view_camera *camera, float *rgb) {
+enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
+                                       float *rgb) {
     struct renderer *renderer = run->renderer;
     const uint32_t tiles = renderer->tiles;
-    const double start = clock_seconds();
-    *run->statistics = (struct render_statistics){0};
+    run->steps_done = 0;
+    run->met_long_ray = false;
     run->statistics->bands = (tiles + renderer->band_tiles - 1) / renderer->band_tiles;
     run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
     enum render_result result = renderer_write_frame(renderer, camera) ? RENDER_DONE : RENDER_FAILED;
@@ -255,46 +253,5 @@ static enum render_result draw_frame(struct frame_run *run, const struct view_ca
         const uint32_t left = tiles - begin;
         result = draw_band(run, begin, left < renderer->band_tiles ? left : renderer->band_tiles, rgb);
     }
-    run->statistics->wall_seconds = clock_seconds() - start;
-    return result;
-}
-
-enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
-                                   const struct render_progress *progress,
-                                   struct render_statistics *statistics) {
-    struct frame_run run = {renderer, renderer->program, progress, statistics, 0, 0};
-    return draw_frame(&run, camera, rgb);
-}
-
-static uint64_t wide(const uint32_t words[2]) {
-    return (uint64_t)words[1] << 32 | words[0];
-}
-
-enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
-                                  const struct render_progress *progress, struct render_rays *rays) {
-    struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
-    uint32_t values[COUNTER_COUNT] = {0};
-    if (!renderer->counting)
-        renderer->counting = renderer_keep_program(renderer, renderer->features | FEATURE_COUNTERS);
-    if (!renderer->counting || !gpu_write(renderer->gpu, counters, 0, values, sizeof values))
-        return RENDER_FAILED;
-    renderer->pending = 0;
-    struct render_statistics statistics;
-    struct frame_run run = {renderer, renderer->counting, progress, &statistics, 0, 0};
-    enum render_result result = draw_frame(&run, camera, NULL);
-    if (result == RENDER_DONE && !gpu_read(renderer->gpu, counters, 0, values, sizeof values))
-        result = RENDER_FAILED;
-    *rays = (struct render_rays){.primary = values[COUNTER_PRIMARY],
-                                 .reflected = values[COUNTER_REFLECTED],
-                                 .refracted = values[COUNTER_REFRACTED],
-                                 .shadow = values[COUNTER_SHADOW],
-                                 .cut_by_depth = values[COUNTER_CUT_DEPTH],
-                                 .cut_by_weight = values[COUNTER_CUT_WEIGHT],
-                                 .total_reflections = values[COUNTER_TOTAL_REFLECT],
-                                 .nodes = wide(values + COUNTER_NODES),
-                                 .items = wide(values + COUNTER_ITEMS),
-                                 .deepest = values[COUNTER_DEEPEST],
-                                 .lost_by_depth = renderer_float(values[COUNTER_LOST_DEPTH]),
-                                 .lost_by_weight = renderer_float(values[COUNTER_LOST_WEIGHT])};
     return result;
 }

@@ -76,25 +76,26 @@ static uint32_t kind_count(const struct renderer *renderer) {
 
 static enum render_result draw_band(struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
                                     const struct render_progress *progress) {
-    const uint32_t kinds = kind_count(renderer);
-    double offset_x, offset_y;
+    const uint32_t kinds = kind_count(renderer), slots = tile_count * TILE_PIXELS;
+    double offset_x, offset_y, seconds;
     view_sample_offset(0, &offset_x, &offset_y);
     struct dispatch_block block = {.tile_begin = tile_begin,
                                    .tile_count = tile_count,
-                                   .grid_width = renderer_grid_width(tile_count),
                                    .offset_x = (float)offset_x,
                                    .offset_y = (float)offset_y};
-    const uint32_t height = (tile_count + block.grid_width - 1) / block.grid_width;
     for (uint32_t kind = 0; kind < kinds; kind++) {
         if (!is_kind_needed(renderer, kind))
             continue;
         block.resume = kind;
-        if (!gpu_dispatch(renderer->gpu, renderer->hits->program, block.grid_width, height, &block) ||
-            !gpu_submit(renderer->gpu) || !gpu_wait(renderer->gpu, NULL))
-            return RENDER_FAILED;
-        const double done = (tile_begin + tile_count * (kind + 1.0) / kinds) / renderer->tiles;
-        if (progress && progress->report && !progress->report(progress->context, done))
-            return RENDER_CANCELLED;
+        for (block.path_begin = 0; block.path_begin < slots; block.path_begin = block.path_end) {
+            if (!renderer_run_paths(renderer, renderer->hits->program, RENDERER_REPORTS, TILE_PIXELS, &block,
+                                    slots, &seconds))
+                return RENDER_FAILED;
+            const double part = (kind + (double)block.path_end / slots) / kinds;
+            const double done = (tile_begin + tile_count * part) / renderer->tiles;
+            if (progress && progress->report && !progress->report(progress->context, done))
+                return RENDER_CANCELLED;
+        }
     }
     return RENDER_DONE;
 }

@@ -61,6 +61,12 @@ static uint32_t stack_levels(uint32_t depth) {
     return depth > 3 ? depth - 2 : 1;
 }
 
+uint32_t renderer_stack_levels(const struct renderer *renderer) {
+    const uint32_t a = stack_levels(renderer->flat->triangle_depth);
+    const uint32_t b = stack_levels(renderer->flat->sphere_depth);
+    return a > b ? a : b;
+}
+
 static uint32_t bits_of(double value) {
     const float rounded = value > 0 ? fmaxf((float)value, FLT_MIN) : 0;
     uint32_t bits;

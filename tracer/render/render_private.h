@@ -37,11 +37,24 @@ enum {
     RENDERER_KEPT = 16
 };
 
+// How many paths a dispatch may take so that it is over soon, and a signal heard (render_pace.c).
+struct renderer_pace {
+    uint32_t paths; // of the next one; 0: nothing is known yet
+    double seconds; // of a path
+};
+enum renderer_pass {
+    RENDERER_BEGINS,  // paths from the camera
+    RENDERER_RESUMES, // saved ones
+    RENDERER_REPORTS, // first hits
+    RENDERER_PASSES,
+};
+
 struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
     struct render_settings settings;
-    uint32_t features;       // of the scene, and FEATURE_SLICES
+    uint32_t features;       // of the scene, FEATURE_SLICES and FEATURE_LONG_RAYS
+    bool has_long_rays;      // one was seen
     uint32_t path_stack;     // entries
     uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
@@ -55,6 +68,7 @@ struct renderer {
     struct renderer_hits *hits; // made by the first renderer_hits
     struct renderer_log *log;   // made by the first renderer_log
     uint32_t pending;           // value of COUNTER_PENDING after the last dispatch
+    struct renderer_pace paces[RENDERER_PASSES];
 };
 
 // A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` take the place
@@ -75,8 +89,27 @@ float renderer_float(uint32_t bits);
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
 // The frame's uniforms for a camera.
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera);
-// Width of a grid of this many workgroups, in rows of equal length.
-uint32_t renderer_grid_width(uint32_t groups);
+// What one frame works on.
+struct renderer_frame {
+    struct renderer *renderer;
+    struct gpu_program *program;
+    const struct render_progress *progress;
+    struct render_statistics *statistics;
+    uint64_t steps_done, steps; // a band's sample is a step
+    bool met_long_ray;          // the frame was given up: renderer_take_long_rays, and once more
+};
+// Adds to the statistics, which the caller has cleared. `rgb` NULL: no picture.
+enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
+                                       float *rgb);
+// Entries of the deeper tree's stack.
+uint32_t renderer_stack_levels(const struct renderer *renderer);
+// From now on with kernels that can save a ray in the middle of a tree. false: see gpu_error.
+bool renderer_take_long_rays(struct renderer *renderer);
+// Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
+// than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
+// *seconds is the device's time. `workgroup` is the program's.
+bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
+                        uint32_t workgroup, struct dispatch_block *block, uint32_t end, double *seconds);
 // Body in IR order, and its triangle in file order, of a number as in FAULT_NUMBER.
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);
 void renderer_hits_destroy(struct renderer *renderer); // what renderer_hits made

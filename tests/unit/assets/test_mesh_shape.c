@@ -246,6 +246,41 @@ static void what_cancels_is_zero(void **state) {
     assets_scene_end(s);
 }
 
+// One face against two that fill its angle from behind: what is left is only rounding, and no direction.
+static void rounding_is_no_normal(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    const struct mesh *mesh = assets_scene_mesh(s, "v .1 .2 .3\nv .8 .3 .7\nv -.1 1.1 .8\nv .4 .475 .625\n"
+                                                   "f 1 2 3\nf 1 4 2\nf 1 3 4\n");
+    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    for (uint32_t t = 0; t < 3; t++)
+        assert_true(vec3_is_zero(normals[3 * t]));
+    assets_scene_end(s);
+}
+
+// Two faces back to back, but for an angle of 2^-20: their sum is small, and has a direction.
+static void a_small_sum_is_a_normal(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    const struct mesh *mesh =
+        assets_scene_mesh(s, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0.00000095367431640625\nf 1 2 3\nf 1 4 2\n");
+    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    assert_true(vec3_length(vec3_sub(normals[0], (vec3){0, cos(0x1p-21), sin(0x1p-21)})) < 1e-9);
+    assets_scene_end(s);
+}
+
+// A needle of 2^-30 with its point first: the normal is known from its right angle, not from its point.
+static void a_needle_has_an_exact_normal(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    const struct mesh *mesh = assets_scene_mesh(
+        s, "v 0 0 0\nv 3 1 2\nv 3.000000000931322574615478515625 0.999999999068677425384521484375 "
+           "1.999999999068677425384521484375\nf 1 2 3\n");
+    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    assert_near(normals[0], vec3_unit((vec3){1, 5, -4}));
+    assets_scene_end(s);
+}
+
 // Moved by 2^20 and scaled by 2^-20: the same bits.
 static void normals_move_and_scale_exactly(void **state) {
     (void)state;
@@ -289,6 +324,9 @@ int main(void) {
         cmocka_unit_test(split_vertices_are_summed_too),
         cmocka_unit_test(normals_of_the_file_are_kept),
         cmocka_unit_test(what_cancels_is_zero),
+        cmocka_unit_test(rounding_is_no_normal),
+        cmocka_unit_test(a_small_sum_is_a_normal),
+        cmocka_unit_test(a_needle_has_an_exact_normal),
         cmocka_unit_test(normals_move_and_scale_exactly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

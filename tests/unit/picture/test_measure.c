@@ -118,6 +118,18 @@ static void test_one_pixel(void **state) {
     free(p);
 }
 
+// Levels of bytes: one apart is at the threshold and not over it, two apart is over it, whatever the levels.
+static void test_levels(void **state) {
+    (void)state;
+    for (int apart = 1; apart <= 2; apart++)
+        for (int level = 0; level + apart <= 255; level++) {
+            struct pair *p = pair_new((float)(level / 255.0), (float)((level + apart) / 255.0));
+            measure(p);
+            assert_int_equal(p->result.over, apart == 1 ? 0 : PIXELS);
+            free(p);
+        }
+}
+
 // The distance of black and white: |dL*| = 100 to the power 0.7, redistributed; the largest distance of the
 // space is 41.2761 (green and blue, to the power 0.7).
 static void test_flip_black_white(void **state) {
@@ -422,21 +434,14 @@ static void test_heatmap(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_equal),
-        cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_reference),
-        cmocka_unit_test(test_one_pixel),
-        cmocka_unit_test(test_flip_black_white),
-        cmocka_unit_test(test_pattern),
-        cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_spaces),
-        cmocka_unit_test(test_display_rounds_to_bytes),
-        cmocka_unit_test(test_metric_subset),
-        cmocka_unit_test(test_small_picture),
-        cmocka_unit_test(test_pfm),
-        cmocka_unit_test(test_png_and_hdr),
-        cmocka_unit_test(test_bad_files),
-        cmocka_unit_test(test_bounds),
+        cmocka_unit_test(test_equal),         cmocka_unit_test(test_constant),
+        cmocka_unit_test(test_reference),     cmocka_unit_test(test_one_pixel),
+        cmocka_unit_test(test_levels),        cmocka_unit_test(test_flip_black_white),
+        cmocka_unit_test(test_pattern),       cmocka_unit_test(test_not_finite),
+        cmocka_unit_test(test_spaces),        cmocka_unit_test(test_display_rounds_to_bytes),
+        cmocka_unit_test(test_metric_subset), cmocka_unit_test(test_small_picture),
+        cmocka_unit_test(test_pfm),           cmocka_unit_test(test_png_and_hdr),
+        cmocka_unit_test(test_bad_files),     cmocka_unit_test(test_bounds),
         cmocka_unit_test(test_heatmap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

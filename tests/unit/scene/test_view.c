@@ -101,6 +101,11 @@ static void cameras_look_where_they_are_told(void **state) {
         // The default up gives way: +z where the view goes up, -z where it goes down.
         {IR_VIEW_DIRECTION, {0, 2, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
         {IR_VIEW_DIRECTION, {0, -2, 0}, {0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+        // So near to the up that rounding would decide; and where it does not.
+        {IR_VIEW_DIRECTION, {0, 1, 1e-10}, {0, 1, 0}, {0, 1, 1e-10}, {1, 0, 0}, {0, -1e-10, 1}},
+        {IR_VIEW_DIRECTION, {0, 1, 1e-8}, {0, 1, 0}, {0, 1, 1e-8}, {-1, 0, 0}, {0, 1e-8, -1}},
+        // An up along z has no default to give way to but y.
+        {IR_VIEW_DIRECTION, {0, 0, -1}, {0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}},
         {IR_VIEW_LOOK_AT, {1, 2, 13}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}},
         {IR_VIEW_ROTATION, {0, 0, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}},
         {IR_VIEW_ROTATION, {0, 90, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
@@ -167,6 +172,23 @@ static void bounds_hold_all_bodies(void **state) {
     assert_true(scene_bounds(&s->resolved, &lower, &upper));
     assert_exact(lower, -3, -3, -4);
     assert_exact(upper, 3, 14, 5);
+    assets_scene_end(s);
+}
+
+// Each corner of a square on its tip is the farthest one to a side.
+static void bounds_hold_each_corner(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    struct ir_rectangle *rectangle = ARENA_PUSH(&s->arena, &s->scene.rectangles);
+    schema_init(&SCHEMA_RECTANGLE, rectangle);
+    rectangle->corner = (vec3){-5, 1, 0};
+    rectangle->edge_u = (vec3){1, 1, 0};
+    rectangle->edge_v = (vec3){2, -2, 0};
+    vec3 lower, upper;
+    assets_scene_load(s);
+    assert_true(scene_bounds(&s->resolved, &lower, &upper));
+    assert_exact(lower, -5, -1, 0);
+    assert_exact(upper, -2, 2, 0);
     assets_scene_end(s);
 }
 
@@ -266,6 +288,7 @@ int main(void) {
         cmocka_unit_test(cameras_look_where_they_are_told),
         cmocka_unit_test(a_field_of_90_degrees_is_exact),
         cmocka_unit_test(bounds_hold_all_bodies),
+        cmocka_unit_test(bounds_hold_each_corner),
         cmocka_unit_test(the_automatic_camera_sees_all),
         cmocka_unit_test(lights_are_as_written),
         cmocka_unit_test(hex_colours_are_displayed_ones),

@@ -394,6 +394,58 @@ static void test_lights(void **state) {
     kit_finish(&kit);
 }
 
+static void assert_doubles(const struct gpu_word *words, vec3 wanted) {
+    double place[3];
+    memcpy(place, words, sizeof place);
+    const vec3 got = {place[0], place[1], place[2]};
+    if (!(vec3_length(vec3_sub(got, wanted)) <= 1e-15 * vec3_length(wanted)))
+        fail_msg("(%.17g %.17g %.17g) is not (%.17g %.17g %.17g)", got.x, got.y, got.z, wanted.x, wanted.y,
+                 wanted.z);
+}
+
+// In double precision nothing on the way from a scene's numbers to a record is a float.
+static void test_doubles_stay(void **state) {
+    (void)state;
+    struct kit kit;
+    struct flat_scene flat;
+    kit_init(&kit);
+    kit.is_double = true;
+    struct ir_model *model = kit_model(&kit, tetra(&kit));
+    model->smooth = true;
+    model->rotation = (vec3){10, 20, 30};
+    model->scale = (vec3){1.1, 0.7, 0.9};
+    model->translation = (vec3){0.1, 0.2, 0.3};
+    struct view_light *sun = kit_light(&kit, (vec3){0, 0, 0});
+    sun->directional = true;
+    sun->to_light = vec3_unit((vec3){1, 2, 3});
+    kit_light(&kit, (vec3){1e15, 2e15, 3e15});
+    kit_light(&kit, (vec3){0.1, 0.7, 0.3});
+    flatten_ok(&kit, &flat);
+    const double factor = ldexp(1, flat.scale_exponent);
+    const affine3 map = transform_of_model(&kit.scene.models.items[0]);
+    for (uint32_t k = 0; k < 3; k++) {
+        vec3 vertex = kit_vertex(&flat, kit_find_triangle(&flat, 3), (int)k);
+        vec3 place = affine3_apply(map, tetra_positions[tetra_faces[3][k]]);
+        vec3 wanted = vec3_mul(vec3_sub(place, flat.origin), factor);
+        if (!(vec3_length(vec3_sub(vertex, wanted)) < 4e-15 * factor))
+            fail_msg("corner %u: (%.17g %.17g %.17g) is not (%.17g %.17g %.17g)", (unsigned)k, vertex.x,
+                     vertex.y, vertex.z, wanted.x, wanted.y, wanted.z);
+    }
+    const vec3 *of_mesh = mesh_smooth_normals(kit.assets.models[0].mesh, &kit.arena);
+    const mat3 turn = transform_for_normals(map.linear);
+    for (uint32_t i = 0; i < 12; i++)
+        assert_doubles(flat.normals.words + (size_t)flat.strides.normal * i,
+                       vec3_unit(mat3_apply(turn, of_mesh[i])));
+    const struct gpu_word *lights = flat.lights.words;
+    assert_doubles(lights, vec3_unit((vec3){1, 2, 3}));
+    assert_int_equal(lights[flat.strides.light + 1].z, LIGHT_DIRECTIONAL);
+    assert_doubles(lights + flat.strides.light, vec3_unit((vec3){1, 2, 3}));
+    assert_doubles(lights + 2 * (size_t)flat.strides.light,
+                   vec3_mul(vec3_sub((vec3){0.1, 0.7, 0.3}, flat.origin), factor));
+    flat_finish(&flat);
+    kit_finish(&kit);
+}
+
 // Only materials that bodies have count.
 static void test_features(void **state) {
     (void)state;
@@ -542,6 +594,7 @@ int main(void) {
         cmocka_unit_test(test_normals),
         cmocka_unit_test(test_checker),
         cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_doubles_stay),
         cmocka_unit_test(test_features),
         cmocka_unit_test(test_background),
         cmocka_unit_test(test_background_without_pixels),

@@ -174,6 +174,27 @@ static bool far_ball_on_floor(void) {
     return gap_suffices(&kit, 0);
 }
 
+// Two floors 2^-31 apart, all numbers exact, in a scene moved up by `move`.
+static bool is_moved_gap_seen(double move) {
+    struct kit kit;
+    struct precision_report report;
+    kit_init(&kit);
+    kit.origin = kit.view.camera.position = (vec3){0, move, 0};
+    put_rectangle(&kit, (vec3){-1, move - 1, -1}, (vec3){2, 0, 0}, (vec3){0, 0, -2});
+    put_rectangle(&kit, (vec3){-1, move - 1 + 0x1p-31, -1}, (vec3){2, 0, 0}, (vec3){0, 0, -2});
+    measure(&kit, &report);
+    kit_finish(&kit);
+    return report.least[PRECISION_GAP].any && report.least[PRECISION_GAP].length == 0x1p-31 &&
+           !report.suffices;
+}
+
+// A move that rounds nothing keeps the verdict, until the gap is what rounding leaves there.
+static void test_moved_gap(void **state) {
+    (void)state;
+    assert_true(is_moved_gap_seen(0) && is_moved_gap_seen(0x1p10) && is_moved_gap_seen(0x1p18));
+    assert_false(is_moved_gap_seen(0x1p20));
+}
+
 static void test_gap(void **state) {
     (void)state;
     // 16 steps at a distance of about 3 are 2.9e-6.
@@ -251,8 +272,8 @@ static void test_crowd(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nothing),    cmocka_unit_test(test_sphere), cmocka_unit_test(test_edge),
-        cmocka_unit_test(test_model_size), cmocka_unit_test(test_gap),    cmocka_unit_test(test_height),
-        cmocka_unit_test(test_choice),     cmocka_unit_test(test_crowd),
+        cmocka_unit_test(test_model_size), cmocka_unit_test(test_gap),    cmocka_unit_test(test_moved_gap),
+        cmocka_unit_test(test_height),     cmocka_unit_test(test_choice), cmocka_unit_test(test_crowd),
     };
     return cmocka_run_group_tests_name("precision", tests, NULL, NULL);
 }

@@ -1,0 +1,63 @@
+// How much work a dispatch gets. Nothing can end a dispatch from outside, so that none may take long: whoever
+// presses Ctrl-C waits for the one that runs. What paths take is learned from those before. Bands take their
+// runs of tiles from all over the picture, so that a few paths tell of the others.
+#include "tracer/render/render_private.h"
+
+#include "core/clock.h"
+
+#include <math.h>
+
+enum {
+    GRID_WIDTH_MAX = 65535, // what every device allows; more workgroups go to further rows
+    FIRST_PATHS_CPU = 1024,
+    FIRST_PATHS = 65536, // a GPU is not busy with fewer
+    GROWTH_MOST = 4,     // from one dispatch to the next: where few paths were cheap, others may not be
+};
+static const double DISPATCH_SECONDS = 0.05;
+// What is left of a path's cost where the next ones cost less: neighbours are alike, and cheap ones may end
+// soon.
+static const double COST_KEPT = 0.75;
+
+// Rows of one length: empty workgroups at the end would all fall to one of a CPU's threads.
+static uint32_t grid_width(uint32_t groups) {
+    const uint32_t rows = (groups + GRID_WIDTH_MAX - 1) / GRID_WIDTH_MAX;
+    return (groups + rows - 1) / rows;
+}
+
+static uint32_t paths_of(const struct renderer *renderer, const struct renderer_pace *pace, uint32_t left) {
+    const uint32_t first = gpu_info(renderer->gpu)->kind == GPU_CPU ? FIRST_PATHS_CPU : FIRST_PATHS;
+    uint32_t paths = pace->paths ? pace->paths : first;
+    if (renderer->settings.dispatch_paths)
+        paths = renderer->settings.dispatch_paths;
+    // A rest that is much smaller would keep few threads busy.
+    return left - left / 4 <= paths ? left : paths;
+}
+
+static void learn(struct renderer_pace *pace, uint32_t ran, uint32_t workgroup, double seconds) {
+    // The first one may have waited for its kernel to be compiled.
+    if (pace->paths == 0) {
+        pace->paths = ran;
+        return;
+    }
+    pace->seconds = fmax(seconds / ran, pace->seconds * COST_KEPT);
+    const uint32_t most = ran < pace->paths ? pace->paths : GROWTH_MOST * ran; // fewer: the rest of a pass
+    const double fits = pace->seconds > 0 ? DISPATCH_SECONDS / pace->seconds : most;
+    const uint32_t paths = fits < most ? (uint32_t)fits : most;
+    pace->paths = paths < workgroup ? workgroup : paths - paths % workgroup;
+}
+
+bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
+                        uint32_t workgroup, struct dispatch_block *block, uint32_t end, double *seconds) {
+    struct renderer_pace *pace = &renderer->paces[pass];
+    const uint32_t paths = paths_of(renderer, pace, end - block->path_begin);
+    const uint32_t groups = (paths + workgroup - 1) / workgroup;
+    block->path_end = block->path_begin + paths;
+    block->grid_width = grid_width(groups);
+    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
+    const double start = clock_seconds();
+    if (!gpu_dispatch(renderer->gpu, program, block->grid_width, height, block) ||
+        !gpu_submit(renderer->gpu) || !gpu_wait(renderer->gpu, seconds))
+        return false;
+    learn(pace, paths, workgroup, clock_seconds() - start);
+    return true;
+}
