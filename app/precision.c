@@ -95,9 +95,13 @@ static void warn(struct session *session, const struct precision_choice *choice)
     note_measure(session, choice);
 }
 
-static bool decide(const struct session *session, const struct flat_input *input,
-                   struct precision_choice *out) {
-    return precision_decide(input, (uint32_t)session->image->width, (uint32_t)session->image->height, out);
+// Without a device.
+static bool forecast(const struct session *session, const struct flat_input *input,
+                     struct precision_choice *out) {
+    const struct precision_trial trial = {
+        .input = input, .width = (uint32_t)session->image->width, .height = (uint32_t)session->image->height};
+    bool has_flat;
+    return precision_try(&trial, out, NULL, &has_flat) == PRECISION_DONE;
 }
 
 void precision_check(struct session *session) {
@@ -109,7 +113,7 @@ void precision_check(struct session *session) {
                &view);
     struct flat_input input = precision_input(session, &view);
     struct precision_choice choice;
-    if (!decide(session, &input, &choice) || !choice.needs_double)
+    if (!forecast(session, &input, &choice) || !choice.needs_double)
         return;
     diag_add(&session->sink, DIAG_SINGLE_PRECISION,
              ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
@@ -127,25 +131,46 @@ struct flat_input precision_input(struct session *session, const struct view *vi
                                .sink = &session->sink};
 }
 
-bool precision_choose(struct session *session, struct flat_input *input, bool has_double) {
-    struct precision_choice choice;
-    const struct ir_trace *trace = &session->scene->trace;
-    input->is_double = trace->precision == IR_PRECISION_DOUBLE;
-    if (input->is_double && !has_double) {
-        diag_add(&session->sink, DIAG_NO_DOUBLE,
-                 ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
-                 "'trace.precision' is 'double', but the device cannot compute in double precision");
-        return false;
-    }
-    if (trace->precision != IR_PRECISION_AUTO)
+bool precision_forecast(struct session *session, const struct flat_input *input,
+                        struct precision_choice *out) {
+    if (forecast(session, input, out))
         return true;
-    if (!decide(session, input, &choice)) {
+    diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
+             "there is not enough memory to measure the scene");
+    return false;
+}
+
+static enum precision_status choose(struct session *session, struct flat_input *input, struct gpu *gpu,
+                                    struct flat_scene *flat, bool *has_flat) {
+    const bool has_double = gpu_info(gpu)->has_double;
+    const struct precision_trial trial = {.input = input,
+                                          .width = (uint32_t)session->image->width,
+                                          .height = (uint32_t)session->image->height,
+                                          .gpu = gpu};
+    struct precision_choice choice;
+    const enum precision_status status = precision_try(&trial, &choice, flat, has_flat);
+    if (status == PRECISION_MEMORY)
         diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory to measure the scene");
-        return false;
-    }
+    if (status != PRECISION_DONE)
+        return status;
     if (choice.needs_double && !has_double)
         warn(session, &choice);
     input->is_double = choice.needs_double && has_double;
-    return true;
+    return PRECISION_DONE;
+}
+
+enum precision_status precision_choose(struct session *session, struct flat_input *input, struct gpu *gpu,
+                                       struct flat_scene *flat, bool *has_flat) {
+    const struct ir_trace *trace = &session->scene->trace;
+    *has_flat = false;
+    input->is_double = trace->precision == IR_PRECISION_DOUBLE;
+    if (input->is_double && !gpu_info(gpu)->has_double) {
+        diag_add(&session->sink, DIAG_NO_DOUBLE,
+                 ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
+                 "'trace.precision' is 'double', but the device cannot compute in double precision");
+        return PRECISION_SCENE;
+    }
+    return trace->precision == IR_PRECISION_AUTO ? choose(session, input, gpu, flat, has_flat)
+                                                 : PRECISION_DONE;
 }

@@ -5,13 +5,15 @@
 #include "core/clock.h"
 #include "grammar/ir.h"
 
-static bool flatten_shot(struct shot *shot) {
+static enum shot_status flatten_shot(struct shot *shot) {
     struct session *s = shot->session;
     double start = clock_seconds();
     struct flat_input input = precision_input(s, &shot->view);
-    bool good = precision_choose(s, &input, gpu_info(shot->gpu)->has_double) && flatten(&input, &shot->flat);
+    bool has_flat;
+    const enum precision_status status = precision_choose(s, &input, shot->gpu, &shot->flat, &has_flat);
+    const bool good = status == PRECISION_DONE && (has_flat || flatten(&input, &shot->flat));
     shot->flatten_seconds += clock_seconds() - start;
-    return good;
+    return good ? SHOT_OK : status == PRECISION_DEVICE ? SHOT_DEVICE : SHOT_SCENE;
 }
 
 enum shot_status shot_no_memory(struct session *session, const char *what) {
@@ -24,8 +26,9 @@ enum shot_status shot_open(struct shot *shot, struct session *session, struct gp
     *shot = (struct shot){.session = session, .gpu = gpu};
     if (!session_view(session, camera, &shot->view))
         return shot_no_memory(session, "the view");
-    if (!flatten_shot(shot))
-        return SHOT_SCENE;
+    const enum shot_status flattened = flatten_shot(shot);
+    if (flattened != SHOT_OK)
+        return flattened;
     shot->settings = render_settings_of(&session->resolved, &shot->flat, &session->options.limits);
     shot->settings.width = (uint32_t)session->image->width;
     shot->settings.height = (uint32_t)session->image->height;

@@ -135,9 +135,7 @@ static bool describe(struct session *session, struct strbuf *out) {
         return false;
     struct flat_input input = precision_input(session, &view);
     struct precision_choice precision;
-    if (!precision_decide(&input, (uint32_t)session->image->width, (uint32_t)session->image->height,
-                          &precision) ||
-        !flatten(&input, &flat))
+    if (!precision_forecast(session, &input, &precision) || !flatten(&input, &flat))
         return false;
     counts(out, session);
     bounds(out, session);

@@ -87,8 +87,10 @@ static int run(struct cli *cli, struct session *session, struct gpu *gpu, uint32
     if (!session_view(session, camera, &view))
         return failed(cli, session, gpu, TRADEOFF_MEMORY);
     struct flat_input flat = precision_input(session, &view);
-    if (!precision_choose(session, &flat, gpu_info(gpu)->has_double))
-        return failed(cli, session, gpu, TRADEOFF_SCENE);
+    bool has_flat;
+    const enum precision_status tried = precision_choose(session, &flat, gpu, NULL, &has_flat);
+    if (tried != PRECISION_DONE)
+        return failed(cli, session, gpu, tried == PRECISION_DEVICE ? TRADEOFF_DEVICE : TRADEOFF_SCENE);
     char *store = cli->options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);
     const struct tradeoff_input input = {.scene = &session->resolved,
                                          .view = &view,

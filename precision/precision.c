@@ -1,86 +1,148 @@
 #include "precision/precision.h"
 
-#include "core/parallel.h"
+#include "core/heap.h"
 #include "grammar/ir.h"
 #include "picture/write/image.h"
 #include "reference/reference.h"
 #include "scene/scene.h"
-#include "scene/spread.h"
+#include "tracer/render/render.h"
 
 #include <math.h>
-#include <stdatomic.h>
+#include <stdlib.h>
 
 enum {
-    CELLS = 3700,
+    PIXELS = 4096,
     RAYS = 256, // of a pixel at most, the heaviest ones
-    PIECE = 16, // pixels
 };
 
-struct trial {
-    struct reference *exact, *single;
-    struct reference_settings settings;
-    struct image_display display;
-    struct spread spread;
-    atomic_uint off;
-    atomic_bool failed;
+struct small {
+    const struct precision_trial *trial;
+    uint32_t width, height;
+    bool whole; // no smaller than the picture
+    double *exact, *rounded;
+    float *shown[2];
 };
 
-static bool differ(const struct trial *trial, const double exact[3], const double single[3]) {
-    float linear[6], shown[6];
-    for (int k = 0; k < 3; k++) {
-        linear[k] = (float)exact[k];
-        linear[k + 3] = (float)single[k];
-    }
-    image_to_displayed(linear, 2, trial->display, shown);
-    for (int k = 0; k < 3; k++)
-        if (!(fabs((double)shown[k] - (double)shown[k + 3]) <= PRECISION_OFF))
-            return true;
-    return false;
+static void choose_size(struct small *small) {
+    const double width = small->trial->width, height = small->trial->height;
+    small->whole = width * height <= 2 * PIXELS;
+    small->width = small->trial->width;
+    small->height = small->trial->height;
+    if (small->whole)
+        return;
+    small->width = (uint32_t)fmin(width, fmax(1, round(sqrt(PIXELS * width / height))));
+    small->height = (uint32_t)fmin(height, fmax(1, round((double)PIXELS / small->width)));
 }
 
-static void trace_piece(void *context, size_t begin, size_t end) {
-    struct trial *trial = context;
-    for (size_t i = begin; i < end; i++) {
-        uint32_t x, y;
-        double exact[3], single[3];
-        spread_pixel(&trial->spread, (uint32_t)i, &x, &y);
-        if (!reference_pixel(trial->exact, &trial->settings, x, y, exact) ||
-            !reference_pixel(trial->single, &trial->settings, x, y, single))
-            atomic_store(&trial->failed, true);
-        else if (differ(trial, exact, single))
-            atomic_fetch_add(&trial->off, 1);
-    }
+static size_t values_of(const struct small *small) {
+    return 3 * (size_t)small->width * small->height;
 }
 
-static bool run(struct trial *trial, struct precision_choice *out) {
-    out->pixels = trial->spread.columns * trial->spread.lines;
-    parallel_for(out->pixels, PIECE, trace_piece, trial);
-    out->off = atomic_load(&trial->off);
-    out->traced = true;
-    return !atomic_load(&trial->failed);
+static bool make_small(const struct precision_trial *trial, struct small *small) {
+    *small = (struct small){.trial = trial};
+    choose_size(small);
+    small->exact = heap_alloc(values_of(small) * sizeof *small->exact);
+    small->rounded = heap_alloc(values_of(small) * sizeof *small->rounded);
+    for (int i = 0; i < 2; i++)
+        small->shown[i] = heap_alloc(values_of(small) * sizeof *small->shown[i]);
+    return small->exact && small->rounded && small->shown[0] && small->shown[1];
 }
 
-static bool try_pixels(const struct flat_input *input, uint32_t width, uint32_t height,
-                       struct precision_choice *out) {
-    const struct ir_scene *ir = input->scene->ir;
-    struct reference_input wanted = {.scene = input->scene, .view = input->view, .gradient = true};
-    struct trial trial = {.exact = reference_create(&wanted),
-                          .display = {ir->image.tone, ir->image.transfer},
-                          .spread = spread_make(width, height, CELLS)};
-    wanted.as_single = true;
-    trial.single = trial.exact ? reference_create(&wanted) : NULL;
-    trial.settings =
-        (struct reference_settings){.width = width,
-                                    .height = height,
-                                    .samples = 1,
-                                    .max_depth = (uint32_t)ir->trace.max_depth,
-                                    .min_weight = ir->trace.min_weight,
-                                    .cut_sees_background = ir->trace.depth_limit == IR_DEPTH_BACKGROUND,
-                                    .segments = RAYS};
-    const bool good = trial.single && run(&trial, out);
-    reference_destroy(trial.single);
-    reference_destroy(trial.exact);
+static void finish_small(struct small *small) {
+    free(small->exact);
+    free(small->rounded);
+    free(small->shown[0]);
+    free(small->shown[1]);
+}
+
+static bool draw_reference(const struct small *small, bool as_single, double *rgb) {
+    const struct flat_input *input = small->trial->input;
+    const struct ir_trace *trace = &input->scene->ir->trace;
+    const struct reference_input wanted = {
+        .scene = input->scene, .view = input->view, .as_single = as_single, .gradient = !small->trial->gpu};
+    const struct reference_settings settings = {.width = small->width,
+                                                .height = small->height,
+                                                .samples = 1,
+                                                .max_depth = (uint32_t)trace->max_depth,
+                                                .min_weight = trace->min_weight,
+                                                .cut_sees_background =
+                                                    trace->depth_limit == IR_DEPTH_BACKGROUND,
+                                                .segments = RAYS};
+    struct reference *reference = reference_create(&wanted);
+    const bool good = reference && reference_render(reference, &settings, rgb, NULL, NULL) == REFERENCE_DONE;
+    reference_destroy(reference);
     return good;
+}
+
+static bool draw_device(const struct small *small, const struct flat_scene *flat, double *rgb) {
+    const struct flat_input *input = small->trial->input;
+    struct render_settings settings = render_settings_of(input->scene, flat, input->limits);
+    settings.width = small->width;
+    settings.height = small->height;
+    settings.samples = 1;
+    settings.features |= small->trial->features;
+    struct render_statistics statistics;
+    float *values = small->shown[0];
+    struct renderer *renderer = renderer_create(small->trial->gpu, flat, &settings);
+    const bool good =
+        renderer && renderer_render(renderer, &input->view->camera, values, NULL, &statistics) == RENDER_DONE;
+    renderer_destroy(renderer);
+    for (size_t i = 0; good && i < values_of(small); i++)
+        rgb[i] = (double)values[i];
+    return good;
+}
+
+// Compares as displayed.
+static void compare(const struct small *small, struct precision_choice *out) {
+    const struct ir_image *image = &small->trial->input->scene->ir->image;
+    const struct image_display display = {image->tone, image->transfer};
+    const double *pictures[2] = {small->exact, small->rounded};
+    out->pixels = small->width * small->height;
+    out->off = 0;
+    out->traced = true;
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < values_of(small); i++)
+            small->shown[k][i] = (float)pictures[k][i];
+        image_to_displayed(small->shown[k], out->pixels, display, small->shown[k]);
+    }
+    for (size_t i = 0; i < values_of(small); i += 3) {
+        bool off = false;
+        for (size_t k = i; k < i + 3; k++)
+            off = off || !(fabs((double)small->shown[0][k] - (double)small->shown[1][k]) <= PRECISION_OFF);
+        out->off += off;
+    }
+    out->needs_double = out->off > PRECISION_SHARE * (small->whole ? 1 : PRECISION_PART) * out->pixels;
+}
+
+static enum precision_status try_device(struct small *small, struct precision_choice *out,
+                                        struct flat_scene *flat, bool *has_flat) {
+    struct flat_input input = *small->trial->input;
+    struct flat_scene made;
+    input.is_double = false;
+    if (!flatten(&input, &made))
+        return PRECISION_SCENE;
+    const bool good = draw_device(small, &made, small->rounded);
+    if (good)
+        compare(small, out);
+    out->on_device = good;
+    *has_flat = good && flat && !out->needs_double;
+    if (*has_flat)
+        *flat = made;
+    else
+        flat_finish(&made);
+    return good ? PRECISION_DONE : PRECISION_DEVICE;
+}
+
+static enum precision_status try_small(struct small *small, struct precision_choice *out,
+                                       struct flat_scene *flat, bool *has_flat) {
+    if (!draw_reference(small, false, small->exact))
+        return PRECISION_MEMORY;
+    if (small->trial->gpu)
+        return try_device(small, out, flat, has_flat);
+    if (!draw_reference(small, true, small->rounded))
+        return PRECISION_MEMORY;
+    compare(small, out);
+    return PRECISION_DONE;
 }
 
 static uint64_t size_of(const struct scene *scene) {
@@ -90,19 +152,21 @@ static uint64_t size_of(const struct scene *scene) {
     return sum;
 }
 
-bool precision_decide(const struct flat_input *input, uint32_t width, uint32_t height,
-                      struct precision_choice *out) {
+enum precision_status precision_try(const struct precision_trial *trial, struct precision_choice *out,
+                                    struct flat_scene *flat, bool *has_flat) {
+    struct small small;
     *out = (struct precision_choice){.pixels = 0};
-    if (!precision_measure(input, &out->report))
-        return false;
-    if (size_of(input->scene) > PRECISION_TRACED) {
+    *has_flat = false;
+    if (!precision_measure(trial->input, &out->report))
+        return PRECISION_MEMORY;
+    if (size_of(trial->input->scene) > PRECISION_TRACED) {
         out->needs_double = !out->report.suffices;
-        return true;
+        return PRECISION_DONE;
     }
-    if (!try_pixels(input, width, height, out))
-        return false;
-    out->needs_double = out->off > PRECISION_SHARE * out->pixels;
-    return true;
+    const enum precision_status status =
+        make_small(trial, &small) ? try_small(&small, out, flat, has_flat) : PRECISION_MEMORY;
+    finish_small(&small);
+    return status;
 }
 
 bool precision_is_double(const struct ir_scene *ir, const struct precision_choice *choice) {

@@ -1,30 +1,49 @@
 // Which precision a scene needs, found by tracing some of its pixels.
 //
-// Pixels spread over the picture are traced by the reference tracer twice, in double precision and with
-// numbers rounded as a device in single precision rounds them, and compared as displayed. So all counts that
-// moves a pixel: slender triangles, gaps, checkers, cameras close to a surface, mirrors and glass that
-// magnify errors. A scene of more than PRECISION_TRACED triangles is measured alone
-// (tracer/flatten/precision.h). No device takes part: the same file gives the same answer on every machine.
-// Input: as flatten. Errors: false when memory ends. Thread safety: pure.
+// On a device: a small picture of the scene in single precision, compared as displayed with the reference
+// tracer's. So all counts that moves a pixel: slender triangles, gaps, checkers, cameras and lights close to
+// a surface, mirrors and glass that magnify errors. Without one, the reference tracer draws the second
+// picture too, with numbers rounded as a device in single precision rounds them: a forecast, the same on
+// every machine. A scene of more than PRECISION_TRACED triangles is measured alone
+// (tracer/flatten/precision.h). Input: as flatten. Ownership: see precision_try. Thread safety: the gpu's
+// thread; without one, pure.
 #ifndef GLINT_PRECISION_PRECISION_H
 #define GLINT_PRECISION_PRECISION_H
 
 #include "tracer/flatten/precision.h"
+#include "tracer/gpu/gpu.h"
 
 #define PRECISION_TRACED 500000u     // triangles and spheres
 #define PRECISION_OFF    (1.0 / 255) // of a displayed channel
-#define PRECISION_SHARE  0.0005      // of the pixels: half of what a picture may have off
+#define PRECISION_SHARE  0.001       // of the pixels may differ by more
+#define PRECISION_PART   0.5         // of that, where the small picture is not the whole one
 
 struct precision_choice {
     struct precision_report report; // what was measured
     bool traced;                    // pixels were traced
+    bool on_device;                 // and those of single precision on the device
     uint32_t pixels, off;           // so many, and those of them that differ
     bool needs_double;
 };
 
-// `width` and `height` of the picture.
-bool precision_decide(const struct flat_input *input, uint32_t width, uint32_t height,
-                      struct precision_choice *out);
+enum precision_status {
+    PRECISION_DONE,
+    PRECISION_MEMORY,
+    PRECISION_SCENE,  // flattening failed; the sink has it
+    PRECISION_DEVICE, // see gpu_error
+};
+
+struct precision_trial {
+    const struct flat_input *input; // is_double does not count
+    uint32_t width, height;         // of the picture
+    struct gpu *gpu;                // NULL: none
+    uint32_t features;              // compiled in beside what the scene wants
+};
+
+// Where a device was asked and single precision suffices, *flat (which may be NULL) becomes the scene as it
+// was flattened for it, the caller's to flat_finish, and *has_flat true.
+enum precision_status precision_try(const struct precision_trial *trial, struct precision_choice *out,
+                                    struct flat_scene *flat, bool *has_flat);
 // What a scene is traced in: its own setting, or what the choice says.
 bool precision_is_double(const struct ir_scene *ir, const struct precision_choice *choice);
 

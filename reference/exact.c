@@ -129,6 +129,6 @@ bool exact_intersect(const struct exact_ray *ray, const struct primitive *p, str
     out->t = wide_div(height, along).high;
     out->b1 = fmax(wide_div(v, det).high, 0);
     out->b2 = fmax(wide_div(w, det).high, 0);
-    out->t_error = SAME_HEIGHT * ray->unit * farthest(p) * size / fabs(along.high);
+    out->t_error = SAME_HEIGHT * REFERENCE_UNIT * farthest(p) * size / fabs(along.high);
     return true;
 }

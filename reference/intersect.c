@@ -200,11 +200,8 @@ static void take(struct search *s, const struct intersection *hit) {
 static bool intersect_triangle(struct search *s, const struct primitive *p, struct intersection *hit) {
     bool open;
     const bool is_hit = intersect_watertight(&s->sheared, p, hit, &open);
-    if (is_hit && s->r->input.as_single) {
-        const double blur = exact_blur(p, s->ray->direction, REFERENCE_SINGLE);
-        open = hit->t <= 2 * blur;
-        hit->t_error = fmax(hit->t_error, blur);
-    }
+    if (is_hit && s->r->input.as_single)
+        open = hit->t <= 2 * exact_blur(p, s->ray->direction, REFERENCE_SINGLE);
     if (!open)
         return is_hit;
     if (!s->exact_begun)
@@ -224,6 +221,8 @@ static void test_primitive(struct search *s, uint32_t index) {
     if (!is_hit || hit.t + hit.t_error >= s->ray->t_max)
         return;
     hit.primitive = index;
+    if (s->r->input.as_single && !p->is_sphere)
+        hit.t_error = fmax(hit.t_error, exact_blur(p, s->ray->direction, REFERENCE_SINGLE));
     take(s, &hit);
 }
 

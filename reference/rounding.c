@@ -2,13 +2,9 @@
 // "Monte Carlo Arithmetic"), drawn from the number's own bits, so that every run draws the same.
 #include "reference/parts.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-// The operations that a number comes from, each wrong by half a unit in the last place at most.
-#define OPERATIONS 3.0
-
-// -1 .. 1, by SplitMix64 (Steele, Lea, Flood 2014).
+// 1 or -1, by SplitMix64 (Steele, Lea, Flood 2014).
 static double drawn(double value) {
     uint64_t z;
     memcpy(&z, &value, sizeof z);

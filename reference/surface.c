@@ -139,14 +139,15 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
                        struct surface *out) {
     const struct primitive *p = &r->primitives[hit->primitive];
     const struct body *body = &r->bodies[p->body];
-    const double b[3] = {fmax(1 - hit->b1 - hit->b2, 0), hit->b1, hit->b2};
+    const double b1 = reference_rounded(r, hit->b1, 1), b2 = reference_rounded(r, hit->b2, 1);
+    const double b[3] = {fmax(1 - b1 - b2, 0), fmax(b1, 0), fmax(b2, 0)};
     vec3 arm = {0, 0, 0};
     *out = (struct surface){.primitive = hit->primitive,
                             .body = p->body,
                             .triangle = p->triangle,
                             .distance = hit->t,
-                            .b1 = hit->b1,
-                            .b2 = hit->b2};
+                            .b1 = b[1],
+                            .b2 = b[2]};
     if (p->is_sphere)
         sphere_surface(r, ray, p, out, &arm);
     else

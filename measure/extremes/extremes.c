@@ -54,14 +54,21 @@ static struct image_display display_of(const struct ir_scene *scene) {
 
 // ---- the device's side
 
-static bool choose_precision(const struct run *run, const struct variant *v, struct flat_input *input) {
+static enum extremes_status choose_precision(const struct run *run, const struct variant *v,
+                                             struct flat_input *input) {
     struct precision_choice choice = {.needs_double = false};
     if (run->input->alternative != RENDER_ALTERNATIVE_NONE)
-        return true;
-    if (v->ir.trace.precision == IR_PRECISION_AUTO && !precision_decide(input, v->width, v->height, &choice))
-        return false;
+        return EXTREMES_DONE;
+    const struct precision_trial trial = {
+        .input = input, .width = v->width, .height = v->height, .gpu = run->input->gpu};
+    bool has_flat;
+    if (v->ir.trace.precision == IR_PRECISION_AUTO) {
+        const enum precision_status tried = precision_try(&trial, &choice, NULL, &has_flat);
+        if (tried == PRECISION_MEMORY || tried == PRECISION_DEVICE)
+            return tried == PRECISION_MEMORY ? EXTREMES_MEMORY : EXTREMES_DEVICE;
+    }
     input->is_double = precision_is_double(&v->ir, &choice) && gpu_info(run->input->gpu)->has_double;
-    return true;
+    return EXTREMES_DONE;
 }
 
 static enum extremes_status draw(struct run *run, const struct variant *v, const struct flat_scene *flat) {
@@ -86,8 +93,9 @@ static enum extremes_status trace_device(struct run *run, const struct variant *
                                .origin = v->view.camera.position,
                                .limits = run->input->limits,
                                .sink = &run->sink};
-    if (!choose_precision(run, v, &input))
-        return EXTREMES_MEMORY;
+    const enum extremes_status chosen = choose_precision(run, v, &input);
+    if (chosen != EXTREMES_DONE)
+        return chosen;
     cell->is_double = input.is_double;
     if (!flatten(&input, &flat)) {
         cell->left_out = "its coordinates exceed 1e18";

@@ -141,8 +141,17 @@ static enum sweep_status judge_pictures(struct judging *j) {
                                .limits = j->input->limits,
                                .sink = &j->sink};
     struct precision_choice choice;
-    if (!precision_decide(&input, j->input->width, j->input->height, &choice))
-        return SWEEP_MEMORY;
+    const struct precision_trial trial = {.input = &input,
+                                          .width = j->input->width,
+                                          .height = j->input->height,
+                                          .gpu = j->input->gpu,
+                                          .features = FEATURE_SCENE_MASK};
+    bool has_flat;
+    const enum precision_status tried = precision_try(&trial, &choice, NULL, &has_flat);
+    if (tried != PRECISION_DONE)
+        return tried == PRECISION_MEMORY  ? SWEEP_MEMORY
+               : tried == PRECISION_SCENE ? SWEEP_COORDINATES
+                                          : SWEEP_DEVICE;
     const struct precision_measure *least = &choice.report.least[choice.report.decides];
     j->item->is_double = precision_is_double(j->scene->ir, &choice);
     j->item->steps = least->any ? least->steps : (double)INFINITY;

@@ -82,6 +82,7 @@ static void json_item(struct json_writer *w, const struct sweep_item *item) {
     json_write_integer(w, "number", item->number);
     json_write_text(w, "verdict", str_from(sweep_verdict_names[item->verdict]));
     json_write_text(w, "precision", str_from(precision_of(item)));
+    json_write_real(w, "trial", item->trial_off);
     if (isfinite(item->steps))
         json_write_real(w, "steps", item->steps);
     json_picture(w, "single", &item->pictures[SWEEP_SINGLE]);
