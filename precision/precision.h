@@ -16,7 +16,7 @@
 #define PRECISION_TRACED 500000u     // triangles and spheres
 #define PRECISION_OFF    (1.0 / 255) // of a displayed channel
 #define PRECISION_SHARE  0.001       // of the pixels may differ by more
-#define PRECISION_PART   0.5         // of that, where the small picture is not the whole one
+#define PRECISION_PART   0.75        // of that, where the small picture is not the whole one
 
 struct precision_choice {
     struct precision_report report; // what was measured
