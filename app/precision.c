@@ -141,8 +141,7 @@ bool precision_forecast(struct session *session, const struct flat_input *input,
 }
 
 static enum precision_status choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                    struct flat_scene *flat, bool *has_flat) {
-    const bool has_double = gpu_info(gpu)->has_double;
+                                    bool has_double, struct flat_scene *flat, bool *has_flat) {
     const struct precision_trial trial = {.input = input,
                                           .width = (uint32_t)session->image->width,
                                           .height = (uint32_t)session->image->height,
@@ -161,16 +160,16 @@ static enum precision_status choose(struct session *session, struct flat_input *
 }
 
 enum precision_status precision_choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                       struct flat_scene *flat, bool *has_flat) {
+                                       bool has_double, struct flat_scene *flat, bool *has_flat) {
     const struct ir_trace *trace = &session->scene->trace;
     *has_flat = false;
     input->is_double = trace->precision == IR_PRECISION_DOUBLE;
-    if (input->is_double && !gpu_info(gpu)->has_double) {
+    if (input->is_double && !has_double) {
         diag_add(&session->sink, DIAG_NO_DOUBLE,
                  ir_place_value(&session->origin, &trace->head, &SCHEMA_TRACE, "precision"),
                  "'trace.precision' is 'double', but the device cannot compute in double precision");
         return PRECISION_SCENE;
     }
-    return trace->precision == IR_PRECISION_AUTO ? choose(session, input, gpu, flat, has_flat)
+    return trace->precision == IR_PRECISION_AUTO ? choose(session, input, gpu, has_double, flat, has_flat)
                                                  : PRECISION_DONE;
 }

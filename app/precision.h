@@ -11,12 +11,13 @@
 // The input of flattening for a session seen in this view; `view` must outlive it.
 struct flat_input precision_input(struct session *session, const struct view *view);
 
-// Sets input->is_double: the scene's setting, or, if that is auto, what a trial on the device finds. *flat
+// Sets input->is_double: the scene's setting, or, if that is auto, what a trial on the device finds.
+// `has_double`: the device can. *flat
 // (which may be NULL) may become the scene as flattened for single precision: then *has_flat is true, and the
 // caller finishes it. The session's sink gets the error E707, or the warning W701, or that there is no
 // memory.
 enum precision_status precision_choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                       struct flat_scene *flat, bool *has_flat);
+                                       bool has_double, struct flat_scene *flat, bool *has_flat);
 // What a trial without a device finds. false: no memory; the sink has it.
 bool precision_forecast(struct session *session, const struct flat_input *input,
                         struct precision_choice *out);

@@ -10,7 +10,8 @@ static enum shot_status flatten_shot(struct shot *shot) {
     double start = clock_seconds();
     struct flat_input input = precision_input(s, &shot->view);
     bool has_flat;
-    const enum precision_status status = precision_choose(s, &input, shot->gpu, &shot->flat, &has_flat);
+    const enum precision_status status =
+        precision_choose(s, &input, shot->gpu, gpu_info(shot->gpu)->has_double, &shot->flat, &has_flat);
     const bool good = status == PRECISION_DONE && (has_flat || flatten(&input, &shot->flat));
     shot->flatten_seconds += clock_seconds() - start;
     return good ? SHOT_OK : status == PRECISION_DEVICE ? SHOT_DEVICE : SHOT_SCENE;

@@ -1,5 +1,6 @@
-// What single precision makes of a number: the error of each operation is taken as random (Parker 1997,
-// "Monte Carlo Arithmetic"), drawn from the number's own bits, so that every run draws the same.
+// What single precision makes of a number: the error of its computation is taken as half a unit in the last
+// place, up or down at random (Parker 1997, "Monte Carlo Arithmetic"), drawn from the number's own bits, so
+// that every run draws the same.
 #include "reference/parts.h"
 
 #include <string.h>
@@ -9,21 +10,15 @@ static double drawn(double value) {
     uint64_t z;
     memcpy(&z, &value, sizeof z);
     z += UINT64_C(0x9E3779B97F4A7C15);
-    if (getenv("SALT"))
-        z += atoi(getenv("SALT")) * 0x1234567891ull;
     z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
     z = (z ^ z >> 27) * UINT64_C(0x94D049BB133111EB);
-    z ^= z >> 31;
-    if (getenv("RAD"))
-        return (z >> 11) & 1 ? 1 : -1;
-    return (double)(z >> 11) * 0x1p-52 - 1;
+    return (z ^ z >> 31) & 1 ? 1 : -1;
 }
 
 double reference_rounded(const struct reference *r, double value, double size) {
     if (!r->input.as_single)
         return value;
-    return (double)(float)(value + (getenv("OPS") ? atof(getenv("OPS")) : 3.0) * REFERENCE_SINGLE * size *
-                                       drawn(value));
+    return (double)(float)(value + REFERENCE_SINGLE * size * drawn(value));
 }
 
 vec3 reference_rounded3(const struct reference *r, vec3 v, double size) {

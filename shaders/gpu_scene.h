@@ -43,14 +43,14 @@
 /* Leaf items of the triangle tree: `number` counts triangles (bodies in order, triangles in file order;
    spheres come before and are not counted); `shade` holds the material in its low 24 bits, and flags. Leaf
    items of the sphere tree have TRIANGLE_SOLID always. */
-#define TRIANGLE_SMOOTH      0x01000000u
-#define TRIANGLE_SOLID       0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
-#define TRIANGLE_HALF        0x04000000u /* half of a parallelogram */
-#define TRIANGLE_SECOND_HALF 0x08000000u /* and its second: corner, corner + u + v, corner + v */
-#define TRIANGLE_CHECKER     0x10000000u
-#define TRIANGLE_TURNED      0x20000000u /* v1 and v2 are exchanged against the file's order */
-#define TRIANGLE_CORNER_SHIFT 30         /* the corner, 0..2, whose edges tell the normal best */
-#define TRIANGLE_MATERIAL    0x00ffffffu
+#define TRIANGLE_SMOOTH       0x01000000u
+#define TRIANGLE_SOLID        0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
+#define TRIANGLE_HALF         0x04000000u /* half of a parallelogram */
+#define TRIANGLE_SECOND_HALF  0x08000000u /* and its second: corner, corner + u + v, corner + v */
+#define TRIANGLE_CHECKER      0x10000000u
+#define TRIANGLE_TURNED       0x20000000u /* v1 and v2 are exchanged against the file's order */
+#define TRIANGLE_CORNER_SHIFT 30          /* the corner, 0..2, whose edges tell the normal best */
+#define TRIANGLE_MATERIAL     0x00ffffffu
 
 /* Normals of smooth triangles: 3 records each, in object order of v0 v1 v2 as stored in the leaf, from
    3 * (triangle number - body.first_triangle) + body.normal_base on.

@@ -3,8 +3,8 @@
 #ifndef GLINT_SHADERS_LOG_H
 #define GLINT_SHADERS_LOG_H
 
-/* STATE, a ray: its origin, LOG_BLIND or 0, item of the triangle that it leaves; its direction, unit, bound of
-   the origin's error; b1, b2 of the place on that triangle (ray_start). */
+/* STATE, a ray: its origin, LOG_BLIND or 0, item of the triangle that it leaves; its direction, unit, bound
+   of the origin's error; b1, b2 of the place on that triangle (ray_start). */
 #define LOG_RAY_WORDS 5
 #define LOG_BLIND     1u /* it is not traced, and sees the background */
 

@@ -197,6 +197,60 @@ bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hi
     return open;
 }
 
+// The path's own ray or a shadow ray, once more. `hit`: what it hits without triangles, then with them.
+void decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray shadow, inout hit_record hit,
+                    inout uint iterations) {
+    ray_start start = shadow_start;
+    exact_aim aim = aim_along(p.direction);
+    if (own)
+        start = p.start;
+    else
+        aim = aim_at(p.light, shadow);
+    retrace_triangles(start, aim, !own, hit, iterations);
+}
+
+// From a surface: to its next light, or on with the path.
+uint go_on(uint slot, inout path_state p, surface s, ray_start start, inout uint phase, inout light_ray shadow,
+           inout uint iterations, inout uint fault) {
+    uint state = GOES_ON;
+    phase = PHASE_SHADOW;
+    bool found = find_light(p, s, start, shadow, iterations);
+    if (!found && p.light < frame.light_count) {
+        fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
+        state = HAS_SLICES ? SUSPENDED : STOPPED;
+    } else if (!found) {
+        phase = PHASE_RAY;
+        state = leave_surface(slot, p, s, start);
+    }
+    return state;
+}
+
+// What the ray of a phase hit; the surface of the path's own one, or of one that was found before.
+uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, inout surface s, inout ray_start start) {
+    uint state = GOES_ON;
+    if (phase == PHASE_RAY)
+        state = take_hit(p, hit);
+    if (phase == PHASE_SHADOW)
+        take_light(p, hit, shadow);
+    if (state == GOES_ON && phase != PHASE_SHADOW) {
+        make_surface(p.hit, p.start.at, p.direction, s);
+        taint(p, true, s.point + s.shading, 0.0);
+        start = leave(s, p.hit, s.geometric);
+    }
+    return state;
+}
+
+// A chain of rays that ended: its background, and a refracted ray that waits.
+void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase) {
+    if (state == MISSED)
+        p.radiance += background(vec3(p.direction)) * p.throughput;
+    if (HAS_BRANCHES && (state == MISSED || state == ENDED) && p.stack_size > 0u) {
+        pop_branch(slot, p);
+        state = GOES_ON;
+        phase = PHASE_RAY;
+    }
+}
+
 // Follows a path until it ends, or until its slice does.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON;
@@ -242,45 +296,16 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     break;
                 count_ray(p, own);
             }
-            if (own)
-                state = take_hit(p, hit);
-            if (phase == PHASE_SHADOW)
-                take_light(p, hit, shadow);
-            if (state == GOES_ON && phase != PHASE_SHADOW) {
-                make_surface(p.hit, p.start.at, p.direction, s);
-                taint(p, true, s.point + s.shading, 0.0);
-                start = leave(s, p.hit, s.geometric);
-            }
-            if (state == GOES_ON) {
-                phase = PHASE_SHADOW;
-                bool found = find_light(p, s, start, shadow, iterations);
-                if (!found && p.light < frame.light_count) {
-                    fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
-                    state = HAS_SLICES ? SUSPENDED : STOPPED;
-                } else if (!found) {
-                    phase = PHASE_RAY;
-                    state = leave_surface(slot, p, s, start);
-                }
-            }
+            state = arrive(p, phase, hit, shadow, s, start);
+            if (state == GOES_ON)
+                state = go_on(slot, p, s, start, phase, shadow, iterations, fault);
         } while (state == GOES_ON);
         if (HAS_TRIANGLES && state == UNDECIDED) {
-            ray_start from = start;
-            if (phase == PHASE_RAY)
-                from = p.start;
-            exact_aim aim = aim_along(p.direction);
-            if (phase != PHASE_RAY)
-                aim = aim_at(p.light, shadow);
-            retrace_triangles(from, aim, phase != PHASE_RAY, held, iterations);
+            decide_exactly(p, phase == PHASE_RAY, start, shadow, held, iterations);
             decided = true;
             state = GOES_ON;
         }
-        if (state == MISSED)
-            p.radiance += background(vec3(p.direction)) * p.throughput;
-        if (HAS_BRANCHES && (state == MISSED || state == ENDED) && p.stack_size > 0u) {
-            pop_branch(slot, p);
-            state = GOES_ON;
-            phase = PHASE_RAY;
-        }
+        end_chain(slot, p, state, phase);
     } while (state == GOES_ON);
     return state;
 }

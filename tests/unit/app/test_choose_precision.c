@@ -1,5 +1,7 @@
 // The precision of a shot: setting, scene and device together, and what is said about it.
 #include "app/precision.h"
+#include "device_kit.h"
+#include "grammar/ir.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -34,8 +36,13 @@ static void end(struct fixture *f) {
 static const char far_scene[] = "scenes/elements/precision.glint.yaml";
 static const char near_scene[] = "scenes/elements/spheres.glint.yaml";
 
+static enum precision_status choose(struct fixture *f, void **state, bool has_double) {
+    bool has_flat;
+    return precision_choose(&f->session, &f->input, device_kit_need(state, has_double), has_double, NULL,
+                            &has_flat);
+}
+
 static void test_settings(void **state) {
-    (void)state;
     static const struct {
         const char *path, *set;
         bool is_double;
@@ -47,7 +54,7 @@ static void test_settings(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct fixture f;
         begin(&f, cases[i].path, cases[i].set);
-        assert_true(precision_choose(&f.session, &f.input, true));
+        assert_int_equal(choose(&f, state, true), PRECISION_DONE);
         assert_int_equal(f.input.is_double, cases[i].is_double);
         assert_int_equal(f.session.sink.count, 0);
         end(&f);
@@ -56,16 +63,15 @@ static void test_settings(void **state) {
 
 // A device that cannot: an error where it was asked for, a warning where it would be needed.
 static void test_device_without(void **state) {
-    (void)state;
     struct fixture f;
     begin(&f, near_scene, "trace.precision=double");
-    assert_false(precision_choose(&f.session, &f.input, false));
+    assert_int_equal(choose(&f, state, false), PRECISION_SCENE);
     assert_int_equal(f.session.sink.errors, 1);
     assert_int_equal(f.session.sink.items[0].code, DIAG_NO_DOUBLE);
     assert_false(span_is_none(f.session.sink.items[0].at));
     end(&f);
     begin(&f, far_scene, "trace.precision=auto");
-    assert_true(precision_choose(&f.session, &f.input, false));
+    assert_int_equal(choose(&f, state, false), PRECISION_DONE);
     assert_false(f.input.is_double);
     assert_int_equal(f.session.sink.errors, 0);
     assert_int_equal(f.session.sink.count, 1);
@@ -73,7 +79,7 @@ static void test_device_without(void **state) {
     assert_false(span_is_none(f.session.sink.items[0].at));
     end(&f);
     begin(&f, near_scene, "trace.precision=auto");
-    assert_true(precision_choose(&f.session, &f.input, false));
+    assert_int_equal(choose(&f, state, false), PRECISION_DONE);
     assert_int_equal(f.session.sink.count, 0);
     end(&f);
 }
@@ -81,11 +87,11 @@ static void test_device_without(void **state) {
 static void expect_words(const char *path, const char *set, const char *const *parts) {
     struct fixture f;
     struct strbuf text;
-    struct precision_report report;
+    struct precision_choice choice;
     strbuf_init(&text);
     begin(&f, path, set);
-    assert_true(precision_measure(&f.input, &report));
-    precision_words(&f.session, &report, &text);
+    assert_true(precision_forecast(&f.session, &f.input, &choice));
+    precision_words(&f.session, &choice, &text);
     for (; *parts; parts++)
         if (!strstr(text.data, *parts))
             fail_msg("'%s' is not in:\n%.*s", *parts, (int)text.len, text.data);
@@ -96,22 +102,59 @@ static void expect_words(const char *path, const char *set, const char *const *p
 static void test_words(void **state) {
     (void)state;
     static const char *const far_parts[] = {"precision   double, the setting is auto",
-                                            "single precision does not suffice: the smallest body decides",
-                                            "scenes/elements/precision.glint.yaml:20:5", "16 steps", NULL};
-    static const char *const single_parts[] = {"precision   single, the setting is single",
-                                               "does not suffice", NULL};
-    static const char *const near_parts[] = {"precision   single, the setting is auto",
-                                             "single precision suffices", "smallest body", NULL};
+                                            "pixels traced in both precisions differ",
+                                            "scenes/elements/precision.glint.yaml:20:5", "steps", NULL};
+    static const char *const single_parts[] = {"precision   single, the setting is single", "differ", NULL};
+    static const char *const near_parts[] = {"precision   single, the setting is auto", "0 of ",
+                                             "smallest body", NULL};
     expect_words(far_scene, "trace.precision=auto", far_parts);
     expect_words(far_scene, "trace.precision=single", single_parts);
     expect_words(near_scene, "trace.precision=auto", near_parts);
 }
 
+// The setting is obeyed; auto follows the trial.
+static void test_choice(void **state) {
+    (void)state;
+    struct ir_scene ir = {0};
+    for (int needs = 0; needs < 2; needs++) {
+        const struct precision_choice choice = {.needs_double = needs};
+        ir.trace.precision = IR_PRECISION_AUTO;
+        assert_int_equal(precision_is_double(&ir, &choice), needs);
+        ir.trace.precision = IR_PRECISION_SINGLE;
+        assert_false(precision_is_double(&ir, &choice));
+        ir.trace.precision = IR_PRECISION_DOUBLE;
+        assert_true(precision_is_double(&ir, &choice));
+    }
+}
+
+// A trial that finds single precision enough hands on the scene that it flattened, and says what it traced.
+static void test_trial(void **state) {
+    for (int needs = 0; needs < 2; needs++) {
+        struct fixture f;
+        struct flat_scene flat;
+        struct precision_choice choice;
+        bool has_flat;
+        begin(&f, needs ? far_scene : near_scene, "trace.precision=auto");
+        const struct precision_trial trial = {
+            .input = &f.input, .width = 64, .height = 48, .gpu = device_kit_need(state, true)};
+        assert_int_equal(precision_try(&trial, &choice, &flat, &has_flat), PRECISION_DONE);
+        assert_true(choice.traced && choice.on_device && choice.pixels == 64 * 48);
+        assert_int_equal(choice.needs_double, needs);
+        assert_int_equal(choice.off > 3, needs);
+        assert_int_equal(has_flat, !needs);
+        if (has_flat) {
+            assert_true(flat.sphere_count > 0 && !flat.is_double);
+            flat_finish(&flat);
+        }
+        end(&f);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_settings),
-        cmocka_unit_test(test_device_without),
-        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_choice),   cmocka_unit_test(test_trial),
+        cmocka_unit_test(test_settings), cmocka_unit_test(test_device_without),
+        cmocka_unit_test(test_words),    cmocka_unit_test(device_kit_silent),
     };
-    return cmocka_run_group_tests_name("choose_precision", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("choose_precision", tests, device_kit_setup, device_kit_teardown);
 }

@@ -582,25 +582,15 @@ static void test_missing_mesh(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_rectangle),
-        cmocka_unit_test(test_mirrored),
-        cmocka_unit_test(test_turned_mesh),
-        cmocka_unit_test(test_right_angles),
-        cmocka_unit_test(test_dropped),
-        cmocka_unit_test(test_slivers),
-        cmocka_unit_test(test_moved),
-        cmocka_unit_test(test_scaled),
-        cmocka_unit_test(test_normals),
-        cmocka_unit_test(test_checker),
-        cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_doubles_stay),
-        cmocka_unit_test(test_features),
-        cmocka_unit_test(test_background),
-        cmocka_unit_test(test_background_without_pixels),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_overflow),
-        cmocka_unit_test(test_missing_mesh),
-    };
+        cmocka_unit_test(test_empty),        cmocka_unit_test(test_rectangle),
+        cmocka_unit_test(test_mirrored),     cmocka_unit_test(test_turned_mesh),
+        cmocka_unit_test(test_right_angles), cmocka_unit_test(test_dropped),
+        cmocka_unit_test(test_slivers),      cmocka_unit_test(test_moved),
+        cmocka_unit_test(test_scaled),       cmocka_unit_test(test_normals),
+        cmocka_unit_test(test_checker),      cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_doubles_stay), cmocka_unit_test(test_features),
+        cmocka_unit_test(test_background),   cmocka_unit_test(test_background_without_pixels),
+        cmocka_unit_test(test_limits),       cmocka_unit_test(test_overflow),
+        cmocka_unit_test(test_missing_mesh)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

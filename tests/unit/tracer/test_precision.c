@@ -227,24 +227,6 @@ static void test_height(void **state) {
     }
 }
 
-// The setting is obeyed; auto follows the report.
-static void test_choice(void **state) {
-    (void)state;
-    struct kit kit;
-    struct precision_report report = {.suffices = true};
-    kit_init(&kit);
-    for (int suffices = 0; suffices < 2; suffices++) {
-        report.suffices = suffices;
-        kit.scene.trace.precision = IR_PRECISION_AUTO;
-        assert_int_equal(precision_is_double(&kit.scene, &report), !suffices);
-        kit.scene.trace.precision = IR_PRECISION_SINGLE;
-        assert_false(precision_is_double(&kit.scene, &report));
-        kit.scene.trace.precision = IR_PRECISION_DOUBLE;
-        assert_true(precision_is_double(&kit.scene, &report));
-    }
-    kit_finish(&kit);
-}
-
 // Too many bodies in one place: the search ends, and says so.
 static void test_crowd(void **state) {
     (void)state;
@@ -273,7 +255,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nothing),    cmocka_unit_test(test_sphere), cmocka_unit_test(test_edge),
         cmocka_unit_test(test_model_size), cmocka_unit_test(test_gap),    cmocka_unit_test(test_moved_gap),
-        cmocka_unit_test(test_height),     cmocka_unit_test(test_choice), cmocka_unit_test(test_crowd),
+        cmocka_unit_test(test_height),     cmocka_unit_test(test_crowd),
     };
     return cmocka_run_group_tests_name("precision", tests, NULL, NULL);
 }
