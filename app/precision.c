@@ -77,7 +77,8 @@ static void note_measure(struct session *session, const struct precision_choice 
     if (choice->traced)
         diag_note(&session->sink, SPAN_NONE, "%u of %u pixels traced in both precisions differ", choice->off,
                   choice->pixels);
-    if (!report->least[report->decides].any)
+    const struct precision_measure *least = &report->least[report->decides];
+    if (!least->any || least->steps >= PRECISION_STEPS)
         return;
     strbuf_init(&words);
     put_measure(session, report->decides, &report->least[report->decides], &words);

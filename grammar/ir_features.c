@@ -229,6 +229,7 @@ static const struct feature_name {
     {FEATURE_SLICES, "slices"},
     {FEATURE_COUNTERS, "counters"},
     {FEATURE_LONG_RAYS, "long_rays"},
+    {FEATURE_MANY_LIGHTS, "many_lights"},
 };
 static_assert(sizeof feature_names / sizeof feature_names[0] == FEATURE_COUNT, "every feature has a name");
 

@@ -123,7 +123,10 @@ static void compare(const struct small *small, struct precision_choice *out) {
     }
     for (size_t i = 0; i < values_of(small); i += 3) {
         bool off = false;
-        for (size_t k = i; k < i + 3; k++)
+        // What no float holds, no precision of places mends.
+        const bool finite =
+            isfinite(small->rounded[i]) && isfinite(small->rounded[i + 1]) && isfinite(small->rounded[i + 2]);
+        for (size_t k = i; k < i + 3 && finite; k++)
             off = off || !(fabs((double)small->shown[0][k] - (double)small->shown[1][k]) <= PRECISION_OFF);
         out->off += off;
     }

@@ -172,16 +172,18 @@ void test_exact(uint item, inout exact_search search, inout hit_record hit) {
     search.least = is_hit ? min(search.least, t) : search.least;
 }
 
-// As trace_triangles, with `hit` as it was before that.
-void retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_record hit, inout uint iterations) {
+// As trace_triangles, with `hit` as it was before that. false: given up at EXACT_ITERATIONS, which a ray reaches where
+// a scene is so far away that most of it is the same but for rounding.
+bool retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_record hit, inout uint iterations) {
     tree_ray ray = make_tree_ray(start.at, aim.direction);
     exact_search search = begin_exact(start, aim, hit);
     REAL margin = 4.0 * start.slack / largest3(abs(aim.direction));
     STACK(TRIANGLE_STACK)
     uvec2 group = root_group();
+    uint turns = 0u;
     bool more = true;
     do {
-        iterations += 2u;
+        turns += 2u;
         if (HAS_COUNTERS)
             counted_nodes++;
         node_record node = load_triangle_node(next_node(group, ray.flip));
@@ -189,8 +191,8 @@ void retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_recor
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
         uint items = hits & 0x00ffffffu;
-        while (items != 0u && iterations < ITERATION_LIMIT) {
-            iterations++;
+        while (items != 0u && turns < EXACT_ITERATIONS) {
+            turns++;
             if (HAS_COUNTERS)
                 counted_items++;
             uint bit = items & (0u - items);
@@ -202,5 +204,7 @@ void retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_recor
                 more = false;
             }
         }
-    } while (more && iterations < ITERATION_LIMIT);
+    } while (more && turns < EXACT_ITERATIONS);
+    iterations += turns;
+    return turns < EXACT_ITERATIONS;
 }

@@ -21,7 +21,8 @@
 #define FEATURE_SLICES           (1u << 14) /* paths may be saved and resumed in a later dispatch */
 #define FEATURE_COUNTERS         (1u << 15) /* count rays for --stats */
 #define FEATURE_LONG_RAYS        (1u << 16) /* a ray may be saved and resumed in the middle of a tree */
-#define FEATURE_COUNT            17
+#define FEATURE_MANY_LIGHTS      (1u << 17) /* the sum over the lights keeps what rounding drops */
+#define FEATURE_COUNT            18
 /* What only a scene can switch on; the last bits are the renderer's. */
 #define FEATURE_SCENE_MASK ((1u << 14) - 1u)
 

@@ -105,6 +105,7 @@
    8: an invocation ends its slice before its share of 8191. */
 #define ITERATION_LIMIT  8000
 #define SLICE_ITERATIONS 6000
+#define EXACT_ITERATIONS 1500 /* of them, of a ray's second search at most */
 
 /* Specialization constants. */
 #define CONSTANT_FEATURES       0

@@ -9,10 +9,11 @@ const uint TREE_SPHERES = 1u;
 const uint TREE_TRIANGLES = 2u;
 
 #ifdef DOUBLE_PRECISION
-const uint PATH_WORDS = STATE64_WORDS;
+const uint LOW_WORD = STATE64_WORDS;
 #else
-const uint PATH_WORDS = STATE_WORDS;
+const uint LOW_WORD = STATE_WORDS;
 #endif
+const uint PATH_WORDS = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u);
 // Words of a slot after those of its path: which tree, group, number of what was hit; t, b1; b2, item, size of
 // the stack; what a search of triangles knows of its errors; then two entries of the stack a word.
 const uint LONG_STACK_WORD = LONG_RAY_WORDS;

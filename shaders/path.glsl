@@ -15,6 +15,7 @@ struct path_state {
     hit_record hit; // NO_ITEM: the ray is still to be traced; else its lights from `light` on
     uint light;
     vec3 light_sum; // over the lights before
+    vec3 light_low; // with HAS_MANY_LIGHTS: what rounding dropped of it
     uint stack_size;
 };
 
@@ -30,6 +31,7 @@ path_state begin_path(REAL3 direction) {
     p.hit = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, FAULT_NUMBER);
     p.light = 0u;
     p.light_sum = vec3(0.0);
+    p.light_low = vec3(0.0);
     p.stack_size = 0u;
     return p;
 }

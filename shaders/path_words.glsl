@@ -5,6 +5,13 @@
 // indexed private array for all lanes, and a storage buffer only for those that want it.
 uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TILE_PIXELS) + slot; }
 
+vec3 get_low(uint slot) {
+    vec3 low = vec3(0.0);
+    if (HAS_MANY_LIGHTS)
+        low = uintBitsToFloat(states[state_word(slot, LOW_WORD)].xyz);
+    return low;
+}
+
 #ifdef DOUBLE_PRECISION
 const uint BRANCH_WORDS = STACK64_ENTRY_WORDS;
 
@@ -43,6 +50,7 @@ path_state load_path(uint slot) {
     p.radiance = uintBitsToFloat(w4.xyz);
     p.segments = w4.w;
     p.light_sum = uintBitsToFloat(w5.xyz);
+    p.light_low = get_low(slot);
     p.light = w5.w;
     p.hit = hit_record(hit.x, hit.y, hit.z, c.x, c.y);
     return p;
@@ -96,6 +104,7 @@ path_state load_path(uint slot) {
     p.radiance = uintBitsToFloat(w2.xyz);
     p.segments = w2.w;
     p.light_sum = uintBitsToFloat(w3.xyz);
+    p.light_low = get_low(slot);
     p.light = w3.w;
     p.hit = hit_record(uintBitsToFloat(w4.x), uintBitsToFloat(w4.y), uintBitsToFloat(w4.z), w4.w, w5.x);
     p.stack_size = w5.y;
@@ -143,6 +152,8 @@ hit_record long_hit() {
 
 void save_path(uint slot, path_state p) {
     put_path(slot, p);
+    if (HAS_MANY_LIGHTS)
+        states[state_word(slot, LOW_WORD)] = uvec4(floatBitsToUint(p.light_low), 0u);
     if (HAS_LONG_RAYS && long_stopped == TREE_NONE)
         states[long_word(0u)] = uvec4(long_tree, long_group, states[long_word(0u)].w);
     // Each saved path takes a place in the list that the next dispatch reads. Their order may differ from

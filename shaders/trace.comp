@@ -128,6 +128,16 @@ uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint
     return p.segments > frame.path_segments ? STOPPED : GOES_ON;
 }
 
+// Of many lights, with what rounding dropped of the sum before (Kahan 1965, "Further Remarks on Reducing Truncation
+// Errors"): a sum of thousands of floats would be wrong in the fourth digit.
+void add_light(inout path_state p, vec3 value) {
+    vec3 added = HAS_MANY_LIGHTS ? value - p.light_low : value;
+    vec3 sum = p.light_sum + added;
+    if (HAS_MANY_LIGHTS)
+        p.light_low = (sum - p.light_sum) - added;
+    p.light_sum = sum;
+}
+
 // From light `p.light` on, the next one that would add something; adds those that need no shadow ray.
 bool find_light(inout path_state p, surface s, ray_start start, inout light_ray shadow, inout uint iterations) {
     uint count = frame.light_count + OPAQUE_ZERO;
@@ -137,7 +147,7 @@ bool find_light(inout path_state p, surface s, ray_start start, inout light_ray 
         shadow = light_at(p.light, s, start.at, p.direction);
         found = HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
         if (!(HAS_SHADOWS && wants(FEATURE_SHADOWS)))
-            p.light_sum += shadow.value;
+            add_light(p, shadow.value);
         p.light += found ? 0u : 1u;
     }
     return found;
@@ -149,12 +159,14 @@ uint take_hit(inout path_state p, hit_record hit) {
     p.hit = hit;
     p.light = 0u;
     p.light_sum = vec3(0.0);
+    p.light_low = vec3(0.0);
     return hit.item == NO_ITEM ? MISSED : GOES_ON;
 }
 
 // What a shadow ray hit: nothing lets the light through.
 void take_light(inout path_state p, hit_record hit, light_ray shadow) {
-    p.light_sum = hit.item == NO_ITEM ? p.light_sum + shadow.value : p.light_sum;
+    if (hit.item == NO_ITEM)
+        add_light(p, shadow.value);
     p.light++;
 }
 
@@ -171,6 +183,12 @@ bool is_late(bool fresh, uint iterations) {
     bool late = !fresh && iterations > frame.slice_iterations;
     // Looking for a light may have taken what the first ray was to have.
     return late || (HAS_LONG_RAYS && iterations > SLICE_ITERATIONS);
+}
+
+// Whether a slice has room for a second search. A ray that fills it alone keeps what the first search found.
+uint room_for_exact(bool fresh, uint iterations) {
+    bool room = iterations + EXACT_ITERATIONS <= ITERATION_LIMIT;
+    return room ? UNDECIDED : HAS_SLICES && !fresh ? SUSPENDED : GOES_ON;
 }
 
 // Both trees. A ray that stopped in the slice before goes on where it did; one may stop again: long_stopped. true:
@@ -198,7 +216,7 @@ bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hi
 }
 
 // The path's own ray or a shadow ray, once more. `hit`: what it hits without triangles, then with them.
-void decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray shadow, inout hit_record hit,
+bool decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray shadow, inout hit_record hit,
                     inout uint iterations) {
     ray_start start = shadow_start;
     exact_aim aim = aim_along(p.direction);
@@ -206,7 +224,7 @@ void decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray sh
         start = p.start;
     else
         aim = aim_at(p.light, shadow);
-    retrace_triangles(start, aim, !own, hit, iterations);
+    return retrace_triangles(start, aim, !own, hit, iterations);
 }
 
 // From a surface: to its next light, or on with the path.
@@ -259,7 +277,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     surface s;
     ray_start start = exact_start(REAL3(0.0)); // of shadow rays
     light_ray shadow = light_ray(vec3(0.0), start.at, 0.0);
-    hit_record held = p.hit; // UNDECIDED: the spheres' hit; `decided`: the ray's
+    hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; `decided`: the ray's
     bool decided = false;
     do {
         do {
@@ -282,10 +300,12 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                 state = SUSPENDED;
                 break;
             }
-            if (HAS_TRIANGLES && traced && open && iterations < ITERATION_LIMIT) {
+            if (HAS_TRIANGLES && traced && open) {
+                state = room_for_exact(fresh, iterations);
                 held = sphere;
-                state = UNDECIDED;
-                break;
+                rough = hit;
+                if (state != GOES_ON)
+                    break;
             }
             if (decided)
                 hit = held;
@@ -301,7 +321,8 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                 state = go_on(slot, p, s, start, phase, shadow, iterations, fault);
         } while (state == GOES_ON);
         if (HAS_TRIANGLES && state == UNDECIDED) {
-            decide_exactly(p, phase == PHASE_RAY, start, shadow, held, iterations);
+            if (!decide_exactly(p, phase == PHASE_RAY, start, shadow, held, iterations))
+                held = rough;
             decided = true;
             state = GOES_ON;
         }

@@ -1,6 +1,7 @@
 #include "analytic_kit.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 int analytic_open(struct analytic *analytic, int argc, char **argv) {
@@ -57,7 +58,9 @@ static int32_t height_of(const struct analytic_picture *picture) {
 }
 
 static bool write_scene(struct analytic *analytic, const struct analytic_picture *picture) {
-    char camera[512], text[16384];
+    char camera[512];
+    const size_t size = (picture->scene ? strlen(picture->scene) : 0) + 4096;
+    char *text = malloc(size);
     struct analytic_camera c = camera_of(picture);
     snprintf(camera, sizeof camera,
              "camera: {position: [%.17g, %.17g, %.17g], direction: [%.17g, %.17g, %.17g],"
@@ -65,12 +68,14 @@ static bool write_scene(struct analytic *analytic, const struct analytic_picture
              c.position.x, c.position.y, c.position.z, c.forward.x, c.forward.y, c.forward.z, c.up.x, c.up.y,
              c.up.z, c.fov);
     int length =
-        snprintf(text, sizeof text, "glint: 1\nimage: {width: %d, height: %d, samples: %d%s}\n%s\n%s\n",
+        snprintf(text, size, "glint: 1\nimage: {width: %d, height: %d, samples: %d%s}\n%s\n%s\n",
                  width_of(picture), height_of(picture), picture->samples ? picture->samples : 1,
                  picture->image_text ? picture->image_text : "",
                  picture->camera_text ? picture->camera_text : camera, picture->scene ? picture->scene : "");
-    return length > 0 && (size_t)length < sizeof text &&
-           analytic_write(analytic, "picture.glint.yaml", text, (size_t)length);
+    const bool good = length > 0 && (size_t)length < size &&
+                      analytic_write(analytic, "picture.glint.yaml", text, (size_t)length);
+    free(text);
+    return good;
 }
 
 bool analytic_take(struct analytic *analytic, const struct analytic_picture *picture, struct image *image) {

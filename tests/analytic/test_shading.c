@@ -3,6 +3,7 @@
 #include "analytic_kit.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -197,6 +198,32 @@ static void check_order(struct analytic *a, bool strong_first, float wanted) {
     image_finish(&image);
 }
 
+// A plain sum of ten thousand floats is wrong in the fourth digit.
+static void check_many(struct analytic *a, bool shadows) {
+    enum {
+        LIGHTS = 10000,
+        LIGHT_BYTES = 64
+    };
+    char *scene = malloc(LIGHTS * LIGHT_BYTES + 1024);
+    const float each = 0x1.5p-14f;
+    size_t length = (size_t)sprintf(scene, "trace: {shadows: %s}\nlights:\n", shadows ? "true" : "false");
+    for (int i = 0; i < LIGHTS; i++)
+        length +=
+            (size_t)sprintf(scene + length, "  - {direction: [0, 0, -1], intensity: %.9g}\n", (double)each);
+    sprintf(scene + length,
+            "rectangles:\n  - {corner: [-64, -64, -4], edge_u: [128, 0, 0], edge_v: [0, 128, 0],"
+            " material: {diffuse_color: 1}}\n");
+    struct analytic_picture picture = {.name = "many lights", .scene = scene, .width = 16, .height = 8};
+    struct image image;
+    bool good = analytic_take(a, &picture, &image);
+    const double wanted = (double)LIGHTS * (double)each;
+    for (size_t i = 0; good && i < (size_t)image.width * image.height * 3; i++)
+        good = fabs((double)image.rgb[i] / wanted - 1) < 2e-7;
+    analytic_expect(a, good, picture.name, "the sum loses digits");
+    image_finish(&image);
+    free(scene);
+}
+
 int main(int argc, char **argv) {
     struct analytic a;
     int code = analytic_open(&a, argc, argv);
@@ -204,6 +231,8 @@ int main(int argc, char **argv) {
         return code;
     check_kinds(&a);
     check_exponents(&a);
+    check_many(&a, false);
+    check_many(&a, true);
     if (!a.kit.by_reference) { // whose sums are exact here
         check_order(&a, true, 1);
         check_order(&a, false, 1 + 0x1p-23f);

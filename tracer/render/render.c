@@ -9,6 +9,7 @@
 
 enum {
     SHORT_PATH_RAYS = 4,    // paths of at most these are never saved
+    MANY_LIGHTS = 64,       // more are added with what rounding drops
     BAND_TILES_MAX = 16384, // a megapixel: progress is reported, and Ctrl-C seen, between bands
     RUN_TILES = 32,         // 65536 runs at most in 64 megapixels: their products fit 32 bits
     SLOT_OUTPUT_BYTES = 16,
@@ -67,7 +68,8 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
     const uint64_t ray = renderer->features & FEATURE_LONG_RAYS
                              ? LONG_RAY_WORDS + (renderer_stack_levels(renderer) + 1) / 2
                              : 0;
-    return (state + ray + renderer->path_stack * entry) * WORD_BYTES;
+    const uint64_t low = renderer->features & FEATURE_MANY_LIGHTS ? 1 : 0;
+    return (state + low + ray + renderer->path_stack * entry) * WORD_BYTES;
 }
 
 static void plan(struct renderer *renderer) {
@@ -77,6 +79,8 @@ static void plan(struct renderer *renderer) {
     // Without shadow rays the lights are scanned in one go, however many there are.
     if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
         renderer->features |= FEATURE_SLICES;
+    if (renderer->flat->light_count > MANY_LIGHTS)
+        renderer->features |= FEATURE_MANY_LIGHTS;
     if (renderer->has_long_rays)
         renderer->features |= FEATURE_LONG_RAYS;
     if (renderer->features & FEATURE_LONG_RAYS)
