@@ -58,7 +58,7 @@ static const char *const depth_docs[] = {"A ray beyond 'max_depth' sees the back
                                          "A ray beyond 'max_depth' sees black.", NULL};
 static const char *const precision_words[] = {"auto", "single", "double", NULL};
 static const char *const precision_docs[] = {
-    "Double where the scene's sizes and distances need it, else single; `glint inspect` says which and why.",
+    "Double where the picture needs it, else single: a small picture tells. `glint inspect` forecasts which.",
     "Always single precision.", "Always double precision: slower.", NULL};
 static const char *const falloff_words[] = {"none", "inverse_square", NULL};
 static const char *const falloff_docs[] = {"The light is equally strong everywhere.",

@@ -11,8 +11,10 @@
 #include <stdlib.h>
 
 enum {
-    PIXELS = 8192,
-    RAYS = 4096, // of a pixel at most, the heaviest ones
+    PIXELS = 8192,      // of the small picture at most,
+    LEAST_PIXELS = 192, // and at least, whatever they cost
+    ALL_RAYS = 800000,  // of the small picture, about
+    RAYS = 4096,        // of a pixel at most, the heaviest ones
 };
 
 struct small {
@@ -24,15 +26,15 @@ struct small {
     float *shown[2];
 };
 
-static void choose_size(struct small *small) {
+static void choose_size(struct small *small, double pixels) {
     const double width = small->trial->width, height = small->trial->height;
-    small->whole = width * height <= 2 * PIXELS;
+    small->whole = width * height <= 2 * pixels;
     small->width = small->trial->width;
     small->height = small->trial->height;
     if (small->whole)
         return;
-    small->width = (uint32_t)fmin(width, fmax(1, round(sqrt(PIXELS * width / height))));
-    small->height = (uint32_t)fmin(height, fmax(1, round((double)PIXELS / small->width)));
+    small->width = (uint32_t)fmin(width, fmax(1, round(sqrt(pixels * width / height))));
+    small->height = (uint32_t)fmin(height, fmax(1, round(pixels / small->width)));
 }
 
 // A part of a pixel aside, and as much askew over the picture: where a scene is as symmetric as its view,
@@ -52,9 +54,16 @@ static size_t values_of(const struct small *small) {
     return 3 * (size_t)small->width * small->height;
 }
 
-static bool make_small(const struct precision_trial *trial, struct small *small) {
+static void finish_small(struct small *small) {
+    free(small->exact);
+    free(small->rounded);
+    free(small->shown[0]);
+    free(small->shown[1]);
+}
+
+static bool make_small(const struct precision_trial *trial, double pixels, struct small *small) {
     *small = (struct small){.trial = trial, .view = *trial->input->view};
-    choose_size(small);
+    choose_size(small, pixels);
     if (!small->whole)
         turn_camera(small);
     small->exact = heap_alloc(values_of(small) * sizeof *small->exact);
@@ -64,14 +73,8 @@ static bool make_small(const struct precision_trial *trial, struct small *small)
     return small->exact && small->rounded && small->shown[0] && small->shown[1];
 }
 
-static void finish_small(struct small *small) {
-    free(small->exact);
-    free(small->rounded);
-    free(small->shown[0]);
-    free(small->shown[1]);
-}
-
-static bool draw_reference(const struct small *small, bool as_single, double *rgb) {
+static bool draw_reference(const struct small *small, bool as_single, double *rgb,
+                           struct reference_statistics *statistics) {
     const struct flat_input *input = small->trial->input;
     const struct ir_trace *trace = &input->scene->ir->trace;
     const struct reference_input wanted = {
@@ -85,7 +88,8 @@ static bool draw_reference(const struct small *small, bool as_single, double *rg
                                                     trace->depth_limit == IR_DEPTH_BACKGROUND,
                                                 .segments = RAYS};
     struct reference *reference = reference_create(&wanted);
-    const bool good = reference && reference_render(reference, &settings, rgb, NULL, NULL) == REFERENCE_DONE;
+    const bool good =
+        reference && reference_render(reference, &settings, rgb, NULL, statistics) == REFERENCE_DONE;
     reference_destroy(reference);
     return good;
 }
@@ -154,14 +158,30 @@ static enum precision_status try_device(struct small *small, struct precision_ch
 
 static enum precision_status try_small(struct small *small, struct precision_choice *out,
                                        struct flat_scene *flat, bool *has_flat) {
-    if (!draw_reference(small, false, small->exact))
+    if (!draw_reference(small, false, small->exact, NULL))
         return PRECISION_MEMORY;
     if (small->trial->gpu)
         return try_device(small, out, flat, has_flat);
-    if (!draw_reference(small, true, small->rounded))
+    if (!draw_reference(small, true, small->rounded, NULL))
         return PRECISION_MEMORY;
     compare(small, out);
     return PRECISION_DONE;
+}
+
+// How many pixels a small picture may have: a very small one tells what they cost.
+static bool afford(const struct precision_trial *trial, double *pixels) {
+    struct small few;
+    struct reference_statistics statistics;
+    const bool good =
+        make_small(trial, LEAST_PIXELS, &few) && draw_reference(&few, false, few.exact, &statistics);
+    if (good) {
+        const double rays =
+            (double)(statistics.primary + statistics.reflected + statistics.refracted + statistics.shadow);
+        const double each = rays / ((double)few.width * few.height);
+        *pixels = fmax(LEAST_PIXELS, fmin(PIXELS, ALL_RAYS / fmax(each, 1)));
+    }
+    finish_small(&few);
+    return good;
 }
 
 static uint64_t size_of(const struct scene *scene) {
@@ -182,8 +202,11 @@ enum precision_status precision_try(const struct precision_trial *trial, struct 
         out->needs_double = !out->report.suffices;
         return PRECISION_DONE;
     }
+    double pixels;
+    if (!afford(trial, &pixels))
+        return PRECISION_MEMORY;
     const enum precision_status status =
-        make_small(trial, &small) ? try_small(&small, out, flat, has_flat) : PRECISION_MEMORY;
+        make_small(trial, pixels, &small) ? try_small(&small, out, flat, has_flat) : PRECISION_MEMORY;
     finish_small(&small);
     return status;
 }
