@@ -158,9 +158,11 @@ static enum precision_status try_device(struct small *small, struct precision_ch
 
 static enum precision_status try_small(struct small *small, struct precision_choice *out,
                                        struct flat_scene *flat, bool *has_flat) {
-    if (!draw_reference(small, false, small->exact, NULL))
+    struct reference_statistics statistics;
+    if (!draw_reference(small, false, small->exact, &statistics))
         return PRECISION_MEMORY;
-    if (small->trial->gpu)
+    // A device follows all rays, so what was cut here cannot be compared with it.
+    if (small->trial->gpu && !statistics.cut_by_segments)
         return try_device(small, out, flat, has_flat);
     if (!draw_reference(small, true, small->rounded, NULL))
         return PRECISION_MEMORY;

@@ -204,15 +204,17 @@ static void check_many(struct analytic *a, bool shadows) {
         LIGHTS = 10000,
         LIGHT_BYTES = 64
     };
-    char *scene = malloc(LIGHTS * LIGHT_BYTES + 1024);
+    const size_t size = LIGHTS * LIGHT_BYTES + 1024;
+    char *scene = malloc(size);
     const float each = 0x1.5p-14f;
-    size_t length = (size_t)sprintf(scene, "trace: {shadows: %s}\nlights:\n", shadows ? "true" : "false");
+    size_t length =
+        (size_t)snprintf(scene, size, "trace: {shadows: %s}\nlights:\n", shadows ? "true" : "false");
     for (int i = 0; i < LIGHTS; i++)
-        length +=
-            (size_t)sprintf(scene + length, "  - {direction: [0, 0, -1], intensity: %.9g}\n", (double)each);
-    sprintf(scene + length,
-            "rectangles:\n  - {corner: [-64, -64, -4], edge_u: [128, 0, 0], edge_v: [0, 128, 0],"
-            " material: {diffuse_color: 1}}\n");
+        length += (size_t)snprintf(scene + length, size - length,
+                                   "  - {direction: [0, 0, -1], intensity: %.9g}\n", (double)each);
+    snprintf(scene + length, size - length,
+             "rectangles:\n  - {corner: [-64, -64, -4], edge_u: [128, 0, 0], edge_v: [0, 128, 0],"
+             " material: {diffuse_color: 1}}\n");
     struct analytic_picture picture = {.name = "many lights", .scene = scene, .width = 16, .height = 8};
     struct image image;
     bool good = analytic_take(a, &picture, &image);
