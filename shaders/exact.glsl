@@ -172,6 +172,22 @@ void test_exact(uint item, inout exact_search search, inout hit_record hit) {
     search.least = is_hit ? min(search.least, t) : search.least;
 }
 
+// Where the first search would take the hit too: with its numbers, so that a picture does not show whether a tree led to
+// a second one.
+void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
+    if (hit.item == NO_ITEM || (hit.item & ITEM_SPHERE) != 0u)
+        return;
+    hit_record first = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
+    triangle_search search =
+        triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY);
+    test_triangle(hit.item, search, first);
+    if (first.item == hit.item) {
+        hit.t = first.t;
+        hit.b1 = first.b1;
+        hit.b2 = first.b2;
+    }
+}
+
 // As trace_triangles, with `hit` as it was before that. false: given up at EXACT_ITERATIONS, which a ray reaches where
 // a scene is so far away that most of it is the same but for rounding.
 bool retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_record hit, inout uint iterations) {
@@ -206,5 +222,6 @@ bool retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_recor
         }
     } while (more && turns < EXACT_ITERATIONS);
     iterations += turns;
+    first_numbers(start, aim.direction, hit);
     return turns < EXACT_ITERATIONS;
 }
