@@ -16,7 +16,7 @@ function(glint_kernel out name source)
     OUTPUT ${base}.c
     DEPFILE ${base}.d
     DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${source} spirv_exact
-    COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.1 -S comp -I${CMAKE_SOURCE_DIR}/shaders ${defines}
+    COMMAND ${GLSLANG_VALIDATOR} --quiet -g0 --target-env vulkan1.1 -S comp -I${CMAKE_SOURCE_DIR}/shaders ${defines}
             --depfile ${base}.d -o ${base}.plain.spv ${CMAKE_CURRENT_SOURCE_DIR}/${source}
     COMMAND ${CMAKE_COMMAND} -DDEPFILE=${base}.d -DTARGET=${base}.c
             -P ${CMAKE_SOURCE_DIR}/cmake/retarget_depfile.cmake
