@@ -1,18 +1,16 @@
 // What single precision makes of a number: the error of its computation is taken as half a unit in the last
 // place, up or down at random (Parker 1997, "Monte Carlo Arithmetic"), drawn from the number's own bits, so
 // that every run draws the same.
+#include "core/splitmix.h"
 #include "reference/parts.h"
 
 #include <string.h>
 
-// 1 or -1, by SplitMix64 (Steele, Lea, Flood 2014).
+// 1 or -1.
 static double drawn(double value) {
     uint64_t z;
     memcpy(&z, &value, sizeof z);
-    z += UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ z >> 27) * UINT64_C(0x94D049BB133111EB);
-    return (z ^ z >> 31) & 1 ? 1 : -1;
+    return splitmix(z) & 1 ? 1 : -1;
 }
 
 double reference_rounded(const struct reference *r, double value, double size) {

@@ -1,5 +1,7 @@
 #include "scene/spread.h"
 
+#include "core/splitmix.h"
+
 #include <math.h>
 
 static uint32_t at_least(uint32_t pixels, uint32_t cells) {
@@ -17,14 +19,6 @@ struct spread spread_make(uint32_t width, uint32_t height, uint32_t cells) {
     return spread;
 }
 
-// SplitMix64 (Steele, Lea, Flood 2014).
-static uint64_t scramble(uint64_t z) {
-    z += UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ z >> 27) * UINT64_C(0x94D049BB133111EB);
-    return z ^ z >> 31;
-}
-
 // A pixel of cell `index` of `cells` along one side of the picture. The place is drawn before it is rounded
 // to a pixel: cells of two and of three pixels would not give all pixels the same chance.
 static uint32_t pixel_in(uint32_t index, uint32_t cells, uint32_t pixels, uint32_t random) {
@@ -35,7 +29,7 @@ static uint32_t pixel_in(uint32_t index, uint32_t cells, uint32_t pixels, uint32
 }
 
 void spread_pixel(const struct spread *spread, uint32_t cell, uint32_t *x, uint32_t *y) {
-    const uint64_t random = scramble((uint64_t)spread->columns << 32 | cell);
+    const uint64_t random = splitmix((uint64_t)spread->columns << 32 | cell);
     *x = pixel_in(cell % spread->columns, spread->columns, spread->width, (uint32_t)random);
     *y = pixel_in(cell / spread->columns, spread->lines, spread->height, (uint32_t)(random >> 32));
 }

@@ -1,4 +1,5 @@
 // What families are made of, as numbers and as text.
+#include "core/splitmix.h"
 #include "measure/sweep/sweep_parts.h"
 
 #include <stdio.h>
@@ -11,12 +12,8 @@ const struct sweep_family_info sweep_families[SWEEP_FAMILIES] = {
 
 // ---- numbers
 
-// SplitMix64 (Steele, Lea, Flood 2014).
 uint64_t sweep_bits(struct sweep_writer *w) {
-    uint64_t z = w->random += UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ z >> 27) * UINT64_C(0x94D049BB133111EB);
-    return z ^ z >> 31;
+    return splitmix_next(&w->random);
 }
 
 double sweep_from(struct sweep_writer *w, double least, double most) {

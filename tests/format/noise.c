@@ -1,4 +1,5 @@
 // Layout at random that means the same.
+#include "core/splitmix.h"
 #include "parser/yaml/yaml_tokens.h"
 #include "tests/format/format_kit.h"
 
@@ -15,11 +16,7 @@ struct noise {
 };
 
 static uint32_t below(struct noise *n, uint32_t limit) {
-    n->state += UINT64_C(0x9E3779B97F4A7C15);
-    uint64_t z = n->state;
-    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-    return (uint32_t)((z ^ (z >> 31)) % limit);
+    return (uint32_t)(splitmix_next(&n->state) % limit);
 }
 
 static void blanks(struct noise *n, uint32_t least, uint32_t most) {

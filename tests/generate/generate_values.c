@@ -1,5 +1,6 @@
 #include "tests/generate/generate_values.h"
 
+#include "core/splitmix.h"
 #include "core/strbuf.h"
 #include "grammar/ir_value.h"
 
@@ -7,10 +8,7 @@
 #include <string.h>
 
 uint64_t generate_bits(struct generator *g) {
-    uint64_t z = g->state += UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
-    return z ^ (z >> 31);
+    return splitmix_next(&g->state);
 }
 
 uint32_t generate_below(struct generator *g, uint32_t count) {

@@ -1,16 +1,14 @@
-// Random numbers that are the same in every run: SplitMix64 (Steele, Lea, Flood 2014). Any state is a seed.
+// Random numbers that are the same in every run. Any state is a seed.
 #ifndef GLINT_TESTS_UNIT_RANDOM_H
 #define GLINT_TESTS_UNIT_RANDOM_H
 
+#include "core/splitmix.h"
 #include "core/vec3.h"
 
 #include <stdint.h>
 
 static inline uint64_t random_bits(uint64_t *state) {
-    uint64_t z = *state += UINT64_C(0x9E3779B97F4A7C15);
-    z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ z >> 27) * UINT64_C(0x94D049BB133111EB);
-    return z ^ z >> 31;
+    return splitmix_next(state);
 }
 
 // From 0 to below 1.
