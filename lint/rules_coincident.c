@@ -177,7 +177,7 @@ static void report(struct search *s) {
     const struct lint_body *second = s->a < s->b ? s->b : s->a;
     struct lint *lint = s->lint;
     diag_add(lint->sink, DIAG_COINCIDENT, lint_place(lint, second),
-             "faces of %.*s and of %.*s lie in the same plane and overlap: rounding decides which is seen",
+             "faces of %.*s and of %.*s lie in the same plane and overlap: only one of them is seen there",
              STR_ARG(lint_words(lint, second)), STR_ARG(lint_words_other(lint, first)));
     diag_note(lint->sink, lint_place(lint, first), "%u pair%s of triangles with this body", s->count,
               s->count == 1 ? "" : "s");
