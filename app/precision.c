@@ -96,6 +96,11 @@ static void warn(struct session *session, const struct precision_choice *choice)
     note_measure(session, choice);
 }
 
+static void report_no_memory(struct session *session) {
+    diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
+             "there is not enough memory to measure the scene");
+}
+
 // Without a device.
 static bool forecast(const struct session *session, const struct flat_input *input,
                      struct precision_choice *out) {
@@ -136,8 +141,7 @@ bool precision_forecast(struct session *session, const struct flat_input *input,
                         struct precision_choice *out) {
     if (forecast(session, input, out))
         return true;
-    diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
-             "there is not enough memory to measure the scene");
+    report_no_memory(session);
     return false;
 }
 
@@ -150,8 +154,7 @@ static enum precision_status choose(struct session *session, struct flat_input *
     struct precision_choice choice;
     const enum precision_status status = precision_try(&trial, &choice, flat, has_flat);
     if (status == PRECISION_MEMORY)
-        diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
-                 "there is not enough memory to measure the scene");
+        report_no_memory(session);
     if (status != PRECISION_DONE)
         return status;
     if (choice.needs_double && !has_double)

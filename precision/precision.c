@@ -19,7 +19,8 @@ enum {
 
 struct small {
     const struct precision_trial *trial;
-    struct view view;
+    struct view view; // that of `reference`, too
+    struct reference *reference;
     uint32_t width, height;
     bool whole; // no smaller than the picture
     double *exact, *rounded;
@@ -31,67 +32,37 @@ static void choose_size(struct small *small, double pixels) {
     small->whole = width * height <= 2 * pixels;
     small->width = small->trial->width;
     small->height = small->trial->height;
+    small->view.camera = small->trial->input->view->camera;
     if (small->whole)
         return;
     small->width = (uint32_t)fmin(width, fmax(1, round(sqrt(pixels * width / height))));
     small->height = (uint32_t)fmin(height, fmax(1, round(pixels / small->width)));
-}
-
-// A part of a pixel aside, and as much askew over the picture: where a scene is as symmetric as its view,
-// whole columns of pixels would else lie on edges and on the lines of checkers.
-static void turn_camera(struct small *small) {
-    struct view_camera *camera = &small->view.camera;
-    const double pixel = 2 * camera->tan_half_fov / small->height, part = 0.381966;
-    const vec3 aside = vec3_add(vec3_mul(camera->right, pixel * part), vec3_mul(camera->up, -pixel * part));
-    camera->forward = vec3_unit(vec3_add(camera->forward, aside));
-    const vec3 askew = vec3_add(camera->right, vec3_mul(camera->up, 1.0 / small->width));
-    const double along = vec3_dot(askew, camera->forward);
-    camera->right = vec3_unit(vec3_sub(askew, vec3_mul(camera->forward, along)));
-    camera->up = vec3_cross(camera->right, camera->forward);
+    view_turn_aside(&small->view.camera);
 }
 
 static size_t values_of(const struct small *small) {
     return 3 * (size_t)small->width * small->height;
 }
 
-static void finish_small(struct small *small) {
-    free(small->exact);
-    free(small->rounded);
-    free(small->shown[0]);
-    free(small->shown[1]);
+static struct reference *make_reference(const struct small *small, bool as_single) {
+    const struct reference_input input = {.scene = small->trial->input->scene,
+                                          .view = &small->view,
+                                          .as_single = as_single,
+                                          .gradient = !small->trial->gpu};
+    return reference_create(&input);
 }
 
-static bool make_small(const struct precision_trial *trial, double pixels, struct small *small) {
-    *small = (struct small){.trial = trial, .view = *trial->input->view};
-    choose_size(small, pixels);
-    if (!small->whole)
-        turn_camera(small);
-    small->exact = heap_alloc(values_of(small) * sizeof *small->exact);
-    small->rounded = heap_alloc(values_of(small) * sizeof *small->rounded);
-    for (int i = 0; i < 2; i++)
-        small->shown[i] = heap_alloc(values_of(small) * sizeof *small->shown[i]);
-    return small->exact && small->rounded && small->shown[0] && small->shown[1];
-}
-
-static bool draw_reference(const struct small *small, bool as_single, double *rgb,
+static bool draw_reference(const struct small *small, const struct reference *reference, double *rgb,
                            struct reference_statistics *statistics) {
     const struct flat_input *input = small->trial->input;
-    const struct ir_trace *trace = &input->scene->ir->trace;
-    const struct reference_input wanted = {
-        .scene = input->scene, .view = &small->view, .as_single = as_single, .gradient = !small->trial->gpu};
-    const struct reference_settings settings = {.width = small->width,
-                                                .height = small->height,
-                                                .samples = 1,
-                                                .max_depth = (uint32_t)trace->max_depth,
-                                                .min_weight = trace->min_weight,
-                                                .cut_sees_background =
-                                                    trace->depth_limit == IR_DEPTH_BACKGROUND,
-                                                .segments = RAYS};
-    struct reference *reference = reference_create(&wanted);
-    const bool good =
-        reference && reference_render(reference, &settings, rgb, NULL, statistics) == REFERENCE_DONE;
-    reference_destroy(reference);
-    return good;
+    const struct ir_scene *ir = input->scene->ir;
+    struct reference_settings settings = reference_settings_of(ir, &ir->image, input->limits, true);
+    settings.width = small->width;
+    settings.height = small->height;
+    settings.samples = 1;
+    settings.segments = RAYS;
+    settings.as_file = false; // the heaviest rays first
+    return reference_render(reference, &settings, rgb, NULL, statistics) == REFERENCE_DONE;
 }
 
 static bool draw_device(const struct small *small, const struct flat_scene *flat, double *rgb) {
@@ -156,34 +127,66 @@ static enum precision_status try_device(struct small *small, struct precision_ch
     return good ? PRECISION_DONE : PRECISION_DEVICE;
 }
 
+static bool forecast(struct small *small, struct precision_choice *out) {
+    struct reference *single = make_reference(small, true);
+    const bool good = single && draw_reference(small, single, small->rounded, NULL);
+    reference_destroy(single);
+    if (good)
+        compare(small, out);
+    return good;
+}
+
 static enum precision_status try_small(struct small *small, struct precision_choice *out,
                                        struct flat_scene *flat, bool *has_flat) {
     struct reference_statistics statistics;
-    if (!draw_reference(small, false, small->exact, &statistics))
+    if (!draw_reference(small, small->reference, small->exact, &statistics))
         return PRECISION_MEMORY;
     // A device follows all rays, so what was cut here cannot be compared with it.
     if (small->trial->gpu && !statistics.cut_by_segments)
         return try_device(small, out, flat, has_flat);
-    if (!draw_reference(small, true, small->rounded, NULL))
-        return PRECISION_MEMORY;
-    compare(small, out);
-    return PRECISION_DONE;
+    return forecast(small, out) ? PRECISION_DONE : PRECISION_MEMORY;
 }
 
-// How many pixels a small picture may have: a very small one tells what they cost.
-static bool afford(const struct precision_trial *trial, double *pixels) {
-    struct small few;
+// How many pixels the small picture may have: a very small one tells what they cost.
+static bool afford(struct small *small, double *pixels) {
     struct reference_statistics statistics;
-    const bool good =
-        make_small(trial, LEAST_PIXELS, &few) && draw_reference(&few, false, few.exact, &statistics);
-    if (good) {
-        const double rays =
-            (double)(statistics.primary + statistics.reflected + statistics.refracted + statistics.shadow);
-        const double each = rays / ((double)few.width * few.height);
-        *pixels = fmax(LEAST_PIXELS, fmin(PIXELS, ALL_RAYS / fmax(each, 1)));
-    }
-    finish_small(&few);
-    return good;
+    choose_size(small, LEAST_PIXELS);
+    double *rgb = heap_alloc(values_of(small) * sizeof *rgb);
+    const bool good = rgb && draw_reference(small, small->reference, rgb, &statistics);
+    free(rgb);
+    if (!good)
+        return false;
+    const double rays =
+        (double)(statistics.primary + statistics.reflected + statistics.refracted + statistics.shadow);
+    const double each = rays / ((double)small->width * small->height);
+    *pixels = fmax(LEAST_PIXELS, fmin(PIXELS, ALL_RAYS / fmax(each, 1)));
+    return true;
+}
+
+static bool make_pictures(struct small *small) {
+    small->exact = heap_alloc(values_of(small) * sizeof *small->exact);
+    small->rounded = heap_alloc(values_of(small) * sizeof *small->rounded);
+    for (int i = 0; i < 2; i++)
+        small->shown[i] = heap_alloc(values_of(small) * sizeof *small->shown[i]);
+    return small->exact && small->rounded && small->shown[0] && small->shown[1];
+}
+
+static bool make_small(struct small *small) {
+    double pixels;
+    small->view = *small->trial->input->view;
+    small->reference = make_reference(small, false);
+    if (!small->reference || !afford(small, &pixels))
+        return false;
+    choose_size(small, pixels);
+    return make_pictures(small);
+}
+
+static void finish_small(struct small *small) {
+    reference_destroy(small->reference);
+    free(small->exact);
+    free(small->rounded);
+    free(small->shown[0]);
+    free(small->shown[1]);
 }
 
 static uint64_t size_of(const struct scene *scene) {
@@ -195,7 +198,7 @@ static uint64_t size_of(const struct scene *scene) {
 
 enum precision_status precision_try(const struct precision_trial *trial, struct precision_choice *out,
                                     struct flat_scene *flat, bool *has_flat) {
-    struct small small;
+    struct small small = {.trial = trial};
     *out = (struct precision_choice){.pixels = 0};
     *has_flat = false;
     if (!precision_measure(trial->input, &out->report))
@@ -204,11 +207,8 @@ enum precision_status precision_try(const struct precision_trial *trial, struct 
         out->needs_double = !out->report.suffices;
         return PRECISION_DONE;
     }
-    double pixels;
-    if (!afford(trial, &pixels))
-        return PRECISION_MEMORY;
     const enum precision_status status =
-        make_small(trial, pixels, &small) ? try_small(&small, out, flat, has_flat) : PRECISION_MEMORY;
+        make_small(&small) ? try_small(&small, out, flat, has_flat) : PRECISION_MEMORY;
     finish_small(&small);
     return status;
 }

@@ -110,3 +110,15 @@ void view_sample_offset(uint32_t n, double *a, double *b) {
     *a = x - floor(x);
     *b = y - floor(y);
 }
+
+static void turn(vec3 *a, vec3 *b, double angle) {
+    const vec3 before = *a;
+    *a = vec3_add(vec3_mul(before, cos(angle)), vec3_mul(*b, sin(angle)));
+    *b = vec3_sub(vec3_mul(*b, cos(angle)), vec3_mul(before, sin(angle)));
+}
+
+void view_turn_aside(struct view_camera *camera) {
+    turn(&camera->forward, &camera->right, 1.3e-3 * camera->tan_half_fov);
+    turn(&camera->forward, &camera->up, 1.7e-3 * camera->tan_half_fov);
+    turn(&camera->right, &camera->up, 1.9e-3);
+}

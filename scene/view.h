@@ -36,6 +36,10 @@ struct view {
 void view_build(const struct scene *scene, uint32_t camera_index, int32_t width, int32_t height,
                 struct arena *arena, struct diag_sink *sink, struct view *out);
 
+// Turns a camera, and rolls it, by a part of a pixel of a picture of some hundred lines: in a symmetric view,
+// pixels lie exactly on edges and lines of a checker, where any rounding is right.
+void view_turn_aside(struct view_camera *camera);
+
 // "A ray whose path ... offset of sample n": frac(1/2 + n/φ), frac(1/2 + n/φ²), φ = 1.32471795724474602596
 // (Roberts 2018, R2 sequence).
 void view_sample_offset(uint32_t n, double *a, double *b);

@@ -45,23 +45,9 @@ static void *copied(struct arena *arena, const void *items, size_t count, size_t
     return copy;
 }
 
-static void turn(vec3 *a, vec3 *b, double angle) {
-    const vec3 before = *a;
-    *a = vec3_add(vec3_mul(before, cos(angle)), vec3_mul(*b, sin(angle)));
-    *b = vec3_sub(vec3_mul(*b, cos(angle)), vec3_mul(before, sin(angle)));
-}
-
-// Turned by a part of a pixel: in a symmetric view, pixels lie exactly on edges and lines of a checker, where
-// any rounding is right.
-static void turn_a_little(struct view_camera *camera) {
-    turn(&camera->forward, &camera->right, 1.3e-3 * camera->tan_half_fov);
-    turn(&camera->forward, &camera->up, 1.7e-3 * camera->tan_half_fov);
-    turn(&camera->right, &camera->up, 1.9e-3);
-}
-
 static void make_view(struct variant *v) {
     view_build(&v->scene, v->camera, (int32_t)v->width, (int32_t)v->height, v->arena, NULL, &v->view);
-    turn_a_little(&v->view.camera);
+    view_turn_aside(&v->view.camera);
 }
 
 // After the materials comes a copy of each, for meshes: their checkers do not grow with the scene.
