@@ -15,7 +15,7 @@ function(glint_quick)
 endfunction()
 
 # glint_test(NAME [SECONDS n] [COST n] [RELEASE | BOTH] [QUICK] [IN folder] [ENVIRONMENT name=value ...] COMMAND ...)
-#   SECONDS   of processor time that a process may take; 300
+#   SECONDS   of processor time that a process may take; 3600, ten times what the longest takes
 #   COST      seconds of processor time that it takes where that is more than 5: the longest start first
 #   RELEASE   only for a build without sanitizers, where ./check runs it: what is heavy and not about memory
 #   BOTH      ./check runs it in either build: the command is a smaller one with sanitizers
@@ -27,7 +27,7 @@ function(glint_test name)
     return()
   endif()
   if(NOT T_SECONDS)
-    set(T_SECONDS 300)
+    set(T_SECONDS 3600)
   endif()
   set(folder)
   if(T_IN)
@@ -40,7 +40,7 @@ function(glint_test name)
   endif()
   add_test(NAME ${name} ${folder}
            COMMAND limited ${T_SECONDS} ${CMAKE_BINARY_DIR}/tests/processor_time.txt ${name} ${program} ${T_COMMAND})
-  set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600)
+  set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 14400)
   if(T_COST)
     set_tests_properties(${name} PROPERTIES COST ${T_COST})
   endif()
