@@ -24,6 +24,15 @@ static str quoted_text(const struct override *o, str text) {
 
 // Messages.
 
+// What glint calls or has in place of a word of other programs; empty: nothing.
+static str other_word(const struct override *o, const struct schema_element *element, str snake) {
+    int also = schema_find_also(element, snake);
+    const struct concept *concept = also < 0 ? concept_find(element, snake) : NULL;
+    if (also >= 0)
+        return arena_format(scratch(o), "did you mean '%s'?", schema_yaml_key(&element->rows[also]));
+    return concept ? say_concept(scratch(o), concept, false) : STR("");
+}
+
 static bool unknown_key(struct override *o, const struct bind_frame *frame,
                         const struct override_step *step) {
     struct mend_search search = mend_begin(scratch(o), step->text);
@@ -38,6 +47,11 @@ static bool unknown_key(struct override *o, const struct bind_frame *frame,
     diag_add(sink(o), DIAG_SET_PATH, step->at, "%.*s has no '%.*s'",
              STR_ARG(say_subject(scratch(o), bind_subject(frame, NULL))),
              STR_ARG(quoted_text(o, step->text)));
+    str other = search.best && mend_is_safe(&search) ? STR("") : other_word(o, frame->schema, search.snake);
+    if (other.len) {
+        diag_help(sink(o), "%.*s", STR_ARG(other));
+        return false;
+    }
     if (search.best) {
         diag_help(sink(o), "did you mean '%s'?", search.best);
         diag_fix(sink(o), mend_is_safe(&search), step->at, str_from(search.best));
