@@ -291,7 +291,7 @@ const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
 static const struct schema_row map_entry_rows[] = {
     {.name = "from", FIELD(ir_map_entry, from), .example = "Gold", .text = SCHEMA_TEXT_FOREIGN_NAME,
      .key = true, .required = true, .doc = "Name of a material in the mesh file."},
-    {.name = "to", .element = "To", FIELD(ir_map_entry, to), .example = "brass", .child = &SCHEMA_MATERIAL,
+    {.name = "to", .element = "To", FIELD(ir_map_entry, to), .example = "glass", .child = &SCHEMA_MATERIAL,
      .required = true, .short_form = true,
      .doc = "Name of the scene's material that replaces it, or a material of its own."},
 };
