@@ -126,7 +126,7 @@ static const struct schema_row camera_rows[] = {
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .standard = "0 0 0",
      .doc = "The camera's position."},
     {.name = "look_at", .element = "LookAt", FIELD(ir_camera, look_at), .example = "0 1 0",
-     .also = "target at to focus looking_at",
+     .also = "target at to focus looking_at interest point_of_interest",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_VIEW_LOOK_AT,
      .doc = "The point shown in the middle of the picture."},
     {.name = "direction", .element = "Direction", FIELD(ir_camera, direction), .example = "0 -0.2 -1",
