@@ -50,7 +50,7 @@ endforeach()
 
 # Each room has an include folder of its own in the build tree, which holds links to its headers and nothing
 # else, so that `#include "parser/tree/tree.h"` compiles only where the table allows it. A room that has rooms
-# inside is linked header by header.
+# inside is linked header by header, as are the tables in .def files that headers and sources include.
 foreach(room ${ROOMS})
   set(inside ${ROOMS})
   list(FILTER inside INCLUDE REGEX "^${room}/")
@@ -66,7 +66,8 @@ foreach(room ${ROOMS})
   if(IS_SYMLINK ${folder}/${room})
     file(REMOVE ${folder}/${room})
   endif()
-  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/${room}/*.h)
+  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/${room}/*.h
+       ${CMAKE_SOURCE_DIR}/${room}/*.def)
   file(MAKE_DIRECTORY ${folder}/${room})
   foreach(header ${headers})
     file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${header} ${folder}/${header} SYMBOLIC)

@@ -85,7 +85,7 @@ uint32_t utf8_decode(str s, size_t at);
 // Code points in `s`; an ill-formed byte counts as one.
 size_t utf8_count(str s);
 
-// 1 to 128 letters of any script, digits, '_', '-', not beginning with a digit (LANGUAGE: Names).
+// 1 to 128 letters of any script, digits, '_', '-', not beginning with a digit (docs/language.md, "Names").
 bool str_is_name(str s);
 
 #endif

@@ -1,4 +1,5 @@
-// Where light comes from: lights with their shadows, and the background (LANGUAGE "Hit", "Background").
+// Where light comes from: lights with their shadows, and the background (docs/language.md, "Hit" and
+// "Background").
 #include "core/srgb.h"
 #include "reference/parts.h"
 

@@ -1,4 +1,4 @@
-// One sample: its paths, ray by ray (LANGUAGE "Hit", "Depth and weight").
+// One sample: its paths, ray by ray (docs/language.md, "Depth and weight").
 #include "core/heap.h"
 #include "reference/parts.h"
 

@@ -1,4 +1,4 @@
-// What a ray hit, and where light comes from that leaves it (LANGUAGE "Hit", "Checker").
+// What a ray hit, and where light comes from that leaves it (docs/language.md, "Hit" and "Checker").
 #include "reference/exact.h"
 #include "reference/parts.h"
 

@@ -2,6 +2,7 @@
 
 #include "core/nearest.h"
 #include "diag/diag.h"
+#include "grammar/concept.h"
 #include "grammar/emit/emit_words.h"
 
 #include <string.h>
@@ -345,6 +346,37 @@ static bool explain_path(struct explainer *e, str what) {
     return true;
 }
 
+// "AreaLight", "area-light" and "area light" are area_light.
+static void put_snake(struct strbuf *out, str what) {
+    for (size_t i = 0; i < what.len; i++) {
+        char c = what.ptr[i];
+        char before = i ? what.ptr[i - 1] : '_';
+        if (folded(c) != c && folded(before) == before && before != '_' && before != '-' && before != ' ')
+            strbuf_char(out, '_');
+        strbuf_char(out, c == '-' || c == ' ' ? '_' : folded(c));
+    }
+}
+
+// Something that other tools have.
+static bool explain_concept(struct explainer *e, str what) {
+    struct strbuf text;
+    strbuf_init(&text);
+    put_snake(&text, what);
+    const struct concept *concept = concept_find(NULL, strbuf_view(&text));
+    strbuf_clear(&text);
+    if (concept) {
+        put(e, bold, concept->title);
+        strbuf_cstr(e->out, "\n\n");
+        strbuf_format(&text, "In glint %s; %s.", concept->lacks, concept->instead);
+        paragraph_of(e, 2, &text);
+        strbuf_cstr(&text, concept->example ? concept->example : "");
+        if (concept->example)
+            put_example(e, "In YAML:", &text);
+    }
+    strbuf_finish(&text);
+    return concept != NULL;
+}
+
 // A word of other programs, if it has only one meaning.
 static bool explain_other_word(struct explainer *e, str what) {
     const struct schema_element *only = NULL;
@@ -411,6 +443,8 @@ bool explain(str what, bool color, struct strbuf *out) {
     }
     bool known = false;
     if (explain_path(&e, what) || explain_alone(&e, what, &known))
+        return true;
+    if (!known && explain_concept(&e, what))
         return true;
     if (known)
         return false;

@@ -1,5 +1,6 @@
 // Names that an element does not have: what may have been meant, and where the name does exist.
 #include "core/nearest.h"
+#include "grammar/concept.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
@@ -204,13 +205,43 @@ static void other_word(struct bind_context *context, struct bind_frame *frame, t
     const struct schema_row *row = &frame->schema->rows[id];
     const char *right = spelling(row, tree_node(context->tree, key)->key, false);
     frame->guessed |= bind_bit((uint32_t)id);
+    str example = say_example(context->scratch, row, context->tree->is_xml);
     if (right) {
-        diag_help(context->sink, "did you mean '%s'?", right);
+        diag_help(context->sink, "did you mean '%s'? For example %.*s", right, STR_ARG(example));
         fix_key(context, key, false, str_from(right));
     } else {
-        diag_help(context->sink, "did you mean %.*s?",
-                  STR_ARG(say_example(context->scratch, row, context->tree->is_xml)));
+        diag_help(context->sink, "did you mean %.*s?", STR_ARG(example));
     }
+}
+
+// A row of other elements under the name that other programs give it: 'ior' of a sphere. false: none, or
+// many.
+static bool other_word_elsewhere(struct bind_context *context, str snake) {
+    str list = STR("");
+    const struct schema_row *only = NULL;
+    unsigned count = 0;
+    for (const struct schema_element *const *e = schema_elements; *e; e++) {
+        int row = schema_find_also(*e, snake);
+        if (row < 0)
+            continue;
+        count++;
+        only = &(*e)->rows[row];
+        list = arena_format(context->scratch, "%.*s%s'%s' of %.*s", STR_ARG(list), list.len ? " or " : "",
+                            only->name, STR_ARG(element_in_words(context, *e)));
+    }
+    if (count == 1)
+        diag_help(context->sink, "did you mean %.*s? For example %.*s", STR_ARG(list),
+                  STR_ARG(say_example(context->scratch, only, context->tree->is_xml)));
+    else if (count == 2)
+        diag_help(context->sink, "did you mean %.*s?", STR_ARG(list));
+    return count == 1 || count == 2;
+}
+
+// What other tools have and glint has not, unless a name of this element is surely meant.
+static const struct concept *concept_meant(const struct bind_frame *frame, const struct mend_search *search) {
+    const struct concept *concept = concept_find(frame->schema, search->snake);
+    bool misspelt = search->best && mend_is_safe(search);
+    return concept && misspelt && !concept_is_special(concept) ? NULL : concept;
 }
 
 // "radius:1", which YAML takes for one word.
@@ -407,10 +438,11 @@ struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_fr
         return meant;
     }
     int also = exact ? -1 : schema_find_also(frame->schema, search.snake);
-    if (!exact && also < 0 && is_component(context, frame, key))
+    const struct concept *concept = exact || also >= 0 ? NULL : concept_meant(frame, &search);
+    if (!exact && also < 0 && !concept && is_component(context, frame, key))
         return meant;
-    str other = exact || also >= 0 ? STR("") : elsewhere(context, frame, search.snake, false);
-    if (!near && also < 0 && other.len == 0 && search.snake.len > 3)
+    str other = exact || also >= 0 || concept ? STR("") : elsewhere(context, frame, search.snake, false);
+    if (!near && also < 0 && !concept && other.len == 0 && search.snake.len > 3)
         other = elsewhere(context, frame, search.snake, true);
     add_unknown(context, frame, key);
     bool is_key = (exact && near->key) || (also >= 0 && frame->schema->rows[also].key);
@@ -419,11 +451,14 @@ struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_fr
                                                                       : "the key above it is its name");
     else if (also >= 0)
         other_word(context, frame, key, also);
+    else if (concept)
+        diag_help(context->sink, "%.*s",
+                  STR_ARG(say_concept(context->scratch, concept, context->tree->is_xml)));
     else if (near && (search.distance <= 1 || !other.len))
         did_you_mean(context, frame, key, &search);
     else if (other.len)
         diag_help(context->sink, "%.*s", STR_ARG(other));
-    else
+    else if (!other_word_elsewhere(context, search.snake))
         list_what_there_is(context, frame, kind);
     if (exact && !near->key && spelling(near, kind, false))
         meant = (struct bind_meant){BIND_MEANT_ROW, (uint32_t)search.best_id};

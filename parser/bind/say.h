@@ -5,6 +5,7 @@
 #ifndef GLINT_PARSER_BIND_SAY_H
 #define GLINT_PARSER_BIND_SAY_H
 
+#include "grammar/concept.h"
 #include "parser/bind/bind.h"
 
 // "sphere 'ball'", "this sphere", "the image", "the scene".
@@ -28,6 +29,8 @@ str say_words(struct arena *arena, const char *const *words);
 str say_example(struct arena *arena, const struct schema_row *row, bool is_xml);
 // The same for a value, which may be in short form: then for the row that holds the element.
 str say_subject_example(struct arena *arena, struct bind_subject subject, bool is_xml);
+// What glint has in place of something that other tools have, with an example.
+str say_concept(struct arena *arena, const struct concept *concept, bool is_xml);
 // The XML element of a vector, colour or weights with these numbers ("1, 2, 3").
 str say_components(struct arena *arena, struct bind_subject subject, str numbers);
 // " degrees", " pixels" or "".

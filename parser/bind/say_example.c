@@ -181,3 +181,10 @@ str say_subject_example(struct arena *arena, struct bind_subject subject, bool i
     const struct schema_row *row = is_bare && frame->via ? frame->via : subject.row;
     return row ? say_example(arena, row, is_xml) : STR("");
 }
+
+str say_concept(struct arena *arena, const struct concept *concept, bool is_xml) {
+    const struct schema_row *use = concept_use(concept);
+    str example = use ? say_example(arena, use, is_xml) : STR("");
+    return arena_format(arena, "%s; %s%s%.*s", concept->lacks, concept->instead, use ? ", for example " : "",
+                        STR_ARG(example));
+}

@@ -24,6 +24,22 @@ static str quoted_text(const struct override *o, str text) {
 
 // Messages.
 
+// Whether the step is a word of other programs: then the help says what glint calls it, or has in its place.
+static bool is_other_word(struct override *o, const struct schema_element *element,
+                          const struct override_step *step, str snake) {
+    int also = schema_find_also(element, snake);
+    const struct concept *concept = also < 0 ? concept_find(element, snake) : NULL;
+    if (also >= 0 && !element->rows[also].key) {
+        const char *right = schema_yaml_key(&element->rows[also]);
+        diag_help(sink(o), "did you mean '%s'?", right);
+        diag_fix(sink(o), false, step->at, str_from(right));
+        return true;
+    }
+    if (concept)
+        diag_help(sink(o), "%.*s", STR_ARG(say_concept(scratch(o), concept, false)));
+    return concept != NULL;
+}
+
 static bool unknown_key(struct override *o, const struct bind_frame *frame,
                         const struct override_step *step) {
     struct mend_search search = mend_begin(scratch(o), step->text);
@@ -38,6 +54,9 @@ static bool unknown_key(struct override *o, const struct bind_frame *frame,
     diag_add(sink(o), DIAG_SET_PATH, step->at, "%.*s has no '%.*s'",
              STR_ARG(say_subject(scratch(o), bind_subject(frame, NULL))),
              STR_ARG(quoted_text(o, step->text)));
+    bool misspelt = search.best && mend_is_safe(&search);
+    if (!misspelt && is_other_word(o, frame->schema, step, search.snake))
+        return false;
     if (search.best) {
         diag_help(sink(o), "did you mean '%s'?", search.best);
         diag_fix(sink(o), mend_is_safe(&search), step->at, str_from(search.best));

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// Below this sine two directions count as parallel (LANGUAGE: Camera).
+// Below this sine two directions count as parallel (docs/language.md, "Camera").
 static const double PARALLEL_SINE = 1e-9;
 static const double COORDINATE_MAX = 1e18;
 static const int64_t PIXELS_MAX = 67108864;

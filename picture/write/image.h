@@ -1,6 +1,6 @@
 // A finished picture: linear floats, from there to displayed bytes and files in memory.
 //
-// tone.c is the one place where tone, transfer and rounding to 8 bits happen (LANGUAGE "Output"):
+// tone.c is the one place where tone, transfer and rounding to 8 bits happen (docs/language.md, "Output"):
 // mean -> tone -> transfer -> floor(255 * clamp(c) + 1/2). The float formats hold the mean before them.
 // A pixel with a channel that is not a number is a fault of the renderer, and marked: magenta in bytes
 // (whatever tone and transfer) and in HDR; PFM keeps it.

@@ -1,6 +1,6 @@
 // Pictures against closed forms: a scene as text, its camera, and what each direction must show.
 //
-// Expected colours are computed in double from the formulas of LANGUAGE.md, with code of the tests' own:
+// Expected colours are computed in double from the formulas of docs/language.md, with code of the tests' own:
 // nothing here calls the program's mathematics. Errors are said on standard error and counted.
 // Thread safety: one thread.
 #ifndef GLINT_TESTS_ANALYTIC_KIT_H
@@ -67,7 +67,7 @@ double analytic_sphere(vec3 origin, vec3 direction, vec3 center, double radius, 
 double analytic_plane(vec3 origin, vec3 direction, vec3 point, vec3 normal);
 vec3 analytic_at(vec3 origin, vec3 direction, double t);
 vec3 analytic_mirrored(vec3 direction, vec3 normal);
-// LANGUAGE.md, "Refracted", for n towards the viewer; false: total reflection.
+// docs/language.md, "Reflected and refracted rays", for n towards the viewer; false: total reflection.
 bool analytic_refracted(vec3 direction, vec3 normal, double eta, vec3 *out);
 
 // A meter for rays: inside of a sphere of this radius around the origin, lit along the axes

@@ -1,4 +1,4 @@
-// What rays see that meet nothing: one colour, and an equirectangular image (LANGUAGE.md, "Background").
+// What rays see that meet nothing: one colour, and an equirectangular image (docs/language.md, "Background").
 #include "analytic_kit.h"
 
 #include <stdio.h>

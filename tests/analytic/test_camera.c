@@ -1,5 +1,5 @@
-// Directions of pixels and samples (LANGUAGE.md, "Camera"): seen from the middle of a sphere that shows each
-// direction, and by the share of a pixel that an edge leaves free.
+// Directions of pixels and samples (docs/language.md, "Camera"): seen from the middle of a sphere that shows
+// each direction, and by the share of a pixel that an edge leaves free.
 #include "analytic_kit.h"
 
 #include <stdio.h>

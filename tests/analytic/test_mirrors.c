@@ -1,5 +1,5 @@
 // Two facing mirrors: each bounce is known, so is its weight; depth and weight end the path exactly where
-// LANGUAGE.md, "Depth and weight", says.
+// docs/language.md, "Depth and weight", says.
 #include "analytic_kit.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // What the program writes: bytes floor(255 clamp(c) + 1/2) after tone and transfer, and floats before them
-// (LANGUAGE.md, "Output"). A background of HDR texels makes any value a pixel.
+// (docs/language.md, "Output"). A background of HDR texels makes any value a pixel.
 #include "analytic_kit.h"
 
 #include <png.h>

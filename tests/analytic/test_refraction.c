@@ -1,5 +1,5 @@
 // Snell's law: spheres, a slab and a prism seen by where their rays end, total reflection at the critical
-// angle, panes, and bodies of index 1 (LANGUAGE.md, "Hit" and "Media").
+// angle, panes, and bodies of index 1 (docs/language.md, "Hit" and "Media").
 #include "analytic_kit.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-// Diffuse light and highlights of one wall (LANGUAGE.md, "Hit"): each kind of light, each weight, exponents
-// from 0 to a million, and sums over lights in their order.
+// Diffuse light and highlights of one wall (docs/language.md, "Hit"): each kind of light, each weight,
+// exponents from 0 to a million, and sums over lights in their order.
 #include "analytic_kit.h"
 
 #include <stdio.h>

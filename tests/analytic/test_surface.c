@@ -1,5 +1,5 @@
 // What a surface is at a point: checker cells, interpolated normals, sides, and which of two surfaces in one
-// place is seen (LANGUAGE.md, "Checker" and "Hit").
+// place is seen (docs/language.md, "Checker" and "Hit").
 #include "analytic_kit.h"
 
 #include <stdio.h>

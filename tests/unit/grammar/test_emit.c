@@ -49,6 +49,7 @@ static void test_committed_files_are_fresh(void **state) {
     assert_fresh(emit_relaxng_compact, "docs/schema/glint.rnc");
     assert_fresh(emit_xml_schema, "docs/schema/glint.xsd");
     assert_fresh(emit_markdown, "docs/reference.md");
+    assert_fresh(emit_limits, "docs/limits.md");
     assert_fresh(dictionary_write, "tests/fuzz/glint.dict");
     assert_fresh(key_schema_settings, "docs/schema/glintrc.schema.json");
     assert_fresh(key_schema_bounds, "docs/schema/bounds.schema.json");
@@ -222,6 +223,9 @@ static void test_every_row_is_explained(void **state) {
     assert_explained("lookat", "camera.look_at");
     assert_explained("ior", "material.refractive_index");
     assert_explained("paint", "XML: <DiffuseColor>");
+    assert_explained("area-light", "a light has no size");
+    assert_explained("AreaLights", "place several weak lights");
+    assert_explained("variable", "In YAML:\n\n  x-warm: &warm");
     assert_explained("image.tone", "clip: Values above 1 are clipped.");
 }
 

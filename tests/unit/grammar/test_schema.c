@@ -1,5 +1,6 @@
 // The table is whole: every field of the IR has a row, every row is sound.
 #include "core/number.h"
+#include "grammar/concept.h"
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
@@ -283,6 +284,67 @@ static void test_words_of_other_programs(void **state) {
     assert_int_equal(schema_find_also(&SCHEMA_MATERIAL, STR("")), -1);
 }
 
+// Whether an element has the word under this name, or under another.
+static bool is_taken(const struct schema_element *element, str word) {
+    bool single;
+    return schema_find_row(element, word) >= 0 || schema_find_yaml(element, word, &single) >= 0 ||
+           schema_find_also(element, word) >= 0;
+}
+
+static const struct schema_element *element_called(str name) {
+    EACH_ELEMENT(e)
+    if (str_equal_cstr(name, (*e)->name))
+        return *e;
+    return NULL;
+}
+
+// Where a row of concepts.def is for certain elements, none of them has the word: a row that the language has
+// outgrown must go. Elsewhere no element has it as a name, and one does without it.
+static void check_concept_word(const struct concept *concept, str word) {
+    str in = str_from(concept->in);
+    while (in.len) {
+        str name = concept_next_word(&in);
+        const struct schema_element *element = element_called(name);
+        if (!element)
+            fail_msg("there is no element '%.*s'", STR_ARG(name));
+        if (is_taken(element, word))
+            fail_msg("%.*s has '%.*s': remove it from '%s'", STR_ARG(name), STR_ARG(word), concept->title);
+        if (concept_find(element, word) != concept)
+            fail_msg("'%.*s' is in two rows for %.*s", STR_ARG(word), STR_ARG(name));
+    }
+    bool is_free = false;
+    for (const struct schema_element *const *e = schema_elements; !concept->in && *e; e++) {
+        if (schema_find_row(*e, word) >= 0)
+            fail_msg("%s has '%.*s': remove it from '%s'", (*e)->name, STR_ARG(word), concept->title);
+        is_free = is_free || (!is_taken(*e, word) && concept_find(*e, word) == concept);
+    }
+    if (!concept->in && !is_free)
+        fail_msg("'%.*s' of '%s' is never answered", STR_ARG(word), concept->title);
+}
+
+static void test_what_other_tools_have(void **state) {
+    (void)state;
+    uint32_t count = 0;
+    for (const struct concept *c = concepts; c->title; c++, count++) {
+        str words = str_from(c->words);
+        while (words.len) {
+            char word[64];
+            str next = concept_next_word(&words);
+            snprintf(word, sizeof word, "%.*s", STR_ARG(next));
+            assert_snake(word);
+            check_concept_word(c, str_from(word));
+        }
+        assert_int_equal(c->use != NULL, concept_use(c) != NULL);
+        assert_false(c->lacks[strlen(c->lacks) - 1] == '.' || c->instead[strlen(c->instead) - 1] == '.');
+    }
+    assert_true(count >= 40);
+    assert_null(concept_find(&SCHEMA_SCENE, STR("")));
+    assert_null(concept_find(&SCHEMA_SCENE, STR("spheres")));
+    assert_null(concept_find(&SCHEMA_CAMERA, STR("metalness_of")));
+    assert_ptr_equal(concept_find(&SCHEMA_SCENE, STR("boxes")), concept_find(NULL, STR("box")));
+    assert_ptr_equal(concept_find(NULL, STR("textures")), concept_find(&SCHEMA_SPHERE, STR("texture")));
+}
+
 static void check_row(const struct schema_element *schema, const struct schema_row *row) {
     assert_int_equal(has_numbers(row), row->range != SCHEMA_RANGE_NONE);
     assert_int_equal(row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH,
@@ -487,6 +549,7 @@ int main(void) {
         cmocka_unit_test(test_docs),
         cmocka_unit_test(test_spellings_find_their_row),
         cmocka_unit_test(test_words_of_other_programs),
+        cmocka_unit_test(test_what_other_tools_have),
         cmocka_unit_test(test_columns),
         cmocka_unit_test(test_choices),
         cmocka_unit_test(test_ranges_end_where_they_say),

@@ -1,5 +1,6 @@
 #include "loaded.h"
 
+#include "grammar/concept.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "parser/tree/mend.h"
@@ -309,12 +310,44 @@ static void names_that_do_not_exist(void **state) {
     loaded_check(HEAD_YAML "materials: {m: {name: x}}\n", "E202", "the key above it is its name");
     loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, material: {name: x}}]\n", "E202",
                  "needs no name");
-    loaded_check(HEAD_YAML "trace: {epsilon: 1}\n", "E202",
+    loaded_check(HEAD_YAML "trace: {wobble: 1}\n", "E202",
                  "it can have: max_depth, min_weight, depth_limit, precision, shadows");
     loaded_check(
         HEAD_XML
         "<Sphere radius=\"1\"><Center x=\"0\" y=\"0\" z=\"0\"/><Material name=\"x\"/></Sphere>" END_XML,
         "E218", "write material=\"x\"");
+}
+
+// Each word of concepts.def is answered with its row, in both spellings.
+static void names_of_other_tools(void **state) {
+    (void)state;
+    for (const struct concept *c = concepts; c->title; c++) {
+        char yaml[200], xml[200];
+        int length = (int)strcspn(c->words, " ");
+        if (c->in)
+            continue;
+        snprintf(yaml, sizeof yaml, "glint: 1\n%.*s: 1\n", length, c->words);
+        snprintf(xml, sizeof xml, "<Scene glint=\"1\" %.*s=\"1\"/>", length, c->words);
+        loaded_check(yaml, "E202", c->lacks);
+        loaded_check(xml, "E202", c->lacks);
+    }
+    loaded_check(HEAD_YAML "lights: [{position: [0, 0, 0], radius: 1}]\n", "E202", "a light has no size");
+    loaded_check(HEAD_YAML "materials: {m: {roughness: 1}}\n", "E202", "only highlights have a size");
+    loaded_check(HEAD_XML "<AreaLights><Position/></AreaLights>" END_XML, "E202", "a light has no size");
+    loaded_check(HEAD_XML "<Plane/>" END_XML, "E202",
+                 "use a large rectangle, for example <Rectangle><Corner");
+    loaded_check(HEAD_YAML "Plane: {}\n", "E202", "use a large rectangle, for example rectangles: [{corner");
+    // A name that is surely meant goes before, and so does another name of the same.
+    loaded_check(HEAD_YAML "camera: {fog: 60}\n", "E202", "did you mean 'fov'?");
+    loaded_check(HEAD_YAML "camera: {hfov: 60}\n", "E202", "'fov' is vertical");
+    loaded_check(HEAD_YAML "background: {texture: a.png}\n", "E202",
+                 "did you mean 'image'? For example image: ");
+    loaded_check(HEAD_YAML "materials: {m: {ior: 1.5}}\n", "E202",
+                 "did you mean 'refractive_index'? For example refractive_index: 1.5");
+    loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, ior: 2}]\n", "E202",
+                 "did you mean 'refractive_index' of a material? For example refractive_index: 1.5");
+    loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, strength: 2}]\n", "E202",
+                 "did you mean 'intensity' of a background or 'intensity' of a light?");
 }
 
 static void what_is_no_scene(void **state) {
@@ -444,6 +477,7 @@ int main(void) {
         cmocka_unit_test(what_is_missing),
         cmocka_unit_test(what_is_there_twice),
         cmocka_unit_test(names_that_do_not_exist),
+        cmocka_unit_test(names_of_other_tools),
         cmocka_unit_test(what_is_no_scene),
         cmocka_unit_test(quotes_and_nothing),
         cmocka_unit_test(fixes_make_the_text_right),

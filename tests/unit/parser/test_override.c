@@ -162,6 +162,8 @@ static void mistakes_in_the_value(void **state) {
     expect("camera.fov=~", "E121", "has no value");
     expect("camera.look_at=[0, 0, 5]", "E401", "--set:1:16: error: camera 'main' looks at its own position");
     expect("spheres[0].material=glas", "E301", "did you mean 'glass'?");
+    expect("materials.glass.ior=1", "E220", "did you mean 'refractive_index'?");
+    expect("lights[0].radius=1", "E220", "a light has no size");
     expect("materials.glass={albdo: 1}", "E202", "--set:1:18: error: a material has no 'albdo'");
     expect("image.width=[1", "E219", "--set:1:");
     expect("image.width=#ffffff", "E205", "'#ffffff' is not a number");

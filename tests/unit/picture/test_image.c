@@ -1,4 +1,4 @@
-// Tone, transfer and rounding as LANGUAGE says, and files that other readers would take.
+// Tone, transfer and rounding as docs/language.md says, and files that other readers would take.
 #include "picture/write/image.h"
 
 #include <math.h>

@@ -1,0 +1,124 @@
+// The page of what glint does not do, from the rows of concepts.def.
+#include "grammar/concept.h"
+#include "grammar/emit/emit.h"
+
+#include <string.h>
+
+static const char opening[] =
+    "# What glint does not do, and what to do instead\n"
+    "\n"
+    "<!-- Made from grammar/concepts.def by the target `emitted`; do not edit. -->\n"
+    "\n"
+    "glint shows spheres, rectangles and triangle meshes, lit by lights without size, with sharp shadows, "
+    "mirrors and\n"
+    "glass. Other tools know more, or the same under another name. This page lists what you may look for, "
+    "and what to\n"
+    "write. If a scene contains one of these words, `glint check` answers with the same advice, and so does\n"
+    "`glint explain WORD`.\n"
+    "\n";
+
+static const char closing[] =
+    "## How large a scene may be\n"
+    "\n"
+    "Files, meshes, images and pictures have limits, so that a damaged or hostile file cannot take all "
+    "memory.\n"
+    "`glint check --limit help` lists them with their defaults, and `--limit NAME=VALUE` changes one. How "
+    "accurate a\n"
+    "picture is, and how far away and how small things can be, is in [accuracy.md](accuracy.md).\n";
+
+// The anchor that Markdown makes from a heading.
+static void put_anchor(struct strbuf *out, const char *heading) {
+    for (const char *c = heading; *c; c++)
+        if (*c == ' ')
+            strbuf_char(out, '-');
+        else if (*c != ',')
+            strbuf_char(out, *c >= 'A' && *c <= 'Z' ? (char)(*c - 'A' + 'a') : *c);
+}
+
+static bool begins_chapter(const struct concept *concept) {
+    return concept == concepts || strcmp(concept[-1].chapter, concept->chapter) != 0;
+}
+
+// Rows of one title are one section: the first one's text, and the words of all.
+static bool begins_section(const struct concept *concept) {
+    return concept == concepts || !concept->title || strcmp(concept[-1].title, concept->title) != 0;
+}
+
+static void put_contents(struct strbuf *out) {
+    for (const struct concept *c = concepts; c->title; c++) {
+        if (!begins_section(c))
+            continue;
+        if (begins_chapter(c))
+            strbuf_format(out, "%s- **%s**: ", c == concepts ? "" : "\n", c->chapter);
+        else
+            strbuf_cstr(out, ",\n  ");
+        strbuf_format(out, "[%s](#", c->title);
+        put_anchor(out, c->title);
+        strbuf_char(out, ')');
+    }
+    strbuf_cstr(out, "\n- [How large a scene may be](#how-large-a-scene-may-be)\n\n");
+}
+
+// A clause as a sentence; names in quotes are code. An apostrophe has a letter before it, and none is inside
+// quotes.
+static void put_sentence(struct strbuf *out, const char *clause) {
+    bool quoted = false;
+    for (const char *c = clause; *c; c++) {
+        bool begins = c == clause || c[-1] == ' ' || c[-1] == '(';
+        bool is_quote = *c == '\'' && (quoted || begins);
+        quoted = quoted != is_quote;
+        if (is_quote)
+            strbuf_char(out, '`');
+        else
+            strbuf_char(out, c == clause && *c >= 'a' && *c <= 'z' ? (char)(*c - 'a' + 'A') : *c);
+    }
+    strbuf_char(out, '.');
+}
+
+// "; in a light or camera: "
+static void put_place(struct strbuf *out, const struct concept *concept) {
+    str rest = str_from(concept->in);
+    strbuf_cstr(out, begins_section(concept) ? "*Words* " : "; ");
+    for (bool first = true; rest.len; first = false) {
+        str element = concept_next_word(&rest);
+        strbuf_cstr(out, first ? "in " : rest.len ? ", " : " or ");
+        if (first)
+            strbuf_cstr(out, strchr("aeiou", *element.ptr) ? "an " : "a ");
+        strbuf_str(out, element);
+    }
+    strbuf_cstr(out, concept->in ? ": " : begins_section(concept) ? "anywhere: " : "");
+}
+
+static void put_words(struct strbuf *out, const struct concept *concept) {
+    put_place(out, concept);
+    str rest = str_from(concept->words);
+    for (bool first = true; rest.len; first = false) {
+        str word = concept_next_word(&rest);
+        strbuf_format(out, "%s`%.*s`", first ? "" : ", ", STR_ARG(word));
+    }
+}
+
+static void put_section(struct strbuf *out, const struct concept *concept) {
+    strbuf_format(out, "### %s\n\n", concept->title);
+    put_sentence(out, concept->lacks);
+    strbuf_char(out, ' ');
+    put_sentence(out, concept->instead);
+    strbuf_cstr(out, "\n\n");
+    if (concept->example)
+        strbuf_format(out, "```yaml\n%s```\n\n", concept->example);
+}
+
+void emit_limits(struct strbuf *out) {
+    strbuf_cstr(out, opening);
+    put_contents(out);
+    for (const struct concept *c = concepts; c->title; c++) {
+        if (begins_chapter(c))
+            strbuf_format(out, "## %s\n\n", c->chapter);
+        if (begins_section(c))
+            put_section(out, c);
+        put_words(out, c);
+        if (begins_section(c + 1))
+            strbuf_cstr(out, "\n\n");
+    }
+    strbuf_cstr(out, closing);
+}

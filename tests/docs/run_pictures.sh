@@ -1,0 +1,43 @@
+#!/bin/sh
+# The pictures of the documentation are what glint makes of their scenes now. Usage:
+# run_pictures.sh check|update GLINT SOURCE_FOLDER WORK_FOLDER
+#
+# docs/pictures/NAME.png is NAME.glint.yaml of scenes/tutorial or scenes/language. Few pixels may
+# be off by much, and all of them together by little: drivers for other processors round otherwise.
+mode=$1
+shift
+. "$(dirname -- "$0")/../cli/lib.sh"
+largest=30000 # bytes of a file
+
+# The steps of the tutorial are as large as each other; the other scenes say themselves how large they are.
+render() { # SCENE FILE
+    case $1 in
+    */tutorial/*) "$glint" render "$1" --quiet --size 320x200 -o "$2" ;;
+    *) "$glint" render "$1" --quiet -o "$2" ;;
+    esac
+}
+
+compare() {
+    "$glint" compare "$1" "$2" --max-share 0.005 --max-mae 0.0004 >compared.txt
+}
+
+for scene in "$source"/scenes/tutorial/*.glint.yaml "$source"/scenes/language/*.glint.yaml; do
+    stem=$(basename "$scene" .glint.yaml)
+    kept=$source/docs/pictures/$stem.png
+    now=$stem.png
+    [ "$mode" = check ] || now=$kept
+    ok "$stem: rendered" render "$scene" "$now"
+    ok "$stem: as kept" compare "$now" "$kept"
+    [ "$(wc -c <"$kept")" -le $largest ] || fail "$stem: more than $largest bytes"
+    grep -qF "pictures/$stem.png" "$source"/docs/*.md || fail "$stem: no page shows it"
+done
+for kept in "$source"/docs/pictures/*.png; do
+    stem=$(basename "$kept" .png)
+    [ -f "$source/scenes/tutorial/$stem.glint.yaml" ] || [ -f "$source/scenes/language/$stem.glint.yaml" ] || fail "$kept: has no scene"
+done
+# The tolerance can fail: a lamp that is a little brighter.
+if [ "$mode" = check ]; then
+    "$glint" render "$source/scenes/tutorial/step-2.glint.yaml" --quiet --size 320x200 --set 'lights[0].intensity=1.02' -o other.png
+    ! compare other.png "$source/docs/pictures/step-2.png" || fail "another picture counts as the same"
+fi
+exit $failed
