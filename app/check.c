@@ -53,7 +53,7 @@ enum session_state check_scene(struct session *session, const struct session_opt
     note_view(session);
     check_allow(session, !options->skip_lint);
     arena_guarded(&session->arena, apply_policy, session);
-    session_group(session);
+    diag_sort(&session->sink);
     return session->state;
 }
 

@@ -124,6 +124,8 @@ void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
 int cli_report(struct cli *cli, struct session *session, bool notes);
 // Only the exit code.
 int cli_session_status(const struct session *session);
+// How many findings that are alike are shown (diag/diag_text.h): who names a number of messages gets as many.
+uint32_t cli_text_alike(const struct limits *limits);
 // Text for people, to standard error.
 void cli_write_error(str text);
 // One error with the place 1:1 of `path`, printed at once.

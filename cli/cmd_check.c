@@ -79,7 +79,8 @@ static void check_one(struct check *check, struct check_file *file, struct asset
     if (check->format == CHECK_TEXT) {
         struct diag_text_options text = {.color = cli->color && !cli->options.output,
                                          .notes = cli->options.verbose && !cli->options.quiet,
-                                         .most = (uint32_t)session.options.limits.value[LIMIT_MESSAGES]};
+                                         .most = (uint32_t)session.options.limits.value[LIMIT_MESSAGES],
+                                         .alike = cli_text_alike(&session.options.limits)};
         diag_text(&file->text, &session.sink, &session.sources, text);
         file->failed = file->text.failed;
     } else {

@@ -76,12 +76,7 @@ static void put_sentence(struct strbuf *out, str text) {
 static void message(struct json_writer *w, const struct report_finding *f) {
     struct strbuf text;
     strbuf_init(&text);
-    struct strbuf whole;
-    strbuf_init(&whole);
-    report_message(&whole, f);
-    put_sentence(&text, strbuf_view(&whole));
-    text.failed = text.failed || whole.failed;
-    strbuf_finish(&whole);
+    put_sentence(&text, f->message);
     if (f->help.len) {
         strbuf_cstr(&text, "\nHelp: ");
         put_sentence(&text, f->help);
@@ -239,6 +234,40 @@ static void tool(struct json_writer *w, const struct report *report, const struc
     w->flat_depth = RESULT_DEPTH;
 }
 
+static bool is_complete(const struct report *report) {
+    for (uint32_t i = 0; i < report->scene_count; i++)
+        if (report->scenes[i].left_out.count)
+            return false;
+    return true;
+}
+
+// Says what the results lack.
+static void invocation(struct json_writer *w, const struct report *report) {
+    if (is_complete(report))
+        return;
+    json_open_list(w, "invocations");
+    json_open_object(w, NULL);
+    json_write_boolean(w, "executionSuccessful", true);
+    json_open_list(w, "toolExecutionNotifications");
+    for (uint32_t i = 0; i < report->scene_count; i++) {
+        const struct report_scene *scene = &report->scenes[i];
+        struct strbuf text;
+        if (!scene->left_out.count)
+            continue;
+        strbuf_init(&text);
+        report_left_out(&text, scene);
+        json_open_object(w, NULL);
+        json_write_text(w, "level", STR("warning"));
+        text_object(w, "message", str_trim(strbuf_view(&text)));
+        json_close_object(w);
+        w->out->failed = w->out->failed || text.failed;
+        strbuf_finish(&text);
+    }
+    json_close_list(w);
+    json_close_object(w);
+    json_close_list(w);
+}
+
 void report_sarif(struct strbuf *out, const struct report *report) {
     uint32_t index[DIAG_CODE_COUNT] = {0};
     struct report_list list;
@@ -257,6 +286,7 @@ void report_sarif(struct strbuf *out, const struct report *report) {
     text_object(&w, "description", STR("The folder in which glint was run."));
     json_close_object(&w);
     json_close_object(&w);
+    invocation(&w, report);
     json_write_text(&w, "columnKind", STR("unicodeCodePoints"));
     json_open_list(&w, "results");
     for (uint32_t i = 0; i < list.count; i++)
