@@ -1,5 +1,6 @@
 #include "app/check.h"
 
+#include "app/baseline.h"
 #include "app/check_allow.h"
 #include "app/check_path.h"
 #include "app/shot.h"
@@ -36,9 +37,18 @@ static void apply_policy(void *context) {
     diag_filter(&session->sink, keeps, &judge);
 }
 
+// Whether a file only holds things for others to use: nothing could be seen in its picture, neither a body
+// nor a background, but it defines materials, cameras or lights.
+static bool is_library(const struct ir_scene *scene) {
+    return ir_body_count(scene) == 0 && !scene->background.head.written &&
+           scene->materials.count + scene->cameras.count + scene->lights.count > 0;
+}
+
 // The notes about what replaces a camera or a light that is not written.
 static void note_view(struct session *session) {
     struct view view;
+    if (session->scene && is_library(session->scene))
+        return;
     if (session->state == SESSION_LOADED && session->sink.errors == 0 && !session_view(session, 0, &view))
         shot_no_memory(session, "the view"); // as rendering says
 }
@@ -54,6 +64,8 @@ enum session_state check_scene(struct session *session, const struct session_opt
     check_allow(session, !options->skip_lint);
     arena_guarded(&session->arena, apply_policy, session);
     diag_sort(&session->sink);
+    if (options->baseline || options->found)
+        baseline_take(session);
     return session->state;
 }
 
@@ -123,6 +135,7 @@ bool check_report(struct report_scene *out, struct session *session, const char 
                                  .context = session};
     struct filling filling = {out, session, root};
     out->state = state_of(session);
+    out->in_baseline = session->in_baseline;
     if (!report_scene_add(out, &input))
         return false;
     return !session->scene || arena_guarded(&out->arena, fill_assets, &filling) == ARENA_FAULT_NONE;

@@ -59,7 +59,13 @@ struct cli_options {
     double max_off;            // share of pixels
     int audit_arg;             // the place of either
     bool check, diff, upgrade; // of what changes files
-    int fix;                   // enum fix_level
+    bool list;
+    bool changed;
+    int changed_arg;            // as output_arg
+    const char *baseline;       // NULL: not given
+    const char *write_baseline; // NULL: not given
+    int write_baseline_arg;
+    int fix; // enum fix_level
     int fix_arg;
     int output_arg;  // its place on the command line; 0: not given
     int as_file_arg; // as output_arg

@@ -106,6 +106,8 @@ void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, boo
                    str replacement);
 
 const struct diag_info *diag_info(enum diag_code code);
+// The stage that a code belongs to by its first digit: "syntax", "binding", ...
+const char *diag_stage(enum diag_code code);
 // The code whose text is `code` ("E203"), case ignored; DIAG_CODE_COUNT if there is none.
 enum diag_code diag_find(str code);
 

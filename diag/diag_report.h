@@ -77,12 +77,14 @@ struct report_scene {
         uint32_t count, capacity;
     } findings;
     struct diag_hidden left_out; // findings for which there was no room
+    uint32_t in_baseline;        // findings that a baseline knows; not counted above
     bool has_assets;             // there is a scene
     struct report_assets assets;
 };
 
 struct report {
     const char *program_version;
+    const char *home; // the address at which a reader finds glint and its docs/; empty: not known
     const char *root; // the folder that relative paths begin at; absolute
     struct report_scene *scenes;
     uint32_t scene_count;

@@ -100,6 +100,8 @@ static void scene(struct json_writer *w, const struct report_scene *s) {
     json_write_integer(w, "left_out", s->left_out.count);
     if (s->left_out.count)
         left_out(w, s);
+    if (s->in_baseline)
+        json_write_integer(w, "in_baseline", s->in_baseline);
     json_open_list(w, "findings");
     for (uint32_t i = 0; i < s->findings.count; i++)
         finding(w, &s->findings.items[i]);

@@ -11,9 +11,6 @@ enum {
     RESULT_DEPTH = 5, // a line per result
 };
 
-static const char *const stages[] = {"glint", "syntax", "binding", "reference", "rule",
-                                     "limit", "file",   "device",  "command",   "configuration"};
-
 static bool is_plain(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            (c != '\0' && strchr("-._~/", c));
@@ -173,7 +170,22 @@ static void put_rule_name(struct strbuf *out, const char *name) {
     }
 }
 
-static void rule(struct json_writer *w, const struct diag_info *info) {
+// Where the codes are explained, for who reads the report elsewhere.
+static void help_address(struct json_writer *w, const char *home, const char *code) {
+    struct strbuf text;
+    if (!home || !home[0])
+        return;
+    strbuf_init(&text);
+    strbuf_format(&text, "%s/docs/codes.md#", home);
+    for (; *code; code++)
+        strbuf_char(&text, *code >= 'A' && *code <= 'Z' ? (char)(*code - 'A' + 'a') : *code);
+    json_write_text(w, "helpUri", strbuf_view(&text));
+    w->out->failed = w->out->failed || text.failed;
+    strbuf_finish(&text);
+}
+
+static void rule(struct json_writer *w, enum diag_code code, const char *home) {
+    const struct diag_info *info = diag_info(code);
     static const char *const problems[] = {"error", "warning", "recommendation"};
     struct strbuf text;
     strbuf_init(&text);
@@ -193,12 +205,13 @@ static void rule(struct json_writer *w, const struct diag_info *info) {
     json_write_text(w, "text", strbuf_view(&text));
     json_write_text(w, "markdown", strbuf_view(&text));
     json_close_object(w);
+    help_address(w, home, info->code);
     json_open_object(w, "defaultConfiguration");
     json_write_text(w, "level", str_from(diag_severity_name(info->severity)));
     json_close_object(w);
     json_open_object(w, "properties");
     json_open_list(w, "tags");
-    json_write_text(w, NULL, str_from(stages[(unsigned)(info->code[1] - '0') % 10]));
+    json_write_text(w, NULL, str_from(diag_stage(code)));
     json_close_list(w);
     json_write_text(w, "precision", STR("very-high"));
     json_write_text(w, "problem.severity", str_from(problems[info->severity]));
@@ -221,12 +234,14 @@ static void tool(struct json_writer *w, const struct report *report, const struc
     json_write_text(w, "name", STR("glint"));
     json_write_text(w, "version", str_from(report->program_version));
     json_write_text(w, "semanticVersion", str_from(report->program_version));
+    if (report->home && report->home[0])
+        json_write_text(w, "informationUri", str_from(report->home));
     json_open_list(w, "rules");
     for (int i = 0; i < DIAG_CODE_COUNT; i++) {
         if (!used[i])
             continue;
         index[i] = count++;
-        rule(w, diag_info((enum diag_code)i));
+        rule(w, (enum diag_code)i, report->home);
     }
     json_close_list(w);
     json_close_object(w);

@@ -1,4 +1,5 @@
-// Files made from the table: for editors and readers. The committed copies (docs/schema/, docs/reference.md)
+// Files made from the tables of the language and of the codes: for editors and readers. The committed copies
+// (docs/schema/, docs/reference.md, docs/codes.md)
 // are kept equal by a test.
 //
 // Errors: only lack of memory; check `out->failed`. Thread safety: pure except for `out`.
@@ -17,5 +18,7 @@ void emit_relaxng_compact(struct strbuf *out);
 void emit_xml_schema(struct strbuf *out);
 // The reference page, docs/reference.md.
 void emit_markdown(struct strbuf *out);
+// The page of all codes of messages, docs/codes.md.
+void emit_codes(struct strbuf *out);
 
 #endif
