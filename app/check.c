@@ -1,6 +1,5 @@
 #include "app/check.h"
 
-#include "app/baseline.h"
 #include "app/check_allow.h"
 #include "app/check_path.h"
 #include "app/shot.h"
@@ -64,8 +63,6 @@ enum session_state check_scene(struct session *session, const struct session_opt
     check_allow(session, !options->skip_lint);
     arena_guarded(&session->arena, apply_policy, session);
     diag_sort(&session->sink);
-    if (options->baseline || options->found)
-        baseline_take(session);
     return session->state;
 }
 
@@ -135,7 +132,6 @@ bool check_report(struct report_scene *out, struct session *session, const char 
                                  .context = session};
     struct filling filling = {out, session, root};
     out->state = state_of(session);
-    out->in_baseline = session->in_baseline;
     if (!report_scene_add(out, &input))
         return false;
     return !session->scene || arena_guarded(&out->arena, fill_assets, &filling) == ARENA_FAULT_NONE;

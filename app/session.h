@@ -18,8 +18,6 @@
 #include "scene/scene.h"
 #include "scene/view.h"
 
-struct baseline;
-struct baseline_found;
 struct ir_image;
 struct ir_scene;
 
@@ -41,7 +39,6 @@ struct session_options {
     enum lint_level lint;             // rules about light that run if the scene has no error; check_scene
                                       // runs all, unless skip_lint
     const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
-    const struct baseline *baseline;  // for check_scene: findings that are known (app/baseline.h); NULL: none
     struct baseline_found
         *found;     // for check_scene: takes all findings that a baseline can hold; NULL: not asked
     bool skip_lint; // for check_scene: leaves the rules about light out, and the use of comments unjudged
@@ -71,7 +68,6 @@ struct session {
     struct assets assets;
     struct scene resolved; // what scene and assets mean together; without assets: nothing
     enum session_state state;
-    uint32_t in_baseline; // findings that options.baseline knows, or options.found took
     double read_seconds, assets_seconds, lint_seconds;
 };
 

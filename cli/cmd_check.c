@@ -3,11 +3,10 @@
 //
 // Files are checked at the same time, each with a session, a sink and a record of its own; what is reported
 // about each is kept until all are done, so that the output does not depend on which was first.
-#include "app/baseline.h"
-#include "app/changed.h"
 #include "app/check.h"
 #include "app/fixes.h"
-#include "cli/check_changed.h"
+#include "app/scope/baseline.h"
+#include "app/scope/changed.h"
 #include "cli/cli.h"
 #include "cli/fix.h"
 #include "core/parallel.h"
@@ -65,10 +64,10 @@ struct check {
     struct check_store *stores;
     unsigned store_count;
     void (*step)(struct check *check, struct check_file *file, struct asset_store *store); // of all files
-    struct check_changed *changed; // NULL: everything is checked
-    uint32_t looked_at;            // scenes, before those that read nothing that changed were left out
-    struct baseline *baseline;     // NULL: none
-    str found_folder;              // of the baseline that is written; empty: none is
+    struct changed *changed;   // NULL: everything is checked
+    uint32_t looked_at;        // scenes, before those that read nothing that changed were left out
+    struct baseline *baseline; // NULL: none
+    str found_folder;          // of the baseline that is written; empty: none is
 };
 
 // ---- one file
@@ -81,7 +80,6 @@ static int status_of(const struct session *session) {
 static struct session_options options_of(const struct check *check, const struct check_file *file) {
     struct session_options options = cli_session_options(check->cli, file->path);
     options.found_in = str_from(file->folder);
-    options.baseline = check->baseline;
     return options;
 }
 
@@ -95,15 +93,16 @@ static void check_one(struct check *check, struct check_file *file, struct asset
     struct session_options options = options_of(check, file);
     if (check->found_folder.len) {
         baseline_found_init(&file->found, check->found_folder);
-        options.found = &file->found;
     }
     check_scene(&session, &options, store);
+    if (check->baseline || check->found_folder.len)
+        file->in_baseline =
+            baseline_take(&session, check->baseline, check->found_folder.len ? &file->found : NULL);
     file->status = status_of(&session);
     file->state = session.state;
     file->errors = session.sink.errors;
     file->warnings = session.sink.warnings;
     file->notes = session.sink.notes;
-    file->in_baseline = session.in_baseline;
     if (check->format == CHECK_TEXT) {
         struct diag_text_options text = {.color = cli->color && !cli->options.output,
                                          .notes = shows_notes(check),
@@ -114,6 +113,7 @@ static void check_one(struct check *check, struct check_file *file, struct asset
     } else {
         report_scene_init(&file->record, str_from(file->path));
         file->failed = !check_report(&file->record, &session, check->root);
+        file->record.in_baseline = file->in_baseline;
     }
     session_finish(&session);
 }
@@ -124,7 +124,7 @@ static void find_affected(struct check *check, struct check_file *file, struct a
     struct session_options options = options_of(check, file);
     options.pixels = ASSETS_SKIP_PIXELS;
     session_load(&session, &options, store);
-    file->affected = changed_affects(&check->changed->changed, &session);
+    file->affected = changed_affects(check->changed, &session);
     session_finish(&session);
 }
 
@@ -239,15 +239,15 @@ static bool is_scene_name(str path) {
     return false;
 }
 
-// Where changed files may be read; scenes among those that were named belong to them wherever they are.
+// Scenes among the files that are named are checked wherever they are.
 static int add_changed(struct check *check) {
-    struct check_changed *changed = check->changed;
+    struct changed *changed = check->changed;
     uint32_t count = 0;
-    int worst = changed->named_folders ? add_operands(check)
-                                       : add_folder(check, changed->folders.items[0].ptr, &count);
-    for (uint32_t i = 0; i < changed->scenes.count; i++)
-        if (is_scene_name(changed->scenes.items[i]))
-            add_file(check, changed->scenes.items[i].ptr, NULL);
+    int worst = changed->names_folders ? add_operands(check)
+                                       : add_folder(check, changed->searched.items[0].ptr, &count);
+    for (uint32_t i = 0; i < changed->named.count; i++)
+        if (is_scene_name(changed->named.items[i]))
+            add_file(check, changed->named.items[i].ptr, NULL);
     return worst;
 }
 
@@ -402,21 +402,35 @@ static void tell_stale(struct check *check) {
     strbuf_finish(&text);
 }
 
+// What is wrong now must all be in it, or the next check would tell it as new.
+static bool is_whole(struct check *check, const char *path) {
+    for (uint32_t i = 0; i < check->files.count; i++) {
+        const struct check_file *file = &check->files.items[i];
+        if (file->failed || file->status != CLI_OK)
+            cli_error(check->cli, DIAG_OUTPUT, path,
+                      "correct the errors above first: a baseline cannot hold them",
+                      "the baseline is not written: '%s' could not be checked", file->path);
+        else if (file->found.dropped)
+            cli_error(check->cli, DIAG_OUTPUT, path, "keep more findings with --max-messages",
+                      "the baseline is not written: '%s' has %u findings more than are kept", file->path,
+                      file->found.dropped);
+        else
+            continue;
+        return false;
+    }
+    return true;
+}
+
 static int write_found(struct check *check) {
     struct cli *cli = check->cli;
     const char *path = cli->options.write_baseline;
     const struct baseline_found **found =
         ARENA_ARRAY(&cli->arena, const struct baseline_found *, check->files.count + 1);
     struct strbuf text;
-    for (uint32_t i = 0; i < check->files.count; i++) {
-        found[i] = &check->files.items[i].found;
-        if (!found[i]->dropped)
-            continue;
-        cli_error(cli, DIAG_OUTPUT, path, "raise the number of findings that are kept with --max-messages",
-                  "the baseline is not written: %s has %u findings more than are kept",
-                  check->files.items[i].path, found[i]->dropped);
+    if (!is_whole(check, path))
         return CLI_FILE;
-    }
+    for (uint32_t i = 0; i < check->files.count; i++)
+        found[i] = &check->files.items[i].found;
     strbuf_init(&text);
     uint32_t count = baseline_put(found, check->files.count, &cli->arena, &text);
     int status = cli_write_made(cli, path, &text, "the baseline");
@@ -430,12 +444,24 @@ static int write_found(struct check *check) {
 
 // ---- all of it
 
-static int add_files(struct check *check, struct check_changed *changed) {
+static int find_changed(struct check *check, struct changed *changed) {
     struct cli *cli = check->cli;
-    if (cli->options.changed) {
-        check->changed = changed;
-        return check_changed_read(cli, changed) ? add_changed(check) : CLI_USAGE;
-    }
+    check->changed = changed;
+    changed_init(changed, &cli->arena);
+    if (changed_find(changed, cli->operands, cli->operand_count))
+        return add_changed(check);
+    int arg = changed->operand < 0 ? cli->options.changed_arg : cli_operand_place(cli, changed->operand);
+    diag_add(&cli->sink, DIAG_GIT, cli_place(cli, arg), "%.*s", STR_ARG(changed->why));
+    diag_help(&cli->sink,
+              "the first name is a revision if there is no such file; without a revision, files can "
+              "be named: glint check --changed FILE...");
+    return CLI_USAGE;
+}
+
+static int add_files(struct check *check, struct changed *changed) {
+    struct cli *cli = check->cli;
+    if (cli->options.changed)
+        return find_changed(check, changed);
     if (cli->operand_count == 0)
         return cli_usage(cli, 1, "'glint check' needs SCENE|FOLDER..., or --changed");
     return add_operands(check);
@@ -459,10 +485,8 @@ static int check_files(struct check *check, int worst) {
     int written = write_report(check);
     worst = written > worst ? written : worst;
     tell_stale(check);
-    if (cli->options.write_baseline) {
-        written = write_found(check);
-        worst = written > worst ? written : worst;
-    }
+    written = cli->options.write_baseline ? write_found(check) : CLI_OK;
+    worst = written > worst ? written : worst;
     if (!good) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, "check", NULL, "not enough memory to keep all findings");
         worst = CLI_FILE;
@@ -471,8 +495,8 @@ static int check_files(struct check *check, int worst) {
 }
 
 static int run(struct check *check) {
-    struct check_changed changed;
-    struct baseline baseline = {0};
+    struct changed changed;
+    struct baseline baseline;
     if (check->cli->options.write_baseline)
         check->found_folder = baseline_folder(&check->cli->arena, check->cli->options.write_baseline);
     int worst = read_baseline(check, &baseline) ? add_files(check, &changed) : CLI_USAGE;

@@ -31,7 +31,7 @@ const struct cli_command cli_commands[] = {
      "text, json, sarif, github, gitlab and junit; notes are shown with --verbose and in reports.\n\n"
      "With --changed it checks the scenes that read a changed file: an include, a mesh, a material file, an\n"
      "image, settings. FILEs changed, and so did all that git says differs from the revision REV, which is\n"
-     "HEAD if nothing is named. Scenes are looked for in FOLDERs, or in the whole repository.\n\n"
+     "HEAD if nothing is named. Scenes are those in FOLDERs, or in the whole repository.\n\n"
      "  glint check scenes\n"
      "  glint check scenes --format sarif -o glint.sarif --fail-on warning\n"
      "  glint check --changed origin/main\n",

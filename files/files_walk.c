@@ -18,7 +18,7 @@ bool files_is_folder(str path) {
 
 bool files_exist(str path) {
     struct stat info;
-    return lstat(path.ptr, &info) == 0;
+    return lstat(path.ptr, &info) == 0 || (errno != ENOENT && errno != ENOTDIR);
 }
 
 static bool has_ending(const struct files_found *found, str name) {

@@ -60,7 +60,7 @@ tells "another one in the place of one that is gone" 0 '^glint: 1 of 6 scenes re
 sed -i 's|three.obj|../lib/three.obj|' scenes/mesh.glint.yaml
 : >.glintrc.yaml
 rm -r other
-printf 'glint: 1\n  [\n' >scenes/broken.glint.yaml
+printf 'glint: [1\n' >scenes/broken.glint.yaml
 tells "a scene that cannot be read counts" 1 '^glint: 1 of 7 scenes reads what changed' changed notes.txt
 printf 'glint: 1\n%s\nspheres: [{center: [0, 0, 0], radius: 1, material: none}]\n' "$view" >scenes/broken.glint.yaml
 tells "one that reads all its files does not" 0 '^glint: none of 7 scenes' changed notes.txt

@@ -3,8 +3,8 @@
 // A finding is known again by its file, its code, the words of its message and the text of its line: numbers
 // in the message do not count, nor does the number of the line, so that what is written above it does not
 // make it new. Of findings that are equal in all of these the baseline holds how many there are in one scene.
-// It holds errors and warnings in files, but not those of settings and options, nor that memory ran out, nor
-// that a scene cannot be read.
+// It holds errors and warnings in files, but not those of settings and options, nor that memory ran out or a
+// file cannot be read.
 //
 // The file is text, sorted, one entry a line: path (relative to the baseline's folder), code, number,
 // message, line and, if the finding is not in the scene itself, the scene that reads the file; separated by
@@ -13,8 +13,8 @@
 // Errors: in the sink. Ownership: what is read is in the given arena, which must live as long as the sources;
 // baseline_found_finish frees what was found. Thread safety: a baseline that was read may be used by many
 // threads at a time; a list of what was found belongs to one.
-#ifndef GLINT_APP_BASELINE_H
-#define GLINT_APP_BASELINE_H
+#ifndef GLINT_APP_SCOPE_BASELINE_H
+#define GLINT_APP_SCOPE_BASELINE_H
 
 #include "app/session.h"
 #include "core/str_map.h"
@@ -71,8 +71,8 @@ void baseline_found_finish(struct baseline_found *found);
 uint32_t baseline_put(const struct baseline_found *const *found, uint32_t count, struct arena *arena,
                       struct strbuf *out);
 
-// Takes from the session's findings, which are sorted, those that the baseline of its options knows, or all,
-// if they are to be written; session->in_baseline counts them.
-void baseline_take(struct session *session);
+// Takes from a session's findings (check_scene) those that `known` holds, or all that a baseline can hold, to
+// `found`, if that is not NULL. Returns how many. The counts and what is left in the sink follow.
+uint32_t baseline_take(struct session *session, const struct baseline *known, struct baseline_found *found);
 
 #endif

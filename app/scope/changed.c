@@ -1,4 +1,4 @@
-#include "app/changed.h"
+#include "app/scope/changed.h"
 
 #include "app/inventory.h"
 #include "files/files_walk.h"

@@ -1,5 +1,5 @@
 // Which findings of a session a baseline knows, or will know.
-#include "app/baseline.h"
+#include "app/scope/baseline.h"
 
 #include <string.h>
 
@@ -46,6 +46,9 @@ static void put_relative(struct strbuf *out, str folder, str target) {
 
 struct taking {
     struct session *session;
+    const struct baseline *known;
+    struct baseline_found *found; // NULL: what is known is taken
+    uint32_t count;
     struct strbuf text;
     str folder;
     str *paths;          // of the sources, as fields; empty: not asked for yet
@@ -76,12 +79,13 @@ static str key_of(struct taking *t, const struct diag *item) {
     return arena_copy(&t->session->arena, strbuf_view(&t->text));
 }
 
+// That the system failed is no mistake in the scene, and options are not in a file.
 static bool can_be_known(const struct taking *t, const struct diag *item) {
     const struct source_set *sources = &t->session->sources;
     enum source_kind kind =
         item->at.source < sources->count ? sources->items[item->at.source].kind : SOURCE_KIND_DEFAULT;
-    return item->severity != DIAG_NOTE && item->code != DIAG_OUT_OF_MEMORY && kind != SOURCE_KIND_DEFAULT &&
-           kind != SOURCE_KIND_OPTION;
+    return item->severity != DIAG_NOTE && item->code != DIAG_OUT_OF_MEMORY &&
+           item->code != DIAG_FILE_UNREADABLE && kind != SOURCE_KIND_DEFAULT && kind != SOURCE_KIND_OPTION;
 }
 
 static void raise_to(_Atomic uint32_t *place, uint32_t value) {
@@ -92,7 +96,7 @@ static void raise_to(_Atomic uint32_t *place, uint32_t value) {
 
 static bool is_new(void *context, struct diag *item) {
     struct taking *t = context;
-    const struct baseline *known = t->session->options.baseline;
+    const struct baseline *known = t->known;
     if (!can_be_known(t, item))
         return true;
     str key = key_of(t, item);
@@ -103,13 +107,13 @@ static bool is_new(void *context, struct diag *item) {
     if (number > known->entries.items[entry - 1].count)
         return true;
     raise_to(&known->used[entry - 1], number);
-    t->session->in_baseline++;
+    t->count++;
     return false;
 }
 
 static bool is_not_written(void *context, struct diag *item) {
     struct taking *t = context;
-    struct baseline_found *found = t->session->options.found;
+    struct baseline_found *found = t->found;
     if (!can_be_known(t, item))
         return true;
     str key = arena_copy(&found->arena, key_of(t, item));
@@ -120,37 +124,36 @@ static bool is_not_written(void *context, struct diag *item) {
         *place = found->entries.count;
     }
     found->entries.items[*place - 1].count++;
-    t->session->in_baseline++;
+    t->count++;
     return false;
 }
 
 static void take(void *context) {
     struct taking *t = context;
     struct session *session = t->session;
-    const struct baseline *known = session->options.baseline;
     bool complete = session->state == SESSION_LOADED && session->sink.errors == 0;
     t->paths = ARENA_ARRAY(&session->arena, str, session->sources.count);
     t->via = path_field(t, session->options.path);
     str_map_init(&t->seen, &session->arena);
-    if (session->options.found) {
-        session->options.found->dropped = session->sink.dropped;
+    if (t->found) {
+        t->found->dropped = session->sink.dropped;
         diag_filter(&session->sink, is_not_written, t);
         return;
     }
     diag_filter(&session->sink, is_new, t);
-    uint32_t scene = str_map_find(&known->scenes, t->via);
+    uint32_t scene = str_map_find(&t->known->scenes, t->via);
     if (scene && complete)
-        atomic_store(&known->checked[scene - 1], true);
+        atomic_store(&t->known->checked[scene - 1], true);
 }
 
-void baseline_take(struct session *session) {
-    const struct session_options *options = &session->options;
-    struct taking t = {.session = session};
+uint32_t baseline_take(struct session *session, const struct baseline *known, struct baseline_found *found) {
+    struct taking t = {.session = session, .known = known, .found = found};
     if (session->config_failed || (session->state != SESSION_LOADED && session->state != SESSION_NO_SCENE))
-        return;
-    t.folder = options->found ? options->found->folder : options->baseline->folder;
+        return 0;
+    t.folder = found ? found->folder : known->folder;
     strbuf_init(&t.text);
-    struct arena *arenas[] = {&session->arena, options->found ? &options->found->arena : NULL, NULL};
+    struct arena *arenas[] = {&session->arena, found ? &found->arena : NULL, NULL};
     arena_guarded_all(arenas, take, &t);
     strbuf_finish(&t.text);
+    return t.count;
 }

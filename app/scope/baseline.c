@@ -1,4 +1,4 @@
-#include "app/baseline.h"
+#include "app/scope/baseline.h"
 
 #include "core/number.h"
 #include "files/files_walk.h"
