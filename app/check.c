@@ -36,9 +36,18 @@ static void apply_policy(void *context) {
     diag_filter(&session->sink, keeps, &judge);
 }
 
+// Whether a file only holds things for others to use: nothing could be seen in its picture, neither a body
+// nor a background, but it defines materials, cameras or lights.
+static bool is_library(const struct ir_scene *scene) {
+    return ir_body_count(scene) == 0 && !scene->background.head.written &&
+           scene->materials.count + scene->cameras.count + scene->lights.count > 0;
+}
+
 // The notes about what replaces a camera or a light that is not written.
 static void note_view(struct session *session) {
     struct view view;
+    if (session->scene && is_library(session->scene))
+        return;
     if (session->state == SESSION_LOADED && session->sink.errors == 0 && !session_view(session, 0, &view))
         shot_no_memory(session, "the view"); // as rendering says
 }
@@ -53,7 +62,7 @@ enum session_state check_scene(struct session *session, const struct session_opt
     note_view(session);
     check_allow(session, !options->skip_lint);
     arena_guarded(&session->arena, apply_policy, session);
-    session_group(session);
+    diag_sort(&session->sink);
     return session->state;
 }
 

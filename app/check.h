@@ -10,7 +10,7 @@
 #include "app/session.h"
 #include "diag/diag_report.h"
 
-// The session's sink then holds the findings, sorted and grouped. Whatever the result, session_finish accepts
+// The session's sink then holds the findings, sorted. Whatever the result, session_finish accepts
 // it.
 enum session_state check_scene(struct session *session, const struct session_options *options,
                                struct asset_store *store);

@@ -226,7 +226,6 @@ void fixes_make(struct fixes *fixes, const struct session_options *options, enum
     *fixes = (struct fixes){0};
     arena_init(&fixes->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
     struct fixer f = {.fixes = fixes, .given = options, .options = *options, .level = level, .store = store};
-    f.options.ungrouped = true;
     if (arena_guarded(&fixes->arena, make_all, &f) != ARENA_FAULT_NONE)
         fixes->failed = true;
 }

@@ -39,10 +39,11 @@ struct session_options {
     enum lint_level lint;             // rules about light that run if the scene has no error; check_scene
                                       // runs all, unless skip_lint
     const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
+    struct baseline_found
+        *found;     // for check_scene: takes all findings that a baseline can hold; NULL: not asked
     bool skip_lint; // for check_scene: leaves the rules about light out, and the use of comments unjudged
-    bool ungrouped; // every finding is kept by itself, however many are alike: for who repairs them
     bool judged;    // the caller judges the findings by policy and comments (app/check.h): they are not yet
-                    // grouped
+                    // sorted
 };
 
 enum session_state {
@@ -80,8 +81,6 @@ enum diag_code session_file_code(enum file_status status);
 struct assets_input session_assets_input(struct session *session);
 // The last step of session_load, as options.lint says.
 void session_lint(struct session *session);
-// Sorts the diagnostics and groups those of one code and file, if the findings are judged.
-void session_group(struct session *session);
 
 // Index of the camera of this name, or IR_NO_INDEX with a diagnostic E302. An empty name is the first
 // (0, also if the scene has none).

@@ -9,10 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    SAME_CODE_MAX = 50, // diagnostics of one code in one file that are reported one by one
-};
-
 enum diag_code session_file_code(enum file_status status) {
     switch (status) {
     case FILE_MISSING:
@@ -71,6 +67,7 @@ static void load_config(struct session *session) {
     config_load(&input, session->options.path, &session->config);
     session->config_failed = session->sink.errors > 0;
     limits_fill(&session->options.limits, &session->config.limits);
+    diag_sink_keep(&session->sink, (uint32_t)session->options.limits.value[LIMIT_MESSAGES]);
     session->arena.cap_bytes = (size_t)session->options.limits.value[LIMIT_SCENE_MEMORY];
     session->policy = session->config.policy;
     if (session->options.policy)
@@ -215,15 +212,9 @@ static enum session_state guarded_load(struct session *session, const struct ses
     }
     if (!options->judged) {
         check_silence(session);
-        session_group(session);
+        diag_sort(&session->sink);
     }
     return session->state;
-}
-
-void session_group(struct session *session) {
-    diag_sort(&session->sink);
-    if (!session->options.ungrouped)
-        diag_group(&session->sink, SAME_CODE_MAX);
 }
 
 enum session_state session_load(struct session *session, const struct session_options *options,

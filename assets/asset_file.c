@@ -63,19 +63,14 @@ static span whole_file(struct asset_file *file) {
 span asset_line(struct asset_file *file, uint32_t line) {
     if (line == 0)
         return whole_file(file);
-    uint32_t source = source_of(file);
-    str text = file->input->sources->items[source].text;
-    size_t at = 0;
-    for (uint32_t i = 1; i < line && at < text.len; at++)
-        i += is_line_end(text, at);
-    size_t end = at;
-    while (end < text.len && text.ptr[end] != '\n' && text.ptr[end] != '\r')
-        end++;
-    while (at < end && (text.ptr[at] == ' ' || text.ptr[at] == '\t'))
-        at++;
-    while (end > at && (text.ptr[end - 1] == ' ' || text.ptr[end - 1] == '\t'))
-        end--;
-    return (span){source, (uint32_t)at, (uint32_t)end};
+    struct source_set *sources = file->input->sources;
+    span at = source_line_span(sources, source_of(file), line);
+    str text = sources->items[at.source].text;
+    while (at.begin < at.end && (text.ptr[at.begin] == ' ' || text.ptr[at.begin] == '\t'))
+        at.begin++;
+    while (at.end > at.begin && (text.ptr[at.end - 1] == ' ' || text.ptr[at.end - 1] == '\t'))
+        at.end--;
+    return at;
 }
 
 static span named_place(struct asset_file *file) {
@@ -104,21 +99,12 @@ void asset_report_named(struct asset_file *file, enum diag_code code, const char
     add_named(file, code, message);
 }
 
-static struct asset_count *slot_of(struct asset_file *file, enum diag_code code) {
-    int i = 0;
-    while (i < ASSET_CODES - 1 && file->counts[i].count && file->counts[i].code != code)
-        i++;
-    file->counts[i].code = code;
-    return &file->counts[i];
-}
-
-bool asset_is_grouped(struct asset_file *file, enum diag_code code) {
-    struct asset_count *slot = slot_of(file, code);
-    if (slot->count < ASSET_CODE_SHOWN)
+bool asset_only_counts(struct asset_file *file, enum diag_code code) {
+    struct diag_sink *sink = file->input->sink;
+    if (!diag_is_full(sink))
         return false;
+    diag_add(sink, code, SPAN_NONE, " ");
     file->errors += diag_info(code)->severity == DIAG_ERROR;
-    if (slot->last < file->input->sink->count)
-        file->input->sink->items[slot->last].repeats++;
     return true;
 }
 
@@ -133,34 +119,38 @@ __attribute__((format(printf, 5, 0))) static void report(struct asset_file *file
         diag_add(input->sink, code, at, "line %u: %s", line, message);
     else
         diag_add(input->sink, code, at, "%s", message);
-    struct asset_count *slot = slot_of(file, code);
-    slot->count++;
-    slot->last = input->sink->count - 1;
     file->errors += diag_info(code)->severity == DIAG_ERROR;
     add_named_notes(file);
 }
 
-static uint32_t line_of(str text, size_t offset) {
-    uint32_t line = 1;
-    for (size_t at = 0; at < offset && at < text.len; at++)
-        line += is_line_end(text, at);
-    return line;
+// The line of a place in a text that is not kept as a source; 0 for others, which know their lines. Places
+// come mostly in their order, so that lines are counted from the last one.
+static uint32_t line_if_not_kept(struct asset_file *file, size_t offset) {
+    if (file->input->sources->items[source_of(file)].text.len)
+        return 0;
+    if (offset < file->counted_bytes || file->counted_line == 0) {
+        file->counted_bytes = 0;
+        file->counted_line = 1;
+    }
+    for (; file->counted_bytes < offset && file->counted_bytes < file->text.len; file->counted_bytes++)
+        file->counted_line += is_line_end(file->text, file->counted_bytes);
+    return file->counted_line;
 }
 
 bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, size_t end, const char *format,
                   ...) {
-    if (asset_is_grouped(file, code))
+    if (asset_only_counts(file, code))
         return false;
     va_list args;
     va_start(args, format);
     span at = {source_of(file), (uint32_t)begin, (uint32_t)end};
-    report(file, code, at, line_of(file->text, begin), format, args);
+    report(file, code, at, line_if_not_kept(file, begin), format, args);
     va_end(args);
     return true;
 }
 
 bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...) {
-    if (asset_is_grouped(file, code))
+    if (asset_only_counts(file, code))
         return false;
     va_list args;
     va_start(args, format);

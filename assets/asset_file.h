@@ -2,7 +2,7 @@
 //
 // A file that is missing, refused or too large is a diagnostic where it is named. A fault inside it is
 // placed in the file, with notes "named here" up to the scene; the file's text becomes a source when the
-// first such diagnostic needs it. Repeated faults of one code are grouped.
+// first such diagnostic needs it. Where the sink is full, further ones are only counted.
 // Ownership: text that becomes a source is copied into the arena of the source set, which the
 // caller of assets_load has guarded; other functions' results say so.
 // Thread safety: one thread loads.
@@ -11,29 +11,18 @@
 
 #include "assets/assets.h"
 
-enum {
-    ASSET_CODES = 8,      // codes that the readers report inside one file
-    ASSET_CODE_SHOWN = 5, // diagnostics of one code and file; further ones are counted
-};
-
-struct asset_count {
-    enum diag_code code;
-    uint32_t count;
-    uint32_t last; // index in the sink of the last one shown
-};
-
 struct asset_file {
     const struct assets_input *input;
-    str path;                    // to open, and as shown
-    const char *what;            // "mesh", "material file", "image"
-    str text;                    // while it is in memory; else empty
-    uint32_t source;             // with the text; SOURCE_DEFAULT until one was needed
-    uint32_t bare_source;        // without text: for faults of the whole file
-    enum limit limit;            // of its size
-    span named_at;               // where the scene names it
-    struct asset_file *named_in; // the mesh that names it; NULL: the scene
-    uint32_t named_line;         // in named_in
-    struct asset_count counts[ASSET_CODES];
+    str path;                             // to open, and as shown
+    const char *what;                     // "mesh", "material file", "image"
+    str text;                             // while it is in memory; else empty
+    uint32_t source;                      // with the text; SOURCE_DEFAULT until one was needed
+    uint32_t bare_source;                 // without text: for faults of the whole file
+    enum limit limit;                     // of its size
+    span named_at;                        // where the scene names it
+    struct asset_file *named_in;          // the mesh that names it; NULL: the scene
+    uint32_t named_line;                  // in named_in
+    uint32_t counted_line, counted_bytes; // where lines of a text that is not kept were last counted to
     uint32_t errors;
 };
 
@@ -45,7 +34,7 @@ bool asset_find(struct asset_file *file, str base_path, str path, struct file_re
 bool asset_read(struct asset_file *file, struct arena *arena);
 
 // Adds a diagnostic for bytes [begin, end) of the file's text, with its "named here" notes. false: it was
-// only counted into an earlier one, and neither help nor notes must be added.
+// only counted, and neither help nor notes must be added.
 bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, size_t end, const char *format,
                   ...) __attribute__((format(printf, 5, 6)));
 // The same for a whole line (from 1; 0 means the whole file).
@@ -53,7 +42,7 @@ bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t li
     __attribute__((format(printf, 4, 5)));
 // Whether a further fault of this code is only counted; if so, counts it. For callers that need time to find
 // the place.
-bool asset_is_grouped(struct asset_file *file, enum diag_code code);
+bool asset_only_counts(struct asset_file *file, enum diag_code code);
 // The place of a line of the file.
 span asset_line(struct asset_file *file, uint32_t line);
 // Adds a diagnostic where the file is named.

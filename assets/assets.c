@@ -145,22 +145,40 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
 
 // ---- models
 
+// What does not fit is reported once, by report_unfit: every further instance would say the same.
 static bool fits_scene(struct loader *loader, struct assets *out, const struct mesh *mesh, span at) {
-    const struct assets_input *input = loader->input;
-    uint64_t most = input->limits->value[LIMIT_SCENE_TRIANGLES];
     uint64_t sum = out->triangle_count + mesh->triangle_count;
-    if (sum <= most) {
+    if (sum <= loader->input->limits->value[LIMIT_SCENE_TRIANGLES]) {
         out->triangle_count = sum;
         return true;
     }
-    const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
-    diag_add(input->sink, DIAG_LIMIT, at,
-             "with this mesh of %u triangles the scene has %llu; the limit %s is %llu", mesh->triangle_count,
-             (unsigned long long)sum, info->name, (unsigned long long)most);
-    if (sum <= info->greatest)
-        diag_help(input->sink, "if the scene is right, raise the limit: --limit %s=%llu", info->name,
-                  (unsigned long long)sum);
+    if (loader->unfit.models++ == 0) {
+        loader->unfit.first = at;
+        loader->unfit.first_mesh = mesh->triangle_count;
+        loader->unfit.first_sum = sum;
+    }
+    loader->unfit.triangles += mesh->triangle_count;
     return false;
+}
+
+static void report_unfit(const struct loader *loader, const struct assets *out) {
+    const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
+    const uint64_t all = out->triangle_count + loader->unfit.triangles;
+    const uint32_t further = loader->unfit.models - 1;
+    struct diag_sink *sink = loader->input->sink;
+    if (loader->unfit.models == 0)
+        return;
+    diag_add(sink, DIAG_LIMIT, loader->unfit.first,
+             "with this mesh of %u triangles the scene has %llu; the limit %s is %llu",
+             loader->unfit.first_mesh, (unsigned long long)loader->unfit.first_sum, info->name,
+             (unsigned long long)loader->input->limits->value[LIMIT_SCENE_TRIANGLES]);
+    if (further)
+        diag_note(sink, SPAN_NONE,
+                  "%u further model%s not fit either; with all of them the scene has %llu triangles", further,
+                  further == 1 ? " does" : "s do", (unsigned long long)all);
+    if (all <= info->greatest)
+        diag_help(sink, "if the scene is right, raise the limit: --limit %s=%llu", info->name,
+                  (unsigned long long)all);
 }
 
 static void check_refraction(struct loader *loader, const struct ir_model *model,
@@ -332,6 +350,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
     out->model_count = scene->models.count;
     for (uint32_t i = 0; i < scene->models.count; i++)
         load_model(&loader, out, i);
+    report_unfit(&loader, out);
     const struct ir_background *background = &scene->background;
     if (background->kind == IR_BACKDROP_IMAGE && background->image.len &&
         !is_poisoned(&background->head, &SCHEMA_BACKGROUND, "image"))

@@ -31,6 +31,13 @@ struct loader {
         struct ir_material *items;
         uint32_t count, capacity;
     } materials;
+    struct {
+        uint32_t models;
+        uint64_t triangles; // of all of them
+        span first;
+        uint32_t first_mesh; // triangles of the first one's mesh
+        uint64_t first_sum;  // triangles of the scene with it
+    } unfit;                 // models with which the scene would have more triangles than the limit
 };
 
 // The material of each group of the model's mesh: material_map, else material, else the material file's,

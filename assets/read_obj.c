@@ -249,12 +249,13 @@ static void read_line(struct obj_reader *r) {
 
 // ---- indices of what was defined later
 
-// Finds the corner in the text again: storing its place would waste memory in files without faults.
+// Finds the corner in the text again: storing its place would waste memory in files without faults. Faces
+// come in the order of their lines, so that the search goes on from the line of the last one.
 static void report_forward(struct obj_reader *r, const struct obj_face *face, uint32_t number,
                            bool is_normal) {
-    obj_lex_init(&r->lex, r->file->text);
     while (r->lex.line < face->line && !obj_lex_done(&r->lex))
         obj_lex_next_line(&r->lex);
+    const struct obj_lex line = r->lex;
     obj_lex_more(&r->lex);
     obj_lex_word(&r->lex);
     str word = STR("");
@@ -273,10 +274,12 @@ static void report_forward(struct obj_reader *r, const struct obj_face *face, ui
         report_index(r, str_slice(word, 0, cut), (int64_t)corner->vertex + 1, r->obj->vertices.count,
                      "vertices");
     }
+    r->lex = line;
 }
 
 static void check_forward(struct obj_reader *r) {
     const struct obj *obj = r->obj;
+    obj_lex_init(&r->lex, r->file->text);
     for (uint32_t f = 0; f < obj->faces.count; f++) {
         const struct obj_face *face = &obj->faces.items[f];
         uint32_t end = f + 1 < obj->faces.count ? face[1].first : obj->corners.count;
@@ -284,9 +287,9 @@ static void check_forward(struct obj_reader *r) {
             const struct obj_corner *corner = &obj->corners.items[c];
             bool vertex = corner->vertex >= obj->vertices.count && corner->vertex != IR_NO_INDEX;
             bool normal = corner->normal >= obj->normals.count && corner->normal != IR_NO_INDEX;
-            if (vertex && !asset_is_grouped(r->file, DIAG_MESH_INDEX))
+            if (vertex && !asset_only_counts(r->file, DIAG_MESH_INDEX))
                 report_forward(r, face, c - face->first, false);
-            if (normal && !asset_is_grouped(r->file, DIAG_MESH_INDEX))
+            if (normal && !asset_only_counts(r->file, DIAG_MESH_INDEX))
                 report_forward(r, face, c - face->first, true);
         }
     }

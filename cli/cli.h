@@ -59,7 +59,13 @@ struct cli_options {
     double max_off;            // share of pixels
     int audit_arg;             // the place of either
     bool check, diff, upgrade; // of what changes files
-    int fix;                   // enum fix_level
+    bool list;
+    bool changed;
+    int changed_arg;            // as output_arg
+    const char *baseline;       // NULL: not given
+    const char *write_baseline; // NULL: not given
+    int write_baseline_arg;
+    int fix; // enum fix_level
     int fix_arg;
     int output_arg;  // its place on the command line; 0: not given
     int as_file_arg; // as output_arg
@@ -124,6 +130,8 @@ void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
 int cli_report(struct cli *cli, struct session *session, bool notes);
 // Only the exit code.
 int cli_session_status(const struct session *session);
+// How many findings that are alike are shown (diag/diag_text.h): who names a number of messages gets as many.
+uint32_t cli_text_alike(const struct limits *limits);
 // Text for people, to standard error.
 void cli_write_error(str text);
 // One error with the place 1:1 of `path`, printed at once.

@@ -1,13 +1,17 @@
-// glint check SCENE...: every finding of every file, in the order of the command line; folders by name.
+// glint check SCENE...: every finding of every file, in the order of the command line; folders by name. With
+// --changed, of the scenes that read what changed.
 //
 // Files are checked at the same time, each with a session, a sink and a record of its own; what is reported
 // about each is kept until all are done, so that the output does not depend on which was first.
 #include "app/check.h"
 #include "app/fixes.h"
+#include "app/scope/baseline.h"
+#include "app/scope/changed.h"
 #include "cli/cli.h"
 #include "cli/fix.h"
 #include "core/parallel.h"
 #include "core/str_map.h"
+#include "diag/diag_report_text.h"
 #include "diag/diag_text.h"
 #include "files/files_walk.h"
 #include "parser/tree/reader_text.h"
@@ -40,8 +44,12 @@ struct check_file {
     const char *folder; // that it was found in; NULL: it was named
     struct strbuf text; // CHECK_TEXT
     struct report_scene record;
+    struct baseline_found found; // if a baseline is written
+    uint32_t errors, warnings, notes, in_baseline;
+    enum session_state state;
     int status;
-    bool failed; // no memory for the record
+    bool failed;   // no memory for the record
+    bool affected; // by what changed
 };
 
 struct check {
@@ -55,6 +63,11 @@ struct check {
     struct str_map paths; // of files
     struct check_store *stores;
     unsigned store_count;
+    void (*step)(struct check *check, struct check_file *file, struct asset_store *store); // of all files
+    struct changed *changed;   // NULL: everything is checked
+    uint32_t looked_at;        // scenes, before those that read nothing that changed were left out
+    struct baseline *baseline; // NULL: none
+    str found_folder;          // of the baseline that is written; empty: none is
 };
 
 // ---- one file
@@ -70,37 +83,63 @@ static struct session_options options_of(const struct check *check, const struct
     return options;
 }
 
+static bool shows_notes(const struct check *check) {
+    return check->cli->options.verbose && !check->cli->options.quiet;
+}
+
 static void check_one(struct check *check, struct check_file *file, struct asset_store *store) {
     const struct cli *cli = check->cli;
     struct session session;
     struct session_options options = options_of(check, file);
+    if (check->found_folder.len) {
+        baseline_found_init(&file->found, check->found_folder);
+    }
     check_scene(&session, &options, store);
+    if (check->baseline || check->found_folder.len)
+        file->in_baseline =
+            baseline_take(&session, check->baseline, check->found_folder.len ? &file->found : NULL);
     file->status = status_of(&session);
+    file->state = session.state;
+    file->errors = session.sink.errors;
+    file->warnings = session.sink.warnings;
+    file->notes = session.sink.notes;
     if (check->format == CHECK_TEXT) {
         struct diag_text_options text = {.color = cli->color && !cli->options.output,
-                                         .notes = cli->options.verbose && !cli->options.quiet,
-                                         .most = (uint32_t)session.options.limits.value[LIMIT_MESSAGES]};
+                                         .notes = shows_notes(check),
+                                         .most = (uint32_t)session.options.limits.value[LIMIT_MESSAGES],
+                                         .alike = cli_text_alike(&session.options.limits)};
         diag_text(&file->text, &session.sink, &session.sources, text);
         file->failed = file->text.failed;
     } else {
         report_scene_init(&file->record, str_from(file->path));
         file->failed = !check_report(&file->record, &session, check->root);
+        file->record.in_baseline = file->in_baseline;
     }
     session_finish(&session);
 }
 
-static void check_some(void *context, size_t begin, size_t end) {
+// Loads the scene as `glint deps` does.
+static void find_affected(struct check *check, struct check_file *file, struct asset_store *store) {
+    struct session session;
+    struct session_options options = options_of(check, file);
+    options.pixels = ASSETS_SKIP_PIXELS;
+    session_load(&session, &options, store);
+    file->affected = changed_affects(check->changed, &session);
+    session_finish(&session);
+}
+
+static void step_some(void *context, size_t begin, size_t end) {
     struct check *check = context;
     unsigned slot = 0;
     // There is a store for each thread, so that one is always free.
     while (atomic_flag_test_and_set(&check->stores[slot].busy))
         slot = (slot + 1) % check->store_count;
     for (size_t i = begin; i < end; i++)
-        check_one(check, &check->files.items[i], check->stores[slot].store);
+        check->step(check, &check->files.items[i], check->stores[slot].store);
     atomic_flag_clear(&check->stores[slot].busy);
 }
 
-static bool check_all(struct check *check) {
+static bool make_stores(struct check *check) {
     check->store_count = parallel_processors();
     check->stores = ARENA_ARRAY(&check->cli->arena, struct check_store, check->store_count);
     bool good = true;
@@ -109,11 +148,31 @@ static bool check_all(struct check *check) {
         check->stores[i].store = asset_store_create();
         good = good && check->stores[i].store;
     }
-    if (good)
-        parallel_for(check->files.count, 1, check_some, check);
+    return good;
+}
+
+static void finish_stores(struct check *check) {
     for (unsigned i = 0; i < check->store_count; i++)
         asset_store_destroy(check->stores[i].store);
-    return good;
+}
+
+static void with_all(struct check *check,
+                     void (*step)(struct check *check, struct check_file *file, struct asset_store *store)) {
+    check->step = step;
+    parallel_for(check->files.count, 1, step_some, check);
+}
+
+// Leaves out the scenes that read nothing that changed.
+static void keep_affected(struct check *check) {
+    uint32_t kept = 0;
+    check->looked_at = check->files.count;
+    if (!check->changed)
+        return;
+    with_all(check, find_affected);
+    for (uint32_t i = 0; i < check->files.count; i++)
+        if (check->files.items[i].affected)
+            check->files.items[kept++] = check->files.items[i];
+    check->files.count = kept;
 }
 
 // ---- the files
@@ -132,10 +191,10 @@ static void add_file(struct check *check, const char *path, const char *folder) 
     strbuf_init(&file->text);
 }
 
-static int add_folder(struct check *check, int operand) {
+// Adds the scenes in a folder; CLI_FILE if it cannot be read.
+static int add_folder(struct check *check, const char *path, uint32_t *count) {
     struct cli *cli = check->cli;
     struct files_found found = {.arena = &cli->arena, .endings = endings};
-    const char *path = cli->operands[operand];
     if (files_walk(&found, str_from(path)) != FILE_OK) {
         cli_error(cli, DIAG_FILE_UNREADABLE, found.unreadable.ptr, NULL, "the folder cannot be read: %s",
                   strerror(errno));
@@ -143,8 +202,17 @@ static int add_folder(struct check *check, int operand) {
     }
     for (uint32_t i = 0; i < found.paths.count; i++)
         add_file(check, found.paths.items[i].ptr, path);
-    if (found.paths.count)
-        return CLI_OK;
+    *count = found.paths.count;
+    return CLI_OK;
+}
+
+static int add_operand(struct check *check, int operand) {
+    struct cli *cli = check->cli;
+    const char *path = cli->operands[operand];
+    uint32_t count = 0;
+    int status = add_folder(check, path, &count);
+    if (status != CLI_OK || count)
+        return status;
     cli_usage(cli, cli_operand_place(cli, operand), "there is no scene in the folder '%s'", path);
     diag_help(&cli->sink,
               "in a folder, the files named *.glint.yaml, *.glint.yml and *.glint.xml are scenes");
@@ -154,22 +222,99 @@ static int add_folder(struct check *check, int operand) {
 static int add_operands(struct check *check) {
     int worst = CLI_OK;
     for (int i = 0; i < check->cli->operand_count; i++) {
-        const char *path = check->cli->operands[i];
         int status = CLI_OK;
-        if (files_is_folder(str_from(path)))
-            status = add_folder(check, i);
-        else
-            add_file(check, path, NULL);
+        if (files_is_folder(str_from(check->cli->operands[i])))
+            status = add_operand(check, i);
+        else if (!check->changed)
+            add_file(check, check->cli->operands[i], NULL);
         worst = status > worst ? status : worst;
     }
     return worst;
 }
 
+static bool is_scene_name(str path) {
+    for (const char *const *ending = endings; *ending; ending++)
+        if (str_ends_with_nocase(path, *ending))
+            return true;
+    return false;
+}
+
+// Scenes among the files that are named are checked wherever they are.
+static int add_changed(struct check *check) {
+    struct changed *changed = check->changed;
+    uint32_t count = 0;
+    int worst = changed->names_folders ? add_operands(check)
+                                       : add_folder(check, changed->searched.items[0].ptr, &count);
+    for (uint32_t i = 0; i < changed->named.count; i++)
+        if (is_scene_name(changed->named.items[i]))
+            add_file(check, changed->named.items[i].ptr, NULL);
+    return worst;
+}
+
 // ---- the report
+
+struct sums {
+    uint32_t errors, warnings, notes, clean, ignored;
+    uint64_t in_baseline;
+};
+
+static struct sums sum_up(const struct check *check) {
+    struct sums sums = {0};
+    for (uint32_t i = 0; i < check->files.count; i++) {
+        const struct check_file *file = &check->files.items[i];
+        uint32_t notes = shows_notes(check) ? file->notes : 0;
+        uint32_t findings = file->errors + file->warnings + notes;
+        sums.errors += file->errors;
+        sums.warnings += file->warnings;
+        sums.notes += notes;
+        sums.ignored += file->state == SESSION_IGNORED && findings == 0;
+        sums.clean += file->state != SESSION_IGNORED && findings == 0;
+        sums.in_baseline += file->in_baseline;
+    }
+    return sums;
+}
+
+static void put_changed(const struct check *check, struct strbuf *out) {
+    if (check->files.count)
+        strbuf_format(out, "%u of %u scene%s read%s what changed", check->files.count, check->looked_at,
+                      check->looked_at == 1 ? "" : "s", check->files.count == 1 ? "s" : "");
+    else
+        strbuf_format(out, "none of %u scene%s reads what changed", check->looked_at,
+                      check->looked_at == 1 ? "" : "s");
+}
+
+// "glint: 5 errors, 7 warnings in 31 files; 26 clean". One finding in one file says that itself, and where
+// all is well there is nothing to say; but what --changed left out nobody sees.
+static void put_closing(const struct check *check, struct strbuf *out) {
+    const struct sums sums = sum_up(check);
+    const uint32_t findings = sums.errors + sums.warnings + sums.notes;
+    const uint32_t files = check->files.count;
+    bool tells = findings > 1 || (findings == 1 && files > 1);
+    if (check->cli->options.quiet || !(tells || check->changed))
+        return;
+    strbuf_cstr(out, "glint: ");
+    if (check->changed)
+        put_changed(check, out);
+    if (check->changed && files)
+        strbuf_cstr(out, ": ");
+    if (files)
+        report_counts(out, sums.errors, sums.warnings, sums.notes);
+    if (files > 1 && findings) {
+        strbuf_format(out, " in %u files", files);
+        if (sums.clean)
+            strbuf_format(out, "; %u clean", sums.clean);
+        if (sums.ignored)
+            strbuf_format(out, ", %u ignored", sums.ignored);
+    }
+    if (sums.in_baseline && check->baseline)
+        strbuf_format(out, "; %llu in the baseline", (unsigned long long)sums.in_baseline);
+    strbuf_char(out, '\n');
+}
 
 static bool make_text(struct check *check, struct strbuf *out) {
     for (uint32_t i = 0; i < check->files.count; i++)
         strbuf_str(out, strbuf_view(&check->files.items[i].text));
+    put_closing(check, out);
     return !out->failed;
 }
 
@@ -182,10 +327,11 @@ static bool make_report(struct check *check, struct strbuf *out) {
     for (uint32_t i = 0; i < check->files.count; i++)
         scenes[i] = check->files.items[i].record;
     struct report report = {.program_version = GLINT_VERSION,
+                            .home = GLINT_HOME,
                             .root = check->root,
                             .scenes = scenes,
                             .scene_count = check->files.count,
-                            .notes = check->cli->options.verbose && !check->cli->options.quiet};
+                            .notes = shows_notes(check)};
     make[check->format](out, &report);
     return !out->failed;
 }
@@ -230,24 +376,133 @@ static int fix_files(struct check *check) {
     return worst;
 }
 
-static int run(struct check *check) {
-    int worst = add_operands(check);
-    if (worst == CLI_USAGE)
-        return worst;
-    int fixed = check->cli->options.fix ? fix_files(check) : CLI_OK;
+// ---- the baseline
+
+static bool read_baseline(struct check *check, struct baseline *baseline) {
+    struct cli *cli = check->cli;
+    if (!cli->options.baseline)
+        return true;
+    if (cli->options.write_baseline) {
+        cli_usage(cli, cli->options.write_baseline_arg,
+                  "--write-baseline writes all that is found; it does not go with --baseline");
+        return false;
+    }
+    check->baseline = baseline;
+    return baseline_read(baseline, cli->options.baseline, &cli->arena, &cli->sources, &cli->sink);
+}
+
+// What it holds that is gone is said in every format, on standard error: it makes nothing fail.
+static void tell_stale(struct check *check) {
+    struct strbuf text;
+    if (!check->baseline || check->cli->options.quiet)
+        return;
+    strbuf_init(&text);
+    baseline_put_stale(check->baseline, &text);
+    cli_write_error(strbuf_view(&text));
+    strbuf_finish(&text);
+}
+
+// What is wrong now must all be in it, or the next check would tell it as new.
+static bool is_whole(struct check *check, const char *path) {
+    for (uint32_t i = 0; i < check->files.count; i++) {
+        const struct check_file *file = &check->files.items[i];
+        if (file->failed || file->status != CLI_OK)
+            cli_error(check->cli, DIAG_OUTPUT, path,
+                      "correct the errors above first: a baseline cannot hold them",
+                      "the baseline is not written: '%s' could not be checked", file->path);
+        else if (file->found.dropped)
+            cli_error(check->cli, DIAG_OUTPUT, path, "keep more findings with --max-messages",
+                      "the baseline is not written: '%s' has %u findings more than are kept", file->path,
+                      file->found.dropped);
+        else
+            continue;
+        return false;
+    }
+    return true;
+}
+
+static int write_found(struct check *check) {
+    struct cli *cli = check->cli;
+    const char *path = cli->options.write_baseline;
+    const struct baseline_found **found =
+        ARENA_ARRAY(&cli->arena, const struct baseline_found *, check->files.count + 1);
+    struct strbuf text;
+    if (!is_whole(check, path))
+        return CLI_FILE;
+    for (uint32_t i = 0; i < check->files.count; i++)
+        found[i] = &check->files.items[i].found;
+    strbuf_init(&text);
+    uint32_t count = baseline_put(found, check->files.count, &cli->arena, &text);
+    int status = cli_write_made(cli, path, &text, "the baseline");
+    strbuf_clear(&text);
+    strbuf_format(&text, "glint: %u finding%s written to %s\n", count, count == 1 ? "" : "s", path);
+    if (status == CLI_OK && !cli->options.quiet)
+        cli_write_error(strbuf_view(&text));
+    strbuf_finish(&text);
+    return status;
+}
+
+// ---- all of it
+
+static int find_changed(struct check *check, struct changed *changed) {
+    struct cli *cli = check->cli;
+    check->changed = changed;
+    changed_init(changed, &cli->arena);
+    if (changed_find(changed, cli->operands, cli->operand_count))
+        return add_changed(check);
+    int arg = changed->operand < 0 ? cli->options.changed_arg : cli_operand_place(cli, changed->operand);
+    diag_add(&cli->sink, DIAG_GIT, cli_place(cli, arg), "%.*s", STR_ARG(changed->why));
+    diag_help(&cli->sink,
+              "the first name is a revision if there is no such file; without a revision, files can "
+              "be named: glint check --changed FILE...");
+    return CLI_USAGE;
+}
+
+static int add_files(struct check *check, struct changed *changed) {
+    struct cli *cli = check->cli;
+    if (cli->options.changed)
+        return find_changed(check, changed);
+    if (cli->operand_count == 0)
+        return cli_usage(cli, 1, "'glint check' needs SCENE|FOLDER..., or --changed");
+    return add_operands(check);
+}
+
+static int check_files(struct check *check, int worst) {
+    struct cli *cli = check->cli;
+    bool good = make_stores(check);
+    if (good)
+        keep_affected(check);
+    int fixed = good && cli->options.fix ? fix_files(check) : CLI_OK;
     worst = fixed > worst ? fixed : worst;
-    bool good = check_all(check);
+    if (good)
+        with_all(check, check_one);
+    finish_stores(check);
     for (uint32_t i = 0; i < check->files.count; i++) {
         const struct check_file *file = &check->files.items[i];
         worst = file->status > worst ? file->status : worst;
         good = good && !file->failed;
     }
     int written = write_report(check);
+    worst = written > worst ? written : worst;
+    tell_stale(check);
+    written = cli->options.write_baseline ? write_found(check) : CLI_OK;
+    worst = written > worst ? written : worst;
     if (!good) {
-        cli_error(check->cli, DIAG_OUT_OF_MEMORY, "check", NULL, "not enough memory to keep all findings");
+        cli_error(cli, DIAG_OUT_OF_MEMORY, "check", NULL, "not enough memory to keep all findings");
         worst = CLI_FILE;
     }
-    return written > worst ? written : worst;
+    return worst;
+}
+
+static int run(struct check *check) {
+    struct changed changed;
+    struct baseline baseline;
+    if (check->cli->options.write_baseline)
+        check->found_folder = baseline_folder(&check->cli->arena, check->cli->options.write_baseline);
+    int worst = read_baseline(check, &baseline) ? add_files(check, &changed) : CLI_USAGE;
+    if (worst != CLI_USAGE)
+        worst = check_files(check, worst);
+    return worst;
 }
 
 int cmd_check(struct cli *cli) {
@@ -268,6 +523,7 @@ int cmd_check(struct cli *cli) {
     for (uint32_t i = 0; i < check.files.count; i++) {
         strbuf_finish(&check.files.items[i].text);
         report_scene_finish(&check.files.items[i].record);
+        baseline_found_finish(&check.files.items[i].found);
     }
     return status;
 }

@@ -26,7 +26,8 @@ static void worsen(struct formatter *f, int status) {
 static void tell(struct formatter *f, struct layout *layout) {
     struct strbuf text;
     struct diag_text_options options = {.color = f->cli->color,
-                                        .most = (uint32_t)f->cli->options.limits.value[LIMIT_MESSAGES]};
+                                        .most = (uint32_t)f->cli->options.limits.value[LIMIT_MESSAGES],
+                                        .alike = cli_text_alike(&f->cli->options.limits)};
     strbuf_init(&text);
     diag_text(&text, &layout->sink, &layout->sources, options);
     cli_write_error(strbuf_view(&text));

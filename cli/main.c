@@ -22,16 +22,20 @@ const struct cli_command cli_commands[] = {
      "  glint render scene.xml -o picture.png --size 640x480 --samples 4\n"
      "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n",
      1, 1, cmd_render},
-    {"check", "SCENE|FOLDER...", "find every mistake in scene files",
+    {"check", "SCENE|FOLDER...|--changed [REV] [FILE|FOLDER...]", "find every mistake in scene files",
      "Reads each scene with every file that it names and reports every mistake with its line and column.\n"
      "In folders it checks the files named *.glint.yaml, *.glint.yml and *.glint.xml. The exit status is 0\n"
      "if there are no errors. Settings come from the nearest .glintrc.yaml above each scene; --config FILE\n"
      "and options override them. A comment 'glint: allow W401' silences a warning on the next line. --format "
      "is one of\n"
      "text, json, sarif, github, gitlab and junit; notes are shown with --verbose and in reports.\n\n"
+     "With --changed it checks the scenes that read a changed file: an include, a mesh, a material file, an\n"
+     "image, settings. FILEs changed, and so did all that git says differs from the revision REV, which is\n"
+     "HEAD if nothing is named. Scenes are those in FOLDERs, or in the whole repository.\n\n"
      "  glint check scenes\n"
-     "  glint check scenes --format sarif -o glint.sarif --fail-on warning\n",
-     1, -1, cmd_check},
+     "  glint check scenes --format sarif -o glint.sarif --fail-on warning\n"
+     "  glint check --changed origin/main\n",
+     0, -1, cmd_check},
     {"inspect", "SCENE", "show what a scene contains and requires",
      "Counts, bounds, the features that the scene switches on and where, and the sizes of the buffers.\n"
      "With --ir, prints the scene as glint understood it: the same text for two files that mean the same.\n",
@@ -79,8 +83,11 @@ const struct cli_command cli_commands[] = {
      "schema is, and writes the schema into the same folder (or uses the one at --schema).\n\n"
      "  glint schema install scene.yaml\n",
      1, -1, cmd_schema},
-    {"explain", "CODE|ELEMENT[.ATTRIBUTE]", "explain a message's code or a part of the language",
-     "  glint explain E206\n  glint explain material.albedo\n", 1, 1, cmd_explain},
+    {"explain", "[CODE|ELEMENT[.ATTRIBUTE]]", "explain a message's code or a part of the language",
+     "With --list, one line for each code, or for each of a family. docs/codes.md is a page of all of "
+     "them.\n\n"
+     "  glint explain E206\n  glint explain material.albedo\n  glint explain --list W4xx\n",
+     0, 1, cmd_explain},
     {"compare", "PICTURE REFERENCE", "measure how far one picture is from another",
      "Reads PNG, JPEG, PFM and Radiance HDR pictures of the same size. Two float pictures are compared as\n"
      "linear values; two 8-bit ones, or one of each kind, as displayed values from 0 to 1 (floats are\n"

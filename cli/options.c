@@ -36,6 +36,10 @@ enum option_id {
     OPTION_DIFF,
     OPTION_FIX,
     OPTION_UPGRADE,
+    OPTION_LIST,
+    OPTION_CHANGED,
+    OPTION_BASELINE,
+    OPTION_WRITE_BASELINE,
     OPTION_FORMAT,
     OPTION_THRESHOLDS,
     OPTION_AXIS,
@@ -134,6 +138,12 @@ static const struct option_row rows[] = {
      "what makes the exit status 1: error (the default) or warning"},
     {OPTION_MAX_MESSAGES, "max-messages", 0, "N", "check",
      "findings shown per scene; the rest are only counted"},
+    {OPTION_CHANGED, "changed", 0, NULL, "check",
+     "check the scenes that read a changed file: one named, or one that git says differs from REV (HEAD)"},
+    {OPTION_BASELINE, "baseline", 0, "FILE", "check",
+     "report only what is not in FILE, and say which of its findings are gone"},
+    {OPTION_WRITE_BASELINE, "write-baseline", 0, "FILE", "check",
+     "write the errors and warnings that there are into FILE, for --baseline"},
     {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_MAE, "max-mae", 0, "X", "compare",
      "fail if the mean difference is larger"},
     {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_RMSE, "max-rmse", 0, "X", "compare",
@@ -182,6 +192,7 @@ static const struct option_row rows[] = {
     {OPTION_DIFF, "diff", 0, NULL, "format check", "write nothing; show what would change as a patch"},
     {OPTION_UPGRADE, "upgrade", 0, NULL, "format",
      "rewrite what older versions of the language spell differently"},
+    {OPTION_LIST, "list", 0, NULL, "explain", "list all codes, or those of a family: --list W4xx"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as glint understood it, in canonical form"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
@@ -310,6 +321,10 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->upgrade;
     case OPTION_IR:
         return &options->ir;
+    case OPTION_LIST:
+        return &options->list;
+    case OPTION_CHANGED:
+        return &options->changed;
     case OPTION_AS_FILE:
         return &options->as_file;
     case OPTION_NO_CACHE:
@@ -342,6 +357,10 @@ static const char **text_of(struct cli_options *options, int id) {
         return &options->thresholds;
     case OPTION_FORMAT:
         return &options->format;
+    case OPTION_BASELINE:
+        return &options->baseline;
+    case OPTION_WRITE_BASELINE:
+        return &options->write_baseline;
     default:
         return NULL;
     }
@@ -349,15 +368,17 @@ static const char **text_of(struct cli_options *options, int id) {
 
 // The option's place, for those whose mistakes are found later.
 static void keep_place(struct cli_options *options, int id, int arg) {
-    int *place = id == OPTION_OUTPUT        ? &options->output_arg
-                 : id == OPTION_AS_FILE     ? &options->as_file_arg
-                 : id == OPTION_AXIS        ? &options->axes_arg
-                 : id == OPTION_ALTERNATIVE ? &options->alternative_arg
-                 : id == OPTION_FORMAT      ? &options->format_arg
-                 : id == OPTION_SAMPLE      ? &options->sample_arg
-                 : id == OPTION_FIX         ? &options->fix_arg
-                 : id == OPTION_AUDIT       ? &options->audit_arg
-                                            : NULL;
+    int *place = id == OPTION_OUTPUT           ? &options->output_arg
+                 : id == OPTION_AS_FILE        ? &options->as_file_arg
+                 : id == OPTION_AXIS           ? &options->axes_arg
+                 : id == OPTION_ALTERNATIVE    ? &options->alternative_arg
+                 : id == OPTION_FORMAT         ? &options->format_arg
+                 : id == OPTION_SAMPLE         ? &options->sample_arg
+                 : id == OPTION_FIX            ? &options->fix_arg
+                 : id == OPTION_CHANGED        ? &options->changed_arg
+                 : id == OPTION_WRITE_BASELINE ? &options->write_baseline_arg
+                 : id == OPTION_AUDIT          ? &options->audit_arg
+                                               : NULL;
     if (place)
         *place = arg;
 }

@@ -38,11 +38,17 @@ void cli_write_error(str text) {
     fwrite(text.ptr, 1, text.len, stderr);
 }
 
+uint32_t cli_text_alike(const struct limits *limits) {
+    return limits->given >> LIMIT_MESSAGES & 1 ? 0 : DIAG_TEXT_ALIKE;
+}
+
 static void print(struct cli *cli, const struct diag_sink *sink, struct source_set *sources, bool notes) {
     struct strbuf text;
     strbuf_init(&text);
-    struct diag_text_options options = {
-        .color = cli->color, .notes = notes, .most = (uint32_t)cli->options.limits.value[LIMIT_MESSAGES]};
+    struct diag_text_options options = {.color = cli->color,
+                                        .notes = notes,
+                                        .most = (uint32_t)cli->options.limits.value[LIMIT_MESSAGES],
+                                        .alike = cli_text_alike(&cli->options.limits)};
     diag_text(&text, sink, sources, options);
     cli_write_error(strbuf_view(&text));
     strbuf_finish(&text);

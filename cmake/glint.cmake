@@ -8,6 +8,8 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 
 option(GLINT_WERROR "Treat warnings as errors" OFF)
 option(GLINT_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+# Reports link to docs/codes.md below it. There is no copy of glint that all know: whoever publishes one names it here.
+set(GLINT_HOME "https://example.com/glint" CACHE STRING "Address of this copy of glint, for links in reports; empty: no links")
 option(GLINT_FUZZ "Build the libFuzzer targets (clang only)" OFF)
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes

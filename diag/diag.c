@@ -13,8 +13,15 @@ enum {
 };
 
 void diag_sink_init(struct diag_sink *sink) {
-    *sink = (struct diag_sink){0};
+    *sink = (struct diag_sink){.kept_max = DIAG_KEPT_MAX};
     arena_init(&sink->arena, SINK_BYTES_MAX);
+}
+
+void diag_sink_keep(struct diag_sink *sink, uint32_t most) {
+    if (most <= sink->kept_max)
+        return;
+    sink->kept_max = most;
+    sink->arena.cap_bytes = (size_t)most * (SINK_BYTES_MAX / DIAG_KEPT_MAX);
 }
 
 void diag_sink_finish(struct diag_sink *sink) {
@@ -68,8 +75,13 @@ static void count(struct diag_sink *sink, enum diag_severity severity) {
         sink->notes++;
 }
 
+static void drop(struct diag_sink *sink, enum diag_code code, uint32_t number) {
+    sink->dropped += number;
+    sink->dropped_of[code] += number;
+}
+
 bool diag_is_full(const struct diag_sink *sink) {
-    return sink->count >= DIAG_KEPT_MAX;
+    return sink->count >= sink->kept_max;
 }
 
 struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...) {
@@ -83,7 +95,7 @@ struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, cons
     if (sink->last_kept)
         item = &sink->items[sink->count++];
     else
-        sink->dropped++;
+        drop(sink, code, 1);
     *item = (struct diag){.code = code, .severity = diag_info(code)->severity, .at = at, .message = message};
     return item;
 }
@@ -227,50 +239,23 @@ void diag_sort(struct diag_sink *sink) {
     free(spare);
 }
 
-void diag_group(struct diag_sink *sink, uint32_t most) {
-    uint32_t seen[DIAG_CODE_COUNT] = {0};
-    uint32_t last_of[DIAG_CODE_COUNT];
-    uint32_t kept = 0;
-    uint32_t source = 0;
-    sink->last_kept = false;
-    for (uint32_t i = 0; i < sink->count; i++) {
-        const struct diag item = sink->items[i];
-        if (kept == 0 || item.at.source != source)
-            memset(seen, 0, sizeof seen);
-        source = item.at.source;
-        if (seen[item.code] >= most && most > 0) {
-            sink->items[last_of[item.code]].repeats += 1 + item.repeats;
-            continue;
-        }
-        seen[item.code]++;
-        last_of[item.code] = kept;
-        sink->items[kept++] = item;
-    }
-    sink->count = kept;
-}
-
 void diag_filter(struct diag_sink *sink, diag_keep *keep, void *context) {
     uint32_t kept = 0;
     sink->last_kept = false;
     for (uint32_t i = 0; i < sink->count; i++) {
         struct diag item = sink->items[i];
         enum diag_severity before = item.severity;
-        uint32_t members = 1 + item.repeats;
-        bool keeps = keep(context, &item);
-        for (uint32_t k = 0; k < members; k++) {
-            uncount(sink, before);
-            if (keeps)
-                count(sink, item.severity);
-        }
-        if (keeps)
-            sink->items[kept++] = item;
+        uncount(sink, before);
+        if (!keep(context, &item))
+            continue;
+        count(sink, item.severity);
+        sink->items[kept++] = item;
     }
     sink->count = kept;
 }
 
 static void copy_diag(struct diag_sink *into, const struct diag *d) {
     struct diag *copy = diag_add(into, d->code, d->at, "%.*s", STR_ARG(d->message));
-    copy->repeats = d->repeats;
     copy->severity = d->severity;
     for (const struct diag_related *n = d->notes; n; n = n->next)
         diag_note(into, n->at, "%.*s", STR_ARG(n->message));
@@ -286,7 +271,8 @@ void diag_merge(struct diag_sink *into, const struct diag_sink *from) {
     uint32_t notes = into->notes + from->notes;
     for (uint32_t i = 0; i < from->count; i++)
         copy_diag(into, &from->items[i]);
-    into->dropped += from->dropped;
+    for (int code = 0; code < DIAG_CODE_COUNT; code++)
+        drop(into, (enum diag_code)code, from->dropped_of[code]);
     into->errors = errors;
     into->warnings = warnings;
     into->notes = notes;

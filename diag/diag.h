@@ -62,7 +62,6 @@ struct diag {
     bool fix_is_safe; // the only possible meaning; else a suggestion
     span fix_at;
     str fix_text;
-    uint32_t repeats; // further ones of the same code that were grouped into this one
 };
 
 struct diag_sink {
@@ -70,21 +69,25 @@ struct diag_sink {
     struct diag *items;
     uint32_t count;
     uint32_t capacity;
+    uint32_t kept_max; // further ones are counted as dropped: DIAG_KEPT_MAX, unless diag_sink_keep raised it
     uint32_t errors;
     uint32_t warnings;
     uint32_t notes;
-    uint32_t dropped;  // did not fit into the sink's memory; counted above too
+    uint32_t dropped; // did not fit into the sink; counted above too
+    uint32_t dropped_of[DIAG_CODE_COUNT];
     struct diag spare; // stands for a diagnostic that was dropped
     bool last_kept;    // whether notes, help and fix have something to belong to
 };
 
-// A sink keeps this many diagnostics; further ones are counted as dropped.
+// A sink keeps this many diagnostics by itself.
 enum {
     DIAG_KEPT_MAX = 10000,
 };
 
 void diag_sink_init(struct diag_sink *sink);
 void diag_sink_finish(struct diag_sink *sink);
+// Makes room for `most` diagnostics, if that is more than it keeps by itself.
+void diag_sink_keep(struct diag_sink *sink, uint32_t most);
 
 // Adds a diagnostic and returns it for the calls below, valid until the next diag_add; never NULL. Texts
 // longer than 2000 bytes are cut.
@@ -103,15 +106,14 @@ void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, boo
                    str replacement);
 
 const struct diag_info *diag_info(enum diag_code code);
+// The stage that a code belongs to by its first digit: "syntax", "binding", ...
+const char *diag_stage(enum diag_code code);
 // The code whose text is `code` ("E203"), case ignored; DIAG_CODE_COUNT if there is none.
 enum diag_code diag_find(str code);
 
 // Sorts by source, place and order of report; drops exact repeats (same code, place and message). If memory
 // for sorting is lacking, the order of report stays.
 void diag_sort(struct diag_sink *sink);
-// Keeps the first `most` (at least 1) diagnostics of each code and source; the last one kept counts the
-// others in `repeats`. The counts of errors, warnings and notes stay. For a sorted sink.
-void diag_group(struct diag_sink *sink, uint32_t most);
 // Removes what `keep` refuses, in order; the counts follow what is left, with its severities as they now are.
 // Diagnostics that were dropped are kept in the counts.
 typedef bool diag_keep(void *context, struct diag *item);

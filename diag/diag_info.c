@@ -30,6 +30,12 @@ const struct diag_info *diag_info(enum diag_code code) {
     return &infos[code];
 }
 
+const char *diag_stage(enum diag_code code) {
+    static const char *const stages[] = {"glint", "syntax", "binding", "reference", "rule",
+                                         "limit", "file",   "device",  "command",   "configuration"};
+    return stages[(unsigned)(infos[code].code[1] - '0') % 10];
+}
+
 enum diag_code diag_find(str code) {
     for (int i = 0; i < DIAG_CODE_COUNT; i++)
         if (code.len == strlen(infos[i].code) && str_ends_with_nocase(code, infos[i].code))

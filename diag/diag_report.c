@@ -143,7 +143,6 @@ static void add_finding(struct adder *adder, const struct diag *d) {
                                      .message = arena_copy(arena, d->message),
                                      .help = arena_copy(arena, d->help),
                                      .line_text = arena_copy(arena, line),
-                                     .repeats = d->repeats,
                                      .has_fix = d->has_fix,
                                      .fix_is_safe = d->fix_is_safe};
     if (!is_in_file(adder, d->at))
@@ -162,13 +161,16 @@ static void add_finding(struct adder *adder, const struct diag *d) {
 static void add_all(void *context) {
     struct adder *adder = context;
     const struct report_input *input = adder->input;
+    struct diag_hidden *left_out = &adder->scene->left_out;
+    struct diag_share share = diag_share_begin(input->sink, input->most, 0, true);
+    bool bounded = input->most <= diag_share_standard();
+    diag_hide_dropped(left_out, input->sink, true);
     for (uint32_t i = 0; i < input->sink->count; i++) {
         const struct diag *d = &input->sink->items[i];
         bool first_error = d->severity == DIAG_ERROR && !adder->error_kept;
-        bool full = adder->scene->findings.count >= input->most ||
-                    adder->bytes >= (size_t)input->most * FINDING_BYTES;
-        if (full && !first_error) {
-            adder->scene->left_out += 1 + d->repeats;
+        bool full = bounded && adder->bytes >= (size_t)input->most * FINDING_BYTES;
+        if ((full && !first_error) || !diag_share_takes(&share, d, first_error)) {
+            diag_hide(left_out, d->code, 1);
             continue;
         }
         adder->error_kept = adder->error_kept || first_error;
@@ -181,8 +183,13 @@ bool report_scene_add(struct report_scene *scene, const struct report_input *inp
     scene->errors = input->sink->errors;
     scene->warnings = input->sink->warnings;
     scene->notes = input->sink->notes;
-    scene->left_out += input->sink->dropped;
+    if (input->most > diag_share_standard())
+        scene->arena.cap_bytes = SIZE_MAX / 2; // the user asked for that many
     return arena_guarded(&scene->arena, add_all, &adder) == ARENA_FAULT_NONE;
+}
+
+uint32_t report_needed(const struct report_scene *scene) {
+    return diag_share_needed(scene->findings.count + scene->left_out.count);
 }
 
 // ---- one list

@@ -12,6 +12,7 @@
 #include "core/arena.h"
 #include "core/strbuf.h"
 #include "diag/diag.h"
+#include "diag/diag_share.h"
 
 struct report_place {
     str path; // empty: no place
@@ -31,7 +32,6 @@ struct report_finding {
     str message;
     str help;      // empty: none
     str line_text; // the line, trimmed: what a fingerprint relies on when lines move
-    uint32_t repeats;
     struct report_note *notes;
     uint32_t note_count;
     bool has_fix;
@@ -76,13 +76,15 @@ struct report_scene {
         struct report_finding *items;
         uint32_t count, capacity;
     } findings;
-    uint32_t left_out; // findings for which there was no room
-    bool has_assets;   // there is a scene
+    struct diag_hidden left_out; // findings for which there was no room
+    uint32_t in_baseline;        // findings that a baseline knows; not counted above
+    bool has_assets;             // there is a scene
     struct report_assets assets;
 };
 
 struct report {
     const char *program_version;
+    const char *home; // the address at which a reader finds glint and its docs/; empty: not known
     const char *root; // the folder that relative paths begin at; absolute
     struct report_scene *scenes;
     uint32_t scene_count;
@@ -98,12 +100,15 @@ struct report_input {
     const struct diag_sink *sink; // sorted
     struct source_set *sources;
     const char *root; // absolute: paths below it become relative to it
-    uint32_t most;    // findings to keep, in 550 bytes of a report each; the first error is always kept
+    uint32_t most; // findings to keep (diag/diag_share.h); up to the limit's default also in 550 bytes of a
+                   // report each; the first error is always kept
     report_find_path *find_path; // NULL: none
     void *context;
 };
 // Copies the findings. false: no memory (what was copied stays).
 bool report_scene_add(struct report_scene *scene, const struct report_input *input);
+// The limit of messages with which all findings of the scene are kept.
+uint32_t report_needed(const struct report_scene *scene);
 // A path as reports write it: relative to `root` if it is below, without "." and ".." as far as the text
 // alone shows it.
 str report_path(struct arena *arena, const char *root, str path);

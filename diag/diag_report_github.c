@@ -34,18 +34,14 @@ static void annotation(struct strbuf *out, const struct report_finding *f) {
                       f->at.end_column > f->at.column ? f->at.end_column - 1 : f->at.column);
     strbuf_format(out, ",title=glint %s::", diag_info(f->code)->code);
     strbuf_clear(&text);
-    struct strbuf message;
-    strbuf_init(&message);
-    report_message(&message, f);
-    diag_text_plain(&text, strbuf_view(&message));
+    diag_text_plain(&text, f->message);
     if (f->help.len) {
         strbuf_char(&text, '\n');
         diag_text_plain(&text, f->help);
     }
     escape(out, strbuf_view(&text), false);
     strbuf_char(out, '\n');
-    out->failed = out->failed || text.failed || message.failed;
-    strbuf_finish(&message);
+    out->failed = out->failed || text.failed;
     strbuf_finish(&text);
 }
 
@@ -65,13 +61,32 @@ static void plain(struct strbuf *out, const struct report_finding *f) {
     strbuf_finish(&line);
 }
 
+// How many have no annotation: `beyond` are in the log, and others in no report.
+static void last_notice(struct strbuf *out, const struct report *report, uint64_t beyond) {
+    uint64_t left_out = 0;
+    uint32_t needed = 0;
+    for (uint32_t i = 0; i < report->scene_count; i++) {
+        const struct report_scene *scene = &report->scenes[i];
+        uint32_t own = scene->left_out.count ? report_needed(scene) : 0;
+        left_out += scene->left_out.count;
+        needed = own > needed ? own : needed;
+    }
+    if (beyond + left_out == 0)
+        return;
+    strbuf_format(out, "::notice title=glint::%llu more finding%s without an annotation: ",
+                  (unsigned long long)(beyond + left_out), beyond + left_out == 1 ? "" : "s");
+    if (left_out)
+        strbuf_format(out, "%llu in the log, %llu not listed; --max-messages %u lists all\n",
+                      (unsigned long long)beyond, (unsigned long long)left_out, needed);
+    else
+        strbuf_cstr(out, "the log and the other formats list them\n");
+}
+
 void report_github(struct strbuf *out, const struct report *report) {
     struct report_list list;
     uint64_t beyond = 0;
     if (!report_list_all(report, &list))
         out->failed = true;
-    for (uint32_t i = 0; i < report->scene_count; i++)
-        beyond += report->scenes[i].left_out;
     for (unsigned severity = DIAG_ERROR; severity <= DIAG_NOTE; severity++) {
         // One notice is kept for the number of those left out.
         unsigned room = severity == DIAG_NOTE ? SHOWN_MAX - 1 : SHOWN_MAX;
@@ -90,11 +105,6 @@ void report_github(struct strbuf *out, const struct report *report) {
             room--;
         }
     }
-    if (beyond)
-        strbuf_format(
-            out,
-            "::notice title=glint::%llu more finding%s without an annotation: the log and the other "
-            "formats list them\n",
-            (unsigned long long)beyond, beyond == 1 ? "" : "s");
+    last_notice(out, report, beyond);
     free(list.items);
 }

@@ -16,8 +16,7 @@ static void issue(struct json_writer *w, const struct report_item *item) {
     json_open_object(w, NULL);
     json_write_text(w, "type", STR("issue"));
     json_write_text(w, "check_name", str_from(diag_info(f->code)->code));
-    report_message(&text, f);
-    json_write_text(w, "description", strbuf_view(&text));
+    json_write_text(w, "description", f->message);
     if (f->help.len) {
         json_open_object(w, "content");
         json_write_text(w, "body", f->help);
@@ -27,7 +26,6 @@ static void issue(struct json_writer *w, const struct report_item *item) {
     json_write_text(w, NULL, STR("Bug Risk"));
     json_close_list(w);
     json_write_text(w, "severity", str_from(severities[f->severity]));
-    strbuf_clear(&text);
     strbuf_format(&text, "%016llx%08x", (unsigned long long)item->fingerprint, item->occurrence);
     json_write_text(w, "fingerprint", strbuf_view(&text));
     json_open_object(w, "location");

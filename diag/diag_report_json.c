@@ -27,8 +27,6 @@ static void finding(struct json_writer *w, const struct report_finding *f) {
     json_write_text(w, "message", f->message);
     if (f->help.len)
         json_write_text(w, "help", f->help);
-    if (f->repeats)
-        json_write_integer(w, "repeats", f->repeats);
     if (f->note_count) {
         json_open_list(w, "related");
         for (uint32_t i = 0; i < f->note_count; i++) {
@@ -78,13 +76,32 @@ static void statistics(struct json_writer *w, const struct report_assets *a) {
     json_close_object(w);
 }
 
+// What the findings that are not listed are, and what lists them.
+static void left_out(struct json_writer *w, const struct report_scene *s) {
+    json_open_list(w, "left_out_codes");
+    for (int code = 0; code < DIAG_CODE_COUNT; code++) {
+        if (!s->left_out.of[code])
+            continue;
+        json_open_object(w, NULL);
+        json_write_text(w, "code", str_from(diag_info((enum diag_code)code)->code));
+        json_write_integer(w, "count", s->left_out.of[code]);
+        json_close_object(w);
+    }
+    json_close_list(w);
+    json_write_integer(w, "max_messages", report_needed(s));
+}
+
 static void scene(struct json_writer *w, const struct report_scene *s) {
     json_open_object(w, NULL);
     json_write_text(w, "file", s->path);
     json_write_text(w, "state", str_from(state_names[s->state]));
     counts(w, s->errors, s->warnings, s->notes);
-    json_write_boolean(w, "truncated", s->left_out > 0);
-    json_write_integer(w, "left_out", s->left_out);
+    json_write_boolean(w, "truncated", s->left_out.count > 0);
+    json_write_integer(w, "left_out", s->left_out.count);
+    if (s->left_out.count)
+        left_out(w, s);
+    if (s->in_baseline)
+        json_write_integer(w, "in_baseline", s->in_baseline);
     json_open_list(w, "findings");
     for (uint32_t i = 0; i < s->findings.count; i++)
         finding(w, &s->findings.items[i]);
@@ -104,7 +121,7 @@ void report_json(struct strbuf *out, const struct report *report) {
         errors += report->scenes[i].errors;
         warnings += report->scenes[i].warnings;
         notes += report->scenes[i].notes;
-        truncated = truncated || report->scenes[i].left_out > 0;
+        truncated = truncated || report->scenes[i].left_out.count > 0;
     }
     json_writer_init(&w, out, FLAT_DEPTH);
     json_open_object(&w, NULL);

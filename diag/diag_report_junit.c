@@ -38,8 +38,8 @@ static void lines(struct strbuf *out, const struct report_scene *scene) {
             strbuf_char(out, '\n');
         }
     }
-    if (scene->left_out)
-        strbuf_format(out, "%u more not shown\n", scene->left_out);
+    if (scene->left_out.count)
+        report_left_out(out, scene);
     out->failed = out->failed || line.failed;
     strbuf_finish(&line);
 }

@@ -11,9 +11,6 @@ enum {
     RESULT_DEPTH = 5, // a line per result
 };
 
-static const char *const stages[] = {"glint", "syntax", "binding", "reference", "rule",
-                                     "limit", "file",   "device",  "command",   "configuration"};
-
 static bool is_plain(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            (c != '\0' && strchr("-._~/", c));
@@ -76,12 +73,7 @@ static void put_sentence(struct strbuf *out, str text) {
 static void message(struct json_writer *w, const struct report_finding *f) {
     struct strbuf text;
     strbuf_init(&text);
-    struct strbuf whole;
-    strbuf_init(&whole);
-    report_message(&whole, f);
-    put_sentence(&text, strbuf_view(&whole));
-    text.failed = text.failed || whole.failed;
-    strbuf_finish(&whole);
+    put_sentence(&text, f->message);
     if (f->help.len) {
         strbuf_cstr(&text, "\nHelp: ");
         put_sentence(&text, f->help);
@@ -178,7 +170,22 @@ static void put_rule_name(struct strbuf *out, const char *name) {
     }
 }
 
-static void rule(struct json_writer *w, const struct diag_info *info) {
+// Where the codes are explained, for who reads the report elsewhere.
+static void help_address(struct json_writer *w, const char *home, const char *code) {
+    struct strbuf text;
+    if (!home || !home[0])
+        return;
+    strbuf_init(&text);
+    strbuf_format(&text, "%s/docs/codes.md#", home);
+    for (; *code; code++)
+        strbuf_char(&text, *code >= 'A' && *code <= 'Z' ? (char)(*code - 'A' + 'a') : *code);
+    json_write_text(w, "helpUri", strbuf_view(&text));
+    w->out->failed = w->out->failed || text.failed;
+    strbuf_finish(&text);
+}
+
+static void rule(struct json_writer *w, enum diag_code code, const char *home) {
+    const struct diag_info *info = diag_info(code);
     static const char *const problems[] = {"error", "warning", "recommendation"};
     struct strbuf text;
     strbuf_init(&text);
@@ -198,12 +205,13 @@ static void rule(struct json_writer *w, const struct diag_info *info) {
     json_write_text(w, "text", strbuf_view(&text));
     json_write_text(w, "markdown", strbuf_view(&text));
     json_close_object(w);
+    help_address(w, home, info->code);
     json_open_object(w, "defaultConfiguration");
     json_write_text(w, "level", str_from(diag_severity_name(info->severity)));
     json_close_object(w);
     json_open_object(w, "properties");
     json_open_list(w, "tags");
-    json_write_text(w, NULL, str_from(stages[(unsigned)(info->code[1] - '0') % 10]));
+    json_write_text(w, NULL, str_from(diag_stage(code)));
     json_close_list(w);
     json_write_text(w, "precision", STR("very-high"));
     json_write_text(w, "problem.severity", str_from(problems[info->severity]));
@@ -226,17 +234,53 @@ static void tool(struct json_writer *w, const struct report *report, const struc
     json_write_text(w, "name", STR("glint"));
     json_write_text(w, "version", str_from(report->program_version));
     json_write_text(w, "semanticVersion", str_from(report->program_version));
+    if (report->home && report->home[0])
+        json_write_text(w, "informationUri", str_from(report->home));
     json_open_list(w, "rules");
     for (int i = 0; i < DIAG_CODE_COUNT; i++) {
         if (!used[i])
             continue;
         index[i] = count++;
-        rule(w, diag_info((enum diag_code)i));
+        rule(w, (enum diag_code)i, report->home);
     }
     json_close_list(w);
     json_close_object(w);
     json_close_object(w);
     w->flat_depth = RESULT_DEPTH;
+}
+
+static bool is_complete(const struct report *report) {
+    for (uint32_t i = 0; i < report->scene_count; i++)
+        if (report->scenes[i].left_out.count)
+            return false;
+    return true;
+}
+
+// Says what the results lack.
+static void invocation(struct json_writer *w, const struct report *report) {
+    if (is_complete(report))
+        return;
+    json_open_list(w, "invocations");
+    json_open_object(w, NULL);
+    json_write_boolean(w, "executionSuccessful", true);
+    json_open_list(w, "toolExecutionNotifications");
+    for (uint32_t i = 0; i < report->scene_count; i++) {
+        const struct report_scene *scene = &report->scenes[i];
+        struct strbuf text;
+        if (!scene->left_out.count)
+            continue;
+        strbuf_init(&text);
+        report_left_out(&text, scene);
+        json_open_object(w, NULL);
+        json_write_text(w, "level", STR("warning"));
+        text_object(w, "message", str_trim(strbuf_view(&text)));
+        json_close_object(w);
+        w->out->failed = w->out->failed || text.failed;
+        strbuf_finish(&text);
+    }
+    json_close_list(w);
+    json_close_object(w);
+    json_close_list(w);
 }
 
 void report_sarif(struct strbuf *out, const struct report *report) {
@@ -257,6 +301,7 @@ void report_sarif(struct strbuf *out, const struct report *report) {
     text_object(&w, "description", STR("The folder in which glint was run."));
     json_close_object(&w);
     json_close_object(&w);
+    invocation(&w, report);
     json_write_text(&w, "columnKind", STR("unicodeCodePoints"));
     json_open_list(&w, "results");
     for (uint32_t i = 0; i < list.count; i++)

@@ -2,22 +2,20 @@
 
 #include "diag/diag_text.h"
 
-void report_message(struct strbuf *out, const struct report_finding *finding) {
-    strbuf_str(out, finding->message);
-    if (finding->repeats)
-        strbuf_format(out, " (and %u more like it)", finding->repeats);
-}
-
 void report_line(struct strbuf *out, const struct report_finding *finding) {
-    struct strbuf message;
-    strbuf_init(&message);
-    report_message(&message, finding);
     diag_text_plain(out, finding->at.path);
     strbuf_format(out, ":%u:%u: %s: ", finding->at.line, finding->at.column, report_severity(finding));
-    diag_text_plain(out, strbuf_view(&message));
+    diag_text_plain(out, finding->message);
     strbuf_format(out, " [%s]", diag_info(finding->code)->code);
-    out->failed = out->failed || message.failed;
-    strbuf_finish(&message);
+}
+
+void report_left_out(struct strbuf *out, const struct report_scene *scene) {
+    const uint32_t count = scene->left_out.count;
+    strbuf_format(out, "%u more finding%s of ", count, count == 1 ? "" : "s");
+    diag_text_plain(out, scene->path);
+    strbuf_format(out, " %s not listed (", count == 1 ? "is" : "are");
+    diag_hidden_codes(out, &scene->left_out);
+    strbuf_format(out, "); --max-messages %u lists all\n", report_needed(scene));
 }
 
 static void one_count(struct strbuf *out, uint32_t count, const char *word, bool *first) {

@@ -4,10 +4,10 @@
 
 #include "diag/diag_report.h"
 
-// The message, with the number of those grouped into it.
-void report_message(struct strbuf *out, const struct report_finding *finding);
 // "scene.yaml:4:12: error: message [E203]", with control characters shown as '?'; no line end.
 void report_line(struct strbuf *out, const struct report_finding *finding);
+// "50 more findings of scene.yaml are not listed (E206: 50); --max-messages 150 lists all", with a line end.
+void report_left_out(struct strbuf *out, const struct report_scene *scene);
 // "2 errors, 1 warning"
 void report_counts(struct strbuf *out, uint32_t errors, uint32_t warnings, uint32_t notes);
 // "error", "warning", "note".

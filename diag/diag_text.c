@@ -1,6 +1,7 @@
 #include "diag/diag_text.h"
 
 #include "core/unicode.h"
+#include "diag/diag_share.h"
 
 enum {
     LINE_SHOWN_MAX = 160, // bytes
@@ -116,8 +117,6 @@ static void one(struct strbuf *out, const struct diag *d, struct source_set *sou
     strbuf_format(out, "%s: ", severity_names[d->severity]);
     paint(out, options, "\033[0m");
     diag_text_plain(out, d->message);
-    if (d->repeats)
-        strbuf_format(out, " (and %u more like it)", d->repeats);
     strbuf_format(out, " [%s]\n", info->code);
     if (has_text(sources, d->at))
         excerpt(out, place, options);
@@ -136,29 +135,37 @@ static void one(struct strbuf *out, const struct diag *d, struct source_set *sou
         labelled(out, "       = help: ", d->help);
 }
 
+static void put_hidden(struct strbuf *out, const struct diag_sink *sink, const struct diag_hidden *hidden,
+                       uint32_t shown) {
+    strbuf_format(out, "glint: %u more message%s not shown (", hidden->count, hidden->count == 1 ? "" : "s");
+    diag_hidden_codes(out, hidden);
+    // What the sink had no room for may be more than a repeat of what was shown, so that it is not certain.
+    strbuf_format(out, "); --limit messages=%u shows %s\n", diag_share_needed(shown + hidden->count),
+                  sink->dropped ? "more" : "all");
+}
+
 void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_set *sources,
                struct diag_text_options options) {
-    uint32_t shown = 0;
-    uint32_t hidden = sink->dropped;
+    struct diag_share share = diag_share_begin(sink, options.most, options.alike, options.notes);
+    struct diag_hidden hidden = {0};
     bool error_shown = false;
+    bool bounded = options.most && options.most <= diag_share_standard();
     size_t begin = out->len;
+    diag_hide_dropped(&hidden, sink, options.notes);
     for (uint32_t i = 0; i < sink->count; i++) {
         const struct diag *d = &sink->items[i];
-        enum diag_severity severity = d->severity;
-        if (severity == DIAG_NOTE && !options.notes)
+        if (d->severity == DIAG_NOTE && !options.notes)
             continue;
         // A run that fails shows why, however many warnings come first.
-        bool first_error = severity == DIAG_ERROR && !error_shown;
-        bool full = shown >= options.most || out->len - begin >= (size_t)options.most * MESSAGE_BYTES;
-        if (options.most && full && !first_error) {
-            hidden++;
+        bool first_error = d->severity == DIAG_ERROR && !error_shown;
+        bool full = bounded && out->len - begin >= (size_t)options.most * MESSAGE_BYTES;
+        if ((full && !first_error) || !diag_share_takes(&share, d, first_error)) {
+            diag_hide(&hidden, d->code, 1);
             continue;
         }
         one(out, d, sources, options);
         error_shown = error_shown || first_error;
-        shown++;
     }
-    if (hidden)
-        strbuf_format(out, "glint: %u more message%s not shown; --limit messages=N shows more\n", hidden,
-                      hidden == 1 ? "" : "s");
+    if (hidden.count)
+        put_hidden(out, sink, &hidden, share.used);
 }

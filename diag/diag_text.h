@@ -15,13 +15,20 @@
 #include "diag/diag.h"
 
 struct diag_text_options {
-    bool color;    // ANSI colours
-    bool notes;    // show diagnostics of severity "note" too
-    uint32_t most; // messages shown, and 500 bytes of text for each; 0 is all
+    bool color;     // ANSI colours
+    bool notes;     // show diagnostics of severity "note" too
+    uint32_t most;  // messages shown; up to the limit's default also 500 bytes of text for each; 0 is all
+    uint32_t alike; // of one code in one file at most so many (diag/diag_share.h); 0: no such bound
 };
 
-// Writes all diagnostics of a sorted sink, errors, warnings and notes in their order, and a closing line that
-// says how many more there were. The first error is shown even if `most` is reached before it.
+// What `alike` is where the user did not say how many messages to show.
+enum {
+    DIAG_TEXT_ALIKE = 50
+};
+
+// Writes the diagnostics of a sorted sink in their order, as far as there is room (diag/diag_share.h), and a
+// line that says how many more there are, of which codes, and how to see them. The first error is always
+// shown.
 void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_set *sources,
                struct diag_text_options options);
 // Text that may quote a scene, on one line, with what a terminal might obey shown as '?'.

@@ -126,6 +126,28 @@ uint32_t source_line(struct source_set *set, span at) {
     return find_line(source, at.begin < size ? at.begin : size).index + 1;
 }
 
+// Where a line begins, counted from 0; behind the last one: the end of the text.
+static size_t line_begin(const struct source *source, uint32_t index) {
+    if (source->line_starts)
+        return index < source->line_count ? source->line_starts[index] : source->text.len;
+    size_t at = 0;
+    for (; index > 0 && at < source->text.len; at++)
+        index -= ends_line(source->text, at);
+    return at;
+}
+
+span source_line_span(struct source_set *set, uint32_t index, uint32_t line) {
+    struct source *source = &set->items[index];
+    str text = source->text;
+    if (!source->line_starts && text.len)
+        map_lines(set, source);
+    size_t begin = line_begin(source, line - 1);
+    size_t end = line_begin(source, line);
+    while (end > begin && (text.ptr[end - 1] == '\n' || text.ptr[end - 1] == '\r'))
+        end--;
+    return (span){index, (uint32_t)begin, (uint32_t)end};
+}
+
 str source_text(const struct source_set *set, span at) {
     if (at.source >= set->count)
         return STR("");

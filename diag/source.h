@@ -64,6 +64,8 @@ uint32_t source_add(struct source_set *set, enum source_kind kind, str path, str
 struct source_place source_locate(struct source_set *set, span at);
 // Only the line: it does not depend on how long that is.
 uint32_t source_line(struct source_set *set, span at);
+// A line, counted from 1, without its line end; behind the last line: nothing, at the end of the text.
+span source_line_span(struct source_set *set, uint32_t source, uint32_t line);
 // The text of a span; the empty string for spans without text.
 str source_text(const struct source_set *set, span at);
 // From the beginning of `a` to the end of `b`; both of one source.

@@ -16,6 +16,11 @@ bool files_is_folder(str path) {
     return stat(path.ptr, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
+bool files_exist(str path) {
+    struct stat info;
+    return lstat(path.ptr, &info) == 0 || (errno != ENOENT && errno != ENOTDIR);
+}
+
 static bool has_ending(const struct files_found *found, str name) {
     for (const char *const *ending = found->endings; *ending; ending++) {
         size_t length = strlen(*ending);

@@ -19,6 +19,8 @@ struct files_found {
 };
 
 bool files_is_folder(str path);
+// Whether there is a file, folder or link of this name, as far as the system lets it be known.
+bool files_exist(str path);
 struct files_names {
     str *items;
     uint32_t count, capacity;

@@ -92,8 +92,6 @@ static json_t *message_text(const struct diag *diag) {
             strbuf_format(&text, "\n%.*s", STR_ARG(note->message));
     if (diag->help.len)
         strbuf_format(&text, "\n%.*s", STR_ARG(diag->help));
-    if (diag->repeats)
-        strbuf_format(&text, "\nand %u more like this", diag->repeats);
     json_t *json = position_string(strbuf_view(&text));
     strbuf_finish(&text);
     return json;

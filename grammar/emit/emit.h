@@ -1,5 +1,5 @@
-// Files made from the table: for editors and readers. The committed copies (docs/schema/, docs/reference.md,
-// docs/limits.md)
+// Files made from the tables of the language and of the codes: for editors and readers. The committed copies
+// (docs/schema/, docs/reference.md, docs/limits.md, docs/codes.md)
 // are kept equal by a test.
 //
 // Errors: only lack of memory; check `out->failed`. Thread safety: pure except for `out`.
@@ -20,5 +20,7 @@ void emit_xml_schema(struct strbuf *out);
 void emit_markdown(struct strbuf *out);
 // What other tools have and what to do instead, docs/limits.md.
 void emit_limits(struct strbuf *out);
+// The page of all codes of messages, docs/codes.md.
+void emit_codes(struct strbuf *out);
 
 #endif

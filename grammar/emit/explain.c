@@ -2,6 +2,8 @@
 
 #include "core/nearest.h"
 #include "diag/diag.h"
+#include "diag/diag_policy.h"
+#include "diag/diag_text.h"
 #include "grammar/concept.h"
 #include "grammar/emit/emit_words.h"
 
@@ -60,7 +62,6 @@ static void paragraph_of(struct explainer *e, uint32_t indent, struct strbuf *te
 // ---- codes
 
 static void explain_code(struct explainer *e, enum diag_code code) {
-    static const char *const severities[] = {"error", "warning", "note"};
     static const struct {
         unsigned where;
         const char *text;
@@ -73,7 +74,7 @@ static void explain_code(struct explainer *e, enum diag_code code) {
     };
     const struct diag_info *info = diag_info(code);
     put(e, bold, info->code);
-    strbuf_format(e->out, " (%s): %s\n\n", severities[info->severity], info->title);
+    strbuf_format(e->out, " (%s): %s\n\n", diag_severity_name(info->severity), info->title);
     paragraph(e, 2, info->meaning);
     strbuf_char(e->out, '\n');
     struct strbuf text;
@@ -432,6 +433,23 @@ static str suggest(str what, struct arena *arena) {
         }
     }
     return nearest_best(&search);
+}
+
+bool explain_codes(str family, struct strbuf *out) {
+    bool any = false;
+    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
+        const struct diag_info *info = diag_info((enum diag_code)i);
+        if (family.len && !diag_code_matches((enum diag_code)i, family))
+            continue;
+        strbuf_format(out, "%s  %-7s  %s\n", info->code, diag_severity_name(info->severity), info->title);
+        any = true;
+    }
+    if (!any)
+        strbuf_format(out,
+                      "there is no code '%.*s'; a code is a letter and three digits, such as W401, or a "
+                      "family, such as W4xx",
+                      STR_ARG(family));
+    return any;
 }
 
 bool explain(str what, bool color, struct strbuf *out) {

@@ -1,5 +1,6 @@
 // `glint explain CODE|element[.attribute]`: what the diagnostics' list and the table say, as text.
 //
+// `glint explain --list [CODE]`: the codes, a line each.
 // Codes: title, meaning, remedy, and where they can occur. Elements: every attribute with both spellings,
 // and an example in both. Attributes: type, range, unit, default, words. What other tools
 // have (grammar/concept.h): what to do instead. Nothing here is written by hand.
@@ -14,5 +15,9 @@
 // itself will do if it is unique). `color`: ANSI colours.
 // false: there is no such thing; `out` then holds one sentence that names the nearest thing.
 bool explain(str what, bool color, struct strbuf *out);
+
+// One line for each code that `family` names ("W401", "W4xx"; empty: all): code, severity, title.
+// false: there is none; `out` then holds one sentence.
+bool explain_codes(str family, struct strbuf *out);
 
 #endif

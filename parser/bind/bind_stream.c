@@ -68,6 +68,7 @@ void bind_stream_begin(struct bind_stream *stream, struct bind_context *context,
                                    .rows_mark = context->origin->rows.count};
     arena_init(&stream->entry, memory_bytes);
     diag_sink_init(&stream->sink);
+    diag_sink_keep(&stream->sink, context->sink->kept_max);
     context->scene = bind_new_scene(context);
     stream->root = (struct bind_frame){.schema = &SCHEMA_SCENE, .memory = context->scene};
 }

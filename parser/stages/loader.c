@@ -32,6 +32,7 @@ static struct ir_scene *stream_file(struct loader *loader, read_file *read, uint
     struct diag_sink *sink = &loader->trial;
     struct bind_stream *stream = &loader->stream;
     diag_sink_init(sink);
+    diag_sink_keep(sink, loader->input->sink->kept_max);
     struct bind_context context = binding(loader, sink, tree);
     bind_stream_begin(stream, &context, (size_t)loader->input->limits->value[LIMIT_SCENE_MEMORY]);
     struct reader_context reader = reading(loader, sink);

@@ -33,7 +33,11 @@ struct loader {
     struct {
         uint32_t *items;
         uint32_t count, capacity;
-    } order;         // files whose includes are complete: each before the one that includes it
+    } order; // files whose includes are complete: each before the one that includes it
+    struct {
+        uint32_t count;
+        span first;
+    } refused;       // includes beyond the limit of files
     bool incomplete; // something that may define names was not read: unknown names may follow from it
 };
 

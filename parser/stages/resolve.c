@@ -3,6 +3,7 @@
 #include "parser/stages/loader.h"
 #include "parser/tree/reader_text.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 static str shown(const struct loader *loader, uint32_t file) {
@@ -116,9 +117,8 @@ static bool is_new(struct loader *loader, uint32_t from, str tried, span at) {
     if (too_deep)
         reader_limit(loader->input->sink, limits, LIMIT_INCLUDE_DEPTH, at,
                      "the chain of includes is too long");
-    else if (too_many)
-        reader_limit(loader->input->sink, limits, LIMIT_INCLUDE_FILES, at,
-                     "the scene includes too many files");
+    else if (too_many && loader->refused.count++ == 0)
+        loader->refused.first = at;
     loader->incomplete = loader->incomplete || too_deep || too_many;
     return !too_deep && !too_many;
 }
@@ -149,6 +149,20 @@ static void include_one(struct loader *loader, uint32_t from, const struct ir_in
     resolve_includes(loader, file);
 }
 
+// Once for all of them.
+static void report_refused(const struct loader *loader) {
+    const struct limit_info *info = limit_info(LIMIT_INCLUDE_FILES);
+    const uint64_t all = loader->files.count - 1 + (uint64_t)loader->refused.count;
+    struct diag_sink *sink = loader->input->sink;
+    if (loader->refused.count == 0)
+        return;
+    diag_add(sink, DIAG_LIMIT, loader->refused.first,
+             "the scene includes too many files: %" PRIu64 ", where the limit %s is %" PRIu64, all,
+             info->name, loader->input->limits->value[LIMIT_INCLUDE_FILES]);
+    if (all <= info->greatest)
+        diag_help(sink, "if this is intended, raise the limit: --limit %s=%" PRIu64, info->name, all);
+}
+
 void resolve_includes(struct loader *loader, uint32_t file) {
     const struct ir_scene *scene = loader->files.items[file].scene;
     loader->files.items[file].open = true;
@@ -157,6 +171,8 @@ void resolve_includes(struct loader *loader, uint32_t file) {
     loader->files.items[file].open = false;
     uint32_t *order = ARENA_PUSH(loader->input->arena, &loader->order);
     *order = file;
+    if (file == 0)
+        report_refused(loader);
 }
 
 // Notes.

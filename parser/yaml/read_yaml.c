@@ -349,6 +349,7 @@ static void begin_attempt(struct yaml_reader *r) {
     tree->schema_line = tree->closing_comments = SPAN_NONE;
     diag_sink_finish(&r->sink);
     diag_sink_init(&r->sink);
+    diag_sink_keep(&r->sink, r->context->sink->kept_max);
     r->stopped = r->seen_token = false;
     r->documents = r->depth = 0;
     r->document_end = 0;

@@ -76,7 +76,7 @@ printf 'bad.yaml:2:39\nnone.yaml:1:1\nalso.yaml:2:39\n' >wanted.txt
 grep -oE '^[a-z]+\.yaml:[0-9]+:[0-9]+' all.txt >places.txt
 expect "files are reported in the order of the command line" 0 - - cmp places.txt wanted.txt
 expect "no colours where no terminal is" 1 - - grep -q "$(printf '\033')" all.txt
-expect "messages have a limit" 1 - '1 more message not shown; --limit messages=N shows more' \
+expect "messages have a limit" 1 - '1 more message not shown \(E206: 1\); --limit messages=101 shows all' \
     "$glint" check two.yaml --set image.width=0 --set image.height=0 --limit messages=1
 expect "a mesh is checked" 0 - - "$glint" check tri.obj
 odd=$(printf '"q" \302\205\342\200\250#: .obj')
@@ -130,6 +130,12 @@ expect "inspect names the reason" 0 'good.yaml:[0-9]+:[0-9]+: ' '' "$glint" insp
 expect "inspect shows no refraction" 0 'not required:.* refraction' '' "$glint" inspect good.yaml
 expect "inspect --ir" 0 'radius: 1' - "$glint" inspect --ir good.yaml
 expect "explain a code" 0 'range' - "$glint" explain e206
+expect "explain lists codes" 0 '^E206  error    a number outside its range$' - "$glint" explain --list
+expect "explain lists a family" 0 '^W417  warning' - "$glint" explain --list w4xx
+cp out.txt family.txt
+expect "and no other" 1 - - grep '^[EN]' family.txt
+expect "explain lists no such code" 2 - "there is no code 'X1'" "$glint" explain --list X1
+expect "explain needs a word" 2 - "'glint explain --list' lists the codes" "$glint" explain
 expect "explain an attribute" 0 'refraction' - "$glint" explain material.albedo
 expect "explain in another style" 0 '^camera.look_at' - "$glint" explain LookAt
 expect "explain a path of --set" 0 '^material.albedo' - "$glint" explain materials.glass.albedo.refraction

@@ -93,6 +93,66 @@ sed -i '1a # a line more' bad.glint.yaml
 hash=runs/0/results/1/partialFingerprints/primaryLocationLineHash
 ok "fingerprints are stable" get after.sarif $hash "$("$tool" get before.sarif $hash)"
 
+# ---- many that are alike: each has its place, and what is left out is counted
+awk 'BEGIN { print "glint: 1\nspheres:"; for (i = 0; i < 150; i++) print "  - {center: [0, 0, 0], radius: -1}" }' >alike.yaml
+counted() { "$glint" check alike.yaml --format "$1" --max-messages "$2" >alike.$1; }
+counted json 1000
+ok "all places in JSON" "$tool" unique alike.json 'scenes/0/findings/*/path'
+ok "the last one too" get alike.json scenes/0/findings/149/line 152
+ok "nothing is left out" get alike.json scenes/0/left_out 0
+counted json 100
+ok "what is left out is true" get alike.json scenes/0/left_out_codes '[{"code":"E206","count":50}]'
+ok "with what lists it" get alike.json scenes/0/max_messages 150
+ok "and valid" "$tool" validate "$source/docs/schema/check-report.schema.json" alike.json
+counted sarif 1000
+ok "all places in SARIF" get alike.sarif runs/0/results/149/locations/0/physicalLocation/region/startLine 152
+ok "nothing is said to be left out" lacks alike.sarif invocations
+counted sarif 100
+ok "SARIF says what it lacks" get alike.sarif runs/0/invocations/0/toolExecutionNotifications/0/message/text \
+    '50 more findings of alike.yaml are not listed (E206: 50); --max-messages 150 lists all'
+ok "by its schema" "$tool" validate "$source/tests/report/sarif.schema.json" alike.sarif
+counted junit 100
+ok "and so does JUnit" grep -q '^50 more findings of alike.yaml are not listed (E206: 50)' alike.junit
+counted github 100
+ok "and GitHub" grep -q ': 90 in the log, 50 not listed; --max-messages 150 lists all$' alike.github
+tells "text says how to see all" 1 '^glint: 100 more messages not shown \(E206: 100\); --limit messages=150 shows all$' "$glint" check alike.yaml
+tells "and shows all" 1 '^alike.yaml:152:' "$glint" check alike.yaml --max-messages 150
+ok "each" test "$(grep -c 'error: ' out.txt)" -eq 150
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+awk 'BEGIN { print "glint: 1\nmodels:"; for (i = 0; i < 450; i++) print "  - {mesh: one.obj}" }' >instances.yaml
+tells "instances past a limit are one error" 1 'raise the limit: --limit scene-triangles=450' \
+    "$glint" check instances.yaml --limit scene-triangles=100
+ok "with their number" grep -q '= note: 349 further models do not fit either; with all of them the scene has 450 triangles' out.txt
+ok "and one only" test "$(grep -c 'E501' out.txt)" -eq 1
+tells "with that limit they fit" 0 - "$glint" check instances.yaml --limit scene-triangles=450 --only W401
+awk 'BEGIN { for (i = 0; i < 3; i++) print "glint: 1\nmaterials: {m" i ": {}}" >"part" i ".yaml"
+  print "glint: 1\ninclude: [part0.yaml, part1.yaml, part2.yaml]\nspheres: [{center: [0, 0, 0], radius: 1}]" >"parts.yaml" }'
+tells "so are includes past theirs" 1 'parts.yaml:2:23: error: .* too many files: 3, where the limit include-files is 1 \[E501\]' \
+    "$glint" check parts.yaml --limit include-files=1
+ok "with what would do" grep -q -- '--limit include-files=3' out.txt
+ok "once" test "$(grep -c 'E501' out.txt)" -eq 1
+
+# ---- the closing line
+printf 'glint: 1\nspheres: [{center: [0, 0, 0], radius: -1}]\n' >one-error.yaml
+printf 'glint: 1\nspheres: [{center: [0, 0, 0], radius: 1}]\n' >no-error.yaml
+tells "one finding in one file needs none" 1 '^one-error' "$glint" check one-error.yaml
+ok "and has none" lacks out.txt '^glint:'
+tells "several files have one" 1 '^glint: 1 error in 2 files; 1 clean$' "$glint" check one-error.yaml no-error.yaml
+tells "ignored ones are not clean" 1 '^glint: 1 error in 3 files; 1 clean, 1 ignored$' \
+    "$glint" check one-error.yaml no-error.yaml alike.yaml --ignore alike.yaml
+tells "notes count where they are shown" 1 '^glint: 1 error, 2 notes in 2 files$' "$glint" check -v one-error.yaml no-error.yaml
+tells "quiet leaves it out" 1 '^one-error' "$glint" check one-error.yaml no-error.yaml -q
+ok "as asked" lacks out.txt '^glint:'
+tells "clean files are silent" 0 - "$glint" check no-error.yaml "$source/scenes/elements/spheres.glint.yaml"
+
+# ---- a library
+printf 'glint: 1\nmaterials: {gold: {diffuse_color: [1, 0.8, 0.2]}}\n' >library.yaml
+printf 'glint: 1\ninclude: [library.yaml]\n' >more-library.yaml
+printf 'glint: 1\nlights: [{position: [0, 5, 5]}]\n' >lights.yaml
+tells "materials for others need no camera" 0 - "$glint" check -v library.yaml more-library.yaml lights.yaml
+printf 'background: {color: 0.5}\n' >>library.yaml
+tells "but a background is seen" 0 'N401' "$glint" check -v library.yaml
+
 # A scene of many long mistakes: no report passes 64 KB.
 awk 'BEGIN { x = "x"; for (i = 0; i < 9; i++) x = x x
   print "glint: 1\nspheres:"

@@ -26,6 +26,18 @@ git rm -q --cached wrong.glint.yaml
 rm wrong.glint.yaml
 pre-commit try-repo ../hooks glint-check --all-files >../said.txt 2>&1 || fail "$(cat ../said.txt)"
 
+# What a commit breaks in scenes that it does not touch.
+cd ..
+rename_a_material
+cd repo
+pre-commit try-repo ../hooks glint-check >../said.txt 2>&1 && fail "a renamed material passed: $(cat ../said.txt)"
+[ "$(grep -c "error: there is no material 'gold'" ../said.txt)" -eq 25 ] || fail "$(cat ../said.txt)"
+sed -i 's/oro:/gold:/' lib/metals.yaml && printf '\n' >>lib/metals.yaml && git add -A
+pre-commit try-repo ../hooks glint-check >../said.txt 2>&1 || fail "$(cat ../said.txt)"
+git rm -q --cached lib/metals.yaml && rm lib/metals.yaml
+pre-commit try-repo ../hooks glint-check >../said.txt 2>&1 && fail "a deleted file passed: $(cat ../said.txt)"
+cd ../scenes
+
 # A hook that changes a file fails once, and is content with what it wrote.
 printf 'glint:   1\n' >loose.glint.yaml
 git add loose.glint.yaml

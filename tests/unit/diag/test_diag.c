@@ -1,4 +1,5 @@
 #include "diag/diag.h"
+#include "diag/diag_share.h"
 #include "diag/diag_text.h"
 
 #include <setjmp.h>
@@ -120,7 +121,6 @@ static void parts_without_a_diagnostic_do_nothing(void **state) {
     diag_help(&f->sink, "help");
     diag_fix(&f->sink, true, SPAN_NONE, STR("fix"));
     diag_sort(&f->sink);
-    diag_group(&f->sink, 1);
     assert_int_equal(f->sink.count, 0);
 }
 
@@ -148,7 +148,6 @@ static void the_first_diagnostic_may_find_no_memory(void **state) {
     struct diag *d = diag_add(&f->sink, DIAG_LIMIT, (span){1, 2, 3}, "message");
     assert_non_null(d);
     assert_int_equal(d->code, DIAG_LIMIT);
-    d->repeats = 5;
     diag_note(&f->sink, SPAN_NONE, "note");
     diag_help(&f->sink, "help");
     diag_fix(&f->sink, true, SPAN_NONE, STR("fix"));
@@ -156,7 +155,7 @@ static void the_first_diagnostic_may_find_no_memory(void **state) {
     assert_int_equal(f->sink.dropped, 1);
     assert_int_equal(f->sink.errors, 1);
     diag_sort(&f->sink);
-    expect_text(f, plain, "glint: 1 more message not shown; --limit messages=N shows more\n");
+    expect_text(f, plain, "glint: 1 more message not shown (E501: 1); --limit messages=101 shows more\n");
 }
 
 // What belongs to a dropped diagnostic must not land on the one before it.
@@ -249,26 +248,6 @@ static void sorts_all_it_keeps_at_one_place(void **state) {
     assert_true(str_equal_cstr(f->sink.items[DIAG_KEPT_MAX / 2 - 1].message, "4999"));
 }
 
-static void groups_by_code_and_source(void **state) {
-    struct fixture *f = *state;
-    for (uint32_t i = 0; i < 10; i++) {
-        diag_add(&f->sink, DIAG_MESH_NUMBER, (span){1, i, i}, "number %u", i);
-        diag_add(&f->sink, DIAG_MESH_INDEX, (span){1, i, i}, "index %u", i);
-        diag_add(&f->sink, DIAG_MESH_NUMBER, (span){2, i, i}, "number %u", i);
-    }
-    diag_sort(&f->sink);
-    diag_group(&f->sink, 3);
-    assert_int_equal(f->sink.count, 9);
-    assert_int_equal(f->sink.errors, 30);
-    assert_true(str_equal_cstr(f->sink.items[4].message, "number 2"));
-    assert_int_equal(f->sink.items[4].repeats, 7);
-    assert_int_equal(f->sink.items[2].repeats, 0);
-    // Grouped once more, nothing is lost.
-    diag_group(&f->sink, 1);
-    assert_int_equal(f->sink.count, 3);
-    assert_int_equal(f->sink.items[0].repeats, 9);
-}
-
 static void merges_copies(void **state) {
     struct fixture *f = *state;
     struct diag_sink other;
@@ -279,7 +258,6 @@ static void merges_copies(void **state) {
     diag_note(&other, SPAN_NONE, "another");
     diag_help(&other, "help");
     diag_fix(&other, true, (span){1, 2, 3}, STR("fix"));
-    other.items[0].repeats = 4;
     diag_add(&other, DIAG_OPEN_DIELECTRIC, SPAN_NONE, "warning");
     other.arena.cap_bytes = 0;
     diag_add(&other, DIAG_LIMIT, SPAN_NONE, "dropped");
@@ -289,12 +267,12 @@ static void merges_copies(void **state) {
     assert_int_equal(f->sink.errors, 3);
     assert_int_equal(f->sink.warnings, 1);
     assert_int_equal(f->sink.dropped, 1);
+    assert_int_equal(f->sink.dropped_of[DIAG_LIMIT], 1);
     const struct diag *d = &f->sink.items[1];
     assert_true(str_equal_cstr(d->message, "theirs with % and %d"));
     assert_true(str_equal_cstr(d->notes->next->message, "another"));
     assert_true(str_equal_cstr(d->help, "help"));
     assert_true(str_equal_cstr(d->fix_text, "fix"));
-    assert_int_equal(d->repeats, 4);
     assert_null(f->sink.items[0].notes);
 }
 
@@ -492,22 +470,88 @@ static void colours(void **state) {
 
 static void caps_what_is_shown_but_not_the_first_error(void **state) {
     struct fixture *f = *state;
-    for (uint32_t i = 0; i < 5; i++)
-        diag_add(&f->sink, DIAG_OPEN_DIELECTRIC, (span){0, i, i}, "open %u", i);
+    static const enum diag_code warnings[] = {DIAG_OPEN_DIELECTRIC, DIAG_CAMERA_INSIDE, DIAG_LIGHT_INSIDE};
+    for (uint32_t i = 0; i < 3; i++)
+        diag_add(&f->sink, warnings[i], (span){0, i, i}, "warning %u", i);
     diag_add(&f->sink, DIAG_LIMIT, (span){0, 7, 7}, "why it failed");
     diag_add(&f->sink, DIAG_LIMIT, (span){0, 8, 8}, "another");
     diag_add(&f->sink, DIAG_DEFAULT_LIGHT, (span){0, 9, 9}, "a note");
     expect_text(f, (struct diag_text_options){.most = 2},
-                "default:1:1: warning: open 0 [W401]\n"
-                "default:1:1: warning: open 1 [W401]\n"
+                "default:1:1: warning: warning 0 [W401]\n"
+                "default:1:1: warning: warning 1 [W402]\n"
                 "default:1:1: error: why it failed [E501]\n"
-                "glint: 4 more messages not shown; --limit messages=N shows more\n");
+                "glint: 2 more messages not shown (W403: 1, E501: 1); --limit messages=101 shows all\n");
 }
 
-static void shows_repeats(void **state) {
+// Findings that are alike are cut short, more so in files that programs write; who names a number gets as
+// many.
+static void cuts_what_is_alike(void **state) {
     struct fixture *f = *state;
-    diag_add(&f->sink, DIAG_LIMIT, SPAN_NONE, "bad line")->repeats = 12;
-    expect_text(f, plain, "default:1:1: error: bad line (and 12 more like it) [E501]\n");
+    for (uint32_t i = 0; i < 30; i++) {
+        diag_add(&f->sink, DIAG_BAD_NUMBER, (span){0, i, i}, "m");
+        diag_add(&f->sink, DIAG_MESH_INDEX, (span){0, i, i}, "m");
+    }
+    diag_sort(&f->sink);
+    strbuf_clear(&f->text);
+    diag_text(&f->text, &f->sink, &f->sources, (struct diag_text_options){.most = 100, .alike = 20});
+    const char *closing =
+        "glint: 38 more messages not shown (E205: 10, E612: 28); --limit messages=101 shows all\n";
+    assert_non_null(strstr(strbuf_view(&f->text).ptr, closing));
+    strbuf_clear(&f->text);
+    diag_text(&f->text, &f->sink, &f->sources, (struct diag_text_options){.most = 101});
+    assert_null(strstr(strbuf_view(&f->text).ptr, "glint: "));
+}
+
+// ---- shares of the room
+
+static uint32_t shown_of(struct fixture *f, struct diag_share share, enum diag_code code, uint32_t source) {
+    uint32_t shown = 0;
+    for (uint32_t i = 0; i < f->sink.count; i++) {
+        const struct diag *item = &f->sink.items[i];
+        bool takes = diag_share_takes(&share, item, false);
+        shown += takes && item->code == code && item->at.source == source;
+    }
+    return shown;
+}
+
+static void room_is_shared(void **state) {
+    struct fixture *f = *state;
+    for (uint32_t i = 0; i < 150; i++)
+        diag_add(&f->sink, DIAG_BAD_NUMBER, (span){1, i, i}, "m");
+    struct diag_share share = diag_share_begin(&f->sink, 100, 0, true);
+    assert_int_equal(shown_of(f, share, DIAG_BAD_NUMBER, 1), 100);
+    share = diag_share_begin(&f->sink, 150, 0, true);
+    assert_int_equal(shown_of(f, share, DIAG_BAD_NUMBER, 1), 150);
+    for (uint32_t i = 0; i < 60; i++)
+        diag_add(&f->sink, DIAG_BAD_NUMBER, (span){2, i, i}, "m");
+    for (uint32_t i = 0; i < 6; i++)
+        diag_add(&f->sink, DIAG_MISSING, (span){2, i, i + 1}, "m");
+    diag_sort(&f->sink);
+    // What the six do not need goes to the others.
+    share = diag_share_begin(&f->sink, 100, 0, true);
+    assert_int_equal(shown_of(f, share, DIAG_BAD_NUMBER, 1), 47);
+    assert_int_equal(shown_of(f, share, DIAG_BAD_NUMBER, 2), 47);
+    assert_int_equal(shown_of(f, share, DIAG_MISSING, 2), 6);
+}
+
+static void notes_that_are_not_shown_take_no_room(void **state) {
+    struct fixture *f = *state;
+    for (uint32_t i = 0; i < 10; i++) {
+        diag_add(&f->sink, DIAG_DEFAULT_LIGHT, (span){1, i, i}, "n");
+        diag_add(&f->sink, DIAG_BAD_NUMBER, (span){1, i, i}, "m");
+    }
+    diag_sort(&f->sink);
+    assert_int_equal(diag_share_begin(&f->sink, 10, 0, false).quota, UINT32_MAX);
+    assert_int_equal(diag_share_begin(&f->sink, 10, 0, true).quota, 5);
+}
+
+static void more_is_kept_if_asked_for(void **state) {
+    struct fixture *f = *state;
+    diag_sink_keep(&f->sink, DIAG_KEPT_MAX + 5);
+    for (uint32_t i = 0; i < DIAG_KEPT_MAX + 7; i++)
+        diag_add(&f->sink, DIAG_LIMIT, (span){1, i, i}, "m");
+    assert_int_equal(f->sink.count, DIAG_KEPT_MAX + 5);
+    assert_int_equal(f->sink.dropped_of[DIAG_LIMIT], 2);
 }
 
 int main(void) {
@@ -524,7 +568,6 @@ int main(void) {
         T(sorts_by_source_and_place_stably),
         T(drops_exact_repeats_only),
         T(sorts_all_it_keeps_at_one_place),
-        T(groups_by_code_and_source),
         T(merges_copies),
         T(merging_into_a_full_sink_keeps_the_counts),
         T(writes_a_caret),
@@ -538,7 +581,10 @@ int main(void) {
         T(line_numbers_may_be_long),
         T(colours),
         T(caps_what_is_shown_but_not_the_first_error),
-        T(shows_repeats),
+        T(cuts_what_is_alike),
+        T(room_is_shared),
+        T(notes_that_are_not_shown_take_no_room),
+        T(more_is_kept_if_asked_for),
     };
     return cmocka_run_group_tests_name("diag", tests, NULL, NULL);
 }

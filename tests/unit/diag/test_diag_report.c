@@ -96,14 +96,42 @@ static void findings_are_copied(void **state) {
 static void the_first_error_has_room(void **state) {
     (void)state;
     uint32_t source = add_source("a.yaml", "0123456789");
+    static const enum diag_code warnings[] = {DIAG_OPEN_DIELECTRIC, DIAG_CAMERA_INSIDE, DIAG_LIGHT_INSIDE,
+                                              DIAG_INDEX_ONE, DIAG_AMPLIFYING};
     for (uint32_t i = 0; i < 5; i++)
-        diag_add(&f.sink, DIAG_OPEN_DIELECTRIC, (span){source, i, i + 1}, "w%u", i);
+        diag_add(&f.sink, warnings[i], (span){source, i, i + 1}, "w%u", i);
     diag_add(&f.sink, DIAG_OUT_OF_RANGE, (span){source, 8, 9}, "e");
     fill(2);
     assert_int_equal(f.scene.findings.count, 3);
-    assert_int_equal(f.scene.left_out, 3);
+    assert_int_equal(f.scene.left_out.count, 3);
+    assert_int_equal(f.scene.left_out.of[DIAG_LIGHT_INSIDE], 1);
     assert_int_equal(f.scene.findings.items[2].severity, DIAG_ERROR);
     assert_int_equal(f.scene.warnings, 5);
+}
+
+// However many are alike, each has its place, and what has none is counted by code.
+static void all_have_a_place_up_to_the_limit(void **state) {
+    (void)state;
+    char text[301];
+    memset(text, 'x', 300);
+    text[300] = '\0';
+    uint32_t source = add_source("a.yaml", text);
+    for (uint32_t i = 0; i < 150; i++)
+        diag_add(&f.sink, DIAG_OUT_OF_RANGE, (span){source, i, i + 1}, "m");
+    diag_add(&f.sink, DIAG_OPEN_DIELECTRIC, (span){source, 200, 201}, "w");
+    fill(100);
+    assert_int_equal(f.scene.findings.count, 100);
+    assert_int_equal(f.scene.findings.items[99].code, DIAG_OPEN_DIELECTRIC);
+    assert_int_equal(f.scene.left_out.count, 51);
+    assert_int_equal(f.scene.left_out.of[DIAG_OUT_OF_RANGE], 51);
+    const uint32_t needed = report_needed(&f.scene);
+    assert_int_equal(needed, 151);
+    report_scene_finish(&f.scene);
+    report_scene_init(&f.scene, STR("a.yaml"));
+    fill(needed);
+    assert_int_equal(f.scene.findings.count, 151);
+    assert_int_equal(f.scene.left_out.count, 0);
+    assert_int_equal(f.scene.findings.items[149].at.column, 150);
 }
 
 // Texts have a bound, too, whatever their number.
@@ -117,7 +145,7 @@ static void long_texts_are_left_out(void **state) {
         diag_add(&f.sink, DIAG_OUT_OF_RANGE, (span){source, i % 10, 10}, "%u %s", i, text);
     fill(100);
     assert_in_range(f.scene.findings.count, 5, 40);
-    assert_int_equal(f.scene.findings.count + f.scene.left_out, 100);
+    assert_int_equal(f.scene.findings.count + f.scene.left_out.count, 100);
 }
 
 static void one_list_of_several_scenes(void **state) {
@@ -197,6 +225,7 @@ int main(void) {
         TEST(paths),
         TEST(findings_are_copied),
         TEST(the_first_error_has_room),
+        TEST(all_have_a_place_up_to_the_limit),
         TEST(long_texts_are_left_out),
         TEST(one_list_of_several_scenes),
         TEST(json_is_escaped),

@@ -50,6 +50,7 @@ static void test_committed_files_are_fresh(void **state) {
     assert_fresh(emit_xml_schema, "docs/schema/glint.xsd");
     assert_fresh(emit_markdown, "docs/reference.md");
     assert_fresh(emit_limits, "docs/limits.md");
+    assert_fresh(emit_codes, "docs/codes.md");
     assert_fresh(dictionary_write, "tests/fuzz/glint.dict");
     assert_fresh(key_schema_settings, "docs/schema/glintrc.schema.json");
     assert_fresh(key_schema_bounds, "docs/schema/bounds.schema.json");
