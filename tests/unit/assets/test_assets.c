@@ -68,6 +68,20 @@ static void a_file_is_read_beside_its_scene(void **state) {
     assets_scene_end(s);
 }
 
+// Beside the file that names it, not beside the scene that includes that file.
+static void a_file_is_read_beside_what_names_it(void **state) {
+    struct fixture *f = *state;
+    struct assets_scene *s = begin_in(f, NULL);
+    add_model(f, s, "dragon.obj");
+    const str main = str_from(scratch_path(&f->scratch, "main.yaml"));
+    ARENA_PUSH(&s->arena, &s->origin.files)->source =
+        source_add(&s->sources, SOURCE_KIND_FILE, arena_copy(&s->arena, main), STR(""));
+    assets_scene_load(s);
+    assert_silent(s);
+    assert_non_null(s->assets.models[0].mesh);
+    assets_scene_end(s);
+}
+
 static void missing_files_name_the_nearest(void **state) {
     struct fixture *f = *state;
     expect(f, "dragn.obj", "the mesh 'dragn.obj' does not exist [E601]",
@@ -297,6 +311,7 @@ static void a_text_that_is_not_kept(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_file_is_read_beside_what_names_it, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_file_is_read_beside_its_scene, set_up, tear_down),
         cmocka_unit_test_setup_teardown(missing_files_name_the_nearest, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_no_file_is_refused_at_once, set_up, tear_down),
