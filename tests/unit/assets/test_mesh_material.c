@@ -301,24 +301,6 @@ static void an_error_in_the_file_is_enough(void **state) {
     assets_scene_end(s);
 }
 
-// The second scene finds the mesh in the store, and reads its materials again.
-static void a_stored_mesh_has_its_materials(void **state) {
-    (void)state;
-    struct asset_store *store = asset_store_create();
-    struct assets_scene *scenes[2];
-    for (int i = 0; i < 2; i++) {
-        scenes[i] = assets_scene_begin_in(store);
-        assets_scene_file(scenes[i], "own.mtl", "newmtl gold\nNs 3\nnewmtl glass\nNs 4\n");
-        assets_scene_mesh(scenes[i], MESH);
-        assert_silent(scenes[i]);
-        assert_true(material_of(scenes[i], 0, 1)->specular_exponent == 4);
-    }
-    assert_ptr_equal(scenes[0]->assets.models[0].mesh, scenes[1]->assets.models[0].mesh);
-    assets_scene_end(scenes[0]);
-    assets_scene_end(scenes[1]);
-    asset_store_destroy(store);
-}
-
 static void refraction_needs_a_closed_mesh(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
@@ -352,7 +334,6 @@ int main(void) {
         cmocka_unit_test(an_unknown_name_in_the_map),
         cmocka_unit_test(of_many_names_some_are_shown),
         cmocka_unit_test(an_error_in_the_file_is_enough),
-        cmocka_unit_test(a_stored_mesh_has_its_materials),
         cmocka_unit_test(refraction_needs_a_closed_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -189,8 +189,8 @@ static void test_dropped(void **state) {
         assert_int_equal(kit_find_triangle(&flat, number) != UINT32_MAX,
                          number < 2 || number == 3 || number == 6);
     assert_int_equal(flat.bodies.words[BODY_WORDS].x, 2);
-    assert_int_equal(flags_of(&flat, kit_find_triangle(&flat, 3)), 0); // open: a pane
-    assert_int_equal(flat.triangles.words[(size_t)TRIANGLE_WORDS * kit_find_triangle(&flat, 3) + 2].w, 0);
+    assert_int_equal(flat.triangles.words[(size_t)TRIANGLE_WORDS * kit_find_triangle(&flat, 3) + 2].w,
+                     0); // open: a pane
     flat_finish(&flat);
     kit_finish(&kit);
 }
@@ -217,7 +217,7 @@ static void test_slivers(void **state) {
 // A triangle is kept or left out whichever of its corners tells the normal best.
 static void test_slivers_in_double(void **state) {
     (void)state;
-    static const vec3 positions[3] = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0}};
+    static const vec3 positions[3] = {{0, 0, 0}, {1, 0, 0}, {0.99, 1e-3, 0}};
     for (uint32_t first = 0; first < 3; first++)
         for (int flat_one = 0; flat_one < 2; flat_one++) {
             const uint32_t faces[1][3] = {{first, (first + 1) % 3, flat_one ? first : (first + 2) % 3}};
