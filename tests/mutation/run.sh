@@ -14,7 +14,7 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 cd "$here/../.."
 
 count=60 seed=1 folder=build/mutation preset=dev jobs=2 list=false files=false one=
-tests='^unit/(mesh|mesh_shape|mesh_triangulate|mesh_material|mesh_robust|assets|view|lint|flatten|precision|choose_precision|session)$'
+tests='^unit/(mesh|mesh_shape|mesh_triangulate|mesh_material|mesh_robust|assets|view|lint|flatten|flatten_items|precision|choose_precision|session)$'
 while getopts n:s:b:p:t:j:lfm: option; do
     case $option in
     n) count=$OPTARG ;;

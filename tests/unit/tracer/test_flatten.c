@@ -1,5 +1,4 @@
 // Scenes to buffers: what LANGUAGE "Numbers that must hold" promises, at the level of bits.
-#include "core/clock.h"
 #include "flat_kit.h"
 #include "scene/transform.h"
 #include "shaders/features.h"
@@ -33,21 +32,6 @@ static void assert_vec3(vec3 a, double x, double y, double z) {
 
 static vec3 word_vec3(const struct gpu_word *word) {
     return (vec3){kit_float(word->x), kit_float(word->y), kit_float(word->z)};
-}
-
-// The time that trees took is part of the time that flattening took.
-static void test_time(void **state) {
-    (void)state;
-    struct kit kit;
-    struct flat_scene flat;
-    kit_init(&kit);
-    kit_model(&kit, tetra(&kit));
-    kit_sphere(&kit);
-    const double start = clock_seconds();
-    flatten_ok(&kit, &flat);
-    assert_true(flat.build_seconds >= 0 && flat.build_seconds <= clock_seconds() - start);
-    flat_finish(&flat);
-    kit_finish(&kit);
 }
 
 static void test_empty(void **state) {
@@ -212,25 +196,6 @@ static void test_slivers(void **state) {
     assert_true(flags_of(&flat, kit_find_triangle(&flat, 0)) >> TRIANGLE_CORNER_SHIFT > 0);
     flat_finish(&flat);
     kit_finish(&kit);
-}
-
-// A triangle is kept or left out whichever of its corners tells the normal best.
-static void test_slivers_in_double(void **state) {
-    (void)state;
-    static const vec3 positions[3] = {{0, 0, 0}, {1, 0, 0}, {0.99, 1e-3, 0}};
-    for (uint32_t first = 0; first < 3; first++)
-        for (int flat_one = 0; flat_one < 2; flat_one++) {
-            const uint32_t faces[1][3] = {{first, (first + 1) % 3, flat_one ? first : (first + 2) % 3}};
-            struct kit kit;
-            struct flat_scene flat;
-            kit_init(&kit);
-            kit.is_double = true;
-            kit_model(&kit, kit_mesh(&kit, positions, 3, faces, 1, false));
-            flatten_ok(&kit, &flat);
-            assert_int_equal(flat.dropped_triangles, flat_one);
-            flat_finish(&flat);
-            kit_finish(&kit);
-        }
 }
 
 // ---- the same bits wherever and however large
@@ -619,7 +584,6 @@ static void test_missing_mesh(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_time),         cmocka_unit_test(test_slivers_in_double),
         cmocka_unit_test(test_empty),        cmocka_unit_test(test_rectangle),
         cmocka_unit_test(test_mirrored),     cmocka_unit_test(test_turned_mesh),
         cmocka_unit_test(test_right_angles), cmocka_unit_test(test_dropped),
