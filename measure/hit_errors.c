@@ -33,11 +33,20 @@ static bool is_second_wrong(const struct hit_pixel *d, const struct hit_pixel *r
     return d->reflected != r->reflected || d->refracted != r->refracted;
 }
 
+// The halves of a parallelogram are one face: on which side of its diagonal a ray hits shows nowhere.
+static bool is_same_face(const struct comparing *c, const struct hit_pixel *d, const struct hit_pixel *r) {
+    if (d->body != r->body)
+        return false;
+    const bool halves =
+        r->body < c->scene->body_count && c->scene->bodies[r->body].shape == SCENE_PARALLELOGRAM;
+    return halves || d->triangle == r->triangle;
+}
+
 static void compare_pixel(const struct comparing *c, uint32_t x, uint32_t y, struct hit_counts *counts) {
     const size_t at = (size_t)y * c->width + x;
     const struct hit_pixel *d = &c->device[at], *r = &c->reference[at];
     const struct surroundings around = look_around(c, x, y);
-    const bool wrong = d->body != r->body || d->triangle != r->triangle;
+    const bool wrong = !is_same_face(c, d, r);
     counts->band += around.band;
     counts->wrong_inside += wrong && around.band;
     counts->wrong_outside += wrong && !around.band;
@@ -70,4 +79,25 @@ void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *devic
                                .shadow_edge = million * (double)counts.shadow_edge,
                                .holes = million * (double)counts.holes,
                                .wrong_second = million * (double)counts.wrong_second};
+}
+
+// ---- whole paths
+
+static bool sees_around(uint32_t width, uint32_t height, const double *reference, uint32_t x, uint32_t y) {
+    for (uint32_t v = y ? y - 1 : 0; v <= y + 1 && v < height; v++)
+        for (uint32_t u = x ? x - 1 : 0; u <= x + 1 && u < width; u++)
+            for (size_t c = 0; c < 3; c++)
+                if (reference[3 * ((size_t)v * width + u) + c] != 0)
+                    return true;
+    return false;
+}
+
+double hits_escapes(uint32_t width, uint32_t height, const float *device, const double *reference) {
+    uint64_t count = 0;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const float *p = device + 3 * ((size_t)y * width + x);
+            count += (p[0] != 0 || p[1] != 0 || p[2] != 0) && !sees_around(width, height, reference, x, y);
+        }
+    return 1e6 * (double)count / ((double)width * height);
 }

@@ -26,4 +26,9 @@ struct hit_errors {
 void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *device,
                   const struct hit_pixel *reference, const struct scene *scene, struct hit_errors *out);
 
+// Pixels per million in which the background is seen, although neither the reference's pixel nor one of those
+// around it sees any: 3 values a pixel each, the weight of the background in its path (0: not seen; what is
+// not a number counts as seen).
+double hits_escapes(uint32_t width, uint32_t height, const float *device, const double *reference);
+
 #endif

@@ -85,25 +85,34 @@ static enum extremes_status draw(struct run *run, const struct variant *v, const
     return good ? EXTREMES_DONE : EXTREMES_DEVICE;
 }
 
-static enum extremes_status trace_device(struct run *run, const struct variant *v,
-                                         struct extreme_cell *cell) {
+static enum extremes_status trace_flattened(struct run *run, const struct variant *v,
+                                            const struct flat_input *input, struct extreme_cell *cell) {
     struct flat_scene flat;
-    struct flat_input input = {.scene = &v->scene,
-                               .view = &v->view,
-                               .origin = v->view.camera.position,
-                               .limits = run->input->limits,
-                               .sink = &run->sink};
-    const enum extremes_status chosen = choose_precision(run, v, &input);
-    if (chosen != EXTREMES_DONE)
-        return chosen;
-    cell->is_double = input.is_double;
-    if (!flatten(&input, &flat)) {
+    if (!flatten(input, &flat)) {
         cell->left_out = "its coordinates exceed 1e18";
         return EXTREMES_DONE;
     }
     enum extremes_status status = draw(run, v, &flat);
     flat_finish(&flat);
     return status;
+}
+
+static struct flat_input flat_input_of(struct run *run, const struct variant *v) {
+    return (struct flat_input){.scene = &v->scene,
+                               .view = &v->view,
+                               .origin = v->view.camera.position,
+                               .limits = run->input->limits,
+                               .sink = &run->sink};
+}
+
+static enum extremes_status trace_device(struct run *run, const struct variant *v,
+                                         struct extreme_cell *cell) {
+    struct flat_input input = flat_input_of(run, v);
+    const enum extremes_status chosen = choose_precision(run, v, &input);
+    if (chosen != EXTREMES_DONE)
+        return chosen;
+    cell->is_double = input.is_double;
+    return trace_flattened(run, v, &input, cell);
 }
 
 // ---- the reference's side
@@ -169,6 +178,22 @@ static void compare_hits(struct run *run, const struct variant *v, struct extrem
     cell->measured[EXTREME_HOLES] = errors.holes;
 }
 
+// Whole paths: how much of the background they see, in the precision of the cell. The variant is not itself
+// any more.
+static enum extremes_status compare_paths(struct run *run, struct variant *v, struct extreme_cell *cell) {
+    if (!variant_bounces(v))
+        return EXTREMES_DONE;
+    variant_show_background(v);
+    struct flat_input input = flat_input_of(run, v);
+    input.is_double = cell->is_double;
+    enum extremes_status status = trace_flattened(run, v, &input, cell);
+    if (status == EXTREMES_DONE)
+        status = trace_reference(run, v, true);
+    if (status == EXTREMES_DONE)
+        cell->measured[EXTREME_ESCAPES] = hits_escapes(v->width, v->height, run->rgb, run->exact);
+    return status;
+}
+
 static void judge(const struct extremes_input *input, struct extreme_cell *cell) {
     for (uint32_t i = 0; i < input->bound_count; i++) {
         const struct extreme_bound *b = &input->bounds[i];
@@ -199,8 +224,10 @@ static enum extremes_status measure_cell(struct run *run, struct extreme_cell *c
     compare_hits(run, &v, cell);
     if (!compare_pictures(run, &v, cell))
         return EXTREMES_MEMORY;
-    judge(run->input, cell);
-    return EXTREMES_DONE;
+    status = compare_paths(run, &v, cell);
+    if (status == EXTREMES_DONE)
+        judge(run->input, cell);
+    return status;
 }
 
 static bool list_cells(struct extremes *out, uint32_t axes) {

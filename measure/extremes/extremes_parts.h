@@ -43,6 +43,11 @@ const char *variant_make(struct variant *v, struct arena *arena, const struct ex
 // The copy alone, with its view.
 void variant_copy(struct variant *v, struct arena *arena, const struct extremes_input *input);
 
+// Whether rays go on from any surface.
+bool variant_bounces(const struct variant *v);
+// Nothing shines but the background, which is 1: a pixel is the weight with which its path sees that.
+void variant_show_background(struct variant *v);
+
 // ---- extremes_probe.c: shapes of their own. All take their place from the base.
 
 void probe_slivers(struct variant *v, const struct extreme_base *base, double aspect);

@@ -185,6 +185,22 @@ static bool set_exponents(struct variant *v, double exponent) {
     return any;
 }
 
+// ---- the background alone
+
+bool variant_bounces(const struct variant *v) {
+    for (uint32_t i = 0; i < v->scene.material_count; i++)
+        if (v->scene.materials[i].reflection > 0 || v->scene.materials[i].refraction > 0)
+            return true;
+    return false;
+}
+
+void variant_show_background(struct variant *v) {
+    v->scene.background = (struct scene_background){.color = {1, 1, 1}, .intensity = 1, .cosine = 1};
+    v->ir.background.kind = IR_BACKDROP_COLOR;
+    v->ir.trace.depth_limit = IR_DEPTH_BLACK;
+    v->view.light_count = 0;
+}
+
 // ---- all
 
 const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,

@@ -41,6 +41,22 @@ if [ "$mode" = whole ]; then
     expect "leaks" 1 '^  gap between plates 1e-05: leaks per million [1-9]' - "$glint" extremes scene.yaml --axis gap --size 24x16 -q --study 'offset 1e-3'
     expect "self-hits" 1 '^  scaled by 1000000: self-hits per million [1-9]' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --study 'offset 1e-7'
     expect "missing triangles" 1 '^  scaled by 1e-06: wrong hits per million, at silhouettes [1-9]' - "$glint" extremes scene.yaml --axis scale --size 24x16 -q --study moeller-trumbore
+    # Not by the first ray: the tips of a tetrahedron are thinner than the offset, and mirrors send rays there.
+    printf 'v 1 1 1\nv 1 -1 -1\nv -1 1 -1\nv -1 -1 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >tetra.obj
+    cat >room.yaml <<'END'
+glint: 1
+camera: {position: [0.0001, 0.0001, 0.0002], look_at: [-1, 0.4, -1], fov: 90}
+background: {color: [0.2, 0.3, 0.4]}
+trace: {max_depth: 12}
+lights: [{position: [0.0001, 0.0003, 0.0002]}]
+materials:
+  mirror: {albedo: {diffuse: 0.1, reflection: 0.9}}
+models:
+  - {mesh: tetra.obj, material: mirror, rotation: [13, 29, 41], scale: 0.001}
+END
+    expect "escapes" 1 'escapes out of closed bodies per million [1-9]' - "$glint" extremes room.yaml --axis coplanar --size 24x16 -q --study 'offset 1e-4'
+    ok "which no first ray shows" sh -c '! grep -q "^  copl.*holes" out.txt'
+    expect "none by glint's own ways" 0 '^4 cells, 0 left out, 0 broken' - "$glint" extremes room.yaml --axis coplanar --size 24x16 -q --format text
     expect "JSON" 0 '"axis": "camera", "value": 0.001, "precision": "single"' - "$glint" extremes scene.yaml --axis camera --size 24x16 -q --format json
     expect "a report" 0 'cells' - "$glint" extremes scene.yaml --axis light,gap --size 24x16 -q -o report.html
     expect "its matrix" 0 '<svg ' '' cat report.html
@@ -100,5 +116,6 @@ expect "an axis that the scene lacks" 0 'left out: no material refracts' - "$gli
 printf 'all:\n  - {error: 0}\n' >strict.yaml
 expect "broken bounds" 1 '"broken": 5,' '' "$glint" extremes scene.yaml --axis gap --size 24x16 -q --thresholds strict.yaml --format json
 also "JSON" '"axis": "gap", "value": .*"precision": "single"' ''
+also "no escapes where nothing is mirrored or refracted" '"holes": 0(\.0)?, "not_finite"' ''
 expect "an unknown study" 2 - "did you mean 'offset 1e-3'" "$glint" extremes scene.yaml --study 'offset 1e-2'
 exit $failed

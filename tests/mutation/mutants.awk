@@ -54,6 +54,12 @@ function operators(code,    i, three, four) {
     }
 }
 
+# The length of an array that is declared: a longer one changes nothing.
+function is_room(code, at, text) {
+    return substr(code, at + length(text), 1) == "]" &&
+        substr(code, 1, at - 1) ~ /(^|[ (])(double|float|int|char|bool|vec3|[a-z0-9_]+_t|(struct|enum) [a-z0-9_]+) [*]*[a-z0-9_]+(\[[0-9A-Z_]*\])?\[$/
+}
+
 # A whole number becomes the next one, another a thousand times as much, a power of two in hexadecimal 2^37 times.
 function numbers(code,    at, rest, text, before) {
     at = 1
@@ -62,7 +68,7 @@ function numbers(code,    at, rest, text, before) {
         text = substr(rest, RSTART, RLENGTH)
         before = RSTART > 1 ? substr(rest, RSTART - 1, 1) : substr(code, at - 1, 1)
         at += RSTART - 1
-        if (before !~ /[A-Za-z0-9_.]/ && substr(code, at + length(text), 1) !~ /[A-Za-z0-9_.]/) {
+        if (before !~ /[A-Za-z0-9_.]/ && !is_room(code, at, text) && substr(code, at + length(text), 1) !~ /[A-Za-z0-9_.]/) {
             if (text ~ /^0x1p/)
                 mutant(at, length(text), "number", "0x1p" (substr(text, 5) + 37))
             else if (text ~ /[.e]/)

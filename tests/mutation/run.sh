@@ -1,26 +1,30 @@
 #!/bin/sh
-# tests/mutation/run.sh [-n COUNT] [-s SEED] [-b FOLDER] [-t TESTS] [-j JOBS] [-l] [-m LINE] [FILE]...
+# tests/mutation/run.sh [-n COUNT] [-s SEED] [-b FOLDER] [-p PRESET] [-t TESTS] [-j JOBS] [-l] [-f] [-m LINE] [FILE]...
 #
 # Mutation testing: changes the code that both tracers stand on, one place at a time, and tells whether a test
 # sees it. Takes COUNT mutants (60; 0: all) of the files (assets/, scene/view.c and transform.c and bodies.c,
 # tracer/flatten/) in an order that SEED (1) decides, each in a copy of the working tree in FOLDER
-# (build/mutation), builds what the tests whose names match TESTS need, and runs them. Prints a line a mutant,
-# `killed`, `survived` or `unbuilt`, and at the end the score: killed of those built. -l only lists the mutants
-# that would be taken; -m takes one line of such a list. The status is 0 where all were told of, whatever the score.
+# (build/mutation), builds what the tests whose names match TESTS need as PRESET says (dev, whose sanitizers see a
+# place read beyond its end), and runs them. Prints a line a mutant, `killed`, `survived`, `unbuilt`, or
+# `same` with the reason for those that equivalent.txt says change nothing, which are not built; and at the end the
+# score: killed of those built. -l only lists the mutants that would be taken; -m takes one line of such a list. The
+# status is 0 where all were told of, whatever the score.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 cd "$here/../.."
 
-count=60 seed=1 folder=build/mutation jobs=2 list=false one=
-tests='^unit/(mesh|mesh_shape|mesh_triangulate|mesh_material|assets|view|lint|flatten|precision|choose_precision|session)$'
-while getopts n:s:b:t:j:lm: option; do
+count=60 seed=1 folder=build/mutation preset=dev jobs=2 list=false files=false one=
+tests='^unit/(mesh|mesh_shape|mesh_triangulate|mesh_material|mesh_robust|assets|view|lint|flatten|flatten_items|precision|choose_precision|session)$'
+while getopts n:s:b:p:t:j:lfm: option; do
     case $option in
     n) count=$OPTARG ;;
     s) seed=$OPTARG ;;
     b) folder=$OPTARG ;;
+    p) preset=$OPTARG ;;
     t) tests=$OPTARG ;;
     j) jobs=$OPTARG ;;
     l) list=true ;;
+    f) files=true ;;
     m) one=$OPTARG ;;
     *) exit 2 ;;
     esac
@@ -28,6 +32,10 @@ done
 shift $((OPTIND - 1))
 export LC_ALL=C
 [ $# -gt 0 ] || set -- assets/*.c scene/view.c scene/transform.c scene/bodies.c tracer/flatten/*.c
+if $files; then
+    printf '%s\n' "$@"
+    exit 0
+fi
 
 # A number of its own for each place, whatever the others are: a changed line changes nobody else's turn. Knuth's
 # multiplicative hash, in what a double holds.
@@ -37,14 +45,17 @@ shuffled() {
           for (i = 0; i < 4; i++) hash = (hash * 40503 + int(hash / 65536)) % 4294967296
           printf "%.0f\t%s\n", hash, $0 }' | sort -n -k1,1 -s | cut -f2-
 }
-chosen() {
+taken() {
     if [ -n "$one" ]; then
-        printf '%s\n' "$one"
+        printf '%s\n' "$one" | cut -f1-6
     elif [ "$count" -eq 0 ]; then
         awk -f "$here/mutants.awk" "$@" | shuffled
     else
         awk -f "$here/mutants.awk" "$@" | shuffled | sed "${count}q"
     fi
+}
+chosen() {
+    taken "$@" | awk -f "$here/equivalent.awk" "$here/equivalent.txt" -
 }
 if $list; then
     chosen "$@"
@@ -63,7 +74,7 @@ git ls-files --cached --others --exclude-standard | while read -r path; do
 done
 (
     cd "$tree"
-    cmake --preset release -B build >build.log 2>&1
+    cmake --preset "$preset" -B build >build.log 2>&1
     # Some mutants loop for ever; these tests take seconds.
     find build -name CTestTestfile.cmake -exec sed -i 's/TIMEOUT "[0-9]*"/TIMEOUT "30"/' {} +
     ctest --test-dir build -N -V -R "$tests" | grep -o '/tests/[a-z_0-9]*"' | tr -d '"' | sed 's|.*/||' | sort -u >targets.txt
@@ -92,9 +103,16 @@ apply() {
         FNR == line { $0 = substr($0, 1, column - 1) text substr($0, column + size) }
         { print }' "$1" >"$tree/$1"
 }
-killed=0 survived=0 unbuilt=0
+killed=0 survived=0 unbuilt=0 same=0
 tab=$(printf '\t')
-while IFS=$tab read -r path line column size kind text; do
+while IFS=$tab read -r path line column size kind text reason; do
+    was=$(awk -v line="$line" -v column="$column" -v size="$size" 'FNR == line { print substr($0, column, size) }' "$path")
+    told="$path:$line:$column: $kind \"$was\" became \"$text\""
+    if [ -n "$reason" ]; then
+        printf 'same     %s: %s\n' "$told" "$reason"
+        same=$((same + 1))
+        continue
+    fi
     apply "$path" "$line" "$column" "$size" "$kind" "$text"
     if ! build; then
         verdict=unbuilt unbuilt=$((unbuilt + 1))
@@ -104,9 +122,8 @@ while IFS=$tab read -r path line column size kind text; do
         verdict=killed killed=$((killed + 1))
     fi
     cp "$path" "$tree/$path"
-    was=$(awk -v line="$line" -v column="$column" -v size="$size" 'FNR == line { print substr($0, column, size) }' "$path")
-    printf '%-8s %s:%s:%s: %s "%s" became "%s"\n' "$verdict" "$path" "$line" "$column" "$kind" "$was" "$text"
+    printf '%-8s %s\n' $verdict "$told"
 done <"$folder/mutants.txt"
 built=$((killed + survived))
 [ $built -gt 0 ] || built=1
-echo "mutation: $killed of $((killed + survived)) killed, $((100 * killed / built)) %; $unbuilt did not build"
+echo "mutation: $killed of $((killed + survived)) killed, $((100 * killed / built)) %; $unbuilt did not build, $same change nothing"

@@ -15,6 +15,7 @@ cat >"$file" <<'END'
 double sample(double a, int n) {
     const char *text = "x < 1 + 2";
     double t = a + 2;
+    float room[4] = {text[1]};
     if (a <= 1e-9 && n != 7)
         t = sqrt(a);
     n++;
@@ -37,15 +38,18 @@ is "the mutants of a file" '1:15+7 number 0x1p25
 7:17+3 operator  - 
 7:20+1 number 3
 7:16+5 rounding MUTANT_FLOAT(a + 2)
-8:10+4 operator  < 
-8:18+4 operator  || 
-8:23+4 operator  == 
-8:14+4 number (1000 * 1e-9)
-8:27+1 number 8
-9:9+12 statement ;
-9:13+7 rounding MUTANT_FLOAT(sqrt(a))
-10:5+4 statement ;
-11:12+1 rounding MUTANT_FLOAT(t)' "$(places)"
+8:27+1 number 2
+9:10+4 operator  < 
+9:18+4 operator  || 
+9:23+4 operator  == 
+9:14+4 number (1000 * 1e-9)
+9:27+1 number 8
+10:9+12 statement ;
+10:13+7 rounding MUTANT_FLOAT(sqrt(a))
+11:5+4 statement ;
+12:12+1 rounding MUTANT_FLOAT(t)' "$(places)"
+is "each mutant said to change nothing is one" "" "$(cd "$here/../.." && LC_ALL=C awk -f "$here/mutants.awk" $("$here/run.sh" -f) |
+    awk -v stale=1 -f "$here/equivalent.awk" "$here/equivalent.txt" -)"
 listed() {
     "$here/run.sh" -l "$@" "$file"
 }

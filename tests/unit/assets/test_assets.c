@@ -68,6 +68,20 @@ static void a_file_is_read_beside_its_scene(void **state) {
     assets_scene_end(s);
 }
 
+// Beside the file that names it, not beside the scene that includes that file.
+static void a_file_is_read_beside_what_names_it(void **state) {
+    struct fixture *f = *state;
+    struct assets_scene *s = begin_in(f, NULL);
+    add_model(f, s, "dragon.obj");
+    const str main = str_from(scratch_path(&f->scratch, "main.yaml"));
+    ARENA_PUSH(&s->arena, &s->origin.files)->source =
+        source_add(&s->sources, SOURCE_KIND_FILE, arena_copy(&s->arena, main), STR(""));
+    assets_scene_load(s);
+    assert_silent(s);
+    assert_non_null(s->assets.models[0].mesh);
+    assets_scene_end(s);
+}
+
 static void missing_files_name_the_nearest(void **state) {
     struct fixture *f = *state;
     expect(f, "dragn.obj", "the mesh 'dragn.obj' does not exist [E601]",
@@ -173,6 +187,24 @@ static struct assets_scene *load_dragon(struct fixture *f, struct asset_store *s
     add_model(f, s, "dragon.obj");
     assets_scene_load(s);
     return s;
+}
+
+// The second scene finds the mesh in the store, and reads its material file anew.
+static void a_stored_mesh_has_its_materials(void **state) {
+    struct fixture *f = *state;
+    struct asset_store *store = asset_store_create();
+    struct assets_scene *scenes[2];
+    scratch_write(&f->scratch, "scene/dragon.obj", "mtllib own.mtl\nusemtl gold\n" TRIANGLE);
+    scratch_write(&f->scratch, "scene/own.mtl", "newmtl gold\nNs 3\n");
+    for (int i = 0; i < 2; i++) {
+        struct assets_scene *s = scenes[i] = load_dragon(f, store);
+        assert_silent(s);
+        assert_true(s->assets.materials[s->assets.models[0].group_material[0]].specular_exponent == 3);
+    }
+    assert_ptr_equal(scenes[0]->assets.models[0].mesh, scenes[1]->assets.models[0].mesh);
+    assets_scene_end(scenes[0]);
+    assets_scene_end(scenes[1]);
+    asset_store_destroy(store);
 }
 
 // Gives the file another time than it had.
@@ -297,6 +329,8 @@ static void a_text_that_is_not_kept(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_file_is_read_beside_what_names_it, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_stored_mesh_has_its_materials, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_file_is_read_beside_its_scene, set_up, tear_down),
         cmocka_unit_test_setup_teardown(missing_files_name_the_nearest, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_no_file_is_refused_at_once, set_up, tear_down),

@@ -246,6 +246,8 @@ static void bad_indices_are_shown(void **state) {
     expect(TRIANGLE "f 1 2 \\\n 77\n", "mesh.obj:5:2: error: index 77: the file defines 3 vertices [E612]");
 }
 
+#define LONG_WORD "3abcdefghijklmnopqrstuvwxyz01234"
+
 static void bad_lines_are_shown(void **state) {
     (void)state;
     expect(TRIANGLE "f 1 2\n", "mesh.obj:4:1: error: a face with 2 corners [E613]");
@@ -257,6 +259,9 @@ static void bad_lines_are_shown(void **state) {
     expect(TRIANGLE "f 1 2 1.5\n", "mesh.obj:4:7: error: '1.5' is not a corner");
     expect(TRIANGLE "wow 1\nf 1 2 3\n",
            "mesh.obj:4:1: error: 'wow' cannot begin a line of an OBJ file [E610]");
+    // Of a word that may be a whole binary file, the beginning.
+    expect(TRIANGLE "f 1 2 " LONG_WORD LONG_WORD LONG_WORD "\n",
+           "mesh.obj:4:7: error: '" LONG_WORD LONG_WORD "' is not a corner");
     expect(TRIANGLE, "mesh.obj:1:1: error: the mesh has no faces [E614]");
     expect("", "mesh.obj:1:1: error: the mesh has no faces [E614]");
     expect(TRIANGLE "\x1b[31m\xff\n", "mesh.obj:4:1: error: '?[31m?' cannot begin a line");

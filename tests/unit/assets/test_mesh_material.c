@@ -265,6 +265,42 @@ static void an_unknown_name_in_the_map(void **state) {
     assets_scene_end(s);
 }
 
+static void of_many_names_some_are_shown(void **state) {
+    (void)state;
+    for (uint32_t count = 12; count < 15; count++) {
+        struct assets_scene *s = assets_scene_begin();
+        str mesh = STR(VERTICES), shown = STR("");
+        for (uint32_t i = 0; i < count; i++) {
+            mesh = arena_format(&s->arena, "%susemtl m%u\nf 1 2 3\n", mesh.ptr, i);
+            if (i < 12)
+                shown = arena_format(&s->arena, "%s%s'm%u'", shown.ptr, i ? ", " : "", i);
+        }
+        assets_scene_file(s, "mesh.obj", mesh.ptr);
+        struct ir_model *model = assets_scene_model(s, "mesh.obj");
+        model->material.index = assets_scene_material(s, "stone", 0);
+        struct ir_map_entry *entry = ARENA_PUSH(&s->arena, &model->material_map);
+        *entry = (struct ir_map_entry){.from = STR("velvet"), .to = {STR("stone"), model->material.index}};
+        entry->head.origin = assets_scene_place(s, &SCHEMA_MAP_ENTRY, "from", "velvet");
+        assets_scene_load(s);
+        str help =
+            arena_format(&s->arena, count > 12 ? "the mesh uses %s and %u more\n" : "the mesh uses %s\n",
+                         shown.ptr, count - 12);
+        assert_says(s, help.ptr);
+        assets_scene_end(s);
+    }
+}
+
+// A material file with an error may define anything: that a name is not found there is not said too.
+static void an_error_in_the_file_is_enough(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    assets_scene_file(s, "own.mtl", "newmtl silver\nKd red\n");
+    assets_scene_mesh(s, MESH);
+    assert_int_equal(s->sink.errors, 1);
+    assert_int_equal(s->sink.count, 1);
+    assets_scene_end(s);
+}
+
 static void refraction_needs_a_closed_mesh(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
@@ -296,6 +332,8 @@ int main(void) {
         cmocka_unit_test(a_mesh_without_material_file),
         cmocka_unit_test(names_of_files_may_be_several_or_have_blanks),
         cmocka_unit_test(an_unknown_name_in_the_map),
+        cmocka_unit_test(of_many_names_some_are_shown),
+        cmocka_unit_test(an_error_in_the_file_is_enough),
         cmocka_unit_test(refraction_needs_a_closed_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

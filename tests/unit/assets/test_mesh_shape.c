@@ -108,6 +108,7 @@ static void inside_out_is_turned(void **state) {
     assert_int_equal(s->sink.count, 1);
     assert_says(
         s, "mesh.obj:1:1: note: the faces of this closed mesh point inwards and were turned outwards [N603]");
+    assert_int_equal(s->sink.items[0].at.end, 0); // it is about the whole file
     // Now the bottom looks down, and each corner kept its normal.
     vec3 normal = vec3_cross(vec3_sub(corner(mesh, 0, 1), corner(mesh, 0, 0)),
                              vec3_sub(corner(mesh, 0, 2), corner(mesh, 0, 0)));
@@ -118,6 +119,19 @@ static void inside_out_is_turned(void **state) {
                                                                  : IR_NO_INDEX;
         assert_int_equal(mesh->triangles[0].normals[k], expected);
     }
+    assets_scene_end(s);
+}
+
+// To the last digits, for edges along no axis.
+static void a_volume_is_exact(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    // (3 1 0) x (0 3 1) . (1 0 3) = 28, in sevenths; far from 0.
+    const struct mesh *mesh = assets_scene_mesh(s, "v 1 1 1\nv 1.42857142857142857 1.14285714285714286 1\n"
+                                                   "v 1 1.42857142857142857 1.14285714285714286\n"
+                                                   "v 1.14285714285714286 1 1.42857142857142857\n"
+                                                   "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    assert_true(fabs(mesh->volume - 28.0 / 343 / 6) < 1e-15);
     assets_scene_end(s);
 }
 
@@ -235,6 +249,20 @@ static void normals_of_the_file_are_kept(void **state) {
     assets_scene_end(s);
 }
 
+// One corner without a normal is enough, whichever it is.
+static void a_lacking_normal_is_computed(void **state) {
+    (void)state;
+    static const char *const faces[] = {"f 1 2//1 3//1\n", "f 1//1 2 3//1\n", "f 1//1 2//1 3\n"};
+    for (uint32_t k = 0; k < 3; k++) {
+        struct assets_scene *s = assets_scene_begin();
+        str text = arena_format(&s->arena, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 3 0 4\n%s", faces[k]);
+        const vec3 *normals = mesh_smooth_normals(assets_scene_mesh(s, text.ptr), &s->arena);
+        for (uint32_t i = 0; i < 3; i++)
+            assert_near(normals[i], i == k ? (vec3){0, 0, 1} : (vec3){0.6, 0, 0.8});
+        assets_scene_end(s);
+    }
+}
+
 static void what_cancels_is_zero(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
@@ -323,6 +351,8 @@ int main(void) {
         cmocka_unit_test(angles_weigh),
         cmocka_unit_test(split_vertices_are_summed_too),
         cmocka_unit_test(normals_of_the_file_are_kept),
+        cmocka_unit_test(a_volume_is_exact),
+        cmocka_unit_test(a_lacking_normal_is_computed),
         cmocka_unit_test(what_cancels_is_zero),
         cmocka_unit_test(rounding_is_no_normal),
         cmocka_unit_test(a_small_sum_is_a_normal),

@@ -173,6 +173,17 @@ static void touching_outlines(void **state) {
     COVERS(*state, teeth, false);
 }
 
+// An outline that crosses itself, where each ear has others on its rim: of those the ones with others inside
+// are not cut.
+static void corners_on_every_rim(void **state) {
+    static const double crossing[][2] = {{0, 3}, {1, 1}, {1, 3}, {2, 1}, {1, 2},
+                                         {2, 3}, {0, 3}, {3, 0}, {2, 3}};
+    struct polygon p = make(*state, 9);
+    for (uint32_t i = 0; i < p.n; i++)
+        p.corners[i] = place(crossing[i][0], crossing[i][1], 0);
+    assert_covers(*state, &p, false);
+}
+
 static uint64_t next_random(uint64_t *state) {
     *state ^= *state << 13;
     *state ^= *state >> 7;
@@ -277,6 +288,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(corners_on_straight_edges, set_up, tear_down),
         cmocka_unit_test_setup_teardown(keyholes, set_up, tear_down),
         cmocka_unit_test_setup_teardown(touching_outlines, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(corners_on_every_rim, set_up, tear_down),
         cmocka_unit_test_setup_teardown(random_stars, set_up, tear_down),
         cmocka_unit_test_setup_teardown(large_polygons, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_large_convex_polygon, set_up, tear_down),

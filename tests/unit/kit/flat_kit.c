@@ -201,11 +201,14 @@ vec3 kit_vertex(const struct flat_scene *flat, uint32_t item, int corner) {
     return (vec3){kit_float(word->x), kit_float(word->y), kit_float(word->z)};
 }
 
+uint32_t kit_number(const struct flat_scene *flat, uint32_t item) {
+    const struct gpu_word *words = &flat->triangles.words[(size_t)flat->strides.triangle * item];
+    return flat->is_double ? words[1].z : words[0].w;
+}
+
 uint32_t kit_find_triangle(const struct flat_scene *flat, uint32_t number) {
-    for (uint32_t i = 0; i < flat->triangle_count; i++) {
-        const struct gpu_word *words = &flat->triangles.words[(size_t)flat->strides.triangle * i];
-        if ((flat->is_double ? words[1].z : words[0].w) == number)
+    for (uint32_t i = 0; i < flat->triangle_count; i++)
+        if (kit_number(flat, i) == number)
             return i;
-    }
     return UINT32_MAX;
 }

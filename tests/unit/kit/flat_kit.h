@@ -52,6 +52,8 @@ bool kit_flatten_resolved(struct kit *kit, struct flat_scene *flat);
 // Fields of the buffers.
 float kit_float(uint32_t bits);
 vec3 kit_vertex(const struct flat_scene *flat, uint32_t item, int corner);
+// The number of the triangle of a leaf item.
+uint32_t kit_number(const struct flat_scene *flat, uint32_t item);
 // The leaf item that holds a triangle number; UINT32_MAX: none.
 uint32_t kit_find_triangle(const struct flat_scene *flat, uint32_t number);
 

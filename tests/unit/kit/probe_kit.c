@@ -1,9 +1,11 @@
 #include "probe_kit.h"
 
+#include "flat_kit.h"
 #include "tests/kernels/kernels.h"
 #include "tracer/render/render_private.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,6 +44,17 @@ static uint32_t levels(uint32_t depth) {
     return depth > 3 ? depth - 2 : 1;
 }
 
+// Some numbers have no item: of triangles that flattening leaves out.
+static uint32_t *list_items(const struct flat_scene *flat) {
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < flat->triangle_count; i++)
+        most = kit_number(flat, i) > most ? kit_number(flat, i) : most;
+    uint32_t *items = calloc((size_t)most + 1, sizeof *items);
+    for (uint32_t i = 0; items && i < flat->triangle_count; i++)
+        items[kit_number(flat, i)] = i;
+    return items;
+}
+
 bool probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed) {
     return probe_init_way(probe, gpu, flat, packed, PROBE_EXACT);
 }
@@ -60,7 +73,8 @@ bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scen
     const struct kernel *const other[2] = {&kernel_probe_alternative_storage,
                                            &kernel_probe_alternative_texels};
     const bool texels = gpu_fetches_texels(gpu);
-    *probe = (struct probe){.gpu = gpu, .is_double = flat->is_double};
+    *probe =
+        (struct probe){.gpu = gpu, .flat = flat, .is_double = flat->is_double, .items = list_items(flat)};
     probe->source = (struct gpu_program_source){
         .kernel = way == PROBE_EXACT ? kernels[flat->is_double][texels] : other[texels],
         .constants = constants,
@@ -73,7 +87,7 @@ bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scen
     probe->program = good ? gpu_program_create(gpu, &probe->source) : NULL;
     probe->source.constants = NULL;
     probe->words = malloc(bytes);
-    return probe->program && probe->words;
+    return probe->program && probe->words && probe->items;
 }
 
 void probe_finish(struct probe *probe) {
@@ -81,10 +95,23 @@ void probe_finish(struct probe *probe) {
     for (int i = 0; i < GPU_BINDINGS; i++)
         gpu_buffer_destroy(probe->gpu, probe->source.buffers[i]);
     free(probe->words);
+    free(probe->items);
 }
 
 vec3 probe_round(const struct probe *probe, vec3 v) {
     return probe->is_double ? v : (vec3){(float)v.x, (float)v.y, (float)v.z};
+}
+
+vec3 probe_place(const struct probe *probe, vec3 scene) {
+    const double factor = ldexp(1, probe->flat->scale_exponent);
+    return probe_round(probe, vec3_mul(vec3_sub(scene, probe->flat->origin), factor));
+}
+
+vec3 probe_normal(const struct probe *probe, uint32_t number) {
+    const uint32_t item = probe->items[number];
+    const vec3 a = kit_vertex(probe->flat, item, 0), b = kit_vertex(probe->flat, item, 1),
+               c = kit_vertex(probe->flat, item, 2);
+    return vec3_unit(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
 }
 
 static void put(const struct probe *probe, struct gpu_word *words, vec3 v, double w) {
@@ -146,4 +173,26 @@ bool probe_trace(struct probe *probe, const struct probe_ray *rays, uint32_t cou
     for (uint32_t i = 0; i < count; i++)
         hits[i] = read_hit(probe, probe->words + (size_t)i * hit_words);
     return true;
+}
+
+int probe_setup(void **state) {
+    struct probe_fixture *f = calloc(1, sizeof *f);
+    device_kit_open(&f->device);
+    f->rays = calloc(PROBE_RAYS, sizeof *f->rays);
+    f->hits = calloc(PROBE_RAYS, sizeof *f->hits);
+    *state = f;
+    return 0;
+}
+
+int probe_teardown(void **state) {
+    struct probe_fixture *f = *state;
+    printf("%llu rays were sent, and as many from what they hit\n", (unsigned long long)f->sent);
+    free(f->rays);
+    free(f->hits);
+    return device_kit_teardown(state);
+}
+
+struct probe_fixture *probe_need(void **state, bool is_double) {
+    device_kit_need(state, is_double);
+    return *state;
 }

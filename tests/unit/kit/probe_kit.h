@@ -1,11 +1,13 @@
 // Single rays through the tracer's own tree, tests and starts on a device, in the precision of a flat scene.
 //
 // A probe holds the scene on the device. Rays are in flat units; probe_trace rounds them to the precision of
-// the scene, as a ray of the tracer would be: aim from probe_round. Ownership: probe_finish frees.
+// the scene, as a ray of the tracer would be: aim from probe_round. Ownership: probe_finish frees; the flat
+// scene must outlive the probe. A test's state is a probe_fixture, from setup to teardown.
 #ifndef GLINT_TESTS_UNIT_PROBE_KIT_H
 #define GLINT_TESTS_UNIT_PROBE_KIT_H
 
 #include "core/vec3.h"
+#include "device_kit.h"
 #include "tracer/flatten/flatten.h"
 #include "tracer/gpu/gpu.h"
 
@@ -34,7 +36,9 @@ struct probe_hit {
 
 struct probe {
     struct gpu *gpu;
+    const struct flat_scene *flat;
     bool is_double;
+    uint32_t *items; // the leaf item of each triangle, by number
     struct gpu_program_source source;
     struct gpu_program *program;
     struct gpu_word *words;
@@ -53,6 +57,24 @@ bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scen
                     enum probe_way way);
 void probe_finish(struct probe *probe);
 vec3 probe_round(const struct probe *probe, vec3 v);
+// A place of the scene in flat units, rounded.
+vec3 probe_place(const struct probe *probe, vec3 scene);
+// Unit, of a triangle as flattened, by its number among triangles; outward where the mesh is closed.
+vec3 probe_normal(const struct probe *probe, uint32_t number);
 bool probe_trace(struct probe *probe, const struct probe_ray *rays, uint32_t count, struct probe_hit *hits);
+
+// ---- tests
+
+struct probe_fixture {
+    struct device_kit device;
+    struct probe_ray *rays; // PROBE_RAYS of each
+    struct probe_hit *hits;
+    uint64_t sent; // rays, of which the teardown tells
+};
+
+int probe_setup(void **state);
+int probe_teardown(void **state);
+// Skips the test where there is no such device.
+struct probe_fixture *probe_need(void **state, bool is_double);
 
 #endif

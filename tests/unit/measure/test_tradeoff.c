@@ -469,6 +469,42 @@ static void test_hits(void **state) {
     near(errors.band, 29 * one);
 }
 
+// The halves of a parallelogram are one face, the triangles of a mesh are not.
+static void test_halves(void **state) {
+    (void)state;
+    static const enum scene_shape shapes[] = {SCENE_PARALLELOGRAM, SCENE_MESH};
+    for (int i = 0; i < 2; i++) {
+        struct hit_pixel reference[HITS], device[HITS];
+        struct scene_body body = {.shape = shapes[i]};
+        const struct scene scene = {.bodies = &body, .body_count = 1};
+        struct hit_errors errors;
+        for (size_t k = 0; k < HITS; k++)
+            reference[k] = (struct hit_pixel){.distance = 3};
+        memcpy(device, reference, sizeof device);
+        device[55].triangle = 1;
+        hits_compare(SIDE, SIDE, device, reference, &scene, &errors);
+        near(errors.wrong_outside, i * 1e6 / HITS);
+    }
+}
+
+// The background where neither the pixel nor one around it sees it, in any channel.
+static void test_escapes(void **state) {
+    (void)state;
+    float device[3 * HITS] = {0};
+    double reference[3 * HITS] = {0};
+    const double one = 1e6 / HITS;
+    near(hits_escapes(SIDE, SIDE, device, reference), 0);
+    reference[3 * 55 + 1] = 0.25;
+    for (size_t i = 0; i < 3; i++) {
+        device[3 * (44 + i)] = 1e-9f; // around it
+        device[3 * (74 + i) + i] = 1e-9f;
+    }
+    device[0] = device[3 * HITS - 1] = 1;
+    near(hits_escapes(SIDE, SIDE, device, reference), 5 * one);
+    device[0] = NAN;
+    near(hits_escapes(SIDE, SIDE, device, reference), 5 * one);
+}
+
 static void test_scale_up(void **state) {
     (void)state;
     const float in[6] = {0, 0, 0, 1, 2, 4};
@@ -499,6 +535,8 @@ int main(void) {
         cmocka_unit_test(test_ordered_times),
         cmocka_unit_test(test_setting_text),
         cmocka_unit_test(test_hits),
+        cmocka_unit_test(test_halves),
+        cmocka_unit_test(test_escapes),
         cmocka_unit_test(test_scale_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

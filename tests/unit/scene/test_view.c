@@ -34,6 +34,21 @@ static struct view build(struct assets_scene *s, int32_t width, int32_t height) 
     return view;
 }
 
+// A direction along no axis, to the last digits of a double.
+static void a_view_is_exact(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    struct ir_camera *camera = add_camera(s);
+    camera->view = IR_VIEW_DIRECTION;
+    camera->direction = (vec3){1, 2, -3};
+    const struct view_camera found = build(s, 4, 3).camera;
+    const double length = sqrt(14), across = sqrt(10);
+    assert_near(found.forward, 1 / length, 2 / length, -3 / length);
+    assert_near(found.right, 3 / across, 0, 1 / across);
+    assert_near(found.up, -2 / (length * across), 10 / (length * across), 6 / (length * across));
+    assets_scene_end(s);
+}
+
 static void quarter_turns_are_exact(void **state) {
     (void)state;
     static const struct {
@@ -281,6 +296,7 @@ static void samples_follow_the_sequence(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_view_is_exact),
         cmocka_unit_test(quarter_turns_are_exact),
         cmocka_unit_test(the_order_is_x_then_y_then_z),
         cmocka_unit_test(angles_are_exact_to_an_ulp),

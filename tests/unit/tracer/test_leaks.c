@@ -6,10 +6,10 @@
 // Usage: test_leaks [few | full]: `full` sends a hundred million rays in each body and precision; `few` a
 // sixteenth of those sent without it.
 #include "core/parallel.h"
-#include "device_kit.h"
 #include "flat_kit.h"
 #include "probe_kit.h"
 #include "random.h"
+#include "shape_kit.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -23,110 +23,14 @@
 
 enum {
     PIECE = 4096,
-    MOST_CORNERS = 64,
-    MOST_FACES = 128,
 };
 
 static uint32_t batch_rays = PROBE_RAYS;
 static uint64_t batches = 1;
 
-struct fixture {
-    struct device_kit device;
-    struct probe_ray *rays;
-    struct probe_hit *hits;
-    uint64_t sent;
-};
-
-static int setup(void **state) {
-    struct fixture *f = calloc(1, sizeof *f);
-    device_kit_open(&f->device);
-    f->rays = calloc(PROBE_RAYS, sizeof *f->rays);
-    f->hits = calloc(PROBE_RAYS, sizeof *f->hits);
-    *state = f;
-    return 0;
-}
-
-static int teardown(void **state) {
-    struct fixture *f = *state;
-    printf("%llu rays were sent, and as many from what they hit\n", (unsigned long long)f->sent);
-    free(f->rays);
-    free(f->hits);
-    return device_kit_teardown(state);
-}
-
 // ---- bodies
 
 // Convex, around the origin, about 2 units wide.
-struct shape {
-    const char *name;
-    vec3 corners[MOST_CORNERS];
-    uint32_t faces[MOST_FACES][3];
-    uint32_t corner_count, face_count;
-    int levels; // of an icosphere instead
-};
-
-static void add_face(struct shape *s, uint32_t a, uint32_t b, uint32_t c) {
-    const vec3 p = s->corners[a], q = s->corners[b], r = s->corners[c];
-    const bool out = vec3_dot(vec3_cross(vec3_sub(q, p), vec3_sub(r, p)), vec3_add(p, vec3_add(q, r))) > 0;
-    const uint32_t face[3] = {a, out ? b : c, out ? c : b};
-    memcpy(s->faces[s->face_count++], face, sizeof face);
-}
-
-// Two polygons of n corners, of these radii and heights, and what is between them.
-static void make_drum(struct shape *s, uint32_t n, double below, double above, double low, double high) {
-    for (uint32_t i = 0; i < 2 * n; i++) {
-        const double angle = 6.283185307179586 * (i % n) / n + 0.1, radius = i < n ? below : above;
-        s->corners[i] = (vec3){radius * cos(angle), i < n ? low : high, radius * sin(angle)};
-    }
-    s->corner_count = 2 * n;
-    for (uint32_t i = 0; i < n; i++) {
-        const uint32_t j = (i + 1) % n;
-        add_face(s, i, j, n + j);
-        add_face(s, i, n + j, n + i);
-    }
-    for (uint32_t i = 1; i + 1 < n; i++) {
-        add_face(s, 0, i, i + 1);
-        add_face(s, n, n + i, n + i + 1);
-    }
-}
-
-static void make_box(struct shape *s, vec3 half) {
-    static const uint32_t sides[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                         {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
-    for (int i = 0; i < 8; i++)
-        s->corners[i] = (vec3){i & 4 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 1 ? half.z : -half.z};
-    s->corner_count = 8;
-    for (int i = 0; i < 6; i++) {
-        add_face(s, sides[i][0], sides[i][1], sides[i][2]);
-        add_face(s, sides[i][0], sides[i][2], sides[i][3]);
-    }
-}
-
-static void make_tetrahedron(struct shape *s) {
-    static const vec3 corners[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    memcpy(s->corners, corners, sizeof corners);
-    s->corner_count = 4;
-    add_face(s, 0, 1, 2);
-    add_face(s, 0, 1, 3);
-    add_face(s, 0, 2, 3);
-    add_face(s, 1, 2, 3);
-}
-
-// Two large faces that meet at 11 degrees.
-static void make_wedge(struct shape *s) {
-    static const vec3 corners[6] = {{-1, 0, -1}, {-1, 0, 1},    {1, 0.2, -1},
-                                    {1, 0.2, 1}, {1, -0.2, -1}, {1, -0.2, 1}};
-    memcpy(s->corners, corners, sizeof corners);
-    s->corner_count = 6;
-    static const uint32_t quads[3][4] = {{0, 1, 3, 2}, {0, 1, 5, 4}, {2, 3, 5, 4}};
-    for (int i = 0; i < 3; i++) {
-        add_face(s, quads[i][0], quads[i][1], quads[i][2]);
-        add_face(s, quads[i][0], quads[i][2], quads[i][3]);
-    }
-    add_face(s, 0, 2, 4);
-    add_face(s, 1, 3, 5);
-}
-
 enum {
     CUBE,
     TETRAHEDRON,
@@ -138,25 +42,47 @@ enum {
     FINE_ICOSPHERE,
     SHAPES
 };
+static const char *const names[SHAPES] = {"cube", "tetrahedron", "wedge",     "prism",
+                                          "room", "gem",         "icosphere", "icosphere of 1280"};
 
-static void make_shape(int which, struct shape *s) {
-    static const char *const names[SHAPES] = {"cube", "tetrahedron", "wedge",     "prism",
-                                              "room", "gem",         "icosphere", "icosphere of 1280"};
-    *s = (struct shape){.name = names[which]};
+static void make_tetrahedron(struct kit *kit, struct shape *s) {
+    static const vec3 corners[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    shape_init(kit, s, corners, 4, 4);
+    shape_add(s, 0, 1, 2);
+    shape_add(s, 0, 1, 3);
+    shape_add(s, 0, 2, 3);
+    shape_add(s, 1, 2, 3);
+}
+
+// Two large faces that meet at 11 degrees.
+static void make_wedge(struct kit *kit, struct shape *s) {
+    static const vec3 corners[6] = {{-1, 0, -1}, {-1, 0, 1},    {1, 0.2, -1},
+                                    {1, 0.2, 1}, {1, -0.2, -1}, {1, -0.2, 1}};
+    static const uint32_t quads[3][4] = {{0, 1, 3, 2}, {0, 1, 5, 4}, {2, 3, 5, 4}};
+    shape_init(kit, s, corners, 6, 8);
+    for (int i = 0; i < 3; i++)
+        shape_add_quad(s, quads[i]);
+    shape_add(s, 0, 2, 4);
+    shape_add(s, 1, 3, 5);
+}
+
+static struct mesh *make_mesh(struct kit *kit, int which) {
+    struct shape shape;
+    if (which == ICOSPHERE || which == FINE_ICOSPHERE)
+        return kit_icosphere(kit, which == ICOSPHERE ? 1 : 3, 0);
     if (which == CUBE)
-        make_box(s, (vec3){1, 1, 1});
+        shape_box(kit, &shape, (vec3){1, 1, 1});
     else if (which == TETRAHEDRON)
-        make_tetrahedron(s);
+        make_tetrahedron(kit, &shape);
     else if (which == WEDGE)
-        make_wedge(s);
+        make_wedge(kit, &shape);
     else if (which == PRISM)
-        make_drum(s, 3, 1, 1, -1, 1);
+        shape_drum(kit, &shape, &(struct drum){3, {1, 1}, {-1, 1}});
     else if (which == ROOM)
-        make_box(s, (vec3){1.6, 0.5, 1});
-    else if (which == GEM)
-        make_drum(s, 8, 0.15, 1, -0.8, 0.2);
+        shape_box(kit, &shape, (vec3){1.6, 0.5, 1});
     else
-        s->levels = which == ICOSPHERE ? 1 : 3;
+        shape_drum(kit, &shape, &(struct drum){8, {0.15, 1}, {-0.8, 0.2}});
+    return shape_mesh(kit, &shape);
 }
 
 // ---- rays
@@ -164,11 +90,10 @@ static void make_shape(int which, struct shape *s) {
 struct aim {
     const struct probe *probe;
     const struct flat_scene *flat;
-    uint32_t *items; // by triangle number
-    vec3 center;     // flat
-    double size;     // flat
+    vec3 center; // flat
+    double size; // flat
     uint64_t batch;
-    struct fixture *f;
+    struct probe_fixture *f;
     uint64_t counts[PROBE_RAYS / PIECE][4];
 };
 
@@ -184,13 +109,6 @@ static vec3 choose_target(const struct aim *aim, uint64_t *state) {
     for (int k = 0; k < 3; k++)
         at = vec3_add(at, vec3_mul(kit_vertex(aim->flat, item, k), b[k] / sum));
     return at;
-}
-
-static vec3 normal_of(const struct aim *aim, uint32_t number) {
-    const uint32_t item = aim->items[number];
-    const vec3 a = kit_vertex(aim->flat, item, 0);
-    return vec3_unit(
-        vec3_cross(vec3_sub(kit_vertex(aim->flat, item, 1), a), vec3_sub(kit_vertex(aim->flat, item, 2), a)));
 }
 
 static void choose_rays(void *context, size_t begin, size_t end) {
@@ -220,7 +138,7 @@ static void judge_rays(void *context, size_t begin, size_t end) {
         counts[LOST] += !hit->first.found || !hit->any;
         if (!hit->first.found)
             continue;
-        const double rises = vec3_dot(normal_of(aim, hit->first.number), ray->next);
+        const double rises = vec3_dot(probe_normal(aim->probe, hit->first.number), ray->next);
         // Closer to the face than this, rounding of the corners decides on which side of it the ray goes.
         if (fabs(rises) < 1e-5)
             continue;
@@ -228,7 +146,7 @@ static void judge_rays(void *context, size_t begin, size_t end) {
         counts[HIT] += outside && (hit->second.found || hit->blocked);
         counts[LEAKED] += !outside && (!hit->second.found || !hit->blocked);
         if (!outside && hit->second.found)
-            counts[BEHIND] += vec3_dot(normal_of(aim, hit->second.number), ray->next) < -1e-5;
+            counts[BEHIND] += vec3_dot(probe_normal(aim->probe, hit->second.number), ray->next) < -1e-5;
     }
 }
 
@@ -250,21 +168,15 @@ struct view_of {
 };
 
 static void send(void **state, int which, struct view_of view, uint64_t seed, uint64_t sums[4]) {
-    struct fixture *f = *state;
-    device_kit_need(state, view.is_double);
+    struct probe_fixture *f = probe_need(state, view.is_double);
     struct kit kit;
     struct flat_scene flat;
-    struct shape shape;
     struct probe probe;
-    make_shape(which, &shape);
     kit_init(&kit);
     kit.is_double = view.is_double;
     // Somewhere inside, so that no coordinate is round.
     kit.origin = (vec3){0.03 * view.scale, -0.02 * view.scale, 0.05 * view.scale};
-    struct mesh *mesh = shape.levels ? kit_icosphere(&kit, shape.levels, 0)
-                                     : kit_mesh(&kit, shape.corners, shape.corner_count,
-                                                (const uint32_t(*)[3])shape.faces, shape.face_count, true);
-    struct ir_model *model = kit_model(&kit, mesh);
+    struct ir_model *model = kit_model(&kit, make_mesh(&kit, which));
     model->scale = (vec3){view.scale, view.scale, view.scale};
     model->rotation = (vec3){13, 29, 41};
     assert_true(kit_flatten(&kit, &flat));
@@ -276,14 +188,10 @@ static void send(void **state, int which, struct view_of view, uint64_t seed, ui
                         .size = view.scale * factor,
                         .batch = seed,
                         .f = f};
-    aim->items = calloc(flat.triangle_count, sizeof *aim->items);
-    for (uint32_t i = 0; i < flat.triangle_count; i++)
-        aim->items[i] = kit_find_triangle(&flat, i);
     assert_true(probe_init_way(&probe, f->device.gpu, &flat, true, view.way));
     for (uint64_t i = 0; i < batches; i++, aim->batch++)
         send_batch(aim, &probe, sums);
     probe_finish(&probe);
-    free(aim->items);
     free(aim);
     flat_finish(&flat);
     kit_finish(&kit);
@@ -293,15 +201,13 @@ static void check_precision(void **state, bool is_double) {
     static const double scales[] = {1e-6, 1e-3, 1, 1e3, 1e6};
     for (int which = 0; which < SHAPES; which++) {
         uint64_t sums[4] = {0};
-        const uint64_t before = ((struct fixture *)*state)->sent;
-        struct shape shape;
-        make_shape(which, &shape);
+        const uint64_t before = ((struct probe_fixture *)*state)->sent;
         for (uint64_t i = 0; i < sizeof scales / sizeof *scales; i++)
             send(state, which, (struct view_of){is_double, PROBE_EXACT, scales[i]},
                  ((uint64_t)which * 8 + i) * batches, sums);
         printf("%-18s %s: of %llu rays %llu were lost, %llu leaked, %llu hit from behind, %llu hit outside\n",
-               shape.name, is_double ? "double" : "single",
-               (unsigned long long)(((struct fixture *)*state)->sent - before),
+               names[which], is_double ? "double" : "single",
+               (unsigned long long)(((struct probe_fixture *)*state)->sent - before),
                (unsigned long long)sums[LOST], (unsigned long long)sums[LEAKED],
                (unsigned long long)sums[BEHIND], (unsigned long long)sums[HIT]);
         for (int k = 0; k < 4; k++)
@@ -342,5 +248,5 @@ int main(int argc, char **argv) {
         batches = 77; // of 262 144 rays, at five scales
     if (argc > 1 && strcmp(argv[1], "few") == 0)
         batch_rays = PROBE_RAYS / 16;
-    return cmocka_run_group_tests_name("leaks", tests, setup, teardown);
+    return cmocka_run_group_tests_name("leaks", tests, probe_setup, probe_teardown);
 }

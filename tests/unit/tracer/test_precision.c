@@ -164,6 +164,63 @@ static bool box_on_floor(double gap) {
     return gap_suffices(&kit, gap);
 }
 
+// A rectangle tilted by 45 degrees and a sphere above a place of it, whose boxes overlap: only their shapes
+// tell how close they are. (`s`, `t`): where, along the edges.
+static bool ball_on_slope(double s, double t, double gap, double seen) {
+    struct kit kit;
+    kit_init(&kit);
+    const vec3 corner = {0, 0, -4}, u = {1, 0, 1}, v = {0, 1, 0};
+    put_rectangle(&kit, corner, u, v);
+    const vec3 foot = vec3_add(corner, vec3_add(vec3_mul(u, s), vec3_mul(v, t)));
+    put_sphere(&kit, vec3_add(foot, (vec3){-0.5, 0, 0.5}), sqrt(0.5) - gap);
+    return gap_suffices(&kit, seen);
+}
+
+// Two such rectangles, one above the other and `s` and `t` edges aside; their boxes overlap too.
+static bool slopes(double s, double t, double seen) {
+    struct kit kit;
+    kit_init(&kit);
+    const vec3 corner = {0, 0, -4}, u = {1, 0, 1}, v = {0, 1, 0};
+    put_rectangle(&kit, corner, u, v);
+    const vec3 aside = vec3_add(corner, vec3_add(vec3_mul(u, s), vec3_mul(v, t)));
+    put_rectangle(&kit, vec3_add(aside, (vec3){-0x1p-14, 0, 0x1p-14}), u, v);
+    return gap_suffices(&kit, seen);
+}
+
+// What faces a rectangle at its edge, or past it, is as close as the shapes or the boxes say.
+static void test_slope(void **state) {
+    (void)state;
+    static const double edges[4][2] = {{0, 0.5}, {1, 0.5}, {0.5, 0}, {0.5, 1}};
+    for (int i = 0; i < 4; i++) {
+        const double s = edges[i][0], t = edges[i][1];
+        assert_true(ball_on_slope(s, t, 1e-4, 1e-4));
+        assert_false(ball_on_slope(s, t, 1e-7, 1e-7));
+        const double out = 0x1p-20;
+        assert_true(
+            ball_on_slope(s + (s == 1) * out - (s == 0) * out, t + (t == 1) * out - (t == 0) * out, 1e-7, 0));
+        // Side by side they face each other nowhere: it is the boxes that are apart, or touch.
+        const double along = s == 0.5 ? 0 : 2 * s - 1, up = t == 0.5 ? 0 : 2 * t - 1;
+        assert_true(slopes(along, up, s == 0.5 ? 0 : 0x1p-14));
+        assert_true(slopes(0.99 * along, 0.99 * up, sqrt(2) * 0x1p-14));
+    }
+}
+
+// Boxes apart by a length that a float does not hold.
+static void test_box_gap(void **state) {
+    (void)state;
+    static const vec3 positions[] = {{0, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 1, 1}};
+    static const uint32_t faces[][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    struct kit kit;
+    struct precision_report report;
+    kit_init(&kit);
+    for (int i = 0; i < 2; i++)
+        kit_model(&kit, kit_mesh(&kit, positions, 4, faces, 4, true))->translation =
+            (vec3){0, -4 + i * (1 + 0x1p-13 + 0x1p-40), -3};
+    measure(&kit, &report);
+    assert_true(report.least[PRECISION_GAP].length == 0x1p-13 + 0x1p-40);
+    kit_finish(&kit);
+}
+
 // A million units away a floor at 0.1 and a ball of radius 0.3 at 0.4 are 10^-10 apart, or not.
 static bool far_ball_on_floor(void) {
     struct kit kit;
@@ -227,6 +284,38 @@ static void test_height(void **state) {
     }
 }
 
+static double component_of(int axis, int wanted) {
+    return axis == wanted;
+}
+
+// A plane across any axis, and a camera one unit above it that is `past` a side of it along another.
+static bool is_seen_from_above(int axis, int side, double past) {
+    struct kit kit;
+    struct precision_report report;
+    kit_init(&kit);
+    const int other = 3 - axis - side % 3;
+    const vec3 across = {component_of(axis, 0), component_of(axis, 1), component_of(axis, 2)};
+    const vec3 u = {component_of(side % 3, 0), component_of(side % 3, 1), component_of(side % 3, 2)};
+    const vec3 v = {component_of(other, 0), component_of(other, 1), component_of(other, 2)};
+    put_rectangle(&kit, vec3_mul(vec3_add(u, v), -8), vec3_mul(u, 16), vec3_mul(v, 16));
+    const double along = (side < 3 ? 1 : -1) * (8 + past);
+    kit.origin = kit.view.camera.position = vec3_add(across, vec3_mul(u, along));
+    measure(&kit, &report);
+    kit_finish(&kit);
+    return report.least[PRECISION_HEIGHT].any;
+}
+
+// A camera is above a plane as far as it is high past its sides, and no farther.
+static void test_above(void **state) {
+    (void)state;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = 0; side < 6; side++)
+            if (side % 3 != axis) {
+                assert_true(is_seen_from_above(axis, side, 0.5));
+                assert_false(is_seen_from_above(axis, side, 1.5));
+            }
+}
+
 // Too many bodies in one place: the search ends, and says so.
 static void test_crowd(void **state) {
     (void)state;
@@ -255,7 +344,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nothing),    cmocka_unit_test(test_sphere), cmocka_unit_test(test_edge),
         cmocka_unit_test(test_model_size), cmocka_unit_test(test_gap),    cmocka_unit_test(test_moved_gap),
-        cmocka_unit_test(test_height),     cmocka_unit_test(test_crowd),
+        cmocka_unit_test(test_height),     cmocka_unit_test(test_crowd),  cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_box_gap),    cmocka_unit_test(test_above),
     };
     return cmocka_run_group_tests_name("precision", tests, NULL, NULL);
 }

@@ -5,7 +5,6 @@
 // from a convex body it must meet nothing, inward it must meet the body again, elsewhere.
 // Usage: test_rays [few | full]: `full` sends ten million rays in each precision, at all sizes and distances;
 // `few` a sixteenth of those sent without it.
-#include "device_kit.h"
 #include "flat_kit.h"
 #include "probe_kit.h"
 #include "random.h"
@@ -21,35 +20,6 @@
 #include <cmocka.h>
 
 static uint32_t batch_rays = PROBE_RAYS;
-
-struct fixture {
-    struct device_kit device;
-    struct probe_ray *rays;
-    struct probe_hit *hits;
-    uint64_t sent;
-};
-
-static int setup(void **state) {
-    struct fixture *f = calloc(1, sizeof *f);
-    device_kit_open(&f->device);
-    f->rays = calloc(PROBE_RAYS, sizeof *f->rays);
-    f->hits = calloc(PROBE_RAYS, sizeof *f->hits);
-    *state = f;
-    return 0;
-}
-
-static int teardown(void **state) {
-    struct fixture *f = *state;
-    printf("%llu rays were sent\n", (unsigned long long)f->sent);
-    free(f->rays);
-    free(f->hits);
-    return device_kit_teardown(state);
-}
-
-static struct fixture *needed(void **state, bool is_double) {
-    device_kit_need(state, is_double);
-    return *state;
-}
 
 // ---- closed bodies
 
@@ -125,7 +95,7 @@ static void judge(const struct aim *aim, const struct probe_ray *ray, const stru
     misses->leaks += !leaves && !(found && hit->second.t > 0.05 * aim->radius);
 }
 
-static void check(struct fixture *f, const struct flat_scene *flat, const struct place *place,
+static void check(struct probe_fixture *f, const struct flat_scene *flat, const struct place *place,
                   unsigned batches) {
     struct probe probe;
     const double factor = ldexp(1, flat->scale_exponent);
@@ -152,7 +122,7 @@ static void check(struct fixture *f, const struct flat_scene *flat, const struct
 }
 
 static void check_mesh(void **state, struct place place, unsigned batches) {
-    struct fixture *f = needed(state, place.is_double);
+    struct probe_fixture *f = probe_need(state, place.is_double);
     struct kit kit;
     struct flat_scene flat;
     kit_init(&kit);
@@ -169,7 +139,7 @@ static void check_mesh(void **state, struct place place, unsigned batches) {
 }
 
 static void check_sphere(void **state, struct place place, unsigned batches) {
-    struct fixture *f = needed(state, place.is_double);
+    struct probe_fixture *f = probe_need(state, place.is_double);
     struct kit kit;
     struct flat_scene flat;
     kit_init(&kit);
@@ -233,7 +203,7 @@ static void test_all_distances(void **state) {
 
 // A closed mesh of 20 * 4^levels triangles with hills and valleys, seen from inside: every ray meets it.
 static void check_inside(void **state, bool is_double, int levels, unsigned batches) {
-    struct fixture *f = needed(state, is_double);
+    struct probe_fixture *f = probe_need(state, is_double);
     struct kit kit;
     struct flat_scene flat;
     struct probe probe;
@@ -322,7 +292,7 @@ static struct probe_ray choose_gap_ray(const struct probe *probe, const struct p
 }
 
 static void check_gap(void **state, struct gap gap) {
-    struct fixture *f = needed(state, gap.is_double);
+    struct probe_fixture *f = probe_need(state, gap.is_double);
     struct kit kit;
     struct flat_scene flat;
     struct probe probe;
@@ -382,8 +352,8 @@ int main(int argc, char **argv) {
         cmocka_unit_test(device_kit_silent),
     };
     if (argc > 1 && strcmp(argv[1], "full") == 0)
-        return cmocka_run_group_tests_name("rays, all", all, setup, teardown);
+        return cmocka_run_group_tests_name("rays, all", all, probe_setup, probe_teardown);
     if (argc > 1 && strcmp(argv[1], "few") == 0)
         batch_rays = PROBE_RAYS / 16;
-    return cmocka_run_group_tests_name("rays", tests, setup, teardown);
+    return cmocka_run_group_tests_name("rays", tests, probe_setup, probe_teardown);
 }
