@@ -40,3 +40,13 @@ light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction) {
     ray.t_max = directional ? FAR_AWAY : 1.0;
     return ray;
 }
+
+// Adds to the sum over a surface's lights. Of many lights `low` keeps what rounding dropped before (Kahan 1965, "Further
+// Remarks on Reducing Truncation Errors"): a sum of thousands of floats would be wrong in the fourth digit.
+void add_light(vec3 value, inout vec3 sum, inout vec3 low) {
+    vec3 added = HAS_MANY_LIGHTS ? value - low : value;
+    vec3 before = sum;
+    sum = before + added;
+    if (HAS_MANY_LIGHTS)
+        low = (sum - before) - added;
+}

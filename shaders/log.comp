@@ -82,6 +82,16 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     write_ray(at + 15u, leave(s, hit, -s.geometric), rays.bent);
 }
 
+void add_to_log(uint at, vec3 value) {
+    uvec4 sum = pixels[at + 3u], low_xy = pixels[at + 7u], low_z = pixels[at + 9u];
+    vec3 total = uintBitsToFloat(sum.xyz), low = uintBitsToFloat(uvec3(low_xy.zw, low_z.z));
+    add_light(value, total, low);
+    uvec3 bits = floatBitsToUint(low);
+    pixels[at + 3u] = uvec4(floatBitsToUint(total), sum.w);
+    pixels[at + 7u] = uvec4(low_xy.xy, bits.xy);
+    pixels[at + 9u] = uvec4(low_z.xy, bits.z, low_z.w);
+}
+
 bool trace(ray_start start, exact_aim aim, bool any, inout hit_record hit) {
     uint iterations = 0u;
     trace_all(start, aim, any, hit, iterations);
@@ -119,11 +129,11 @@ void main() {
         ended = trace(start, aim, lights, hit);
     bool nothing = hit.item == NO_ITEM;
     if (lights) {
-        uvec4 found = pixels[at + 2u], sum = pixels[at + 3u];
+        uvec4 found = pixels[at + 2u];
         uint light = kind - LOG_LIGHTS, bit = light < 32u ? 1u << light : 0u;
         pixels[at + 2u] = uvec4(found.x | bit, nothing ? found.y | bit : found.y, found.z, found.w + (ended ? 0u : 1u));
         if (nothing)
-            pixels[at + 3u].xyz = floatBitsToUint(uintBitsToFloat(sum.xyz) + shadow.value);
+            add_to_log(at, shadow.value);
         return;
     }
     pixels[at] = uvec4(bits_of(hit.t), bits_of(hit.b1));

@@ -14,7 +14,7 @@
    2: lights below 32 that would add something; those that do; LOG_ flags; rays that did not end
    3: sum over the lights, or the background, as bits of floats; material
    4: point; weights of the mirrored and of the refracted ray as bits of floats
-   6: geometric normal   8: shading normal
+   6: geometric normal   8: shading normal; in what they leave of 7 and 9, what rounding dropped of the sum
    10: the mirrored ray as in STATE
    15: the refracted ray */
 #define LOG_WORDS   20

@@ -128,16 +128,6 @@ uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint
     return p.segments > frame.path_segments ? STOPPED : GOES_ON;
 }
 
-// Of many lights, with what rounding dropped of the sum before (Kahan 1965, "Further Remarks on Reducing Truncation
-// Errors"): a sum of thousands of floats would be wrong in the fourth digit.
-void add_light(inout path_state p, vec3 value) {
-    vec3 added = HAS_MANY_LIGHTS ? value - p.light_low : value;
-    vec3 sum = p.light_sum + added;
-    if (HAS_MANY_LIGHTS)
-        p.light_low = (sum - p.light_sum) - added;
-    p.light_sum = sum;
-}
-
 // From light `p.light` on, the next one that would add something; adds those that need no shadow ray.
 bool find_light(inout path_state p, surface s, ray_start start, inout light_ray shadow, inout uint iterations) {
     uint count = frame.light_count + OPAQUE_ZERO;
@@ -147,7 +137,7 @@ bool find_light(inout path_state p, surface s, ray_start start, inout light_ray 
         shadow = light_at(p.light, s, start.at, p.direction);
         found = HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
         if (!(HAS_SHADOWS && wants(FEATURE_SHADOWS)))
-            add_light(p, shadow.value);
+            add_light(shadow.value, p.light_sum, p.light_low);
         p.light += found ? 0u : 1u;
     }
     return found;
@@ -166,7 +156,7 @@ uint take_hit(inout path_state p, hit_record hit) {
 // What a shadow ray hit: nothing lets the light through.
 void take_light(inout path_state p, hit_record hit, light_ray shadow) {
     if (hit.item == NO_ITEM)
-        add_light(p, shadow.value);
+        add_light(shadow.value, p.light_sum, p.light_low);
     p.light++;
 }
 

@@ -17,7 +17,7 @@ void kit_init(struct kit *kit) {
     kit->scene.models.items = ARENA_ARRAY(&kit->arena, struct ir_model, KIT_MAX);
     kit->assets.materials = ARENA_ARRAY(&kit->arena, struct ir_material, KIT_MAX + 1);
     kit->assets.models = ARENA_ARRAY(&kit->arena, struct assets_model, KIT_MAX);
-    kit->view.lights = ARENA_ARRAY(&kit->arena, struct view_light, KIT_MAX);
+    kit->view.lights = ARENA_ARRAY(&kit->arena, struct view_light, KIT_LIGHTS);
     kit->limits = limits_default();
     diag_sink_init(&kit->sink);
 }

@@ -9,7 +9,8 @@
 #include "tracer/flatten/flatten.h"
 
 enum {
-    KIT_MAX = 8 // elements of a list
+    KIT_MAX = 8, // elements of a list
+    KIT_LIGHTS = 128
 };
 
 struct kit {
