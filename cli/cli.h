@@ -48,6 +48,7 @@ struct cli_options {
     const char *config; // NULL: not given
     int format_arg;
     struct cli_list sets, asset_paths;
+    struct cli_list severities; // the codes whose severity was given
     struct limits limits;
     struct diag_policy policy; // what a check reports, over the folder's configuration
     struct cli_measure measure;
@@ -75,7 +76,8 @@ struct cli {
     bool color;                // standard error accepts colours
     bool stuck;                // a device may still be at work
     struct cli_options options;
-    char **operands; // what is left after the options
+    int *option_places; // by row of the table: the argument that gave it last; 0: not given
+    char **operands;    // what is left after the options
     int operand_count;
     struct cli_list fixed; // files whose fixes were shown
 };
@@ -109,8 +111,21 @@ bool cli_policy_apply(struct cli *cli, int arg, enum cli_policy_option option, c
 // Reads the settings that --config names, and lays the other options over them. false: a mistake in the file
 // went to cli->sink.
 bool cli_take_config(struct cli *cli);
+// Values of options; false: a mistake went to cli->sink.
+bool cli_read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least, int64_t most,
+                    int32_t *out);
+bool cli_read_size(struct cli *cli, int arg, const char *text);
+bool cli_read_limit(struct cli *cli, int arg, const char *text);
+bool cli_read_max_messages(struct cli *cli, int arg, const char *text);
+bool cli_read_folder(struct cli *cli, int arg, const char *text);
 // The options of a command (NULL: of the program), one line each.
 void cli_option_help(struct strbuf *out, const struct cli_command *command);
+
+// The argument that gives an option; 0: it is not given.
+int cli_option_place(const struct cli *cli, const char *name);
+// For an option that goes together with another one, or does not: true, with a mistake in cli->sink, if it
+// was given all the same.
+bool cli_has_no_effect(struct cli *cli, const char *name, const char *why);
 
 // The place of an argument on the command line.
 span cli_place(const struct cli *cli, int arg);

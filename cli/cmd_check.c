@@ -257,6 +257,8 @@ int cmd_check(struct cli *cli) {
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;
     check.format = (enum check_format)format;
+    if (cli->options.quiet && cli_has_no_effect(cli, "verbose", "'--quiet' leaves notes out"))
+        return CLI_USAGE;
     if (cli->options.diff && !cli->options.fix)
         cli->options.fix = FIX_SAFE;
     if (cli->options.diff && check.format != CHECK_TEXT && !cli->options.output)

@@ -159,7 +159,9 @@ static void program_help(struct strbuf *out) {
         strbuf_format(out, "  %-10s %s\n", c->name, c->summary);
     strbuf_cstr(out, "\nOptions:\n");
     cli_option_help(out, NULL);
-    strbuf_cstr(out, "\n'glint COMMAND --help' shows more about a command.\n"
+    strbuf_cstr(out, "\n'glint COMMAND --help' shows more about a command. An option whose value is followed "
+                     "by '...' may be\n"
+                     "given several times.\n"
                      "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
                      "line cannot be\n"
                      "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted.\n");
