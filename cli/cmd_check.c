@@ -264,6 +264,9 @@ int cmd_check(struct cli *cli) {
     if (cli->options.diff && check.format != CHECK_TEXT && !cli->options.output)
         return cli_usage(cli, cli->options.fix_arg,
                          "the patch and the report would be mixed: write the report to a file with -o");
+    if (cli->options.fix && !cli->options.diff && cli->stream.path.len)
+        return cli_usage(cli, cli->options.fix_arg,
+                         "standard input cannot be changed: '--diff' shows the fixes as a patch");
     if (!getcwd(check.root, sizeof check.root))
         check.root[0] = '\0';
     int status = run(&check);

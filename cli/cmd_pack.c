@@ -64,6 +64,9 @@ int cmd_pack(struct cli *cli) {
     if (assets_is_mesh_path(options.path))
         return cli_usage(cli, cli_operand_place(cli, 0),
                          "'glint pack' takes a scene file, but this is a mesh");
+    if (strcmp(cli->operands[0], "-") == 0)
+        return cli_usage(cli, cli_operand_place(cli, 0),
+                         "a package has the scene's name, and standard input has none: name a file");
     if (strcmp(cli->operands[1], "-") == 0)
         return cli_usage(cli, cli_operand_place(cli, 1), "a package cannot be written to standard output");
     if (is_other_archive(cli))

@@ -149,6 +149,13 @@ static int run_job(struct render_job *job, struct asset_store *store) {
     return status == CLI_OK ? render_cameras(job) : status;
 }
 
+static int needs_output(struct cli *cli) {
+    int status = cli_usage(cli, cli_operand_place(cli, 0),
+                           "a picture of standard input has no name: say where to write it");
+    diag_help(&cli->sink, "for example -o picture.png, or '-o -' for standard output");
+    return status;
+}
+
 static bool has_useless_option(struct cli *cli) {
     bool exact = cli_device_is_reference(cli);
     return (exact && cli_has_no_effect(cli, "repeat", "it times frames of a device, not of the reference")) ||
@@ -158,6 +165,8 @@ static bool has_useless_option(struct cli *cli) {
 
 int cmd_render(struct cli *cli) {
     struct render_job job = {.cli = cli, .format = IMAGE_PNG};
+    if (!cli->options.output && cli_is_stream(cli, cli->operands[0]))
+        return needs_output(cli);
     job.output = cli->options.output ? cli->options.output : cli_default_picture(cli, cli->operands[0]);
     if (strcmp(job.output, "-") != 0 && strncmp(job.output, "/dev/", 5) != 0 &&
         !image_format_of_path(str_from(job.output), &job.format))

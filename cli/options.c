@@ -7,6 +7,7 @@
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 enum option_id {
     OPTION_HELP = 1000,
@@ -40,6 +41,9 @@ enum option_id {
     OPTION_SCHEMA,
     OPTION_MAX_MESSAGES,
     OPTION_AUDIT,
+    OPTION_AS,
+    OPTION_BASE,
+    OPTION_COLOR,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -180,6 +184,13 @@ static const struct option_row rows[] = {
     {OPTION_UPGRADE, "upgrade", 0, NULL, "format",
      "rewrite what older versions of the language spell differently"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as glint understood it, in canonical form"},
+    {OPTION_AS, "as", 0, "yaml|xml", "render pick check inspect convert deps diff tradeoff extremes format",
+     "the spelling of standard input (the argument '-'), instead of what its first character says"},
+    {OPTION_BASE, "base", 0, "FOLDER", "render pick check inspect convert deps diff tradeoff extremes",
+     "the folder that paths in standard input (the argument '-') are relative to, instead of the current "
+     "one"},
+    {OPTION_COLOR, "color", 0, "WHEN", "*-",
+     "colours in messages: always, never, or auto (the default: on a terminal)"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
 };
@@ -290,9 +301,20 @@ static void keep_place(struct cli_options *options, int id, int arg) {
         *place = arg;
 }
 
+static bool read_color(struct cli *cli, int arg, const char *value) {
+    static const char *const words[] = {
+        [CLI_COLOR_AUTO] = "auto", [CLI_COLOR_ALWAYS] = "always", [CLI_COLOR_NEVER] = "never", NULL};
+    const int word = cli_read_word(cli, arg, "color", value, words);
+    if (word >= 0)
+        cli->options.color = (enum cli_color)word;
+    cli->color = cli_has_color(cli, STDERR_FILENO);
+    return word >= 0;
+}
+
 // The rest: options whose text means something.
 static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
     struct cli_options *options = &cli->options;
+    static const char *const as_words[] = {"yaml", "xml", NULL};
     switch (id) {
     case OPTION_SIZE:
         return cli_read_size(cli, arg, value);
@@ -307,7 +329,7 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         append(cli, &options->sets, value);
         return true;
     case OPTION_ASSET_PATH:
-        if (!cli_read_folder(cli, arg, value))
+        if (!cli_read_folder(cli, arg, "asset-path", value))
             return false;
         append(cli, &options->asset_paths, value);
         return true;
@@ -315,6 +337,13 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         return cli_read_limit(cli, arg, value);
     case OPTION_MAX_MESSAGES:
         return cli_read_max_messages(cli, arg, value);
+    case OPTION_AS:
+        return cli_read_word(cli, arg, "as", value, as_words) >= 0 && (options->as = value);
+    case OPTION_BASE:
+        options->base = value;
+        return cli_read_folder(cli, arg, "base", value);
+    case OPTION_COLOR:
+        return read_color(cli, arg, value);
     case OPTION_REPEAT:
         return cli_read_count(cli, arg, "repeat", value, 1, 100000, &options->repeat);
     case OPTION_STATS:
@@ -364,6 +393,13 @@ static bool is_repeated(struct cli *cli, int arg, const struct option_row *row) 
     diag_note(&cli->sink, cli_place(cli, *first), "the first one is here");
     diag_help(&cli->sink, "leave one of them out");
     return true;
+}
+
+bool cli_has_option(const struct cli_command *command, const char *name) {
+    for (int i = 0; i < ROW_COUNT; i++)
+        if (strcmp(rows[i].name, name) == 0 && belongs(&rows[i], command))
+            return true;
+    return false;
 }
 
 int cli_option_place(const struct cli *cli, const char *name) {

@@ -75,11 +75,11 @@ bool cli_read_limit(struct cli *cli, int arg, const char *text) {
     return false;
 }
 
-bool cli_read_folder(struct cli *cli, int arg, const char *text) {
+bool cli_read_folder(struct cli *cli, int arg, const char *name, const char *text) {
     struct stat info;
     int error = stat(text, &info) != 0 ? errno : S_ISDIR(info.st_mode) ? 0 : ENOTDIR;
     if (error)
-        cli_usage(cli, arg, "--asset-path: '%s' is not a folder that can be read: %s", text, strerror(error));
+        cli_usage(cli, arg, "--%s: '%s' is not a folder that can be read: %s", name, text, strerror(error));
     return error == 0;
 }
 

@@ -5,6 +5,7 @@
 #include "diag/diag_text.h"
 #include "files/output.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -19,7 +20,8 @@ span cli_place(const struct cli *cli, int arg) {
 
 int cli_operand_place(const struct cli *cli, int index) {
     for (int i = 0; i < cli->argc && index < cli->operand_count; i++)
-        if (cli->argv[i] == cli->operands[index])
+        if (cli->argv[i] == cli->operands[index] ||
+            (cli_is_stream(cli, cli->operands[index]) && strcmp(cli->argv[i], "-") == 0))
             return i;
     return cli->argc - 1;
 }
@@ -103,6 +105,8 @@ int cli_interrupted(struct cli *cli) {
 struct session_options cli_session_options(const struct cli *cli, const char *path) {
     const struct cli_options *o = &cli->options;
     return (struct session_options){.path = str_from(path),
+                                    .overlays = &cli->stream.overlay,
+                                    .overlay_count = cli_is_stream(cli, path),
                                     .asset_paths = o->asset_paths.items,
                                     .asset_path_count = o->asset_paths.count,
                                     .sets = o->sets.items,
@@ -119,6 +123,8 @@ int cli_write(struct cli *cli, const char *path, str bytes) {
     int error = output_whole(path, bytes.ptr, bytes.len);
     if (error == 0)
         return CLI_OK;
+    if (error == EPIPE && strcmp(path, "-") == 0)
+        return CLI_PIPE; // 'glint ... | head' is no mistake
     cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
               "cannot be written: %s", strerror(error));
     return CLI_FILE;
