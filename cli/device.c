@@ -44,7 +44,7 @@ static int no_vulkan(struct cli *cli, const char *place, const char *error) {
     struct strbuf help;
     strbuf_init(&help);
     if (variable)
-        strbuf_format(&help, "only the driver that %s names is looked for: '%s'; correct it, or unset it",
+        strbuf_format(&help, "glint looks only for the driver that %s names, '%s': correct it, or unset it",
                       variable, getenv(variable));
     else
         strbuf_cstr(&help,

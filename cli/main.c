@@ -129,16 +129,6 @@ const struct cli_command *cli_find_command(const char *name) {
     return NULL;
 }
 
-bool cli_has_color(const struct cli *cli, int fd) {
-    const char *never = getenv("NO_COLOR");
-    const char *always = getenv("CLICOLOR_FORCE");
-    if (cli->options.color != CLI_COLOR_AUTO)
-        return cli->options.color == CLI_COLOR_ALWAYS;
-    if (never && never[0])
-        return false;
-    return (always && always[0] && strcmp(always, "0") != 0) || isatty(fd);
-}
-
 static void init(struct cli *cli, int argc, char **argv) {
     struct strbuf text;
     *cli = (struct cli){.argc = argc, .argv = argv};

@@ -9,7 +9,23 @@
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+bool cli_is_stream(const struct cli *cli, const char *path) {
+    return cli->stream.path.len && str_equal_cstr(cli->stream.path, path);
+}
+
+bool cli_has_color(const struct cli *cli, int fd) {
+    const char *never = getenv("NO_COLOR");
+    const char *always = getenv("CLICOLOR_FORCE");
+    if (cli->options.color != CLI_COLOR_AUTO)
+        return cli->options.color == CLI_COLOR_ALWAYS;
+    if (never && never[0])
+        return false;
+    return (always && always[0] && strcmp(always, "0") != 0) || isatty(fd);
+}
 
 span cli_place(const struct cli *cli, int arg) {
     if (arg < 0 || arg >= cli->argc)

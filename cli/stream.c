@@ -47,9 +47,8 @@ static int refuse_options(struct cli *cli) {
 
 int cli_take_stream(struct cli *cli, const struct cli_command *command) {
     bool takes = cli_has_option(command, "base");
-    // In all others what follows the scene is something else: OUT of convert, a pixel.
-    bool all = command->run == cmd_check || command->run == cmd_deps || command->run == cmd_diff ||
-               command->run == cmd_format;
+    // Where there may be any number they are all scenes; else what follows is OUT of convert, or a pixel.
+    bool all = command->most_operands < 0 || strcmp(command->name, "diff") == 0;
     int count = 0, last = 0;
     for (int i = 0; i < cli->operand_count && (i == 0 || all); i++)
         if (is_stream(cli, i)) {
@@ -71,8 +70,4 @@ int cli_take_stream(struct cli *cli, const struct cli_command *command) {
     }
     strbuf_finish(&text);
     return status;
-}
-
-bool cli_is_stream(const struct cli *cli, const char *path) {
-    return cli->stream.path.len && str_equal_cstr(cli->stream.path, path);
 }

@@ -10,7 +10,7 @@ expect "a second output" 2 - "command-line:1:30: error: option '--output' is giv
 also "the first is shown" '' 'command-line:1:21: note: the first one is here'
 expect "glued to its letter" 2 - "command-line:1:30: error: option '--output' is given twice" "$glint" render a.yaml -o a.png -ob.png
 ok "neither is written" sh -c '! ls ./*.png'
-# Every option that takes one value, in every command, as its own help lists them.
+# Every option that takes one value, in the first command whose help lists it.
 "$glint" --help | sed -n 's/^  \([a-z]*\)  .*/\1/p' >commands.txt
 while read -r command; do
     "$glint" "$command" --help | sed -n 's/^  .*\(--[a-z-]*\) \([A-Z][^ ]*\)  *[^. ].*/\1 \2/p' | while read -r option value; do
@@ -25,8 +25,8 @@ while read -r command; do
         esac
         echo "$command $option $value"
     done
-done <commands.txt >single.txt
-ok "there are many of them" [ "$(wc -l <single.txt)" -gt 60 ]
+done <commands.txt | sort -u -k2,2 >single.txt
+ok "there are many of them" [ "$(wc -l <single.txt)" -gt 40 ]
 while read -r command option value; do
     "$glint" "$command" a.yaml "$option" "$value" "$option" "$value" >twice.txt 2>&1 </dev/null
     grep -q "option '$option' is given twice" twice.txt || echo "$command $option $value"

@@ -93,18 +93,19 @@ printf 'newmtl a\n' >m.mtl
 for case in 'p.zip:a ZIP archive:unpack it' 'scene.yaml:a ZIP archive:unpack it' 'x.ply:a PLY mesh:Wavefront OBJ' \
     'sky.png:a PNG picture:background' 'm.stl:an STL mesh:Wavefront OBJ' 'm.mtl:a material file of a mesh:name the mesh'; do
     file=${case%%:*} rest=${case#*:}
-    for command in "render $file" "check $file" "inspect $file" "convert $file x.yaml"; do
-        # shellcheck disable=SC2086 -- a command and its arguments
-        expect "$command" 3 - "$file:1:1: error: this is ${rest%%:*}, not a scene \[E605\]" "$glint" $command
-        also "and what to do" '' "help: .*${rest#*:}"
-    done
+    expect "$file" 3 - "$file:1:1: error: this is ${rest%%:*}, not a scene \[E605\]" "$glint" check "$file"
+    also "and what to do" '' "help: .*${rest#*:}"
+done
+for command in 'render p.zip' 'inspect p.zip' 'convert p.zip x.yaml' 'pack p.zip x'; do
+    # shellcheck disable=SC2086 -- a command and its arguments
+    expect "$command" 3 - 'this is a ZIP archive, not a scene' "$glint" $command
 done
 expect "on standard input too" 3 - 'standard input:1:1: error: this is a ZIP archive' from p.zip "$glint" check -
 cp good.xml scene.pov
 expect "a scene is one whatever it is called" 0 - - "$glint" check scene.pov
 
 expect "no driver" 4 - 'E701' env -u VK_ICD_FILENAMES VK_DRIVER_FILES=/nonexistent.json "$glint" render good.xml
-also "which is named, with a way without one" '' "VK_DRIVER_FILES names is looked for: '/nonexistent.json'.*--device reference"
+also "which is named, with a way without one" '' "VK_DRIVER_FILES names, '/nonexistent.json'.*--device reference"
 expect "none at all" 4 - 'E701' env -u VK_DRIVER_FILES VK_ICD_FILENAMES= "$glint" devices
 also "the variable that is empty" '' "VK_ICD_FILENAMES names"
 if "$glint" devices >devices.txt 2>/dev/null; then
