@@ -1,7 +1,15 @@
 #include "app/convert.h"
 
 #include "grammar/print/ir_print.h"
+#include "grammar/schema.h"
 #include "parser/parser.h"
+
+bool convert_spelling_of(str path, enum convert_spelling *spelling) {
+    *spelling = str_ends_with_nocase(path, ".xml")    ? CONVERT_XML
+                : str_ends_with_nocase(path, ".json") ? CONVERT_JSON
+                                                      : CONVERT_YAML;
+    return schema_file_fits(SCHEMA_FILE_SCENE, path);
+}
 
 // What was written, read again.
 struct second_reading {

@@ -21,6 +21,8 @@ enum convert_status {
     CONVERT_UNSAFE, // the text would mean something else, or cannot be read: `out` is as it was
 };
 
+// The spelling that a path's ending names; false: it names none.
+bool convert_spelling_of(str path, enum convert_spelling *spelling);
 enum convert_status convert_write(struct session *session, enum convert_spelling spelling,
                                   struct strbuf *out);
 // The second half of it: whether `text`, in that spelling, reads as the session's scene.

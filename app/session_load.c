@@ -1,5 +1,6 @@
 // From path and options to a loaded session: the stages one after the other.
 #include "app/check_allow.h"
+#include "app/what_file.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
 #include "grammar/ir.h"
@@ -36,6 +37,17 @@ static enum session_state unreadable(struct session *session, str path, enum fil
     if (status == FILE_OUTSIDE)
         diag_help(&session->sink, "it is a link; to read what it leads to, name the file itself");
     return SESSION_UNREADABLE;
+}
+
+// Its contents would only give mistakes of a language that it is not written in.
+static bool is_another_kind(struct session *session, str path, str text) {
+    const struct what_file *what = what_file(path, text);
+    if (!what)
+        return false;
+    uint32_t source = source_add(&session->sources, SOURCE_KIND_FILE, path, STR(""));
+    diag_add(&session->sink, DIAG_FILE_KIND, (span){source, 0, 0}, "this is %s, not a scene", what->what);
+    diag_help(&session->sink, "%s", what->advice);
+    return true;
 }
 
 // A mesh becomes a scene with only that model, which nobody wrote.
@@ -110,6 +122,8 @@ static enum session_state open_source(struct session *session, uint32_t *source)
                         &session->arena, &text);
     if (status != FILE_OK)
         return unreadable(session, path, status);
+    if (is_another_kind(session, path, text))
+        return SESSION_UNREADABLE;
     *source = source_add(&session->sources, SOURCE_KIND_FILE, path, text);
     return SESSION_LOADED;
 }

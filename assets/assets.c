@@ -2,6 +2,7 @@
 
 #include "assets/loader.h"
 #include "assets/mesh_build.h"
+#include "assets/mesh_losses.h"
 #include "core/strbuf.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
@@ -86,11 +87,7 @@ static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
     if (mesh->turned)
         asset_report_line(file, DIAG_MESH_TURNED, 0,
                           "the faces of this closed mesh point inwards and were turned outwards");
-    if (mesh->ignored_count)
-        asset_report_line(file, DIAG_MESH_IGNORED, mesh->ignored_line,
-                          "%u point%s, line%s or curve%s not drawn", mesh->ignored_count,
-                          mesh->ignored_count == 1 ? "" : "s", mesh->ignored_count == 1 ? "" : "s",
-                          mesh->ignored_count == 1 ? " is" : "s are");
+    mesh_losses_report(file, mesh);
 }
 
 static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const struct file_read *identity) {
@@ -216,6 +213,9 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
     result->group_material = loader_group_materials(loader, model, loaded);
     result->mesh = loaded->mesh;
     check_refraction(loader, model, result, loaded, at);
+    if (model->smooth && !loaded->normals_told)
+        mesh_losses_report_normals(&loaded->file, loaded->mesh);
+    loaded->normals_told = loaded->normals_told || model->smooth;
 }
 
 // ---- the background

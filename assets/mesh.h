@@ -29,6 +29,21 @@ struct mesh_library {
     uint32_t line;
 };
 
+// What a mesh file says and no picture shows as it is said.
+enum mesh_loss {
+    MESH_LOSS_NOT_FACES, // points, lines, curves and surfaces
+    MESH_LOSS_COLORS,    // of vertices
+    MESH_LOSS_IMAGES,    // of faces
+    MESH_LOSS_BENT,      // faces that are not flat
+    MESH_LOSS_NORMALS,   // corners of faces whose normal has length 0
+    MESH_LOSS_COUNT
+};
+
+struct mesh_loss_count {
+    uint32_t count;
+    uint32_t line; // of the first
+};
+
 struct mesh {
     struct arena arena;
     str path;        // as shown to people
@@ -43,17 +58,22 @@ struct mesh {
     uint32_t group_count;
     struct mesh_library *libraries;
     uint32_t library_count;
-    bool closed;            // bit-equal positions merged, every directed edge occurs as often as its opposite
-    bool turned;            // a closed mesh of negative volume: `triangles` were turned outward
-    double volume;          // signed, before turning; 0 if open
-    uint32_t open_edges;    // directed edges without their opposite
-    uint32_t open_line;     // face line of the first of them
-    uint32_t face_count;    // polygons in the file, before triangulation
-    uint32_t zero_area;     // triangles without area; kept here, dropped by flattening
-    uint32_t ignored_count; // points, lines, curves and surfaces
-    uint32_t ignored_line;  // of the first of them
-    vec3 lower, upper;      // bounds of the positions
+    bool closed;         // bit-equal positions merged, every directed edge occurs as often as its opposite
+    bool turned;         // a closed mesh of negative volume: `triangles` were turned outward
+    double volume;       // signed, before turning; 0 if open
+    uint32_t open_edges; // directed edges without their opposite
+    uint32_t open_line;  // face line of the first of them
+    uint32_t face_count; // polygons in the file, before triangulation
+    uint32_t zero_area;  // triangles without area; kept here, dropped by flattening
+    struct mesh_loss_count losses[MESH_LOSS_COUNT];
+    double bent_most;  // how far a corner is off its face's plane at most, as a share of the face's size
+    vec3 lower, upper; // bounds of the positions
 };
+
+static inline void mesh_lose(struct mesh_loss_count *losses, enum mesh_loss what, uint32_t line) {
+    if (losses[what].count++ == 0)
+        losses[what].line = line;
+}
 
 // Whether the triangle's area is not 0 (in double, without underflow).
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle);

@@ -2,7 +2,13 @@
 
 #include "assets/triangulate.h"
 
+#include <math.h>
 #include <string.h>
+
+// How far a corner must be off its face's plane to be told of: of the face's size, and, for what a file of
+// six digits leaves open, of its coordinates.
+#define BEND_SEEN  0.001
+#define RESOLUTION 0x1p-18
 
 static void copy_names(const struct obj *obj, str path, struct mesh *mesh) {
     struct arena *arena = &mesh->arena;
@@ -19,8 +25,7 @@ static void copy_names(const struct obj *obj, str path, struct mesh *mesh) {
         mesh->libraries[i] = obj->libraries.items[i];
         mesh->libraries[i].names = arena_copy(arena, mesh->libraries[i].names);
     }
-    mesh->ignored_count = obj->ignored_count;
-    mesh->ignored_line = obj->ignored_line;
+    memcpy(mesh->losses, obj->losses, sizeof mesh->losses);
     mesh->face_count = obj->faces.count;
 }
 
@@ -71,6 +76,44 @@ static void add_face(const struct obj *obj, const uint32_t *place, const struct 
     }
 }
 
+// How far a corner is off the plane of the polygon (Newell's normal through the middle), as a share of its
+// size.
+static double bend_of(const vec3 *corners, uint32_t n) {
+    vec3 middle = {0, 0, 0};
+    vec3 normal = {0, 0, 0};
+    for (uint32_t i = 0; i < n; i++)
+        middle = vec3_add(middle, vec3_mul(vec3_sub(corners[i], corners[0]), 1.0 / n));
+    middle = vec3_add(middle, corners[0]);
+    double size = 0, off = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        vec3 a = vec3_sub(corners[i], middle);
+        vec3 b = vec3_sub(corners[i + 1 < n ? i + 1 : 0], middle);
+        normal = vec3_add(normal, vec3_cross(a, b));
+        size = fmax(size, 2 * vec3_length(a));
+    }
+    normal = vec3_unit(normal);
+    for (uint32_t i = 0; i < n; i++)
+        off = fmax(off, fabs(vec3_dot(vec3_sub(corners[i], middle), normal)));
+    return size > 0 && off > RESOLUTION * vec3_max_abs(middle) ? off / size : 0;
+}
+
+static void measure_bend(struct mesh *mesh, const vec3 *corners, uint32_t n, uint32_t line) {
+    double bend = bend_of(corners, n);
+    if (bend <= BEND_SEEN)
+        return;
+    mesh_lose(mesh->losses, MESH_LOSS_BENT, line);
+    mesh->bent_most = fmax(mesh->bent_most, bend);
+}
+
+static void count_lost_normals(const struct obj *obj, const struct obj_face *face, uint32_t corners,
+                               struct mesh *mesh) {
+    for (uint32_t i = 0; i < corners; i++) {
+        uint32_t normal = obj->corners.items[face->first + i].normal;
+        if (normal != IR_NO_INDEX && vec3_is_zero(mesh->normals[normal]))
+            mesh_lose(mesh->losses, MESH_LOSS_NORMALS, face->line);
+    }
+}
+
 static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena *scratch,
                       struct mesh *mesh) {
     static const uint32_t whole[3] = {0, 1, 2};
@@ -82,6 +125,7 @@ static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena
         const struct obj_face *face = &obj->faces.items[f];
         uint32_t end = f + 1 < obj->faces.count ? face[1].first : obj->corners.count;
         uint32_t n = end - face->first;
+        count_lost_normals(obj, face, n, mesh);
         if (n == 3) {
             add_face(obj, place, face, whole, 1, mesh);
             continue;
@@ -93,6 +137,7 @@ static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena
         }
         for (uint32_t i = 0; i < n; i++)
             buffer.corners[i] = obj->vertices.items[obj->corners.items[face->first + i].vertex];
+        measure_bend(mesh, buffer.corners, n, face->line);
         triangulate(&triangulator, buffer.corners, n, buffer.cuts);
         add_face(obj, place, face, buffer.cuts, n - 2, mesh);
     }

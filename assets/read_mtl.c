@@ -7,9 +7,13 @@
 #include <math.h>
 #include <stdio.h>
 
+// Of a file with three digits.
+#define ROUNDING 0.001
+
 enum {
-    UNUSED_SHOWN = 12,      // different words that the note lists
-    UNUSED_WORD_SHOWN = 32, // characters of each
+    KINDS_MAX = 16,  // of what has no effect, each told by itself; the others share a last one
+    WORD_SHOWN = 64, // bytes of a statement
+    ILLUM_UNSHADED = 0,
     ILLUM_REFLECTS_FIRST = 3,
     ILLUM_REFLECTS_LAST = 7,
 };
@@ -18,10 +22,21 @@ enum {
 struct mtl_entry {
     bool open; // a newmtl was read
     str name;
+    str statement; // newmtl and name, in the text
+    str tr_statement;
     double kd[3], ks[3];
     bool has_kd, has_ks, has_d, has_tr, has_ns, has_ni;
     double d, tr, ns, ni;
     int64_t illum;
+};
+
+// Statements that have no effect, for one reason.
+struct mtl_dropped {
+    str word; // in the text: the first of them
+    const char *why;
+    bool is_map;
+    bool is_shared; // the last one: other statements are counted here
+    uint32_t count;
 };
 
 struct mtl_reader {
@@ -29,40 +44,84 @@ struct mtl_reader {
     struct mtl_materials *out;
     struct obj_lex lex;
     struct mtl_entry entry;
-    str unused[UNUSED_SHOWN];
-    uint32_t unused_words;
-    uint32_t unused_count;
-    size_t unused_begin, unused_end; // the first
+    struct mtl_dropped dropped[KINDS_MAX];
+    uint32_t dropped_kinds;
 };
 
-static void note_unused(struct mtl_reader *r, str word) {
-    if (r->unused_count++ == 0) {
-        r->unused_begin = (size_t)(word.ptr - r->lex.begin);
-        r->unused_end = r->unused_begin + word.len;
+// ---- what has no effect
+
+static void drop(struct mtl_reader *r, str word, const char *why, bool is_map) {
+    for (uint32_t i = 0; i < r->dropped_kinds; i++) {
+        struct mtl_dropped *kind = &r->dropped[i];
+        bool same = kind->why == why && str_equal(kind->word, word);
+        if (!same && i + 1 < KINDS_MAX)
+            continue;
+        kind->count++;
+        kind->is_shared = kind->is_shared || !same;
+        return;
     }
-    for (uint32_t i = 0; i < r->unused_words; i++)
-        if (str_equal(r->unused[i], word))
-            return;
-    if (r->unused_words < UNUSED_SHOWN)
-        r->unused[r->unused_words++] = word;
+    r->dropped[r->dropped_kinds++] = (struct mtl_dropped){word, why, is_map, false, 1};
 }
 
-static void report_unused(struct mtl_reader *r) {
-    if (r->unused_count == 0)
-        return;
-    // On the stack: reporting may jump out of here when memory runs out.
-    char words[UNUSED_SHOWN * (UNUSED_WORD_SHOWN + 2) + 8];
-    int length = 0;
-    for (uint32_t i = 0; i < r->unused_words; i++) {
-        int shown = r->unused[i].len < UNUSED_WORD_SHOWN ? (int)r->unused[i].len : UNUSED_WORD_SHOWN;
-        length += snprintf(words + length, sizeof words - (size_t)length, "%s%.*s", i ? ", " : "", shown,
-                           r->unused[i].ptr);
+// Statements of other programs that have a meaning; NULL as `word`: all others.
+static const struct known_statement {
+    const char *word;
+    const char *why;
+} known_statements[] = {
+    {"Ka", "there is no ambient light"},        {"Ke", "surfaces give no light of their own"},
+    {"Tf", "refracted light keeps its colour"}, {"sharpness", "reflections are always sharp"},
+    {"Pr", "materials have no roughness"},      {"Pm", "materials have no metallic part"},
+    {"Ps", "materials have no sheen"},          {"Pc", "materials have no clear coat"},
+    {"Pcr", "materials have no clear coat"},    {"aniso", "highlights are round"},
+    {"anisor", "highlights are round"},         {NULL, "glint does not know this statement"},
+};
+
+static bool is_map(str keyword) {
+    static const char *const maps[] = {"bump", "disp", "decal", "refl", "norm", NULL};
+    for (const char *const *map = maps; *map; map++)
+        if (str_equal_cstr(keyword, *map))
+            return true;
+    return str_starts_with(keyword, STR("map_"));
+}
+
+// Whether all numbers of the line are the one with which the statement changes nothing.
+static bool is_neutral(struct mtl_reader *r, double neutral) {
+    bool all = obj_lex_more(&r->lex);
+    while (obj_lex_more(&r->lex)) {
+        double value;
+        all = obj_lex_number(&r->lex, &value) == NUMBER_OK && value == neutral && all;
     }
-    if (r->unused_words == UNUSED_SHOWN)
-        snprintf(words + length, sizeof words - (size_t)length, ", ...");
-    asset_report(r->file, DIAG_MTL_UNUSED, r->unused_begin, r->unused_end,
-                 "%u line%s of the material file %s no effect: %s", r->unused_count,
-                 r->unused_count == 1 ? "" : "s", r->unused_count == 1 ? "has" : "have", words);
+    return all;
+}
+
+static void drop_statement(struct mtl_reader *r, str keyword) {
+    if (is_map(keyword)) {
+        drop(r, keyword, "the surfaces of bodies have no images", true);
+        return;
+    }
+    const struct known_statement *known = known_statements;
+    while (known->word && !str_equal_cstr(keyword, known->word))
+        known++;
+    if (!known->word || !is_neutral(r, str_equal_cstr(keyword, "Tf") ? 1 : 0))
+        drop(r, keyword, known->why, false);
+}
+
+static void report_dropped(struct mtl_reader *r) {
+    for (uint32_t i = 0; i < r->dropped_kinds; i++) {
+        const struct mtl_dropped *kind = &r->dropped[i];
+        size_t at = (size_t)(kind->word.ptr - r->lex.begin);
+        int shown = kind->word.len < WORD_SHOWN ? (int)kind->word.len : WORD_SHOWN;
+        const char *has = kind->is_shared ? " and others have" : " has";
+        char lines[32] = "";
+        if (kind->count > 1)
+            snprintf(lines, sizeof lines, " (%u lines)", kind->count);
+        asset_report_each(r->file, DIAG_MTL_DROPPED, at, at + kind->word.len, "'%.*s'%s no effect%s: %s",
+                          shown, kind->word.ptr, has, lines, kind->why);
+        diag_help(r->file->input->sink, kind->is_map
+                                            ? "write the image's main colour as Kd, or give the model a "
+                                              "'material'"
+                                            : "remove it, or give the model a 'material'");
+    }
 }
 
 // ---- values
@@ -105,7 +164,8 @@ static bool read_range(struct mtl_reader *r, str keyword, enum schema_range rang
 // Three numbers, or one for all. The forms "spectral FILE" and "xyz X Y Z" are not used.
 static bool read_color(struct mtl_reader *r, str keyword, double out[3]) {
     if (obj_lex_more(&r->lex) && (*r->lex.at == 's' || *r->lex.at == 'x')) {
-        note_unused(r, keyword);
+        obj_lex_word(&r->lex);
+        drop(r, (str){keyword.ptr, (size_t)(r->lex.at - keyword.ptr)}, "colours are three numbers", false);
         return false;
     }
     double value[3];
@@ -132,7 +192,7 @@ static bool read_color(struct mtl_reader *r, str keyword, double out[3]) {
 // "d 0.5", "d -halo 0.5": the option makes it depend on the angle, which is not used.
 static bool read_dissolve(struct mtl_reader *r, str keyword, double *value) {
     if (obj_lex_more(&r->lex) && *r->lex.at == '-' && r->lex.at + 1 < r->lex.end && r->lex.at[1] == 'h')
-        note_unused(r, obj_lex_word(&r->lex));
+        drop(r, obj_lex_word(&r->lex), "transparency does not depend on the angle", false);
     return read_range(r, keyword, SCHEMA_RANGE_FRACTION, value);
 }
 
@@ -141,6 +201,8 @@ static bool read_dissolve(struct mtl_reader *r, str keyword, double *value) {
 static void close_entry(struct mtl_reader *r) {
     struct mtl_entry *e = &r->entry;
     if (!e->open || mtl_find(r->out, e->name)) {
+        if (e->open)
+            drop(r, e->statement, "a material of this name comes before it, and counts", false);
         e->open = false;
         return;
     }
@@ -151,6 +213,8 @@ static void close_entry(struct mtl_reader *r) {
     *str_map_at(&r->out->names, m->name) = r->out->count;
     double largest = fmax(e->ks[0], fmax(e->ks[1], e->ks[2]));
     double transparency = e->has_d ? 1 - e->d : e->has_tr ? e->tr : 0;
+    if (e->has_d && e->has_tr && fabs(1 - e->d - e->tr) > ROUNDING)
+        drop(r, e->tr_statement, "'d' says otherwise, and counts", false);
     bool reflects = e->illum >= ILLUM_REFLECTS_FIRST && e->illum <= ILLUM_REFLECTS_LAST;
     m->albedo =
         (struct ir_weights){1 - transparency, largest > 0 ? 1 : 0, reflects ? largest : 0, transparency};
@@ -170,16 +234,30 @@ static void read_newmtl(struct mtl_reader *r, str keyword) {
     bool named = obj_lex_more(&r->lex) || (!obj_lex_done(&r->lex) && *r->lex.at == '#');
     r->entry = (struct mtl_entry){.name = named ? obj_lex_rest(&r->lex) : STR("")};
     r->entry.open = r->entry.name.len > 0;
+    r->entry.statement = (str){keyword.ptr, (size_t)(r->entry.name.ptr + r->entry.name.len - keyword.ptr)};
     size_t at = (size_t)(keyword.ptr - r->lex.begin);
     if (!r->entry.open)
         asset_report(r->file, DIAG_MTL_SYNTAX, at, at + keyword.len, "'newmtl' needs a name");
+}
+
+static void read_transparency(struct mtl_reader *r, str keyword) {
+    r->entry.has_tr |= read_range(r, keyword, SCHEMA_RANGE_FRACTION, &r->entry.tr);
+    r->entry.tr_statement = keyword;
+}
+
+static void read_illum(struct mtl_reader *r, str keyword) {
+    double illum;
+    if (!read_value(r, keyword, 0, 10, &illum))
+        return;
+    r->entry.illum = (int64_t)illum;
+    if (r->entry.illum == ILLUM_UNSHADED)
+        drop(r, (str){keyword.ptr, (size_t)(r->lex.at - keyword.ptr)}, "all surfaces are shaded", false);
 }
 
 // Whether the keyword is one of a material's values; they have no meaning before the first newmtl, where they
 // are read and forgotten.
 static bool read_attribute(struct mtl_reader *r, str keyword) {
     struct mtl_entry *e = &r->entry;
-    double illum;
     if (str_equal_cstr(keyword, "Kd"))
         e->has_kd |= read_color(r, keyword, e->kd);
     else if (str_equal_cstr(keyword, "Ks"))
@@ -191,11 +269,13 @@ static bool read_attribute(struct mtl_reader *r, str keyword) {
     else if (str_equal_cstr(keyword, "d"))
         e->has_d |= read_dissolve(r, keyword, &e->d);
     else if (str_equal_cstr(keyword, "Tr"))
-        e->has_tr |= read_range(r, keyword, SCHEMA_RANGE_FRACTION, &e->tr);
+        read_transparency(r, keyword);
     else if (str_equal_cstr(keyword, "illum"))
-        e->illum = read_value(r, keyword, 0, 10, &illum) ? (int64_t)illum : e->illum;
+        read_illum(r, keyword);
     else
         return false;
+    if (!e->open)
+        drop(r, keyword, "it comes before the first 'newmtl'", false);
     return true;
 }
 
@@ -208,12 +288,12 @@ void read_mtl(struct asset_file *file, struct mtl_materials *out) {
             if (str_equal_cstr(keyword, "newmtl"))
                 read_newmtl(&r, keyword);
             else if (!read_attribute(&r, keyword))
-                note_unused(&r, keyword);
+                drop_statement(&r, keyword);
         }
         obj_lex_next_line(&r.lex);
     }
     close_entry(&r);
-    report_unused(&r);
+    report_dropped(&r);
 }
 
 void mtl_init(struct mtl_materials *materials, struct arena *arena) {

@@ -4,9 +4,10 @@
 //     diffuse_color Kd; albedo (1-t, 1 if Ks is not 0, max(Ks) if illum is 3..7, t) with t = 1-d
 //     specular_color Ks; specular_exponent Ns; refractive_index Ni
 //
-// d wins over Tr if both are given. All that is in the file and not used is one note. Values outside
-// their range are cut, with a warning. Of several materials of one name the first counts.
-// Ownership: the arena's; names are copied. Thread safety: one call belongs to one thread.
+// d wins over Tr if both are given. Of several materials of one name the first counts. What is in the file
+// and has no effect is a warning, one for each kind of statement, unless it would change nothing (Ke 0 0 0).
+// Values outside their range are cut, with a warning. Ownership: the arena's; names are copied. Thread
+// safety: one call belongs to one thread.
 #ifndef GLINT_ASSETS_READ_MTL_H
 #define GLINT_ASSETS_READ_MTL_H
 

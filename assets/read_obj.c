@@ -8,6 +8,10 @@
 
 #define COORDINATE_MAX 1e18
 
+enum {
+    WITH_COLOR = 6 // numbers of a vertex
+};
+
 struct obj_reader {
     struct asset_file *file;
     struct arena *scratch;
@@ -64,6 +68,8 @@ static vec3 read_point(struct obj_reader *r, str keyword) {
     }
     if (count < 3)
         report_short(r, keyword, "three numbers");
+    if (count >= WITH_COLOR && keyword.len == 1)
+        mesh_lose(r->obj->losses, MESH_LOSS_COLORS, r->lex.line);
     return (vec3){value[0], value[1], value[2]};
 }
 
@@ -226,8 +232,10 @@ static void read_other(struct obj_reader *r, str keyword) {
     } else if (str_equal_cstr(keyword, "fo")) {
         read_face(r, keyword); // the name of f in the first version of the format
     } else if (is_word_of(not_drawn, keyword)) {
-        if (r->obj->ignored_count++ == 0)
-            r->obj->ignored_line = r->lex.line;
+        mesh_lose(r->obj->losses, MESH_LOSS_NOT_FACES, r->lex.line);
+    } else if (str_equal_cstr(keyword, "usemap") && obj_lex_more(&r->lex) &&
+               !str_equal_cstr(obj_lex_word(&r->lex), "off")) {
+        mesh_lose(r->obj->losses, MESH_LOSS_IMAGES, r->lex.line);
     } else if (!is_word_of(without_effect, keyword) && !is_word_of(of_curves, keyword)) {
         report_word(r, DIAG_MESH_SYNTAX, keyword, "cannot begin a line of an OBJ file");
     }

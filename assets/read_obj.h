@@ -1,14 +1,15 @@
 // Wavefront OBJ: text to polygons, as the file has them.
 //
-// Read: v (more than three numbers are ignored), vn, f (v, v/vt, v//vn, v/vt/vn; negative indices; vertices
-// that follow later), usemtl, mtllib. Ignored: vt, vp, o, g, s and the like; points, lines, curves and
-// surfaces are counted. Every fault is reported, at its place; repeated ones are grouped.
-// Ownership: everything is in the scratch arena and points into the text.
-// Thread safety: one call belongs to one thread.
+// Read: v (three numbers), vn, f (v, v/vt, v//vn, v/vt/vn; negative indices; vertices that follow later),
+// usemtl, mtllib. Ignored: vt, vp, o, g, s and the like. Counted as losses: colours of vertices, images of
+// faces; points, lines, curves and surfaces. Every fault is reported, at its place; repeated ones are
+// grouped. Ownership: everything is in the scratch arena and points into the text. Thread safety: one call
+// belongs to one thread.
 #ifndef GLINT_ASSETS_READ_OBJ_H
 #define GLINT_ASSETS_READ_OBJ_H
 
 #include "assets/asset_file.h"
+#include "assets/mesh.h"
 
 struct obj_corner {
     uint32_t vertex; // into vertices
@@ -46,9 +47,8 @@ struct obj {
         struct mesh_library *items;
         uint32_t count, capacity;
     } libraries;
-    uint64_t triangle_count; // that the faces will give
-    uint32_t ignored_count;
-    uint32_t ignored_line;
+    uint64_t triangle_count;                        // that the faces will give
+    struct mesh_loss_count losses[MESH_LOSS_COUNT]; // of what is in lines of their own
 };
 
 // Reads file->text. Faults are counted in file->errors; after one the result must not be used.

@@ -17,7 +17,14 @@ enum cli_exit {
     CLI_FILE = 3,   // the scene file cannot be read, an output cannot be written, or memory ran out
     CLI_DEVICE = 4, // no usable device
     CLI_INTERRUPTED = 130,
+    CLI_PIPE = 141, // who read standard output has closed it, as if by SIGPIPE
     CLI_TERMINATED = 143,
+};
+
+enum cli_color {
+    CLI_COLOR_AUTO,
+    CLI_COLOR_ALWAYS,
+    CLI_COLOR_NEVER,
 };
 
 enum cli_stats {
@@ -45,9 +52,13 @@ struct cli_options {
     const char *alternative; // NULL: not given
     int alternative_arg;
     const char *schema; // NULL: not given
+    const char *as;     // of standard input: "yaml" or "xml"; NULL: not given
+    const char *base;   // folder of standard input; NULL: not given
+    enum cli_color color;
     const char *config; // NULL: not given
     int format_arg;
     struct cli_list sets, asset_paths;
+    struct cli_list severities; // the codes whose severity was given
     struct limits limits;
     struct diag_policy policy; // what a check reports, over the folder's configuration
     struct cli_measure measure;
@@ -71,6 +82,12 @@ struct cli_options {
     int as_file_arg; // as output_arg
 };
 
+// Standard input that an operand '-' names.
+struct cli_stream {
+    str path; // as shown: what it would have as a file; empty: no operand names it
+    struct file_overlay overlay;
+};
+
 struct cli {
     int argc;
     char **argv;
@@ -81,8 +98,10 @@ struct cli {
     bool color;                // standard error accepts colours
     bool stuck;                // a device may still be at work
     struct cli_options options;
-    char **operands; // what is left after the options
+    int *option_places; // by row of the table: the argument that gave it last; 0: not given
+    char **operands;    // what is left after the options
     int operand_count;
+    struct cli_stream stream;
     struct cli_list fixed; // files whose fixes were shown
 };
 
@@ -115,8 +134,38 @@ bool cli_policy_apply(struct cli *cli, int arg, enum cli_policy_option option, c
 // Reads the settings that --config names, and lays the other options over them. false: a mistake in the file
 // went to cli->sink.
 bool cli_take_config(struct cli *cli);
+// Values of options; false: a mistake went to cli->sink.
+bool cli_read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least, int64_t most,
+                    int32_t *out);
+bool cli_read_size(struct cli *cli, int arg, const char *text);
+bool cli_read_limit(struct cli *cli, int arg, const char *text);
+bool cli_read_max_messages(struct cli *cli, int arg, const char *text);
+bool cli_read_folder(struct cli *cli, int arg, const char *name, const char *text);
+// The index of `text` among `words`, which NULL ends; -1: it is not one of them, and the mistake is in
+// cli->sink.
+int cli_read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words);
 // The options of a command (NULL: of the program), one line each.
 void cli_option_help(struct strbuf *out, const struct cli_command *command);
+
+// Whether a command takes an option.
+bool cli_has_option(const struct cli_command *command, const char *name);
+// The argument that gives an option; 0: it is not given.
+int cli_option_place(const struct cli *cli, const char *name);
+// For an option that goes together with another one, or does not: true, with a mistake in cli->sink, if it
+// was given all the same.
+bool cli_has_no_effect(struct cli *cli, const char *name, const char *why);
+
+// Reads standard input if an operand of the command names it as a scene; the operand becomes its path, which
+// cli_session_options knows. CLI_OK, or an exit code with the mistake reported.
+int cli_take_stream(struct cli *cli, const struct cli_command *command);
+bool cli_is_stream(const struct cli *cli, const char *path);
+// Its name in messages.
+str cli_stream_name(struct cli *cli);
+// All of it; CLI_OK, or CLI_FILE with an error printed.
+int cli_read_stream(struct cli *cli, struct strbuf *text);
+
+// Whether text for this descriptor has colours: --color, then NO_COLOR, then CLICOLOR_FORCE, then a terminal.
+bool cli_has_color(const struct cli *cli, int fd);
 
 // The place of an argument on the command line.
 span cli_place(const struct cli *cli, int arg);

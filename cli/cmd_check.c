@@ -512,11 +512,16 @@ int cmd_check(struct cli *cli) {
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;
     check.format = (enum check_format)format;
+    if (cli->options.quiet && cli_has_no_effect(cli, "verbose", "'--quiet' leaves notes out"))
+        return CLI_USAGE;
     if (cli->options.diff && !cli->options.fix)
         cli->options.fix = FIX_SAFE;
     if (cli->options.diff && check.format != CHECK_TEXT && !cli->options.output)
         return cli_usage(cli, cli->options.fix_arg,
                          "the patch and the report would be mixed: write the report to a file with -o");
+    if (cli->options.fix && !cli->options.diff && cli->stream.path.len)
+        return cli_usage(cli, cli->options.fix_arg,
+                         "standard input cannot be changed: '--diff' shows the fixes as a patch");
     if (!getcwd(check.root, sizeof check.root))
         check.root[0] = '\0';
     int status = run(&check);

@@ -194,6 +194,9 @@ int cmd_compare(struct cli *cli) {
     int format;
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;
+    if (!cli->options.measure.heatmap &&
+        cli_has_no_effect(cli, "heatmap-of", "no heat map is written without '--heatmap FILE'"))
+        return CLI_USAGE;
     struct comparison *c = heap_zeroed(1, sizeof *c);
     if (!c) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory");

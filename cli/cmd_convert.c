@@ -1,19 +1,28 @@
 // glint convert IN OUT: what the scene means, in the other spelling.
 #include "app/convert.h"
 #include "cli/cli.h"
+#include "grammar/schema.h"
 
 #include <string.h>
 #include <sys/stat.h>
 
+// OUT's ending says the spelling; where nothing has an ending, it is the other one.
 static enum convert_spelling wanted_spelling(struct session *session, const char *out) {
-    str path = str_from(out);
-    if (str_ends_with_nocase(path, ".xml"))
-        return CONVERT_XML;
-    if (str_ends_with_nocase(path, ".json"))
-        return CONVERT_JSON;
-    if (str_ends_with_nocase(path, ".yaml") || str_ends_with_nocase(path, ".yml"))
-        return CONVERT_YAML;
+    enum convert_spelling spelling;
+    if (convert_spelling_of(str_from(out), &spelling))
+        return spelling;
     return session->origin.files.items[0].is_xml ? CONVERT_YAML : CONVERT_XML;
+}
+
+static bool has_ending(struct cli *cli, const char *out) {
+    enum convert_spelling spelling;
+    if (strcmp(out, "-") == 0 || strncmp(out, "/dev/", 5) == 0 ||
+        convert_spelling_of(str_from(out), &spelling))
+        return true;
+    cli_usage(cli, cli_operand_place(cli, 1), "the output '%s' must end in %s", out,
+              schema_file_words(SCHEMA_FILE_SCENE, &cli->arena).ptr);
+    diag_help(&cli->sink, "the ending says in which spelling the scene is written");
+    return false;
 }
 
 // Made before anything is reported, since what is wrong with it is a finding too. false: no memory.
@@ -42,6 +51,8 @@ int cmd_convert(struct cli *cli) {
                   "a converted scene loses its anchors and some of its comments; choose another name");
         return status;
     }
+    if (!has_ending(cli, out))
+        return CLI_USAGE;
     struct strbuf text;
     strbuf_init(&text);
     session_load_text(&session, &options);

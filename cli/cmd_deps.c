@@ -56,7 +56,8 @@ static bool is_told(struct listing *listing, str canonical) {
 
 static void add_text(struct listing *listing, const struct inventory *inventory) {
     for (uint32_t i = 0; i < inventory->count; i++) {
-        if (is_told(listing, inventory->items[i].canonical))
+        if (str_equal(inventory->items[i].canonical, listing->cli->stream.overlay.path) ||
+            is_told(listing, inventory->items[i].canonical))
             continue;
         strbuf_str(&listing->out, inventory->items[i].path);
         strbuf_char(&listing->out, '\n');
@@ -154,6 +155,9 @@ int cmd_deps(struct cli *cli) {
     if (!cli_format(cli, forms, &form))
         return CLI_USAGE;
     struct listing listing = {.cli = cli, .form = (enum form)form};
+    if (listing.form == FORM_MAKE && cli->stream.path.len)
+        return cli_usage(cli, cli->options.format_arg,
+                         "a rule needs the scene's name, and standard input has none: name a file");
     struct asset_store *store = asset_store_create();
     int worst = CLI_OK;
     strbuf_init(&listing.out);

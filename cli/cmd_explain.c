@@ -3,13 +3,11 @@
 
 #include "grammar/emit/explain.h"
 
-#include <stdlib.h>
 #include <unistd.h>
 
 int cmd_explain(struct cli *cli) {
     struct strbuf text;
-    const char *no_color = getenv("NO_COLOR");
-    bool color = isatty(STDOUT_FILENO) && !(no_color && no_color[0]);
+    bool color = cli_has_color(cli, STDOUT_FILENO);
     strbuf_init(&text);
     int status = CLI_OK;
     if (cli->options.list) {

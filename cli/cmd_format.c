@@ -8,7 +8,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char *const endings[] = {".glint.yaml", ".glint.yml", ".glint.xml", NULL};
 
@@ -65,42 +64,18 @@ static void take(struct formatter *f, const char *path, struct layout *layout) {
         worsen(f, CLI_SCENE);
 }
 
-// 0 or an errno; text->failed: it is too large.
-static int read_stream(struct cli *cli, struct strbuf *text) {
-    char block[65536];
-    ssize_t count;
-    text->cap_bytes = (size_t)cli->options.limits.value[LIMIT_SCENE_BYTES] + 1;
-    do {
-        count = read(STDIN_FILENO, block, sizeof block);
-        if (count > 0)
-            strbuf_add(text, block, (size_t)count);
-    } while ((count > 0 && !text->failed) || (count < 0 && errno == EINTR));
-    return count < 0 ? errno : 0;
-}
-
-static void refuse_stream(struct formatter *f, bool too_large, int error) {
-    if (too_large)
-        cli_error(f->cli, DIAG_LIMIT, "standard input", NULL,
-                  "standard input is larger than the limit scene-bytes");
-    else
-        cli_error(f->cli, DIAG_FILE_UNREADABLE, "standard input", NULL, "standard input cannot be read: %s",
-                  strerror(error));
-    worsen(f, CLI_FILE);
-}
-
 static void format_stream(struct formatter *f) {
     struct strbuf text;
     struct layout layout;
     strbuf_init(&text);
-    int error = read_stream(f->cli, &text);
-    if (!error && !text.failed) {
-        layout_text(&layout, STR("standard input"), strbuf_view(&text), &f->cli->options.limits,
+    int status = cli_read_stream(f->cli, &text);
+    if (status == CLI_OK) {
+        layout_text(&layout, cli_stream_name(f->cli), strbuf_view(&text), &f->cli->options.limits,
                     f->cli->options.upgrade);
         take(f, "-", &layout);
         layout_finish(&layout);
-    } else {
-        refuse_stream(f, text.failed, error);
     }
+    worsen(f, status);
     strbuf_finish(&text);
 }
 

@@ -44,14 +44,33 @@ static int pack(struct cli *cli, struct session *session) {
     return CLI_FILE;
 }
 
+// It would become a folder of that name.
+static bool is_other_archive(struct cli *cli) {
+    static const char *const others[] = {".tar", ".gz", ".tgz", ".bz2", ".xz", ".zst", ".7z", ".rar", NULL};
+    const char *out = cli->operands[1];
+    for (const char *const *ending = others; *ending; ending++) {
+        if (!str_ends_with_nocase(str_from(out), *ending))
+            continue;
+        cli_usage(cli, cli_operand_place(cli, 1), "'%s' names an archive that glint cannot write", out);
+        diag_help(&cli->sink, "a name that ends in .zip makes an archive, any other a folder");
+        return true;
+    }
+    return false;
+}
+
 int cmd_pack(struct cli *cli) {
     struct session session;
     struct session_options options = cli_session_options(cli, cli->operands[0]);
     if (assets_is_mesh_path(options.path))
         return cli_usage(cli, cli_operand_place(cli, 0),
                          "'glint pack' takes a scene file, but this is a mesh");
+    if (strcmp(cli->operands[0], "-") == 0)
+        return cli_usage(cli, cli_operand_place(cli, 0),
+                         "a package has the scene's name, and standard input has none: name a file");
     if (strcmp(cli->operands[1], "-") == 0)
         return cli_usage(cli, cli_operand_place(cli, 1), "a package cannot be written to standard output");
+    if (is_other_archive(cli))
+        return CLI_USAGE;
     struct asset_store *store = asset_store_create();
     options.pixels = ASSETS_SKIP_PIXELS;
     session_load(&session, &options, store);

@@ -149,8 +149,24 @@ static int run_job(struct render_job *job, struct asset_store *store) {
     return status == CLI_OK ? render_cameras(job) : status;
 }
 
+static int needs_output(struct cli *cli) {
+    int status = cli_usage(cli, cli_operand_place(cli, 0),
+                           "a picture of standard input has no name: say where to write it");
+    diag_help(&cli->sink, "for example -o picture.png, or '-o -' for standard output");
+    return status;
+}
+
+static bool has_useless_option(struct cli *cli) {
+    bool exact = cli_device_is_reference(cli);
+    return (exact && cli_has_no_effect(cli, "repeat", "it times frames of a device, not of the reference")) ||
+           (!exact && !cli_has_study(cli) &&
+            cli_has_no_effect(cli, "no-cache", "the cache is that of '--device reference'"));
+}
+
 int cmd_render(struct cli *cli) {
     struct render_job job = {.cli = cli, .format = IMAGE_PNG};
+    if (!cli->options.output && cli_is_stream(cli, cli->operands[0]))
+        return needs_output(cli);
     job.output = cli->options.output ? cli->options.output : cli_default_picture(cli, cli->operands[0]);
     if (strcmp(job.output, "-") != 0 && strncmp(job.output, "/dev/", 5) != 0 &&
         !image_format_of_path(str_from(job.output), &job.format))
@@ -163,6 +179,8 @@ int cmd_render(struct cli *cli) {
     }
     if (cli->options.as_file && !cli_device_is_reference(cli))
         return cli_usage(cli, cli->options.as_file_arg, "'--as-file' works only with '--device reference'");
+    if (has_useless_option(cli))
+        return CLI_USAGE;
     if ((cli->options.audit || cli->options.has_max_off) && cli_device_is_reference(cli))
         return cli_usage(cli, cli->options.audit_arg,
                          "an audit compares a device's picture with the reference: choose a device");

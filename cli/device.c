@@ -1,8 +1,81 @@
-// The device that --device, else GLINT_DEVICE, asks for.
+// The device that --device, else GLINT_DEVICE, asks for; and glint devices: what can render here. The number
+// or a part of the name goes to --device.
 #include "cli/device.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+enum {
+    DEVICES_MAX = 32
+};
+
+// ---- what there is
+
+static const char *kind_name(enum gpu_kind kind) {
+    switch (kind) {
+    case GPU_DISCRETE:
+        return "GPU";
+    case GPU_INTEGRATED:
+        return "integrated GPU";
+    case GPU_VIRTUAL:
+        return "virtual GPU";
+    case GPU_CPU:
+        return "processor";
+    }
+    return "device";
+}
+
+static void describe(struct strbuf *text, const struct gpu_device_info *d) {
+    strbuf_format(text, "%u  %s (%s, %llu MiB%s%s)", d->number, d->name, kind_name(d->kind),
+                  (unsigned long long)(d->memory_bytes >> 20), d->driver[0] ? ", " : "", d->driver);
+}
+
+// The loader looks only there.
+static const char *driver_variable(void) {
+    static const char *const names[] = {"VK_DRIVER_FILES", "VK_ICD_FILENAMES", NULL};
+    for (const char *const *name = names; *name; name++)
+        if (getenv(*name))
+            return *name;
+    return NULL;
+}
+
+static int no_vulkan(struct cli *cli, const char *place, const char *error) {
+    const char *variable = driver_variable();
+    struct strbuf help;
+    strbuf_init(&help);
+    if (variable)
+        strbuf_format(&help, "glint looks only for the driver that %s names, '%s': correct it, or unset it",
+                      variable, getenv(variable));
+    else
+        strbuf_cstr(&help,
+                    "on Debian: apt-get install libvulkan1 mesa-vulkan-drivers; for a driver elsewhere, set "
+                    "VK_DRIVER_FILES to its .json file");
+    strbuf_cstr(&help, ". 'glint render --device reference' needs no driver\n");
+    cli_error(cli, DIAG_NO_VULKAN, place, arena_copy(&cli->arena, str_trim(strbuf_view(&help))).ptr, "%s",
+              error);
+    strbuf_finish(&help);
+    return CLI_DEVICE;
+}
+
+int cmd_devices(struct cli *cli) {
+    struct gpu_device_info *items = ARENA_ARRAY(&cli->arena, struct gpu_device_info, DEVICES_MAX);
+    char error[GPU_ERROR_BYTES] = "";
+    uint32_t count = 0;
+    if (gpu_list(items, DEVICES_MAX, &count, error) != GPU_OK)
+        return no_vulkan(cli, "devices", error);
+    struct strbuf text;
+    strbuf_init(&text);
+    for (uint32_t i = 0; i < count && i < DEVICES_MAX; i++) {
+        strbuf_format(&text, "%c ", items[i].preferred ? '*' : ' ');
+        describe(&text, &items[i]);
+        strbuf_char(&text, '\n');
+    }
+    int status = cli_print(cli, strbuf_view(&text));
+    strbuf_finish(&text);
+    return status;
+}
+
+// ---- what is asked for
 
 const char *cli_device_wanted(const struct cli *cli) {
     return cli->options.device ? cli->options.device : getenv("GLINT_DEVICE");
@@ -13,6 +86,23 @@ bool cli_device_is_reference(const struct cli *cli) {
     return wanted && strcmp(wanted, "reference") == 0;
 }
 
+static void no_device(struct cli *cli, const char *place, const char *error) {
+    struct gpu_device_info *items = ARENA_ARRAY(&cli->arena, struct gpu_device_info, DEVICES_MAX);
+    char ignored[GPU_ERROR_BYTES] = "";
+    uint32_t count = 0;
+    struct strbuf help;
+    strbuf_init(&help);
+    if (gpu_list(items, DEVICES_MAX, &count, ignored) != GPU_OK)
+        count = 0;
+    strbuf_cstr(&help, count ? "there is: " : "'glint devices' lists the devices");
+    for (uint32_t i = 0; i < count && i < DEVICES_MAX; i++) {
+        strbuf_cstr(&help, i ? "; " : "");
+        describe(&help, &items[i]);
+    }
+    cli_error(cli, DIAG_NO_DEVICE, place, arena_copy(&cli->arena, strbuf_view(&help)).ptr, "%s", error);
+    strbuf_finish(&help);
+}
+
 int cli_open_device(struct cli *cli, struct gpu **gpu) {
     char error[GPU_ERROR_BYTES] = "";
     struct gpu_options options = {.device = cli_device_wanted(cli)};
@@ -21,10 +111,9 @@ int cli_open_device(struct cli *cli, struct gpu **gpu) {
         return CLI_OK;
     const char *asked = cli->options.device ? "--device" : options.device ? "GLINT_DEVICE" : "device";
     if (status == GPU_NO_DEVICE)
-        cli_error(cli, DIAG_NO_DEVICE, asked, "'glint devices' lists the devices", "%s", error);
+        no_device(cli, asked, error);
     else if (status == GPU_NO_LOADER || status == GPU_NO_DRIVER)
-        cli_error(cli, DIAG_NO_VULKAN, "device", "on Debian: apt-get install libvulkan1 mesa-vulkan-drivers",
-                  "%s", error);
+        no_vulkan(cli, "device", error);
     else
         cli_error(cli, DIAG_DEVICE_FAILED, "device", NULL, "%s", error);
     return CLI_DEVICE;

@@ -16,8 +16,9 @@
 
 const struct cli_command cli_commands[] = {
     {"render", "SCENE", "render a scene to a picture",
-     "SCENE is a scene file (YAML or XML) or a mesh (OBJ). Without -o the picture is written to the\n"
-     "current folder and named after the scene.\n\n"
+     "SCENE is a scene file (YAML or XML), a mesh (OBJ), or '-' for a scene on standard input. Without -o "
+     "the\n"
+     "picture is written to the current folder and named after the scene.\n\n"
      "  glint render scenes/showcase.glint.yaml\n"
      "  glint render scene.xml -o picture.png --size 640x480 --samples 4\n"
      "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n",
@@ -25,7 +26,8 @@ const struct cli_command cli_commands[] = {
     {"check", "SCENE|FOLDER...|--changed [REV] [FILE|FOLDER...]", "find every mistake in scene files",
      "Reads each scene with every file that it names and reports every mistake with its line and column.\n"
      "In folders it checks the files named *.glint.yaml, *.glint.yml and *.glint.xml. The exit status is 0\n"
-     "if there are no errors. Settings come from the nearest .glintrc.yaml above each scene; --config FILE\n"
+     "if there are no errors; '-' is a scene on standard input. Settings come from the nearest .glintrc.yaml "
+     "above each scene; --config FILE\n"
      "and options override them. A comment 'glint: allow W401' silences a warning on the next line. --format "
      "is one of\n"
      "text, json, sarif, github, gitlab and junit; notes are shown with --verbose and in reports.\n\n"
@@ -136,12 +138,11 @@ const struct cli_command *cli_find_command(const char *name) {
 
 static void init(struct cli *cli, int argc, char **argv) {
     struct strbuf text;
-    const char *no_color = getenv("NO_COLOR");
     *cli = (struct cli){.argc = argc, .argv = argv};
     arena_init(&cli->arena, SIZE_MAX / 2);
     source_set_init(&cli->sources, &cli->arena);
     diag_sink_init(&cli->sink);
-    cli->color = isatty(STDERR_FILENO) && !(no_color && no_color[0]);
+    cli->color = cli_has_color(cli, STDERR_FILENO);
     cli->options.limits = limits_default();
     cli->arg_begin = ARENA_ARRAY(&cli->arena, uint32_t, (size_t)argc + 1);
     strbuf_init(&text);
@@ -166,10 +167,13 @@ static void program_help(struct strbuf *out) {
         strbuf_format(out, "  %-10s %s\n", c->name, c->summary);
     strbuf_cstr(out, "\nOptions:\n");
     cli_option_help(out, NULL);
-    strbuf_cstr(out, "\n'glint COMMAND --help' shows more about a command.\n"
+    strbuf_cstr(out, "\n'glint COMMAND --help' shows more about a command. An option whose value is followed "
+                     "by '...' may be\n"
+                     "given several times.\n"
                      "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
                      "line cannot be\n"
-                     "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted.\n");
+                     "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
+                     "141 the reader of standard output is gone.\n");
 }
 
 static void command_help(struct strbuf *out, const struct cli_command *command) {
@@ -246,7 +250,8 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
         if (cli->operands[i][0] == '\0')
             return cli_usage(cli, cli_operand_place(cli, i), "'glint %s' needs %s, but this is empty",
                              command->name, command->operands);
-    return command->run(cli);
+    int status = cli_take_stream(cli, command);
+    return status == CLI_OK ? command->run(cli) : status;
 }
 
 static int run(struct cli *cli) {

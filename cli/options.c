@@ -3,13 +3,11 @@
 
 #include "app/fixes.h"
 #include "core/nearest.h"
-#include "core/number.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 enum option_id {
     OPTION_HELP = 1000,
@@ -47,6 +45,9 @@ enum option_id {
     OPTION_SCHEMA,
     OPTION_MAX_MESSAGES,
     OPTION_AUDIT,
+    OPTION_AS,
+    OPTION_BASE,
+    OPTION_COLOR,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -55,7 +56,7 @@ struct option_row {
     int id; // enum option_id
     const char *name;
     char letter;          // 0: none
-    const char *argument; // NULL: none; "[=X]": optional
+    const char *argument; // NULL: none; "[=X]": optional; "X ...": each further one adds to those before
     const char *commands; // separated by spaces; "*": all, "-": the program itself too
     const char *doc;
 };
@@ -93,8 +94,8 @@ static const struct option_row rows[] = {
     {OPTION_CAMERA, "camera", 0, "NAME", "pick tradeoff extremes", "the camera to look through"},
     {OPTION_CAMERA, "camera", 0, "NAME", "render",
      "the camera to look through; 'all' writes OUT.NAME.png for each"},
-    {OPTION_SET, "set", 0, "PATH=VALUE", "render pick check inspect deps tradeoff extremes",
-     "change one value of the scene: materials.glass.refractive_index=1.6"},
+    {OPTION_SET, "set", 0, "PATH=VALUE ...", "render pick check inspect deps tradeoff extremes",
+     "change one value of the scene: materials.glass.refractive_index=1.6; a later one counts"},
     {OPTION_DEVICE, "device", 0, "NAME|N", "render pick tradeoff extremes",
      "the device to render on, see 'glint devices'; 'reference' is the tracer in double precision; also "
      "GLINT_DEVICE"},
@@ -104,10 +105,10 @@ static const struct option_row rows[] = {
      "the reference neither reads nor writes its cache"},
     {OPTION_SKIP_PIXELS, "skip-pixels", 0, NULL, "check inspect",
      "read only the headers of images, which is faster; damaged pixels are not found"},
-    {OPTION_ASSET_PATH, "asset-path", 0, "DIR",
+    {OPTION_ASSET_PATH, "asset-path", 0, "DIR ...",
      "render pick check inspect convert deps pack tradeoff extremes",
      "another folder in which to look for files of the scene"},
-    {OPTION_LIMIT, "limit", 0, "NAME=VALUE",
+    {OPTION_LIMIT, "limit", 0, "NAME=VALUE ...",
      "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp",
      "change a limit on the size of inputs; '--limit help' lists them"},
     {OPTION_CONFIG, "config", 0, "FILE",
@@ -128,11 +129,11 @@ static const struct option_row rows[] = {
      "list all random scenes, not only those that are not right, and --keep all"},
     {OPTION_FORMAT, "format", 0, "KIND", "check compare tradeoff extremes pick diff deps",
      "the format of the report; the text above lists the kinds"},
-    {OPTION_POLICY + CLI_POLICY_SEVERITY, "severity", 0, "CODE=LEVEL", "check",
+    {OPTION_POLICY + CLI_POLICY_SEVERITY, "severity", 0, "CODE=LEVEL ...", "check",
      "change the severity of a code: error, warning, note or off"},
-    {OPTION_POLICY + CLI_POLICY_IGNORE, "ignore", 0, "CODE|PATH", "check",
+    {OPTION_POLICY + CLI_POLICY_IGNORE, "ignore", 0, "CODE|PATH ...", "check",
      "leave out a code of warnings or notes, or the files that match a pattern: 'drafts/**'"},
-    {OPTION_POLICY + CLI_POLICY_ONLY, "only", 0, "CODE", "check",
+    {OPTION_POLICY + CLI_POLICY_ONLY, "only", 0, "CODE ...", "check",
      "show only these warnings and notes; errors are always shown"},
     {OPTION_POLICY + CLI_POLICY_FAIL_ON, "fail-on", 0, "LEVEL", "check",
      "what makes the exit status 1: error (the default) or warning"},
@@ -194,6 +195,13 @@ static const struct option_row rows[] = {
      "rewrite what older versions of the language spell differently"},
     {OPTION_LIST, "list", 0, NULL, "explain", "list all codes, or those of a family: --list W4xx"},
     {OPTION_IR, "ir", 0, NULL, "inspect", "print the scene as glint understood it, in canonical form"},
+    {OPTION_AS, "as", 0, "yaml|xml", "render pick check inspect convert deps diff tradeoff extremes format",
+     "the spelling of standard input (the argument '-'), instead of what its first character says"},
+    {OPTION_BASE, "base", 0, "FOLDER", "render pick check inspect convert deps diff tradeoff extremes",
+     "the folder that paths in standard input (the argument '-') are relative to, instead of the current "
+     "one"},
+    {OPTION_COLOR, "color", 0, "WHEN", "*-",
+     "colours in messages: always, never, or auto (the default: on a terminal)"},
     {OPTION_HELP, "help", 'h', NULL, "*-", "show this help"},
     {OPTION_VERSION, "version", 'V', NULL, "-", "show the version"},
 };
@@ -224,77 +232,8 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command) {
             snprintf(left, sizeof left, "-%c, --%s%s%s", rows[i].letter, rows[i].name, joint, argument);
         else
             snprintf(left, sizeof left, "    --%s%s%s", rows[i].name, joint, argument);
-        strbuf_format(out, "  %-26s %s\n", left, rows[i].doc);
+        strbuf_format(out, "  %-28s %s\n", left, rows[i].doc);
     }
-}
-
-static bool bad_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least,
-                      int64_t most) {
-    cli_usage(cli, arg, "--%s takes a whole number from %lld to %lld, not '%s'", name, (long long)least,
-              (long long)most, text);
-    return false;
-}
-
-static bool read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least,
-                       int64_t most, int32_t *out) {
-    int64_t value = 0;
-    if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < least || value > most)
-        return bad_count(cli, arg, name, text, least, most);
-    *out = (int32_t)value;
-    return true;
-}
-
-static bool read_size(struct cli *cli, int arg, const char *text) {
-    const char *x = strpbrk(text, "xX");
-    int64_t width = 0;
-    int64_t height = 0;
-    if (!x || number_parse_integer((str){text, (size_t)(x - text)}, &width) != NUMBER_OK ||
-        number_parse_integer(str_from(x + 1), &height) != NUMBER_OK || width < 1 || height < 1 ||
-        width > 16384 || height > 16384 || width * height > 67108864) {
-        cli_usage(cli, arg,
-                  "--size takes WIDTHxHEIGHT, each from 1 to 16384 and 64 megapixels at most, such as "
-                  "640x480, not '%s'",
-                  text);
-        return false;
-    }
-    cli->options.width = (int32_t)width;
-    cli->options.height = (int32_t)height;
-    return true;
-}
-
-static bool read_limit(struct cli *cli, int arg, const char *text) {
-    enum limit which = LIMIT_COUNT;
-    if (strcmp(text, "help") == 0) {
-        cli->options.limit_help = true;
-        return true;
-    }
-    enum limit_status status = limits_set(&cli->options.limits, str_from(text), &which);
-    if (status == LIMIT_SET)
-        return true;
-    if (status == LIMIT_BAD_VALUE) {
-        const struct limit_info *info = limit_info(which);
-        cli_usage(cli, arg, "--limit %s takes a whole number from %llu to %llu", info->name,
-                  (unsigned long long)info->least, (unsigned long long)info->greatest);
-        return false;
-    }
-    size_t length = strcspn(text, "=");
-    struct nearest search = nearest_begin((str){text, length});
-    for (int i = 0; i < LIMIT_COUNT; i++)
-        nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
-    cli_usage(cli, arg, "there is no limit '%.*s'", (int)length, text);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
-        diag_help(&cli->sink, "'--limit help' lists the limits");
-    return false;
-}
-
-static bool read_folder(struct cli *cli, int arg, const char *text) {
-    struct stat info;
-    int error = stat(text, &info) != 0 ? errno : S_ISDIR(info.st_mode) ? 0 : ENOTDIR;
-    if (error)
-        cli_usage(cli, arg, "--asset-path: '%s' is not a folder that can be read: %s", text, strerror(error));
-    return error == 0;
 }
 
 static void append(struct cli *cli, struct cli_list *list, const char *text) {
@@ -383,22 +322,27 @@ static void keep_place(struct cli_options *options, int id, int arg) {
         *place = arg;
 }
 
-static bool read_max_messages(struct cli *cli, int arg, const char *text) {
-    const struct limit_info *info = limit_info(LIMIT_MESSAGES);
-    return limits_set_value(&cli->options.limits, LIMIT_MESSAGES, str_from(text)) ||
-           bad_count(cli, arg, "max-messages", text, (int64_t)info->least, (int64_t)info->greatest);
+static bool read_color(struct cli *cli, int arg, const char *value) {
+    static const char *const words[] = {
+        [CLI_COLOR_AUTO] = "auto", [CLI_COLOR_ALWAYS] = "always", [CLI_COLOR_NEVER] = "never", NULL};
+    const int word = cli_read_word(cli, arg, "color", value, words);
+    if (word >= 0)
+        cli->options.color = (enum cli_color)word;
+    cli->color = cli_has_color(cli, STDERR_FILENO);
+    return word >= 0;
 }
 
 // The rest: options whose text means something.
 static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
     struct cli_options *options = &cli->options;
+    static const char *const as_words[] = {"yaml", "xml", NULL};
     switch (id) {
     case OPTION_SIZE:
-        return read_size(cli, arg, value);
+        return cli_read_size(cli, arg, value);
     case OPTION_SAMPLES:
-        return read_count(cli, arg, "samples", value, 1, 4096, &options->samples);
+        return cli_read_count(cli, arg, "samples", value, 1, 4096, &options->samples);
     case OPTION_SAMPLE:
-        return read_count(cli, arg, "sample", value, 0, 4095, &options->sample);
+        return cli_read_count(cli, arg, "sample", value, 0, 4095, &options->sample);
     case OPTION_CAMERA:
         options->camera = str_from(value);
         return true;
@@ -406,16 +350,23 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         append(cli, &options->sets, value);
         return true;
     case OPTION_ASSET_PATH:
-        if (!read_folder(cli, arg, value))
+        if (!cli_read_folder(cli, arg, "asset-path", value))
             return false;
         append(cli, &options->asset_paths, value);
         return true;
     case OPTION_LIMIT:
-        return read_limit(cli, arg, value);
+        return cli_read_limit(cli, arg, value);
     case OPTION_MAX_MESSAGES:
-        return read_max_messages(cli, arg, value);
+        return cli_read_max_messages(cli, arg, value);
+    case OPTION_AS:
+        return cli_read_word(cli, arg, "as", value, as_words) >= 0 && (options->as = value);
+    case OPTION_BASE:
+        options->base = value;
+        return cli_read_folder(cli, arg, "base", value);
+    case OPTION_COLOR:
+        return read_color(cli, arg, value);
     case OPTION_REPEAT:
-        return read_count(cli, arg, "repeat", value, 1, 100000, &options->repeat);
+        return cli_read_count(cli, arg, "repeat", value, 1, 100000, &options->repeat);
     case OPTION_STATS:
         options->stats = value ? CLI_STATS_JSON : CLI_STATS_TEXT;
         if (value && strcmp(value, "json") != 0)
@@ -445,6 +396,48 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
     if (text)
         *text = value;
     return flag || text || apply_value(cli, arg, row->id, value);
+}
+
+// A flag says the same again.
+static bool takes_many(const struct option_row *row) {
+    return !row->argument || str_ends_with_nocase(str_from(row->argument), " ...");
+}
+
+// An option that takes one value would lose the first one.
+static bool is_repeated(struct cli *cli, int arg, const struct option_row *row) {
+    int *first = &cli->option_places[row - rows];
+    if (*first == 0 || takes_many(row)) {
+        *first = arg;
+        return false;
+    }
+    cli_usage(cli, arg, "option '--%s' is given twice, and takes one value", row->name);
+    diag_note(&cli->sink, cli_place(cli, *first), "the first one is here");
+    diag_help(&cli->sink, "leave one of them out");
+    return true;
+}
+
+bool cli_has_option(const struct cli_command *command, const char *name) {
+    for (int i = 0; i < ROW_COUNT; i++)
+        if (strcmp(rows[i].name, name) == 0 && belongs(&rows[i], command))
+            return true;
+    return false;
+}
+
+int cli_option_place(const struct cli *cli, const char *name) {
+    int place = 0;
+    for (int i = 0; i < ROW_COUNT; i++)
+        if (cli->option_places && strcmp(rows[i].name, name) == 0 && cli->option_places[i])
+            place = cli->option_places[i];
+    return place;
+}
+
+bool cli_has_no_effect(struct cli *cli, const char *name, const char *why) {
+    int place = cli_option_place(cli, name);
+    if (place == 0)
+        return false;
+    cli_usage(cli, place, "option '--%s' would have no effect: %s", name, why);
+    diag_help(&cli->sink, "leave it out");
+    return true;
 }
 
 static void suggest(struct cli *cli, const struct cli_command *command, const char *word) {
@@ -494,6 +487,7 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
     char **argv = ARENA_ARRAY(&cli->arena, char *, (size_t)argc + 1);
     for (int i = 0; i < argc; i++)
         argv[i] = cli->argv[first - 1 + i];
+    cli->option_places = ARENA_ARRAY(&cli->arena, int, ROW_COUNT);
     opterr = 0;
     optind = 0;
     bool good = true;
@@ -521,7 +515,7 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
         }
         for (int i = 0; i < ROW_COUNT; i++)
             if (rows[i].id == id || rows[i].letter == id) {
-                good = apply(cli, arg, &rows[i], optarg) && good;
+                good = !is_repeated(cli, arg, &rows[i]) && apply(cli, arg, &rows[i], optarg) && good;
                 break;
             }
     }

@@ -20,8 +20,7 @@ static bool read_number(struct cli *cli, int arg, const char *name, const char *
     return true;
 }
 
-// The index of `text` among `words`, which NULL ends; -1 with a mistake reported if it is not one of them.
-static int read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words) {
+int cli_read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words) {
     struct strbuf list;
     for (int i = 0; words[i]; i++)
         if (strcmp(words[i], text) == 0)
@@ -54,7 +53,7 @@ static bool read_choice(struct cli *cli, int arg, enum cli_measure_option option
                                : option == CLI_MEASURE_TONE     ? tones
                                : option == CLI_MEASURE_TRANSFER ? transfers
                                                                 : maps;
-    const int word = read_word(cli, arg, name, value, words);
+    const int word = cli_read_word(cli, arg, name, value, words);
     if (word < 0)
         return false;
     if (option == CLI_MEASURE_SPACE) {

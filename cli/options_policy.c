@@ -1,9 +1,13 @@
-// The options that say what a check reports and when it fails: --severity, --ignore, --only, --fail-on.
+// The options that say what a check reports and when it fails: --severity, --ignore, --only, --fail-on; and
+// --config, the settings of whoever runs glint, which go before those beside the scenes and after the other
+// options.
 #include "cli/cli.h"
 
+#include "app/settings/config.h"
 #include "core/nearest.h"
 
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 static bool refuse_codes(struct cli *cli, int arg, const char *name, str codes,
@@ -40,6 +44,13 @@ static bool read_severity(struct cli *cli, int arg, const char *text) {
         return false;
     }
     str word = str_from(text + length + 1);
+    for (uint32_t i = 0; i < cli->options.severities.count; i++)
+        if (codes.len == cli->options.severities.items[i].len &&
+            strncasecmp(codes.ptr, cli->options.severities.items[i].ptr, codes.len) == 0) {
+            cli_usage(cli, arg, "--severity: '%.*s' is given twice", STR_ARG(codes));
+            return false;
+        }
+    *ARENA_PUSH(&cli->arena, &cli->options.severities) = codes;
     enum diag_policy_status status = diag_policy_level(&cli->options.policy, codes, word);
     if (status == DIAG_POLICY_BAD_WORD)
         return refuse_word(cli, arg, "severity", word, diag_level_words);
@@ -75,4 +86,30 @@ bool cli_policy_apply(struct cli *cli, int arg, enum cli_policy_option option, c
                refuse_word(cli, arg, "fail-on", str_from(value), diag_fail_words);
     }
     return false;
+}
+
+static void take(void *context) {
+    struct cli *cli = context;
+    struct cli_options *options = &cli->options;
+    struct files files;
+    struct config config;
+    files_init(&files, &cli->arena);
+    struct config_input input = {
+        .files = &files, .sources = &cli->sources, .sink = &cli->sink, .arena = &cli->arena};
+    str path = str_from(options->config);
+    config_read_file(&input, path, path, &config);
+    if (cli->sink.errors)
+        return;
+    limits_fill(&options->limits, &config.limits);
+    diag_policy_overlay(&config.policy, &cli->arena, &options->policy);
+    options->policy = config.policy;
+    for (uint32_t i = 0; i < config.asset_paths.count; i++)
+        *ARENA_PUSH(&cli->arena, &options->asset_paths) = config.asset_paths.items[i];
+}
+
+bool cli_take_config(struct cli *cli) {
+    enum arena_fault fault = arena_guarded(&cli->arena, take, cli);
+    if (fault)
+        diag_add(&cli->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory for the settings");
+    return cli->sink.errors == 0;
 }

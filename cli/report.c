@@ -5,10 +5,27 @@
 #include "diag/diag_text.h"
 #include "files/output.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+bool cli_is_stream(const struct cli *cli, const char *path) {
+    return cli->stream.path.len && str_equal_cstr(cli->stream.path, path);
+}
+
+bool cli_has_color(const struct cli *cli, int fd) {
+    const char *never = getenv("NO_COLOR");
+    const char *always = getenv("CLICOLOR_FORCE");
+    if (cli->options.color != CLI_COLOR_AUTO)
+        return cli->options.color == CLI_COLOR_ALWAYS;
+    if (never && never[0])
+        return false;
+    return (always && always[0] && strcmp(always, "0") != 0) || isatty(fd);
+}
 
 span cli_place(const struct cli *cli, int arg) {
     if (arg < 0 || arg >= cli->argc)
@@ -19,7 +36,8 @@ span cli_place(const struct cli *cli, int arg) {
 
 int cli_operand_place(const struct cli *cli, int index) {
     for (int i = 0; i < cli->argc && index < cli->operand_count; i++)
-        if (cli->argv[i] == cli->operands[index])
+        if (cli->argv[i] == cli->operands[index] ||
+            (cli_is_stream(cli, cli->operands[index]) && strcmp(cli->argv[i], "-") == 0))
             return i;
     return cli->argc - 1;
 }
@@ -109,6 +127,8 @@ int cli_interrupted(struct cli *cli) {
 struct session_options cli_session_options(const struct cli *cli, const char *path) {
     const struct cli_options *o = &cli->options;
     return (struct session_options){.path = str_from(path),
+                                    .overlays = &cli->stream.overlay,
+                                    .overlay_count = cli_is_stream(cli, path),
                                     .asset_paths = o->asset_paths.items,
                                     .asset_path_count = o->asset_paths.count,
                                     .sets = o->sets.items,
@@ -125,6 +145,8 @@ int cli_write(struct cli *cli, const char *path, str bytes) {
     int error = output_whole(path, bytes.ptr, bytes.len);
     if (error == 0)
         return CLI_OK;
+    if (error == EPIPE && strcmp(path, "-") == 0)
+        return CLI_PIPE; // 'glint ... | head' is no mistake
     cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
               "cannot be written: %s", strerror(error));
     return CLI_FILE;

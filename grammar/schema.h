@@ -12,6 +12,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+struct arena;
+
 // What a row's field is; derived from the field's C type.
 enum schema_kind {
     SCHEMA_BOOLEAN,   // bool
@@ -173,6 +175,8 @@ const char *schema_yaml_key(const struct schema_row *row);
 const char *const *schema_components(enum schema_kind kind);
 // Endings of the files of a kind: {".png", ".jpg", ...}; NULL at the end.
 const char *const *schema_file_endings(enum schema_file kind);
+// The same as words: ".png, .jpg, .jpeg or .hdr".
+str schema_file_words(enum schema_file kind, struct arena *arena);
 // Whether a path ends as the files of the kind do, without regard to case.
 bool schema_file_fits(enum schema_file kind, str path);
 

@@ -1,6 +1,7 @@
 // Queries on the table: rows by name, ranges, defaults.
 #include "grammar/schema.h"
 
+#include "core/arena.h"
 #include "core/number.h"
 #include "core/vec3.h"
 #include "grammar/ir_value.h"
@@ -129,6 +130,15 @@ const char *const *schema_file_endings(enum schema_file kind) {
            : kind == SCHEMA_FILE_IMAGE ? images
            : kind == SCHEMA_FILE_MESH  ? meshes
                                        : none;
+}
+
+str schema_file_words(enum schema_file kind, struct arena *arena) {
+    str words = STR("");
+    for (const char *const *ending = schema_file_endings(kind); *ending; ending++) {
+        const char *joint = words.len == 0 ? "" : ending[1] ? ", " : " or ";
+        words = arena_format(arena, "%.*s%s%s", STR_ARG(words), joint, *ending);
+    }
+    return words;
 }
 
 bool schema_file_fits(enum schema_file kind, str path) {

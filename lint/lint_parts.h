@@ -121,5 +121,6 @@ void lint_opposing_normals(struct lint *lint);
 void lint_self_overlap(struct lint *lint); // rules_shells.c
 void lint_inside_out(struct lint *lint);
 void lint_oversized_image(struct lint *lint); // rules_image.c
+void lint_media(struct lint *lint);           // rules_media.c
 
 #endif

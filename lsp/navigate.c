@@ -1,4 +1,5 @@
 // Names and files: definitions, uses, renaming, links, the outline, and what an attribute means.
+#include "lsp/markdown.h"
 #include "lsp/server_private.h"
 
 #include "core/strbuf.h"
@@ -202,8 +203,22 @@ static void add_definition(const struct request *request, const struct located *
                                                         session->origin.elements.items[head->origin].at));
     text = position_clip(text, SNIPPET_BYTES);
     struct source_place where = source_locate(&session->sources, name.definition);
-    strbuf_format(out, "%.*s '%.*s' of %.*s:%u\n\n%.*s\n\n", STR_ARG(str_from(name.schema->name)),
-                  STR_ARG(name.name), STR_ARG(path_base(where.path)), where.line, STR_ARG(text));
+    strbuf_format(out, "%s '%.*s' of %.*s:%u\n\n", name.schema->name, STR_ARG(name.name),
+                  STR_ARG(path_base(where.path)), where.line);
+    if (request->server->has_markdown)
+        markdown_code(text, is_of_xml(session, name.definition.source) ? "xml" : "yaml", out);
+    else
+        strbuf_format(out, "%.*s\n", STR_ARG(text));
+    strbuf_char(out, '\n');
+}
+
+static void add_explanation(str what, bool markdown, struct strbuf *out) {
+    struct strbuf text;
+    strbuf_init(&text);
+    explain(what, false, markdown ? &text : out);
+    if (markdown)
+        markdown_explanation(strbuf_view(&text), out);
+    strbuf_finish(&text);
 }
 
 json_t *server_hover(const struct request *request) {
@@ -216,10 +231,11 @@ json_t *server_hover(const struct request *request) {
         add_definition(request, &at, &text);
     str what = at.row ? arena_format(request->arena, "%s.%s", at.schema->name, at.row->name)
                       : str_from(at.schema->name);
-    explain(what, false, &text);
+    add_explanation(what, request->server->has_markdown, &text);
     json_t *hover = json_object();
     json_t *contents = json_object();
-    json_object_set_new(contents, "kind", json_string("plaintext"));
+    json_object_set_new(contents, "kind",
+                        json_string(request->server->has_markdown ? "markdown" : "plaintext"));
     json_object_set_new(contents, "value", position_string(strbuf_view(&text)));
     json_object_set_new(hover, "contents", contents);
     json_object_set_new(hover, "range", server_range(request->server, request->session, at.at));

@@ -30,10 +30,22 @@ static enum position_encoding choose_encoding(const json_t *params) {
     return POSITION_UTF16;
 }
 
+static void choose_texts(struct server *server, const json_t *client) {
+    const json_t *item = json_object_get(json_object_get(client, "completion"), "completionItem");
+    const json_t *formats = json_object_get(json_object_get(client, "hover"), "contentFormat");
+    size_t index;
+    json_t *format;
+    server->has_snippets = json_is_true(json_object_get(item, "snippetSupport"));
+    json_array_foreach(formats, index, format) {
+        const char *name = json_string_value(format);
+        server->has_markdown = server->has_markdown || (name && strcmp(name, "markdown") == 0);
+    }
+}
+
 static json_t *capabilities(const struct server *server) {
     static const char *const encodings[] = {"utf-16", "utf-8", "utf-32"};
     return json_pack("{s:s, s:{s:b, s:i, s:{s:b}}, s:{s:[s,s]}, s:b, s:b, s:{s:b}, s:b, s:b, s:{}, "
-                     "s:{s:[s,s,s,s]}, s:b}",
+                     "s:{s:[s,s,s,s,s]}, s:b, s:b}",
                      "positionEncoding", encodings[server->encoding], //
                      "textDocumentSync", "openClose", 1, "change", 2, // incremental
                      "save", "includeText", 0,                        //
@@ -44,8 +56,9 @@ static json_t *capabilities(const struct server *server) {
                      "hoverProvider", 1,                     //
                      "documentSymbolProvider", 1,            //
                      "documentLinkProvider",                 //
-                     "completionProvider", "triggerCharacters", ":", "\"", "/", " ",
-                     "documentFormattingProvider", 1);
+                     "completionProvider", "triggerCharacters", ":", "\"", "/", " ", "<",
+                     "documentFormattingProvider", 1, //
+                     "colorProvider", 1);
 }
 
 static json_t *initialize(struct server *server, const json_t *params) {
@@ -53,6 +66,7 @@ static json_t *initialize(struct server *server, const json_t *params) {
     const json_t *watching = json_object_get(workspace, "didChangeWatchedFiles");
     server->may_watch = json_is_true(json_object_get(watching, "dynamicRegistration"));
     server->encoding = choose_encoding(params);
+    choose_texts(server, json_object_get(json_object_get(params, "capabilities"), "textDocument"));
     server->initialized = true;
     return json_pack("{s:o, s:{s:s, s:s}}", "capabilities", capabilities(server), "serverInfo", "name",
                      "glint", "version", server->version);
@@ -135,6 +149,8 @@ static const struct method {
     {"textDocument/documentLink", server_links, ANSWER_EMPTY},
     {"textDocument/completion", server_completion, ANSWER_EMPTY},
     {"textDocument/formatting", server_formatting, ANSWER_STILL},
+    {"textDocument/documentColor", server_colors, ANSWER_EMPTY},
+    {"textDocument/colorPresentation", server_color_texts, ANSWER_EMPTY},
 };
 
 static const struct {

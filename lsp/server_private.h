@@ -14,6 +14,8 @@ struct server {
     const char *version;
     enum position_encoding encoding;
     bool initialized, shut_down;
+    bool has_snippets; // the client takes completions with places to fill in
+    bool has_markdown; // and hovers in Markdown
     bool may_watch;    // the client reports files that change on the disk if it is asked to
     bool was_saved;    // since the last check
     json_t *published; // URI: its diagnostics, as the client knows them
@@ -55,6 +57,7 @@ json_t *server_diagnostic(struct server *server, struct session *session, struct
 // documents without a scene.
 typedef json_t *server_answer(const struct request *request);
 server_answer server_code_actions, server_definition, server_references, server_prepare_rename, server_rename,
-    server_hover, server_symbols, server_links, server_completion, server_formatting;
+    server_hover, server_symbols, server_links, server_completion, server_formatting, server_colors,
+    server_color_texts;
 
 #endif

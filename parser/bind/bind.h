@@ -211,6 +211,10 @@ struct bind_entries bind_loose_entries(struct bind_context *context, const struc
 // them, the elements of `row` do. Reports and marks them, and the element that lacks them.
 void bind_loose_columns(struct bind_context *context, const struct bind_frame *outer,
                         const struct schema_row *row, tree_index key);
+// {position: 0, 0, 0}: in a flow map the commas make keys of all numbers but the first. Whether that was so:
+// reported, with what the list is, and the keys are known.
+bool bind_loose_numbers(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index map,
+                        tree_index key);
 
 // bind_entry.c
 // An entry at its defaults, in scratch.

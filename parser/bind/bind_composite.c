@@ -115,6 +115,11 @@ static void help_with_zeros(struct bind_context *context, struct bind_subject su
     str all = context->tree->is_xml ? say_components(context->scratch, subject, list)
                                     : arena_format(context->scratch, "[%.*s]", STR_ARG(list));
     diag_help(context->sink, "with 0 for the rest: %.*s", STR_ARG(say_text(context->scratch, all)));
+    // What is missing may be another number: a suggestion. A comment inside would be lost.
+    str written = source_text(context->sources, tree_span(tree, node));
+    bool has_comment = written.len && memchr(written.ptr, tree->is_xml ? '!' : '#', written.len);
+    if (!has_comment)
+        diag_fix(context->sink, false, tree_span(tree, node), all);
 }
 
 static bool report_missing(struct bind_context *context, struct bind_subject subject, tree_index node,

@@ -332,8 +332,10 @@ void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_inde
         bool single = false;
         bool bad = bind_is_bad_pair(context, node, key);
         int row = find_row_once(context, frame, key, number, known, &single);
-        if (row >= 0 && !first && !bad)
+        if (row >= 0 && !first && !bad) {
             bind_loose_columns(context, frame, &frame->schema->rows[row], key);
+            bad = bind_loose_numbers(context, frame, (uint32_t)row, node, key);
+        }
         if (row >= 0 && comes_first(&frame->schema->rows[row]) != first)
             continue;
         if (row < 0) {

@@ -1,8 +1,11 @@
 // What is recognised despite a reported mistake: it is still read, so that its own mistakes show in the same
 // run, and names in it are known.
+#include "core/number.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
+
+#include <string.h>
 
 // Whether a map is an entry of the row and not a map of entries: it has a key of an entry.
 static bool is_entry(struct bind_context *context, const struct schema_row *row, tree_index map) {
@@ -150,4 +153,72 @@ void bind_loose_columns(struct bind_context *context, const struct bind_frame *o
     diag_help(context->sink, "what belongs to '%.*s' above must be indented further than it", STR_ARG(above));
     for (; is_out_of_column(context, outer, row, next); next = tree_next_key(tree, next))
         tree_node(tree, next)->flags |= TREE_BAD;
+}
+
+enum {
+    NUMBERS_BYTES_MAX = 256
+};
+
+static size_t skip_blanks(str text, size_t at) {
+    while (at < text.len && (text.ptr[at] == ' ' || text.ptr[at] == '\t'))
+        at++;
+    return at;
+}
+
+// Where the numbers with commas between them end that begin at `begin`; *count of them.
+static size_t numbers_end(str text, size_t begin, uint32_t *count) {
+    size_t end = begin;
+    text = str_slice(text, 0, begin + NUMBERS_BYTES_MAX < text.len ? begin + NUMBERS_BYTES_MAX : text.len);
+    for (size_t at = begin; at < text.len;) {
+        size_t stop = at;
+        double ignored;
+        while (stop < text.len && !strchr(" \t\r\n,:]}", text.ptr[stop]))
+            stop++;
+        size_t after = skip_blanks(text, stop);
+        bool is_key = after < text.len && text.ptr[after] == ':';
+        if (is_key || number_parse(str_slice(text, at, stop), &ignored) != NUMBER_OK)
+            break;
+        end = stop;
+        ++*count;
+        if (after == text.len || text.ptr[after] != ',')
+            break;
+        at = skip_blanks(text, after + 1);
+    }
+    return end;
+}
+
+bool bind_loose_numbers(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index map,
+                        tree_index key) {
+    const struct tree *tree = context->tree;
+    const struct schema_row *r = &frame->schema->rows[row];
+    const struct tree_node *value = tree_node(tree, tree_value(tree, key));
+    uint32_t components = 0;
+    for (const char *const *names = schema_components(r->kind); names[components];)
+        components++;
+    if (tree->is_xml || components == 0 || r->many != SCHEMA_ONE || value->kind != TREE_SCALAR ||
+        value->style != TREE_PLAIN || tree_node(tree, map)->style != TREE_FLOW || !tree_next_key(tree, key))
+        return false;
+    str text = context->sources->items[tree->source].text;
+    uint32_t count = 0;
+    uint32_t end = (uint32_t)numbers_end(text, value->begin, &count);
+    if (count < 2)
+        return false;
+    struct bind_subject subject = bind_subject(frame, r);
+    span at = {tree->source, value->begin, end};
+    str written = source_text(context->sources, at);
+    str list = mend_numbers(context->scratch, written, components);
+    diag_add(context->sink, DIAG_WRONG_SHAPE, at, "%.*s must be %.*s, not '%.*s'",
+             STR_ARG(say_subject(context->scratch, subject)),
+             STR_ARG(say_expected_of(context->scratch, subject)), STR_ARG(written));
+    if (list.len) {
+        str mended = arena_format(context->scratch, "[%.*s]", STR_ARG(list));
+        diag_help(context->sink, "write %.*s", STR_ARG(mended));
+        diag_fix(context->sink, true, at, mended);
+    } else {
+        bind_help_example(context, subject);
+    }
+    for (tree_index next = key; next; next = tree_next_key(tree, next))
+        if (tree_node(tree, next)->begin < end)
+            tree_node(tree, next)->flags |= TREE_BAD;
+    return true;
 }

@@ -204,8 +204,11 @@ static bool find_entry(struct override *o, struct override_target *target, uint3
     if (s->kind == OVERRIDE_KEY && row->many == SCHEMA_SEQUENCE) {
         diag_add(sink(o), DIAG_SET_PATH, s->at,
                  "'%s' is a list; its entries are counted from 0 or named in brackets", schema_yaml_key(row));
-        diag_help(sink(o), "for example %s[0] or %s[%.*s]", schema_yaml_key(row), schema_yaml_key(row),
-                  STR_ARG(quoted_text(o, name)));
+        if (str_equal(name, STR("0")))
+            diag_help(sink(o), "write %s[0]", schema_yaml_key(row));
+        else
+            diag_help(sink(o), "for example %s[0] or %s[%.*s]", schema_yaml_key(row), schema_yaml_key(row),
+                      STR_ARG(quoted_text(o, name)));
         return false;
     }
     if (by_index) {

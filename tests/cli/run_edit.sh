@@ -206,4 +206,21 @@ for scene in "$source"/scenes/*.yaml "$source"/scenes/elements/*.yaml; do
     expect "twins: $(basename "$scene")" 0 - - "$glint" diff "$scene" "${scene%.yaml}.xml"
 done
 
+# Vectors: what the help says is what the fix writes.
+cp "$source/tests/invalid/e209_yaml_flow/case.yaml" flow.yaml
+expect "brackets around numbers in a flow map" 1 - 'flow.yaml: 6 fixes made' "$glint" check --fix flow.yaml
+expect "all that has enough of them" 0 'position: .0, 2, 8., look_at: .0, 0, 0., fov: 40' - cat flow.yaml
+expect "the rest is left" 1 - "^flow.yaml:3:.*not '5, 5'" "$glint" check flow.yaml
+printf '<Scene glint="1">\n  <Camera><Position x="1" y="2"/></Camera>\n  <Sphere radius="1"><Center z="3"></Center></Sphere>\n  <Sphere radius="1"><Center x="1"><!-- why --></Center></Sphere>\n</Scene>\n' >vectors.xml
+expect "components that are missing are not certain" 1 - 'lacks .z.' "$glint" check --fix vectors.xml
+expect "with all suggestions" 1 - 'vectors.xml: 2 fixes made' "$glint" check --fix=all vectors.xml
+expect "as the help says" 0 '<Position x="1" y="2" z="0"/>' - cat vectors.xml
+expect "in a pair of tags" 0 '<Center x="0" y="0" z="3"/>' - cat vectors.xml
+expect "no comment is lost" 0 '<Center x="1"><!-- why --></Center>' - cat vectors.xml
+printf 'glint: 1\nspheres: [{center: {x: 1, z: 2}, radius: 1}]\n' >vectors.yaml
+expect "in YAML" 0 - 'vectors.yaml: 1 fix made' "$glint" check --fix=all vectors.yaml
+expect "as a list" 0 'center: .1, 0, 2.' - cat vectors.yaml
+expect "an index after a point" 1 - 'help: write spheres.0.$' "$glint" check vectors.yaml --set spheres.0.radius=2
+expect "a name after a point" 1 - 'help: for example spheres.0. or spheres.ball.$' "$glint" check vectors.yaml --set spheres.ball.radius=2
+
 exit $failed

@@ -171,6 +171,8 @@ static void ask_something(struct lsp_client *client, uint64_t *state) {
                                           "textDocument/documentSymbol",
                                           "textDocument/documentLink",
                                           "textDocument/formatting",
+                                          "textDocument/documentColor",
+                                          "textDocument/colorPresentation",
                                           "initialize",
                                           "nonsense"};
     static const char *const names[] = {"window", "", "9", "gl ass", "\xC3\xA9t\xC3\xA9"};

@@ -257,7 +257,8 @@ static void notes_are_repeated_for_a_stored_mesh(void **state) {
     struct assets_scene *first = load_dragon(f, store);
     struct assets_scene *second = load_dragon(f, store);
     assert_int_equal(first->sink.count, 2);
-    assert_says(first, "dragon.obj:9:1: note: 1 point, line or curve is not drawn [N604]\n     9 | l 1 2\n");
+    assert_says(first,
+                "dragon.obj:9:1: warning: 1 point, line or curve is not drawn [W606]\n     9 | l 1 2\n");
     assert_string_equal(assets_scene_text(first), assets_scene_text(second));
     assets_scene_end(first);
     assets_scene_end(second);

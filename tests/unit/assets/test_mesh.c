@@ -108,9 +108,8 @@ static void random_numbers_read_as_strtod_does(void **state) {
         expected[i] = strtod(word, NULL) + 0.0;
         strbuf_format(&text, "%s%s%s", i % 3 ? " " : "v ", word, i % 3 == 2 ? "\n" : "");
     }
-    strbuf_cstr(&text, "f 1");
-    for (int i = 2; i <= 1000; i++)
-        strbuf_format(&text, " %d", i);
+    for (int i = 1; i <= 998; i++)
+        strbuf_format(&text, "f %d %d %d\n", i, i + 1, i + 2);
     const struct mesh *mesh = assets_scene_mesh(s, text.data);
     assert_silent(s);
     for (int i = 0; i < 1000; i++)
@@ -139,13 +138,49 @@ static void corners_take_all_their_forms(void **state) {
     assets_scene_end(s);
 }
 
-static void what_else_stands_behind_a_vertex_is_ignored(void **state) {
+static void a_weight_after_a_vertex_is_ignored(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
-    const struct mesh *mesh = assets_scene_mesh(s, "v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 0 0 1\nf 1 2 3\n");
+    const struct mesh *mesh = assets_scene_mesh(s, "v 0 0 0 1\nv 1 0 0 0.5\nv 0 1 0\nf 1 2 3\n");
     assert_silent(s);
     assert_vec(mesh->positions[1], 1, 0, 0);
     assets_scene_end(s);
+}
+
+static void a_colour_after_a_vertex_is_told(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    const struct mesh *mesh = assets_scene_mesh(s, "v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 0 0 1\nf 1 2 3\n");
+    assert_int_equal(s->sink.count, 1);
+    assert_says(s, "mesh.obj:2:1: warning: the colours of 2 vertices are not drawn [W606]");
+    assert_vec(mesh->positions[1], 1, 0, 0);
+    assets_scene_end(s);
+}
+
+static void images_of_faces_are_told(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    assert_non_null(assets_scene_mesh(s, TRIANGLE "usemap a.png\nf 1 2 3\nusemap off\nmaplib b\n"));
+    assert_int_equal(s->sink.count, 1);
+    assert_says(s, "mesh.obj:4:1: warning: the image of 1 'usemap' line is not drawn [W606]");
+    assets_scene_end(s);
+}
+
+// Where a file of six digits rounds, and whatever the size.
+static void faces_that_are_flat_enough_are_not_told(void **state) {
+    static const char *const flat[] = {
+        "v 0 0 0\nv 1 0 0\nv 1 1 0.003\nv 0 1 0\nf 1 2 3 4\n",
+        "v 0 0 1000\nv 0.01 0 1000\nv 0.01 0.01 1000.001\nv 0 0.01 1000\nf 1 2 3 4\n",
+        "v 0 0 0\nv 1e-9 0 0\nv 1e-9 1e-9 0\nv 0 1e-9 0\nf 1 2 3 4\n",
+        "v 0 0 0\nv 1 0 0\nv 0 0 0\nv 1 0 0\nf 1 2 3 4\n",
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof flat / sizeof flat[0]; i++) {
+        struct assets_scene *s = assets_scene_begin();
+        assert_non_null(assets_scene_mesh(s, flat[i]));
+        assert_silent(s);
+        assets_scene_end(s);
+    }
 }
 
 static void vertices_may_follow_their_face(void **state) {
@@ -192,14 +227,14 @@ static void faces_are_grouped_by_material(void **state) {
     assets_scene_end(s);
 }
 
-static void points_and_curves_are_one_note(void **state) {
+static void points_and_curves_are_one_warning(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
     const struct mesh *mesh = assets_scene_mesh(
         s, TRIANGLE "f 1 2 3\n  l 1 2 \\\n 3\np 1\ncstype bezier\ndeg 3\ncurv 0 1 1 2 3\nparm u 0 1\nend\n");
     assert_non_null(mesh);
     assert_int_equal(s->sink.count, 1);
-    assert_says(s, "mesh.obj:5:3: note: 3 points, lines or curves are not drawn [N604]");
+    assert_says(s, "mesh.obj:5:3: warning: 3 points, lines or curves are not drawn [W606]");
     assert_says(s, "scene.yaml:1:7: note: the mesh is named here");
     assets_scene_end(s);
 }
@@ -331,11 +366,14 @@ int main(void) {
         cmocka_unit_test(numbers_are_exact),
         cmocka_unit_test(random_numbers_read_as_strtod_does),
         cmocka_unit_test(corners_take_all_their_forms),
-        cmocka_unit_test(what_else_stands_behind_a_vertex_is_ignored),
+        cmocka_unit_test(a_weight_after_a_vertex_is_ignored),
+        cmocka_unit_test(a_colour_after_a_vertex_is_told),
+        cmocka_unit_test(images_of_faces_are_told),
+        cmocka_unit_test(faces_that_are_flat_enough_are_not_told),
         cmocka_unit_test(vertices_may_follow_their_face),
         cmocka_unit_test(unused_positions_are_dropped),
         cmocka_unit_test(faces_are_grouped_by_material),
-        cmocka_unit_test(points_and_curves_are_one_note),
+        cmocka_unit_test(points_and_curves_are_one_warning),
         cmocka_unit_test(bad_numbers_are_shown),
         cmocka_unit_test(bad_indices_are_shown),
         cmocka_unit_test(bad_lines_are_shown),

@@ -1,7 +1,10 @@
 // Which material a face has, and what a material file means.
 #include "assets_scene.h"
 
+#include "core/strbuf.h"
+
 #include <math.h>
+#include <string.h>
 
 #define VERTICES "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 #define MESH     "mtllib own.mtl\n" VERTICES "usemtl gold\nf 1 2 3\nusemtl glass\nf 1 2 3\n"
@@ -64,8 +67,10 @@ static void weights_follow_from_illum_and_transparency(void **state) {
         struct assets_scene *s = assets_scene_begin();
         const double *w = cases[i].weights;
         assert_weights(from_mtl(s, cases[i].lines)->albedo, w[0], w[1], w[2], w[3]);
-        // An open mesh that refracts is warned of elsewhere.
-        assert_int_equal(s->sink.count, assets_scene_count(s, DIAG_OPEN_DIELECTRIC));
+        // An open mesh that refracts is warned of elsewhere; so are a Tr and a d that do not agree.
+        bool disagree = strstr(cases[i].lines, "Tr 0.75") && strstr(cases[i].lines, "d 0.5");
+        assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), disagree);
+        assert_int_equal(s->sink.count, assets_scene_count(s, DIAG_OPEN_DIELECTRIC) + disagree);
         assets_scene_end(s);
     }
 }
@@ -81,16 +86,62 @@ static void what_is_not_written_has_the_default(void **state) {
     assets_scene_end(s);
 }
 
-static void unused_lines_are_one_note(void **state) {
+static void each_kind_of_unused_line_is_a_warning(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
-    from_mtl(s, "Ka 1 1 1\nmap_Kd wood.png\nKa 0 0 0\nd -halo 0.5\nKs spectral a.rfl 1");
-    assert_int_equal(assets_scene_count(s, DIAG_MTL_UNUSED), 1);
-    assert_says(
-        s, "own.mtl:2:1: note: 5 lines of the material file have no effect: Ka, map_Kd, -halo, Ks [N602]");
+    from_mtl(s, "Ka 1 1 1\nmap_Kd wood.png\nKa 0 0 1\nKa 0 0 0\nd -halo 0.5\nKs spectral a.rfl 1");
+    assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), 4);
+    assert_says(s, "own.mtl:2:1: warning: 'Ka' has no effect (2 lines): there is no ambient light [W605]");
+    assert_says(s, "own.mtl:3:1: warning: 'map_Kd' has no effect: the surfaces of bodies have no images");
+    assert_says(s, "own.mtl:6:3: warning: '-halo' has no effect: transparency does not depend on the angle");
+    assert_says(s, "own.mtl:7:1: warning: 'Ks spectral' has no effect: colours are three numbers");
     assert_says(s, "mesh.obj:1:1: note: the material file is named here");
     assert_says(s, "scene.yaml:1:7: note: the mesh is named here");
     assert_weights(material_of(s, 0, 0)->albedo, .5, 0, 0, .5);
+    assets_scene_end(s);
+}
+
+static void what_changes_nothing_is_not_told(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    from_mtl(s, "Ke 0 0 0\nKa 0.0 0 0\nTf 1 1 1\nsharpness 0\nd 0.999\nTr 0.001");
+    assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), 0);
+    assets_scene_end(s);
+}
+
+// However many kinds there are, a file of another format cannot flood the report.
+static void many_kinds_share_the_last_warning(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    struct strbuf lines;
+    strbuf_init(&lines);
+    for (int i = 0; i < 1000; i++)
+        strbuf_format(&lines, "word%d 1\n", i);
+    strbuf_char(&lines, '\0');
+    from_mtl(s, lines.data);
+    assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), 16);
+    assert_says(s,
+                "own.mtl:17:1: warning: 'word15' and others have no effect (985 lines): glint does not know");
+    strbuf_finish(&lines);
+    assets_scene_end(s);
+}
+
+static void a_second_material_of_a_name_is_told(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    const struct ir_material *m = from_mtl(s, "Kd 1 0 0\nnewmtl gold\nKd 0 1 0\nnewmtl gold");
+    assert_true(m->diffuse_color.color.r == 1);
+    assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), 1);
+    assert_says(s, "own.mtl:3:1: warning: 'newmtl gold' has no effect (2 lines): a material of this name");
+    assets_scene_end(s);
+}
+
+static void values_before_the_first_material_are_told(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    assets_scene_file(s, "own.mtl", "Kd 1 0 0\nnewmtl gold\n");
+    assert_non_null(assets_scene_mesh(s, "mtllib own.mtl\n" VERTICES "usemtl gold\nf 1 2 3\n"));
+    assert_says(s, "own.mtl:1:1: warning: 'Kd' has no effect: it comes before the first 'newmtl' [W605]");
     assets_scene_end(s);
 }
 
@@ -322,7 +373,11 @@ int main(void) {
         cmocka_unit_test(every_value_has_its_place),
         cmocka_unit_test(weights_follow_from_illum_and_transparency),
         cmocka_unit_test(what_is_not_written_has_the_default),
-        cmocka_unit_test(unused_lines_are_one_note),
+        cmocka_unit_test(each_kind_of_unused_line_is_a_warning),
+        cmocka_unit_test(what_changes_nothing_is_not_told),
+        cmocka_unit_test(many_kinds_share_the_last_warning),
+        cmocka_unit_test(a_second_material_of_a_name_is_told),
+        cmocka_unit_test(values_before_the_first_material_are_told),
         cmocka_unit_test(values_outside_their_range_are_cut_with_a_warning),
         cmocka_unit_test(bad_values_are_errors),
         cmocka_unit_test(the_first_of_one_name_counts),

@@ -66,7 +66,7 @@ static void lines_beside_faces_are_noted(void **state) {
     struct assets_scene *s = load_seed("asschercut_delete.obj");
     assert_int_equal(s->assets.models[0].mesh->triangle_count, 30);
     assert_int_equal(s->sink.count, 1);
-    assert_says(s, "asschercut_delete.obj:100:1: note: 4 points, lines or curves are not drawn [N604]");
+    assert_says(s, "asschercut_delete.obj:100:1: warning: 4 points, lines or curves are not drawn [W606]");
     assets_scene_end(s);
 }
 

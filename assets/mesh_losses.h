@@ -1,0 +1,15 @@
+// What a mesh file says and no picture shows, reported as warnings, one for each kind and file.
+//
+// Input: a mesh that was read, now or for an earlier scene. Output: diagnostics in the file's sink. Thread
+// safety: that of the sink.
+#ifndef GLINT_ASSETS_MESH_LOSSES_H
+#define GLINT_ASSETS_MESH_LOSSES_H
+
+#include "assets/asset_file.h"
+#include "assets/mesh.h"
+
+void mesh_losses_report(struct asset_file *file, const struct mesh *mesh);
+// Of a mesh that a smooth model shows: its normals without a direction.
+void mesh_losses_report_normals(struct asset_file *file, const struct mesh *mesh);
+
+#endif

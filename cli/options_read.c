@@ -1,0 +1,95 @@
+// Values of options: counts, sizes, limits, folders.
+#include "cli/cli.h"
+
+#include "core/nearest.h"
+#include "core/number.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static bool bad_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least,
+                      int64_t most) {
+    cli_usage(cli, arg, "--%s takes a whole number from %lld to %lld, not '%s'", name, (long long)least,
+              (long long)most, text);
+    return false;
+}
+
+bool cli_read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least, int64_t most,
+                    int32_t *out) {
+    int64_t value = 0;
+    if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < least || value > most)
+        return bad_count(cli, arg, name, text, least, most);
+    *out = (int32_t)value;
+    return true;
+}
+
+bool cli_read_size(struct cli *cli, int arg, const char *text) {
+    const char *x = strpbrk(text, "xX");
+    int64_t width = 0;
+    int64_t height = 0;
+    if (!x || number_parse_integer((str){text, (size_t)(x - text)}, &width) != NUMBER_OK ||
+        number_parse_integer(str_from(x + 1), &height) != NUMBER_OK || width < 1 || height < 1 ||
+        width > 16384 || height > 16384 || width * height > 67108864) {
+        cli_usage(cli, arg,
+                  "--size takes WIDTHxHEIGHT, each from 1 to 16384 and 64 megapixels at most, such as "
+                  "640x480, not '%s'",
+                  text);
+        return false;
+    }
+    cli->options.width = (int32_t)width;
+    cli->options.height = (int32_t)height;
+    return true;
+}
+
+bool cli_read_limit(struct cli *cli, int arg, const char *text) {
+    enum limit which = LIMIT_COUNT;
+    if (strcmp(text, "help") == 0) {
+        cli->options.limit_help = true;
+        return true;
+    }
+    const uint64_t given = cli->options.limits.given;
+    enum limit_status status = limits_set(&cli->options.limits, str_from(text), &which);
+    if (status == LIMIT_SET && !(given >> which & 1))
+        return true;
+    if (status == LIMIT_SET) {
+        cli_usage(cli, arg, "the limit %s is given twice", limit_info(which)->name);
+        diag_help(&cli->sink, "leave one of them out");
+        return false;
+    }
+    if (status == LIMIT_BAD_VALUE) {
+        const struct limit_info *info = limit_info(which);
+        cli_usage(cli, arg, "--limit %s takes a whole number from %llu to %llu", info->name,
+                  (unsigned long long)info->least, (unsigned long long)info->greatest);
+        return false;
+    }
+    size_t length = strcspn(text, "=");
+    struct nearest search = nearest_begin((str){text, length});
+    for (int i = 0; i < LIMIT_COUNT; i++)
+        nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
+    cli_usage(cli, arg, "there is no limit '%.*s'", (int)length, text);
+    if (nearest_best(&search).len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    else
+        diag_help(&cli->sink, "'--limit help' lists the limits");
+    return false;
+}
+
+bool cli_read_folder(struct cli *cli, int arg, const char *name, const char *text) {
+    struct stat info;
+    int error = stat(text, &info) != 0 ? errno : S_ISDIR(info.st_mode) ? 0 : ENOTDIR;
+    if (error)
+        cli_usage(cli, arg, "--%s: '%s' is not a folder that can be read: %s", name, text, strerror(error));
+    return error == 0;
+}
+
+bool cli_read_max_messages(struct cli *cli, int arg, const char *text) {
+    const struct limit_info *info = limit_info(LIMIT_MESSAGES);
+    if (cli->options.limits.given >> LIMIT_MESSAGES & 1) {
+        cli_usage(cli, arg, "the limit %s is given twice: --max-messages is another word for it", info->name);
+        diag_help(&cli->sink, "leave one of them out");
+        return false;
+    }
+    return limits_set_value(&cli->options.limits, LIMIT_MESSAGES, str_from(text)) ||
+           bad_count(cli, arg, "max-messages", text, (int64_t)info->least, (int64_t)info->greatest);
+}

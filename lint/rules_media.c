@@ -1,0 +1,358 @@
+// Refracting bodies that share a part of space: a ray that enters the second one is bent as if it came from
+// air.
+//
+// Pairs whose boxes overlap (body_pairs.c). Spheres are compared by their distance; a sphere and a mesh by
+// the mesh's nearest and farthest points; two meshes by faces that cut each other, and else by points just
+// below the faces of one that are inside the other. Bodies that touch are apart: a share of the smaller one's
+// size counts as touching, since what is written with few digits overlaps by a hair.
+#include "lint/body_pairs.h"
+#include "lint/lint_parts.h"
+
+#include "grammar/ir.h"
+
+#include <stdlib.h>
+
+#define TOUCHING 0x1p-12 // of the size of the smaller body
+
+enum {
+    FACES_MAX = 10000000, // of meshes that are looked at
+    SAMPLES = 512,        // points of one mesh that are looked for in another
+    NOTED = 3,            // other bodies that one finding names
+};
+
+enum relation {
+    APART,
+    CROSSES,
+    INSIDE, // the first is inside the second
+    AROUND, // the second is inside the first
+};
+
+struct overlap {
+    const struct lint_body *body, *other; // inside it, or before it in the file
+    enum relation relation;               // CROSSES or INSIDE
+};
+
+struct media {
+    struct lint *lint;
+    uint64_t work_left; // faces
+    struct {
+        struct overlap *items;
+        uint32_t count, capacity;
+    } found;
+};
+
+struct pair {
+    struct media *media;
+    const struct lint_body *a, *b;
+    double tolerance;
+};
+
+// ---- which bodies
+
+// Whether one of its refracting materials has an index that is not 1, and whether all have one below 1: no
+// material of nature has, so it is meant relative to what is around.
+static bool bends(const struct lint *lint, const struct lint_body *body, bool *is_relative) {
+    bool any = false;
+    *is_relative = true;
+    for (uint32_t i = 0; i < body->is->group_count; i++) {
+        const struct ir_material *material = lint_material(lint, body, i);
+        if (!(material->albedo.refraction > 0))
+            continue;
+        any = any || material->refractive_index != 1;
+        *is_relative = *is_relative && material->refractive_index < 1;
+    }
+    return any;
+}
+
+static bool is_medium(const struct lint_body *body) {
+    return lint_is_there(body) && body->is->closed && body->refraction > 0;
+}
+
+static double size_of(const struct lint_body *body) {
+    return vec3_max_abs(vec3_sub(body->box.upper, body->box.lower));
+}
+
+static double tolerance_of(const struct lint_body *a, const struct lint_body *b) {
+    double far_a = fmax(vec3_max_abs(a->box.lower), vec3_max_abs(a->box.upper));
+    double far_b = fmax(vec3_max_abs(b->box.lower), vec3_max_abs(b->box.upper));
+    return fmax(LINT_RESOLUTION * fmax(far_a, far_b), TOUCHING * fmin(size_of(a), size_of(b)));
+}
+
+// ---- spheres
+
+static enum relation spheres(const struct pair *p) {
+    double ra = p->a->is->radius;
+    double rb = p->b->is->radius;
+    double distance =
+        vec3_length(vec3_sub(p->a->is->object_to_world.offset, p->b->is->object_to_world.offset));
+    if (distance >= ra + rb - p->tolerance)
+        return APART;
+    if (distance > fabs(ra - rb) + p->tolerance)
+        return CROSSES;
+    return ra < rb ? INSIDE : AROUND;
+}
+
+// ---- a sphere and a mesh
+
+struct approach {
+    const struct lint_tree *tree;
+    affine3 object_to_world;
+    vec3 point;
+    double nearest;
+    uint64_t *work_left;
+};
+
+static bool come_near(void *context, uint32_t first, uint32_t count) {
+    struct approach *approach = context;
+    for (uint32_t i = first; i < first + count; i++) {
+        struct lint_triangle t = lint_mesh_triangle(approach->tree->mesh, approach->tree->order[i]);
+        t = lint_triangle_place(t, &approach->object_to_world);
+        approach->nearest = fmin(approach->nearest, lint_triangle_distance(&t, approach->point));
+    }
+    *approach->work_left -= *approach->work_left < count ? *approach->work_left : count;
+    return *approach->work_left > 0;
+}
+
+// Whether all of the mesh is nearer to the point.
+static bool is_within(const struct lint_body *body, vec3 point, double distance) {
+    const struct mesh *mesh = body->mesh->mesh;
+    for (uint32_t i = 0; i < mesh->position_count; i++) {
+        vec3 at = affine3_apply(body->is->object_to_world, mesh->positions[i]);
+        if (vec3_length(vec3_sub(at, point)) > distance)
+            return false;
+    }
+    return true;
+}
+
+// `a` is the sphere.
+static enum relation sphere_and_mesh(const struct pair *p) {
+    struct lint *lint = p->media->lint;
+    vec3 center = p->a->is->object_to_world.offset;
+    double radius = p->a->is->radius;
+    struct approach approach = {lint_tree_of(lint, p->b->mesh), p->b->is->object_to_world, center, INFINITY,
+                                &p->media->work_left};
+    affine3 back = transform_inverse(p->b->is->object_to_world);
+    struct lint_box around = lint_box_place(p->a->box, &back);
+    lint_tree_in_box(approach.tree, &around, come_near, &approach);
+    if (approach.nearest >= radius - p->tolerance)
+        return lint_is_inside(lint, p->b, center) ? INSIDE : APART;
+    p->media->work_left -= p->media->work_left < p->b->mesh->mesh->position_count
+                               ? p->media->work_left
+                               : p->b->mesh->mesh->position_count;
+    return is_within(p->b, center, radius + p->tolerance) ? AROUND : CROSSES;
+}
+
+// ---- two meshes
+
+struct cutting {
+    const struct pair *pair;
+    affine3 back_b; // into the object space of b's mesh
+    struct lint_face face;
+    bool cuts;
+};
+
+static bool cut_other(void *context, uint32_t first, uint32_t count) {
+    struct cutting *c = context;
+    const struct lint_tree *tree = &c->pair->b->mesh->tree;
+    for (uint32_t i = first; i < first + count && !c->cuts; i++) {
+        struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
+        struct lint_face other = lint_face_of(lint_triangle_place(t, &c->pair->b->is->object_to_world));
+        c->cuts = lint_faces_cross(&c->face, &other, c->pair->tolerance);
+    }
+    uint64_t *left = &c->pair->media->work_left;
+    *left -= *left < count ? *left : count;
+    return !c->cuts && *left > 0;
+}
+
+static bool cut_own(void *context, uint32_t first, uint32_t count) {
+    struct cutting *c = context;
+    const struct lint_tree *tree = &c->pair->a->mesh->tree;
+    for (uint32_t i = first; i < first + count && !c->cuts; i++) {
+        struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
+        c->face = lint_face_of(lint_triangle_place(t, &c->pair->a->is->object_to_world));
+        struct lint_box box = lint_box_of(&c->face.t);
+        box = lint_box_place(box, &c->back_b);
+        lint_tree_in_box(&c->pair->b->mesh->tree, &box, cut_other, c);
+    }
+    return !c->cuts && c->pair->media->work_left > 0;
+}
+
+static bool cut_each_other(const struct pair *p) {
+    struct cutting c = {.pair = p, .back_b = transform_inverse(p->b->is->object_to_world)};
+    struct lint_box common = {vec3_max(p->a->box.lower, p->b->box.lower),
+                              vec3_min(p->a->box.upper, p->b->box.upper)};
+    affine3 back = transform_inverse(p->a->is->object_to_world);
+    struct lint_box own = lint_box_place(common, &back);
+    lint_tree_of(p->media->lint, p->b->mesh);
+    lint_tree_in_box(lint_tree_of(p->media->lint, p->a->mesh), &own, cut_own, &c);
+    return c.cuts;
+}
+
+// Whether a point just below a face of `body` is inside `other`: *all of those that were tried.
+static bool is_some_inside(const struct pair *p, const struct lint_body *body, const struct lint_body *other,
+                           bool *all) {
+    struct lint *lint = p->media->lint;
+    const struct lint_tree *tree = lint_tree_of(lint, body->mesh);
+    uint32_t step = tree->count / SAMPLES + 1;
+    bool some = false;
+    *all = true;
+    for (uint32_t i = 0; i < tree->count; i += step) {
+        struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
+        struct lint_face face = lint_face_of(lint_triangle_place(t, &body->is->object_to_world));
+        vec3 middle = vec3_mul(vec3_add(vec3_add(face.t.p[0], face.t.p[1]), face.t.p[2]), 1.0 / 3);
+        double depth = body->is->mirrored ? -2 * p->tolerance : 2 * p->tolerance;
+        vec3 below = vec3_sub(middle, vec3_mul(face.normal, depth));
+        if (!lint_is_inside(lint, body, below))
+            continue; // a wall thinner than that
+        bool inside = lint_is_inside(lint, other, below);
+        some = some || inside;
+        *all = *all && inside;
+    }
+    return some;
+}
+
+static enum relation meshes(const struct pair *p) {
+    bool all;
+    if (cut_each_other(p))
+        return CROSSES;
+    if (is_some_inside(p, p->a, p->b, &all))
+        return all ? INSIDE : CROSSES;
+    if (is_some_inside(p, p->b, p->a, &all))
+        return all ? AROUND : CROSSES;
+    return APART;
+}
+
+// ---- pairs
+
+// Those at exactly the same place are reported as such (W410).
+static bool is_same_place(const struct lint_body *a, const struct lint_body *b) {
+    const affine3 *x = &a->is->object_to_world;
+    const affine3 *y = &b->is->object_to_world;
+    bool same = a->is->shape == b->is->shape && a->mesh == b->mesh && a->is->radius == b->is->radius &&
+                vec3_is_zero(vec3_sub(x->offset, y->offset));
+    for (int i = 0; i < 9; i++)
+        same = same && x->linear.m[i / 3][i % 3] == y->linear.m[i / 3][i % 3];
+    return same;
+}
+
+static enum relation relation_of(const struct pair *p) {
+    if (is_same_place(p->a, p->b))
+        return APART;
+    if (p->a->is->shape == SCENE_SPHERE && p->b->is->shape == SCENE_SPHERE)
+        return spheres(p);
+    if (p->a->is->shape == SCENE_SPHERE)
+        return sphere_and_mesh(p);
+    if (p->b->is->shape != SCENE_SPHERE)
+        return meshes(p);
+    const struct pair turned = {p->media, p->b, p->a, p->tolerance};
+    enum relation relation = sphere_and_mesh(&turned);
+    return relation == INSIDE ? AROUND : relation == AROUND ? INSIDE : relation;
+}
+
+static bool is_wrong(const struct lint *lint, const struct overlap *overlap) {
+    bool inner_is_relative, outer_is_relative;
+    bool inner_bends = bends(lint, overlap->body, &inner_is_relative);
+    bool outer_bends = bends(lint, overlap->other, &outer_is_relative);
+    // In a medium of index 1 all is as in air.
+    return overlap->relation == INSIDE ? outer_bends && !inner_is_relative : inner_bends && outer_bends;
+}
+
+static bool take_pair(void *context, const struct lint_body *a, const struct lint_body *b) {
+    struct media *media = context;
+    if (a > b) {
+        const struct lint_body *first = b;
+        b = a;
+        a = first;
+    }
+    const struct pair pair = {media, b, a, tolerance_of(a, b)}; // the later one is the first: it is reported
+    struct overlap overlap = {b, a, relation_of(&pair)};
+    if (overlap.relation == AROUND)
+        overlap = (struct overlap){a, b, INSIDE};
+    if (overlap.relation != APART && is_wrong(media->lint, &overlap))
+        *ARENA_PUSH(media->lint->arena, &media->found) = overlap;
+    return media->work_left > 0;
+}
+
+// ---- reporting
+
+static int compare_overlaps(const void *left, const void *right) {
+    const struct overlap *x = left;
+    const struct overlap *y = right;
+    if (x->body != y->body)
+        return x->body < y->body ? -1 : 1;
+    if (x->relation != y->relation)
+        return x->relation > y->relation ? -1 : 1;
+    return x->other < y->other ? -1 : x->other > y->other;
+}
+
+// The one index of what refracts in a body; 0: it has several.
+static double index_of(const struct lint *lint, const struct lint_body *body) {
+    double index = 0;
+    for (uint32_t i = 0; i < body->is->group_count; i++) {
+        const struct ir_material *material = lint_material(lint, body, i);
+        if (!(material->albedo.refraction > 0))
+            continue;
+        if (index != 0 && index != material->refractive_index)
+            return 0;
+        index = material->refractive_index;
+    }
+    return index;
+}
+
+static void help(struct lint *lint, const struct overlap *first, uint32_t count) {
+    double inner = index_of(lint, first->body);
+    double outer = index_of(lint, first->other);
+    if (first->relation == CROSSES || count > 1 || inner == 0 || outer == 0)
+        diag_help(lint->sink, "move them apart, or join them into one mesh");
+    else if (inner == outer)
+        diag_help(lint->sink, "both have the index %g: without the inner one the glass is the same", inner);
+    else if (inner < outer)
+        diag_help(lint->sink, "write the inner index relative to the outer one: refractive_index: %.4g",
+                  inner / outer);
+    else
+        diag_help(lint->sink,
+                  "write the inner index relative to the outer one (refractive_index: %.4g), and say so: "
+                  "'glint: allow W418'",
+                  inner / outer);
+}
+
+static void report(struct lint *lint, const struct overlap *first, uint32_t count) {
+    const struct lint_body *body = first->body;
+    str words = lint_words(lint, body);
+    const char *how = first->relation == INSIDE ? "is inside" : "crosses";
+    if (count == 1)
+        diag_add(lint->sink, DIAG_MEDIA_OVERLAP, lint_place(lint, body),
+                 "%.*s %s %.*s, and both refract: light is bent as if there were air between them",
+                 STR_ARG(words), how, STR_ARG(lint_words_other(lint, first->other)));
+    else
+        diag_add(lint->sink, DIAG_MEDIA_OVERLAP, lint_place(lint, body),
+                 "%.*s overlaps %u other bodies that refract like itself: light is bent as if there were air "
+                 "between them",
+                 STR_ARG(words), count);
+    for (uint32_t i = 0; i < count && i < NOTED; i++)
+        diag_note(lint->sink, lint_place(lint, first[i].other),
+                  first[i].relation == INSIDE ? "it is inside %.*s" : "it crosses %.*s",
+                  STR_ARG(lint_words_other(lint, first[i].other)));
+    if (count > NOTED)
+        diag_note(lint->sink, SPAN_NONE, "and %u more", count - NOTED);
+    help(lint, first, count);
+}
+
+void lint_media(struct lint *lint) {
+    struct media media = {.lint = lint, .work_left = FACES_MAX};
+    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, lint->body_count);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (is_medium(&lint->bodies[i]))
+            items[count++] = (struct lint_box_item){lint->bodies[i].box, &lint->bodies[i]};
+    lint_body_pairs(lint->arena, items, count, take_pair, &media);
+    if (media.found.count == 0)
+        return;
+    qsort(media.found.items, media.found.count, sizeof *media.found.items, compare_overlaps);
+    for (uint32_t i = 0, end; i < media.found.count; i = end) {
+        for (end = i + 1;
+             end < media.found.count && media.found.items[end].body == media.found.items[i].body;)
+            end++;
+        report(lint, &media.found.items[i], end - i);
+    }
+}

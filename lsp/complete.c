@@ -1,0 +1,284 @@
+// Completion: attributes where a name is typed; words, names and files where a value is.
+#include "lsp/context.h"
+#include "lsp/server_private.h"
+
+#include "core/strbuf.h"
+#include "files/files_walk.h"
+#include "grammar/emit/emit_words.h"
+#include "grammar/ir_walk.h"
+
+#include <string.h>
+
+enum {
+    FILES_MOST = 500, // names offered for a path
+};
+
+// The word before the place and the key before that: `material: gl|`, `material="gl|`.
+struct typed {
+    str key, word;
+    size_t begin; // of the word, in the text
+};
+
+static bool is_word(char c) {
+    return c != ' ' && c != '\t' && c != '\n' && c != '\r' && !strchr("\"'[]{},=:<>", c);
+}
+
+static struct typed typed_at(str text, size_t offset) {
+    struct typed typed = {0};
+    size_t at = offset;
+    while (at > 0 && is_word(text.ptr[at - 1]))
+        at--;
+    typed.begin = at;
+    typed.word = str_slice(text, at, offset);
+    while (at > 0 && text.ptr[at - 1] != '\n' && strchr(" \t\"'[", text.ptr[at - 1]))
+        at--;
+    if (at == 0 || (text.ptr[at - 1] != ':' && text.ptr[at - 1] != '='))
+        return typed;
+    size_t end = at - 1;
+    while (end > 0 && (text.ptr[end - 1] == ' ' || text.ptr[end - 1] == '"'))
+        end--;
+    at = end;
+    while (at > 0 && is_word(text.ptr[at - 1]))
+        at--;
+    typed.key = str_slice(text, at, end);
+    return typed;
+}
+
+struct completing {
+    const struct request *request;
+    struct typed typed;
+    json_t *range;  // of the word
+    json_t *known;  // labels that were offered
+    bool has_value; // what is typed is a key whose value is there
+    json_t *items;
+};
+
+enum completion_kind { // LSP 3.17, "Completion Request"
+    COMPLETION_PROPERTY = 10,
+    COMPLETION_FILE = 17,
+    COMPLETION_REFERENCE = 18,
+    COMPLETION_FOLDER = 19,
+    COMPLETION_ENUM_MEMBER = 20,
+};
+
+// The text that takes the place of the word; NULL: it was offered before.
+static json_t *offer_text(struct completing *c, str label, enum completion_kind kind, const char *doc,
+                          str text) {
+    json_t *name = position_string(label);
+    if (json_object_get(c->known, json_string_value(name))) {
+        json_decref(name);
+        return NULL;
+    }
+    json_object_set_new(c->known, json_string_value(name), json_true());
+    json_t *item = json_object();
+    json_t *edit = json_object();
+    json_object_set_new(item, "label", name);
+    json_object_set_new(item, "kind", json_integer(kind));
+    if (doc)
+        json_object_set_new(item, "documentation", json_string(doc));
+    json_object_set(edit, "range", c->range);
+    json_object_set_new(edit, "newText", position_string(text));
+    json_object_set_new(item, "textEdit", edit);
+    json_array_append_new(c->items, item);
+    return item;
+}
+
+static void offer(struct completing *c, str label, enum completion_kind kind, const char *doc) {
+    offer_text(c, label, kind, doc, label);
+}
+
+static void offer_names(struct completing *c, const struct schema_element *target) {
+    const struct schema_row *pool = ir_walk_pool(target);
+    const struct ir_scene *scene = c->request->session->scene;
+    size_t index;
+    const json_t *name_before;
+    json_array_foreach(json_object_get(c->request->scene->names, target->name), index, name_before)
+        offer(c, str_from(json_string_value(name_before)), COMPLETION_REFERENCE, target->doc);
+    if (!pool || !scene)
+        return;
+    struct ir_any_list list = ir_walk_list(pool, scene);
+    for (uint32_t i = 0; i < list.count; i++) {
+        str name = ir_walk_key(target, ir_walk_item(pool, list, i));
+        if (name.len)
+            offer(c, name, COMPLETION_REFERENCE, target->doc);
+    }
+}
+
+// Files and folders where the path typed so far leads, from the document's folder.
+static void offer_files(struct completing *c, enum schema_file kind) {
+    struct arena *arena = c->request->arena;
+    str typed = c->typed.word;
+    str base = path_base(typed);
+    str stem = str_slice(typed, 0, typed.len - base.len);
+    str folder =
+        arena_format(arena, "%.*s/%.*s", STR_ARG(path_folder(c->request->document->path)), STR_ARG(stem));
+    struct files_names names = {0};
+    files_list_folder(arena, folder, &names);
+    for (uint32_t i = 0; i < names.count && i < FILES_MOST; i++) {
+        str name = names.items[i];
+        str path = arena_format(arena, "%.*s%.*s", STR_ARG(folder), STR_ARG(name));
+        str label = arena_format(arena, "%.*s%.*s", STR_ARG(stem), STR_ARG(name));
+        if (files_is_folder(path))
+            offer(c, arena_format(arena, "%.*s/", STR_ARG(label)), COMPLETION_FOLDER, NULL);
+        else if (schema_file_fits(kind, name))
+            offer(c, label, COMPLETION_FILE, NULL);
+    }
+}
+
+// The text is seldom complete while the user types: every attribute with the key's name counts.
+static void offer_for(struct completing *c, const struct schema_row *row) {
+    if (!str_equal_cstr(c->typed.key, row->name) &&
+        !(row->plural && str_equal_cstr(c->typed.key, row->plural)))
+        return;
+    if (row->kind == SCHEMA_REFERENCE)
+        offer_names(c, row->child);
+    if (row->kind == SCHEMA_WORD)
+        for (uint32_t i = 0; row->words[i]; i++)
+            offer(c, str_from(row->words[i]), COMPLETION_ENUM_MEMBER,
+                  row->word_docs ? row->word_docs[i] : NULL);
+    if (row->kind == SCHEMA_BOOLEAN) {
+        offer(c, STR("true"), COMPLETION_ENUM_MEMBER, row->doc);
+        offer(c, STR("false"), COMPLETION_ENUM_MEMBER, row->doc);
+    }
+    if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH)
+        offer_files(c, row->file);
+    if (row->kind == SCHEMA_LIST && schema_short_row(row->child) >= 0) {
+        const struct schema_row *inner = &row->child->rows[schema_short_row(row->child)];
+        if (inner->kind == SCHEMA_TEXT && inner->text == SCHEMA_TEXT_PATH)
+            offer_files(c, inner->file);
+    }
+}
+
+// ---- attributes
+
+// A snippet gives '$', '}' and a backslash a meaning.
+static str escaped(struct arena *arena, str text) {
+    char *out = arena_alloc(arena, 2 * text.len + 1);
+    size_t length = 0;
+    for (size_t i = 0; i < text.len; i++) {
+        if (strchr("$}\\", text.ptr[i]))
+            out[length++] = '\\';
+        out[length++] = text.ptr[i];
+    }
+    return (str){out, length};
+}
+
+// The example in the table, as the file's spelling has it: "albedo: [0, 0.5, 0.1, 0.8]".
+static str sample_of(struct completing *c, const struct context *context, uint32_t row) {
+    struct strbuf sample;
+    strbuf_init(&sample);
+    if (context->is_xml)
+        emit_xml_sample(context->schema, row, &sample);
+    else
+        emit_yaml_sample(context->schema, row, &sample);
+    str text = arena_copy(c->request->arena, str_trim(strbuf_view(&sample)));
+    strbuf_finish(&sample);
+    return text;
+}
+
+// What follows the name, with the place of the cursor; nothing where it is written already.
+static str value_of(struct completing *c, const struct context *context, uint32_t row, bool single) {
+    struct arena *arena = c->request->arena;
+    const struct schema_row *r = &context->schema->rows[row];
+    str sample = sample_of(c, context, row);
+    char mark = context->is_xml ? '=' : ':';
+    const char *at = memchr(sample.ptr, mark, sample.len);
+    bool many = r->many != SCHEMA_ONE && !single;
+    bool element = (r->kind == SCHEMA_ELEMENT && schema_short_row(r->child) < 0) || (r->single && single);
+    if (!context->is_xml && (many || element)) {
+        if (context->is_flow)
+            return many && r->many == SCHEMA_SEQUENCE ? STR(": [{$0}]") : STR(": {$0}");
+        return many && r->many == SCHEMA_SEQUENCE ? STR(":\n  - $0") : STR(":\n  $0");
+    }
+    if (!at)
+        return context->is_xml ? STR("=\"$0\"") : STR(": $0");
+    str value = str_trim(str_slice(sample, (size_t)(at - sample.ptr) + 1, sample.len));
+    if (context->is_xml)
+        return arena_format(arena, "=\"${1:%.*s}\"",
+                            STR_ARG(escaped(arena, str_slice(value, 1, value.len - 1))));
+    return arena_format(arena, ": ${1:%.*s}", STR_ARG(escaped(arena, value)));
+}
+
+enum {
+    INSERT_SNIPPET = 2, // LSP 3.17, "InsertTextFormat"
+};
+
+static void offer_insert(struct completing *c, str label, const char *doc, str plain, str snippet) {
+    bool snippets = c->request->server->has_snippets;
+    json_t *item = offer_text(c, label, COMPLETION_PROPERTY, doc, snippets ? snippet : plain);
+    if (item && snippets)
+        json_object_set_new(item, "insertTextFormat", json_integer(INSERT_SNIPPET));
+}
+
+static void offer_key(struct completing *c, const struct context *context, uint32_t row, const char *name,
+                      bool single) {
+    struct arena *arena = c->request->arena;
+    const char *doc = context->schema->rows[row].doc;
+    if (!name)
+        return;
+    if (c->has_value) {
+        offer(c, str_from(name), COMPLETION_PROPERTY, doc);
+        return;
+    }
+    str plain = arena_format(arena, context->is_xml ? "%s=\"\"" : "%s: ", name);
+    str snippet = arena_format(arena, "%s%.*s", name, STR_ARG(value_of(c, context, row, single)));
+    offer_insert(c, str_from(name), doc, plain, snippet);
+}
+
+// After '<': the whole element, as the example has it.
+static void offer_child(struct completing *c, const struct context *context, uint32_t row) {
+    const struct schema_row *r = &context->schema->rows[row];
+    str sample = sample_of(c, context, row);
+    if (!r->element)
+        return;
+    str whole = sample.len && sample.ptr[0] == '<'
+                    ? escaped(c->request->arena, str_slice(sample, 1, sample.len))
+                    : str_from(r->element);
+    offer_insert(c, str_from(r->element), r->doc, str_from(r->element), whole);
+}
+
+static void offer_rows(struct completing *c, const struct context *context) {
+    for (uint32_t i = 0; context->schema && i < context->schema->row_count; i++) {
+        const struct schema_row *row = &context->schema->rows[i];
+        if (context->is_xml && context->in_children)
+            offer_child(c, context, i);
+        else if (context->is_xml && schema_is_attribute(row))
+            offer_key(c, context, i, row->name, false);
+        else if (!context->is_xml && !row->key) {
+            offer_key(c, context, i, schema_yaml_key(row), false);
+            offer_key(c, context, i, row->single ? row->name : NULL, true);
+        }
+    }
+}
+
+// Whether the name is followed by its value already.
+static bool is_followed(str text, size_t at, bool is_xml) {
+    while (at < text.len && (is_word(text.ptr[at]) || text.ptr[at] == ' '))
+        at++;
+    return at < text.len && text.ptr[at] == (is_xml ? '=' : ':');
+}
+
+json_t *server_completion(const struct request *request) {
+    str text = document_text(request->document);
+    struct typed typed = typed_at(text, request->offset);
+    struct completing completing = {.request = request,
+                                    .typed = typed,
+                                    .range = position_range_once(text, request->server->encoding, typed.begin,
+                                                                 typed.begin + typed.word.len),
+                                    .known = json_object(),
+                                    .items = json_array()};
+    for (uint32_t e = 0; typed.key.len && schema_elements[e]; e++)
+        for (uint32_t i = 0; i < schema_elements[e]->row_count; i++)
+            offer_for(&completing, &schema_elements[e]->rows[i]);
+    if (!typed.key.len) {
+        struct context context = context_at(request->document->path, text, typed.begin);
+        completing.has_value = is_followed(text, request->offset, context.is_xml);
+        offer_rows(&completing, &context);
+    }
+    json_decref(completing.range);
+    json_decref(completing.known);
+    json_t *list = json_object();
+    json_object_set_new(list, "isIncomplete", json_false());
+    json_object_set_new(list, "items", completing.items);
+    return list;
+}

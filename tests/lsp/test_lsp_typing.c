@@ -1,0 +1,222 @@
+// What the language server offers while one types, shows under the pointer and beside colours. Usage:
+// test_lsp_typing GLINT
+#include "lsp_kit.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *program;
+
+static const char MAIN[] = "glint: 1\n"
+                           "materials: {glass: {refractive_index: 1.5}}\n"
+                           "spheres:\n"
+                           "  - {center: [0, 0, 0], radius: 1, material: glass}\n";
+
+static int start(void **state) {
+    struct lsp_client *client = calloc(1, sizeof *client);
+    client_start(client, program);
+    *state = client;
+    return 0;
+}
+
+static int stop(void **state) {
+    int status = client_stop(*state);
+    free(*state);
+    return status;
+}
+
+static const char *text_of(const json_t *object, const char *key) {
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : "";
+}
+
+static void change(struct lsp_client *client, const char *name, int version, const char *text) {
+    client_notify(client, "textDocument/didChange",
+                  json_pack("{s:{s:s, s:i}, s:[{s:s}]}", "textDocument", "uri", client_uri(client, name),
+                            "version", version, "contentChanges", "text", text));
+}
+
+static void initialize_richly(struct lsp_client *client) {
+    client_initialize(client, json_pack("{s:{s:{s:{s:b}}, s:{s:[s,s]}}}", "textDocument", "completion",
+                                        "completionItem", "snippetSupport", 1, "hover", "contentFormat",
+                                        "markdown", "plaintext"));
+}
+
+// The text that an item would write; NULL: it is not offered.
+static const char *text_offered(const json_t *list, const char *label) {
+    size_t index;
+    json_t *item;
+    json_array_foreach(json_object_get(list, "items"), index, item) {
+        if (strcmp(text_of(item, "label"), label) == 0)
+            return text_of(json_object_get(item, "textEdit"), "newText");
+    }
+    return NULL;
+}
+
+// `text` with a '|' where one types: what is written for `label` (NULL: nothing), and that `other` is not
+// offered.
+struct typing {
+    const char *name, *text, *label, *wanted, *other;
+};
+
+static void expect_typing(struct lsp_client *client, const struct typing *typing, int version) {
+    char text[512];
+    const char *bar = strchr(typing->text, '|');
+    size_t before = (size_t)(bar - typing->text);
+    int line = 0, character = 0;
+    for (size_t i = 0; i < before; i++) {
+        character = typing->text[i] == '\n' ? 0 : character + 1;
+        line += typing->text[i] == '\n';
+    }
+    snprintf(text, sizeof text, "%.*s%s", (int)before, typing->text, bar + 1);
+    change(client, typing->name, version, text);
+    json_t *list = client_request(client, "textDocument/completion",
+                                  client_at(client, typing->name, line, character), NULL);
+    const char *written = typing->label ? text_offered(list, typing->label) : NULL;
+    if ((typing->label && (!written || strcmp(written, typing->wanted) != 0)) ||
+        (typing->other && text_offered(list, typing->other)))
+        fail_msg("%s: '%s' writes '%s', not '%s'; or '%s' is offered", typing->text,
+                 typing->label ? typing->label : "", written ? written : "nothing", typing->wanted,
+                 typing->other ? typing->other : "");
+    json_decref(list);
+}
+
+static void completes_attributes(void **state) {
+    static const struct typing typings[] = {
+        {"main.yaml", "glint: 1\nmat|", "materials", "materials:\n  $0", "albedo"},
+        {"main.yaml", "glint: 1\nsph|\n", "spheres", "spheres:\n  - $0", "radius"},
+        {"main.yaml", "glint: 1\nmaterials:\n  glass:\n    alb|\n", "albedo",
+         "albedo: ${1:[0, 0.5, 0.1, 0.8]}", "spheres"},
+        {"main.yaml", "glint: 1\nmaterials: {red: {alb|}}", "albedo", "albedo: ${1:[0, 0.5, 0.1, 0.8]}",
+         "fov"},
+        {"main.yaml", "glint: 1\nmaterials:\n  gl|\n", NULL, NULL, "albedo"},
+        {"main.yaml", "glint: 1\nspheres:\n  - {center: [0, 0, 0], ra|}\n", "radius", "radius: ${1:1.5}",
+         "spheres"},
+        {"main.yaml", "glint: 1\nspheres:\n- center: [0, 0, 0]\n  # here\n  ra|\nlights: []\n", "radius",
+         "radius: ${1:1.5}", "lights"},
+        {"main.yaml", "glint: 1\nspheres:\n  - center: [0, 0, 0]\n    radius: 1\n  - ma|\n", "material",
+         "material: ${1:glass}", "materials"},
+        {"main.yaml", "glint: 1\nspheres:\n  - center: [0, |", NULL, NULL, "radius"},
+        {"main.yaml", "glint: 1\nspheres:\n  - {center: [0, 0, 0],\n     ra|}\n", "radius",
+         "radius: ${1:1.5}", "spheres"},
+        {"main.yaml", "glint: 1\nimage: {wi|: 3}\n", "width", "width", "albedo"},
+        {"main.yaml", "glint: 1\nmodels:\n  - mesh: a.obj\n    material:\n      re|\n", "refractive_index",
+         "refractive_index: ${1:1.5}", "mesh"},
+        {"main.xml", "<Scene glint=\"1\">\n  <Sphere ra|", "radius", "radius=\"${1:1.5}\"", "fov"},
+        {"main.xml", "<Scene glint=\"1\"><!-- <Camera> --><Sphere radius=\"1\"><|", "Center",
+         "Center x=\"0\" y=\"1\" z=\"0\"/>", "Sphere"},
+        {"main.xml", "<Scene glint=\"1\"><Sphere radius=\"1\"/><|", "Light",
+         "Light name=\"sun\" intensity=\"1.5\"><Position x=\"-20\" y=\"20\" z=\"20\"/><Color r=\"1\" "
+         "g=\"0.9\" b=\"0.8\"/></Light>",
+         "Center"},
+        {"main.xml", "<Scene glint=\"1\"><Image to|=\"clip\"/></Scene>", "tone", "tone", "radius"},
+    };
+    struct lsp_client *client = *state;
+    initialize_richly(client);
+    client_open(client, "main.yaml", MAIN);
+    client_open(client, "main.xml", "<Scene glint=\"1\"/>");
+    for (size_t i = 0; i < sizeof typings / sizeof *typings; i++)
+        expect_typing(client, &typings[i], (int)i + 2);
+}
+
+// A client without snippets gets no places to fill in.
+static void completes_attributes_without_snippets(void **state) {
+    static const struct typing plain[] = {
+        {"main.yaml", "glint: 1\nmaterials:\n  glass:\n    alb|\n", "albedo", "albedo: ", NULL},
+        {"main.xml", "<Scene glint=\"1\"><Sphere ra|", "radius", "radius=\"\"", NULL},
+        {"main.xml", "<Scene glint=\"1\"><|", "Light", "Light", NULL},
+    };
+    struct lsp_client *client = *state;
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml", MAIN);
+    client_open(client, "main.xml", "<Scene glint=\"1\"/>");
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
+        expect_typing(client, &plain[i], (int)i + 2);
+}
+
+static void explains_in_markdown(void **state) {
+    struct lsp_client *client = *state;
+    initialize_richly(client);
+    client_open(client, "main.yaml", MAIN);
+    json_t *hover = client_request(client, "textDocument/hover", client_at(client, "main.yaml", 3, 46), NULL);
+    const json_t *contents = json_object_get(hover, "contents");
+    assert_string_equal(text_of(contents, "kind"), "markdown");
+    assert_non_null(strstr(text_of(contents, "value"), "```yaml\nglass: {refractive_index: 1.5}\n```"));
+    assert_non_null(strstr(text_of(contents, "value"), "**sphere.material**"));
+    assert_non_null(strstr(text_of(contents, "value"), "```yaml\nmaterial: glass\n```"));
+    json_decref(hover);
+}
+
+static json_t *colors_of(struct lsp_client *client, const char *name, size_t count) {
+    json_t *params = json_pack("{s:{s:s}}", "textDocument", "uri", client_uri(client, name));
+    json_t *list = client_request(client, "textDocument/documentColor", params, NULL);
+    assert_int_equal(json_array_size(list), count);
+    return list;
+}
+
+// What is written for orange in place of a colour of the list; "": nothing more.
+static void expect_picked(struct lsp_client *client, const char *name, const json_t *item, const char *first,
+                          const char *second) {
+    json_t *params = json_pack("{s:{s:s}, s:O, s:{s:f, s:f, s:f, s:f}}", "textDocument", "uri",
+                               client_uri(client, name), "range", json_object_get(item, "range"), "color",
+                               "red", 1.0, "green", 0.5, "blue", 0.0, "alpha", 1.0);
+    json_t *list = client_request(client, "textDocument/colorPresentation", params, NULL);
+    assert_int_equal(json_array_size(list), 1 + (second[0] != '\0'));
+    assert_string_equal(text_of(json_object_get(json_array_get(list, 0), "textEdit"), "newText"), first);
+    if (second[0])
+        assert_string_equal(text_of(json_object_get(json_array_get(list, 1), "textEdit"), "newText"), second);
+    json_decref(list);
+}
+
+static double channel(const json_t *list, size_t index, const char *name) {
+    return json_number_value(json_object_get(json_object_get(json_array_get(list, index), "color"), name));
+}
+
+static void shows_colours_and_takes_them(void **state) {
+    struct lsp_client *client = *state;
+    client_initialize(client, NULL);
+    client_open(client, "main.yaml",
+                "glint: 1\nbackground: {color: [0.5, 0.2, 7]}\nlights: [{position: [0, 1, 0], color: "
+                "\"#ff0080\"}]\n");
+    json_t *list = colors_of(client, "main.yaml", 2);
+    assert_true(channel(list, 0, "red") == 0.5 && channel(list, 0, "blue") == 1);
+    const json_t *from = json_object_get(json_object_get(json_array_get(list, 0), "range"), "start");
+    assert_int_equal(json_integer_value(json_object_get(from, "character")), 20);
+    assert_true(channel(list, 1, "red") == 1 && channel(list, 1, "green") == 0);
+    expect_picked(client, "main.yaml", json_array_get(list, 0), "[1, 0.5, 0]", "\"#ff8000\"");
+    expect_picked(client, "main.yaml", json_array_get(list, 1), "\"#ff8000\"", "[1, 0.5, 0]");
+    json_decref(list);
+    // Linear numbers, as the picture shows them.
+    change(client, "main.yaml", 2, "glint: 1\nimage: {transfer: srgb}\nbackground: {color: 0.2140411}\n");
+    list = colors_of(client, "main.yaml", 1);
+    assert_true(channel(list, 0, "red") > 0.4999 && channel(list, 0, "red") < 0.5001);
+    expect_picked(client, "main.yaml", json_array_get(list, 0), "[1, 0.214, 0]", "\"#ff8000\"");
+    json_decref(list);
+    client_open(client, "other.xml",
+                "<Scene glint=\"1\"><Background><Color r=\"1\" g=\"0\" b=\"0\"/></Background><Light "
+                "color=\"#00ff00\"><Position x=\"1\" y=\"1\" z=\"1\"/></Light></Scene>");
+    list = colors_of(client, "other.xml", 2);
+    expect_picked(client, "other.xml", json_array_get(list, 0), "<Color r=\"1\" g=\"0.5\" b=\"0\"/>",
+                  "<Color hex=\"#ff8000\"/>");
+    expect_picked(client, "other.xml", json_array_get(list, 1), "#ff8000", "");
+    json_decref(list);
+}
+
+int main(int argc, char **argv) {
+    program = argc > 1 ? argv[1] : "glint";
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(completes_attributes, start, stop),
+        cmocka_unit_test_setup_teardown(completes_attributes_without_snippets, start, stop),
+        cmocka_unit_test_setup_teardown(explains_in_markdown, start, stop),
+        cmocka_unit_test_setup_teardown(shows_colours_and_takes_them, start, stop),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
