@@ -154,7 +154,7 @@ void asset_report_each(struct asset_file *file, enum diag_code code, size_t begi
     va_list args;
     va_start(args, format);
     span at = {source_of(file), (uint32_t)begin, (uint32_t)end};
-    report(file, code, at, line_of(file->text, begin), format, args);
+    report(file, code, at, line_if_not_kept(file, begin), format, args);
     va_end(args);
 }
 
