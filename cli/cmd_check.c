@@ -406,14 +406,14 @@ static void tell_stale(struct check *check) {
 static bool is_whole(struct check *check, const char *path) {
     for (uint32_t i = 0; i < check->files.count; i++) {
         const struct check_file *file = &check->files.items[i];
-        if (file->failed || file->status != CLI_OK)
-            cli_error(check->cli, DIAG_OUTPUT, path,
-                      "correct the errors above first: a baseline cannot hold them",
-                      "the baseline is not written: '%s' could not be checked", file->path);
-        else if (file->found.dropped)
+        if (file->found.dropped)
             cli_error(check->cli, DIAG_OUTPUT, path, "keep more findings with --max-messages",
                       "the baseline is not written: '%s' has %u findings more than are kept", file->path,
                       file->found.dropped);
+        else if (file->failed || file->status != CLI_OK)
+            cli_error(check->cli, DIAG_OUTPUT, path,
+                      "correct the errors above first: a baseline cannot hold them",
+                      "the baseline is not written: '%s' could not be checked", file->path);
         else
             continue;
         return false;

@@ -216,22 +216,27 @@ struct slots {
     size_t count;    // a power of two
 };
 
-// Adds the finding unless it is there already, as another scene's.
-static void add_item(struct report_list *list, struct slots slots, const struct report_finding *finding,
-                     uint32_t scene) {
+static uint64_t place_hash(uint64_t fingerprint, const struct report_finding *finding) {
+    uint64_t h = (fingerprint ^ finding->at.line) * UINT64_C(0x9E3779B97F4A7C15);
+    h = (h ^ finding->at.column) * UINT64_C(0x9E3779B97F4A7C15);
+    return h ^ h >> 29;
+}
+
+// Adds the finding unless it is there already, as another scene's. `places` finds those of one place, `lines`
+// the last one of a fingerprint: thousands may have the same, so that they are not looked at one by one.
+static void add_item(struct report_list *list, struct slots places, struct slots lines,
+                     const struct report_finding *finding, uint32_t scene) {
     uint64_t fingerprint = report_fingerprint(finding);
-    uint32_t occurrence = 1;
-    size_t at = (size_t)fingerprint & (slots.count - 1);
-    for (; slots.items[at]; at = (at + 1) & (slots.count - 1)) {
-        const struct report_item *other = &list->items[slots.items[at] - 1];
-        if (other->fingerprint != fingerprint)
-            continue;
-        if (same_place(other->finding, finding))
+    size_t at = (size_t)place_hash(fingerprint, finding) & (places.count - 1);
+    for (; places.items[at]; at = (at + 1) & (places.count - 1))
+        if (same_place(list->items[places.items[at] - 1].finding, finding))
             return;
-        occurrence++;
-    }
-    list->items[list->count++] = (struct report_item){finding, scene, fingerprint, occurrence};
-    slots.items[at] = list->count;
+    size_t line = (size_t)fingerprint & (lines.count - 1);
+    while (lines.items[line] && list->items[lines.items[line] - 1].fingerprint != fingerprint)
+        line = (line + 1) & (lines.count - 1);
+    uint32_t before = lines.items[line] ? list->items[lines.items[line] - 1].occurrence : 0;
+    list->items[list->count++] = (struct report_item){finding, scene, fingerprint, before + 1};
+    places.items[at] = lines.items[line] = list->count;
 }
 
 bool report_list_all(const struct report *report, struct report_list *list) {
@@ -239,15 +244,17 @@ bool report_list_all(const struct report *report, struct report_list *list) {
     *list = (struct report_list){0};
     for (uint32_t i = 0; i < report->scene_count; i++)
         total += report->scenes[i].findings.count;
-    struct slots slots = {.count = 16};
-    while (slots.count < total * 2)
-        slots.count *= 2;
-    slots.items = heap_zeroed(slots.count, sizeof *slots.items);
+    size_t slot_count = 16;
+    while (slot_count < total * 2)
+        slot_count *= 2;
+    struct slots places = {heap_zeroed(slot_count, sizeof(uint32_t)), slot_count};
+    struct slots lines = {heap_zeroed(slot_count, sizeof(uint32_t)), slot_count};
     list->items = heap_zeroed(total + 1, sizeof *list->items);
-    bool good = slots.items && list->items;
+    bool good = places.items && lines.items && list->items;
     for (uint32_t i = 0; i < report->scene_count && good; i++)
         for (uint32_t k = 0; k < report->scenes[i].findings.count; k++)
-            add_item(list, slots, &report->scenes[i].findings.items[k], i);
-    free(slots.items);
+            add_item(list, places, lines, &report->scenes[i].findings.items[k], i);
+    free(places.items);
+    free(lines.items);
     return good;
 }

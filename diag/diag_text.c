@@ -139,8 +139,10 @@ static void put_hidden(struct strbuf *out, const struct diag_sink *sink, const s
                        uint32_t shown) {
     strbuf_format(out, "glint: %u more message%s not shown (", hidden->count, hidden->count == 1 ? "" : "s");
     diag_hidden_codes(out, hidden);
-    // What the sink had no room for may be more than a repeat of what was shown, so that it is not certain.
-    strbuf_format(out, "); --limit messages=%u shows %s\n", diag_share_needed(shown + hidden->count),
+    // What the sink had no room for, because memory ended, may have none then either.
+    uint32_t total = shown + hidden->count;
+    uint32_t kept = sink->dropped ? sink->kept_max + sink->dropped : 0;
+    strbuf_format(out, "); --limit messages=%u shows %s\n", diag_share_needed(total > kept ? total : kept),
                   sink->dropped ? "more" : "all");
 }
 
