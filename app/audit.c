@@ -12,8 +12,8 @@
 
 enum {
     CELLS = 3700,       // of the first look: if none is off, at most 0.1 % of the picture is
-    MORE_CELLS = 7400,  // of the second
-    MORE_BELOW = 16,    // there is one where some pixels, but fewer, are off
+    MORE_CELLS = 5000,  // of the second; each after it takes as many as all before
+    LOOKS = 2,          // unless it has to be decided
     PIECE = 16,         // pixels
     CHUNK = 64 * PIECE, // pixels between two reports of the progress
 };
@@ -31,13 +31,13 @@ struct work {
     atomic_bool failed;
 };
 
-static bool is_off(const struct work *w, const float *rgb, const double *exact) {
+bool audit_is_off(const float rgb[3], const double exact[3], struct image_display display) {
     float linear[6], shown[6];
     for (int k = 0; k < 3; k++) {
         linear[k] = rgb[k];
         linear[k + 3] = (float)exact[k];
     }
-    image_to_displayed(linear, 2, w->display, shown);
+    image_to_displayed(linear, 2, display, shown);
     bool off = image_is_marked(rgb) || image_is_marked(linear + 3);
     for (int k = 0; k < 3; k++)
         off = off || fabs((double)shown[k] - (double)shown[k + 3]) > AUDIT_THRESHOLD;
@@ -60,15 +60,32 @@ static void trace_piece(void *context, size_t begin, size_t end) {
         const size_t place = (size_t)y * w->image->width + x;
         if (!reference_pixel(w->reference, &w->settings, x, y, exact))
             atomic_store(&w->failed, true);
-        else if (is_off(w, w->image->rgb + 3 * place, exact))
+        else if (audit_is_off(w->image->rgb + 3 * place, exact, w->display))
             note_off(w, (uint32_t)place);
+    }
+}
+
+// Whether a picture has no more than about twice as many pixels: then all of them are traced, which is exact.
+static bool is_small(const struct image *image, uint64_t pixels) {
+    return (uint64_t)image->width * image->height <= 2 * pixels;
+}
+
+static void begin_look(struct work *w, uint32_t cells, struct audit *out) {
+    const struct image *image = w->image;
+    const uint64_t seen = (uint64_t)out->pixels + cells;
+    const bool all = is_small(image, seen);
+    w->grid = spread_make(image->width, image->height, all ? image->width * image->height : cells);
+    out->whole = all;
+    if (all) { // each pixel counts once
+        out->pixels = 0;
+        atomic_store(&w->off, 0);
     }
 }
 
 // One look: a pixel of each cell.
 static enum shot_status look(struct work *w, uint32_t cells, const struct render_progress *progress,
                              struct audit *out) {
-    w->grid = spread_make(w->image->width, w->image->height, cells);
+    begin_look(w, cells, out);
     const uint32_t count = w->grid.columns * w->grid.lines;
     for (w->first = 0; w->first < count; w->first += CHUNK) {
         const uint32_t left = count - w->first;
@@ -76,79 +93,115 @@ static enum shot_status look(struct work *w, uint32_t cells, const struct render
         if (progress && progress->report && !progress->report(progress->context, (double)w->first / count))
             return SHOT_CANCELLED;
     }
-    out->whole = w->grid.columns == w->image->width && w->grid.lines == w->image->height;
     out->pixels += count;
+    out->off = atomic_load(&w->off);
     return SHOT_OK;
 }
 
-static enum shot_status look_twice(struct work *w, const struct render_progress *progress,
-                                   struct audit *out) {
-    enum shot_status status = look(w, CELLS, progress, out);
-    const uint32_t off = atomic_load(&w->off);
-    if (status != SHOT_OK || out->whole || off == 0 || off >= MORE_BELOW)
-        return status;
-    const struct spread whole = spread_make(w->image->width, w->image->height, MORE_CELLS);
-    if (whole.columns == w->image->width && whole.lines == w->image->height) {
-        out->pixels = 0; // each pixel counts once
-        atomic_store(&w->off, 0);
-    }
-    return look(w, MORE_CELLS, progress, out);
+// Looks may err in one of 20 pictures all together: the first in half of them, each other one in half of what
+// the one before may. What was true after one of them stays true.
+static void conclude(struct audit *out, double risk) {
+    const double share = (double)out->off / out->pixels;
+    out->bound = out->whole ? share : fmin(out->bound, audit_bound(out->off, out->pixels, risk));
+    out->floor = out->whole ? share : fmax(out->floor, audit_floor(out->off, out->pixels, risk));
 }
 
-static void conclude(struct work *w, struct audit *out) {
-    out->off = atomic_load(&w->off);
-    out->bound = out->whole ? (double)out->off / out->pixels : audit_bound(out->off, out->pixels);
-    const uint32_t first = out->off ? atomic_load(&w->first_off) : 0;
-    out->x = first % w->image->width;
-    out->y = first / w->image->width;
+static bool is_decided(const struct audit *audit, double share) {
+    return audit->whole || audit->bound <= share || audit->floor > share;
+}
+
+static enum shot_status take_looks(struct work *w, const struct audit_wish *wish,
+                                   const struct render_progress *progress, struct audit *out) {
+    double risk = 1 - AUDIT_CONFIDENCE;
+    for (uint32_t looks = 0; looks < LOOKS || wish->decides; looks++) {
+        const uint32_t cells = looks == 0 ? CELLS : looks == 1 ? MORE_CELLS : out->pixels;
+        const enum shot_status status = look(w, cells, progress, out);
+        if (status != SHOT_OK || atomic_load(&w->failed))
+            return status;
+        risk *= 0.5;
+        conclude(out, risk);
+        if (is_decided(out, wish->share))
+            break;
+    }
+    return SHOT_OK;
 }
 
 enum shot_status audit_take(struct session *session, const struct view *view, const struct image *image,
-                            const struct render_progress *progress, struct audit *out) {
+                            const struct audit_wish *wish, const struct render_progress *progress,
+                            struct audit *out) {
     const double start = clock_seconds();
-    const struct reference_input input = {.scene = &session->resolved, .view = view};
-    struct reference *reference = reference_create(&input);
-    struct work work = {.reference = reference,
+    const struct reference_input input = {
+        .scene = &session->resolved, .view = view, .few_rays = true, .no_bound = true};
+    struct reference *made = wish->reference ? NULL : reference_create(&input);
+    struct work work = {.reference = wish->reference ? wish->reference : made,
                         .image = image,
                         .display = {session->image->tone, session->image->transfer},
                         .first_off = UINT32_MAX};
     work.settings = reference_settings_of(session->scene, session->image, &session->options.limits, true);
-    *out = (struct audit){0};
-    enum shot_status status = reference ? look_twice(&work, progress, out) : SHOT_SCENE;
-    if (!reference || atomic_load(&work.failed))
+    *out = (struct audit){.bound = 1};
+    enum shot_status status = work.reference ? take_looks(&work, wish, progress, out) : SHOT_SCENE;
+    if (!work.reference || atomic_load(&work.failed))
         status = shot_no_memory(session, "the audit");
-    if (status == SHOT_OK)
-        conclude(&work, out);
-    reference_destroy(reference);
+    const uint32_t first = out->off ? atomic_load(&work.first_off) : 0;
+    out->x = first % image->width;
+    out->y = first / image->width;
+    reference_destroy(made);
     out->seconds = clock_seconds() - start;
     return status;
 }
 
 // ---- what it says
 
-// The probability of `off` or fewer among `pixels` where the share is `share`, 0 < share < 1: terms by their
-// logarithms.
-static double at_most(uint32_t off, uint32_t pixels, double share) {
-    double sum = 0, term = pixels * log1p(-share);
-    for (uint32_t k = 0; k <= off; k++) {
-        sum += exp(term);
-        term += log((double)(pixels - k) / (k + 1)) + log(share) - log1p(-share);
+// How many ways there are to choose `off` of `pixels`, as a logarithm.
+static double log_choices(uint32_t off, uint32_t pixels) {
+    double sum = 0;
+    for (uint32_t k = 0; k < off; k++)
+        sum += log((double)(pixels - k) / (k + 1));
+    return sum;
+}
+
+// The probability of `off` or fewer among `pixels` where the share is `share`, off / pixels <= share < 1;
+// with `more`, of `off` or more, 0 < share <= off / pixels. Terms fall from the first one on.
+static double tail(uint32_t off, uint32_t pixels, double choices, double share, bool more) {
+    const double odds = share / (1 - share);
+    double term = exp(choices + off * log(share) + (pixels - off) * log1p(-share)), sum = 0;
+    for (uint32_t k = off; term > sum * 0x1p-60; k = more ? k + 1 : k - 1) {
+        sum += term;
+        term *= more ? (double)(pixels - k) / (k + 1) * odds : k / ((double)(pixels - k) + 1) / odds;
     }
     return sum;
 }
 
-double audit_bound(uint32_t off, uint32_t pixels) {
+double audit_bound(uint32_t off, uint32_t pixels, double risk) {
     double low = (double)off / pixels, high = 1;
     if (off >= pixels)
         return 1;
+    const double choices = log_choices(off, pixels);
     for (int i = 0; i < 60; i++) {
         const double middle = 0.5 * (low + high);
-        if (at_most(off, pixels, middle) > 0.5 * (1 - AUDIT_CONFIDENCE))
+        if (tail(off, pixels, choices, middle, false) > risk)
             low = middle;
         else
             high = middle;
     }
     return high;
+}
+
+double audit_floor(uint32_t off, uint32_t pixels, double risk) {
+    double low = 0, high = (double)off / pixels;
+    if (off == 0)
+        return 0;
+    if (off >= pixels)
+        return pow(risk, 1.0 / pixels);
+    const double choices = log_choices(off, pixels);
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (tail(off, pixels, choices, middle, true) > risk)
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
 }
 
 void audit_words(const struct audit *audit, struct strbuf *out) {

@@ -146,13 +146,14 @@ bool precision_forecast(struct session *session, const struct flat_input *input,
 }
 
 static enum precision_status choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                    bool has_double, struct flat_scene *flat, bool *has_flat) {
+                                    bool has_double, struct precision_gains gains) {
     const struct precision_trial trial = {.input = input,
                                           .width = (uint32_t)session->image->width,
                                           .height = (uint32_t)session->image->height,
-                                          .gpu = gpu};
+                                          .gpu = gpu,
+                                          .reference = gains.reference};
     struct precision_choice choice;
-    const enum precision_status status = precision_try(&trial, &choice, flat, has_flat);
+    const enum precision_status status = precision_try(&trial, &choice, gains.flat, gains.has_flat);
     if (status == PRECISION_MEMORY)
         report_no_memory(session);
     if (status != PRECISION_DONE)
@@ -164,9 +165,9 @@ static enum precision_status choose(struct session *session, struct flat_input *
 }
 
 enum precision_status precision_choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                       bool has_double, struct flat_scene *flat, bool *has_flat) {
+                                       bool has_double, struct precision_gains gains) {
     const struct ir_trace *trace = &session->scene->trace;
-    *has_flat = false;
+    *gains.has_flat = false;
     input->is_double = trace->precision == IR_PRECISION_DOUBLE;
     if (input->is_double && !has_double) {
         diag_add(&session->sink, DIAG_NO_DOUBLE,
@@ -174,6 +175,6 @@ enum precision_status precision_choose(struct session *session, struct flat_inpu
                  "'trace.precision' is 'double', but the device cannot compute in double precision");
         return PRECISION_SCENE;
     }
-    return trace->precision == IR_PRECISION_AUTO ? choose(session, input, gpu, has_double, flat, has_flat)
+    return trace->precision == IR_PRECISION_AUTO ? choose(session, input, gpu, has_double, gains)
                                                  : PRECISION_DONE;
 }

@@ -11,13 +11,19 @@
 // The input of flattening for a session seen in this view; `view` must outlive it.
 struct flat_input precision_input(struct session *session, const struct view *view);
 
+// What is left of a trial, to be used again.
+struct precision_gains {
+    struct flat_scene
+        *flat;      // NULL, or where the scene goes as flattened for single precision: then *has_flat
+    bool *has_flat; // is true, and the caller finishes it
+    struct reference **reference; // as in struct precision_trial
+};
+
 // Sets input->is_double: the scene's setting, or, if that is auto, what a trial on the device finds.
-// `has_double`: the device can. *flat
-// (which may be NULL) may become the scene as flattened for single precision: then *has_flat is true, and the
-// caller finishes it. The session's sink gets the error E707, or the warning W701, or that there is no
-// memory.
+// `has_double`: the device can. The session's sink gets the error E707, or the warning W701, or that there is
+// no memory.
 enum precision_status precision_choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                       bool has_double, struct flat_scene *flat, bool *has_flat);
+                                       bool has_double, struct precision_gains gains);
 // What a trial without a device finds. false: no memory; the sink has it.
 bool precision_forecast(struct session *session, const struct flat_input *input,
                         struct precision_choice *out);

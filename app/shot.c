@@ -4,14 +4,16 @@
 #include "app/where.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
+#include "reference/reference.h"
 
 static enum shot_status flatten_shot(struct shot *shot) {
     struct session *s = shot->session;
     double start = clock_seconds();
     struct flat_input input = precision_input(s, &shot->view);
     bool has_flat;
-    const enum precision_status status =
-        precision_choose(s, &input, shot->gpu, gpu_info(shot->gpu)->has_double, &shot->flat, &has_flat);
+    const enum precision_status status = precision_choose(
+        s, &input, shot->gpu, gpu_info(shot->gpu)->has_double,
+        (struct precision_gains){&shot->flat, &has_flat, shot->wish.audits ? &shot->reference : NULL});
     const bool good = status == PRECISION_DONE && (has_flat || flatten(&input, &shot->flat));
     shot->flatten_seconds += clock_seconds() - start;
     return good ? SHOT_OK : status == PRECISION_DEVICE ? SHOT_DEVICE : SHOT_SCENE;
@@ -23,8 +25,8 @@ enum shot_status shot_no_memory(struct session *session, const char *what) {
     return SHOT_SCENE;
 }
 
-enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera) {
-    *shot = (struct shot){.session = session, .gpu = gpu};
+static enum shot_status open_shot(struct shot *shot, uint32_t camera) {
+    struct session *session = shot->session;
     if (!session_view(session, camera, &shot->view))
         return shot_no_memory(session, "the view");
     const enum shot_status flattened = flatten_shot(shot);
@@ -34,15 +36,33 @@ enum shot_status shot_open(struct shot *shot, struct session *session, struct gp
     shot->settings.width = (uint32_t)session->image->width;
     shot->settings.height = (uint32_t)session->image->height;
     shot->settings.samples = (uint32_t)session->image->samples;
+    shot->settings.counts = shot->wish.counts;
     double start = clock_seconds();
-    shot->renderer = renderer_create(gpu, &shot->flat, &shot->settings);
+    shot->renderer = renderer_create(shot->gpu, &shot->flat, &shot->settings);
     shot->upload_seconds = clock_seconds() - start;
     return shot->renderer ? SHOT_OK : SHOT_DEVICE;
+}
+
+enum shot_status shot_open_for(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera,
+                               struct shot_wish wish) {
+    *shot = (struct shot){.session = session, .gpu = gpu, .wish = wish};
+    return open_shot(shot, camera);
+}
+
+enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera) {
+    return shot_open_for(shot, session, gpu, camera, (struct shot_wish){0});
+}
+
+// It is of one place of the camera only.
+static void drop_reference(struct shot *shot) {
+    reference_destroy(shot->reference);
+    shot->reference = NULL;
 }
 
 void shot_close(struct shot *shot) {
     if (!shot)
         return;
+    drop_reference(shot);
     renderer_destroy(shot->renderer);
     flat_finish(&shot->flat);
     shot->renderer = NULL;
@@ -50,11 +70,12 @@ void shot_close(struct shot *shot) {
 
 enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
     struct session *session = shot->session;
+    drop_reference(shot);
     if (session->scene->lights.count && shot->renderer)
         return session_view(session, camera, &shot->view) ? SHOT_OK : shot_no_memory(session, "the view");
     struct gpu *gpu = shot->gpu;
     shot_close(shot);
-    return shot_open(shot, session, gpu, camera);
+    return shot_open_for(shot, session, gpu, camera, shot->wish);
 }
 
 static void report_fault(struct shot *shot, enum render_fault_kind kind, const struct render_fault *fault) {

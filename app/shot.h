@@ -17,18 +17,28 @@ enum shot_status {
     SHOT_CANCELLED,
 };
 
+struct shot_wish {
+    bool counts; // frames count their rays: render_statistics has them
+    bool audits; // the reference that chose the precision is kept for app/audit.h
+};
+
 struct shot {
     struct session *session;
+    struct shot_wish wish;
     struct gpu *gpu;
     struct view view;
     struct flat_scene flat;
     struct render_settings settings;
     struct renderer *renderer;
+    struct reference *reference; // of the view; NULL: none was needed, or it was not to be kept
     double flatten_seconds, upload_seconds;
 };
 
 // `camera` is an index of session_camera. Leaves a shot that shot_close accepts, whatever the status.
 enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera);
+// The same, for more than pictures.
+enum shot_status shot_open_for(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera,
+                               struct shot_wish wish);
 void shot_close(struct shot *shot);
 // Reports in the sink that there is no memory for `what`; returns SHOT_SCENE.
 enum shot_status shot_no_memory(struct session *session, const char *what);

@@ -4,7 +4,8 @@
 //
 // First the original's scene, whose meshes lie in DIR (else GLINT_ASSETS), at 512x384: one frame by the
 // original's method, then several of glint, and so on in turn. Then glint alone, on that scene and on those
-// named: sizes, the kernel made for the scene against the one with everything compiled in, samples.
+// named: sizes, the kernel made for the scene against those with everything compiled in and with counters,
+// samples.
 #include "bench/kit.h"
 #include "bench/original/original.h"
 #include "core/number.h"
@@ -130,6 +131,7 @@ struct contestant {
     uint32_t width, height, samples;
     bool general;   // everything compiled in
     bool is_double; // in double precision
+    bool counts;    // counts its rays
 };
 
 // In turn, a frame each; rows of the table with the first contestant as the measure.
@@ -145,6 +147,7 @@ static bool measure_group(const struct bench *bench, const struct bench_scene *s
         settings[i].width = contestants[i].width;
         settings[i].height = contestants[i].height;
         settings[i].samples = contestants[i].samples;
+        settings[i].counts = contestants[i].counts;
         settings[i].features = contestants[i].general ? FEATURE_SCENE_MASK : scene->settings.features;
         done = bench_glint_open(&glints[i], bench->gpu, scene, &settings[i], contestants[i].is_double) &&
                bench_glint_warm(&glints[i], bench->gpu);
@@ -162,22 +165,24 @@ static bool measure_group(const struct bench *bench, const struct bench_scene *s
 
 static bool measure_alone(const struct bench *bench, const struct bench_scene *scene) {
     static const struct contestant small[] = {
-        {"glint, kernel made for the scene", WIDTH, HEIGHT, 1, false, false},
-        {"glint, kernel for everything", WIDTH, HEIGHT, 1, true, false},
+        {"glint, kernel made for the scene", WIDTH, HEIGHT, 1, false, false, false},
+        {"glint, kernel for everything", WIDTH, HEIGHT, 1, true, false, false},
+        {"glint, counting rays (--stats)", WIDTH, HEIGHT, 1, false, false, true},
     };
     static const struct contestant large[] = {
-        {"glint, kernel made for the scene", 2 * WIDTH, 2 * HEIGHT, 1, false, false},
-        {"glint, kernel for everything", 2 * WIDTH, 2 * HEIGHT, 1, true, false},
-        {"glint, double precision", 2 * WIDTH, 2 * HEIGHT, 1, false, true},
+        {"glint, kernel made for the scene", 2 * WIDTH, 2 * HEIGHT, 1, false, false, false},
+        {"glint, kernel for everything", 2 * WIDTH, 2 * HEIGHT, 1, true, false, false},
+        {"glint, counting rays (--stats)", 2 * WIDTH, 2 * HEIGHT, 1, false, false, true},
+        {"glint, double precision", 2 * WIDTH, 2 * HEIGHT, 1, false, true, false},
     };
     static const struct contestant samples[] = {
-        {"glint, 1 sample", WIDTH, HEIGHT, 1, false, false},
-        {"glint, 4 samples", WIDTH, HEIGHT, 4, false, false},
-        {"glint, 16 samples", WIDTH, HEIGHT, 16, false, false},
+        {"glint, 1 sample", WIDTH, HEIGHT, 1, false, false, false},
+        {"glint, 4 samples", WIDTH, HEIGHT, 4, false, false, false},
+        {"glint, 16 samples", WIDTH, HEIGHT, 16, false, false, false},
     };
     const int has_double = gpu_info(bench->gpu)->has_double;
     print_head(scene->path);
-    return measure_group(bench, scene, small, 2) && measure_group(bench, scene, large, 2 + has_double) &&
+    return measure_group(bench, scene, small, 3) && measure_group(bench, scene, large, 3 + has_double) &&
            measure_group(bench, scene, samples, 3);
 }
 

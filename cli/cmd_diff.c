@@ -107,8 +107,7 @@ static void half(struct json_writer *w, const char *key, struct session *session
 static void make_json(struct comparison *c, struct strbuf *out) {
     struct json_writer w;
     json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
-    json_open_object(&w, NULL);
-    json_write_integer(&w, "version", 1);
+    json_open_report(&w, "glint diff", 1);
     json_open_list(&w, "differences");
     for (uint32_t i = 0; i < c->changes.count; i++) {
         const struct ir_change *change = &c->changes.items[i];

@@ -47,11 +47,6 @@ static int take_frames(struct render_job *job) {
 
 static int report_stats(struct render_job *job) {
     struct stats *s = &job->stats;
-    struct render_progress callback = progress_callback(&job->progress);
-    enum render_result result =
-        renderer_count(job->shot.renderer, &job->shot.view.camera, &callback, &s->rays);
-    if (result != RENDER_DONE)
-        return render_failed(job, result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE);
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     s->peak_memory_bytes = usage.ru_maxrss * 1024;
@@ -68,6 +63,7 @@ static int report_stats(struct render_job *job) {
     s->triangle_depth = job->shot.flat.triangle_depth;
     s->features = job->shot.settings.features;
     s->is_double = job->shot.flat.is_double;
+    s->camera = job->shot.view.camera.name;
     s->width = job->shot.settings.width;
     s->height = job->shot.settings.height;
     s->samples = job->shot.settings.samples;
@@ -109,7 +105,9 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     int status = open_device(job);
     if (status != CLI_OK)
         return status;
-    enum shot_status opened = shot_open(&job->shot, &job->session, job->gpu, first);
+    const struct shot_wish wish = {.counts = job->cli->options.stats != CLI_STATS_NONE,
+                                   .audits = render_is_audited(job)};
+    enum shot_status opened = shot_open_for(&job->shot, &job->session, job->gpu, first, wish);
     if (opened != SHOT_OK)
         return render_failed(job, opened);
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {

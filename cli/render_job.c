@@ -56,19 +56,25 @@ int render_write_picture(struct render_job *job, const char *path) {
 
 // ---- a picture states its own error: --audit, --max-off and --stats
 
-static bool is_wanted(const struct cli_options *options) {
+bool render_is_audited(const struct render_job *job) {
+    const struct cli_options *options = &job->cli->options;
     return options->audit || options->has_max_off || options->stats;
 }
 
 int render_audit(struct render_job *job) {
     strbuf_clear(&job->note);
     job->image.note = NULL;
-    job->stats.has_audit = is_wanted(&job->cli->options);
+    job->stats.has_audit = render_is_audited(job);
     if (!job->stats.has_audit)
         return CLI_OK;
     struct audit *audit = &job->stats.audit;
+    const struct cli_options *options = &job->cli->options;
+    const struct audit_wish wish = {.reference = job->shot.reference,
+                                    .share = options->has_max_off ? options->max_off : AUDIT_SHARE,
+                                    .decides = options->has_max_off};
     struct render_progress callback = progress_callback(&job->progress);
-    const enum shot_status status = audit_take(&job->session, &job->shot.view, &job->image, &callback, audit);
+    const enum shot_status status =
+        audit_take(&job->session, &job->shot.view, &job->image, &wish, &callback, audit);
     if (status != SHOT_OK)
         return render_failed(job, status);
     audit_words(audit, &job->note);

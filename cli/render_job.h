@@ -30,7 +30,9 @@ int render_write_picture(struct render_job *job, const char *path);
 // Ends the progress and reports why there is no picture.
 int render_failed(struct render_job *job, enum shot_status status);
 
-// render_audit.c: the picture's own error, where the command line asks for it; an exit code. It is in the
+// Whether the command line asks for the picture's own error.
+bool render_is_audited(const struct render_job *job);
+// The picture's own error, where the command line asks for it; an exit code. It is in the
 // statistics and in the picture's note.
 int render_audit(struct render_job *job);
 // After the picture was written: says what was found, and whether it is within --max-off; an exit code.

@@ -44,8 +44,9 @@ static void json_of(const struct exact *exact, const struct reference_statistics
     const struct reference_settings *settings = &exact->settings;
     struct json_writer w;
     json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
-    json_open_object(&w, NULL);
+    json_open_report(&w, "glint render --device reference", 1);
     json_write_text(&w, "device", STR("reference"));
+    json_write_text(&w, "camera", exact->view.camera.name);
     json_write_boolean(&w, "as_file", settings->as_file);
     json_write_boolean(&w, "cached", exact->source.found > 0);
     json_write_integer(&w, "width", settings->width);

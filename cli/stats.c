@@ -43,7 +43,7 @@ void stats_text(const struct stats *s, struct strbuf *out) {
                       1e3 * s->most_frame_seconds);
     }
     seconds(out, "encode", s->encode_seconds);
-    const struct render_rays *r = &s->rays;
+    const struct render_rays *r = &s->last.rays;
     strbuf_cstr(out, "rays\n");
     count(out, "primary", r->primary);
     count(out, "reflected", r->reflected);
@@ -134,14 +134,15 @@ static void put_features(struct json_writer *w, uint32_t mask) {
 void stats_json(const struct stats *s, struct strbuf *out) {
     struct json_writer w;
     json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
-    json_open_object(&w, NULL);
+    json_open_report(&w, "glint render", 1);
     json_write_text(&w, "device", str_from(s->device));
+    json_write_text(&w, "camera", s->camera);
     json_write_integer(&w, "width", s->width);
     json_write_integer(&w, "height", s->height);
     json_write_integer(&w, "samples", s->samples);
     json_write_text(&w, "precision", s->is_double ? STR("double") : STR("single"));
     put_times(&w, s);
-    put_rays(&w, &s->rays);
+    put_rays(&w, &s->last.rays);
     put_features(&w, s->features);
     json_write_integer(&w, "triangles", s->triangles);
     json_write_integer(&w, "dropped_triangles", s->dropped);

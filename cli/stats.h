@@ -13,13 +13,13 @@ struct stats {
     double median_frame_seconds, least_frame_seconds, most_frame_seconds;
     int32_t frames;
     struct render_statistics last;
-    struct render_rays rays;
     uint64_t scene_bytes, band_bytes, triangles, dropped, spheres;
     uint32_t triangle_depth, features;
     bool is_double;         // the precision that was used for tracing
     long peak_memory_bytes; // of the process
     char device[256];
     uint32_t width, height, samples;
+    str camera; // its name; empty where the scene has none
     bool has_audit;
     struct audit audit;
 };

@@ -88,8 +88,8 @@ static int run(struct cli *cli, struct session *session, struct gpu *gpu, uint32
         return failed(cli, session, gpu, TRADEOFF_MEMORY);
     struct flat_input flat = precision_input(session, &view);
     bool has_flat;
-    const enum precision_status tried =
-        precision_choose(session, &flat, gpu, gpu_info(gpu)->has_double, NULL, &has_flat);
+    const enum precision_status tried = precision_choose(session, &flat, gpu, gpu_info(gpu)->has_double,
+                                                         (struct precision_gains){.has_flat = &has_flat});
     if (tried != PRECISION_DONE)
         return failed(cli, session, gpu, tried == PRECISION_DEVICE ? TRADEOFF_DEVICE : TRADEOFF_SCENE);
     char *store = cli->options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);

@@ -112,6 +112,12 @@ void json_write_null(struct json_writer *writer, const char *key) {
     strbuf_cstr(writer->out, "null");
 }
 
+void json_open_report(struct json_writer *writer, const char *name, unsigned version) {
+    json_open_object(writer, NULL);
+    json_write_text(writer, "report", str_from(name));
+    json_write_integer(writer, "version", version);
+}
+
 void json_end(struct json_writer *writer) {
     strbuf_char(writer->out, '\n');
 }

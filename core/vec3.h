@@ -51,17 +51,29 @@ static inline vec3 vec3_least(vec3 a, vec3 b) {
 static inline vec3 vec3_greatest(vec3 a, vec3 b) {
     return (vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
+// As fmax, which is a function call.
+static inline double vec3_larger(double a, double b) {
+    return b > a || a != a ? b : a;
+}
 static inline double vec3_max_abs(vec3 a) {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    return vec3_larger(fabs(a.x), vec3_larger(fabs(a.y), fabs(a.z)));
 }
 static inline bool vec3_is_zero(vec3 a) {
     return a.x == 0 && a.y == 0 && a.z == 0;
 }
 
-// Length without overflow or underflow in between: divided by a power of two first, so that scaling by
-// powers of two commutes with it.
+// Whether the squares of coordinates up to this size neither overflow nor underflow where it matters: then
+// dividing by a power of two before would not change a bit, and costs more than all the rest.
+static inline bool vec3_squares_fit(double largest) {
+    return largest > 0x1p-400 && largest < 0x1p400;
+}
+
+// Length without overflow or underflow in between: divided by a power of two first where that is needed, so
+// that scaling by powers of two commutes with it.
 static inline double vec3_length(vec3 a) {
     double largest = vec3_max_abs(a);
+    if (vec3_squares_fit(largest))
+        return sqrt(vec3_dot(a, a));
     if (!(largest > 0) || !isfinite(largest))
         return largest;
     int exponent = ilogb(largest);
@@ -72,6 +84,10 @@ static inline double vec3_length(vec3 a) {
 // The zero vector stays as it is.
 static inline vec3 vec3_unit(vec3 a) {
     double largest = vec3_max_abs(a);
+    if (vec3_squares_fit(largest)) {
+        const double length = sqrt(vec3_dot(a, a));
+        return (vec3){a.x / length, a.y / length, a.z / length};
+    }
     if (!(largest > 0) || !isfinite(largest))
         return a;
     int exponent = ilogb(largest);

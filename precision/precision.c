@@ -48,6 +48,7 @@ static struct reference *make_reference(const struct small *small, bool as_singl
     const struct reference_input input = {.scene = small->trial->input->scene,
                                           .view = &small->view,
                                           .as_single = as_single,
+                                          .no_bound = true,
                                           .gradient = !small->trial->gpu};
     return reference_create(&input);
 }
@@ -181,6 +182,14 @@ static bool make_small(struct small *small) {
     return make_pictures(small);
 }
 
+static void leave_reference(struct small *small) {
+    if (!small->trial->reference || !small->trial->gpu || !small->reference)
+        return;
+    reference_look(small->reference, small->trial->input->view);
+    *small->trial->reference = small->reference;
+    small->reference = NULL;
+}
+
 static void finish_small(struct small *small) {
     reference_destroy(small->reference);
     free(small->exact);
@@ -209,6 +218,8 @@ enum precision_status precision_try(const struct precision_trial *trial, struct 
     }
     const enum precision_status status =
         make_small(&small) ? try_small(&small, out, flat, has_flat) : PRECISION_MEMORY;
+    if (status == PRECISION_DONE)
+        leave_reference(&small);
     finish_small(&small);
     return status;
 }

@@ -33,11 +33,16 @@ enum precision_status {
     PRECISION_DEVICE, // see gpu_error
 };
 
+struct reference;
+
 struct precision_trial {
     const struct flat_input *input; // is_double does not count
     uint32_t width, height;         // of the picture
     struct gpu *gpu;                // NULL: none
     uint32_t features;              // compiled in beside what the scene wants
+    // Where the reference is left that drew on a device's behalf, to be used for the whole picture: it sees
+    // input->view, and the caller destroys it. NULL stays there where there was none. May be NULL.
+    struct reference **reference;
 };
 
 // Where a device was asked and single precision suffices, *flat (which may be NULL) becomes the scene as it

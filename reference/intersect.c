@@ -288,9 +288,16 @@ static void search_tree(struct search *s) {
 
 // At equal distance the lower (body, triangle): the first of the ties.
 static void search(const struct reference *r, const struct ray *ray, bool any, struct intersection *out) {
-    struct search s = {
-        .r = r, .ray = ray, .sheared = shear(ray, reference_unit(r)), .any = any, .end = ray->t_max};
+    // Not cleared as a whole: ties and digits are large, and most rays need none.
+    struct search s;
+    s.r = r;
+    s.ray = ray;
+    s.sheared = shear(ray, reference_unit(r));
+    s.exact_begun = false;
+    s.any = any;
     s.nearest.primitive = NO_PRIMITIVE;
+    s.end = ray->t_max;
+    s.tie_count = 0;
     for (int a = 0; a < 3; a++)
         s.inverse[a] = 1 / s.sheared.direction[a];
     if (r->input.no_tree)

@@ -120,13 +120,29 @@ vec3 reference_background(const struct reference *r, vec3 direction) {
     return background_image(r, direction);
 }
 
-static double image_brightest(const struct reference *r) {
+static double rgbe_brightest(const struct reference *r, size_t texels) {
     const struct picture *picture = r->input.scene->background.picture;
     double most = 0;
-    for (size_t row = 0; row < picture->height; row++)
-        for (size_t column = 0; column < picture->width; column++)
-            most = fmax(most, reference_brightest(texel(r, column, row)));
+    for (size_t at = 0; at < texels; at++)
+        for (size_t c = 0; c < 3; c++)
+            most = reference_larger(most, channel(r, picture, at, c));
     return most;
+}
+
+// The brightest channel: decoding keeps the order of stored values, and most pictures have the greatest one.
+static double image_brightest(const struct reference *r) {
+    const struct picture *picture = r->input.scene->background.picture;
+    const size_t texels = (size_t)picture->width * picture->height;
+    if (picture->depth == PICTURE_RGBE)
+        return rgbe_brightest(r, texels);
+    const size_t greatest = picture_greatest(picture->depth);
+    size_t most = 0;
+    for (size_t at = 0; at < texels && most < greatest; at++)
+        for (size_t c = 0; c < 3; c++) {
+            const size_t value = picture_stored(picture, at, c);
+            most = value > most ? value : most;
+        }
+    return r->decoded[most];
 }
 
 void reference_make_background(struct reference *r) {
@@ -144,5 +160,6 @@ void reference_make_background(struct reference *r) {
             r->decoded[i] = srgb ? srgb_decode(value) : value;
         }
     }
-    r->background_brightest = image_brightest(r) * background->intensity;
+    if (!r->input.no_bound)
+        r->background_brightest = image_brightest(r) * background->intensity;
 }

@@ -43,6 +43,10 @@ void reference_destroy(struct reference *r) {
     free(r);
 }
 
+void reference_look(struct reference *r, const struct view *view) {
+    r->input.view = view;
+}
+
 struct reference_settings reference_settings_of(const struct ir_scene *ir, const struct ir_image *image,
                                                 const struct limits *limits, bool as_file) {
     const struct ir_trace *trace = &ir->trace;

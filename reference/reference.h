@@ -39,6 +39,9 @@ struct reference_input {
     // and moved by about the error of the operations that made them, the same in every run. What it draws is
     // wrong about where and as often as that device's picture is.
     bool as_single;
+    bool few_rays; // the tree is made in less time, and takes more of it for each ray; hits are the same
+    bool no_bound; // statistics need not have brightest and bound, for which a background's whole image is
+                   // read
     bool gradient; // in place of a background's image, which need not be decoded: a smooth one
 };
 
@@ -101,6 +104,9 @@ struct reference;
 // NULL: no memory.
 struct reference *reference_create(const struct reference_input *input);
 void reference_destroy(struct reference *reference); // NULL does nothing
+// Looks elsewhere from the same place: `view` differs from that of the input only in where its camera turns,
+// and must outlive the reference. Nothing else may use the reference meanwhile.
+void reference_look(struct reference *reference, const struct view *view);
 
 // width * height * 3 linear values, rows from the top: the mean of the samples, before tone and transfer; NaN
 // in all three where a sample is not finite.

@@ -186,6 +186,41 @@ static size_t partition(const struct building *b, struct range range, const stru
     return left;
 }
 
+// In the middle of the longest side of the centres' box: worse trees, in a fraction of the time.
+static struct cut middle_of(const struct box *centres) {
+    struct cut cut = {.axis = -1, .bin = BINS / 2};
+    double longest = 0;
+    for (int a = 0; a < 3; a++) {
+        const double spread = centres->upper[a] - centres->lower[a];
+        if (!(spread > longest) || !isfinite(BINS / spread))
+            continue;
+        longest = spread;
+        cut.axis = a;
+        cut.from = centres->lower[a];
+        cut.scale = BINS / spread;
+    }
+    return cut;
+}
+
+// By the surface area that the two sides' boxes have.
+static struct cut best_of(const struct building *b, struct range range, const struct box *centres,
+                          double size) {
+    struct cut best = {.axis = -1};
+    double least = INFINITY;
+    for (int a = 0; a < 3; a++) {
+        double spread = centres->upper[a] - centres->lower[a];
+        struct cut cut = {.axis = a, .from = centres->lower[a], .scale = BINS / spread};
+        if (!(spread > 0) || !isfinite(cut.scale))
+            continue;
+        double cost = best_bin(b, range, size, &cut);
+        if (cost < least) {
+            least = cost;
+            best = cut;
+        }
+    }
+    return best;
+}
+
 // Fills the node's box and returns where the range is split.
 static size_t split(const struct building *b, struct range range) {
     struct tree_node *node = &b->nodes[range.node];
@@ -209,19 +244,7 @@ static size_t split(const struct building *b, struct range range) {
     size_t half = range.begin + (range.end - range.begin) / 2;
     if (range.depth >= DEPTH_MOST || range.end - range.begin <= LEAF_MOST)
         return half;
-    struct cut best = {.axis = -1};
-    double least = INFINITY;
-    for (int a = 0; a < 3; a++) {
-        double spread = centres.upper[a] - centres.lower[a];
-        struct cut cut = {.axis = a, .from = centres.lower[a], .scale = BINS / spread};
-        if (!(spread > 0) || !isfinite(cut.scale))
-            continue;
-        double cost = best_bin(b, range, size, &cut);
-        if (cost < least) {
-            least = cost;
-            best = cut;
-        }
-    }
+    const struct cut best = b->r->input.few_rays ? middle_of(&centres) : best_of(b, range, &centres, size);
     return best.axis < 0 ? half : partition(b, range, &best);
 }
 

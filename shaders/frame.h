@@ -84,28 +84,37 @@
 #define LONG_RAY_WORDS      4 /* and two entries of a tree's stack in each word after them */
 #define STACK64_ENTRY_WORDS 6
 
-/* Counters, 32-bit each, then two lists of slots. */
-#define COUNTER_PENDING       0
-#define COUNTER_PRIMARY       1
-#define COUNTER_REFLECTED     2
-#define COUNTER_REFRACTED     3
-#define COUNTER_SHADOW        4
-#define COUNTER_DEEPEST       5  /* deepest level of a ray that was traced */
-#define COUNTER_CUT_DEPTH     6  /* rays not sent at max_depth */
-#define COUNTER_CUT_WEIGHT    7  /* rays not sent below min_weight */
-#define COUNTER_LOST_DEPTH    8  /* largest weight cut at max_depth, as bits of a float */
-#define COUNTER_LOST_WEIGHT   9  /* largest weight cut below min_weight, as bits of a float */
-#define COUNTER_TOTAL_REFLECT 10 /* total reflections */
-#define COUNTER_NODES         11 /* nodes of both trees tested, and the word above it */
-#define COUNTER_ITEMS         13 /* triangles and spheres tested, and the word above it */
-#define COUNTER_LONG_RAYS     15 /* samples with FAULT_ITERATIONS, counted whatever the features */
-#define COUNTER_COUNT         16
+/* Counters, 32-bit each: those that all invocations share, then banks of those of FEATURE_COUNTERS, then two
+   lists of slots. A workgroup counts in one bank, so that workgroups seldom wait for each other. The host
+   reads them after each dispatch, and sums what was added. */
+#define COUNTER_PENDING   0
+#define COUNTER_LONG_RAYS 1 /* samples with FAULT_ITERATIONS */
+#define COUNTER_SHARED    32
+#define COUNTER_BANKS     32
+#define COUNTER_BANK      32 /* words of one */
+#define COUNTER_COUNT     (COUNTER_SHARED + COUNTER_BANKS * COUNTER_BANK)
+/* In a bank. */
+#define COUNTER_REFLECTED     0
+#define COUNTER_REFRACTED     1
+#define COUNTER_SHADOW        2
+#define COUNTER_CUT_DEPTH     3  /* rays not sent at max_depth */
+#define COUNTER_CUT_WEIGHT    4  /* rays not sent below min_weight */
+#define COUNTER_TOTAL_REFLECT 5  /* total reflections */
+#define COUNTER_NODES         6  /* nodes of both trees tested */
+#define COUNTER_ITEMS         7  /* triangles and spheres tested */
+#define COUNTER_SUMS          8  /* those before are sums, those from here on largest values */
+#define COUNTER_DEEPEST       8  /* deepest level of a ray that was traced */
+#define COUNTER_LOST_DEPTH    9  /* largest weight cut at max_depth, as bits of a float */
+#define COUNTER_LOST_WEIGHT   10 /* largest weight cut below min_weight, as bits of a float */
+#define COUNTER_KINDS         11
 
 /* lavapipe stops all loops of a vector of 8 invocations, silently, after 65535 iterations in sum over the
    8: an invocation ends its slice before its share of 8191. */
 #define ITERATION_LIMIT  8000
 #define SLICE_ITERATIONS 6000
 #define EXACT_ITERATIONS 1500 /* of them, of a ray's second search at most */
+/* Of a dispatch that counts, at most: no sum of what its invocations count exceeds 32 bits. */
+#define COUNTED_PATHS (1 << 19)
 
 /* Specialization constants. */
 #define CONSTANT_FEATURES       0

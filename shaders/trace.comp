@@ -43,29 +43,56 @@ const uint SUSPENDED = 3u; // to be saved
 const uint STOPPED = 4u;   // a fault
 const uint UNDECIDED = 5u; // the ray is to be traced once more, exactly
 
-void count(uint counter, bool yes) {
-    if (HAS_COUNTERS && yes)
-        atomicAdd(counters[counter], 1u);
+// What this invocation counted, with HAS_COUNTERS, until it ends: the device's counters, for which all wait, would
+// cost as much as the rays. The host knows how many rays the camera sends.
+struct ray_counts {
+    uint reflected, refracted, shadow, total_reflections;
+    uint cut_by_depth, cut_by_weight, deepest;
+    float lost_by_depth, lost_by_weight;
+};
+ray_counts counted = ray_counts(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0.0, 0.0);
+
+void add_count(uint at, uint amount) {
+    if (amount != 0u)
+        atomicAdd(counters[at], amount);
 }
 
-// A sum of two words.
-void count_many(uint counter, uint amount) {
-    uint before = atomicAdd(counters[counter], amount);
-    if (before + amount < before)
-        atomicAdd(counters[counter + 1u], 1u);
+void raise_count(uint at, uint value) {
+    if (value != 0u)
+        atomicMax(counters[at], value);
+}
+
+void add_counts(uint group) {
+    uint bank = COUNTER_SHARED + group % COUNTER_BANKS * COUNTER_BANK;
+    add_count(bank + COUNTER_REFLECTED, counted.reflected);
+    add_count(bank + COUNTER_REFRACTED, counted.refracted);
+    add_count(bank + COUNTER_SHADOW, counted.shadow);
+    add_count(bank + COUNTER_TOTAL_REFLECT, counted.total_reflections);
+    add_count(bank + COUNTER_CUT_DEPTH, counted.cut_by_depth);
+    add_count(bank + COUNTER_CUT_WEIGHT, counted.cut_by_weight);
+    add_count(bank + COUNTER_NODES, counted_nodes);
+    add_count(bank + COUNTER_ITEMS, counted_items);
+    raise_count(bank + COUNTER_DEEPEST, counted.deepest);
+    raise_count(bank + COUNTER_LOST_DEPTH, floatBitsToUint(counted.lost_by_depth));
+    raise_count(bank + COUNTER_LOST_WEIGHT, floatBitsToUint(counted.lost_by_weight));
 }
 
 void count_ray(path_state p, bool own) {
-    count(own ? COUNTER_PRIMARY + p.kind : COUNTER_SHADOW, true);
-    if (HAS_COUNTERS && own)
-        atomicMax(counters[COUNTER_DEEPEST], p.depth);
+    if (!HAS_COUNTERS)
+        return;
+    counted.shadow += own ? 0u : 1u;
+    counted.reflected += own && p.kind == RAY_REFLECTED ? 1u : 0u;
+    counted.refracted += own && p.kind == RAY_REFRACTED ? 1u : 0u;
+    counted.deepest = own ? max(counted.deepest, p.depth) : counted.deepest;
 }
 
-void count_cut(uint counter, uint lost, bool yes, float throughput) {
-    if (HAS_COUNTERS && yes) {
-        atomicAdd(counters[counter], 1u);
-        atomicMax(counters[lost], floatBitsToUint(throughput));
-    }
+void count_cut(bool by_depth, bool by_weight, float throughput) {
+    if (!HAS_COUNTERS)
+        return;
+    counted.cut_by_depth += by_depth ? 1u : 0u;
+    counted.cut_by_weight += by_weight ? 1u : 0u;
+    counted.lost_by_depth = by_depth ? max(counted.lost_by_depth, throughput) : counted.lost_by_depth;
+    counted.lost_by_weight = by_weight ? max(counted.lost_by_weight, throughput) : counted.lost_by_weight;
 }
 
 // A surface or a ray with a value that is infinite or no number: whatever came of it could look like any other
@@ -80,15 +107,15 @@ void taint(inout path_state p, bool exists, REAL3 v, float throughput) {
 bool is_followed(path_state p, float throughput) {
     bool heavy = throughput > 0.0 && throughput >= frame.min_weight;
     bool last = p.depth == frame.max_depth;
-    count_cut(COUNTER_CUT_WEIGHT, COUNTER_LOST_WEIGHT, throughput > 0.0 && !heavy, throughput);
-    count_cut(COUNTER_CUT_DEPTH, COUNTER_LOST_DEPTH, heavy && last, throughput);
+    count_cut(heavy && last, throughput > 0.0 && !heavy, throughput);
     return heavy && !(HAS_DEPTH_BLACK && last && wants(FEATURE_DEPTH_BLACK));
 }
 
 // Sends the rays that leave the surface: the path goes on with one, the other waits. false: none.
 bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_start start_through) {
     scatter_rays rays = scatter(p.direction, s);
-    count(COUNTER_TOTAL_REFLECT, HAS_REFRACTION && rays.total);
+    if (HAS_COUNTERS && HAS_REFRACTION)
+        counted.total_reflections += rays.total ? 1u : 0u;
     float throughput = p.throughput;
     bool through = HAS_REFRACTION && is_followed(p, throughput * rays.refraction);
     bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, throughput * rays.reflection);
@@ -342,10 +369,8 @@ void main() {
         p = begin_path(camera_direction(pixel));
     uint fault = FAULT_NONE;
     uint state = follow(slot, p, fault);
-    if (HAS_COUNTERS) {
-        count_many(COUNTER_NODES, counted_nodes);
-        count_many(COUNTER_ITEMS, counted_items);
-    }
+    if (HAS_COUNTERS)
+        add_counts(group);
     if (HAS_SLICES && state == SUSPENDED)
         save_path(slot, p);
     else

@@ -122,7 +122,7 @@ void compare_json(const struct compare_report *report, struct strbuf *out) {
     const struct measure_result *r = report->result;
     struct json_writer json;
     json_writer_init(&json, out, 2);
-    json_open_object(&json, NULL);
+    json_open_report(&json, "glint compare", 1);
     json_picture(report, 0, "picture", &json);
     json_picture(report, 1, "reference", &json);
     json_write_integer(&json, "width", report->width);

@@ -11,13 +11,21 @@ void reference_kit_camera(struct kit *kit, vec3 position) {
         .position = position, .right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1}, .tan_half_fov = 1};
 }
 
-struct reference *reference_kit_make(struct kit *kit, enum reference_test test, bool no_tree) {
+static struct reference *make(struct kit *kit, struct reference_input input) {
     kit_resolve(kit);
-    struct reference_input input = {
-        .scene = &kit->resolved, .view = &kit->view, .test = test, .no_tree = no_tree};
+    input.scene = &kit->resolved;
+    input.view = &kit->view;
     struct reference *reference = reference_create(&input);
     assert_non_null(reference);
     return reference;
+}
+
+struct reference *reference_kit_make(struct kit *kit, enum reference_test test, bool no_tree) {
+    return make(kit, (struct reference_input){.test = test, .no_tree = no_tree});
+}
+
+struct reference *reference_kit_make_quickly(struct kit *kit) {
+    return make(kit, (struct reference_input){.few_rays = true, .no_bound = true});
 }
 
 uint32_t random_below(uint64_t *random, uint32_t end) {

@@ -17,6 +17,7 @@
 void reference_kit_camera(struct kit *kit, vec3 position);
 // The scene as it now is; fails the test where there is no memory.
 struct reference *reference_kit_make(struct kit *kit, enum reference_test test, bool no_tree);
+struct reference *reference_kit_make_quickly(struct kit *kit); // with the tree for few rays
 
 vec3 random_in_cube(uint64_t *random); // -1..1 each
 uint32_t random_below(uint64_t *random, uint32_t end);

@@ -80,16 +80,20 @@ static void test_tree_loses_nothing(void **state) {
     }
     kit_rectangle(&kit);
     struct reference *tree = reference_kit_make(&kit, REFERENCE_WATERTIGHT, false);
+    struct reference *quick = reference_kit_make_quickly(&kit);
     struct reference *plain = reference_kit_make(&kit, REFERENCE_WATERTIGHT, true);
     for (uint32_t i = 0; i < REFERENCE_TEST_RAYS / 20; i++) {
         vec3 origin = vec3_mul(random_in_cube(&random), 2);
-        check_tree(tree, plain, origin, random_direction(&random));
+        const vec3 direction = random_direction(&random);
+        check_tree(tree, plain, origin, direction);
+        check_tree(quick, plain, origin, direction);
         // Along an axis, where a slab is never left.
         double sign = i & 1 ? 1 : -1;
         check_tree(tree, plain, origin,
                    (vec3){i % 3 == 0 ? sign : 0, i % 3 == 1 ? sign : -0.0, i % 3 == 2 ? sign : 0});
     }
     reference_destroy(tree);
+    reference_destroy(quick);
     reference_destroy(plain);
     kit_finish(&kit);
 }

@@ -2,6 +2,7 @@
 //
 //     report_tool validate SCHEMA FILE...   each file is valid by the schema, whose keywords are all known
 //     report_tool validate-yaml SCHEMA FILE the same for one file of YAML
+//     report_tool covers SCHEMA FILE...     each property that the schema describes is in one of the files
 //     report_tool get FILE PATH             the value at PATH: keys and indices, separated by '/'
 //     report_tool unique FILE PATH          the values at PATH, where '*' is every item of a list, all differ
 #include "tests/equal/json_schema.h"
@@ -45,6 +46,55 @@ static int validate_yaml(const char *schema_path, const char *path) {
     json_decref(value);
     json_decref(schema);
     return good ? 0 : 1;
+}
+
+// Every key of every object below a value.
+static void add_keys(json_t *value, json_t *keys) {
+    const char *key;
+    json_t *item;
+    size_t i;
+    json_array_foreach(value, i, item) add_keys(item, keys);
+    json_object_foreach(value, key, item) {
+        json_object_set_new(keys, key, json_true());
+        add_keys(item, keys);
+    }
+}
+
+// Every key that "properties" of a schema name, anywhere below it.
+static void add_described(json_t *schema, json_t *keys) {
+    const char *key;
+    json_t *item;
+    size_t i;
+    json_array_foreach(schema, i, item) add_described(item, keys);
+    json_object_foreach(schema, key, item) {
+        if (strcmp(key, "properties") == 0)
+            json_object_update(keys, item);
+        add_described(item, keys);
+    }
+}
+
+static int covers(const char *schema_path, int count, char **paths) {
+    json_t *schema = load(schema_path);
+    json_t *described = json_object(), *seen = json_object();
+    const char *key;
+    json_t *item;
+    int bad = schema && count > 0 ? 0 : 1;
+    add_described(schema, described);
+    for (int i = 0; i < count; i++) {
+        json_t *value = load(paths[i]);
+        add_keys(value, seen);
+        json_decref(value);
+    }
+    json_object_foreach(described, key, item) {
+        if (json_object_get(seen, key))
+            continue;
+        fprintf(stderr, "%s: no report has '%s'\n", schema_path, key);
+        bad = 1;
+    }
+    json_decref(seen);
+    json_decref(described);
+    json_decref(schema);
+    return bad;
 }
 
 // The next part of a path, at most `size` - 1 bytes; gives what follows it.
@@ -108,11 +158,13 @@ static int unique(const json_t *found) {
 int main(int argc, char **argv) {
     if (argc > 3 && strcmp(argv[1], "validate") == 0)
         return validate(argv[2], argc - 3, argv + 3);
+    if (argc > 3 && strcmp(argv[1], "covers") == 0)
+        return covers(argv[2], argc - 3, argv + 3);
     if (argc == 4 && strcmp(argv[1], "validate-yaml") == 0)
         return validate_yaml(argv[2], argv[3]);
     if (argc != 4) {
-        fprintf(stderr, "usage: report_tool validate SCHEMA FILE..., validate-yaml SCHEMA FILE, get FILE "
-                        "PATH, unique FILE PATH\n");
+        fprintf(stderr, "usage: report_tool validate SCHEMA FILE..., covers SCHEMA FILE..., validate-yaml "
+                        "SCHEMA FILE, get FILE PATH, unique FILE PATH\n");
         return 2;
     }
     json_t *json = load(argv[2]);

@@ -165,9 +165,7 @@ static bool make_band(struct renderer *renderer) {
 // What depends on the settings: the band's buffers and the kernel.
 static bool make_frame(struct renderer *renderer) {
     plan(renderer);
-    if (make_band(renderer))
-        renderer->program = renderer_keep_program(renderer, renderer->features);
-    return renderer->program != NULL;
+    return make_band(renderer) && renderer_program(renderer, renderer->settings.counts);
 }
 
 static void drop_frame(struct renderer *renderer) {
@@ -204,7 +202,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
     if (old.width == now->width && old.height == now->height && old.max_depth == now->max_depth &&
         old.features == now->features && old.alternative == now->alternative &&
         old.workgroup == now->workgroup && old.band_tiles == now->band_tiles)
-        return true;
+        return renderer_program(renderer, now->counts) != NULL;
     drop_frame(renderer);
     return make_frame(renderer);
 }

@@ -45,6 +45,7 @@ struct render_settings {
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
     uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
     uint32_t dispatch_paths;             // most paths of a dispatch; 0: as many as are over soon
+    bool counts;                         // frames count their rays, which changes no bit of the picture
 };
 
 // What scene, flat scene and limits ask for.
@@ -80,6 +81,7 @@ struct render_statistics {
     double wall_seconds;
     uint32_t bands, dispatches, slices;             // slices: dispatches that resumed paths
     struct render_fault faults[RENDER_FAULT_KINDS]; // by kind
+    struct render_rays rays;                        // where the settings ask for it
 };
 
 // Called between dispatches with what is done, 0..1; false ends the frame.
@@ -110,7 +112,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
                                    const struct render_progress *progress,
                                    struct render_statistics *statistics);
-// Renders the frame once more with a kernel that counts, and throws the picture away.
+// Renders the frame with a kernel that counts, whatever the settings say, and throws the picture away.
 enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
                                   const struct render_progress *progress, struct render_rays *rays);
 // What each pixel's first ray hits (scene/hits.h), by the tracer's own code: width * height entries, rows

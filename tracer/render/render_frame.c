@@ -91,11 +91,24 @@ static bool is_wanted(const struct renderer_frame *run, double part) {
            progress->report(progress->context, ((double)run->steps_done + part) / (double)run->steps);
 }
 
+// What the dispatch added to a bank.
+static void add_bank(struct renderer_frame *run, const uint32_t *now, const uint32_t *before) {
+    for (int kind = 0; kind < COUNTER_SUMS; kind++)
+        run->counts[kind] += now[kind] - before[kind]; // which may wrap around
+    for (int kind = COUNTER_SUMS; kind < COUNTER_KINDS; kind++)
+        if (now[kind] > run->counts[kind])
+            run->counts[kind] = now[kind];
+}
+
 static bool read_counters(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
     uint32_t counters[COUNTER_COUNT];
-    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, counters, sizeof counters))
+    const uint64_t bytes = run->counting ? sizeof counters : COUNTER_SHARED * sizeof *counters;
+    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, counters, bytes))
         return false;
+    for (uint32_t at = COUNTER_SHARED; at < COUNTER_COUNT && run->counting; at += COUNTER_BANK)
+        add_bank(run, counters + at, run->counters + at);
+    memcpy(run->counters, counters, bytes);
     renderer->pending = counters[COUNTER_PENDING];
     run->met_long_ray = counters[COUNTER_LONG_RAYS] != 0;
     return true;

@@ -95,7 +95,12 @@ static bool is_for(const struct renderer_kept *kept, const struct renderer *rend
            kept->workgroup == renderer->settings.workgroup;
 }
 
-struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t features) {
+static bool is_in_use(const struct renderer *renderer, const struct gpu_program *program) {
+    return program && (program == renderer->program || program == renderer->counting);
+}
+
+// The tracing kernel with these features, compiled now or before, over the band's buffers.
+static struct gpu_program *keep_program(struct renderer *renderer, uint32_t features) {
     for (uint32_t i = 0; i < RENDERER_KEPT; i++)
         if (is_for(&renderer->kept[i], renderer, features)) {
             gpu_program_bind(renderer->gpu, renderer->kept[i].program, renderer->buffers);
@@ -104,9 +109,7 @@ struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t fe
     struct gpu_program *program = renderer_compile_kernel(renderer, RENDERER_TRACE, features, NULL, NULL);
     if (!program)
         return NULL;
-    // The one in use stays.
-    while (renderer->kept[renderer->kept_next].program &&
-           renderer->kept[renderer->kept_next].program == renderer->program)
+    while (is_in_use(renderer, renderer->kept[renderer->kept_next].program))
         renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
     struct renderer_kept *kept = &renderer->kept[renderer->kept_next];
     gpu_program_destroy(renderer->gpu, kept->program);
@@ -114,6 +117,13 @@ struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t fe
                                    program};
     renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
     return program;
+}
+
+struct gpu_program *renderer_program(struct renderer *renderer, bool counts) {
+    struct gpu_program **program = counts ? &renderer->counting : &renderer->program;
+    if (!*program)
+        *program = keep_program(renderer, renderer->features | (counts ? FEATURE_COUNTERS : 0));
+    return *program;
 }
 
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,

@@ -49,7 +49,8 @@ static void learn(struct renderer_pace *pace, uint32_t ran, uint32_t workgroup, 
 bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
                         uint32_t workgroup, struct dispatch_block *block, uint32_t end, double *seconds) {
     struct renderer_pace *pace = &renderer->paces[pass];
-    const uint32_t paths = paths_of(renderer, pace, end - block->path_begin);
+    const uint32_t fit = paths_of(renderer, pace, end - block->path_begin);
+    const uint32_t paths = program == renderer->counting && fit > COUNTED_PATHS ? COUNTED_PATHS : fit;
     const uint32_t groups = (paths + workgroup - 1) / workgroup;
     block->path_end = block->path_begin + paths;
     block->grid_width = grid_width(groups);

@@ -60,8 +60,8 @@ struct renderer {
     uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
-    struct gpu_program *program;  // of those kept
-    struct gpu_program *counting; // the same; made by the first renderer_count
+    struct gpu_program *program;  // of those kept; NULL: none was wanted yet
+    struct gpu_program *counting; // the same, with counters
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
@@ -82,8 +82,8 @@ enum renderer_kernel {
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
                                             uint32_t features, struct gpu_buffer *output,
                                             struct gpu_buffer *state);
-// The tracing kernel with these features, compiled now or before, over the band's buffers.
-struct gpu_program *renderer_keep_program(struct renderer *renderer, uint32_t features);
+// The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
+struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
 float renderer_float(uint32_t bits);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
@@ -97,6 +97,9 @@ struct renderer_frame {
     struct render_statistics *statistics;
     uint64_t steps_done, steps; // a band's sample is a step
     bool met_long_ray;          // the frame was given up: renderer_take_long_rays, and once more
+    bool counting;
+    uint32_t counters[COUNTER_COUNT]; // after the last dispatch; of those in banks only where it counts
+    uint64_t counts[COUNTER_KINDS];   // of all banks and dispatches
 };
 // Adds to the statistics, which the caller has cleared. `rgb` NULL: no picture.
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,

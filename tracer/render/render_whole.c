@@ -3,31 +3,54 @@
 
 #include "core/clock.h"
 
-static bool begin_counting(struct renderer *renderer) {
-    const uint32_t zero[COUNTER_COUNT] = {0};
-    if (!renderer->counting)
-        renderer->counting = renderer_keep_program(renderer, renderer->features | FEATURE_COUNTERS);
+static bool clear_counters(struct renderer_frame *run) {
+    struct renderer *renderer = run->renderer;
     renderer->pending = 0;
-    return renderer->counting &&
-           gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, zero, sizeof zero);
+    for (int i = 0; i < COUNTER_COUNT; i++)
+        run->counters[i] = 0;
+    for (int i = 0; i < COUNTER_KINDS; i++)
+        run->counts[i] = 0;
+    return gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, run->counters,
+                     sizeof run->counters);
+}
+
+static struct render_rays rays_of(const struct renderer_frame *run) {
+    const struct render_settings *settings = &run->renderer->settings;
+    const uint64_t *counts = run->counts;
+    return (struct render_rays){.primary = (uint64_t)settings->width * settings->height * settings->samples,
+                                .reflected = counts[COUNTER_REFLECTED],
+                                .refracted = counts[COUNTER_REFRACTED],
+                                .shadow = counts[COUNTER_SHADOW],
+                                .cut_by_depth = counts[COUNTER_CUT_DEPTH],
+                                .cut_by_weight = counts[COUNTER_CUT_WEIGHT],
+                                .total_reflections = counts[COUNTER_TOTAL_REFLECT],
+                                .nodes = counts[COUNTER_NODES],
+                                .items = counts[COUNTER_ITEMS],
+                                .deepest = (uint32_t)counts[COUNTER_DEEPEST],
+                                .lost_by_depth = renderer_float((uint32_t)counts[COUNTER_LOST_DEPTH]),
+                                .lost_by_weight = renderer_float((uint32_t)counts[COUNTER_LOST_WEIGHT])};
+}
+
+// The kernel that counts, or the other, with no count from before. false: see gpu_error.
+static bool begin(struct renderer_frame *run, bool counts) {
+    run->counting = counts;
+    run->program = renderer_program(run->renderer, counts);
+    return run->program && (!counts || clear_counters(run));
 }
 
 // Where a ray needs more iterations than a slice has, all is begun again with kernels that can save it: the
 // others are faster, and almost no scene has such a ray.
 static enum render_result draw_frame(struct renderer_frame *run, const struct view_camera *camera,
-                                     float *rgb) {
-    struct renderer *renderer = run->renderer;
+                                     bool counts, float *rgb) {
     const double start = clock_seconds();
     *run->statistics = (struct render_statistics){0};
-    enum render_result result = renderer_draw_frame(run, camera, rgb);
-    if (run->met_long_ray) {
-        const bool counts = run->program == renderer->counting;
-        result = RENDER_FAILED;
-        if (renderer_take_long_rays(renderer) && (!counts || begin_counting(renderer))) {
-            run->program = counts ? renderer->counting : renderer->program;
-            result = renderer_draw_frame(run, camera, rgb);
-        }
-    }
+    enum render_result result = begin(run, counts) ? renderer_draw_frame(run, camera, rgb) : RENDER_FAILED;
+    if (run->met_long_ray)
+        result = renderer_take_long_rays(run->renderer) && begin(run, counts)
+                     ? renderer_draw_frame(run, camera, rgb)
+                     : RENDER_FAILED;
+    if (counts)
+        run->statistics->rays = rays_of(run);
     run->statistics->wall_seconds = clock_seconds() - start;
     return result;
 }
@@ -35,36 +58,15 @@ static enum render_result draw_frame(struct renderer_frame *run, const struct vi
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
                                    const struct render_progress *progress,
                                    struct render_statistics *statistics) {
-    struct renderer_frame run = {renderer, renderer->program, progress, statistics, 0, 0, false};
-    return draw_frame(&run, camera, rgb);
-}
-
-static uint64_t wide(const uint32_t words[2]) {
-    return (uint64_t)words[1] << 32 | words[0];
+    struct renderer_frame run = {.renderer = renderer, .progress = progress, .statistics = statistics};
+    return draw_frame(&run, camera, renderer->settings.counts, rgb);
 }
 
 enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
                                   const struct render_progress *progress, struct render_rays *rays) {
-    uint32_t values[COUNTER_COUNT] = {0};
-    if (!begin_counting(renderer))
-        return RENDER_FAILED;
     struct render_statistics statistics;
-    struct renderer_frame run = {renderer, renderer->counting, progress, &statistics, 0, 0, false};
-    enum render_result result = draw_frame(&run, camera, NULL);
-    if (result == RENDER_DONE &&
-        !gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, values, sizeof values))
-        result = RENDER_FAILED;
-    *rays = (struct render_rays){.primary = values[COUNTER_PRIMARY],
-                                 .reflected = values[COUNTER_REFLECTED],
-                                 .refracted = values[COUNTER_REFRACTED],
-                                 .shadow = values[COUNTER_SHADOW],
-                                 .cut_by_depth = values[COUNTER_CUT_DEPTH],
-                                 .cut_by_weight = values[COUNTER_CUT_WEIGHT],
-                                 .total_reflections = values[COUNTER_TOTAL_REFLECT],
-                                 .nodes = wide(values + COUNTER_NODES),
-                                 .items = wide(values + COUNTER_ITEMS),
-                                 .deepest = values[COUNTER_DEEPEST],
-                                 .lost_by_depth = renderer_float(values[COUNTER_LOST_DEPTH]),
-                                 .lost_by_weight = renderer_float(values[COUNTER_LOST_WEIGHT])};
+    struct renderer_frame run = {.renderer = renderer, .progress = progress, .statistics = &statistics};
+    const enum render_result result = draw_frame(&run, camera, true, NULL);
+    *rays = statistics.rays;
     return result;
 }

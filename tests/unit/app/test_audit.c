@@ -58,10 +58,14 @@ static void close_picture(struct fixture *f) {
     asset_store_destroy(f->store);
 }
 
-static struct audit take(struct fixture *f) {
+static struct audit take_for(struct fixture *f, struct audit_wish wish) {
     struct audit audit;
-    assert_int_equal(audit_take(&f->session, &f->view, &f->image, NULL, &audit), SHOT_OK);
+    assert_int_equal(audit_take(&f->session, &f->view, &f->image, &wish, NULL, &audit), SHOT_OK);
     return audit;
+}
+
+static struct audit take(struct fixture *f) {
+    return take_for(f, (struct audit_wish){.share = AUDIT_SHARE});
 }
 
 static void spoil(struct image *image, uint32_t x, uint32_t y, float by) {
@@ -73,16 +77,27 @@ static void spoil(struct image *image, uint32_t x, uint32_t y, float by) {
 static void test_bound(void **state) {
     (void)state;
     for (uint32_t n = 1; n < 100000; n *= 7) {
-        assert_true(fabs(audit_bound(0, n) - (1 - pow(0.025, 1.0 / n))) < 1e-12);
-        assert_true(audit_bound(n, n) == 1);
+        assert_true(fabs(audit_bound(0, n, 0.025) - (1 - pow(0.025, 1.0 / n))) < 1e-12);
+        assert_true(audit_bound(n, n, 0.025) == 1);
+        assert_true(fabs(audit_floor(n, n, 0.01) - pow(0.01, 1.0 / n)) < 1e-12);
+        assert_true(audit_floor(0, n, 0.01) == 0);
     }
-    assert_true(fabs(audit_bound(9, 10) - pow(0.975, 0.1)) < 1e-12);
+    assert_true(fabs(audit_bound(9, 10, 0.025) - pow(0.975, 0.1)) < 1e-12);
+    assert_true(fabs(audit_floor(1, 10, 0.025) - (1 - pow(0.975, 0.1))) < 1e-12);
     // One of n: (1 - p)^n + n p (1 - p)^(n - 1) is 0.025.
-    const double p = audit_bound(1, 3000);
+    const double p = audit_bound(1, 3000, 0.025);
     assert_true(fabs(pow(1 - p, 3000) + 3000 * p * pow(1 - p, 2999) - 0.025) < 1e-9);
-    assert_true(audit_bound(0, 3700) < 0.001 && audit_bound(1, 3700) > 0.001);
-    for (uint32_t k = 1; k < 3000; k += k)
-        assert_true(audit_bound(k, 3000) > audit_bound(k - 1, 3000) && audit_bound(k, 3000) > k / 3000.0);
+    assert_true(audit_bound(0, 3700, 0.025) < 0.001 && audit_bound(1, 3700, 0.025) > 0.001);
+    for (uint32_t k = 1; k < 3000; k += k) {
+        assert_true(audit_bound(k, 3000, 0.025) > audit_bound(k - 1, 3000, 0.025));
+        assert_true(audit_floor(k, 3000, 0.025) > audit_floor(k - 1, 3000, 0.025));
+        assert_true(audit_bound(k, 3000, 0.025) > k / 3000.0 && audit_floor(k, 3000, 0.025) < k / 3000.0);
+        assert_true(audit_bound(k, 3000, 0.01) > audit_bound(k, 3000, 0.025));
+        assert_true(fabs(audit_floor(3000 - k, 3000, 0.01) - (1 - audit_bound(k, 3000, 0.01))) < 1e-12);
+    }
+    // Of many: the normal distribution's 1.96 standard deviations, nearly.
+    assert_true(fabs(audit_bound(500000, 1000000, 0.025) - 0.50098) < 1e-5);
+    assert_true(fabs(audit_floor(500000, 1000000, 0.025) - 0.49902) < 1e-5);
 }
 
 // ---- pictures
@@ -172,13 +187,72 @@ static void test_second_look(void **state) {
     assert_true(audit.bound == 24 / 12000.0);
     close_picture(&f);
     open_picture(&f, 240, 180, 1);
-    for (uint32_t i = 0; i < 240 * 180; i += 500)
+    for (uint32_t i = 0; i < 240 * 180; i += 1000)
         spoil(&f.image, i % 240, i / 240, 1);
     audit = take(&f);
     assert_false(audit.whole);
-    assert_in_range(audit.pixels, 11100, 11600);
-    assert_in_range(audit.off, 8, 45); // a five hundredth of 11100 is 22
-    assert_true(audit.bound > 0.001 && audit.bound < 0.006);
+    assert_in_range(audit.pixels, 8700, 9200);
+    assert_in_range(audit.off, 3, 25); // a thousandth of 8700 is 9
+    assert_true(audit.bound > 0.0005 && audit.bound < 0.004);
+    close_picture(&f);
+}
+
+static void spoil_each(struct image *image, uint32_t step) {
+    const uint32_t pixels = image->width * image->height;
+    for (uint32_t i = step / 2; i < pixels; i += step)
+        spoil(image, i % image->width, i / image->width, 1);
+}
+
+// Whether more than a share is off is decided however near it is, with no more pixels than that takes.
+static void test_decided(void **state) {
+    (void)state;
+    static const struct {
+        uint32_t step; // every so many pixels of 120 000 one is off; 0: none
+        double share;
+        bool is_more;
+        uint32_t least, most; // pixels that are traced again
+    } cases[] = {
+        {0, 0.001, false, 3700, 4000},    {0, 0.0005, false, 17400, 18000},
+        {0, 0, false, 120000, 120000},    {20, 0.001, true, 3700, 4000},
+        {60000, 0, true, 3700, 120000},   {1100, 0.001, false, 11000, 120000},
+        {900, 0.001, true, 3700, 120000}, {90, 0.01, true, 3700, 120000},
+        {110, 0.01, false, 3700, 120000},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct fixture f;
+        open_picture(&f, 400, 300, 1);
+        if (cases[i].step)
+            spoil_each(&f.image, cases[i].step);
+        const struct audit audit =
+            take_for(&f, (struct audit_wish){.share = cases[i].share, .decides = true});
+        assert_true((audit.bound > cases[i].share) == cases[i].is_more);
+        assert_true((audit.floor > cases[i].share) == cases[i].is_more);
+        assert_in_range(audit.pixels, cases[i].least, cases[i].most);
+        assert_int_equal(audit.whole, audit.pixels == 120000);
+        close_picture(&f);
+    }
+}
+
+// With the reference of a trial: nothing but the time differs.
+static void test_given_reference(void **state) {
+    (void)state;
+    struct fixture f;
+    open_picture(&f, 160, 120, 1);
+    spoil_each(&f.image, 300);
+    struct view aside = f.view;
+    view_turn_aside(&aside.camera);
+    const struct reference_input input = {.scene = &f.session.resolved, .view = &aside};
+    struct reference *reference = reference_create(&input);
+    assert_non_null(reference);
+    const struct audit own = take(&f);
+    const struct audit turned = take_for(&f, (struct audit_wish){reference, AUDIT_SHARE, false});
+    assert_true(turned.off > own.off); // it looks elsewhere
+    reference_look(reference, &f.view);
+    const struct audit given = take_for(&f, (struct audit_wish){reference, AUDIT_SHARE, false});
+    assert_int_equal(own.off, given.off);
+    assert_int_equal(own.pixels, given.pixels);
+    assert_true(own.bound == given.bound && own.x == given.x && own.y == given.y);
+    reference_destroy(reference);
     close_picture(&f);
 }
 
@@ -193,8 +267,9 @@ static void test_cancelled(void **state) {
     int left = 2;
     struct audit audit;
     const struct render_progress progress = {stop, &left};
+    const struct audit_wish wish = {.share = AUDIT_SHARE};
     open_picture(&f, 160, 120, 1);
-    assert_int_equal(audit_take(&f.session, &f.view, &f.image, &progress, &audit), SHOT_CANCELLED);
+    assert_int_equal(audit_take(&f.session, &f.view, &f.image, &wish, &progress, &audit), SHOT_CANCELLED);
     assert_int_equal(left, 0);
     close_picture(&f);
 }
@@ -217,9 +292,11 @@ static void test_words(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bound),  cmocka_unit_test(test_right),       cmocka_unit_test(test_small),
-        cmocka_unit_test(test_spread), cmocka_unit_test(test_jitter),      cmocka_unit_test(test_cancelled),
-        cmocka_unit_test(test_words),  cmocka_unit_test(test_second_look),
+        cmocka_unit_test(test_bound),   cmocka_unit_test(test_right),
+        cmocka_unit_test(test_small),   cmocka_unit_test(test_spread),
+        cmocka_unit_test(test_jitter),  cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_words),   cmocka_unit_test(test_second_look),
+        cmocka_unit_test(test_decided), cmocka_unit_test(test_given_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

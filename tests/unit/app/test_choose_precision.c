@@ -38,8 +38,8 @@ static const char near_scene[] = "scenes/elements/spheres.glint.yaml";
 
 static enum precision_status choose(struct fixture *f, void **state, bool has_double) {
     bool has_flat;
-    return precision_choose(&f->session, &f->input, device_kit_need(state, has_double), has_double, NULL,
-                            &has_flat);
+    return precision_choose(&f->session, &f->input, device_kit_need(state, has_double), has_double,
+                            (struct precision_gains){.has_flat = &has_flat});
 }
 
 static void test_settings(void **state) {

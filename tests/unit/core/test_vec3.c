@@ -46,6 +46,27 @@ static void unit_vectors(void **state) {
     }
 }
 
+// What is computed without dividing first has the bits that it would have with it.
+static void ordinary_sizes(void **state) {
+    (void)state;
+    uint64_t seed = 1;
+    for (int i = 0; i < 20000; i++) {
+        double part[3];
+        for (int k = 0; k < 3; k++) {
+            seed = seed * 6364136223846793005u + 1442695040888963407u;
+            const double value = (double)(seed >> 11) * 0x1p-53 - 0.5;
+            part[k] = scalbn(value, (int)(seed >> 3 & 63) - 32);
+        }
+        const vec3 v = {part[0], part[1], part[2]};
+        const vec3 far = {scalbn(v.x, 600), scalbn(v.y, 600), scalbn(v.z, 600)};
+        const vec3 a = vec3_unit(v), b = vec3_unit(far);
+        assert_true(a.x == b.x && a.y == b.y && a.z == b.z);
+        assert_true(scalbn(vec3_length(v), 600) == vec3_length(far));
+    }
+    assert_true(vec3_max_abs((vec3){NAN, -2, 1}) == 2 && vec3_max_abs((vec3){1, NAN, NAN}) == 1);
+    assert_true(isnan(vec3_max_abs((vec3){NAN, NAN, NAN})));
+}
+
 static void matrices_apply_in_order(void **state) {
     (void)state;
     const mat3 quarter_turn = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}; // about z
@@ -63,6 +84,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(products),
         cmocka_unit_test(lengths_neither_overflow_nor_vanish),
+        cmocka_unit_test(ordinary_sizes),
         cmocka_unit_test(unit_vectors),
         cmocka_unit_test(matrices_apply_in_order),
     };

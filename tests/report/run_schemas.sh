@@ -1,0 +1,85 @@
+#!/bin/sh
+# What commands print for programs is valid by its published schema, and has all that the schema describes.
+# Usage: run_schemas.sh GLINT SOURCE_FOLDER WORK_FOLDER REPORT_TOOL
+. "$(dirname -- "$0")/../cli/lib.sh"
+tool=$4
+export XDG_CACHE_HOME="$work/cache"
+
+# json NAME EXIT command...: keeps the report as NAME.json.
+json() {
+    name=$1 wanted=$2
+    shift 2
+    expect "$name" "$wanted" '^[[{]' '' "$@"
+    cp out.txt "$name.json"
+}
+
+# by_schema REPORT FILE...
+by_schema() {
+    schema=$source/docs/schema/$1-report.schema.json
+    shift
+    ok "$* valid by ${schema##*/}" "$tool" validate "$schema" "$@"
+    ok "all of ${schema##*/} is reported" "$tool" covers "$schema" "$@"
+}
+
+mkdir meshes
+printf 'mtllib face.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl red\nf 1 2 3\n' >meshes/face.obj
+printf 'newmtl red\nKd 1 0 0\n' >meshes/face.mtl
+printf 'glint: 1\nmaterials: {glass: {albedo: [0, 0.5, 0.2, 0.7], refractive_index: 1.5}}\n' >parts.yaml
+cat >scene.yaml <<'S'
+glint: 1
+include: [parts.yaml]
+image: {width: 24, height: 16}
+trace: {max_depth: 3, precision: single}
+camera: {position: [0, 0, 6]}
+background: {color: [0.3, 0.5, 0.8]}
+lights: [{position: [-5, 8, 5]}]
+spheres: [{center: [-0.9, 0, 0], radius: 0.9, material: glass}]
+models: [{mesh: meshes/face.obj, translation: [0.9, 0, 0]}]
+S
+
+json deps 0 "$glint" deps scene.yaml --format json
+json deps_missing 3 "$glint" deps none.yaml scene.yaml --format json
+by_schema deps deps.json deps_missing.json
+
+sed 's/fov: 40/fov: 50/; s/radius: 0.9/radius: 0.8/; s/^lights.*/lights: []/; s/max_depth: 3, //' scene.yaml >other.yaml
+json diff 1 "$glint" diff scene.yaml other.yaml --format json
+json diff_back 1 "$glint" diff other.yaml scene.yaml --format json
+json diff_none 0 "$glint" diff scene.yaml scene.yaml --format json
+by_schema diff diff.json diff_back.json diff_none.json
+
+expect "a picture of the reference" 0 - '' "$glint" render scene.yaml -o exact.pfm --device reference
+expect "and one of another size" 0 - '' "$glint" render other.yaml -o other.pfm --device reference
+json compare 0 "$glint" compare exact.pfm other.pfm --format json
+json compare_bounds 1 "$glint" compare exact.pfm other.pfm --format json --max-mae 0 --min-psnr 10
+json compare_same 0 "$glint" compare exact.pfm exact.pfm --format json --max-largest 0
+by_schema compare compare.json compare_bounds.json compare_same.json
+
+json pick_reference 0 "$glint" pick scene.yaml 8,8 --format json --device reference
+json render_reference 0 "$glint" render scene.yaml -o exact.png --device reference --stats=json -q
+if ! "$glint" render scene.yaml -o probe.png -q 2>/dev/null; then
+    echo "skip: no Vulkan device: of render, pick and tradeoff only what needs none"
+    exit $failed
+fi
+
+json render 0 "$glint" render scene.yaml -o out.png --stats=json -q
+# So far away that single precision is wrong.
+cat >far.yaml <<'S'
+glint: 1
+image: {width: 24, height: 16}
+trace: {precision: single}
+camera: {position: [0.3, 0.2, 5], fov: 1.0e-6}
+lights: [{position: [3, 4, 5]}]
+spheres: [{center: [0.1, 0, -123456789.3], radius: 0.8}]
+S
+json render_off 0 "$glint" render far.yaml -o far.png --stats=json -q
+by_schema render render.json render_off.json render_reference.json
+
+json pick 0 "$glint" pick scene.yaml 8,8 --format json
+json pick_mesh 0 "$glint" pick scene.yaml 14,8 --format json
+json pick_off 0 "$glint" pick far.yaml 12,8 --format json
+by_schema pick pick.json pick_mesh.json pick_off.json pick_reference.json
+
+json tradeoff 0 "$glint" tradeoff scene.yaml --format json --budget 5 -q --max-error mae=0.5 --max-time 10000
+json tradeoff_none 1 "$glint" tradeoff scene.yaml --format json --budget 1 -q --max-time 0.000001
+by_schema tradeoff tradeoff.json tradeoff_none.json
+exit $failed
