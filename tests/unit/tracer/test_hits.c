@@ -278,6 +278,15 @@ static void test_mesh(void **state) {
 
 // ---- the path of a pixel, told: its rays add up to the picture, bit for bit
 
+static void follow(const struct render_segment *segments, uint32_t count, uint32_t *deepest, uint32_t *cut) {
+    for (uint32_t i = 1; i < count; i++) {
+        assert_true(segments[i].parent < i);
+        assert_int_equal(segments[i].depth, segments[segments[i].parent].depth + 1);
+        *deepest = segments[i].depth > *deepest ? segments[i].depth : *deepest;
+        *cut += segments[i].cut_weight > 0;
+    }
+}
+
 static void check_log(void **state, bool is_double, int more_lights) {
     enum {
         SEGMENTS = 512
@@ -319,12 +328,7 @@ static void check_log(void **state, bool is_double, int more_lights) {
             assert_int_equal(segments[0].triangle, hit->triangle);
             assert_int_equal(segments[0].considered, hit->considered);
             assert_int_equal(segments[0].lit, hit->lit);
-            for (uint32_t i = 1; i < log.count; i++) {
-                assert_true(segments[i].parent < i);
-                assert_int_equal(segments[i].depth, segments[segments[i].parent].depth + 1);
-                deepest = segments[i].depth > deepest ? segments[i].depth : deepest;
-                cut += segments[i].cut_weight > 0;
-            }
+            follow(segments, log.count, &deepest, &cut);
             most = log.count > most ? log.count : most;
         }
     assert_in_range(most, 8, SEGMENTS);
