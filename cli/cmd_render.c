@@ -19,7 +19,7 @@ static int open_device(struct render_job *job) {
     return status;
 }
 
-static int take_frames(struct render_job *job) {
+static int take_frames(struct render_job *job, uint32_t cameras) {
     int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
     double *times = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);
     struct render_progress callback = progress_callback(&job->progress);
@@ -28,7 +28,7 @@ static int take_frames(struct render_job *job) {
         job->progress.share = 1.0 / frames;
         double start = clock_seconds();
         uint32_t errors = job->session.sink.errors;
-        enum shot_status status = shot_take(&job->shot, &job->image, &callback, &job->stats.last);
+        enum shot_status status = render_take_frame(job, cameras, &callback);
         times[i] = clock_seconds() - start;
         if (status != SHOT_OK)
             return render_failed(job, status);
@@ -70,7 +70,7 @@ static int report_stats(struct render_job *job) {
     s->is_double = job->shot.flat.is_double;
     s->width = job->shot.settings.width;
     s->height = job->shot.settings.height;
-    s->samples = job->shot.settings.samples;
+    s->samples = s->last.samples;
     snprintf(s->device, sizeof s->device, "%s", gpu_info(job->gpu)->name);
     struct strbuf text;
     strbuf_init(&text);
@@ -80,10 +80,10 @@ static int report_stats(struct render_job *job) {
     return status;
 }
 
-// One camera: frames, picture, statistics. The shot is open and uses it.
-static int render_camera(struct render_job *job, const char *path) {
+// One camera of those that are left: frames, picture, statistics. The shot is open and uses it.
+static int render_camera(struct render_job *job, const char *path, uint32_t cameras) {
     progress_begin(&job->progress, job->cli->options.quiet);
-    int status = take_frames(job);
+    int status = take_frames(job, cameras);
     if (status == CLI_OK)
         status = render_audit(job);
     progress_end(&job->progress);
@@ -100,6 +100,7 @@ static int render_camera(struct render_job *job, const char *path) {
                 1e3 * job->stats.median_frame_seconds, job->stats.frames,
                 1e3 * job->stats.least_frame_seconds, 1e3 * job->stats.most_frame_seconds,
                 gpu_info(job->gpu)->name);
+    render_tell_time(job);
     if (strcmp(path, "-") != 0)
         fprintf(stderr, "glint: wrote %s, %u x %u\n", path, job->image.width, job->image.height);
     return status;
@@ -115,7 +116,7 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
             return render_failed(job, opened);
-        status = render_camera(job, render_output_of(job, i));
+        status = render_camera(job, render_output_of(job, i), end - i);
     }
     int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
     return status != CLI_OK ? status : reported;

@@ -170,6 +170,8 @@ static const struct option_row rows[] = {
      "choose the cheapest settings whose error is no larger, such as flip=0.02"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_TIME, "max-time", 0, "MS", "tradeoff render",
      "choose the best settings whose frame takes no longer, in milliseconds"},
+    {OPTION_MEASURE + CLI_MEASURE_TIME, "time", 0, "S", "render",
+     "write the picture at most S seconds after the start, with fewer samples if they do not fit"},
     {OPTION_MEASURE + CLI_MEASURE_BUDGET, "budget", 0, "S", "tradeoff render",
      "seconds that the measurement may take; fewer pairs and rounds are tried"},
     {OPTION_SCHEMA, "schema", 0, "ADDRESS", "schema",

@@ -50,20 +50,21 @@ int render_write_picture(struct render_job *job, const char *path) {
     } else {
         status = cli_write(job->cli, path, strbuf_view(&file));
     }
+    job->written = clock_seconds();
     strbuf_finish(&file);
     return status;
 }
 
 // ---- a picture states its own error: --audit, --max-off and --stats
 
-static bool is_wanted(const struct cli_options *options) {
+bool render_wants_audit(const struct cli_options *options) {
     return options->audit || options->has_max_off || options->stats;
 }
 
 int render_audit(struct render_job *job) {
     strbuf_clear(&job->note);
     job->image.note = NULL;
-    job->stats.has_audit = is_wanted(&job->cli->options);
+    job->stats.has_audit = render_wants_audit(&job->cli->options);
     if (!job->stats.has_audit)
         return CLI_OK;
     struct audit *audit = &job->stats.audit;

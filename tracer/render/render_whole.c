@@ -35,7 +35,18 @@ static enum render_result draw_frame(struct renderer_frame *run, const struct vi
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
                                    const struct render_progress *progress,
                                    struct render_statistics *statistics) {
-    struct renderer_frame run = {renderer, renderer->program, progress, statistics, 0, 0, false};
+    return renderer_render_until(renderer, camera, rgb, progress, NULL, statistics);
+}
+
+enum render_result renderer_render_until(struct renderer *renderer, const struct view_camera *camera,
+                                         float *rgb, const struct render_progress *progress,
+                                         const struct render_limit *limit,
+                                         struct render_statistics *statistics) {
+    struct renderer_frame run = {.renderer = renderer,
+                                 .program = renderer->program,
+                                 .progress = progress,
+                                 .statistics = statistics,
+                                 .limit = limit};
     return draw_frame(&run, camera, rgb);
 }
 
@@ -49,7 +60,8 @@ enum render_result renderer_count(struct renderer *renderer, const struct view_c
     if (!begin_counting(renderer))
         return RENDER_FAILED;
     struct render_statistics statistics;
-    struct renderer_frame run = {renderer, renderer->counting, progress, &statistics, 0, 0, false};
+    struct renderer_frame run = {
+        .renderer = renderer, .program = renderer->counting, .progress = progress, .statistics = &statistics};
     enum render_result result = draw_frame(&run, camera, NULL);
     if (result == RENDER_DONE &&
         !gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, values, sizeof values))

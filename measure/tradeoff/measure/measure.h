@@ -27,7 +27,7 @@ enum {
 
 // What the reference says at the probes, displayed.
 struct probe_set {
-    uint32_t width, height, samples, max_depth;
+    uint32_t width, height, samples, first_sample, max_depth;
     double min_weight;
     bool shadows, full; // full: paths to their ends, whatever depth and weight
     float *values;      // three a probe

@@ -113,6 +113,8 @@ enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *o
     struct plan_ground_truth planned;
     const double start = clock_seconds();
     s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
+    // None that a row has: what two pictures share is no error of either.
+    s->full.first_sample = VIEW_OTHER_SAMPLES;
     enum tradeoff_status status = plan(s, own, bounces, &planned);
     if (status != TRADEOFF_DONE)
         return status;
