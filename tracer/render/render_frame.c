@@ -252,18 +252,21 @@ static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_be
     return RENDER_DONE;
 }
 
+bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *camera) {
+    const struct renderer *renderer = run->renderer;
+    run->steps_done = 0;
+    run->met_long_ray = false;
+    run->statistics->bands = (renderer->tiles + renderer->band_tiles - 1) / renderer->band_tiles;
+    run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
+    run->statistics->samples = renderer->settings.samples;
+    return renderer_write_frame(run->renderer, camera);
+}
+
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
                                        float *rgb) {
     struct renderer *renderer = run->renderer;
     const uint32_t tiles = renderer->tiles;
-    run->steps_done = 0;
-    run->met_long_ray = false;
-    run->statistics->bands = (tiles + renderer->band_tiles - 1) / renderer->band_tiles;
-    run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
-    run->statistics->samples = renderer->settings.samples;
-    enum render_result result = renderer_write_frame(renderer, camera) ? RENDER_DONE : RENDER_FAILED;
-    if (result == RENDER_DONE && run->limit)
-        return renderer_draw_until(run, rgb);
+    enum render_result result = renderer_begin_frame(run, camera) ? RENDER_DONE : RENDER_FAILED;
     for (uint32_t begin = 0; result == RENDER_DONE && begin < tiles; begin += renderer->band_tiles) {
         const uint32_t left = tiles - begin;
         result = draw_band(run, begin, left < renderer->band_tiles ? left : renderer->band_tiles, rgb);

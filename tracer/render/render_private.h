@@ -112,7 +112,10 @@ void renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint3
 void renderer_note_faults(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
                           const uint32_t *sums, struct render_statistics *statistics);
 // The frame under its limit, sample by sample over all bands (render_until.c).
-enum render_result renderer_draw_until(struct renderer_frame *run, float *rgb);
+enum render_result renderer_draw_until(struct renderer_frame *run, const struct view_camera *camera,
+                                       float *rgb);
+// Before the first sample: counts of steps, and the uniforms for a camera.
+bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *camera);
 // Adds to the statistics, which the caller has cleared. `rgb` NULL: no picture.
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
                                        float *rgb);

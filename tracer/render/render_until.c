@@ -59,13 +59,16 @@ static enum render_result draw_samples(struct renderer_frame *run, struct sums *
     return result == RENDER_CANCELLED && run->is_over ? RENDER_DONE : result;
 }
 
-enum render_result renderer_draw_until(struct renderer_frame *run, float *rgb) {
+enum render_result renderer_draw_until(struct renderer_frame *run, const struct view_camera *camera,
+                                       float *rgb) {
     const struct renderer *renderer = run->renderer;
+    run->samples_done = 0;
+    run->is_over = false;
+    if (!renderer_begin_frame(run, camera))
+        return RENDER_FAILED;
     const size_t words = (size_t)4 * TILE_PIXELS * renderer->tiles;
     struct sums sums = {heap_alloc(words * sizeof(uint32_t)), heap_alloc(words * sizeof(uint32_t)),
                         run->statistics->bands > 1};
-    run->samples_done = 0;
-    run->is_over = false;
     enum render_result result = sums.whole && sums.next ? draw_samples(run, &sums, rgb) : RENDER_FAILED;
     if (result == RENDER_DONE) {
         run->statistics->samples = run->samples_done;

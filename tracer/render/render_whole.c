@@ -12,6 +12,10 @@ static bool begin_counting(struct renderer *renderer) {
            gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, zero, sizeof zero);
 }
 
+static enum render_result draw(struct renderer_frame *run, const struct view_camera *camera, float *rgb) {
+    return run->limit ? renderer_draw_until(run, camera, rgb) : renderer_draw_frame(run, camera, rgb);
+}
+
 // Where a ray needs more iterations than a slice has, all is begun again with kernels that can save it: the
 // others are faster, and almost no scene has such a ray.
 static enum render_result draw_frame(struct renderer_frame *run, const struct view_camera *camera,
@@ -19,13 +23,13 @@ static enum render_result draw_frame(struct renderer_frame *run, const struct vi
     struct renderer *renderer = run->renderer;
     const double start = clock_seconds();
     *run->statistics = (struct render_statistics){0};
-    enum render_result result = renderer_draw_frame(run, camera, rgb);
+    enum render_result result = draw(run, camera, rgb);
     if (run->met_long_ray) {
         const bool counts = run->program == renderer->counting;
         result = RENDER_FAILED;
         if (renderer_take_long_rays(renderer) && (!counts || begin_counting(renderer))) {
             run->program = counts ? renderer->counting : renderer->program;
-            result = renderer_draw_frame(run, camera, rgb);
+            result = draw(run, camera, rgb);
         }
     }
     run->statistics->wall_seconds = clock_seconds() - start;
