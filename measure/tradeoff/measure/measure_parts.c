@@ -7,6 +7,7 @@
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/parallel.h"
+#include "picture/write/scale.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -56,7 +57,7 @@ static void pixel_value(const struct probing *p, uint32_t x, uint32_t y, float o
     image_to_displayed(out, 1, p->s->display, out);
 }
 
-// As errors_scale_up does it for whole pictures.
+// As scale_picture does it for whole pictures.
 static void probe_value(const struct probing *p, uint32_t x, uint32_t y, float out[3]) {
     const struct setting *base = &p->s->base;
     const uint32_t width = p->settings.width, height = p->settings.height;
@@ -65,7 +66,7 @@ static void probe_value(const struct probing *p, uint32_t x, uint32_t y, float o
         pixel_value(p, x, y, out);
         return;
     }
-    const double u = errors_around(x, width, base->width, xs), v = errors_around(y, height, base->height, ys);
+    const double u = scale_around(x, width, base->width, xs), v = scale_around(y, height, base->height, ys);
     double sum[3] = {0};
     for (int i = 0; i < CORNERS; i++) {
         const double weight = (i & 1 ? u : 1 - u) * (i & 2 ? v : 1 - v);
