@@ -14,7 +14,7 @@
 
 static int open_device(struct render_job *job) {
     double start = clock_seconds();
-    int status = cli_open_device(job->cli, &job->gpu);
+    int status = job->gpu ? CLI_OK : cli_open_device(job->cli, &job->gpu);
     job->stats.device_seconds = clock_seconds() - start;
     return status;
 }
@@ -88,11 +88,15 @@ static int render_camera(struct render_job *job, const char *path, uint32_t came
         status = render_audit(job);
     progress_end(&job->progress);
     if (status == CLI_OK)
+        status = render_scale_up(job);
+    if (status == CLI_OK)
         status = render_write_picture(job, path);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
     if (status == CLI_OK)
         status = render_tell_audit(job);
+    if (status == CLI_OK)
+        status = render_tell_time(job);
     if (status != CLI_OK || job->cli->options.quiet)
         return status;
     if (job->cli->options.repeat)
@@ -100,7 +104,6 @@ static int render_camera(struct render_job *job, const char *path, uint32_t came
                 1e3 * job->stats.median_frame_seconds, job->stats.frames,
                 1e3 * job->stats.least_frame_seconds, 1e3 * job->stats.most_frame_seconds,
                 gpu_info(job->gpu)->name);
-    render_tell_time(job);
     if (strcmp(path, "-") != 0)
         fprintf(stderr, "glint: wrote %s, %u x %u\n", path, job->image.width, job->image.height);
     return status;
@@ -167,10 +170,17 @@ int cmd_render(struct cli *cli) {
     if ((cli->options.audit || cli->options.has_max_off) && cli_device_is_reference(cli))
         return cli_usage(cli, cli->options.audit_arg,
                          "an audit compares a device's picture with the reference: choose a device");
+    if (cli->options.measure.allow_resolution && !cli_has_study(cli))
+        return cli_usage(cli, cli->options.measure.allow_resolution_arg,
+                         "'--allow-resolution' is for settings that --max-error or --max-time chooses");
+    if (cli->options.measure.time_s > 0 && (cli_device_is_reference(cli) || cli->options.repeat))
+        return cli_usage(
+            cli, cli->options.measure.time_arg,
+            "'--time' works for one frame on a device: without --repeat and '--device reference'");
     interrupt_catch();
     strbuf_init(&job.note);
     struct asset_store *store = asset_store_create();
-    int status = cli_has_study(cli) ? cli_choose_settings(cli, store) : CLI_OK;
+    int status = cli_has_study(cli) ? cli_choose_settings(cli, store, &job.gpu) : CLI_OK;
     if (status == CLI_OK)
         status = run_job(&job, store);
     shot_close(&job.shot);

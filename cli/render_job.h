@@ -32,6 +32,8 @@ struct render_job {
 const char *render_output_of(struct render_job *job, uint32_t camera);
 // These return an exit code.
 int render_interrupted(struct render_job *job);
+// A smaller picture that was chosen, to the size asked for.
+int render_scale_up(struct render_job *job);
 int render_write_picture(struct render_job *job, const char *path);
 // Ends the progress and reports why there is no picture.
 int render_failed(struct render_job *job, enum shot_status status);
@@ -43,12 +45,14 @@ bool render_wants_audit(const struct cli_options *options);
 // After the picture was written: says what was found, and whether it is within --max-off; an exit code.
 int render_tell_audit(const struct render_job *job);
 
-// render_time.c: one frame, that ends in time if the command line says when. `cameras` is how many pictures
+// One frame, that ends in time if the command line says when. `cameras` is how many pictures
 // are still to be made, this one included.
 enum shot_status render_take_frame(struct render_job *job, uint32_t cameras,
                                    const struct render_progress *progress);
-// After the picture was written: says what --time left out; nothing without it.
-void render_tell_time(const struct render_job *job);
+// After the picture was written: says what --time left out; nothing without it. An exit code: fewer samples
+// than
+// --max-error asks for are a failure.
+int render_tell_time(const struct render_job *job);
 
 // render_reference.c: session and output are ready; `first` to before `end` are the cameras. Returns an exit
 // code.
