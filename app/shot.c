@@ -105,8 +105,14 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
 
 enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,
                            struct render_statistics *statistics) {
+    return shot_take_until(shot, image, progress, NULL, statistics);
+}
+
+enum shot_status shot_take_until(struct shot *shot, struct image *image,
+                                 const struct render_progress *progress, const struct render_limit *limit,
+                                 struct render_statistics *statistics) {
     enum render_result result =
-        renderer_render(shot->renderer, &shot->view.camera, image->rgb, progress, statistics);
+        renderer_render_until(shot->renderer, &shot->view.camera, image->rgb, progress, limit, statistics);
     if (result != RENDER_DONE)
         return result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
     for (int kind = RENDER_NOT_FINITE; kind < RENDER_FAULT_KINDS; kind++)

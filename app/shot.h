@@ -49,4 +49,9 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera);
 enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,
                            struct render_statistics *statistics);
 
+// The same until `limit` ends it: statistics->samples says how many samples the picture has. NULL: all.
+enum shot_status shot_take_until(struct shot *shot, struct image *image,
+                                 const struct render_progress *progress, const struct render_limit *limit,
+                                 struct render_statistics *statistics);
+
 #endif

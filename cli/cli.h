@@ -95,6 +95,7 @@ struct cli {
     struct source_set sources; // [1] is the command line
     struct diag_sink sink;     // of the command line itself
     uint32_t *arg_begin;       // byte offset of each argument in the command line's text
+    double begun;              // clock: when the program started
     bool color;                // standard error accepts colours
     bool stuck;                // a device may still be at work
     struct cli_options options;

@@ -14,12 +14,12 @@
 
 static int open_device(struct render_job *job) {
     double start = clock_seconds();
-    int status = cli_open_device(job->cli, &job->gpu);
+    int status = job->gpu ? CLI_OK : cli_open_device(job->cli, &job->gpu);
     job->stats.device_seconds = clock_seconds() - start;
     return status;
 }
 
-static int take_frames(struct render_job *job) {
+static int take_frames(struct render_job *job, uint32_t cameras) {
     int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
     double *times = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);
     struct render_progress callback = progress_callback(&job->progress);
@@ -28,7 +28,7 @@ static int take_frames(struct render_job *job) {
         job->progress.share = 1.0 / frames;
         double start = clock_seconds();
         uint32_t errors = job->session.sink.errors;
-        enum shot_status status = shot_take(&job->shot, &job->image, &callback, &job->stats.last);
+        enum shot_status status = render_take_frame(job, cameras, &callback);
         times[i] = clock_seconds() - start;
         if (status != SHOT_OK)
             return render_failed(job, status);
@@ -66,7 +66,7 @@ static int report_stats(struct render_job *job) {
     s->camera = job->shot.view.camera.name;
     s->width = job->shot.settings.width;
     s->height = job->shot.settings.height;
-    s->samples = job->shot.settings.samples;
+    s->samples = s->last.samples;
     snprintf(s->device, sizeof s->device, "%s", gpu_info(job->gpu)->name);
     struct strbuf text;
     strbuf_init(&text);
@@ -76,19 +76,23 @@ static int report_stats(struct render_job *job) {
     return status;
 }
 
-// One camera: frames, picture, statistics. The shot is open and uses it.
-static int render_camera(struct render_job *job, const char *path) {
+// One camera of those that are left: frames, picture, statistics. The shot is open and uses it.
+static int render_camera(struct render_job *job, const char *path, uint32_t cameras) {
     progress_begin(&job->progress, job->cli->options.quiet);
-    int status = take_frames(job);
+    int status = take_frames(job, cameras);
     if (status == CLI_OK)
         status = render_audit(job);
     progress_end(&job->progress);
+    if (status == CLI_OK)
+        status = render_scale_up(job);
     if (status == CLI_OK)
         status = render_write_picture(job, path);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
     if (status == CLI_OK)
         status = render_tell_audit(job);
+    if (status == CLI_OK)
+        status = render_tell_time(job);
     if (status != CLI_OK || job->cli->options.quiet)
         return status;
     if (job->cli->options.repeat)
@@ -106,14 +110,14 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     if (status != CLI_OK)
         return status;
     const struct shot_wish wish = {.counts = job->cli->options.stats != CLI_STATS_NONE,
-                                   .audits = render_is_audited(job)};
+                                   .audits = render_wants_audit(&job->cli->options)};
     enum shot_status opened = shot_open_for(&job->shot, &job->session, job->gpu, first, wish);
     if (opened != SHOT_OK)
         return render_failed(job, opened);
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
             return render_failed(job, opened);
-        status = render_camera(job, render_output_of(job, i));
+        status = render_camera(job, render_output_of(job, i), end - i);
     }
     int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
     return status != CLI_OK ? status : reported;
@@ -182,10 +186,17 @@ int cmd_render(struct cli *cli) {
     if ((cli->options.audit || cli->options.has_max_off) && cli_device_is_reference(cli))
         return cli_usage(cli, cli->options.audit_arg,
                          "an audit compares a device's picture with the reference: choose a device");
+    if (cli->options.measure.allow_resolution && !cli_has_study(cli))
+        return cli_usage(cli, cli->options.measure.allow_resolution_arg,
+                         "'--allow-resolution' is for settings that --max-error or --max-time chooses");
+    if (cli->options.measure.time_s > 0 && (cli_device_is_reference(cli) || cli->options.repeat))
+        return cli_usage(
+            cli, cli->options.measure.time_arg,
+            "'--time' works for one frame on a device: without --repeat and '--device reference'");
     interrupt_catch();
     strbuf_init(&job.note);
     struct asset_store *store = asset_store_create();
-    int status = cli_has_study(cli) ? cli_choose_settings(cli, store) : CLI_OK;
+    int status = cli_has_study(cli) ? cli_choose_settings(cli, store, &job.gpu) : CLI_OK;
     if (status == CLI_OK)
         status = run_job(&job, store);
     shot_close(&job.shot);

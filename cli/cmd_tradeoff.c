@@ -35,7 +35,8 @@ static bool nothing_fits(const struct tradeoff *study) {
 static int study_and_report(struct cli *cli, struct session *session, const struct tradeoff_options *options,
                             int kind) {
     struct tradeoff study;
-    int status = cli_study(cli, session, options, &study);
+    struct gpu *gpu = NULL;
+    int status = cli_study(cli, session, options, &gpu, &study);
     if (status == CLI_OK)
         status = cli_report(cli, session, !cli->options.quiet);
     if (status == CLI_OK && cli->options.output)
@@ -45,6 +46,7 @@ static int study_and_report(struct cli *cli, struct session *session, const stru
     if (status == CLI_OK && nothing_fits(&study))
         status = CLI_SCENE;
     tradeoff_finish(&study);
+    cli_close_device(cli, gpu);
     return status;
 }
 
@@ -60,6 +62,8 @@ int cmd_tradeoff(struct cli *cli) {
     if (cli->options.output && !str_ends_with_nocase(str_from(cli->options.output), ".html"))
         return cli_usage(cli, cli->options.output_arg, "the report '%s' must end in .html",
                          cli->options.output);
+    if (!(options.budget_s > 0))
+        options.budget_s = TRADEOFF_BUDGET_S;
     options.thumbnails = cli->options.output != NULL;
     interrupt_catch();
     struct asset_store *store = asset_store_create();

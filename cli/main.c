@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 
 #include "cli/memory.h"
+#include "core/clock.h"
 #include "core/nearest.h"
 
 #include <ctype.h>
@@ -138,7 +139,7 @@ const struct cli_command *cli_find_command(const char *name) {
 
 static void init(struct cli *cli, int argc, char **argv) {
     struct strbuf text;
-    *cli = (struct cli){.argc = argc, .argv = argv};
+    *cli = (struct cli){.argc = argc, .argv = argv, .begun = clock_seconds()};
     arena_init(&cli->arena, SIZE_MAX / 2);
     source_set_init(&cli->sources, &cli->arena);
     diag_sink_init(&cli->sink);

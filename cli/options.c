@@ -48,6 +48,7 @@ enum option_id {
     OPTION_AS,
     OPTION_BASE,
     OPTION_COLOR,
+    OPTION_ALLOW_RESOLUTION,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -102,7 +103,7 @@ static const struct option_row rows[] = {
     {OPTION_AS_FILE, "as-file", 0, NULL, "render",
      "the reference obeys max_depth, min_weight and depth_limit of the scene"},
     {OPTION_NO_CACHE, "no-cache", 0, NULL, "render tradeoff",
-     "the reference neither reads nor writes its cache"},
+     "neither read nor write the cache of the reference and of searches"},
     {OPTION_SKIP_PIXELS, "skip-pixels", 0, NULL, "check inspect",
      "read only the headers of images, which is faster; damaged pixels are not found"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR ...",
@@ -182,8 +183,12 @@ static const struct option_row rows[] = {
      "choose the cheapest settings whose error is no larger, such as flip=0.02"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_TIME, "max-time", 0, "MS", "tradeoff render",
      "choose the best settings whose frame takes no longer, in milliseconds"},
+    {OPTION_ALLOW_RESOLUTION, "allow-resolution", 0, NULL, "render",
+     "--max-error and --max-time may choose a smaller picture, which is scaled up to the size asked for"},
+    {OPTION_MEASURE + CLI_MEASURE_TIME, "time", 0, "S", "render",
+     "write the picture at most S seconds after the start, with fewer samples if they do not fit"},
     {OPTION_MEASURE + CLI_MEASURE_BUDGET, "budget", 0, "S", "tradeoff render",
-     "seconds that the measurement may take; fewer pairs and rounds are tried"},
+     "seconds that the measurement may take, for tradeoff 60 by default; what does not fit is left out"},
     {OPTION_SCHEMA, "schema", 0, "ADDRESS", "schema",
      "where install finds the schema (a path or URL), instead of writing it into the scene's folder"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "format", "write to FILE instead; '-' is standard output"},
@@ -273,6 +278,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->skip_pixels;
     case OPTION_AUDIT:
         return &options->audit;
+    case OPTION_ALLOW_RESOLUTION:
+        return &options->measure.allow_resolution;
     default:
         return NULL;
     }
@@ -308,17 +315,18 @@ static const char **text_of(struct cli_options *options, int id) {
 
 // The option's place, for those whose mistakes are found later.
 static void keep_place(struct cli_options *options, int id, int arg) {
-    int *place = id == OPTION_OUTPUT           ? &options->output_arg
-                 : id == OPTION_AS_FILE        ? &options->as_file_arg
-                 : id == OPTION_AXIS           ? &options->axes_arg
-                 : id == OPTION_ALTERNATIVE    ? &options->alternative_arg
-                 : id == OPTION_FORMAT         ? &options->format_arg
-                 : id == OPTION_SAMPLE         ? &options->sample_arg
-                 : id == OPTION_FIX            ? &options->fix_arg
-                 : id == OPTION_CHANGED        ? &options->changed_arg
-                 : id == OPTION_WRITE_BASELINE ? &options->write_baseline_arg
-                 : id == OPTION_AUDIT          ? &options->audit_arg
-                                               : NULL;
+    int *place = id == OPTION_OUTPUT             ? &options->output_arg
+                 : id == OPTION_AS_FILE          ? &options->as_file_arg
+                 : id == OPTION_AXIS             ? &options->axes_arg
+                 : id == OPTION_ALTERNATIVE      ? &options->alternative_arg
+                 : id == OPTION_FORMAT           ? &options->format_arg
+                 : id == OPTION_SAMPLE           ? &options->sample_arg
+                 : id == OPTION_FIX              ? &options->fix_arg
+                 : id == OPTION_CHANGED          ? &options->changed_arg
+                 : id == OPTION_WRITE_BASELINE   ? &options->write_baseline_arg
+                 : id == OPTION_AUDIT            ? &options->audit_arg
+                 : id == OPTION_ALLOW_RESOLUTION ? &options->measure.allow_resolution_arg
+                                                 : NULL;
     if (place)
         *place = arg;
 }

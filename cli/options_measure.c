@@ -148,6 +148,9 @@ bool cli_measure_apply(struct cli *cli, int arg, enum cli_measure_option option,
         return true;
     case CLI_MEASURE_MAX_TIME:
         return read_number(cli, arg, name, value, 1e-6, 1e9, &m->max_time_ms);
+    case CLI_MEASURE_TIME:
+        m->time_arg = arg;
+        return read_number(cli, arg, name, value, 1e-3, 1e6, &m->time_s);
     case CLI_MEASURE_BUDGET:
         return read_number(cli, arg, name, value, 1, 1e6, &m->budget_s);
     case CLI_MEASURE_MAX_OFF:

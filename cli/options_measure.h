@@ -20,6 +20,7 @@ enum cli_measure_option {
     CLI_MEASURE_MAX_ERROR,
     CLI_MEASURE_MAX_TIME,
     CLI_MEASURE_BUDGET,
+    CLI_MEASURE_TIME,
     CLI_MEASURE_MAX_OFF,
     CLI_MEASURE_RANDOM,
     CLI_MEASURE_SEED,
@@ -63,6 +64,12 @@ struct cli_measure {
     int max_error_arg;
     double max_time_ms; // 0: not given
     double budget_s;    // 0: not given
+    bool allow_resolution;
+    int allow_resolution_arg;
+    uint32_t scale_width,
+        scale_height; // to which a smaller picture that was chosen is scaled up; 0: it is not
+    double time_s;    // from the program's start to the picture's file; 0: not given
+    int time_arg;
     struct cli_sweep sweep;
 };
 

@@ -7,6 +7,11 @@
 #include <stdio.h>
 #include <unistd.h>
 
+enum {
+    WHAT_CELLS = 24,
+    LINE_CELLS = 79,
+};
+
 static volatile sig_atomic_t caught;
 
 static void on_signal(int number) {
@@ -31,7 +36,7 @@ void progress_begin(struct progress *progress, bool quiet) {
         .terminal = isatty(STDERR_FILENO), .quiet = quiet, .start = now, .last = now, .base = 0, .share = 1};
 }
 
-static void bar(double done, double left) {
+static void bar(double done, double left, const char *what) {
     enum {
         CELLS = 30
     };
@@ -42,14 +47,18 @@ static void bar(double done, double left) {
     fprintf(stderr, "\r[%s] %3.0f %% ", cells, 100 * done);
     if (isfinite(left))
         fprintf(stderr, " %.0f s left ", left);
+    if (what)
+        fprintf(stderr, " %-*.*s", WHAT_CELLS, WHAT_CELLS, what);
     fflush(stderr);
 }
 
-static void line(double done, double left) {
+static void line(double done, double left, const char *what) {
+    fprintf(stderr, "glint: %.0f %% done", 100 * done);
     if (isfinite(left))
-        fprintf(stderr, "glint: %.0f %% done, %.0f s left\n", 100 * done, left);
-    else
-        fprintf(stderr, "glint: %.0f %% done\n", 100 * done);
+        fprintf(stderr, ", %.0f s left", left);
+    if (what)
+        fprintf(stderr, "; under way: %s", what);
+    fputc('\n', stderr);
 }
 
 static bool report(void *context, double fraction) {
@@ -64,9 +73,9 @@ static bool report(void *context, double fraction) {
         // Before anything is done nobody knows how long it takes.
         double left = done > 0 ? (now - p->start) * (1 - done) / done : INFINITY;
         if (p->terminal)
-            bar(done, left);
+            bar(done, left, p->what);
         else
-            line(done, left);
+            line(done, left, p->what);
         p->shown = true;
         p->last = now;
     }
@@ -79,6 +88,6 @@ struct render_progress progress_callback(struct progress *progress) {
 
 void progress_end(struct progress *progress) {
     if (progress->shown && progress->terminal)
-        fprintf(stderr, "\r%*s\r", 60, "");
+        fprintf(stderr, "\r%*s\r", LINE_CELLS, "");
     progress->shown = false;
 }

@@ -9,6 +9,7 @@ struct progress {
     double start, last; // seconds
     double base, share; // this frame's part of the whole: base + share * fraction
     bool shown;
+    const char *what; // is under way; NULL: nothing to tell apart
 };
 
 void progress_begin(struct progress *progress, bool quiet);

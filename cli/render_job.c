@@ -3,7 +3,9 @@
 #include "cli/device.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
+#include "picture/write/scale.h"
 
+#include <math.h>
 #include <stdio.h>
 
 // OUT.NAME.png for OUT.png.
@@ -36,6 +38,25 @@ int render_failed(struct render_job *job, enum shot_status status) {
     return cli_device_failed(job->cli, job->gpu);
 }
 
+int render_scale_up(struct render_job *job) {
+    const struct cli_measure *m = &job->cli->options.measure;
+    struct image large;
+    if (!m->scale_width)
+        return CLI_OK;
+    if (!image_init(&large, m->scale_width, m->scale_height)) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->output, NULL, "not enough memory for the picture");
+        return CLI_SCENE;
+    }
+    scale_picture(job->image.rgb, job->image.width, job->image.height, large.rgb, large.width, large.height);
+    if (!job->cli->options.quiet)
+        fprintf(stderr, "glint: rendered at %u x %u and scaled up, as --allow-resolution allows\n",
+                job->image.width, job->image.height);
+    large.note = job->image.note;
+    image_finish(&job->image);
+    job->image = large;
+    return CLI_OK;
+}
+
 int render_write_picture(struct render_job *job, const char *path) {
     struct strbuf file;
     struct image_display display = {job->session.image->tone, job->session.image->transfer};
@@ -50,21 +71,21 @@ int render_write_picture(struct render_job *job, const char *path) {
     } else {
         status = cli_write(job->cli, path, strbuf_view(&file));
     }
+    job->written = clock_seconds();
     strbuf_finish(&file);
     return status;
 }
 
 // ---- a picture states its own error: --audit, --max-off and --stats
 
-bool render_is_audited(const struct render_job *job) {
-    const struct cli_options *options = &job->cli->options;
+bool render_wants_audit(const struct cli_options *options) {
     return options->audit || options->has_max_off || options->stats;
 }
 
 int render_audit(struct render_job *job) {
     strbuf_clear(&job->note);
     job->image.note = NULL;
-    job->stats.has_audit = render_is_audited(job);
+    job->stats.has_audit = render_wants_audit(&job->cli->options);
     if (!job->stats.has_audit)
         return CLI_OK;
     struct audit *audit = &job->stats.audit;
@@ -96,5 +117,121 @@ int render_tell_audit(const struct render_job *job) {
             fprintf(stderr, "; more than %g %%", 100 * options->max_off);
         fputc('\n', stderr);
     }
+    return broken ? CLI_SCENE : CLI_OK;
+}
+
+// ---- a frame that ends in time to be written: --time
+
+// What is expected after the frame takes this much longer than it did with its first sample.
+static const double RESERVE = 1.5;
+// A file is written to the disk at least this fast, and its name changed.
+static const double BYTES_A_SECOND = 1e8, RENAME_SECONDS = 0.005;
+
+// Where a first sample's picture needs one look of the audit, the whole one may need the second, of twice as
+// many.
+static const double LOOKS = 3;
+// What is aimed at: a dispatch cannot be ended, and other programs run too.
+static const double AIM = 0.98, DISPATCH_SECONDS = 0.05;
+
+static void set_samples(struct render_job *job, uint32_t samples) {
+    job->image_made = *job->session.image;
+    job->image_made.samples = (int32_t)samples;
+    job->session.image = &job->image_made;
+}
+
+// With the first sample's picture: what comes after the frame is done once, to know what it takes.
+static void measure_rest(struct render_job *job) {
+    const struct image_display display = {job->session.image->tone, job->session.image->transfer};
+    const double start = clock_seconds();
+    struct strbuf file;
+    strbuf_init(&file);
+    image_encode(&job->image, job->format, display, &file);
+    job->deadline.after =
+        RESERVE * (clock_seconds() - start) + (double)file.len / BYTES_A_SECOND + RENAME_SECONDS;
+    strbuf_finish(&file);
+    if (!render_wants_audit(&job->cli->options))
+        return;
+    const uint32_t samples = (uint32_t)job->session.image->samples;
+    struct audit audit;
+    set_samples(job, 1);
+    if (audit_take(&job->session, &job->shot.view, &job->image, NULL, &audit) == SHOT_OK)
+        job->deadline.after_a_sample = RESERVE * audit.seconds * (audit.off || audit.whole ? 1 : LOOKS);
+    set_samples(job, samples);
+}
+
+static bool goes_on(void *context, uint32_t samples, const float *rgb) {
+    struct render_job *job = context;
+    (void)rgb; // the job's image
+    deadline_end_sample(&job->deadline, clock_seconds());
+    if (samples == 1 && deadline_fits(&job->deadline, clock_seconds()))
+        measure_rest(job);
+    const double now = clock_seconds();
+    if (!deadline_fits(&job->deadline, now))
+        return false;
+    deadline_begin_sample(&job->deadline, now);
+    return true;
+}
+
+static bool is_over(void *context) {
+    const struct render_job *job = context;
+    return deadline_is_over(&job->deadline, clock_seconds());
+}
+
+// How far a frame is, which its time may end before its samples do.
+struct timed_progress {
+    const struct render_job *job;
+    const struct render_progress *progress;
+    double start;
+};
+
+static bool report(void *context, double fraction) {
+    const struct timed_progress *t = context;
+    const double all = t->job->deadline.end - t->start, now = clock_seconds() - t->start;
+    return t->progress->report(t->progress->context, fmax(fraction, all > 0 ? fmin(now / all, 1) : 0));
+}
+
+enum shot_status render_take_frame(struct render_job *job, uint32_t cameras,
+                                   const struct render_progress *progress) {
+    const double time = job->cli->options.measure.time_s, now = clock_seconds();
+    if (!(time > 0))
+        return shot_take(&job->shot, &job->image, progress, &job->stats.last);
+    const struct render_limit limit = {goes_on, is_over, job};
+    // Pictures of several cameras share what is left.
+    const double end = job->cli->begun + AIM * time - DISPATCH_SECONDS;
+    deadline_begin(&job->deadline, now, now + (end - now) / cameras);
+    set_samples(job, job->shot.settings.samples);
+    struct timed_progress timed = {job, progress, now};
+    const struct render_progress by_time = {report, &timed};
+    const enum shot_status status =
+        shot_take_until(&job->shot, &job->image, &by_time, &limit, &job->stats.last);
+    if (status == SHOT_OK)
+        set_samples(job, job->stats.last.samples);
+    return status;
+}
+
+static void tell_seconds(double seconds, double wanted, bool is_least) {
+    if (is_least)
+        fprintf(stderr,
+                "glint: one sample, the least that a picture has, took longer than --time %g: %.2f s\n",
+                wanted, seconds);
+    else
+        fprintf(stderr, "glint: the picture was written %.2f s after the start, later than --time %g\n",
+                seconds, wanted);
+}
+
+int render_tell_time(const struct render_job *job) {
+    const struct cli_options *options = &job->cli->options;
+    const uint32_t made = job->stats.last.samples, wanted = job->shot.settings.samples;
+    const double time = options->measure.time_s, seconds = job->written - job->cli->begun;
+    if (!(time > 0))
+        return CLI_OK;
+    const bool broken = options->measure.max_error && made < wanted;
+    if (broken)
+        fprintf(stderr, "glint: --time %g allowed %u of the %u samples that --max-error %s needs\n", time,
+                made, wanted, options->measure.max_error);
+    else if (made < wanted && !options->quiet)
+        fprintf(stderr, "glint: --time %g allowed %u of %u samples\n", time, made, wanted);
+    if (seconds > time && !options->quiet)
+        tell_seconds(seconds, time, made == 1);
     return broken ? CLI_SCENE : CLI_OK;
 }

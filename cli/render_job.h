@@ -3,10 +3,12 @@
 #define GLINT_CLI_RENDER_JOB_H
 
 #include "app/audit.h"
+#include "app/deadline.h"
 #include "app/shot.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/stats.h"
+#include "grammar/ir.h"
 
 struct render_job {
     struct cli *cli;
@@ -20,23 +22,38 @@ struct render_job {
     const char *output; // without the camera's name
     bool all_cameras;
     struct strbuf note; // what the audit says of the picture; empty without
+    // --time: what ends the frame, and the session's image with the samples that were made.
+    struct deadline deadline;
+    double written; // clock: when the last picture was
+    struct ir_image image_made;
 };
 
 // Where a camera's picture goes.
 const char *render_output_of(struct render_job *job, uint32_t camera);
 // These return an exit code.
 int render_interrupted(struct render_job *job);
+// A smaller picture that was chosen, to the size asked for.
+int render_scale_up(struct render_job *job);
 int render_write_picture(struct render_job *job, const char *path);
 // Ends the progress and reports why there is no picture.
 int render_failed(struct render_job *job, enum shot_status status);
 
 // Whether the command line asks for the picture's own error.
-bool render_is_audited(const struct render_job *job);
 // The picture's own error, where the command line asks for it; an exit code. It is in the
 // statistics and in the picture's note.
 int render_audit(struct render_job *job);
+bool render_wants_audit(const struct cli_options *options);
 // After the picture was written: says what was found, and whether it is within --max-off; an exit code.
 int render_tell_audit(const struct render_job *job);
+
+// One frame, that ends in time if the command line says when. `cameras` is how many pictures
+// are still to be made, this one included.
+enum shot_status render_take_frame(struct render_job *job, uint32_t cameras,
+                                   const struct render_progress *progress);
+// After the picture was written: says what --time left out; nothing without it. An exit code: fewer samples
+// than
+// --max-error asks for are a failure.
+int render_tell_time(const struct render_job *job);
 
 // render_reference.c: session and output are ready; `first` to before `end` are the cameras. Returns an exit
 // code.

@@ -13,11 +13,12 @@ bool cli_has_study(const struct cli *cli);
 // a mistake is in cli->sink.
 bool cli_study_options(struct cli *cli, struct tradeoff_options *options);
 // Studies the camera that the command line names, on its device; `study` is the caller's to finish in any
-// case. Returns an exit code, errors printed.
+// case, and so is *gpu, which is NULL before. Returns an exit code, errors printed.
 int cli_study(struct cli *cli, struct session *session, const struct tradeoff_options *options,
-              struct tradeoff *study);
+              struct gpu **gpu, struct tradeoff *study);
 // render: studies the scene, and adds the chosen settings to the command line's --set options. CLI_SCENE with
-// an error printed if nothing fits.
-int cli_choose_settings(struct cli *cli, struct asset_store *store);
+// an error printed if nothing fits. *gpu, NULL before, becomes the device if it was opened; it is the
+// caller's.
+int cli_choose_settings(struct cli *cli, struct asset_store *store, struct gpu **gpu);
 
 #endif

@@ -37,6 +37,10 @@ const struct reference *reference_source_get(struct reference_source *source) {
     return source->reference;
 }
 
+void reference_input_key(const struct reference_input *input, uint64_t key[2]) {
+    reference_scene_key(input, key);
+}
+
 static void entry_key(struct reference_source *source, const struct reference_settings *settings,
                       enum reference_entry entry, uint64_t key[2]) {
     if (!source->has_key)

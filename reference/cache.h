@@ -41,6 +41,9 @@ enum reference_result reference_source_hits(struct reference_source *source,
                                             const struct reference_settings *settings, struct hit_pixel *hits,
                                             const struct reference_progress *progress);
 
+// What the key of all entries of an input begins with: a hash of the scene, its files and the view.
+void reference_input_key(const struct reference_input *input, uint64_t key[2]);
+
 enum reference_entry {
     REFERENCE_ENTRY_PICTURE,
     REFERENCE_ENTRY_HITS,

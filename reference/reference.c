@@ -195,7 +195,7 @@ static void draw_pixel(const struct reference *r, const struct reference_setting
     bool cut_short = false;
     struct sample sample = {0};
     for (uint32_t n = 0; n < settings->samples && !queue->failed && !sample.cancelled; n++) {
-        vec3 direction = reference_camera_ray(r, settings, x, y, n);
+        vec3 direction = reference_camera_ray(r, settings, x, y, settings->first_sample + n);
         reference_follow(r, settings, direction, queue, NULL, &sample);
         bool bad = !is_finite(sample.radiance);
         sum = bad ? (vec3){NAN, NAN, NAN} : vec3_add(sum, sample.radiance);

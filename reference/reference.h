@@ -48,6 +48,7 @@ struct reference_input {
 struct reference_settings {
     uint32_t width, height;   // pixels
     uint32_t samples;         // per pixel, at least 1
+    uint32_t first_sample;    // number of the first of them (view_sample_offset); pictures begin with 0
     uint32_t max_depth;       // a surface this deep sends no ray
     double min_weight;        // rays of a lower weight are not followed
     bool cut_sees_background; // what a ray sees that max_depth cut; else nothing

@@ -44,4 +44,8 @@ void view_turn_aside(struct view_camera *camera);
 // (Roberts 2018, R2 sequence).
 void view_sample_offset(uint32_t n, double *a, double *b);
 
+// The first of the samples that are compared with those from 0 on: up to 256 from 0 and 1024 from here have
+// none in common, and none of the two lie closer together than about half of how close the sequence's own do.
+#define VIEW_OTHER_SAMPLES 6528
+
 #endif

@@ -3,8 +3,8 @@
 #include "core/clock.h"
 #include "core/heap.h"
 #include "measure/tradeoff/choose/choose.h"
-#include "measure/tradeoff/measure/measure.h"
 #include "measure/tradeoff/plan/plan.h"
+#include "measure/tradeoff/tradeoff_parts.h"
 #include "shaders/features.h"
 
 #include <math.h>
@@ -14,48 +14,24 @@
 
 enum {
     PAIRS_MOST = 24,
-    PAIRS_MOST_QUICK = 12,
 };
 // Share of the budget after which no pairs are begun.
 static const double PAIRS_SHARE = 0.6;
 
-static uint32_t pairs_most(const struct measuring *s) {
-    return s->out->options.quick ? PAIRS_MOST_QUICK : PAIRS_MOST;
-}
-
 static bool is_over(const struct measuring *s, double share) {
     const double budget = s->out->options.budget_s;
     const double now = measuring_seconds(s);
-    // What has been begun must be timed, too.
-    return budget > 0 && (now > share * budget || now + TIMES_ROUNDS_LEAST * s->round_seconds > budget);
+    // What has been begun must be timed, too, in a round at least: most frames are preceded by another, since
+    // they differ from those before.
+    return budget > 0 && (now > share * budget || now + 2 * s->round_seconds > budget);
 }
 
 // ---- rows
 
-static struct row *add_row(struct tradeoff *t, const struct row *row) {
-    struct row *rows = heap_grow(t->rows, t->count, &t->capacity, sizeof *rows);
-    if (!rows)
-        return NULL;
-    t->rows = rows;
-    struct row *added = &t->rows[t->count++];
-    *added = *row;
-    strbuf_init(&added->thumbnail);
-    strbuf_init(&added->difference);
-    for (int i = 0; i < METRIC_COUNT; i++)
-        added->value[i] = (double)NAN;
-    return added;
-}
-
-static void drop_row(struct tradeoff *t) {
-    struct row *row = &t->rows[--t->count];
-    strbuf_finish(&row->thumbnail);
-    strbuf_finish(&row->difference);
-}
-
 // Work, picture and errors of a new row. A row that costs far too much, or that the budget's end comes upon
 // on the device, is taken out again.
 static enum tradeoff_status try_row(struct measuring *s, const struct row *planned) {
-    struct row *row = add_row(s->out, planned);
+    struct row *row = tradeoff_add_row(s->out, planned);
     if (!row)
         return TRADEOFF_MEMORY;
     if (!measuring_step(s, row->name))
@@ -70,14 +46,14 @@ static enum tradeoff_status try_row(struct measuring *s, const struct row *plann
         status = errors_measure(s, row);
     s->deadline = 0;
     if (costly || (status == TRADEOFF_CANCELLED && s->late)) {
-        drop_row(s->out);
+        tradeoff_drop_row(s->out);
         s->out->too_costly += costly;
         s->out->rows_left_out += !costly;
         s->out->cut_short |= !costly;
         s->late = false;
         return TRADEOFF_DONE;
     }
-    if (status != TRADEOFF_DONE || s->out->options.quick)
+    if (status != TRADEOFF_DONE)
         return status;
     status = parts_measure(s, row);
     if (status == TRADEOFF_DONE && measuring_traces_as_file(row))
@@ -111,18 +87,14 @@ static void open_reference(struct measuring *s) {
     reference_source_init(&s->source[1], &input, none);
 }
 
-static bool bounces(const struct measuring *s) {
-    return s->flat[s->base.is_double].features & (FEATURE_REFLECTION | FEATURE_REFRACTION);
-}
-
 // ---- the rows
 
 static enum tradeoff_status run_pairs(struct measuring *s) {
     struct row *pairs = heap_zeroed(PLAN_ROWS_MAX, sizeof *pairs);
     if (!pairs)
         return TRADEOFF_MEMORY;
-    const uint32_t count = plan_pairs(s->out->rows, s->out->count, s->out->options.metric, pairs_most(s),
-                                      pairs, &s->out->pairs_left_out);
+    const uint32_t count = plan_pairs(s->out->rows, s->out->count, s->out->options.metric, PAIRS_MOST, pairs,
+                                      &s->out->pairs_left_out);
     enum tradeoff_status status = TRADEOFF_DONE;
     for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
         if (is_over(s, PAIRS_SHARE)) {
@@ -146,16 +118,15 @@ static enum tradeoff_status run_rows(struct measuring *s) {
     if (status == TRADEOFF_DONE && !measuring_step(s, "the reference"))
         status = TRADEOFF_CANCELLED;
     if (status == TRADEOFF_DONE)
-        status = ground_truth_make(s, &own.work, bounces(s));
+        status = ground_truth_make(s, &own.work, tradeoff_bounces(s));
     const struct plan_input input = {.base = s->base,
-                                     .bounces = bounces(s),
+                                     .bounces = tradeoff_bounces(s),
                                      .deepest = own.work.deepest,
                                      .knows_double = gpu_info(s->input->gpu)->has_double,
                                      .has_triangles = s->flat[s->base.is_double].triangle_count > 0,
-                                     .quick = s->out->options.quick,
                                      .most_samples = s->out->ground_truth_samples / 2};
     const uint32_t count = status == TRADEOFF_DONE ? plan_single(&input, planned) : 0;
-    s->steps = 1 + count + pairs_most(s) + times_rounds_most(s); // the reference is the first
+    s->steps = 1 + count + PAIRS_MOST + TIMES_ROUNDS_MOST; // the reference is the first
     for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
         if (i > 0 && is_over(s, MEASURE_ROWS_SHARE)) {
             s->out->rows_left_out += count - i;
@@ -209,6 +180,13 @@ const struct choice *tradeoff_choice(const struct tradeoff *t) {
     return by_error && by_time ? &t->both : by_error ? &t->cheapest : by_time ? &t->best_within : NULL;
 }
 
+// The earlier of what the budget and the caller allow; 0: there is none.
+static double deadline_of(const struct tradeoff_options *options, double begun) {
+    const double by_budget = options->budget_s > 0 ? begun + options->budget_s : (double)INFINITY;
+    const double end = fmin(by_budget, options->end > 0 ? options->end : (double)INFINITY);
+    return isfinite(end) ? end : 0;
+}
+
 enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_input *input,
                                   const struct tradeoff_options *options,
                                   const struct tradeoff_progress *progress) {
@@ -223,17 +201,19 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
     s->steps = 1 + PLAN_ROWS_MAX; // until the rows are planned
     s->step = "the scene";
     s->display = (struct image_display){input->image->tone, input->image->transfer};
-    s->base = file_setting(input);
+    study->base = s->base = file_setting(input);
+    s->deadline = options->search ? deadline_of(options, s->begun) : 0;
     snprintf(study->device, sizeof study->device, "%s", gpu_info(input->gpu)->name);
     open_reference(s);
-    enum tradeoff_status status = run_rows(s);
-    if (status == TRADEOFF_DONE)
+    enum tradeoff_status status = options->search ? tradeoff_search_rows(s) : run_rows(s);
+    if (status == TRADEOFF_DONE && !options->search)
         status = times_measure(s);
     if (status == TRADEOFF_DONE)
         status = choose(study);
     study->seconds = measuring_seconds(s);
     device_close(s);
     parts_close(s);
+    search_close(s);
     for (int i = 0; i < 2; i++) {
         reference_source_finish(&s->source[i]);
         free(s->hits[i]);
@@ -249,7 +229,7 @@ void tradeoff_finish(struct tradeoff *study) {
     if (!study)
         return;
     while (study->count)
-        drop_row(study);
+        tradeoff_drop_row(study);
     free(study->rows);
     *study = (struct tradeoff){0};
 }

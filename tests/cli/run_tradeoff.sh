@@ -55,15 +55,48 @@ if [ -z "$mode" ]; then
     expect "no picture of numbers fits" 1 '"nearest": null,' - "$glint" tradeoff endless.yaml -q --max-error mae=1 --budget 1 --format json
     expect "render says so too" 1 - 'E807' "$glint" render small.yaml -q --max-time 0.000001 --budget 1 -o none.png
     expect "and writes nothing" 1 - - test -e none.png
-    expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.5 --budget 1 -o chosen.png
-    expect "its picture" 0 PNG '' head -c 4 chosen.png
+    expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --size 40x30 --max-error flip=0.5 -o chosen.png
+    also "its picture has the size asked for" - 'wrote chosen\.png, 40 x 30'
+    mv chosen.png first.png
+    expect "again: nothing is measured" 0 - 'found by an earlier call' \
+        "$glint" render small.yaml --size 40x30 --max-error flip=0.5 -o chosen.png
+    expect "and the picture is the same" 0 - - cmp first.png chosen.png
+    expect "another bound is another search" 0 - 'flip at most 0\.4' "$glint" render small.yaml --size 40x30 --max-error flip=0.4 -o chosen.png
+    also "it is measured" - 'settings tried on [^;]*; [0-9.]+ s'
+    for entry in cache/glint/studies/*.study; do
+        printf X | dd of="$entry" bs=1 seek=300 conv=notrunc 2>dd.txt
+    done
+    expect "a damaged entry does not matter" 0 - 'settings tried on [^;]*; [0-9.]+ s' \
+        "$glint" render small.yaml --size 40x30 --max-error flip=0.5 -o chosen.png
+    expect "nor does it change the picture" 0 - - cmp first.png chosen.png
+    for entry in cache/glint/studies/*.study; do : >"$entry"; done
+    expect "an empty one neither" 0 - 'settings tried on [^;]*; [0-9.]+ s' \
+        "$glint" render small.yaml --size 40x30 --max-error flip=0.5 -o chosen.png
+    expect "without a cache nothing is found" 0 - 'settings tried on [^;]*; [0-9.]+ s' \
+        "$glint" render small.yaml --no-cache --size 40x30 --max-error flip=0.5 -o chosen.png
+    expect "a smaller picture, where it may be" 0 - 'scaled up, as --allow-resolution allows' \
+        "$glint" render small.yaml --size 40x30 --max-error flip=0.7 --allow-resolution -o chosen.png
+    also "of the size asked for" - 'wrote chosen\.png, 40 x 30'
+    expect "--allow-resolution alone" 2 - 'for settings that --max-error or --max-time' "$glint" render small.yaml --allow-resolution
+    expect "by a time" 0 - 'best flip within 10000 ms' "$glint" render small.yaml --size 40x30 --max-time 10000 -o chosen.png
+
+    expect "in time: the samples that it has are told" 0 - 'one sample, the least' "$glint" render small.yaml --samples 9 --time 0.001 -o timed.png
+    also "one is made" - 'time 0\.001 allowed 1 of 9 samples'
+    expect "the same as one sample" 0 - - "$glint" render small.yaml --samples 1 -q -o one.png
+    expect "byte for byte" 0 - - cmp one.png timed.png
+    expect "with time enough there is nothing to tell" 0 - '^glint: wrote [^:]*$' "$glint" render small.yaml --samples 3 --time 1000 -o timed.png
+    expect "all samples" 0 - - "$glint" render small.yaml --samples 3 -q -o three.png
+    expect "are there" 0 - - cmp three.png timed.png
+    expect "in time, with an audit" 0 - 'traced again' "$glint" render small.yaml --samples 2 --time 1000 --audit -o timed.png
+    expect "--time and --repeat" 2 - 'works for one frame on a device' "$glint" render small.yaml --time 1 --repeat 2
+    expect "--time of 0" 2 - 'number from 0\.001' "$glint" render small.yaml --time 0
     exit $failed
 fi
 
 if [ "$mode" = same ]; then
     scene="$source/scenes/showcase.glint.yaml"
     for run in 1 2 3 4 5 6 7 8 9 10; do
-        choice=$("$glint" tradeoff "$scene" -q --size 64x48 --max-error flip=0.08 --format json | tr -d '\n' |
+        choice=$("$glint" tradeoff "$scene" -q --size 64x48 --max-error flip=0.08 --budget 1000 --format json | tr -d '\n' |
             sed 's/.*"cheapest": {[^}]*"options": "\([^"]*\)".*/\1/')
         echo "run $run: $choice"
         echo "$choice" >>choices.txt
@@ -89,7 +122,7 @@ falls() {
 }
 
 expect "a study as CSV, and its report" 0 '^0,"as the file says",1' - \
-    "$glint" tradeoff small.yaml -q --format csv -o report.html
+    "$glint" tradeoff small.yaml -q --budget 1000 --format csv -o report.html
 cp out.txt study.csv
 expect "the report is one file" 0 '<svg.*time against error' - cat report.html
 expect "with pictures inside" 0 'src="data:image/png;base64,iVBOR' - cat report.html
@@ -112,7 +145,7 @@ expect "and writes nothing" 1 - - test -e none.png
 
 # The chosen settings, rendered again from the file, keep the bound.
 expect "the cheapest that errs by 0.1" 0 '"runner_up": [0-9]+' - \
-    "$glint" tradeoff small.yaml -q --max-error flip=0.1 --set image.samples=2 --format json
+    "$glint" tradeoff small.yaml -q --budget 1000 --max-error flip=0.1 --set image.samples=2 --format json
 options=$(sed -n 's/.*"options": "\([^"]*\)".*/\1/p' out.txt)
 samples=$(sed -n 's/.*"truth_samples": \([0-9]*\).*/\1/p' out.txt)
 if ! echo "$options" | grep -q width; then

@@ -236,6 +236,86 @@ static void test_segments(struct frames *f) {
     close_stage(&stage);
 }
 
+// ---- frames that end early
+
+// Ends the frame after `samples`, or at call number `calls` between dispatches.
+struct limiting {
+    uint32_t samples, calls;
+    bool has_picture; // the first one was shown
+    float first[3];
+};
+
+static bool goes_on(void *context, uint32_t samples, const float *rgb) {
+    struct limiting *l = context;
+    if (samples == 1) {
+        l->has_picture = true;
+        memcpy(l->first, rgb + 3 * (36 * 96 + 48), sizeof l->first);
+    }
+    return samples < l->samples;
+}
+
+static bool runs_out(void *context) {
+    struct limiting *l = context;
+    return l->calls-- == 0;
+}
+
+// The picture is the one of as many samples, whether the limit comes between two or within one.
+static void test_limits(struct frames *f, uint32_t band_tiles) {
+    struct stage stage;
+    struct image of[4] = {{0}}, image = {0};
+    struct render_statistics statistics;
+    bool good = true;
+    uint32_t within = 0;
+    if (!open_stage(f, &stage, 96, 72, 1))
+        return;
+    stage.shot.settings.dispatch_paths = 2000;
+    stage.shot.settings.band_tiles = band_tiles;
+    for (uint32_t n = 1; n <= 4; n++) {
+        stage.shot.settings.samples = n;
+        good = apply(&stage) && take(&stage, &of[n - 1], &statistics) && statistics.samples == n && good;
+    }
+    good = image_init(&image, 96, 72) && good;
+    for (uint32_t k = 0; good && k < 20; k++) {
+        struct limiting l = {.samples = k < 4 ? k + 1 : 9, .calls = k < 4 ? UINT32_MAX : k - 4};
+        const struct render_limit limit = {goes_on, runs_out, &l};
+        good = shot_take_until(&stage.shot, &image, NULL, &limit, &statistics) == SHOT_OK &&
+               statistics.samples >= 1 && statistics.samples <= 4 &&
+               (k >= 4 || statistics.samples == k + 1) &&
+               picture_differences(&of[statistics.samples - 1], &image, "ended early") == 0 &&
+               (!l.has_picture || memcmp(l.first, of[0].rgb + 3 * (36 * 96 + 48), sizeof l.first) == 0);
+        within += k >= 4 && statistics.samples < 4;
+    }
+    expect(f, good && within > 3, "a frame that ends early is that of fewer samples");
+    for (int i = 0; i < 4; i++)
+        image_finish(&of[i]);
+    image_finish(&image);
+    close_stage(&stage);
+}
+
+// Two samples are the mean of the first and of the one after it.
+static void test_first_sample(struct frames *f) {
+    struct stage stage;
+    struct image first = {0}, second = {0}, both = {0};
+    struct render_statistics statistics;
+    double worst = 0;
+    if (!open_stage(f, &stage, 96, 72, 1))
+        return;
+    bool good = take(&stage, &first, &statistics);
+    stage.shot.settings.first_sample = 1;
+    good = apply(&stage) && take(&stage, &second, &statistics) && good;
+    stage.shot.settings.first_sample = 0;
+    stage.shot.settings.samples = 2;
+    good = apply(&stage) && take(&stage, &both, &statistics) && good;
+    for (size_t i = 0; good && i < (size_t)96 * 72 * 3; i++)
+        worst = fmax(worst, fabs(0.5 * ((double)first.rgb[i] + (double)second.rgb[i]) - (double)both.rgb[i]));
+    expect(f, good && worst < 1e-6, "samples can be taken one after the other");
+    expect(f, good && picture_differences(&first, &second, "") > 0, "and differ");
+    image_finish(&first);
+    image_finish(&second);
+    image_finish(&both);
+    close_stage(&stage);
+}
+
 int main(int argc, char **argv) {
     struct frames f = {.path = argc > 1 ? argv[1] : NULL};
     if (argc < 2)
@@ -248,6 +328,9 @@ int main(int argc, char **argv) {
     test_pieces(&f);
     test_crop(&f);
     test_segments(&f);
+    test_limits(&f, 0);
+    test_limits(&f, 48);
+    test_first_sample(&f);
     uint32_t messages = picture_kit_close(&f.kit);
     expect(&f, messages == 0, "the validation layer is silent");
     return f.failed != 0;

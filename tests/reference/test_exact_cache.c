@@ -83,6 +83,8 @@ static void test_found_again(void **state) {
     assert_false(ask(&kit, &settings, second, NULL));
     settings.min_weight = 1e-3;
     assert_false(ask(&kit, &settings, second, NULL));
+    settings.first_sample = 2;
+    assert_false(ask(&kit, &settings, second, NULL));
     kit_finish(&kit);
 }
 

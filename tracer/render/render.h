@@ -31,6 +31,7 @@ const char *render_alternative_name(enum render_alternative alternative);
 struct render_settings {
     uint32_t width, height; // pixels
     uint32_t samples;       // per pixel, at least 1
+    uint32_t first_sample;  // number of the first of them (view_sample_offset); pictures begin with 0
     uint32_t max_depth;
     double min_weight;
     vec3 background; // linear, times intensity
@@ -79,6 +80,7 @@ struct render_rays {
 struct render_statistics {
     double device_seconds; // on the device's clock, dispatches alone
     double wall_seconds;
+    uint32_t samples;                               // that each pixel has
     uint32_t bands, dispatches, slices;             // slices: dispatches that resumed paths
     struct render_fault faults[RENDER_FAULT_KINDS]; // by kind
     struct render_rays rays;                        // where the settings ask for it
@@ -87,6 +89,16 @@ struct render_statistics {
 // Called between dispatches with what is done, 0..1; false ends the frame.
 struct render_progress {
     bool (*report)(void *context, double fraction);
+    void *context;
+};
+
+// What ends a frame before it has all its samples; the first one is always made.
+struct render_limit {
+    // Called with the number of samples that all pixels have, fewer than asked for; `rgb` is their picture
+    // after the first one, else undefined. false: the frame ends with these.
+    bool (*goes_on)(void *context, uint32_t samples, const float *rgb);
+    // Called between dispatches after the first sample; true: the frame ends, without the sample under way.
+    bool (*is_over)(void *context);
     void *context;
 };
 
@@ -112,6 +124,12 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
                                    const struct render_progress *progress,
                                    struct render_statistics *statistics);
+// The same until `limit` ends it: the picture is that of statistics->samples samples, bit for bit. It needs
+// 32 bytes a pixel more.
+enum render_result renderer_render_until(struct renderer *renderer, const struct view_camera *camera,
+                                         float *rgb, const struct render_progress *progress,
+                                         const struct render_limit *limit,
+                                         struct render_statistics *statistics);
 // Renders the frame with a kernel that counts, whatever the settings say, and throws the picture away.
 enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
                                   const struct render_progress *progress, struct render_rays *rays);

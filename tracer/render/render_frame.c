@@ -85,6 +85,12 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
     return gpu_write(renderer->gpu, renderer->buffers[BINDING_FRAME], 0, &frame, sizeof frame);
 }
 
+static bool is_over(struct renderer_frame *run) {
+    if (run->limit && run->samples_done)
+        run->is_over = run->limit->is_over(run->limit->context);
+    return run->is_over;
+}
+
 static bool is_wanted(const struct renderer_frame *run, double part) {
     const struct render_progress *progress = run->progress;
     return !progress || !progress->report ||
@@ -136,14 +142,21 @@ static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_
         const uint32_t open = end - block->path_end + saved;
         if (run->met_long_ray)
             return RENDER_CANCELLED;
-        if (open > 0 && !is_wanted(run, 1 - (double)open / all))
+        if (open > 0 && (is_over(run) || !is_wanted(run, 1 - (double)open / all)))
             return RENDER_CANCELLED;
     }
     return RENDER_DONE;
 }
 
-// One sample of one band: all its paths to their ends.
-static enum render_result draw_sample(struct renderer_frame *run, struct dispatch_block block) {
+enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
+                                        uint32_t sample) {
+    double a, b;
+    view_sample_offset(run->renderer->settings.first_sample + sample, &a, &b);
+    struct dispatch_block block = {.tile_begin = tile_begin,
+                                   .tile_count = tile_count,
+                                   .sample_index = sample,
+                                   .offset_x = (float)a,
+                                   .offset_y = (float)b};
     for (;;) {
         const enum render_result result = draw_pass(run, &block);
         if (result != RENDER_DONE)
@@ -160,25 +173,32 @@ static enum render_result draw_sample(struct renderer_frame *run, struct dispatc
 
 struct unpacking {
     const struct renderer *renderer;
-    uint32_t tile_begin;
+    uint32_t tile_begin, samples;
+    const uint32_t *sums;
     float *rgb;
 };
 
 static void unpack_tiles(void *context, size_t begin, size_t end) {
     const struct unpacking *u = context;
     const struct render_settings *settings = &u->renderer->settings;
-    const float samples = (float)settings->samples;
+    const float samples = (float)u->samples;
     for (size_t slot = begin * TILE_PIXELS; slot < end * TILE_PIXELS; slot++) {
         uint32_t x, y;
         if (!renderer_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y))
             continue;
         float sum[3];
-        memcpy(sum, u->renderer->band + 4 * slot, sizeof sum);
+        memcpy(sum, u->sums + 4 * slot, sizeof sum);
         float *out = u->rgb + ((size_t)y * settings->width + x) * 3;
-        const bool sound = u->renderer->band[4 * slot + 3] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
+        const bool sound = u->sums[4 * slot + 3] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
         for (int i = 0; i < 3; i++)
             out[i] = sound ? sum[i] / samples : NAN;
     }
+}
+
+void renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
+                     const uint32_t *sums, uint32_t samples, float *rgb) {
+    struct unpacking unpacking = {renderer, tile_begin, samples, sums, rgb};
+    parallel_for(tile_count, TILES_A_PIECE, unpack_tiles, &unpacking);
 }
 
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle) {
@@ -215,10 +235,10 @@ static void note_fault(const struct renderer *renderer, uint32_t word, uint32_t 
         renderer_number(renderer, number, &fault->body, &fault->triangle);
 }
 
-static void note_faults(const struct renderer *renderer, uint32_t tile_begin, uint32_t slots,
-                        struct render_statistics *statistics) {
-    for (uint32_t slot = 0; slot < slots; slot++) {
-        const uint32_t word = renderer->band[4 * (size_t)slot + 3];
+void renderer_note_faults(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
+                          const uint32_t *sums, struct render_statistics *statistics) {
+    for (uint32_t slot = 0; slot < tile_count * TILE_PIXELS; slot++) {
+        const uint32_t word = sums[4 * (size_t)slot + 3];
         if (word == 0)
             continue;
         uint32_t x, y;
@@ -231,37 +251,35 @@ static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_be
                                     float *rgb) {
     struct renderer *renderer = run->renderer;
     for (uint32_t sample = 0; sample < renderer->settings.samples; sample++) {
-        double a, b;
-        view_sample_offset(sample, &a, &b);
-        enum render_result result = draw_sample(run, (struct dispatch_block){.tile_begin = tile_begin,
-                                                                             .tile_count = tile_count,
-                                                                             .sample_index = sample,
-                                                                             .offset_x = (float)a,
-                                                                             .offset_y = (float)b});
+        const enum render_result result = renderer_draw_sample(run, tile_begin, tile_count, sample);
         if (result != RENDER_DONE)
             return result;
     }
-    const uint32_t slots = tile_count * TILE_PIXELS;
     if (!rgb)
         return RENDER_DONE;
     if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_OUTPUT], 0, renderer->band,
-                  (uint64_t)slots * sizeof(struct gpu_word)))
+                  (uint64_t)tile_count * TILE_PIXELS * sizeof(struct gpu_word)))
         return RENDER_FAILED;
-    struct unpacking unpacking = {renderer, tile_begin, rgb};
-    parallel_for(tile_count, TILES_A_PIECE, unpack_tiles, &unpacking);
-    note_faults(renderer, tile_begin, slots, run->statistics);
+    renderer_unpack(renderer, tile_begin, tile_count, renderer->band, renderer->settings.samples, rgb);
+    renderer_note_faults(renderer, tile_begin, tile_count, renderer->band, run->statistics);
     return RENDER_DONE;
+}
+
+bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *camera) {
+    const struct renderer *renderer = run->renderer;
+    run->steps_done = 0;
+    run->met_long_ray = false;
+    run->statistics->bands = (renderer->tiles + renderer->band_tiles - 1) / renderer->band_tiles;
+    run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
+    run->statistics->samples = renderer->settings.samples;
+    return renderer_write_frame(run->renderer, camera);
 }
 
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
                                        float *rgb) {
     struct renderer *renderer = run->renderer;
     const uint32_t tiles = renderer->tiles;
-    run->steps_done = 0;
-    run->met_long_ray = false;
-    run->statistics->bands = (tiles + renderer->band_tiles - 1) / renderer->band_tiles;
-    run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
-    enum render_result result = renderer_write_frame(renderer, camera) ? RENDER_DONE : RENDER_FAILED;
+    enum render_result result = renderer_begin_frame(run, camera) ? RENDER_DONE : RENDER_FAILED;
     for (uint32_t begin = 0; result == RENDER_DONE && begin < tiles; begin += renderer->band_tiles) {
         const uint32_t left = tiles - begin;
         result = draw_band(run, begin, left < renderer->band_tiles ? left : renderer->band_tiles, rgb);

@@ -100,7 +100,25 @@ struct renderer_frame {
     bool counting;
     uint32_t counters[COUNTER_COUNT]; // after the last dispatch; of those in banks only where it counts
     uint64_t counts[COUNTER_KINDS];   // of all banks and dispatches
+    // NULL: all samples are made, band by band.
+    const struct render_limit *limit;
+    uint32_t samples_done; // under a limit: that all pixels have
+    bool is_over;          // the limit ended the sample under way
 };
+// One sample of one band: all its paths to their ends.
+enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
+                                        uint32_t sample);
+// From a band's sums, as the kernel leaves them, to their pixels of the picture.
+void renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
+                     const uint32_t *sums, uint32_t samples, float *rgb);
+// Adds the faults of a band's sums to the statistics.
+void renderer_note_faults(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
+                          const uint32_t *sums, struct render_statistics *statistics);
+// The frame under its limit, sample by sample over all bands (render_until.c).
+enum render_result renderer_draw_until(struct renderer_frame *run, const struct view_camera *camera,
+                                       float *rgb);
+// Before the first sample: counts of steps, and the uniforms for a camera.
+bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *camera);
 // Adds to the statistics, which the caller has cleared. `rgb` NULL: no picture.
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
                                        float *rgb);

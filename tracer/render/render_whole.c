@@ -17,7 +17,8 @@ static bool clear_counters(struct renderer_frame *run) {
 static struct render_rays rays_of(const struct renderer_frame *run) {
     const struct render_settings *settings = &run->renderer->settings;
     const uint64_t *counts = run->counts;
-    return (struct render_rays){.primary = (uint64_t)settings->width * settings->height * settings->samples,
+    return (struct render_rays){.primary =
+                                    (uint64_t)settings->width * settings->height * run->statistics->samples,
                                 .reflected = counts[COUNTER_REFLECTED],
                                 .refracted = counts[COUNTER_REFRACTED],
                                 .shadow = counts[COUNTER_SHADOW],
@@ -38,17 +39,20 @@ static bool begin(struct renderer_frame *run, bool counts) {
     return run->program && (!counts || clear_counters(run));
 }
 
+static enum render_result draw(struct renderer_frame *run, const struct view_camera *camera, float *rgb) {
+    return run->limit ? renderer_draw_until(run, camera, rgb) : renderer_draw_frame(run, camera, rgb);
+}
+
 // Where a ray needs more iterations than a slice has, all is begun again with kernels that can save it: the
 // others are faster, and almost no scene has such a ray.
 static enum render_result draw_frame(struct renderer_frame *run, const struct view_camera *camera,
                                      bool counts, float *rgb) {
     const double start = clock_seconds();
     *run->statistics = (struct render_statistics){0};
-    enum render_result result = begin(run, counts) ? renderer_draw_frame(run, camera, rgb) : RENDER_FAILED;
+    enum render_result result = begin(run, counts) ? draw(run, camera, rgb) : RENDER_FAILED;
     if (run->met_long_ray)
-        result = renderer_take_long_rays(run->renderer) && begin(run, counts)
-                     ? renderer_draw_frame(run, camera, rgb)
-                     : RENDER_FAILED;
+        result = renderer_take_long_rays(run->renderer) && begin(run, counts) ? draw(run, camera, rgb)
+                                                                              : RENDER_FAILED;
     if (counts)
         run->statistics->rays = rays_of(run);
     run->statistics->wall_seconds = clock_seconds() - start;
@@ -58,7 +62,15 @@ static enum render_result draw_frame(struct renderer_frame *run, const struct vi
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
                                    const struct render_progress *progress,
                                    struct render_statistics *statistics) {
-    struct renderer_frame run = {.renderer = renderer, .progress = progress, .statistics = statistics};
+    return renderer_render_until(renderer, camera, rgb, progress, NULL, statistics);
+}
+
+enum render_result renderer_render_until(struct renderer *renderer, const struct view_camera *camera,
+                                         float *rgb, const struct render_progress *progress,
+                                         const struct render_limit *limit,
+                                         struct render_statistics *statistics) {
+    struct renderer_frame run = {
+        .renderer = renderer, .progress = progress, .statistics = statistics, .limit = limit};
     return draw_frame(&run, camera, renderer->settings.counts, rgb);
 }
 

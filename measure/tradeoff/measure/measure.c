@@ -3,21 +3,35 @@
 
 #include "core/clock.h"
 
+#include <math.h>
+
 double measuring_seconds(const struct measuring *s) {
     return clock_seconds() - s->begun;
+}
+
+bool measuring_is_late(struct measuring *s) {
+    s->late |= s->deadline > 0 && clock_seconds() > s->deadline;
+    return s->late;
+}
+
+bool measuring_report(struct measuring *s, double steps) {
+    // Where a budget ends the work, it may be over before its steps are.
+    const double budget = s->out->options.budget_s;
+    const double of_steps = steps / (s->steps + 1), of_time = budget > 0 ? measuring_seconds(s) / budget : 0;
+    return !s->progress ||
+           s->progress->report(s->progress->context, fmax(of_steps, fmin(of_time, 1)), s->step);
 }
 
 bool measuring_step(struct measuring *s, const char *what) {
     s->step = what;
     if (s->steps_done < s->steps)
         s->steps_done++;
-    return !s->progress || s->progress->report(s->progress->context, (double)s->steps_done / s->steps, what);
+    return measuring_report(s, s->steps_done);
 }
 
 static bool report_reference(void *context, double fraction) {
-    const struct measuring *s = context;
-    return !s->progress || s->progress->report(s->progress->context,
-                                               ((double)s->steps_done + fraction) / (s->steps + 1), s->step);
+    struct measuring *s = context;
+    return !measuring_is_late(s) && measuring_report(s, s->steps_done + fraction);
 }
 
 struct reference_progress measuring_reference_progress(struct measuring *s) {

@@ -16,7 +16,7 @@
 #include "tracer/render/render.h"
 
 enum {
-    TIMES_ROUNDS_LEAST = 2,
+    TIMES_ROUNDS_MOST = 9,
     PROBE_PIXELS = 2048, // at which the parts of the errors are measured
     PROBE_SETS_MAX = 256,
     THUMBNAIL_WIDTH = 160,
@@ -27,10 +27,29 @@ enum {
 
 // What the reference says at the probes, displayed.
 struct probe_set {
-    uint32_t width, height, samples, max_depth;
+    uint32_t width, height, samples, first_sample, max_depth;
     double min_weight;
     bool shadows, full; // full: paths to their ends, whatever depth and weight
     float *values;      // three a probe
+};
+
+// The pictures of a search, as sums of linear values.
+struct search_pictures {
+    double *truth,
+        *added; // the device's samples that rows are compared with; what the reference adds to some
+    uint32_t truth_samples, added_samples, added_most;
+    float *smooth; // the ground truth, displayed, with what the reference adds spread over neighbours
+    double change; // what more rays of the reference might change, mean of the pixels
+    double floor;  // error of the file's settings with all samples that there are
+    double *row;   // the samples from 0 on of the setting that was tried last
+    struct setting row_setting;
+    uint32_t row_samples;
+    uint64_t row_not_finite;
+    double row_seconds; // on the device's clock
+    double *rgb;        // the reference's
+    double *column;     // of a picture
+    uint32_t deepest;   // level that the file's rays reach
+    bool is_cut;        // the file's settings cut rays
 };
 
 struct measuring {
@@ -47,6 +66,7 @@ struct measuring {
     struct flat_scene flat[2], shadowless[2]; // the latter share the former's memory
     struct renderer *renderer[2];
     struct setting current[2]; // what the renderer is set to
+    uint32_t current_first[2]; // and its first sample
     // The reference, and the same without shadows.
     struct ir_scene ir_shadowless;
     struct scene scene_shadowless; // over that IR
@@ -64,14 +84,19 @@ struct measuring {
     bool no_hits;              // nor hits
     struct probe_set sets[PROBE_SETS_MAX];
     uint32_t set_count;
+    struct search_pictures search;
 };
 
 // ---- measure.c
 
 // Since the study began.
 double measuring_seconds(const struct measuring *s);
+// Reports how many steps are done; false: cancelled.
+bool measuring_report(struct measuring *s, double steps);
 // Reports one more step; false: cancelled.
 bool measuring_step(struct measuring *s, const char *what);
+// Whether the deadline has come; then s->late is set, and the work under way ends as if it were cancelled.
+bool measuring_is_late(struct measuring *s);
 // Passes the reference's progress on.
 struct reference_progress measuring_reference_progress(struct measuring *s);
 enum tradeoff_status measuring_reference_status(enum reference_result result);
@@ -80,6 +105,12 @@ bool measuring_traces_as_file(const struct row *row);
 
 // ---- measure_device.c
 
+// Flattens the scene in the file's precision, before anything is traced.
+enum tradeoff_status device_open(struct measuring *s);
+// The mean of some samples of a setting, in s->picture. *not_finite (which may be NULL) becomes the pixels
+// that are not a number, if those are more.
+enum tradeoff_status device_samples(struct measuring *s, const struct setting *setting, uint32_t first,
+                                    uint32_t count, double *seconds, uint64_t *not_finite);
 // Fills not_finite.
 enum tradeoff_status device_picture(struct measuring *s, struct row *row, float *rgb);
 // Fills work.
@@ -106,11 +137,8 @@ bool ground_truth_affords(const struct measuring *s, double rays);
 
 // Fills value, not_finite and the thumbnails from the row's picture.
 enum tradeoff_status errors_measure(struct measuring *s, struct row *row);
-// Of pixel `at` of `to`: the two of `from` around its middle, and how far it is from the first.
-double errors_around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]);
-// Displayed values at the file's size, bilinear.
-void errors_scale_up(const float *in, uint32_t width, uint32_t height, float *out, uint32_t to_width,
-                     uint32_t to_height);
+// Fills value and the thumbnails from s->shown. false: no memory.
+bool errors_of_shown(struct measuring *s, struct row *row);
 
 // ---- measure_parts.c
 
@@ -123,9 +151,16 @@ void parts_close(struct measuring *s);
 // Fills hits.
 enum tradeoff_status hits_measure(struct measuring *s, struct row *row);
 
+// ---- measure_search.c
+
+// Makes room, and finds out how far the ground truth may go.
+enum tradeoff_status search_begin(struct measuring *s);
+// Fills value, times and not_finite of a row, which is compared with several times its samples.
+enum tradeoff_status search_row(struct measuring *s, struct row *row);
+void search_close(struct measuring *s);
+
 // ---- measure_times.c
 
-uint32_t times_rounds_most(const struct measuring *s);
 // Fills the times of all rows: every round times every row once.
 enum tradeoff_status times_measure(struct measuring *s);
 

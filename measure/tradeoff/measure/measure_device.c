@@ -49,8 +49,9 @@ static bool is_equal(const struct setting *a, const struct setting *b) {
     return equal;
 }
 
-// The renderer of the setting's precision, set to it.
-static enum tradeoff_status set(struct measuring *s, const struct setting *setting, struct renderer **out) {
+// The renderer of the setting's precision, set to it, with samples from `first` on.
+static enum tradeoff_status set_from(struct measuring *s, const struct setting *setting, uint32_t first,
+                                     struct renderer **out) {
     const bool d = setting->is_double;
     enum tradeoff_status status = TRADEOFF_DONE;
     if (!s->flat[d].strides.triangle)
@@ -58,16 +59,28 @@ static enum tradeoff_status set(struct measuring *s, const struct setting *setti
     if (status != TRADEOFF_DONE)
         return status;
     const struct flat_scene *flat = setting->shadows ? &s->flat[d] : &s->shadowless[d];
-    const struct render_settings settings = settings_of(s, setting, flat);
+    struct render_settings settings = settings_of(s, setting, flat);
+    settings.first_sample = first;
+    const bool is_set = is_equal(&s->current[d], setting) && s->current_first[d] == first;
     if (!s->renderer[d])
         s->renderer[d] = renderer_create(s->input->gpu, flat, &settings);
-    else if (!is_equal(&s->current[d], setting) && !renderer_change(s->renderer[d], flat, &settings)) {
+    else if (!is_set && !renderer_change(s->renderer[d], flat, &settings)) {
         renderer_destroy(s->renderer[d]);
         s->renderer[d] = NULL;
     }
     s->current[d] = *setting;
+    s->current_first[d] = first;
     *out = s->renderer[d];
     return *out ? TRADEOFF_DONE : TRADEOFF_DEVICE;
+}
+
+static enum tradeoff_status set(struct measuring *s, const struct setting *setting, struct renderer **out) {
+    return set_from(s, setting, 0, out);
+}
+
+enum tradeoff_status device_open(struct measuring *s) {
+    struct renderer *renderer;
+    return set(s, &s->base, &renderer);
 }
 
 void device_close(struct measuring *s) {
@@ -80,12 +93,7 @@ void device_close(struct measuring *s) {
 static bool report_frame(void *context, double fraction) {
     struct measuring *s = context;
     (void)fraction;
-    if (s->deadline > 0 && clock_seconds() > s->deadline) {
-        s->late = true;
-        return false;
-    }
-    return !s->progress ||
-           s->progress->report(s->progress->context, (double)s->steps_done / s->steps, s->step);
+    return !measuring_is_late(s) && measuring_report(s, s->steps_done);
 }
 
 static enum tradeoff_status status_of(enum render_result result) {
@@ -100,17 +108,35 @@ static enum tradeoff_status frame(struct measuring *s, struct renderer *renderer
     return status_of(renderer_render(renderer, &s->input->view->camera, rgb, &progress, statistics));
 }
 
+enum tradeoff_status device_samples(struct measuring *s, const struct setting *setting, uint32_t first,
+                                    uint32_t count, double *seconds, uint64_t *not_finite) {
+    struct setting some = *setting;
+    struct render_statistics statistics;
+    struct renderer *renderer;
+    some.samples = count;
+    enum tradeoff_status status = set_from(s, &some, first, &renderer);
+    if (status == TRADEOFF_DONE)
+        status = frame(s, renderer, s->picture, &statistics);
+    if (status != TRADEOFF_DONE)
+        return status;
+    *seconds = statistics.device_seconds;
+    const uint64_t pixels = statistics.faults[RENDER_NOT_FINITE].pixels;
+    if (not_finite && pixels > *not_finite)
+        *not_finite = pixels;
+    return status;
+}
+
 enum tradeoff_status device_picture(struct measuring *s, struct row *row, float *rgb) {
     struct render_statistics statistics;
     struct renderer *renderer;
     enum tradeoff_status status = set(s, &row->setting, &renderer);
     if (status == TRADEOFF_DONE)
         status = frame(s, renderer, rgb, &statistics);
-    if (status == TRADEOFF_DONE)
-        row->not_finite = statistics.faults[RENDER_NOT_FINITE].pixels;
-    if (status == TRADEOFF_DONE)
-        s->round_seconds +=
-            statistics.device_seconds > TIMED_SECONDS ? statistics.device_seconds : TIMED_SECONDS;
+    if (status != TRADEOFF_DONE)
+        return status;
+    row->not_finite = statistics.faults[RENDER_NOT_FINITE].pixels;
+    row->time_ms = row->time_low_ms = row->time_high_ms = 1e3 * statistics.device_seconds;
+    s->round_seconds += statistics.device_seconds > TIMED_SECONDS ? statistics.device_seconds : TIMED_SECONDS;
     return status;
 }
 

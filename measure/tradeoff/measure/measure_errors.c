@@ -1,55 +1,12 @@
 #include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 
-#include "core/parallel.h"
 #include "picture/metrics/heatmap.h"
 #include "picture/write/encode_parts.h"
+#include "picture/write/scale.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-// ---- pictures of other sizes
-
-struct scaling {
-    const float *in;
-    uint32_t width, height;
-    float *out;
-    uint32_t to_width, to_height;
-};
-
-double errors_around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]) {
-    const double x = fmin(fmax((at + 0.5) * from / to - 0.5, 0), from - 1);
-    places[0] = (uint32_t)x;
-    places[1] = places[0] + 1 < from ? places[0] + 1 : places[0];
-    return x - places[0];
-}
-
-static void scale_rows(void *context, size_t begin, size_t end) {
-    const struct scaling *j = context;
-    for (size_t y = begin; y < end; y++) {
-        uint32_t ys[2], xs[2];
-        const double v = errors_around((uint32_t)y, j->height, j->to_height, ys);
-        for (uint32_t x = 0; x < j->to_width; x++) {
-            const double u = errors_around(x, j->width, j->to_width, xs);
-            for (size_t k = 0; k < 3; k++) {
-                const float *a = j->in + 3 * (size_t)ys[0] * j->width + k;
-                const float *b = j->in + 3 * (size_t)ys[1] * j->width + k;
-                const double top = (1 - u) * (double)a[3 * xs[0]] + u * (double)a[3 * xs[1]];
-                const double bottom = (1 - u) * (double)b[3 * xs[0]] + u * (double)b[3 * xs[1]];
-                j->out[3 * (y * j->to_width + x) + k] = (float)((1 - v) * top + v * bottom);
-            }
-        }
-    }
-}
-
-void errors_scale_up(const float *in, uint32_t width, uint32_t height, float *out, uint32_t to_width,
-                     uint32_t to_height) {
-    enum {
-        ROWS = 8
-    };
-    struct scaling job = {in, width, height, out, to_width, to_height};
-    parallel_for(to_height, ROWS, scale_rows, &job);
-}
 
 // ---- thumbnails
 
@@ -110,7 +67,7 @@ static void difference_thumbnail(const float *difference, uint32_t width, uint32
 
 // ---- a row
 
-static bool measure(struct measuring *s, struct row *row) {
+bool errors_of_shown(struct measuring *s, struct row *row) {
     const uint32_t width = s->base.width, height = s->base.height;
     struct measure_options options = measure_options_default();
     struct measure_result result;
@@ -118,7 +75,7 @@ static bool measure(struct measuring *s, struct row *row) {
         s->out->options.thumbnails ? heap_alloc((size_t)width * height * sizeof *difference) : NULL;
     options.threshold = s->out->options.threshold;
     options.pixels_per_degree = s->out->options.ppd;
-    if (s->out->options.quick)
+    if (s->out->options.search)
         options.metrics = 1u << s->out->options.metric;
     bool good =
         (difference || !s->out->options.thumbnails) &&
@@ -142,6 +99,6 @@ enum tradeoff_status errors_measure(struct measuring *s, struct row *row) {
         return status;
     // NaN is what the device reports; it is shown as black, as the writers do.
     image_to_displayed(s->picture, (size_t)setting->width * setting->height, s->display, s->picture);
-    errors_scale_up(s->picture, setting->width, setting->height, s->shown, s->base.width, s->base.height);
-    return measure(s, row) ? TRADEOFF_DONE : TRADEOFF_MEMORY;
+    scale_picture(s->picture, setting->width, setting->height, s->shown, s->base.width, s->base.height);
+    return errors_of_shown(s, row) ? TRADEOFF_DONE : TRADEOFF_MEMORY;
 }

@@ -84,7 +84,7 @@ static enum tradeoff_status plan(struct measuring *s, const struct work *own, bo
     const double budget = s->out->options.budget_s;
     struct plan_pilot pilots[PLAN_PILOTS_MAX];
     // The parts are measured by up to two more sets of probes before any other row.
-    const uint64_t probes = s->out->options.quick ? 0 : pixels < PROBE_PIXELS ? pixels : PROBE_PIXELS;
+    const uint64_t probes = pixels < PROBE_PIXELS ? pixels : PROBE_PIXELS;
     struct plan_ground_truth_input in = {.file_samples = s->base.samples,
                                          .pixels = pixels + 2 * probes,
                                          .rays_most = budget > 0 ? GROUND_TRUTH_SHARE * budget *
@@ -113,6 +113,8 @@ enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *o
     struct plan_ground_truth planned;
     const double start = clock_seconds();
     s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
+    // None that a row has: what two pictures share would not count as an error.
+    s->full.first_sample = VIEW_OTHER_SAMPLES;
     enum tradeoff_status status = plan(s, own, bounces, &planned);
     if (status != TRADEOFF_DONE)
         return status;

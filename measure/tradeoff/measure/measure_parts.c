@@ -7,6 +7,7 @@
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/parallel.h"
+#include "picture/write/scale.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -46,7 +47,7 @@ static void pixel_value(const struct probing *p, uint32_t x, uint32_t y, float o
     double sum[3] = {0};
     for (uint32_t n = 0; n < p->settings.samples; n++) {
         vec3 radiance = {0};
-        reference_log(p->reference, &p->settings, x, y, n, NULL, 0, &radiance);
+        reference_log(p->reference, &p->settings, x, y, p->settings.first_sample + n, NULL, 0, &radiance);
         sum[0] += radiance.x;
         sum[1] += radiance.y;
         sum[2] += radiance.z;
@@ -56,7 +57,7 @@ static void pixel_value(const struct probing *p, uint32_t x, uint32_t y, float o
     image_to_displayed(out, 1, p->s->display, out);
 }
 
-// As errors_scale_up does it for whole pictures.
+// As scale_picture does it for whole pictures.
 static void probe_value(const struct probing *p, uint32_t x, uint32_t y, float out[3]) {
     const struct setting *base = &p->s->base;
     const uint32_t width = p->settings.width, height = p->settings.height;
@@ -65,7 +66,7 @@ static void probe_value(const struct probing *p, uint32_t x, uint32_t y, float o
         pixel_value(p, x, y, out);
         return;
     }
-    const double u = errors_around(x, width, base->width, xs), v = errors_around(y, height, base->height, ys);
+    const double u = scale_around(x, width, base->width, xs), v = scale_around(y, height, base->height, ys);
     double sum[3] = {0};
     for (int i = 0; i < CORNERS; i++) {
         const double weight = (i & 1 ? u : 1 - u) * (i & 2 ? v : 1 - v);
@@ -93,7 +94,7 @@ static bool is_set(const struct probe_set *a, const struct probe_set *b) {
     const bool paths = a->full || (a->max_depth == b->max_depth &&
                                    !(a->min_weight < b->min_weight || a->min_weight > b->min_weight));
     return a->width == b->width && a->height == b->height && a->samples == b->samples &&
-           a->shadows == b->shadows && a->full == b->full && paths;
+           a->first_sample == b->first_sample && a->shadows == b->shadows && a->full == b->full && paths;
 }
 
 // NULL: no memory.
@@ -121,6 +122,7 @@ static const float *probe(struct measuring *s, struct probe_set wanted) {
     } else {
         context.settings.segments = s->full.segments;
     }
+    context.settings.first_sample = wanted.first_sample;
     parallel_for(count, PROBES_A_PIECE, probe_piece, &context);
     wanted.values = values;
     s->sets[s->set_count++] = wanted;
@@ -165,11 +167,20 @@ enum tradeoff_status parts_measure(struct measuring *s, struct row *row) {
         s->out->parts_out++;
         return TRADEOFF_DONE;
     }
-    const struct probe_set as_file = {t->width,      t->height,  t->samples, t->max_depth,
-                                      t->min_weight, t->shadows, false,      NULL};
-    struct probe_set full = {t->width, t->height, t->samples, 0, 0, s->base.shadows, true, NULL};
+    const struct probe_set as_file = {.width = t->width,
+                                      .height = t->height,
+                                      .samples = t->samples,
+                                      .max_depth = t->max_depth,
+                                      .min_weight = t->min_weight,
+                                      .shadows = t->shadows};
+    struct probe_set full = {.width = t->width,
+                             .height = t->height,
+                             .samples = t->samples,
+                             .shadows = s->base.shadows,
+                             .full = true};
     const float *settings = probe(s, as_file), *paths = settings ? probe(s, full) : NULL;
     full.samples = s->out->ground_truth_samples;
+    full.first_sample = s->full.first_sample;
     const float *samples = paths ? probe(s, full) : NULL;
     float *own = heap_alloc((size_t)6 * count * sizeof *own);
     if (!samples || !own) {

@@ -10,14 +10,9 @@
 #include <string.h>
 
 enum {
-    ROUNDS_QUICK = 3,
+    ROUNDS_FEW = 3,   // fewer may choose otherwise
     ROUNDS_QUIET = 4, // at least, where there is no noise
-    ROUNDS_MOST = 9,
 };
-
-uint32_t times_rounds_most(const struct measuring *s) {
-    return s->out->options.quick ? ROUNDS_QUICK : ROUNDS_MOST;
-}
 
 // What a whole round was slower or faster than the others is the machine's, not the rows'.
 static void remove_drift(double *times, uint32_t rows, uint32_t rounds) {
@@ -35,7 +30,7 @@ static void remove_drift(double *times, uint32_t rows, uint32_t rounds) {
 }
 
 static void fill_times(struct tradeoff *t, double *times) {
-    double own[ROUNDS_MOST];
+    double own[TIMES_ROUNDS_MOST];
     remove_drift(times, t->count, t->rounds);
     for (uint32_t i = 0; i < t->count; i++) {
         struct row *row = &t->rows[i];
@@ -71,34 +66,47 @@ static bool is_quiet(struct tradeoff *t, const double *times) {
     return quiet;
 }
 
-// Each round begins with another row.
+// Every row once; each round begins with another one. A round that the budget's end comes upon does not
+// count.
+static enum tradeoff_status time_round(struct measuring *s, double *times) {
+    struct tradeoff *t = s->out;
+    enum tradeoff_status status = measuring_step(s, "times") ? TRADEOFF_DONE : TRADEOFF_CANCELLED;
+    for (uint32_t i = 0; i < t->count && status == TRADEOFF_DONE; i++) {
+        const uint32_t row = (i + t->rounds * 7) % t->count;
+        status = device_time(s, &t->rows[row].setting, &times[t->rounds * t->count + row]);
+    }
+    t->rounds += status == TRADEOFF_DONE;
+    return status;
+}
+
+static bool has_time(const struct measuring *s, double begun, const double *times) {
+    struct tradeoff *t = s->out;
+    const double now = measuring_seconds(s), budget = t->options.budget_s;
+    if (t->rounds == TIMES_ROUNDS_MOST || (t->rounds >= ROUNDS_QUIET && is_quiet(t, times)))
+        return false;
+    return !(budget > 0) || t->rounds == 0 || now + (now - begun) / t->rounds <= budget;
+}
+
 enum tradeoff_status times_measure(struct measuring *s) {
     struct tradeoff *t = s->out;
-    double *times = heap_alloc((size_t)ROUNDS_MOST * t->count * sizeof *times);
-    enum tradeoff_status status = times ? device_wake(s) : TRADEOFF_MEMORY;
-    const double begun = measuring_seconds(s), budget = t->options.budget_s;
-    // A single row is compared with none: its noise, which would go with the drift, decides nothing.
-    const uint32_t least = t->count > 1 ? TIMES_ROUNDS_LEAST : 1;
-    while (status == TRADEOFF_DONE && t->rounds < times_rounds_most(s)) {
-        const double now = measuring_seconds(s);
-        if (t->rounds >= ROUNDS_QUIET && is_quiet(t, times))
-            break;
-        if (budget > 0 && t->rounds >= least && now + (now - begun) / t->rounds > budget) {
-            t->cut_short |= t->rounds < ROUNDS_QUICK;
-            break;
-        }
-        if (!measuring_step(s, "times"))
-            status = TRADEOFF_CANCELLED;
-        for (uint32_t i = 0; i < t->count && status == TRADEOFF_DONE; i++) {
-            const uint32_t row = (i + t->rounds * 7) % t->count;
-            status = device_time(s, &t->rows[row].setting, &times[t->rounds * t->count + row]);
-        }
-        t->rounds += status == TRADEOFF_DONE;
-    }
-    if (status == TRADEOFF_DONE) {
+    double *times = heap_alloc((size_t)TIMES_ROUNDS_MOST * t->count * sizeof *times);
+    const double budget = t->options.budget_s;
+    if (!times)
+        return TRADEOFF_MEMORY;
+    s->deadline = budget > 0 ? s->begun + budget : 0;
+    enum tradeoff_status status = device_wake(s);
+    const double begun = measuring_seconds(s);
+    while (status == TRADEOFF_DONE && has_time(s, begun, times))
+        status = time_round(s, times);
+    if (status == TRADEOFF_CANCELLED && s->late)
+        status = TRADEOFF_DONE;
+    s->deadline = 0;
+    t->cut_short |= t->rounds < ROUNDS_FEW && t->count > 1;
+    // Without any round the times are those of the pictures' own frames.
+    if (status == TRADEOFF_DONE && t->rounds)
         fill_times(t, times);
+    if (status == TRADEOFF_DONE)
         status = plan_order_times(t->rows, t->count) ? status : TRADEOFF_MEMORY;
-    }
     free(times);
     return status;
 }

@@ -125,15 +125,24 @@ static void add_weights(struct planning *p) {
     }
 }
 
-static void add_sizes(struct planning *p) {
-    static const struct { uint32_t part, of; } ladder[] = {{1, 4}, {1, 2}, {3, 4}};
+uint32_t plan_sizes(const struct setting *base, struct setting sizes[PLAN_SIZES_MAX]) {
+    static const struct { uint32_t part, of; } ladder[PLAN_SIZES_MAX] = {{1, 4}, {1, 2}, {3, 4}};
+    uint32_t count = 0;
     for (size_t i = 0; i < sizeof ladder / sizeof *ladder; i++) {
-        struct setting s = p->input->base;
+        struct setting s = *base;
         s.width = (s.width * ladder[i].part + ladder[i].of / 2) / ladder[i].of;
         s.height = (s.height * ladder[i].part + ladder[i].of / 2) / ladder[i].of;
         if (s.width >= 8 && s.height >= 8)
-            add(p, s);
+            sizes[count++] = s;
     }
+    return count;
+}
+
+static void add_sizes(struct planning *p) {
+    struct setting sizes[PLAN_SIZES_MAX];
+    const uint32_t count = plan_sizes(&p->input->base, sizes);
+    for (uint32_t i = 0; i < count; i++)
+        add(p, sizes[i]);
 }
 
 static void add_samples(struct planning *p) {
@@ -168,8 +177,6 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows) {
     s.shadows = false;
     add(&p, s);
     add_sizes(&p);
-    if (input->quick)
-        return p.count;
     s = input->base;
     s.general = true;
     add(&p, s);

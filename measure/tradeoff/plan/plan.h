@@ -12,6 +12,7 @@ enum {
     PLAN_ROWS_MAX = 96,
     PLAN_PILOT_SEGMENTS = 16, // rays that a sample of the first pilot may take
     PLAN_PILOTS_MAX = 16,
+    PLAN_SIZES_MAX = 3,
 };
 
 struct plan_input {
@@ -20,13 +21,15 @@ struct plan_input {
     uint32_t deepest;  // level that the file's settings reach
     bool knows_double; // the device can
     bool has_triangles;
-    bool quick;            // only what can be chosen
     uint32_t most_samples; // of a ladder
 };
 
 // The file's own settings first, then each knob's ladder from coarse to fine, without the file's own value.
 // Returns the number of rows, at most PLAN_ROWS_MAX.
 uint32_t plan_single(const struct plan_input *input, struct row *rows);
+
+// Smaller pictures, from coarse to fine; returns how many there are.
+uint32_t plan_sizes(const struct setting *base, struct setting sizes[PLAN_SIZES_MAX]);
 
 // Pairs of settings, one from each of two knobs that mattered: by at least 2 % of the work or 5 % of the
 // error. Those are taken that no row of their own knob betters in both. First those that the fewest others

@@ -8,6 +8,8 @@
 
 // The answers alone, and what was left out: part of the text.
 void tradeoff_answers(const struct tradeoff *study, struct strbuf *out);
+// Of a search: what it took, and what its errors are.
+void tradeoff_search_notes(const struct tradeoff *study, struct strbuf *out);
 void tradeoff_notes(const struct tradeoff *study, struct strbuf *out);
 
 void tradeoff_text(const struct tradeoff *study, const char *scene, struct strbuf *out);

@@ -189,7 +189,7 @@ static void escaped(struct strbuf *out, void (*write)(const struct tradeoff *, s
 }
 
 static void head(const struct tradeoff *t, const char *scene, struct strbuf *out) {
-    const struct setting *base = &t->rows[0].setting;
+    const struct setting *base = &t->base;
     strbuf_cstr(out,
                 "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
                 "content=\"width=device-width\">\n<title>glint tradeoff: ");

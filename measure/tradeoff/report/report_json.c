@@ -106,13 +106,13 @@ static void put_choice(const struct tradeoff *t, const char *key, double bound, 
         return;
     }
     strbuf_init(&text);
-    setting_options(&t->rows[choice->row].setting, &t->rows[0].setting, &text);
+    setting_options(&t->rows[choice->row].setting, &t->base, &text);
     json_write_text(json, "options", strbuf_view(&text));
     strbuf_clear(&text);
-    setting_yaml(&t->rows[choice->row].setting, &t->rows[0].setting, &text);
+    setting_yaml(&t->rows[choice->row].setting, &t->base, &text);
     json_write_text(json, "yaml", strbuf_view(&text));
     strbuf_clear(&text);
-    setting_xml(&t->rows[choice->row].setting, &t->rows[0].setting, &text);
+    setting_xml(&t->rows[choice->row].setting, &t->base, &text);
     json_write_text(json, "xml", strbuf_view(&text));
     json->out->failed |= text.failed;
     strbuf_finish(&text);
@@ -127,6 +127,8 @@ void tradeoff_json(const struct tradeoff *t, const char *scene, struct strbuf *o
     json_write_text(&json, "device", str_from(t->device));
     json_write_text(&json, "metric", str_from(metric_infos[t->options.metric].name));
     json_write_real(&json, "seconds", t->seconds);
+    if (t->options.budget_s > 0)
+        json_write_real(&json, "budget_s", t->options.budget_s);
     json_write_integer(&json, "rounds", t->rounds);
     json_write_integer(&json, "truth_samples", t->ground_truth_samples);
     json_write_integer(&json, "truth_segments", t->ground_truth_segments);

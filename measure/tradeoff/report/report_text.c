@@ -8,7 +8,7 @@
 // ---- the choices
 
 static void paste(const struct tradeoff *t, uint32_t index, struct strbuf *out) {
-    const struct setting *base = &t->rows[0].setting, *chosen = &t->rows[index].setting;
+    const struct setting *base = &t->base, *chosen = &t->rows[index].setting;
     struct strbuf text;
     strbuf_init(&text);
     setting_options(chosen, base, &text);
@@ -88,6 +88,15 @@ void tradeoff_answers(const struct tradeoff *t, struct strbuf *out) {
     strbuf_finish(&question);
 }
 
+void tradeoff_search_notes(const struct tradeoff *t, struct strbuf *out) {
+    strbuf_format(out, "%u settings tried on %s, compared with up to %u samples of their own", t->count,
+                  t->device, t->ground_truth_samples);
+    if (t->is_recalled)
+        strbuf_cstr(out, "; found by an earlier call, and kept\n");
+    else
+        strbuf_format(out, "; %.1f s%s\n", t->seconds, t->cut_short ? ", where the time for it ended" : "");
+}
+
 // ---- the table
 
 static void number(struct strbuf *out, int width, double value) {
@@ -158,7 +167,7 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
     if (t->options.budget_s > 0)
         strbuf_format(out, "; the budget was %.6g s", t->options.budget_s);
     strbuf_char(out, '\n');
-    if (t->ground_truth_samples <= t->rows[0].setting.samples)
+    if (t->ground_truth_samples <= t->base.samples)
         strbuf_cstr(out, "the budget allowed the reference no more samples than the file: what more samples "
                          "would improve is not measured\n");
     if (t->ground_truth_cut)
@@ -175,6 +184,8 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
                          "not over the whole picture\n");
     if (t->hits_out)
         strbuf_cstr(out, "first hits were left out for lack of time\n");
+    if (t->rounds == 0)
+        strbuf_cstr(out, "no time was left to time the settings in rounds: each time is that of one frame\n");
     if (t->rows_left_out)
         strbuf_format(out, "%u settings were left out for lack of time\n", t->rows_left_out);
     if (t->pairs_left_out)
@@ -190,7 +201,7 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
 }
 
 void tradeoff_text(const struct tradeoff *t, const char *scene, struct strbuf *out) {
-    const struct setting *base = &t->rows[0].setting;
+    const struct setting *base = &t->base;
     strbuf_format(out, "%s, %u x %u, on %s\n", scene, base->width, base->height, t->device);
     tradeoff_notes(t, out);
     strbuf_format(out,

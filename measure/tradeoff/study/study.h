@@ -21,6 +21,9 @@ enum {
     TRADEOFF_COST_MOST = 64, // settings that cost more than this many times the file's own are left out
 };
 
+// What a whole study may take where nothing else is asked for, in seconds.
+#define TRADEOFF_BUDGET_S 60
+
 enum knob {
     KNOB_MAX_DEPTH,
     KNOB_MIN_WEIGHT,
@@ -78,9 +81,11 @@ struct tradeoff_options {
     enum metric metric;    // of front, knee and choices
     double max_error;      // NaN: not asked. In the metric's own sense: at least, where higher is better
     double max_time_ms;    // NaN: not asked
-    double budget_s;       // wall time; 0: none
+    double budget_s;       // wall time; 0: as long as it takes
     bool thumbnails;       // for a report with pictures
-    bool quick;            // for choosing alone: no alternatives, no hits, no parts
+    double end;            // clock: when it must be over; 0: when it may
+    bool search;           // for choosing alone, by few rows: no alternatives, hits, parts or rounds
+    bool allow_resolution; // of a search: smaller pictures, to be scaled up, may be chosen
     double threshold, ppd; // of the metrics
 };
 
@@ -112,7 +117,8 @@ struct tradeoff_progress {
 
 struct tradeoff {
     struct tradeoff_options options;
-    struct row *rows; // [0]: the file's own settings
+    struct setting base; // the file's own
+    struct row *rows;    // of a whole study [0] is the file's own setting
     uint32_t count, capacity;
     uint32_t ground_truth_samples;
     uint64_t ground_truth_segments;  // rays that a sample of the ground truth might take
@@ -127,6 +133,7 @@ struct tradeoff {
     uint32_t pairs_left_out; // less promising ones, and those for which the budget was too small
     uint32_t too_costly;     // settings that would have cost far more than the file's
     bool cut_short;          // by the budget
+    bool is_recalled;        // measured by an earlier call
     uint32_t part_pixels;    // at which the parts were measured
     double seconds, reference_seconds;
     char device[256];

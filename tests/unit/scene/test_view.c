@@ -294,6 +294,27 @@ static void samples_follow_the_sequence(void **state) {
     }
 }
 
+static double distance_of(uint32_t apart) {
+    double a, b;
+    view_sample_offset(apart, &a, &b);
+    a = fabs(a - 0.5);
+    b = fabs(b - 0.5);
+    return hypot(fmin(a, 1 - a), fmin(b, 1 - b));
+}
+
+// Of n samples from 0 on, and 4 n others, none lie closer together than half of what the 4 n do.
+static void other_samples_are_apart(void **state) {
+    (void)state;
+    for (uint32_t n = 4; n <= 256; n *= 2) {
+        double own = 1, others = 1;
+        for (uint32_t i = 1; i < 4 * n; i++)
+            own = fmin(own, distance_of(i));
+        for (uint32_t i = 0; i < 5 * n; i++)
+            others = fmin(others, distance_of(VIEW_OTHER_SAMPLES - n + i));
+        assert_true(others > 0.5 * own);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_view_is_exact),
@@ -309,6 +330,7 @@ int main(void) {
         cmocka_unit_test(lights_are_as_written),
         cmocka_unit_test(hex_colours_are_displayed_ones),
         cmocka_unit_test(samples_follow_the_sequence),
+        cmocka_unit_test(other_samples_are_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,58 @@
+// A search: few rows, each chosen by those before it, until one is found that keeps what is asked.
+#include "core/clock.h"
+#include "measure/tradeoff/plan/plan_search.h"
+#include "measure/tradeoff/tradeoff_parts.h"
+
+#include <math.h>
+
+enum {
+    STEPS_EXPECTED = 20, // of a search; more make the last ones look short
+};
+
+static struct plan_search_input plan_input_of(const struct measuring *s) {
+    const struct tradeoff_options *options = &s->out->options;
+    return (struct plan_search_input){.base = s->base,
+                                      .metric = options->metric,
+                                      .error_most = metric_error(options->metric, options->max_error),
+                                      .time_most_ms = options->max_time_ms,
+                                      .deepest = s->search.deepest,
+                                      .bounces = tradeoff_bounces(s),
+                                      .cut = s->search.is_cut,
+                                      .floor = s->search.floor,
+                                      .allow_resolution = options->allow_resolution};
+}
+
+// Rows until the search is over, or the time for it.
+static enum tradeoff_status run_rows(struct measuring *s) {
+    struct plan_search_input input = plan_input_of(s);
+    struct row next;
+    while (plan_search_next(&input, s->out->rows, s->out->count, &next)) {
+        struct row *row = tradeoff_add_row(s->out, &next);
+        if (!row)
+            return TRADEOFF_MEMORY;
+        const enum tradeoff_status status = search_row(s, row);
+        input.floor = s->search.floor;
+        if (status != TRADEOFF_DONE) {
+            tradeoff_drop_row(s->out);
+            return status;
+        }
+    }
+    return TRADEOFF_DONE;
+}
+
+enum tradeoff_status tradeoff_search_rows(struct measuring *s) {
+    s->steps = STEPS_EXPECTED;
+    enum tradeoff_status status = device_open(s);
+    if (status == TRADEOFF_DONE && !measuring_step(s, "how far rays go"))
+        status = TRADEOFF_CANCELLED;
+    if (status == TRADEOFF_DONE)
+        status = search_begin(s);
+    if (status == TRADEOFF_DONE)
+        status = run_rows(s);
+    if (status == TRADEOFF_CANCELLED && s->late) {
+        s->out->cut_short = true;
+        status = TRADEOFF_DONE;
+    }
+    return status == TRADEOFF_DONE && !plan_order_times(s->out->rows, s->out->count) ? TRADEOFF_MEMORY
+                                                                                     : status;
+}

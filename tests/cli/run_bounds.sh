@@ -1,0 +1,53 @@
+#!/bin/sh
+# glint render --max-error keeps its bound: what it renders is compared with the reference at many samples.
+# Usage: run_bounds.sh GLINT SOURCE_FOLDER WORK_FOLDER [whole]
+#   else: two small scenes against 64 samples. whole: 20 scenes, three bounds each, against 256 samples; some minutes.
+. "$(dirname -- "$0")/lib.sh"
+export XDG_CACHE_HOME="$work/cache"
+bounds='flip=0.1 flip=0.03 mae=0.004'
+if [ "${4:-}" = whole ]; then
+    size=96x72 samples=256
+    scenes='showcase tinyraytracer elements/background_color elements/background_image elements/camera elements/checker
+        elements/image elements/include elements/lights elements/material_map elements/materials elements/models
+        elements/rectangles elements/refraction elements/shadows elements/smooth elements/spheres elements/sunlight
+        elements/trace elements/word'
+else
+    size=48x32 samples=64
+    scenes='elements/spheres elements/trace'
+fi
+
+# bound SCENE BOUND: renders, compares, and prints a line; kept, or said that nothing fits.
+bound() {
+    metric=${2%%=*} most=${2#*=}
+    rm -f bound.pfm
+    "$glint" render "$1" -q --size "$size" --max-error "$2" -o bound.pfm 2>bound.err
+    status=$?
+    if [ $status = 1 ] && grep -q E807 bound.err && [ ! -e bound.pfm ]; then
+        echo "$shown $2: nothing fits"
+        return 0
+    fi
+    "$glint" compare bound.pfm truth.pfm --space displayed "--max-$metric" "$most" >compared.txt
+    kept=$?
+    echo "$shown $2: $(awk -v metric="$metric" '$1 == metric { print $2 }' compared.txt)"
+    [ $status = 0 ] && [ $kept = 0 ] && echo "$shown $2" >>kept.txt
+}
+
+if ! "$glint" render "$source/scenes/elements/minimal.glint.yaml" --size 8x8 -o probe.png -q 2>/dev/null; then
+    echo "skip: no Vulkan device"
+    exit $failed
+fi
+: >kept.txt
+count=0
+for shown in $scenes; do
+    scene="$source/scenes/$shown.glint.yaml"
+    "$glint" render "$scene" -q --size "$size" --device reference --samples "$samples" -o truth.pfm
+    for b in $bounds; do
+        count=$((count + 1))
+        expect "$shown keeps $b" 0 "" "" bound "$scene" "$b"
+        sed 's/^/     /' out.txt
+    done
+done
+echo "$(wc -l <kept.txt) of $count bounds were kept by a picture; the others were said not to be"
+# Most are, or the search would be of no use.
+expect "most bounds are kept by a picture" 0 "" "" test "$(($(wc -l <kept.txt) * 4))" -ge $((count * 3))
+exit $failed

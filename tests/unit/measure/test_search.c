@@ -1,0 +1,225 @@
+// Searches over settings whose errors and times a formula gives: what is tried, what it costs, what is found.
+#include "measure/tradeoff/choose/choose.h"
+#include "measure/tradeoff/plan/plan_search.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// A scene: what its pictures err by, and what a sample takes.
+struct world {
+    double noise;     // error of one sample
+    double depth;     // error of paths of no bounce; halved by each further one
+    double weight;    // error for each 1 of min_weight
+    double darkness;  // error without shadows
+    uint32_t deepest; // deeper paths are not longer
+};
+
+static double error_of(const struct world *w, const struct setting *s) {
+    const double depth = s->max_depth < w->deepest ? w->depth * pow(0.5, s->max_depth) : 0;
+    return w->noise / sqrt(s->samples) + depth + w->weight * s->min_weight + (s->shadows ? 0 : w->darkness) +
+           (s->width < 64 ? 0.05 : 0);
+}
+
+static double time_of(const struct world *w, const struct setting *s) {
+    const uint32_t depth = s->max_depth < w->deepest ? s->max_depth : w->deepest;
+    return s->samples * (1.0 + depth) * (s->is_double ? 2 : 1) * (s->shadows ? 1.5 : 1);
+}
+
+static struct plan_search_input input_of(const struct world *w) {
+    const struct setting base = {.width = 64,
+                                 .height = 48,
+                                 .samples = 4,
+                                 .max_depth = 8,
+                                 .min_weight = 0.001,
+                                 .is_double = true,
+                                 .shadows = true};
+    return (struct plan_search_input){.base = base,
+                                      .metric = METRIC_MAE,
+                                      .error_most = (double)NAN,
+                                      .time_most_ms = (double)NAN,
+                                      .deepest = w->deepest < 8 ? w->deepest : 8,
+                                      .bounces = true};
+}
+
+struct found {
+    struct row rows[SEARCH_ROWS_MAX];
+    uint32_t count;
+    double renders; // samples that were traced for rows, in frames of the file
+};
+
+static void run(const struct world *w, const struct plan_search_input *input, struct found *f) {
+    struct row next;
+    memset(f, 0, sizeof *f);
+    while (plan_search_next(input, f->rows, f->count, &next)) {
+        assert_true(f->count < SEARCH_ROWS_MAX);
+        for (uint32_t i = 0; i < f->count; i++)
+            assert_string_not_equal(f->rows[i].name, next.name);
+        for (int i = 0; i < METRIC_COUNT; i++)
+            next.value[i] = (double)NAN;
+        next.value[METRIC_MAE] = error_of(w, &next.setting);
+        next.time_ms = time_of(w, &next.setting);
+        f->renders += (double)next.setting.samples / input->base.samples;
+        f->rows[f->count++] = next;
+    }
+}
+
+// The fastest row within the bound; NULL: there is none.
+static const struct row *cheapest(const struct found *f, double bound) {
+    const struct row *best = NULL;
+    for (uint32_t i = 0; i < f->count; i++)
+        if (f->rows[i].value[METRIC_MAE] <= bound && (!best || f->rows[i].time_ms < best->time_ms))
+            best = &f->rows[i];
+    return best;
+}
+
+static const struct row *best_within(const struct found *f, double limit) {
+    const struct row *best = NULL;
+    for (uint32_t i = 0; i < f->count; i++)
+        if (f->rows[i].time_ms <= limit && (!best || f->rows[i].value[METRIC_MAE] < best->value[METRIC_MAE]))
+            best = &f->rows[i];
+    return best;
+}
+
+static void a_loose_bound_needs_one_sample(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.02, .depth = 0.04, .weight = 0.1, .darkness = 0.5, .deepest = 8};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.error_most = 0.05;
+    run(&w, &input, &f);
+    const struct row *row = cheapest(&f, 0.05);
+    assert_non_null(row);
+    assert_int_equal(row->setting.samples, 1);
+    assert_true(row->setting.max_depth < 8 && !row->setting.is_double && row->setting.shadows);
+    assert_true(f.renders < 4);
+}
+
+// Samples are doubled until the bound is kept, then a step between is tried.
+static void a_tight_bound_needs_more(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.02, .depth = 0.4, .weight = 1, .darkness = 0.5, .deepest = 8};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.error_most = 0.0085;
+    run(&w, &input, &f);
+    const struct row *row = cheapest(&f, 0.0085);
+    assert_non_null(row);
+    assert_int_equal(row->setting.samples, 8);
+    assert_true(f.renders < 25);
+    for (uint32_t i = 0; i < f.count; i++)
+        assert_true(f.rows[i].setting.width == 64);
+}
+
+// What no number of samples can keep is not tried to its end.
+static void hopeless_bounds_are_given_up(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.02, .depth = 0, .weight = 0, .darkness = 0.5, .deepest = 2};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.error_most = 1e-5;
+    run(&w, &input, &f);
+    assert_null(cheapest(&f, 1e-5));
+    assert_true(f.renders <= 1);
+}
+
+// The file's paths are too short: longer ones are tried, and only then.
+static void longer_paths_where_the_file_cuts(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.004, .depth = 4, .weight = 0, .darkness = 1, .deepest = 14};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.error_most = 0.01;
+    input.cut = true;
+    input.floor = 4 * pow(0.5, 8);
+    run(&w, &input, &f);
+    const struct row *row = cheapest(&f, 0.01);
+    assert_non_null(row);
+    assert_true(row->setting.max_depth > 8);
+    input.floor = 0;
+    run(&w, &input, &f);
+    for (uint32_t i = 0; i < f.count; i++)
+        assert_true(f.rows[i].setting.max_depth <= 8);
+}
+
+static void smaller_pictures_only_where_allowed(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.01, .darkness = 1, .deepest = 1};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.error_most = 0.08;
+    run(&w, &input, &f);
+    assert_int_equal(cheapest(&f, 0.08)->setting.width, 64);
+    input.allow_resolution = true;
+    run(&w, &input, &f);
+    assert_true(f.rows[f.count - 1].setting.width < 64);
+}
+
+static void as_many_samples_as_fit(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.02, .depth = 0.4, .weight = 1, .darkness = 1, .deepest = 8};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.time_most_ms = 200; // a sample takes 27
+    run(&w, &input, &f);
+    const struct row *row = best_within(&f, 200);
+    assert_non_null(row);
+    assert_int_equal(row->setting.samples, 7);
+    assert_int_equal(row->setting.max_depth, 8);
+}
+
+static void shorter_paths_where_one_sample_takes_too_long(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.02, .depth = 0.4, .weight = 1, .darkness = 1, .deepest = 8};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.time_most_ms = 10;
+    run(&w, &input, &f);
+    const struct row *row = best_within(&f, 10);
+    assert_non_null(row);
+    assert_true(row->setting.max_depth < 8 && row->setting.samples == 1);
+}
+
+// Pilots go on while samples want more rays, and end where they cost too much; longer where it still matters.
+static void pilots_end_where_rays_cost_too_much(void **state) {
+    (void)state;
+    struct plan_search_pilot pilots[PLAN_PILOTS_MAX] = {{16, 10, (double)INFINITY, true}};
+    assert_int_equal(plan_search_pilot(pilots, 0, 100, 16384, 0.001), PLAN_PILOT_SEGMENTS);
+    assert_int_equal(plan_search_pilot(pilots, 1, 100, 16384, 0.001), 64);
+    assert_int_equal(plan_search_pilot(pilots, 1, 9, 16384, 0.001), 64);
+    assert_int_equal(plan_search_pilot(pilots, 1, 2, 16384, 0.001), 0);
+    pilots[1] = (struct plan_search_pilot){64, 30, 0.0001, true};
+    assert_int_equal(plan_search_pilot(pilots, 2, 100, 16384, 0.001), 256);
+    assert_int_equal(plan_search_pilot(pilots, 2, 20, 16384, 0.001), 0);
+    pilots[1].cut = false;
+    assert_int_equal(plan_search_pilot(pilots, 2, 100, 16384, 0.001), 0);
+    assert_int_equal(plan_search_pilot(pilots, 1, 100, 40, 0.001), 40);
+}
+
+static void safe_values_are_worse(void **state) {
+    (void)state;
+    assert_true(fabs(plan_search_safe(METRIC_MAE, 0.1, 0.1) - 0.11) < 1e-12);
+    assert_true(fabs(plan_search_safe(METRIC_SSIM, 0.9, 0.1) - 0.89) < 1e-12);
+    assert_true(plan_search_safe(METRIC_PSNR, 40, 0.1) < 40);
+    for (uint32_t n = 1; n < 300; n++)
+        assert_true(plan_search_truth(n) >= 2 * n && plan_search_truth(n) >= 8);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_loose_bound_needs_one_sample),
+        cmocka_unit_test(a_tight_bound_needs_more),
+        cmocka_unit_test(hopeless_bounds_are_given_up),
+        cmocka_unit_test(longer_paths_where_the_file_cuts),
+        cmocka_unit_test(smaller_pictures_only_where_allowed),
+        cmocka_unit_test(as_many_samples_as_fit),
+        cmocka_unit_test(shorter_paths_where_one_sample_takes_too_long),
+        cmocka_unit_test(pilots_end_where_rays_cost_too_much),
+        cmocka_unit_test(safe_values_are_worse),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,81 @@
+// A frame that may end before it has all its samples. Pixels must have equally many, and a sample that is
+// not wanted to its end must leave no trace: sample by sample the sums of all bands are read back, and those
+// of the last whole sample are kept beside those of the one under way.
+#include "core/heap.h"
+#include "tracer/render/render_private.h"
+
+#include <stdlib.h>
+
+struct sums {
+    uint32_t *whole, *next; // of all tiles, 4 words a slot: the last whole sample, and the one under way
+    bool has_bands;         // more than one: the band's buffer serves them in turn
+};
+
+static uint32_t tiles_of_band(const struct renderer *renderer, uint32_t begin) {
+    const uint32_t left = renderer->tiles - begin;
+    return left < renderer->band_tiles ? left : renderer->band_tiles;
+}
+
+static enum render_result draw_band(struct renderer_frame *run, struct sums *sums, uint32_t begin) {
+    struct renderer *renderer = run->renderer;
+    const uint32_t tiles = tiles_of_band(renderer, begin);
+    const uint64_t bytes = (uint64_t)tiles * TILE_PIXELS * sizeof(struct gpu_word);
+    const size_t at = (size_t)4 * TILE_PIXELS * begin;
+    struct gpu_buffer *output = renderer->buffers[BINDING_OUTPUT];
+    if (run->samples_done && sums->has_bands && !gpu_write(renderer->gpu, output, 0, sums->whole + at, bytes))
+        return RENDER_FAILED;
+    const enum render_result result = renderer_draw_sample(run, begin, tiles, run->samples_done);
+    if (result != RENDER_DONE)
+        return result;
+    return gpu_read(renderer->gpu, output, 0, sums->next + at, bytes) ? RENDER_DONE : RENDER_FAILED;
+}
+
+// One sample of all pixels.
+static enum render_result draw_all(struct renderer_frame *run, struct sums *sums) {
+    enum render_result result = RENDER_DONE;
+    for (uint32_t begin = 0; result == RENDER_DONE && begin < run->renderer->tiles;
+         begin += run->renderer->band_tiles)
+        result = draw_band(run, sums, begin);
+    if (result != RENDER_DONE)
+        return result;
+    uint32_t *whole = sums->next;
+    sums->next = sums->whole;
+    sums->whole = whole;
+    run->samples_done++;
+    return RENDER_DONE;
+}
+
+static enum render_result draw_samples(struct renderer_frame *run, struct sums *sums, float *rgb) {
+    const struct renderer *renderer = run->renderer;
+    const struct render_limit *limit = run->limit;
+    enum render_result result = RENDER_DONE;
+    while (result == RENDER_DONE && run->samples_done < renderer->settings.samples) {
+        if (run->samples_done == 1)
+            renderer_unpack(renderer, 0, renderer->tiles, sums->whole, 1, rgb);
+        if (run->samples_done && !limit->goes_on(limit->context, run->samples_done, rgb))
+            break;
+        result = draw_all(run, sums);
+    }
+    return result == RENDER_CANCELLED && run->is_over ? RENDER_DONE : result;
+}
+
+enum render_result renderer_draw_until(struct renderer_frame *run, const struct view_camera *camera,
+                                       float *rgb) {
+    const struct renderer *renderer = run->renderer;
+    run->samples_done = 0;
+    run->is_over = false;
+    if (!renderer_begin_frame(run, camera))
+        return RENDER_FAILED;
+    const size_t words = (size_t)4 * TILE_PIXELS * renderer->tiles;
+    struct sums sums = {heap_alloc(words * sizeof(uint32_t)), heap_alloc(words * sizeof(uint32_t)),
+                        run->statistics->bands > 1};
+    enum render_result result = sums.whole && sums.next ? draw_samples(run, &sums, rgb) : RENDER_FAILED;
+    if (result == RENDER_DONE) {
+        run->statistics->samples = run->samples_done;
+        renderer_unpack(renderer, 0, renderer->tiles, sums.whole, run->samples_done, rgb);
+        renderer_note_faults(renderer, 0, renderer->tiles, sums.whole, run->statistics);
+    }
+    free(sums.whole);
+    free(sums.next);
+    return result;
+}
