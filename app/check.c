@@ -43,13 +43,20 @@ static bool is_library(const struct ir_scene *scene) {
            scene->materials.count + scene->cameras.count + scene->lights.count > 0;
 }
 
-// The notes about what replaces a camera or a light that is not written.
+static bool is_not_about_view(void *context, struct diag *item) {
+    (void)context;
+    return item->code != DIAG_DEFAULT_CAMERA && item->code != DIAG_DEFAULT_LIGHT;
+}
+
+// The notes about what replaces a camera or a light that is not written; a library waits for those of others.
 static void note_view(struct session *session) {
     struct view view;
-    if (session->scene && is_library(session->scene))
+    if (session->state != SESSION_LOADED || session->sink.errors)
         return;
-    if (session->state == SESSION_LOADED && session->sink.errors == 0 && !session_view(session, 0, &view))
+    if (!session_view(session, 0, &view))
         shot_no_memory(session, "the view"); // as rendering says
+    if (is_library(session->scene))
+        diag_filter(&session->sink, is_not_about_view, NULL);
 }
 
 enum session_state check_scene(struct session *session, const struct session_options *options,

@@ -1,7 +1,7 @@
 // glint pack SCENE OUT: a scene and all its files in one folder or archive.
 #include "cli/cli.h"
 
-#include "app/pack.h"
+#include "app/pack/pack.h"
 #include "cli/progress.h"
 
 #include <string.h>

@@ -82,6 +82,14 @@ bool render_wants_audit(const struct cli_options *options) {
     return options->audit || options->has_max_off || options->stats;
 }
 
+static struct audit_wish wish_of(const struct render_job *job) {
+    const struct cli_options *options = &job->cli->options;
+    // With --time it is not decided: that may take any time.
+    return (struct audit_wish){.reference = job->shot.reference,
+                               .share = options->has_max_off ? options->max_off : AUDIT_SHARE,
+                               .decides = options->has_max_off && options->measure.time_s <= 0};
+}
+
 int render_audit(struct render_job *job) {
     strbuf_clear(&job->note);
     job->image.note = NULL;
@@ -89,10 +97,7 @@ int render_audit(struct render_job *job) {
     if (!job->stats.has_audit)
         return CLI_OK;
     struct audit *audit = &job->stats.audit;
-    const struct cli_options *options = &job->cli->options;
-    const struct audit_wish wish = {.reference = job->shot.reference,
-                                    .share = options->has_max_off ? options->max_off : AUDIT_SHARE,
-                                    .decides = options->has_max_off};
+    const struct audit_wish wish = wish_of(job);
     struct render_progress callback = progress_callback(&job->progress);
     const enum shot_status status =
         audit_take(&job->session, &job->shot.view, &job->image, &wish, &callback, audit);
@@ -153,8 +158,9 @@ static void measure_rest(struct render_job *job) {
         return;
     const uint32_t samples = (uint32_t)job->session.image->samples;
     struct audit audit;
+    const struct audit_wish wish = wish_of(job);
     set_samples(job, 1);
-    if (audit_take(&job->session, &job->shot.view, &job->image, NULL, &audit) == SHOT_OK)
+    if (audit_take(&job->session, &job->shot.view, &job->image, &wish, NULL, &audit) == SHOT_OK)
         job->deadline.after_a_sample = RESERVE * audit.seconds * (audit.off || audit.whole ? 1 : LOOKS);
     set_samples(job, samples);
 }

@@ -35,7 +35,7 @@ function foreign(path, target) {
     if (target ~ /^zlib/) return path ~ /^(shaders|tools|picture\/read)\//
     if (target ~ /^(jpeglib|jerror)\.h/) return path ~ /^(picture\/read|bench)\//
     if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
-    if (target ~ /^minizip/) return path ~ /^app\/pack_zip/
+    if (target ~ /^minizip/) return path ~ /^app\/pack\/pack_zip/
     if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//
     if (target ~ /^cmocka/) return path ~ /^tests\//
     if (target ~ /^pthread/) return path ~ /^(core|tests)\//

@@ -1,5 +1,5 @@
 // A package on the disk: made under a temporary name, loaded again and compared, then named.
-#include "app/pack.h"
+#include "app/pack/pack.h"
 
 #include "core/strbuf.h"
 #include "files/files_walk.h"

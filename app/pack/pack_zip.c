@@ -1,5 +1,5 @@
 // The ZIP form of a package, through minizip.
-#include "app/pack.h"
+#include "app/pack/pack.h"
 
 #include "core/arena.h"
 #include "core/heap.h"

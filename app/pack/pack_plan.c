@@ -1,5 +1,5 @@
 // Which file of a scene goes where in a package, and what its scene files must then contain.
-#include "app/pack.h"
+#include "app/pack/pack.h"
 
 #include "core/strbuf.h"
 #include "grammar/ir_print_text.h"

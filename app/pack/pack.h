@@ -6,8 +6,8 @@
 // Limits that were raised go into settings for --config (limits.yaml). Before it
 // gets its name, the packed scene is loaded and compared: same meaning, same files. Thread safety: the
 // session's thread.
-#ifndef GLINT_APP_PACK_H
-#define GLINT_APP_PACK_H
+#ifndef GLINT_APP_PACK_PACK_H
+#define GLINT_APP_PACK_PACK_H
 
 #include "app/inventory.h"
 #include "app/session.h"
