@@ -48,22 +48,10 @@ void diag_text_plain(struct strbuf *out, str s) {
     }
 }
 
-// Byte offset of the character `count` characters after `at`.
-static size_t skip_characters(str line, size_t at, size_t count) {
-    for (; count > 0 && at < line.len; count--) {
-        size_t size = utf8_sequence_length(line, at);
-        at += size ? size : 1;
-    }
-    return at;
-}
-
 // The source line, cut around the place if it is long, and the caret below it.
 static void excerpt(struct strbuf *out, struct source_place place, struct diag_text_options options) {
     str line = place.line_text;
-    size_t begin = skip_characters(line, 0, place.column - 1);
-    size_t end = line.len;
-    if (place.end_line == place.line)
-        end = skip_characters(line, begin, place.end_column - place.column);
+    size_t begin = place.begin, end = place.end;
     size_t first = begin > LINE_SHOWN_MAX / 2 ? begin - LINE_SHOWN_MAX / 2 : 0;
     for (int i = 0; i < 3 && first > 0 && ((unsigned char)line.ptr[first] & 0xC0) == 0x80; i++)
         first++;

@@ -18,6 +18,20 @@ static bool ends_line(str text, size_t at) {
 
 // Text is made where the arena is not guarded, perhaps because memory has run out: without room for the map,
 // lines are counted again each time.
+// So that a column does not depend on how long its line is.
+static void map_characters(struct source_set *set, struct source *source) {
+    const str text = source->text;
+    source->character_count = 0;
+    source->characters = arena_try_alloc(set->arena, (text.len / SOURCE_STEP + 1) * sizeof(uint32_t));
+    size_t count = 0;
+    for (size_t at = 0; source->characters && at < text.len; count++) {
+        if (count % SOURCE_STEP == 0)
+            source->characters[source->character_count++] = (uint32_t)at;
+        const size_t size = utf8_sequence_length(text, at);
+        at += size ? size : 1;
+    }
+}
+
 static void map_lines(struct source_set *set, struct source *source) {
     size_t count = 1;
     for (size_t i = 0; i < source->text.len; i++)
@@ -27,6 +41,7 @@ static void map_lines(struct source_set *set, struct source *source) {
         return;
     source->line_starts = starts;
     source->line_count = 1;
+    map_characters(set, source);
     for (size_t i = 0; i < source->text.len; i++)
         if (ends_line(source->text, i))
             starts[source->line_count++] = (uint32_t)i + 1;
@@ -82,9 +97,30 @@ static size_t character_begin(str text, size_t offset) {
     return offset;
 }
 
-static uint32_t column_at(str text, size_t begin, size_t offset) {
-    offset = character_begin(text, offset);
-    return (uint32_t)utf8_count(str_slice(text, skip_mark(text, begin), offset)) + 1;
+// Characters before an offset.
+static size_t characters_before(const struct source *source, size_t offset) {
+    uint32_t low = 0, high = source->character_count;
+    if (high == 0)
+        return utf8_count(str_slice(source->text, 0, offset));
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (source->characters[middle] <= offset)
+            low = middle;
+        else
+            high = middle;
+    }
+    return (size_t)low * SOURCE_STEP + utf8_count(str_slice(source->text, source->characters[low], offset));
+}
+
+static uint32_t column_at(const struct source *source, size_t line_begin, size_t offset) {
+    const size_t begin = skip_mark(source->text, line_begin), at = character_begin(source->text, offset);
+    return at <= begin ? 1 : (uint32_t)(characters_before(source, at) - characters_before(source, begin)) + 1;
+}
+
+// Where an offset is in its line's text.
+static uint32_t byte_at(const struct source *source, size_t line_begin, size_t offset) {
+    const size_t begin = skip_mark(source->text, line_begin), at = character_begin(source->text, offset);
+    return at <= begin ? 0 : (uint32_t)(at - begin);
 }
 
 struct source_place source_locate(struct source_set *set, span at) {
@@ -105,13 +141,18 @@ struct source_place source_locate(struct source_set *set, span at) {
     struct line line = find_line(source, begin);
     struct line last = find_line(source, end);
     place.line = line.index + 1;
-    place.column = column_at(text, line.begin, begin);
+    place.column = column_at(source, line.begin, begin);
+    place.begin = byte_at(source, line.begin, begin);
     place.end_line = last.index + 1;
-    place.end_column = column_at(text, last.begin, end);
+    place.end_column = column_at(source, last.begin, end);
     place.line_text = str_slice(text, skip_mark(text, line.begin), line.end);
     while (place.line_text.len && (place.line_text.ptr[place.line_text.len - 1] == '\n' ||
                                    place.line_text.ptr[place.line_text.len - 1] == '\r'))
         place.line_text.len--;
+    const uint32_t length = (uint32_t)place.line_text.len;
+    const uint32_t stop = last.index == line.index ? byte_at(source, line.begin, end) : length;
+    place.begin = place.begin < length ? place.begin : length;
+    place.end = stop < length ? stop : length;
     return place;
 }
 

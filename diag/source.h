@@ -39,6 +39,12 @@ struct source {
     enum source_kind kind;
     uint32_t *line_starts; // byte offsets, built on demand
     uint32_t line_count;
+    uint32_t *characters; // byte offsets of every SOURCE_STEPth character, built with them
+    uint32_t character_count;
+};
+
+enum {
+    SOURCE_STEP = 1024
 };
 
 struct source_set {
@@ -55,6 +61,7 @@ struct source_place {
     uint32_t end_line;
     uint32_t end_column; // the column after the last character
     str line_text;       // without its line end; empty if the source has no text
+    uint32_t begin, end; // the place's part of line_text, in bytes
 };
 
 // Creates the set with source 0, "default".
