@@ -1,21 +1,15 @@
 // Pairs of bodies whose boxes overlap, each once, found through a tree over the boxes: n bodies that lie
 // apart cost n log n, however they are arranged.
 //
-// Input: boxes, which are put into another order. Where nearly all overlap nearly all, the pairs are cut off
-// at some number for each body, so that the work stays in proportion to the scene. Ownership: the arena's,
-// which must be guarded. Thread safety: one call belongs to one thread.
+// Input: boxes of bodies of one array, which are put into another order. Where nearly all overlap nearly all,
+// the pairs are cut off at some number for each body, so that the work stays in proportion to the scene.
+// Ownership: the arena's, which must be guarded. Thread safety: one call belongs to one thread.
 #ifndef GLINT_LINT_BODY_PAIRS_H
 #define GLINT_LINT_BODY_PAIRS_H
 
-#include "core/arena.h"
-#include "lint/shape.h"
+#include "lint/box_tree.h"
 
 struct lint_body;
-
-struct lint_box_item {
-    struct lint_box box;
-    const struct lint_body *body;
-};
 
 // false: no more pairs are wanted.
 typedef bool lint_take_pair(void *context, const struct lint_body *a, const struct lint_body *b);

@@ -1,4 +1,5 @@
 // Cameras and lights inside bodies, lights on surfaces.
+#include "lint/box_tree.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
@@ -92,6 +93,11 @@ static bool is_on(struct lint *lint, const struct lint_body *body, vec3 point, d
     return nearest.distance <= near;
 }
 
+// The largest of its coordinates.
+static double body_size(const struct lint_body *body) {
+    return fmax(vec3_max_abs(body->box.lower), vec3_max_abs(body->box.upper));
+}
+
 static bool any_camera_inside(struct lint *lint, const struct lint_body *body) {
     for (uint32_t i = 0; i < lint->view_count; i++)
         if (lint_is_inside(lint, body, lint->views[i].camera.position))
@@ -99,47 +105,98 @@ static bool any_camera_inside(struct lint *lint, const struct lint_body *body) {
     return false;
 }
 
-// true: reported.
-static bool check_light(struct lint *lint, const struct ir_light *light, const struct lint_body *body) {
+// What is wrong with a light: the first body that it is inside or on.
+struct light_finding {
+    const struct lint_body *body; // NULL: nothing
+    bool is_on;
+    uint32_t triangle; // that it is on, of a mesh
+};
+
+static struct light_finding judge_light(struct lint *lint, const struct ir_light *light,
+                                        const struct lint_body *body) {
     // A few units of the last place that single precision keeps of the light's and the body's coordinates.
-    double size = fmax(vec3_max_abs(body->box.lower), vec3_max_abs(body->box.upper));
-    double near = LINT_RESOLUTION * fmax(size, vec3_max_abs(light->position));
+    double near = LINT_RESOLUTION * fmax(body_size(body), vec3_max_abs(light->position));
     struct lint_box reach = lint_box_grow(body->box, near);
+    struct light_finding found = {.body = NULL};
     if (!lint_box_holds(&reach, light->position))
-        return false;
+        return found;
+    found.is_on = is_on(lint, body, light->position, near, &found.triangle);
+    if (found.is_on || (lint_is_inside(lint, body, light->position) && !any_camera_inside(lint, body)))
+        found.body = body;
+    return found;
+}
+
+static void report_light(struct lint *lint, const struct ir_light *light, const struct light_finding *found) {
+    const struct lint_body *body = found->body;
     span at = ir_place_value(lint->origin, &light->head, &SCHEMA_LIGHT, "position");
-    uint32_t triangle = 0;
-    if (is_on(lint, body, light->position, near, &triangle)) {
+    if (!found->is_on) {
         diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
-                 "this light is on the surface of %.*s: rounding decides which side it shines on",
+                 "this light is inside %.*s, which blocks its light from everything outside",
                  STR_ARG(lint_words_other(lint, body)));
-        if (body->mesh)
-            lint_note_mesh(lint, body->mesh, body->mesh->mesh->triangles[triangle].line, "on this face");
-        else
-            diag_note(lint->sink, lint_place(lint, body), "this body");
-        diag_help(lint->sink, "move the light off the surface");
-        return true;
+        diag_note(lint->sink, lint_place(lint, body), "all bodies, even glass, cast full shadows");
+        diag_help(lint->sink, "move the light out, or set trace.shadows to false");
+        return;
     }
-    if (!lint_is_inside(lint, body, light->position) || any_camera_inside(lint, body))
-        return false;
     diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
-             "this light is inside %.*s, which blocks its light from everything outside",
+             "this light is on the surface of %.*s: rounding decides which side it shines on",
              STR_ARG(lint_words_other(lint, body)));
-    diag_note(lint->sink, lint_place(lint, body), "all bodies, even glass, cast full shadows");
-    diag_help(lint->sink, "move the light out, or set trace.shadows to false");
+    if (body->mesh)
+        lint_note_mesh(lint, body->mesh, body->mesh->mesh->triangles[found->triangle].line, "on this face");
+    else
+        diag_note(lint->sink, lint_place(lint, body), "this body");
+    diag_help(lint->sink, "move the light off the surface");
+}
+
+struct light_search {
+    struct lint *lint;
+    const struct lint_body *body;
+    struct light_finding *found; // for each light
+    uint64_t work;
+};
+
+static bool take_light(void *context, const void *of) {
+    struct light_search *s = context;
+    const struct ir_light *light = of;
+    struct light_finding *found = &s->found[light - s->lint->ir->lights.items];
+    s->work++;
+    if (!found->body)
+        *found = judge_light(s->lint, light, s->body);
     return true;
 }
 
-void lint_light_inside(struct lint *lint) {
-    if (!lint->ir->trace.shadows)
-        return;
-    uint64_t work = 0;
-    for (uint32_t i = 0; i < lint->ir->lights.count && work < WORK_MAX; i++, work += lint->body_count) {
+static uint32_t collect_lights(const struct lint *lint, struct lint_box_item *items) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->ir->lights.count; i++) {
         const struct ir_light *light = &lint->ir->lights.items[i];
         if (light->kind != IR_LIGHT_POSITION)
             continue;
-        for (uint32_t k = 0; k < lint->body_count; k++)
-            if (check_light(lint, light, &lint->bodies[k]))
-                break;
+        // Twice what judge_light allows for the light's size: a body that has a light within its reach must
+        // find it here, however the sums round.
+        double near = 2 * LINT_RESOLUTION * vec3_max_abs(light->position);
+        struct lint_box point = {light->position, light->position};
+        items[count++] = (struct lint_box_item){lint_box_grow(point, near), light};
     }
+    return count;
+}
+
+// The tree is over the lights, which are mostly few; bodies come in their order, so that the first one that a
+// light is found in is the first of the scene.
+void lint_light_inside(struct lint *lint) {
+    uint32_t light_count = lint->ir->lights.count;
+    if (!lint->ir->trace.shadows || light_count == 0)
+        return;
+    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, light_count);
+    struct light_search s = {.lint = lint};
+    s.found = ARENA_ARRAY(lint->arena, struct light_finding, light_count);
+    struct lint_box_tree tree;
+    lint_box_tree_build(&tree, lint->arena, items, collect_lights(lint, items));
+    for (uint32_t k = 0; k < lint->body_count && s.work < WORK_MAX; k++) {
+        s.body = &lint->bodies[k];
+        struct lint_box reach = lint_box_grow(s.body->box, LINT_RESOLUTION * body_size(s.body));
+        if (lint_is_there(s.body))
+            s.work += lint_box_tree_in_box(&tree, &reach, 0, take_light, &s);
+    }
+    for (uint32_t i = 0; i < light_count; i++)
+        if (s.found[i].body)
+            report_light(lint, &lint->ir->lights.items[i], &s.found[i]);
 }
