@@ -20,8 +20,8 @@
 enum {
     ARGUMENTS_MAX = 8,
     SECONDS_MAX = 60, // of processor time of one run: what takes longer has failed
-    TIMES = 4,       // as many of the construct
-    RATIO = 5,       // as many steps, at most
+    TIMES = 4,        // as many of the construct
+    RATIO = 5,        // as many steps, at most
 };
 
 // SCENE stands for the construct's scene.
