@@ -378,18 +378,29 @@ static bool explain_concept(struct explainer *e, str what) {
     return concept != NULL;
 }
 
-// A word of other programs, if it has only one meaning.
-static bool explain_other_word(struct explainer *e, str what) {
-    const struct schema_element *only = NULL;
+// What other programs call `what`: explained where it is one attribute, else they are listed.
+static bool explain_other_word(struct explainer *e, str what, bool *known) {
+    const struct schema_element *last = NULL;
+    unsigned count = 0;
+    for (const struct schema_element *const *s = schema_elements; *s; s++)
+        if (schema_find_also(*s, what) >= 0) {
+            last = *s;
+            count++;
+        }
+    if (count == 1)
+        explain_attribute(e, last, (uint32_t)schema_find_also(last, what));
+    *known = count > 1;
+    if (!*known)
+        return count == 1;
+    strbuf_format(e->out, "several attributes are like '%.*s'; say which: ", STR_ARG(what));
     for (const struct schema_element *const *s = schema_elements; *s; s++) {
-        bool has = schema_find_also(*s, what) >= 0;
-        if (has && only)
-            return false;
-        only = has ? *s : only;
+        const int row = schema_find_also(*s, what);
+        if (row >= 0) {
+            strbuf_format(e->out, "'%s.%s'", (*s)->name, (*s)->rows[row].name);
+            strbuf_cstr(e->out, --count > 1 ? ", " : count == 1 ? " or " : "\n");
+        }
     }
-    if (only)
-        explain_attribute(e, only, (uint32_t)schema_find_also(only, what));
-    return only != NULL;
+    return false;
 }
 
 // An attribute without its element: explained where only one has it, else the elements are listed.
@@ -400,7 +411,7 @@ static bool explain_alone(struct explainer *e, str what, bool *known) {
     if (only)
         explain_attribute(e, only, (uint32_t)row);
     if (only || row < 0)
-        return only || explain_other_word(e, what);
+        return only || explain_concept(e, what) || explain_other_word(e, what, known);
     strbuf_format(e->out, "several elements have '%.*s'; say which: ", STR_ARG(what));
     unsigned left = 0;
     for (const struct schema_element *const *s = schema_elements; *s; s++)
@@ -461,8 +472,6 @@ bool explain(str what, bool color, struct strbuf *out) {
     }
     bool known = false;
     if (explain_path(&e, what) || explain_alone(&e, what, &known))
-        return true;
-    if (!known && explain_concept(&e, what))
         return true;
     if (known)
         return false;
