@@ -149,15 +149,6 @@ bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, si
     return true;
 }
 
-void asset_report_each(struct asset_file *file, enum diag_code code, size_t begin, size_t end,
-                       const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    span at = {source_of(file), (uint32_t)begin, (uint32_t)end};
-    report(file, code, at, line_if_not_kept(file, begin), format, args);
-    va_end(args);
-}
-
 bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...) {
     if (asset_only_counts(file, code))
         return false;

@@ -37,9 +37,6 @@ bool asset_read(struct asset_file *file, struct arena *arena);
 // only counted, and neither help nor notes must be added.
 bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, size_t end, const char *format,
                   ...) __attribute__((format(printf, 5, 6)));
-// The same, never grouped: for what the caller has counted.
-void asset_report_each(struct asset_file *file, enum diag_code code, size_t begin, size_t end,
-                       const char *format, ...) __attribute__((format(printf, 5, 6)));
 // The same for a whole line (from 1; 0 means the whole file).
 bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

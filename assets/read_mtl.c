@@ -115,8 +115,9 @@ static void report_dropped(struct mtl_reader *r) {
         char lines[32] = "";
         if (kind->count > 1)
             snprintf(lines, sizeof lines, " (%u lines)", kind->count);
-        asset_report_each(r->file, DIAG_MTL_DROPPED, at, at + kind->word.len, "'%.*s'%s no effect%s: %s",
-                          shown, kind->word.ptr, has, lines, kind->why);
+        if (!asset_report(r->file, DIAG_MTL_DROPPED, at, at + kind->word.len, "'%.*s'%s no effect%s: %s",
+                          shown, kind->word.ptr, has, lines, kind->why))
+            continue;
         diag_help(r->file->input->sink, kind->is_map
                                             ? "write the image's main colour as Kd, or give the model a "
                                               "'material'"

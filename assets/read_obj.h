@@ -2,9 +2,8 @@
 //
 // Read: v (three numbers), vn, f (v, v/vt, v//vn, v/vt/vn; negative indices; vertices that follow later),
 // usemtl, mtllib. Ignored: vt, vp, o, g, s and the like. Counted as losses: colours of vertices, images of
-// faces; points, lines, curves and surfaces. Every fault is reported, at its place; repeated ones are
-// grouped. Ownership: everything is in the scratch arena and points into the text. Thread safety: one call
-// belongs to one thread.
+// faces; points, lines, curves and surfaces. Every fault is reported, at its place. Ownership:
+// everything is in the scratch arena and points into the text. Thread safety: one call belongs to one thread.
 #ifndef GLINT_ASSETS_READ_OBJ_H
 #define GLINT_ASSETS_READ_OBJ_H
 

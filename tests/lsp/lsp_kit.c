@@ -17,6 +17,11 @@ static void give_up(const char *why) {
     abort();
 }
 
+const char *client_text(const json_t *object, const char *key) {
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : "";
+}
+
 void client_start(struct lsp_client *client, const char *program) {
     int to[2];
     int from[2];

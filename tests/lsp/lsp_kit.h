@@ -22,6 +22,8 @@ void client_start(struct lsp_client *client, const char *program);
 int client_stop(struct lsp_client *client);
 // For a server that has ended: what client_stop does behind that.
 void client_free(struct lsp_client *client);
+// The string of a key; empty where there is none. It belongs to the object.
+const char *client_text(const json_t *object, const char *key);
 void client_initialize(struct lsp_client *client, json_t *capabilities);
 // Sends a request and waits for its answer; gives `result` (new reference), or the error object where
 // `error` is not NULL and the server refused.

@@ -41,11 +41,6 @@ static int stop(void **state) {
     return status;
 }
 
-static const char *text_of(const json_t *object, const char *key) {
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
 static void expect_range(const json_t *range, int line, int begin, int end) {
     const json_t *from = json_object_get(range, "start");
     const json_t *to = json_object_get(range, "end");
@@ -59,7 +54,7 @@ static json_t *find_code(json_t *list, const char *code) {
     size_t index;
     json_t *item;
     json_array_foreach(list, index, item) {
-        if (strcmp(text_of(item, "code"), code) == 0)
+        if (strcmp(client_text(item, "code"), code) == 0)
             return item;
     }
     return NULL;
@@ -103,8 +98,8 @@ static void tells_mistakes_while_one_types(void **state) {
     json_t *list = client_diagnostics(client, "main.yaml", 2);
     json_t *unknown = with_code(list, "E301");
     expect_range(json_object_get(unknown, "range"), 3, 45, 49);
-    assert_string_equal(text_of(unknown, "source"), "glint");
-    assert_non_null(strstr(text_of(unknown, "message"), "did you mean 'glass'?"));
+    assert_string_equal(client_text(unknown, "source"), "glint");
+    assert_non_null(strstr(client_text(unknown, "message"), "did you mean 'glass'?"));
     change(client, "main.yaml", 3, MAIN);
     assert_int_equal(errors(client_diagnostics(client, "main.yaml", 3)), 0);
 }
@@ -157,14 +152,14 @@ static void finds_definitions_over_includes(void **state) {
     client_open(client, "main.yaml", MAIN);
     json_t *location =
         client_request(client, "textDocument/definition", client_at(client, "main.yaml", 5, 46), NULL);
-    assert_string_equal(text_of(location, "uri"), client_uri(client, "materials.xml"));
+    assert_string_equal(client_text(location, "uri"), client_uri(client, "materials.xml"));
     expect_range(json_object_get(location, "range"), 2, 18, 23);
     json_decref(location);
     location = client_request(client, "textDocument/definition", client_at(client, "main.yaml", 1, 12), NULL);
-    assert_string_equal(text_of(location, "uri"), client_uri(client, "materials.xml"));
+    assert_string_equal(client_text(location, "uri"), client_uri(client, "materials.xml"));
     json_decref(location);
     location = client_request(client, "textDocument/definition", client_at(client, "main.yaml", 3, 12), NULL);
-    assert_string_equal(text_of(location, "uri"), client_uri(client, "tri.obj"));
+    assert_string_equal(client_text(location, "uri"), client_uri(client, "tri.obj"));
     json_decref(location);
     location = client_request(client, "textDocument/definition", client_at(client, "main.yaml", 0, 2), NULL);
     assert_true(json_is_null(location));
@@ -230,10 +225,10 @@ static void offers_fixes(void **state) {
     json_object_set_new(params, "context", json_pack("{s:[]}", "diagnostics"));
     json_t *actions = client_request(client, "textDocument/codeAction", params, NULL);
     json_t *action = json_array_get(actions, 0);
-    assert_string_equal(text_of(action, "kind"), "quickfix");
+    assert_string_equal(client_text(action, "kind"), "quickfix");
     const json_t *edits = json_object_get(json_object_get(json_object_get(action, "edit"), "changes"),
                                           client_uri(client, "main.yaml"));
-    assert_string_equal(text_of(json_array_get(edits, 0), "newText"), "center");
+    assert_string_equal(client_text(json_array_get(edits, 0), "newText"), "center");
     expect_range(json_object_get(json_array_get(edits, 0), "range"), 2, 5, 11);
     json_decref(actions);
 }
@@ -242,7 +237,7 @@ static bool offers(const json_t *list, const char *label) {
     size_t index;
     json_t *item;
     json_array_foreach(json_object_get(list, "items"), index, item) {
-        if (strcmp(text_of(item, "label"), label) == 0)
+        if (strcmp(client_text(item, "label"), label) == 0)
             return true;
     }
     return false;
@@ -276,10 +271,11 @@ static void explains_outlines_and_links(void **state) {
     client_initialize(client, NULL);
     client_open(client, "main.yaml", MAIN);
     json_t *hover = client_request(client, "textDocument/hover", client_at(client, "main.yaml", 5, 25), NULL);
-    assert_non_null(strstr(text_of(json_object_get(hover, "contents"), "value"), "radius"));
+    assert_non_null(strstr(client_text(json_object_get(hover, "contents"), "value"), "radius"));
     json_decref(hover);
     hover = client_request(client, "textDocument/hover", client_at(client, "main.yaml", 5, 46), NULL);
-    assert_non_null(strstr(text_of(json_object_get(hover, "contents"), "value"), "refractive_index=\"1.5\""));
+    assert_non_null(
+        strstr(client_text(json_object_get(hover, "contents"), "value"), "refractive_index=\"1.5\""));
     json_decref(hover);
     json_t *params = json_pack("{s:{s:s}}", "textDocument", "uri", client_uri(client, "main.yaml"));
     json_t *symbols = client_request(client, "textDocument/documentSymbol", json_incref(params), NULL);
@@ -310,7 +306,7 @@ static void formats(void **state) {
                                client_uri(client, "main.yaml"), "options", "tabSize", 2, "insertSpaces", 1);
     json_t *edits = client_request(client, "textDocument/formatting", params, NULL);
     assert_int_equal(json_array_size(edits), 1);
-    const char *text = text_of(json_array_get(edits, 0), "newText");
+    const char *text = client_text(json_array_get(edits, 0), "newText");
     assert_non_null(strstr(text, "glint: 1\n"));
     assert_non_null(strstr(text, "# kept\n"));
     json_decref(edits);

@@ -33,11 +33,6 @@ static int stop(void **state) {
     return status;
 }
 
-static const char *text_of(const json_t *object, const char *key) {
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
 static void change(struct lsp_client *client, const char *name, int version, const char *text) {
     client_notify(client, "textDocument/didChange",
                   json_pack("{s:{s:s, s:i}, s:[{s:s}]}", "textDocument", "uri", client_uri(client, name),
@@ -55,8 +50,8 @@ static const char *text_offered(const json_t *list, const char *label) {
     size_t index;
     json_t *item;
     json_array_foreach(json_object_get(list, "items"), index, item) {
-        if (strcmp(text_of(item, "label"), label) == 0)
-            return text_of(json_object_get(item, "textEdit"), "newText");
+        if (strcmp(client_text(item, "label"), label) == 0)
+            return client_text(json_object_get(item, "textEdit"), "newText");
     }
     return NULL;
 }
@@ -148,10 +143,10 @@ static void explains_in_markdown(void **state) {
     client_open(client, "main.yaml", MAIN);
     json_t *hover = client_request(client, "textDocument/hover", client_at(client, "main.yaml", 3, 46), NULL);
     const json_t *contents = json_object_get(hover, "contents");
-    assert_string_equal(text_of(contents, "kind"), "markdown");
-    assert_non_null(strstr(text_of(contents, "value"), "```yaml\nglass: {refractive_index: 1.5}\n```"));
-    assert_non_null(strstr(text_of(contents, "value"), "**sphere.material**"));
-    assert_non_null(strstr(text_of(contents, "value"), "```yaml\nmaterial: glass\n```"));
+    assert_string_equal(client_text(contents, "kind"), "markdown");
+    assert_non_null(strstr(client_text(contents, "value"), "```yaml\nglass: {refractive_index: 1.5}\n```"));
+    assert_non_null(strstr(client_text(contents, "value"), "**sphere.material**"));
+    assert_non_null(strstr(client_text(contents, "value"), "```yaml\nmaterial: glass\n```"));
     json_decref(hover);
 }
 
@@ -170,9 +165,10 @@ static void expect_picked(struct lsp_client *client, const char *name, const jso
                                "red", 1.0, "green", 0.5, "blue", 0.0, "alpha", 1.0);
     json_t *list = client_request(client, "textDocument/colorPresentation", params, NULL);
     assert_int_equal(json_array_size(list), 1 + (second[0] != '\0'));
-    assert_string_equal(text_of(json_object_get(json_array_get(list, 0), "textEdit"), "newText"), first);
+    assert_string_equal(client_text(json_object_get(json_array_get(list, 0), "textEdit"), "newText"), first);
     if (second[0])
-        assert_string_equal(text_of(json_object_get(json_array_get(list, 1), "textEdit"), "newText"), second);
+        assert_string_equal(client_text(json_object_get(json_array_get(list, 1), "textEdit"), "newText"),
+                            second);
     json_decref(list);
 }
 
