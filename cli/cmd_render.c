@@ -22,6 +22,7 @@ static int open_device(struct render_job *job) {
 static int take_frames(struct render_job *job, uint32_t cameras) {
     int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
     double *times = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);
+    double *on_device = ARENA_ARRAY(&job->cli->arena, double, (size_t)frames);
     struct render_progress callback = progress_callback(&job->progress);
     for (int32_t i = 0; i < frames; i++) {
         job->progress.base = (double)i / frames;
@@ -30,6 +31,7 @@ static int take_frames(struct render_job *job, uint32_t cameras) {
         uint32_t errors = job->session.sink.errors;
         enum shot_status status = render_take_frame(job, cameras, &callback);
         times[i] = clock_seconds() - start;
+        on_device[i] = job->stats.last.device_seconds;
         if (status != SHOT_OK)
             return render_failed(job, status);
         if (i == 0)
@@ -38,10 +40,12 @@ static int take_frames(struct render_job *job, uint32_t cameras) {
             frames = i + 1; // a faulty picture: more frames would show the same
     }
     quantile_sort(times, (size_t)frames);
+    quantile_sort(on_device, (size_t)frames);
     job->stats.frames = frames;
     job->stats.least_frame_seconds = times[0];
     job->stats.most_frame_seconds = times[frames - 1];
     job->stats.median_frame_seconds = quantile(times, (size_t)frames, 0.5);
+    job->stats.median_device_seconds = quantile(on_device, (size_t)frames, 0.5);
     return CLI_OK;
 }
 
@@ -96,10 +100,11 @@ static int render_camera(struct render_job *job, const char *path, uint32_t came
     if (status != CLI_OK || job->cli->options.quiet)
         return status;
     if (job->cli->options.repeat)
-        fprintf(stderr, "glint: median frame %.2f ms of %d, from %.2f to %.2f ms, on %s\n",
+        fprintf(stderr,
+                "glint: median frame %.2f ms of %d, from %.2f to %.2f ms, %.3f ms by the clock of %s\n",
                 1e3 * job->stats.median_frame_seconds, job->stats.frames,
                 1e3 * job->stats.least_frame_seconds, 1e3 * job->stats.most_frame_seconds,
-                gpu_info(job->gpu)->name);
+                1e3 * job->stats.median_device_seconds, gpu_info(job->gpu)->name);
     if (strcmp(path, "-") != 0)
         fprintf(stderr, "glint: wrote %s, %u x %u\n", path, job->image.width, job->image.height);
     return status;

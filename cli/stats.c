@@ -41,6 +41,7 @@ void stats_text(const struct stats *s, struct strbuf *out) {
         strbuf_format(out, "  median frame     %10.3f ms of %d, from %.3f to %.3f ms\n",
                       1e3 * s->median_frame_seconds, s->frames, 1e3 * s->least_frame_seconds,
                       1e3 * s->most_frame_seconds);
+        seconds(out, " of it, device", s->median_device_seconds);
     }
     seconds(out, "encode", s->encode_seconds);
     const struct render_rays *r = &s->last.rays;
@@ -85,6 +86,7 @@ static void put_times(struct json_writer *w, const struct stats *s) {
     json_write_real(w, "median_frame_s", s->median_frame_seconds);
     json_write_real(w, "least_frame_s", s->least_frame_seconds);
     json_write_real(w, "most_frame_s", s->most_frame_seconds);
+    json_write_real(w, "median_frame_device_s", s->median_device_seconds);
     json_write_real(w, "last_frame_device_s", s->last.device_seconds);
     json_write_real(w, "encode_s", s->encode_seconds);
     json_write_integer(w, "frames", (uint64_t)s->frames);

@@ -179,7 +179,7 @@ void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
         return;
     hit_record first = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     triangle_search search =
-        triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY);
+        triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY, FAR_AWAY, NO_ITEM, NO_ITEM);
     test_triangle(hit.item, search, first);
     if (first.item == hit.item) {
         hit.t = first.t;
@@ -188,11 +188,31 @@ void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
     }
 }
 
-// As trace_triangles, with `hit` as it was before that. false: given up at EXACT_ITERATIONS, which a ray reaches where
-// a scene is so far away that most of it is the same but for rounding.
-bool retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_record hit, inout uint iterations) {
-    tree_ray ray = make_tree_ray(start.at, aim.direction);
+bool is_hit_exactly(uint item, exact_search search, hit_record hit) {
+    test_exact(item, search, hit);
+    return hit.item == item;
+}
+
+// Whether a search of all triangles is needed. Most rays have doubts only of triangles around their start, and hit none of
+// those: then what the first search has found is what this one would find.
+bool needs_search(exact_search search, ray_doubts doubts, hit_record hit) {
+    bool needed = doubts.all;
+    if (!needed && doubts.near_a != NO_ITEM)
+        needed = is_hit_exactly(doubts.near_a, search, hit);
+    if (!needed && doubts.near_b != NO_ITEM)
+        needed = is_hit_exactly(doubts.near_b, search, hit);
+    return needed;
+}
+
+// As trace_triangles, with `hit` as it was before that. false: what that has found stands. It does, too, where the search
+// is given up at EXACT_ITERATIONS, which a ray reaches where a scene is so far away that most of it is the same but
+// for rounding.
+bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool any, inout hit_record hit,
+                       inout uint iterations) {
     exact_search search = begin_exact(start, aim, hit);
+    if (!needs_search(search, doubts, hit))
+        return false;
+    tree_ray ray = make_tree_ray(start.at, aim.direction);
     REAL margin = 4.0 * start.slack / largest3(abs(aim.direction));
     STACK(TRIANGLE_STACK)
     uvec2 group = root_group();

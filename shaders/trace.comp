@@ -211,7 +211,7 @@ uint room_for_exact(bool fresh, uint iterations) {
 // Both trees. A ray that stopped in the slice before goes on where it did; one may stop again: long_stopped. true:
 // rounding leaves open what is hit; `sphere` is what is known of it without triangles.
 bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hit_record hit, inout hit_record sphere,
-               inout uint iterations) {
+               inout ray_doubts doubts, inout uint iterations) {
     bool before_triangles = true, open = false;
     if (HAS_LONG_RAYS) {
         long_resumes = traced && long_tree != TREE_NONE;
@@ -224,7 +224,7 @@ bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hi
     if (hit.item == NO_ITEM || (hit.item & ITEM_SPHERE) != 0u)
         sphere = hit;
     if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM) && !(HAS_LONG_RAYS && long_stopped != TREE_NONE))
-        open = trace_triangles(start, direction, any, hit, iterations);
+        open = trace_triangles(start, direction, any, hit, doubts, iterations);
     if (HAS_LONG_RAYS && traced)
         long_tree = TREE_NONE;
     if (HAS_LONG_RAYS && long_stopped != TREE_NONE)
@@ -233,15 +233,15 @@ bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hi
 }
 
 // The path's own ray or a shadow ray, once more. `hit`: what it hits without triangles, then with them.
-bool decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray shadow, inout hit_record hit,
-                    inout uint iterations) {
+bool decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray shadow, ray_doubts doubts,
+                    inout hit_record hit, inout uint iterations) {
     ray_start start = shadow_start;
     exact_aim aim = aim_along(p.direction);
     if (own)
         start = p.start;
     else
         aim = aim_at(p.light, shadow);
-    return retrace_triangles(start, aim, !own, hit, iterations);
+    return retrace_triangles(start, aim, doubts, !own, hit, iterations);
 }
 
 // From a surface: to its next light, or on with the path.
@@ -297,6 +297,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; `decided`: the ray's
     bool decided = false;
     do {
+        ray_doubts doubts = no_doubts();
         do {
             iterations += SEGMENT_ITERATIONS;
             bool own = phase == PHASE_RAY;
@@ -312,11 +313,14 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                 from = p.start;
             REAL3 direction = own ? p.direction : shadow.direction;
             hit_record sphere = hit;
-            bool open = trace_ray(from, direction, traced, !own, hit, sphere, iterations);
+            bool open = trace_ray(from, direction, traced, !own, hit, sphere, doubts, iterations);
             if (HAS_LONG_RAYS && long_stopped != TREE_NONE) {
                 state = SUSPENDED;
                 break;
             }
+            // lavapipe runs every branch for every ray: there rays are decided after this loop. A GPU skips a branch that none
+            // of its lanes takes, but lanes that left the loop would wait until the last of the others has.
+#ifdef FETCH_TEXELS
             if (HAS_TRIANGLES && traced && open) {
                 state = room_for_exact(fresh, iterations);
                 held = sphere;
@@ -324,6 +328,16 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                 if (state != GOES_ON)
                     break;
             }
+#else
+            if (HAS_TRIANGLES && traced && open) {
+                state = room_for_exact(fresh, iterations);
+                if (state == SUSPENDED)
+                    break;
+                if (state == UNDECIDED && decide_exactly(p, own, start, shadow, doubts, sphere, iterations))
+                    hit = sphere;
+                state = GOES_ON;
+            }
+#endif
             if (decided)
                 hit = held;
             decided = false;
@@ -337,12 +351,14 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             if (state == GOES_ON)
                 state = go_on(slot, p, s, start, phase, shadow, iterations, fault);
         } while (state == GOES_ON);
+#ifdef FETCH_TEXELS
         if (HAS_TRIANGLES && state == UNDECIDED) {
-            if (!decide_exactly(p, phase == PHASE_RAY, start, shadow, held, iterations))
+            if (!decide_exactly(p, phase == PHASE_RAY, start, shadow, doubts, held, iterations))
                 held = rough;
             decided = true;
             state = GOES_ON;
         }
+#endif
         end_chain(slot, p, state, phase);
     } while (state == GOES_ON);
     return state;

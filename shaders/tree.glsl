@@ -189,4 +189,5 @@ uvec2 unpacked_group(uint word, uint base) {
 #define STACK_SUSPEND(levels, tree, group, more)
 #define LONG_TAKE(wrong, doubt)
 #define LONG_KEEP(wrong, doubt)
+const bool HAS_LONG_RAYS = false;
 #endif

@@ -74,7 +74,24 @@ struct triangle_search {
     uint left;
     REAL wrong; // bound of the error of the nearest hit's t
     REAL doubt; // least t that rounding leaves open
+    REAL edge;           // least t of a triangle that the ray passes within its error of an edge
+    uint near_a, near_b; // triangles within the error of the ray's start; NO_ITEM: none
 };
+
+// What a search of triangles leaves open.
+struct ray_doubts {
+    bool all;            // which of all triangles is hit
+    uint near_a, near_b; // else: whether the ray starts before these or behind them; NO_ITEM: no triangle
+};
+ray_doubts no_doubts() { return ray_doubts(false, NO_ITEM, NO_ITEM); }
+
+// Two such triangles are noted: a corner may have more, and then all are looked at once more.
+void note_near(uint item, inout triangle_search search) {
+    bool is_full = HAS_LONG_RAYS || search.near_b != NO_ITEM;
+    search.doubt = is_full ? 0.0 : search.doubt;
+    search.near_b = search.near_a != NO_ITEM ? item : search.near_b;
+    search.near_a = search.near_a == NO_ITEM ? item : search.near_a;
+}
 
 void test_triangle(uint item, inout triangle_search search, inout hit_record hit) {
     triangle_record triangle = load_triangle(item);
@@ -120,8 +137,11 @@ void test_triangle(uint item, inout triangle_search search, inout hit_record hit
     bool possible = highest <= delta_e || lowest >= -delta_e;
     bool start_open = possible && !starts_before && !starts_behind && item != search.left;
     bool order_open = inside && starts_before && abs(t - hit.t) <= delta_t + search.wrong;
-    REAL open = start_open ? 0.0 : order_open ? min(t, hit.t) : FAR_AWAY;
-    search.doubt = min(search.doubt, open);
+    search.doubt = order_open ? min(search.doubt, min(t, hit.t)) : search.doubt;
+    bool edge_open = possible && starts_before && lowest <= delta_e && highest >= -delta_e;
+    search.edge = edge_open ? min(search.edge, edge_on ? first - delta_z : t - delta_t) : search.edge;
+    if (start_open)
+        note_near(item, search);
 #endif
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
     if (inside && starts_before && nearer) {
@@ -136,10 +156,11 @@ void test_triangle(uint item, inout triangle_search search, inout hit_record hit
 
 // `any`: the first hit found ends the search. Stops unfinished at ITERATION_LIMIT. true: rounding leaves open what
 // is hit; retrace_triangles decides.
-bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
+bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout ray_doubts doubts,
+                     inout uint iterations) {
     tree_ray ray = make_tree_ray(start.at, direction);
     triangle_search search =
-        triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY);
+        triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY, FAR_AWAY, NO_ITEM, NO_ITEM);
     STACK(TRIANGLE_STACK)
     uvec2 group = root_group();
     bool more = true;
@@ -171,5 +192,8 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
     } while (more && iterations < TRAVERSAL_LIMIT);
     STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)
     LONG_KEEP(search.wrong, search.doubt)
-    return search.doubt <= hit.t && search.doubt < FAR_AWAY && !(any && hit.item != NO_ITEM);
+    bool is_near = search.near_a != NO_ITEM;
+    REAL doubt = is_near ? min(search.doubt, search.edge) : search.doubt;
+    doubts = ray_doubts(doubt <= hit.t && doubt < FAR_AWAY, search.near_a, search.near_b);
+    return (doubts.all || is_near) && !(any && hit.item != NO_ITEM);
 }

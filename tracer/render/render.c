@@ -91,7 +91,7 @@ static void plan(struct renderer *renderer) {
     const uint32_t tiles_y = (settings->height + TILE_SIDE - 1) / TILE_SIDE;
     renderer->run_tiles = RUN_TILES;
     renderer->runs = (renderer->tiles_x * tiles_y + renderer->run_tiles - 1) / renderer->run_tiles;
-    renderer->run_step = run_step_of(renderer->runs);
+    renderer->run_step = gpu_info(renderer->gpu)->kind == GPU_CPU ? run_step_of(renderer->runs) : 1;
     renderer->tiles = renderer->runs * renderer->run_tiles;
     uint64_t slot_bytes = slot_state_bytes(renderer);
     slot_bytes = slot_bytes > SLOT_OUTPUT_BYTES ? slot_bytes : SLOT_OUTPUT_BYTES;
