@@ -16,8 +16,11 @@ uvec2 pixel_of_slot(uint slot) {
     return uvec2(place % frame.tiles_x, place / frame.tiles_x) * TILE_SIDE + morton(slot % TILE_PIXELS);
 }
 
-REAL3 camera_direction(uvec2 pixel) {
-    REAL x = 2.0 * (REAL(pixel.x) + REAL(dispatch.offset_x)) / REAL(frame.width) - 1.0;
-    REAL y = 1.0 - 2.0 * (REAL(pixel.y) + REAL(dispatch.offset_y)) / REAL(frame.height);
+// `offset`: of the sample inside the pixel.
+REAL3 camera_direction_at(uvec2 pixel, vec2 offset) {
+    REAL x = 2.0 * (REAL(pixel.x) + REAL(offset.x)) / REAL(frame.width) - 1.0;
+    REAL y = 1.0 - 2.0 * (REAL(pixel.y) + REAL(offset.y)) / REAL(frame.height);
     return unit3(CAMERA(forward) + CAMERA(right) * x + CAMERA(up) * y);
 }
+
+REAL3 camera_direction(uvec2 pixel) { return camera_direction_at(pixel, vec2(dispatch.offset_x, dispatch.offset_y)); }

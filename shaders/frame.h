@@ -49,22 +49,27 @@
     UINT(tile_begin) /* first tile of the band */                                                            \
     UINT(tile_count) /* of the band; 64 slots each */                                                        \
     UINT(grid_width) /* workgroups in x */                                                                   \
-    UINT(sample_index)                                                                                       \
+    UINT(sample_index) /* samples whose sum lies in the output */                                            \
     FLOAT(offset_x) /* of the sample inside the pixel */                                                     \
     FLOAT(offset_y)                                                                                          \
     UINT(path_begin) /* slots of this dispatch, or places in the list that is read */                        \
     UINT(path_end)                                                                                           \
     UINT(resume)       /* 0: paths begin; else how many saved ones go on */                                  \
     UINT(read_list)    /* which of the two lists of saved slots is read; the other is written */             \
-    UINT(pending_base) /* value of COUNTER_PENDING when that list was begun */
+    UINT(pending_base) /* value of COUNTER_PENDING when that list was begun */                               \
+    UINT(places)       /* for saved paths; one a slot unless samples are traced at once */                   \
+    UINT(samples)      /* traced at once: path k * slots + s is sample k of slot s */                        \
+    UINT(restarts)     /* 1: paths begin that found no place before, by their list */                        \
+    UINT(place_base)   /* value of COUNTER_PLACES when all places were free */                               \
+    UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8
 #define TILE_PIXELS 64
 
-/* Output: a word a slot: sum of the samples' r g b, and a fault. Fault: kind in the two top bits, below it
+/* Output: a word a path: sum of the samples' r g b, and a fault. Fault: kind in the two top bits, below it
    the number of what was hit last: spheres by body, then triangles from sphere_count on; all ones where
-   nothing was hit. */
+   nothing was hit. Samples traced at once have a word each; resolve.comp adds them up. */
 #define FAULT_NUMBER     0x3fffffffu
 #define FAULT_KIND_SHIFT 30
 #define FAULT_NONE       0u
@@ -75,7 +80,8 @@
 /* State of a path, word k of slot s at k * slots + s: ray origin, throughput; direction, depth; radiance,
    segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare;
    what the ray leaves: error of its start, b1, b2, item: kept between dispatches; then three words for each
-   refracted ray that waits: origin, throughput; direction, depth; what it leaves. In double precision places,
+   refracted ray that waits: origin, throughput; direction, depth; what it leaves. Of paths traced at once, which take
+   places and not slots, the spare word is the path's number. In double precision places,
    directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. With FEATURE_LONG_RAYS
    the words of long_rays.glsl lie between the two. */
 #define STATE_WORDS         7
@@ -89,7 +95,15 @@
    reads them after each dispatch, and sums what was added. */
 #define COUNTER_PENDING   0
 #define COUNTER_LONG_RAYS 1 /* samples with FAULT_ITERATIONS */
-#define COUNTER_SHARED    32
+/* Of samples traced at once: places that were taken, and paths that found none, in lists after the two others. */
+#define COUNTER_PLACES   2
+#define COUNTER_RESTARTS 3
+/* By kind of fault: its pixels; the complement of the first one's number, which is y * width + x; and its word. */
+#define COUNTER_FAULT_PIXELS 4
+#define COUNTER_FAULT_FIRST  8
+#define COUNTER_FAULT_WORD   12
+#define FAULT_KINDS          4
+#define COUNTER_SHARED       32
 #define COUNTER_BANKS     32
 #define COUNTER_BANK      32 /* words of one */
 #define COUNTER_COUNT     (COUNTER_SHARED + COUNTER_BANKS * COUNTER_BANK)
@@ -127,6 +141,18 @@
 #define CONSTANT_ALTERNATIVE_DISTANCE 5
 #define CONSTANT_ALTERNATIVE_CUT      6
 #define CONSTANT_ALTERNATIVE_START    8 /* a whole number */
-#define CONSTANT_COUNT                9
+/* Samples are traced at once, and refracted rays that wait lie in private memory, this many at most. */
+#define CONSTANT_AT_ONCE  9
+#define CONSTANT_BRANCHES 10
+#define CONSTANT_COUNT    11
+
+/* Most samples of a pixel that are traced at once. */
+#define SAMPLES_AT_ONCE 64
+
+/* resolve.comp, in dispatch.read_list: adds the samples to the sums of those before; or shows them all in the picture,
+   and counts its faults; or finds the words of the first ones. */
+#define RESOLVE_ADD  0
+#define RESOLVE_SHOW 1
+#define RESOLVE_FIND 2
 
 #endif

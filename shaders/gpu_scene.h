@@ -21,6 +21,10 @@
 #define BINDING_STATE          10
 #define BINDING_COUNTERS       11
 #define BINDING_FRAME          12 /* uniform buffer: camera and frame parameters */
+/* Of samples traced at once. */
+#define BINDING_SAMPLES 13 /* uniform buffer: their offsets in a pixel */
+#define BINDING_PICTURE 14 /* three floats a pixel, by rows: the sums of its samples, or NaN */
+#define BINDING_SUMS    15 /* as OUTPUT, a word a slot: of the samples before */
 
 /* Node of the 8-wide compressed tree (Ylitie, Karras, Laine 2017, section 4.1):
    word 0: x,y,z the corner p of the node's box (float); w: byte 0..2 exponents ex,ey,ez (biased by 127),

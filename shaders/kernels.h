@@ -27,6 +27,9 @@ KERNEL(trace_fused)
 KERNEL(hits_fused)
 KERNEL(log_fused)
 
+// From samples traced at once to a picture, on GPUs only.
+extern const struct kernel kernel_resolve_storage;
+
 #undef KERNEL
 
 #endif

@@ -27,7 +27,7 @@ bool long_resumes = false; // the ray that is traced is the one that stopped
 uvec2 long_group = uvec2(0u);
 uint long_size = 0u;
 
-uint long_word(uint k) { return (PATH_WORDS + k) * (dispatch.tile_count * TILE_PIXELS) + long_slot; }
+uint long_word(uint k) { return (PATH_WORDS + k) * dispatch.places + long_slot; }
 
 uvec2 long_entry(uint level) {
     uvec4 both = states[long_word(LONG_STACK_WORD + level / 2u)];

@@ -1,9 +1,11 @@
 // How a path is kept from one dispatch to the next, and the refracted rays that wait in it.
 
-// Words are ordered by kind first, then by slot, so that neighbours are adjacent. The refracted rays that wait
-// until the reflected ones before them are done are always in this buffer: lavapipe writes and reads an
-// indexed private array for all lanes, and a storage buffer only for those that want it.
-uint state_word(uint slot, uint word) { return word * (dispatch.tile_count * TILE_PIXELS) + slot; }
+const uint NO_PLACE = 0xffffffffu;
+const uint BRANCHES_WORD = PATH_WORDS + LONG_WORDS; // the first of those rays
+
+// Words are ordered by kind first, then by place, so that neighbours are adjacent. A place is a slot, unless samples are
+// traced at once (at_once.glsl): then only paths that are saved have one.
+uint state_word(uint place, uint word) { return word * dispatch.places + place; }
 
 vec3 get_low(uint slot) {
     vec3 low = vec3(0.0);
@@ -26,14 +28,16 @@ dvec3 get_real3(uint slot, uint word, out uvec2 more) {
     return double3_of(a, b.xy);
 }
 
-void put_path(uint slot, path_state p) {
+void put_path(uint slot, path_state p, uint number) {
     put_real3(slot, 0u, p.start.at, uvec2(floatBitsToUint(p.throughput), p.depth));
     put_real3(slot, 2u, p.direction, uvec2(p.stack_size, p.kind));
     states[state_word(slot, 4u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
     states[state_word(slot, 5u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
     put_real3(slot, 6u, dvec3(p.hit.t, p.hit.b1, p.hit.b2), uvec2(p.hit.item, p.hit.number));
-    put_real3(slot, 8u, dvec3(p.start.slack, p.start.b1, p.start.b2), uvec2(p.start.left, 0u));
+    put_real3(slot, 8u, dvec3(p.start.slack, p.start.b1, p.start.b2), uvec2(p.start.left, number));
 }
+
+uint saved_number(uint slot) { return states[state_word(slot, 9u)].w; }
 
 path_state load_path(uint slot) {
     path_state p;
@@ -82,15 +86,17 @@ ray_start start_of(uvec4 at, uvec4 left) {
     return ray_start(uintBitsToFloat(at.xyz), place.x, left.w, place.y, place.z);
 }
 
-void put_path(uint slot, path_state p) {
+void put_path(uint slot, path_state p, uint number) {
     states[state_word(slot, 0u)] = uvec4(floatBitsToUint(p.start.at), floatBitsToUint(p.throughput));
     states[state_word(slot, 1u)] = uvec4(floatBitsToUint(p.direction), p.depth);
     states[state_word(slot, 2u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
     states[state_word(slot, 3u)] = uvec4(floatBitsToUint(p.light_sum), p.light);
     states[state_word(slot, 4u)] = uvec4(floatBitsToUint(vec3(p.hit.t, p.hit.b1, p.hit.b2)), p.hit.item);
-    states[state_word(slot, 5u)] = uvec4(p.hit.number, p.stack_size, p.kind, 0u);
+    states[state_word(slot, 5u)] = uvec4(p.hit.number, p.stack_size, p.kind, number);
     states[state_word(slot, 6u)] = left_word(p.start);
 }
+
+uint saved_number(uint slot) { return states[state_word(slot, 5u)].w; }
 
 path_state load_path(uint slot) {
     path_state p;
@@ -150,26 +156,54 @@ hit_record long_hit() {
     return hit_record(number_of(a.xy), number_of(a.zw), number_of(b.xy), b.z, states[long_word(0u)].w);
 }
 
-void save_path(uint slot, path_state p) {
-    put_path(slot, p);
+#ifndef FETCH_TEXELS
+#include "at_once.glsl"
+#else
+// lavapipe writes and reads an indexed private array for all lanes, and a storage buffer only for those that want it: the
+// refracted rays that wait are always in this buffer.
+const bool AT_ONCE = false;
+uint at_once_place(bool resumes, uint place, uint path) { return place; }
+void save_waiting(uint place, uint count) {}
+void load_waiting(uint place, uint count) {}
+#endif
+
+// Saves a path; `place` is its own where it was saved before. false: there was no place, and it begins once more.
+bool save_path(bool resumes, uint place, uint path, path_state p) {
+    if (AT_ONCE)
+        place = at_once_place(resumes, place, path);
+    if (AT_ONCE && place == NO_PLACE)
+        return false;
+    put_path(place, p, AT_ONCE ? path : 0u);
+    if (AT_ONCE)
+        save_waiting(place, p.stack_size);
     if (HAS_MANY_LIGHTS)
-        states[state_word(slot, LOW_WORD)] = uvec4(floatBitsToUint(p.light_low), 0u);
+        states[state_word(place, LOW_WORD)] = uvec4(floatBitsToUint(p.light_low), 0u);
     if (HAS_LONG_RAYS && long_stopped == TREE_NONE)
         states[long_word(0u)] = uvec4(long_tree, long_group, states[long_word(0u)].w);
-    // Each saved path takes a place in the list that the next dispatch reads. Their order may differ from
+    // Each saved path has an entry in the list that the next dispatch reads. Their order may differ from
     // run to run; the picture does not know it.
-    uint slots = dispatch.tile_count * TILE_PIXELS;
-    uint place = atomicAdd(counters[COUNTER_PENDING], 1u) - dispatch.pending_base;
-    counters[COUNTER_COUNT + (1u - dispatch.read_list) * slots + place] = slot;
+    uint entry = atomicAdd(counters[COUNTER_PENDING], 1u) - dispatch.pending_base;
+    counters[COUNTER_COUNT + (1u - dispatch.read_list) * dispatch.places + entry] = place;
+    return true;
 }
 
 void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction, float throughput, uint depth) {
-    put_branch(slot, PATH_WORDS + LONG_WORDS + BRANCH_WORDS * p.stack_size, start, direction, throughput, depth);
+#ifndef FETCH_TEXELS
+    if (AT_ONCE)
+        waiting[p.stack_size] = waiting_ray(start, direction, throughput, depth);
+#endif
+    if (!AT_ONCE)
+        put_branch(slot, BRANCHES_WORD + BRANCH_WORDS * p.stack_size, start, direction, throughput, depth);
     p.stack_size++;
 }
 
 void pop_branch(uint slot, inout path_state p) {
     p.stack_size--;
-    get_branch(slot, PATH_WORDS + LONG_WORDS + BRANCH_WORDS * p.stack_size, p);
+#ifndef FETCH_TEXELS
+    if (AT_ONCE)
+        take_waiting(p);
+#endif
+    if (!AT_ONCE)
+        get_branch(slot, BRANCHES_WORD + BRANCH_WORDS * p.stack_size, p);
     p.kind = RAY_REFRACTED;
 }

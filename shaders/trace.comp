@@ -133,14 +133,15 @@ bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_st
     return back || through;
 }
 
-void write_sample(uint slot, path_state p, uint fault) {
-    uvec4 before = dispatch.sample_index == OPAQUE_ZERO ? uvec4(0u) : pixels[slot];
+void write_sample(uint path, path_state p, uint fault) {
+    uvec4 before = dispatch.sample_index == OPAQUE_ZERO ? uvec4(0u) : pixels[path];
     vec3 sum = uintBitsToFloat(before.xyz) + p.radiance;
     bool finite = is_finite3(sum);
     if (fault >> FAULT_KIND_SHIFT == FAULT_ITERATIONS)
         atomicAdd(counters[COUNTER_LONG_RAYS], 1u);
-    fault = finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT | p.hit.number;
-    pixels[slot] = uvec4(finite ? floatBitsToUint(sum) : before.xyz, before.w != 0u ? before.w : fault);
+    fault = (finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT) | p.hit.number;
+    bool faulty = before.w >> FAULT_KIND_SHIFT != FAULT_NONE;
+    pixels[path] = uvec4(finite ? floatBitsToUint(sum) : before.xyz, faulty ? before.w : fault);
 }
 
 // After a ray: whether the path may go on.
@@ -367,11 +368,22 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
     uint index = dispatch.path_begin + group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    uint slots = dispatch.tile_count * TILE_PIXELS;
     bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
     if (index >= dispatch.path_end)
         return;
-    uint slot = resumes ? counters[COUNTER_COUNT + dispatch.read_list * slots + index] : index;
+    uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
+    uint path = place, slot = place;
+#ifndef FETCH_TEXELS
+    uint sample_number = 0u;
+    if (AT_ONCE) {
+        if (resumes)
+            path = saved_number(place);
+        else if (dispatch.restarts > OPAQUE_ZERO)
+            path = counters[COUNTER_COUNT + 2u * dispatch.places + index];
+        slot = path % (dispatch.tile_count * TILE_PIXELS);
+        sample_number = path / (dispatch.tile_count * TILE_PIXELS);
+    }
+#endif
     uvec2 pixel = pixel_of_slot(slot);
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
@@ -379,16 +391,25 @@ void main() {
     long_slot = slot;
     if (HAS_LONG_RAYS && resumes)
         load_long_ray();
-    if (resumes)
-        p = load_path(slot);
-    else
-        p = begin_path(camera_direction(pixel));
+    if (resumes) {
+        p = load_path(place);
+        if (AT_ONCE)
+            load_waiting(place, p.stack_size);
+    } else {
+        vec2 offset = vec2(dispatch.offset_x, dispatch.offset_y);
+#ifndef FETCH_TEXELS
+        if (AT_ONCE)
+            offset = sample_offset(sample_number);
+#endif
+        p = begin_path(camera_direction_at(pixel, offset));
+    }
     uint fault = FAULT_NONE;
     uint state = follow(slot, p, fault);
-    if (HAS_COUNTERS)
-        add_counts(group);
-    if (HAS_SLICES && state == SUSPENDED)
-        save_path(slot, p);
+    bool saved = HAS_SLICES && state == SUSPENDED, kept = true;
+    if (saved)
+        kept = save_path(resumes, place, path, p);
     else
-        write_sample(slot, p, state == STOPPED ? fault | p.hit.number : FAULT_NONE);
+        write_sample(path, p, state == STOPPED ? fault : FAULT_NONE);
+    if (HAS_COUNTERS && kept)
+        add_counts(group);
 }

@@ -51,6 +51,7 @@ struct gpu_options {
     // A number, or part of a device's name (case ignored). NULL or empty: discrete before integrated
     // before virtual before CPU, then the lower number.
     const char *device;
+    bool storage;  // GPU_WORDS are storage buffers on a CPU device too: what runs on GPUs can be tried there
     bool validate; // core validation, where the layer is installed; its messages are counted
     // Where validation messages are counted, leaks found by gpu_destroy included; may be NULL. Must
     // outlive the gpu.
@@ -80,6 +81,7 @@ enum gpu_use {
     GPU_TEXELS_F32, // uniform texels, RGBA32F
     GPU_STORAGE,    // read and written by kernels
     GPU_UNIFORM,    // small, rewritten often
+    GPU_HOST,       // in this process' memory, filled by gpu_copy and read by gpu_contents
 };
 
 // A buffer of at least one word, of undefined content. NULL on failure.
@@ -94,6 +96,8 @@ typedef void gpu_put(void *context, uint64_t offset, void *to, uint64_t bytes);
 bool gpu_fill(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, uint64_t bytes, gpu_put *put,
               void *context);
 bool gpu_read(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, void *data, uint64_t bytes);
+// What a GPU_HOST buffer holds: defined after a gpu_wait that followed the copies to it.
+const void *gpu_contents(const struct gpu_buffer *buffer);
 // True where GPU_WORDS are texels: which variant of a kernel fits.
 bool gpu_fetches_texels(const struct gpu *gpu);
 
@@ -119,6 +123,10 @@ void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
 // the ones before it wrote. `push` holds the program's push constants.
 bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
                   const void *push);
+// Record a copy between two buffers, and zeros into one, after what was recorded before; the ranges are
+// multiples of four bytes and must lie inside. What is recorded afterwards sees them.
+bool gpu_copy(struct gpu *gpu, struct gpu_buffer *from, struct gpu_buffer *to, uint64_t bytes);
+bool gpu_clear(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, uint64_t bytes);
 // Sends what was recorded to the device. gpu_wait waits for it; *seconds, where not NULL, gets the time
 // between the first dispatch's start and the last one's end on the device's own clock.
 bool gpu_submit(struct gpu *gpu);

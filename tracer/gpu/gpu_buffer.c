@@ -115,7 +115,8 @@ struct gpu_buffer *gpu_buffer_create(struct gpu *gpu, enum gpu_use use, uint64_t
     buffer->size = bytes < 16 ? 16 : (bytes + 15) / 16 * 16;
     if (is_texels(gpu, use))
         buffer->size = (bytes + TEXEL_QUANTUM - 1) / TEXEL_QUANTUM * TEXEL_QUANTUM + TEXEL_ODD;
-    if (!fits(gpu, buffer, use) || !allocate(gpu, buffer, usage_of(buffer->type), use == GPU_UNIFORM))
+    if (!fits(gpu, buffer, use) ||
+        !allocate(gpu, buffer, usage_of(buffer->type), use == GPU_UNIFORM || use == GPU_HOST))
         goto failed;
     if (buffer->type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) {
         VkBufferViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
@@ -140,6 +141,10 @@ void gpu_buffer_destroy(struct gpu *gpu, struct gpu_buffer *buffer) {
     gpu->vk.vkDestroyBuffer(gpu->device, buffer->buffer, NULL);
     gpu->vk.vkFreeMemory(gpu->device, buffer->memory, NULL);
     free(buffer);
+}
+
+const void *gpu_contents(const struct gpu_buffer *buffer) {
+    return buffer->mapped;
 }
 
 uint64_t gpu_buffer_bytes(const struct gpu_buffer *buffer) {
@@ -167,16 +172,8 @@ static bool copy(struct gpu *gpu, VkBuffer from, uint64_t from_offset, VkBuffer 
                  uint64_t bytes) {
     if (!gpu_record(gpu))
         return false;
-    VkBufferCopy region = {.srcOffset = from_offset, .dstOffset = to_offset, .size = bytes};
-    gpu->vk.vkCmdCopyBuffer(gpu->commands, from, to, 1, &region);
-    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                               .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                               .dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
-                                                VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
-    gpu->vk.vkCmdPipelineBarrier(gpu->commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                 VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                                     VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                 0, 1, &barrier, 0, NULL, 0, NULL);
+    gpu_record_copy(gpu, from, to,
+                    (VkBufferCopy){.srcOffset = from_offset, .dstOffset = to_offset, .size = bytes});
     return gpu_submit(gpu) && gpu_wait(gpu, NULL);
 }
 

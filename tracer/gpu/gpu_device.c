@@ -57,11 +57,11 @@ static enum gpu_status choose_device(struct gpu *gpu, const char *wanted, char *
     return status;
 }
 
-static void read_properties(struct gpu *gpu) {
+static void read_properties(struct gpu *gpu, const struct gpu_options *options) {
     vkGetPhysicalDeviceProperties(gpu->physical, &gpu->properties);
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
     gpu->queue_family = gpu_compute_family(gpu->physical);
-    gpu->texels = gpu->info.kind == GPU_CPU;
+    gpu->texels = gpu->info.kind == GPU_CPU && !options->storage;
     if (gpu->properties.apiVersion >= VK_API_VERSION_1_2) {
         VkPhysicalDeviceFloatControlsProperties controls = {
             .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES};
@@ -124,7 +124,7 @@ enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, 
     if (status == GPU_OK)
         status = choose_device(gpu, options->device, error);
     if (status == GPU_OK) {
-        read_properties(gpu);
+        read_properties(gpu, options);
         if (!create_device(gpu)) {
             status = gpu->status;
             snprintf(error, GPU_ERROR_BYTES, "%s", gpu->error);

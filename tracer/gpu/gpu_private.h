@@ -110,5 +110,7 @@ void gpu_pipelines_destroy(struct gpu *gpu);                             // no p
 
 // Begins a recording unless one is under way.
 bool gpu_record(struct gpu *gpu);
+// Records a copy and the order of what comes after it. A recording is under way.
+void gpu_record_copy(struct gpu *gpu, VkBuffer from, VkBuffer to, VkBufferCopy region);
 
 #endif

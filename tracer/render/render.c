@@ -12,7 +12,10 @@ enum {
     MANY_LIGHTS = 64,       // more are added with what rounding drops
     BAND_TILES_MAX = 16384, // a megapixel: progress is reported, and Ctrl-C seen, between bands
     RUN_TILES = 32,         // 65536 runs at most in 64 megapixels: their products fit 32 bits
-    SLOT_OUTPUT_BYTES = 16,
+    PATH_OUTPUT_BYTES = 16,
+    PRIVATE_BRANCHES = 64,   // refracted rays that wait in a GPU's private memory, at most
+    PATHS_AT_ONCE = 8 << 20, // enough that the last ones of a frame do not leave a GPU idle for long
+    PICTURE_PIXEL_BYTES = 12,
     WORD_BYTES = 16,
 };
 
@@ -72,6 +75,34 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
     return (state + low + ray + renderer->path_stack * entry) * WORD_BYTES;
 }
 
+static bool has_state(const struct renderer *renderer) {
+    return renderer->features & FEATURE_SLICES;
+}
+
+// Whether samples are traced at once: where private memory is cheap, and the picture fits into a buffer.
+static bool goes_at_once(const struct renderer *renderer) {
+    const struct render_settings *settings = &renderer->settings;
+    const uint64_t picture = (uint64_t)settings->width * settings->height * PICTURE_PIXEL_BYTES;
+    return !gpu_fetches_texels(renderer->gpu) && !(renderer->features & FEATURE_LONG_RAYS) &&
+           renderer->path_stack <= PRIVATE_BRANCHES && picture <= gpu_info(renderer->gpu)->storage_bytes;
+}
+
+static uint32_t least_of(uint64_t a, uint64_t b) {
+    return (uint32_t)(a < b ? a : b);
+}
+
+// How many samples of a band, and places for the paths that are saved: seldom more than a few are.
+static void plan_at_once(struct renderer *renderer) {
+    const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
+    const uint64_t fit = slots < PATHS_AT_ONCE ? PATHS_AT_ONCE / slots : 1;
+    renderer->samples_at_once = least_of(least_of(fit, renderer->settings.samples), SAMPLES_AT_ONCE);
+    const uint64_t paths = slots * renderer->samples_at_once, bytes = slot_state_bytes(renderer);
+    const uint64_t most = bytes ? band_bytes(gpu_info(renderer->gpu)) / bytes : 0;
+    renderer->places = has_state(renderer) ? least_of(paths, most) : 0;
+    if (renderer->settings.places && renderer->settings.places < renderer->places)
+        renderer->places = renderer->settings.places;
+}
+
 static void plan(struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint32_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
@@ -91,10 +122,11 @@ static void plan(struct renderer *renderer) {
     const uint32_t tiles_y = (settings->height + TILE_SIDE - 1) / TILE_SIDE;
     renderer->run_tiles = RUN_TILES;
     renderer->runs = (renderer->tiles_x * tiles_y + renderer->run_tiles - 1) / renderer->run_tiles;
-    renderer->run_step = gpu_info(renderer->gpu)->kind == GPU_CPU ? run_step_of(renderer->runs) : 1;
+    const bool at_once = goes_at_once(renderer);
+    renderer->run_step = gpu_fetches_texels(renderer->gpu) ? run_step_of(renderer->runs) : 1;
     renderer->tiles = renderer->runs * renderer->run_tiles;
-    uint64_t slot_bytes = slot_state_bytes(renderer);
-    slot_bytes = slot_bytes > SLOT_OUTPUT_BYTES ? slot_bytes : SLOT_OUTPUT_BYTES;
+    uint64_t slot_bytes = at_once ? 0 : slot_state_bytes(renderer);
+    slot_bytes = slot_bytes > PATH_OUTPUT_BYTES ? slot_bytes : PATH_OUTPUT_BYTES;
     const struct gpu_device_info *device = gpu_info(renderer->gpu);
     uint64_t tiles = band_bytes(device) / (slot_bytes * TILE_PIXELS);
     tiles = device->kind != GPU_CPU || tiles < BAND_TILES_MAX ? tiles : BAND_TILES_MAX;
@@ -103,6 +135,10 @@ static void plan(struct renderer *renderer) {
     // Bands of equal size: a small last one would keep few threads busy.
     const uint64_t bands = (renderer->tiles + tiles - 1) / tiles;
     renderer->band_tiles = (uint32_t)((renderer->tiles + bands - 1) / bands);
+    renderer->samples_at_once = 0;
+    renderer->places = has_state(renderer) ? renderer->band_tiles * TILE_PIXELS : 0;
+    if (at_once)
+        plan_at_once(renderer);
 }
 
 static bool upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
@@ -150,16 +186,20 @@ static bool upload_scene(struct renderer *renderer) {
 }
 
 static bool make_band(struct renderer *renderer) {
+    const bool at_once = renderer->samples_at_once != 0;
     const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
-    const uint64_t lists = renderer->features & FEATURE_SLICES ? 2 * slots : 0;
+    const uint64_t paths = slots * (at_once ? renderer->samples_at_once : 1);
+    const uint64_t lists = 2 * (uint64_t)renderer->places + (at_once && has_state(renderer) ? paths : 0);
     const uint32_t zero[COUNTER_COUNT] = {0};
-    renderer->band = heap_alloc(slots * SLOT_OUTPUT_BYTES);
-    return renderer->band && upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, slots * SLOT_OUTPUT_BYTES) &&
-           upload(renderer, BINDING_STATE, GPU_STORAGE, NULL, slots * slot_state_bytes(renderer)) &&
+    renderer->band = heap_alloc(slots * PATH_OUTPUT_BYTES);
+    return renderer->band && upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, paths * PATH_OUTPUT_BYTES) &&
+           upload(renderer, BINDING_STATE, GPU_STORAGE, NULL,
+                  renderer->places * slot_state_bytes(renderer)) &&
            upload(renderer, BINDING_COUNTERS, GPU_STORAGE, NULL,
                   (COUNTER_COUNT + lists) * sizeof(uint32_t)) &&
            gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, zero, sizeof zero) &&
-           upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block));
+           upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block)) &&
+           (!at_once || renderer_make_at_once(renderer));
 }
 
 // What depends on the settings: the band's buffers and the kernel.
@@ -169,7 +209,9 @@ static bool make_frame(struct renderer *renderer) {
 }
 
 static void drop_frame(struct renderer *renderer) {
-    static const int bindings[] = {BINDING_OUTPUT, BINDING_STATE, BINDING_COUNTERS, BINDING_FRAME};
+    static const int bindings[] = {BINDING_OUTPUT,  BINDING_STATE,   BINDING_COUNTERS, BINDING_FRAME,
+                                   BINDING_SAMPLES, BINDING_PICTURE, BINDING_SUMS};
+    renderer_drop_at_once(renderer);
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
     renderer->counting = renderer->program = NULL;
@@ -179,7 +221,7 @@ static void drop_frame(struct renderer *renderer) {
     }
     free(renderer->band);
     renderer->band = NULL;
-    renderer->pending = 0;
+    renderer->pending = renderer->taken = renderer->restarts = 0;
 }
 
 bool renderer_take_long_rays(struct renderer *renderer) {
@@ -201,7 +243,8 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
     take_settings(renderer, settings);
     if (old.width == now->width && old.height == now->height && old.max_depth == now->max_depth &&
         old.features == now->features && old.alternative == now->alternative &&
-        old.workgroup == now->workgroup && old.band_tiles == now->band_tiles)
+        old.workgroup == now->workgroup && old.band_tiles == now->band_tiles &&
+        (old.samples == now->samples || renderer->samples_at_once == 0))
         return renderer_program(renderer, now->counts) != NULL;
     drop_frame(renderer);
     return make_frame(renderer);
@@ -233,7 +276,8 @@ void renderer_destroy(struct renderer *renderer) {
 }
 
 static bool is_of_band(int binding) {
-    return binding == BINDING_OUTPUT || binding == BINDING_STATE || binding == BINDING_COUNTERS;
+    return binding == BINDING_OUTPUT || binding == BINDING_STATE || binding == BINDING_COUNTERS ||
+           binding == BINDING_PICTURE || binding == BINDING_SUMS;
 }
 
 static uint64_t sum_bytes(const struct renderer *renderer, bool of_band) {

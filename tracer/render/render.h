@@ -46,7 +46,8 @@ struct render_settings {
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
     uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
     uint32_t dispatch_paths;             // most paths of a dispatch; 0: as many as are over soon
-    bool counts;                         // frames count their rays, which changes no bit of the picture
+    uint32_t places; // most paths that a GPU saves at a time; 0: as many as its memory holds
+    bool counts;     // frames count their rays, which changes no bit of the picture
 };
 
 // What scene, flat scene and limits ask for.

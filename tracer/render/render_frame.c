@@ -91,7 +91,7 @@ static bool is_over(struct renderer_frame *run) {
     return run->is_over;
 }
 
-static bool is_wanted(const struct renderer_frame *run, double part) {
+bool renderer_is_wanted(const struct renderer_frame *run, double part) {
     const struct render_progress *progress = run->progress;
     return !progress || !progress->report ||
            progress->report(progress->context, ((double)run->steps_done + part) / (double)run->steps);
@@ -110,12 +110,16 @@ static bool read_counters(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
     uint32_t counters[COUNTER_COUNT];
     const uint64_t bytes = run->counting ? sizeof counters : COUNTER_SHARED * sizeof *counters;
-    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, counters, bytes))
+    if (renderer->counters)
+        memcpy(counters, gpu_contents(renderer->counters), bytes);
+    else if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, counters, bytes))
         return false;
     for (uint32_t at = COUNTER_SHARED; at < COUNTER_COUNT && run->counting; at += COUNTER_BANK)
         add_bank(run, counters + at, run->counters + at);
     memcpy(run->counters, counters, bytes);
     renderer->pending = counters[COUNTER_PENDING];
+    renderer->taken = counters[COUNTER_PLACES];
+    renderer->restarts = counters[COUNTER_RESTARTS];
     run->met_long_ray = counters[COUNTER_LONG_RAYS] != 0;
     return true;
 }
@@ -124,7 +128,8 @@ static bool run_paths(struct renderer_frame *run, struct dispatch_block *block, 
     struct renderer *renderer = run->renderer;
     double seconds;
     if (!renderer_run_paths(renderer, run->program, block->resume ? RENDERER_RESUMES : RENDERER_BEGINS,
-                            renderer->settings.workgroup, block, end, &seconds))
+                            renderer->settings.workgroup, block, end, renderer->counters ? run : NULL,
+                            &seconds))
         return false;
     run->statistics->device_seconds += seconds;
     run->statistics->dispatches++;
@@ -132,43 +137,76 @@ static bool run_paths(struct renderer_frame *run, struct dispatch_block *block, 
 }
 
 // All paths from the camera, or all that were saved, until they end or are saved again.
-static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_block *block) {
-    const uint32_t all = block->tile_count * TILE_PIXELS, end = block->resume ? block->resume : all;
+static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_block *block, uint32_t end) {
+    const uint32_t all = block->tile_count * TILE_PIXELS * (block->samples ? block->samples : 1);
     block->pending_base = run->renderer->pending;
-    for (block->path_begin = 0; block->path_begin < end; block->path_begin = block->path_end) {
+    for (; block->path_begin < end; block->path_begin = block->path_end) {
         if (!run_paths(run, block, end))
             return RENDER_FAILED;
         const uint32_t saved = run->renderer->pending - block->pending_base;
         const uint32_t open = end - block->path_end + saved;
         if (run->met_long_ray)
             return RENDER_CANCELLED;
-        if (open > 0 && (is_over(run) || !is_wanted(run, 1 - (double)open / all)))
+        if (open > 0 && (is_over(run) || !renderer_is_wanted(run, open < all ? 1 - (double)open / all : 0)))
             return RENDER_CANCELLED;
     }
     return RENDER_DONE;
 }
 
+// A pass, and others until none of its paths is left.
+static enum render_result draw_to_end(struct renderer_frame *run, struct dispatch_block *block,
+                                      uint32_t begin, uint32_t end) {
+    block->place_base = run->renderer->taken;
+    block->resume = 0;
+    for (;;) {
+        block->path_begin = begin;
+        const enum render_result result = draw_pass(run, block, end);
+        if (result != RENDER_DONE)
+            return result;
+        block->resume = run->renderer->pending - block->pending_base;
+        if (block->resume == 0)
+            return RENDER_DONE;
+        begin = 0;
+        end = block->resume;
+        block->read_list = 1 - block->read_list;
+        run->statistics->slices++;
+    }
+}
+
+enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispatch_block *block) {
+    struct renderer *renderer = run->renderer;
+    block->places = renderer->places;
+    block->restart_base = renderer->restarts;
+    block->restarts = 0;
+    const uint32_t all = block->tile_count * TILE_PIXELS * (block->samples ? block->samples : 1);
+    enum render_result result = draw_to_end(run, block, 0, all);
+    // Those that found no place, as many at a time as there are places.
+    const uint32_t left = renderer->restarts - block->restart_base;
+    block->restarts = 1;
+    for (uint32_t begin = 0; result == RENDER_DONE && begin < left; begin += renderer->places) {
+        const uint32_t end = left - begin < renderer->places ? left : begin + renderer->places;
+        result = draw_to_end(run, block, begin, end);
+    }
+    return result;
+}
+
 enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                         uint32_t sample) {
+    struct renderer *renderer = run->renderer;
     double a, b;
-    view_sample_offset(run->renderer->settings.first_sample + sample, &a, &b);
+    view_sample_offset(renderer->settings.first_sample + sample, &a, &b);
     struct dispatch_block block = {.tile_begin = tile_begin,
                                    .tile_count = tile_count,
                                    .sample_index = sample,
                                    .offset_x = (float)a,
                                    .offset_y = (float)b};
-    for (;;) {
-        const enum render_result result = draw_pass(run, &block);
-        if (result != RENDER_DONE)
-            return result;
-        block.resume = run->renderer->pending - block.pending_base;
-        if (block.resume == 0)
-            break;
-        block.read_list = 1 - block.read_list;
-        run->statistics->slices++;
-    }
+    if (renderer->samples_at_once && !renderer_write_samples(renderer, sample, 1))
+        return RENDER_FAILED;
+    const enum render_result result = renderer_draw_paths(run, &block);
+    if (result != RENDER_DONE)
+        return result;
     run->steps_done++;
-    return is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;
+    return renderer_is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;
 }
 
 struct unpacking {
@@ -221,9 +259,10 @@ void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t 
     *triangle = wanted - flat->first_triangle[low];
 }
 
-static void note_fault(const struct renderer *renderer, uint32_t word, uint32_t x, uint32_t y,
-                       struct render_fault *fault) {
-    const bool first = fault->pixels++ == 0 || y < fault->y || (y == fault->y && x < fault->x);
+void renderer_note_fault(const struct renderer *renderer, uint32_t word, uint32_t pixels, uint32_t x,
+                         uint32_t y, struct render_fault *fault) {
+    const bool first = fault->pixels == 0 || y < fault->y || (y == fault->y && x < fault->x);
+    fault->pixels += pixels;
     if (!first)
         return;
     const uint32_t number = word & FAULT_NUMBER;
@@ -239,11 +278,11 @@ void renderer_note_faults(const struct renderer *renderer, uint32_t tile_begin, 
                           const uint32_t *sums, struct render_statistics *statistics) {
     for (uint32_t slot = 0; slot < tile_count * TILE_PIXELS; slot++) {
         const uint32_t word = sums[4 * (size_t)slot + 3];
-        if (word == 0)
+        if (word >> FAULT_KIND_SHIFT == FAULT_NONE)
             continue;
         uint32_t x, y;
         if (renderer_pixel(renderer, tile_begin, slot, &x, &y))
-            note_fault(renderer, word, x, y, &statistics->faults[word >> FAULT_KIND_SHIFT]);
+            renderer_note_fault(renderer, word, 1, x, y, &statistics->faults[word >> FAULT_KIND_SHIFT]);
     }
 }
 
@@ -280,6 +319,8 @@ enum render_result renderer_draw_frame(struct renderer_frame *run, const struct 
     struct renderer *renderer = run->renderer;
     const uint32_t tiles = renderer->tiles;
     enum render_result result = renderer_begin_frame(run, camera) ? RENDER_DONE : RENDER_FAILED;
+    if (result == RENDER_DONE && renderer->samples_at_once)
+        return renderer_draw_at_once(run, rgb);
     for (uint32_t begin = 0; result == RENDER_DONE && begin < tiles; begin += renderer->band_tiles) {
         const uint32_t left = tiles - begin;
         result = draw_band(run, begin, left < renderer->band_tiles ? left : renderer->band_tiles, rgb);

@@ -89,7 +89,7 @@ static enum render_result draw_band(struct renderer *renderer, uint32_t tile_beg
         block.resume = kind;
         for (block.path_begin = 0; block.path_begin < slots; block.path_begin = block.path_end) {
             if (!renderer_run_paths(renderer, renderer->hits->program, RENDERER_REPORTS, TILE_PIXELS, &block,
-                                    slots, &seconds))
+                                    slots, NULL, &seconds))
                 return RENDER_FAILED;
             const double part = (kind + (double)block.path_end / slots) / kinds;
             const double done = (tile_begin + tile_count * part) / renderer->tiles;

@@ -17,7 +17,10 @@ struct kernel_pair {
 #define KERNELS(way)                                                                                         \
     {                                                                                                        \
         [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
-        [RENDERER_LOG] = KERNEL(log##way)                                                                    \
+        [RENDERER_LOG] = KERNEL(log##way), [RENDERER_RESOLVE] = {                                            \
+            NULL,                                                                                            \
+            &kernel_resolve_storage                                                                          \
+        }                                                                                                    \
     }
 static const struct kernel_pair exact_kernels[RENDERER_KERNELS] = KERNELS();
 static const struct kernel_pair pairs_kernels[RENDERER_KERNELS] = KERNELS(_pairs);
@@ -140,6 +143,8 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
         [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
+        [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,
+        [CONSTANT_BRANCHES] = renderer->path_stack ? renderer->path_stack : 1,
         [CONSTANT_ALTERNATIVE_OFFSET] = bits_of(ldexp(alternative->offset, flat->scale_exponent)),
         [CONSTANT_ALTERNATIVE_DISTANCE] = bits_of(alternative->distance),
         [CONSTANT_ALTERNATIVE_CUT] = bits_of(ldexp(alternative->cut, 2 * flat->scale_exponent)),

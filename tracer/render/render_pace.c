@@ -47,7 +47,8 @@ static void learn(struct renderer_pace *pace, uint32_t ran, uint32_t workgroup, 
 }
 
 bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
-                        uint32_t workgroup, struct dispatch_block *block, uint32_t end, double *seconds) {
+                        uint32_t workgroup, struct dispatch_block *block, uint32_t end,
+                        struct renderer_frame *run, double *seconds) {
     struct renderer_pace *pace = &renderer->paces[pass];
     const uint32_t fit = paths_of(renderer, pace, end - block->path_begin);
     const uint32_t paths = program == renderer->counting && fit > COUNTED_PATHS ? COUNTED_PATHS : fit;
@@ -57,7 +58,8 @@ bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, 
     const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
     const double start = clock_seconds();
     if (!gpu_dispatch(renderer->gpu, program, block->grid_width, height, block) ||
-        !gpu_submit(renderer->gpu) || !gpu_wait(renderer->gpu, seconds))
+        (run && !renderer_follow_pass(run, block->path_end == end)) || !gpu_submit(renderer->gpu) ||
+        !gpu_wait(renderer->gpu, seconds))
         return false;
     learn(pace, paths, workgroup, clock_seconds() - start);
     return true;

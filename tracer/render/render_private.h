@@ -24,6 +24,11 @@ struct dispatch_block {
 #undef UINT_FIELD
 #undef DOUBLE_FIELD
 
+// Offsets of the samples that are traced at once; two fill 16 bytes.
+struct samples_block {
+    float offsets[SAMPLES_AT_ONCE][2];
+};
+
 struct renderer_hits;
 struct renderer_log;
 
@@ -53,9 +58,14 @@ struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
     struct render_settings settings;
-    uint32_t features;       // of the scene, FEATURE_SLICES and FEATURE_LONG_RAYS
-    bool has_long_rays;      // one was seen
-    uint32_t path_stack;     // entries
+    uint32_t features;        // of the scene, FEATURE_SLICES and FEATURE_LONG_RAYS
+    bool has_long_rays;       // one was seen
+    uint32_t path_stack;      // entries
+    uint32_t samples_at_once; // 0: a dispatch traces one sample, and lives of paths are in the state buffer
+    uint32_t places;          // for saved paths
+    struct gpu_buffer *picture,
+        *counters; // where samples are traced at once: what was copied to this process
+    struct gpu_program *resolve;
     uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
@@ -68,6 +78,7 @@ struct renderer {
     struct renderer_hits *hits; // made by the first renderer_hits
     struct renderer_log *log;   // made by the first renderer_log
     uint32_t pending;           // value of COUNTER_PENDING after the last dispatch
+    uint32_t taken, restarts;   // and of COUNTER_PLACES and COUNTER_RESTARTS
     struct renderer_pace paces[RENDERER_PASSES];
 };
 
@@ -77,6 +88,7 @@ enum renderer_kernel {
     RENDERER_TRACE,
     RENDERER_HITS,
     RENDERER_LOG,
+    RENDERER_RESOLVE,
     RENDERER_KERNELS,
 };
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
@@ -104,10 +116,26 @@ struct renderer_frame {
     const struct render_limit *limit;
     uint32_t samples_done; // under a limit: that all pixels have
     bool is_over;          // the limit ended the sample under way
+    // Where samples are traced at once and the last ones of a band are under way: what follows each pass.
+    bool shows, shows_all; // the band's pixels go into the picture; and all pixels to this process
+    struct dispatch_block resolve;
 };
 // One sample of one band: all its paths to their ends.
 enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                         uint32_t sample);
+// Samples of a band, from `first` on: `count` of them at once, or one that is added to what the output holds.
+enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispatch_block *block);
+// The frame where samples are traced at once (render_at_once.c).
+enum render_result renderer_draw_at_once(struct renderer_frame *run, float *rgb);
+// Reports how far the frame is, with a part of the step under way; false: it is to end.
+bool renderer_is_wanted(const struct renderer_frame *run, double part);
+// The offsets of samples that are traced at once. false: see gpu_error.
+bool renderer_write_samples(struct renderer *renderer, uint32_t first, uint32_t count);
+// Records what follows a pass of such a frame, at the end of it.
+bool renderer_follow_pass(struct renderer_frame *run, bool ends);
+// Their buffers, and the kernel that resolves them. false: see gpu_error.
+bool renderer_make_at_once(struct renderer *renderer);
+void renderer_drop_at_once(struct renderer *renderer);
 // From a band's sums, as the kernel leaves them, to their pixels of the picture.
 void renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
                      const uint32_t *sums, uint32_t samples, float *rgb);
@@ -129,12 +157,17 @@ bool renderer_take_long_rays(struct renderer *renderer);
 // Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
 // than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
 // *seconds is the device's time. `workgroup` is the program's.
+// `run`, unless NULL, is told before the dispatch is submitted: renderer_follow_pass.
 bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
-                        uint32_t workgroup, struct dispatch_block *block, uint32_t end, double *seconds);
+                        uint32_t workgroup, struct dispatch_block *block, uint32_t end,
+                        struct renderer_frame *run, double *seconds);
 // Body in IR order, and its triangle in file order, of a number as in FAULT_NUMBER.
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);
 void renderer_hits_destroy(struct renderer *renderer); // what renderer_hits made
 void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made
+// Adds a fault, whose word is as in shaders/frame.h, to those of its kind.
+void renderer_note_fault(const struct renderer *renderer, uint32_t word, uint32_t pixels, uint32_t x,
+                         uint32_t y, struct render_fault *fault);
 // Which pixel a slot of the band at `tile_begin` shows; false: none of the picture.
 bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y);

@@ -1,0 +1,57 @@
+// Many samples of many pixels traced at once, for GPUs: path k * slots + s is sample k of slot s. A path lives in private
+// memory, the refracted rays that wait in it too, and takes a place in the state buffer only when its slice ends. Where
+// all places are taken, the path begins once more in a later dispatch.
+
+layout(constant_id = CONSTANT_AT_ONCE) const bool AT_ONCE = false;
+layout(constant_id = CONSTANT_BRANCHES) const uint BRANCHES = 1u;
+
+layout(set = 0, binding = BINDING_SAMPLES, std140) uniform sample_block {
+    vec4 offsets[SAMPLES_AT_ONCE / 2]; // two samples each
+} sample_places;
+
+vec2 sample_offset(uint k) {
+    vec4 both = sample_places.offsets[k / 2u];
+    return (k & 1u) == 0u ? both.xy : both.zw;
+}
+
+struct waiting_ray {
+    ray_start start;
+    REAL3 direction;
+    float throughput;
+    uint depth;
+};
+waiting_ray waiting[BRANCHES];
+
+void take_waiting(inout path_state p) {
+    waiting_ray ray = waiting[p.stack_size];
+    p.start = ray.start;
+    p.direction = ray.direction;
+    p.throughput = ray.throughput;
+    p.depth = ray.depth;
+}
+
+void save_waiting(uint place, uint count) {
+    for (uint i = 0u; i < count; i++)
+        put_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, waiting[i].start, waiting[i].direction,
+                   waiting[i].throughput, waiting[i].depth);
+}
+
+void load_waiting(uint place, uint count) {
+    for (uint i = 0u; i < count; i++) {
+        path_state p;
+        get_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, p);
+        waiting[i] = waiting_ray(p.start, p.direction, p.throughput, p.depth);
+    }
+}
+
+// A place for a path that is saved; NO_PLACE where none is left: then the path is noted to begin once more.
+uint at_once_place(bool resumes, uint place, uint path) {
+    if (resumes)
+        return place;
+    uint taken = atomicAdd(counters[COUNTER_PLACES], 1u) - dispatch.place_base;
+    if (taken < dispatch.places)
+        return taken;
+    uint entry = atomicAdd(counters[COUNTER_RESTARTS], 1u) - dispatch.restart_base;
+    counters[COUNTER_COUNT + 2u * dispatch.places + entry] = path;
+    return NO_PLACE;
+}

@@ -1,0 +1,174 @@
+// A frame of samples that are traced at once: a GPU is left idle by the last paths of a dispatch, and by each
+// wait for it. So a band's samples share a dispatch, and what follows it (sums, picture, counters, copies to
+// this process) is recorded with it.
+#include "tracer/render/render_private.h"
+
+#include "core/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    PIXELS_A_PIECE = 65536
+};
+
+static bool create(struct renderer *renderer, uint32_t binding, enum gpu_use use, uint64_t bytes) {
+    renderer->buffers[binding] = gpu_buffer_create(renderer->gpu, use, bytes);
+    return renderer->buffers[binding] != NULL;
+}
+
+bool renderer_make_at_once(struct renderer *renderer) {
+    const struct render_settings *settings = &renderer->settings;
+    const uint64_t picture = (uint64_t)settings->width * settings->height * 3 * sizeof(float);
+    const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
+    const bool has_sums = settings->samples > renderer->samples_at_once;
+    if (!create(renderer, BINDING_SAMPLES, GPU_UNIFORM, sizeof(struct samples_block)) ||
+        !create(renderer, BINDING_PICTURE, GPU_STORAGE, picture) ||
+        !create(renderer, BINDING_SUMS, GPU_STORAGE, has_sums ? slots * sizeof(struct gpu_word) : 0))
+        return false;
+    renderer->picture = gpu_buffer_create(renderer->gpu, GPU_HOST, picture);
+    renderer->counters = gpu_buffer_create(renderer->gpu, GPU_HOST, COUNTER_COUNT * sizeof(uint32_t));
+    renderer->resolve = renderer_compile_kernel(renderer, RENDERER_RESOLVE, 0, NULL, NULL);
+    return renderer->picture && renderer->counters && renderer->resolve;
+}
+
+void renderer_drop_at_once(struct renderer *renderer) {
+    gpu_program_destroy(renderer->gpu, renderer->resolve);
+    gpu_buffer_destroy(renderer->gpu, renderer->picture);
+    gpu_buffer_destroy(renderer->gpu, renderer->counters);
+    renderer->resolve = NULL;
+    renderer->picture = renderer->counters = NULL;
+}
+
+bool renderer_write_samples(struct renderer *renderer, uint32_t first, uint32_t count) {
+    struct samples_block block;
+    for (uint32_t i = 0; i < SAMPLES_AT_ONCE; i++) {
+        double a, b;
+        view_sample_offset(renderer->settings.first_sample + first + (i < count ? i : 0), &a, &b);
+        block.offsets[i][0] = (float)a;
+        block.offsets[i][1] = (float)b;
+    }
+    return gpu_write(renderer->gpu, renderer->buffers[BINDING_SAMPLES], 0, &block, sizeof block);
+}
+
+static bool resolve(struct renderer_frame *run, uint32_t mode) {
+    struct renderer *renderer = run->renderer;
+    struct dispatch_block block = run->resolve;
+    block.read_list = mode;
+    block.grid_width = block.tile_count < UINT16_MAX ? block.tile_count : UINT16_MAX;
+    const uint32_t rows = (block.tile_count + block.grid_width - 1) / block.grid_width;
+    return gpu_dispatch(renderer->gpu, renderer->resolve, block.grid_width, rows, &block);
+}
+
+// Samples that are not the last ones are added up before the next ones take their words.
+static bool add_samples(struct renderer_frame *run) {
+    return resolve(run, RESOLVE_ADD);
+}
+
+// Paths that are saved may be left, of which the picture then knows nothing yet: it is shown again after the
+// next pass.
+static bool show_samples(struct renderer_frame *run) {
+    struct renderer *renderer = run->renderer;
+    struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
+    const uint64_t begin = COUNTER_FAULT_PIXELS * sizeof(uint32_t);
+    const uint64_t bytes = (COUNTER_FAULT_WORD - COUNTER_FAULT_PIXELS) * sizeof(uint32_t);
+    return gpu_clear(renderer->gpu, counters, begin, bytes) && resolve(run, RESOLVE_SHOW) &&
+           (!run->shows_all || gpu_copy(renderer->gpu, renderer->buffers[BINDING_PICTURE], renderer->picture,
+                                        gpu_buffer_bytes(renderer->picture)));
+}
+
+static bool copy_counters(struct renderer_frame *run) {
+    struct renderer *renderer = run->renderer;
+    const uint64_t words = run->counting ? COUNTER_COUNT : COUNTER_SHARED;
+    return gpu_copy(renderer->gpu, renderer->buffers[BINDING_COUNTERS], renderer->counters,
+                    words * sizeof(uint32_t));
+}
+
+bool renderer_follow_pass(struct renderer_frame *run, bool ends) {
+    return (!ends || !run->shows || show_samples(run)) && copy_counters(run);
+}
+
+// The word of each kind's first fault is looked up only where there is one.
+static bool note_faults(struct renderer_frame *run) {
+    struct renderer *renderer = run->renderer;
+    const uint32_t *counters = gpu_contents(renderer->counters);
+    uint32_t faults = 0;
+    for (uint32_t kind = 1; kind < FAULT_KINDS; kind++)
+        faults += counters[COUNTER_FAULT_PIXELS + kind];
+    if (faults == 0)
+        return true;
+    if (!resolve(run, RESOLVE_FIND) || !copy_counters(run) || !gpu_submit(renderer->gpu) ||
+        !gpu_wait(renderer->gpu, NULL))
+        return false;
+    for (uint32_t kind = 1; kind < RENDER_FAULT_KINDS; kind++) {
+        const uint32_t first = ~counters[COUNTER_FAULT_FIRST + kind], width = renderer->settings.width;
+        if (counters[COUNTER_FAULT_PIXELS + kind])
+            renderer_note_fault(renderer, counters[COUNTER_FAULT_WORD + kind],
+                                counters[COUNTER_FAULT_PIXELS + kind], first % width, first / width,
+                                &run->statistics->faults[kind]);
+    }
+    return true;
+}
+
+static enum render_result draw_samples(struct renderer_frame *run, struct dispatch_block *block,
+                                       uint32_t first, bool last_band) {
+    struct renderer *renderer = run->renderer;
+    const uint32_t left = renderer->settings.samples - first;
+    block->samples = left < renderer->samples_at_once ? left : renderer->samples_at_once;
+    run->resolve = *block;
+    run->resolve.sample_index = first;
+    run->shows = left == block->samples;
+    run->shows_all = run->shows && last_band;
+    if (!renderer_write_samples(renderer, first, block->samples))
+        return RENDER_FAILED;
+    const enum render_result result = renderer_draw_paths(run, block);
+    if (result != RENDER_DONE)
+        return result;
+    run->steps_done += block->samples;
+    if (!(run->shows ? note_faults(run) : add_samples(run)))
+        return RENDER_FAILED;
+    return renderer_is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;
+}
+
+static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_begin, bool *is_last) {
+    struct renderer *renderer = run->renderer;
+    const uint32_t left = renderer->tiles - tile_begin;
+    struct dispatch_block block = {.tile_begin = tile_begin,
+                                   .tile_count = left < renderer->band_tiles ? left : renderer->band_tiles};
+    *is_last = block.tile_count == left;
+    enum render_result result = RENDER_DONE;
+    for (uint32_t first = 0; result == RENDER_DONE && first < renderer->settings.samples;
+         first += renderer->samples_at_once)
+        result = draw_samples(run, &block, first, *is_last);
+    return result;
+}
+
+struct mean {
+    const float *sums;
+    float samples;
+    float *rgb;
+};
+
+static void divide(void *context, size_t begin, size_t end) {
+    const struct mean *mean = context;
+    if (mean->samples == 1)
+        memcpy(mean->rgb + begin, mean->sums + begin, (end - begin) * sizeof *mean->rgb);
+    else
+        for (size_t i = begin; i < end; i++)
+            mean->rgb[i] = mean->sums[i] / mean->samples;
+}
+
+enum render_result renderer_draw_at_once(struct renderer_frame *run, float *rgb) {
+    struct renderer *renderer = run->renderer;
+    const struct render_settings *settings = &renderer->settings;
+    enum render_result result = RENDER_DONE;
+    bool is_last = false;
+    for (uint32_t begin = 0; result == RENDER_DONE && !is_last; begin += renderer->band_tiles)
+        result = draw_band(run, begin, &is_last);
+    run->shows = run->shows_all = false;
+    if (result != RENDER_DONE || !rgb)
+        return result;
+    struct mean mean = {gpu_contents(renderer->picture), (float)settings->samples, rgb};
+    parallel_for((size_t)settings->width * settings->height * 3, PIXELS_A_PIECE, divide, &mean);
+    return RENDER_DONE;
+}
