@@ -9,6 +9,8 @@ layout(set = 0, binding = BINDING_SAMPLES, std140) uniform sample_block {
     vec4 offsets[SAMPLES_AT_ONCE / 2]; // two samples each
 } sample_places;
 
+#include "picture.glsl"
+
 vec2 sample_offset(uint k) {
     vec4 both = sample_places.offsets[k / 2u];
     return (k & 1u) == 0u ? both.xy : both.zw;

@@ -61,7 +61,8 @@
     UINT(samples)      /* traced at once: path k * slots + s is sample k of slot s */                        \
     UINT(restarts)     /* 1: paths begin that found no place before, by their list */                        \
     UINT(place_base)   /* value of COUNTER_PLACES when all places were free */                               \
-    UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */
+    UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */                              \
+    UINT(shows)        /* 1: a path is its pixel's only one, and shows it */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8

@@ -7,29 +7,16 @@
 #include "records.glsl"
 #include "math.glsl"
 #include "camera.glsl"
+#include "picture.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;
-layout(set = 0, binding = BINDING_PICTURE, std430) restrict writeonly buffer picture_words { uint picture[]; };
 layout(set = 0, binding = BINDING_SUMS, std430) restrict buffer sum_words { uvec4 sums[]; };
-
-uint kind_of(uint fault) { return fault >> FAULT_KIND_SHIFT; }
 
 uvec4 add_sample(uvec4 before, uvec4 next) {
     vec3 sum = uintBitsToFloat(before.xyz) + uintBitsToFloat(next.xyz);
     bool finite = is_finite3(sum);
     uint fault = finite ? next.w : FAULT_NOT_FINITE << FAULT_KIND_SHIFT | (next.w & FAULT_NUMBER);
     return uvec4(finite ? floatBitsToUint(sum) : before.xyz, kind_of(before.w) != FAULT_NONE ? before.w : fault);
-}
-
-void show(uint at, uvec4 sum) {
-    bool sound = kind_of(sum.w) != FAULT_NOT_FINITE;
-    for (uint i = 0u; i < 3u; i++)
-        picture[3u * at + i] = sound ? sum[i] : 0x7fc00000u;
-}
-
-void count_fault(uint at, uint kind) {
-    atomicAdd(counters[COUNTER_FAULT_PIXELS + kind], 1u);
-    atomicMax(counters[COUNTER_FAULT_FIRST + kind], ~at);
 }
 
 void main() {
@@ -47,9 +34,7 @@ void main() {
     if (dispatch.read_list == RESOLVE_ADD)
         sums[slot] = sum;
     if (dispatch.read_list == RESOLVE_SHOW)
-        show(at, sum);
-    if (dispatch.read_list == RESOLVE_SHOW && kind != FAULT_NONE)
-        count_fault(at, kind);
+        show(pixel, sum);
     if (dispatch.read_list == RESOLVE_FIND && kind != FAULT_NONE && counters[COUNTER_FAULT_FIRST + kind] == ~at)
         counters[COUNTER_FAULT_WORD + kind] = sum.w;
 }

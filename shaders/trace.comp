@@ -141,7 +141,12 @@ void write_sample(uint path, path_state p, uint fault) {
         atomicAdd(counters[COUNTER_LONG_RAYS], 1u);
     fault = (finite ? fault : FAULT_NOT_FINITE << FAULT_KIND_SHIFT) | p.hit.number;
     bool faulty = before.w >> FAULT_KIND_SHIFT != FAULT_NONE;
-    pixels[path] = uvec4(finite ? floatBitsToUint(sum) : before.xyz, faulty ? before.w : fault);
+    uvec4 after = uvec4(finite ? floatBitsToUint(sum) : before.xyz, faulty ? before.w : fault);
+    pixels[path] = after;
+#ifndef FETCH_TEXELS
+    if (AT_ONCE && dispatch.shows > OPAQUE_ZERO)
+        show(pixel_of_slot(path), after);
+#endif
 }
 
 // After a ray: whether the path may go on.

@@ -1,8 +1,10 @@
 // How a frame is made does not show in it: bands, slices, a frame cancelled before, and the part of the
 // picture that is asked for.
 //
-// Usage: test_frames SCENE, a scene in which paths branch and none is deeper than 20 levels by weight.
+// Usage: test_frames SCENE [storage], a scene in which paths branch and none is deeper than 20 levels by
+// weight. With `storage` the device traces as GPUs do: samples at once, which must not show either.
 #include "shaders/features.h"
+#include "shaders/frame.h"
 #include "tests/pictures/picture_kit.h"
 
 #include <stdio.h>
@@ -182,6 +184,40 @@ static void test_pieces(struct frames *f) {
     close_stage(&stage);
 }
 
+// ---- samples at once
+
+// More samples than are traced at once, and fewer places for saved paths than paths that are saved: those
+// that find none begin once more.
+static void test_at_once(struct frames *f) {
+    static const uint32_t places[] = {1, 100, 3000};
+    const uint32_t samples = SAMPLES_AT_ONCE + 6;
+    struct stage stage;
+    struct image whole, image;
+    struct render_statistics statistics;
+    struct render_rays rays, again;
+    if (!open_stage(f, &stage, 40, 24, 1))
+        return;
+    stage.shot.settings.samples = samples;
+    bool good = apply(&stage) && take(&stage, &whole, &statistics) && statistics.samples == samples &&
+                renderer_count(stage.shot.renderer, &stage.shot.view.camera, NULL, &rays) == RENDER_DONE;
+    stage.shot.settings.slice_iterations = 40;
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        stage.shot.settings.samples = i ? samples : 2; // one place: thousands of passes
+        stage.shot.settings.places = places[i];
+        good = apply(&stage) && take(&stage, &image, &statistics) && statistics.slices > 10 && good &&
+               (i == 0 || picture_differences(&whole, &image, "places") == 0);
+        image_finish(&image);
+    }
+    expect(f, good, "how many paths can be saved does not show");
+    good = good && renderer_count(stage.shot.renderer, &stage.shot.view.camera, NULL, &again) == RENDER_DONE;
+    expect(f,
+           good && rays.reflected == again.reflected && rays.refracted == again.refracted &&
+               rays.shadow == again.shadow && rays.cut_by_weight == again.cut_by_weight,
+           "nor does it in the counts");
+    image_finish(&whole);
+    close_stage(&stage);
+}
+
 // ---- a part of the picture
 
 // With sizes that are powers of two, half the field is the middle of the whole field without a rounding.
@@ -317,7 +353,7 @@ static void test_first_sample(struct frames *f) {
 }
 
 int main(int argc, char **argv) {
-    struct frames f = {.path = argc > 1 ? argv[1] : NULL};
+    struct frames f = {.path = argc > 1 ? argv[1] : NULL, .kit.storage = argc > 2};
     if (argc < 2)
         return 2;
     if (!picture_kit_open(&f.kit))
@@ -326,6 +362,7 @@ int main(int argc, char **argv) {
     test_bands(&f);
     test_slices(&f);
     test_pieces(&f);
+    test_at_once(&f);
     test_crop(&f);
     test_segments(&f);
     test_limits(&f, 0);

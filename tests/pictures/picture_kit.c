@@ -12,12 +12,15 @@
 bool picture_kit_open(struct picture_kit *kit) {
     char error[GPU_ERROR_BYTES] = "";
     const char *device = getenv("GLINT_DEVICE");
-    *kit = (struct picture_kit){.by_reference = device && strcmp(device, "reference") == 0};
+    *kit = (struct picture_kit){.by_reference = device && strcmp(device, "reference") == 0,
+                                .storage = kit->storage};
     kit->store = asset_store_create();
     if (kit->by_reference)
         return kit->store != NULL;
-    struct gpu_options options = {
-        .device = device, .validate = true, .validation_messages = &kit->validation_messages};
+    struct gpu_options options = {.device = device,
+                                  .storage = kit->storage,
+                                  .validate = true,
+                                  .validation_messages = &kit->validation_messages};
     enum gpu_status status = gpu_create(&options, &kit->gpu, error);
     if (status != GPU_OK) {
         fprintf(stderr, "skipped: %s\n", error);

@@ -65,14 +65,17 @@ static bool add_samples(struct renderer_frame *run) {
     return resolve(run, RESOLVE_ADD);
 }
 
-// Paths that are saved may be left, of which the picture then knows nothing yet: it is shown again after the
-// next pass.
-static bool show_samples(struct renderer_frame *run) {
-    struct renderer *renderer = run->renderer;
-    struct gpu_buffer *counters = renderer->buffers[BINDING_COUNTERS];
+static bool clear_faults(struct renderer *renderer) {
     const uint64_t begin = COUNTER_FAULT_PIXELS * sizeof(uint32_t);
     const uint64_t bytes = (COUNTER_FAULT_WORD - COUNTER_FAULT_PIXELS) * sizeof(uint32_t);
-    return gpu_clear(renderer->gpu, counters, begin, bytes) && resolve(run, RESOLVE_SHOW) &&
+    return gpu_clear(renderer->gpu, renderer->buffers[BINDING_COUNTERS], begin, bytes);
+}
+
+// Paths that are saved may be left, of which the picture then knows nothing yet: it is shown again after the
+// next pass. An only sample shows its pixel when it ends.
+static bool show_samples(struct renderer_frame *run) {
+    struct renderer *renderer = run->renderer;
+    return (renderer->settings.samples == 1 || (clear_faults(renderer) && resolve(run, RESOLVE_SHOW))) &&
            (!run->shows_all || gpu_copy(renderer->gpu, renderer->buffers[BINDING_PICTURE], renderer->picture,
                                         gpu_buffer_bytes(renderer->picture)));
 }
@@ -119,7 +122,8 @@ static enum render_result draw_samples(struct renderer_frame *run, struct dispat
     run->resolve.sample_index = first;
     run->shows = left == block->samples;
     run->shows_all = run->shows && last_band;
-    if (!renderer_write_samples(renderer, first, block->samples))
+    block->shows = renderer->settings.samples == 1;
+    if (!renderer_write_samples(renderer, first, block->samples) || (block->shows && !clear_faults(renderer)))
         return RENDER_FAILED;
     const enum render_result result = renderer_draw_paths(run, block);
     if (result != RENDER_DONE)

@@ -92,10 +92,17 @@ double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t hig
     return value;
 }
 
+// How many refracted rays that wait a kernel has room for in private memory; 0: they lie in the state buffer.
+static uint32_t private_branches(const struct renderer *renderer) {
+    if (renderer->samples_at_once == 0)
+        return 0;
+    return renderer->path_stack ? renderer->path_stack : 1;
+}
+
 static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {
     return kept->program && kept->features == features &&
            kept->alternative == renderer->settings.alternative &&
-           kept->workgroup == renderer->settings.workgroup;
+           kept->workgroup == renderer->settings.workgroup && kept->branches == private_branches(renderer);
 }
 
 static bool is_in_use(const struct renderer *renderer, const struct gpu_program *program) {
@@ -116,8 +123,11 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint32_t feat
         renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
     struct renderer_kept *kept = &renderer->kept[renderer->kept_next];
     gpu_program_destroy(renderer->gpu, kept->program);
-    *kept = (struct renderer_kept){features, renderer->settings.workgroup, renderer->settings.alternative,
-                                   program};
+    *kept = (struct renderer_kept){.features = features,
+                                   .workgroup = renderer->settings.workgroup,
+                                   .branches = private_branches(renderer),
+                                   .alternative = renderer->settings.alternative,
+                                   .program = program};
     renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
     return program;
 }
@@ -144,7 +154,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,
-        [CONSTANT_BRANCHES] = renderer->path_stack ? renderer->path_stack : 1,
+        [CONSTANT_BRANCHES] = renderer->samples_at_once ? private_branches(renderer) : 1,
         [CONSTANT_ALTERNATIVE_OFFSET] = bits_of(ldexp(alternative->offset, flat->scale_exponent)),
         [CONSTANT_ALTERNATIVE_DISTANCE] = bits_of(alternative->distance),
         [CONSTANT_ALTERNATIVE_CUT] = bits_of(ldexp(alternative->cut, 2 * flat->scale_exponent)),

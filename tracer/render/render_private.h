@@ -35,6 +35,7 @@ struct renderer_log;
 // A kernel that was compiled, for the settings that it depends on.
 struct renderer_kept {
     uint32_t features, workgroup;
+    uint32_t branches; // in private memory; 0: samples are not traced at once
     enum render_alternative alternative;
     struct gpu_program *program; // NULL: none
 };
