@@ -136,7 +136,8 @@ exact_place place_of(REAL3 corner, exact_search search) {
 
 WIDE edge_of(exact_place a, exact_place b) { return wide_difference(a.x, b.y, a.y, b.x); }
 
-void test_exact(uint item, inout exact_search search, inout hit_record hit) {
+// As test_triangle.
+void test_exact(uint item, bool there, inout exact_search search, inout hit_record hit) {
     triangle_record triangle = load_triangle(item);
     exact_place a = place_of(triangle.v0, search), b = place_of(triangle.v1, search), c = place_of(triangle.v2, search);
     WIDE u = edge_of(c, b), v = edge_of(a, c), w = edge_of(b, a);
@@ -153,7 +154,7 @@ void test_exact(uint item, inout exact_search search, inout hit_record hit) {
     REAL same = SAME_HEIGHT * farthest_of(triangle) * abs(narrow(wide_dot(normal, wide3(unit))));
     bool is_left = item == search.left || (triangle.body != search.left_body && abs(narrow(height)) <= same &&
                                            are_parallel(unit, search.left_normal));
-    bool is_hit = !(above && below) && (above || below) && before && !is_left;
+    bool is_hit = there && !(above && below) && (above || below) && before && !is_left;
     REAL t = narrow(over(height, along)), blur = abs(same / narrow(along));
     uint number = triangle.number + frame.sphere_count;
     REAL tie = hit.item != NO_ITEM && are_parallel(unit, search.normal) ? blur + search.blur : 0.0;
@@ -180,7 +181,7 @@ void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
     hit_record first = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     triangle_search search =
         triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY, FAR_AWAY, NO_ITEM, NO_ITEM);
-    test_triangle(hit.item, search, first);
+    test_triangle(hit.item, true, search, first);
     if (first.item == hit.item) {
         hit.t = first.t;
         hit.b1 = first.b1;
@@ -227,19 +228,20 @@ bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool a
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
         uint items = hits & 0x00ffffffu;
-        while (items != 0u && turns < EXACT_ITERATIONS) {
-            turns++;
-            if (HAS_COUNTERS)
-                counted_items++;
+        WHILE(items != 0u && turns < EXACT_ITERATIONS)
             uint bit = items & (0u - items);
+            bool there = IS_WANTED(bit != 0u);
+            turns += there ? 1u : 0u;
+            if (HAS_COUNTERS)
+                counted_items += there ? 1u : 0u;
             items ^= bit;
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_exact(item, search, hit);
+            test_exact(item, there, search, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;
             }
-        }
+        END_WHILE(items != 0u && turns < EXACT_ITERATIONS)
     } while (more && turns < EXACT_ITERATIONS);
     iterations += turns;
     first_numbers(start, aim.direction, hit);

@@ -47,6 +47,19 @@ uint counted_nodes = 0u, counted_items = 0u;
 #define FETCH(name, index) name[index]
 #endif
 
+// A loop that often has nothing to do. lavapipe leaves a loop only at the end of its body: it runs that of a `while`
+// once more with all lanes off. There the body asks first whether it is wanted, and the loop ends at its condition;
+// what an unwanted body fetches may lie outside a buffer, which reads as some number (tracer/gpu/gpu_device.c).
+#ifdef FETCH_TEXELS
+#define WHILE(condition)     do {
+#define END_WHILE(condition) } while (condition);
+#define IS_WANTED(condition) (condition)
+#else
+#define WHILE(condition)     while (condition) {
+#define END_WHILE(condition) }
+#define IS_WANTED(condition) true
+#endif
+
 WORDS(BINDING_TRIANGLE_NODES, triangle_nodes)
 WORDS(BINDING_TRIANGLES, triangles)
 WORDS(BINDING_NORMALS, normals)

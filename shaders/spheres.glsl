@@ -4,7 +4,8 @@
 // Gems, chapter 7), with the start of the ray placed by its error: where |o - c|^2 - r^2 is within its
 // rounding error of 0 the ray starts on the sphere, and that crossing is not a hit.
 
-void test_sphere(uint item, REAL3 origin, REAL3 direction, inout hit_record hit) {
+// As test_triangle.
+void test_sphere(uint item, bool there, REAL3 origin, REAL3 direction, inout hit_record hit) {
     sphere_record sphere = load_sphere(item);
     REAL3 f = origin - sphere.center;
     REAL r = sphere.radius;
@@ -28,7 +29,7 @@ void test_sphere(uint item, REAL3 origin, REAL3 direction, inout hit_record hit)
     REAL t = first && second ? min(t0, t1) : first ? t0 : t1;
     uint number = sphere.body;
     bool nearer = t < hit.t || (t == hit.t && number < hit.number);
-    if (discriminant >= 0.0 && q != 0.0 && (first || second) && nearer) {
+    if (there && discriminant >= 0.0 && q != 0.0 && (first || second) && nearer) {
         hit.t = t;
         hit.item = item | ITEM_SPHERE;
         hit.number = number;
@@ -51,20 +52,21 @@ void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         STACK_NEXT(SPHERE_STACK, group, rest, found, more)
         uint items = hits & 0x00ffffffu;
-        while (items != 0u && iterations < ITERATION_LIMIT) {
-            iterations++;
-            if (HAS_COUNTERS)
-                counted_items++;
+        WHILE(items != 0u && iterations < ITERATION_LIMIT)
             uint bit = items & (0u - items);
+            bool there = IS_WANTED(bit != 0u);
+            iterations += there ? 1u : 0u;
+            if (HAS_COUNTERS)
+                counted_items += there ? 1u : 0u;
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_sphere(item, origin, direction, hit);
+            test_sphere(item, there, origin, direction, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;
             }
-        }
+        END_WHILE(items != 0u && iterations < ITERATION_LIMIT)
     } while (more && iterations < TRAVERSAL_LIMIT);
     STACK_SUSPEND(SPHERE_STACK, TREE_SPHERES, group, more)
 }

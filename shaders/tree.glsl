@@ -47,6 +47,16 @@ struct node_frame {
 #define NODE_LEAVE(f, t) (t * BOX_FAR_SCALE)
 #endif
 
+// The larger and the smaller of two floats, by their bits: lavapipe's own take three instructions, for NaN. Of two
+// negative ones they give the wrong one, which no box notices: rays begin at 0.
+#ifdef DOUBLE_PRECISION
+#define MOST(a, b)  max(a, b)
+#define LEAST(a, b) min(a, b)
+#else
+#define MOST(a, b)  intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)))
+#define LEAST(a, b) intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)))
+#endif
+
 node_frame make_node_frame(node_record node, tree_ray ray, bvec3 up, REAL t_max) {
     uint e = node.exponents;
     vec3 cell = vec3(uintBitsToFloat((e & 0xffu) << 23u), uintBitsToFloat((e & 0xff00u) << 15u),
@@ -82,8 +92,8 @@ uint node_half(uvec3 near, uvec3 far, uint meta, node_frame f, uint flip4) {
         vec3 q_far = vec3(byte_scaled(far.x, k), byte_scaled(far.y, k), byte_scaled(far.z, k));
         // Fused or not, the boxes stay conservative, and what they let through is tested exactly.
         vec3 t_near = fma(q_near, unit, f.base), t_far = fma(q_far, unit, f.base);
-        float enter = max(max(t_near.x, t_near.y), max(t_near.z, NODE_BEGIN(f)));
-        float leave = NODE_LEAVE(f, min(min(t_far.x, t_far.y), min(t_far.z, f.t_max)));
+        float enter = MOST(MOST(t_near.x, t_near.y), MOST(t_near.z, NODE_BEGIN(f)));
+        float leave = NODE_LEAVE(f, LEAST(LEAST(t_far.x, t_far.y), LEAST(t_far.z, f.t_max)));
         uint found = ((counts >> (8u * k)) & 0xffu) << ((bits >> (8u * k)) & 0x1fu);
         hits |= enter <= leave ? found : 0u;
     }

@@ -93,7 +93,8 @@ void note_near(uint item, inout triangle_search search) {
     search.near_a = search.near_a == NO_ITEM ? item : search.near_a;
 }
 
-void test_triangle(uint item, inout triangle_search search, inout hit_record hit) {
+// `there`: whether the item is one.
+void test_triangle(uint item, bool there, inout triangle_search search, inout hit_record hit) {
     triangle_record triangle = load_triangle(item);
     shear_ray ray = search.ray;
     REAL3 a = turn(triangle.v0 - ray.origin, ray.along_x, ray.along_z);
@@ -107,7 +108,7 @@ void test_triangle(uint item, inout triangle_search search, inout hit_record hit
     REAL w = bx * ay - by * ax;
     REAL det = u + v + w;
     REAL highest = max(max(u, v), w), lowest = min(min(u, v), w);
-    bool inside = (highest <= 0.0 || lowest >= 0.0) && det != 0.0;
+    bool inside = there && (highest <= 0.0 || lowest >= 0.0) && det != 0.0;
     REAL inverse = 1.0 / det;
     REAL t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
     REAL x_most = max(max(abs(ax), abs(bx)), abs(cx));
@@ -129,12 +130,12 @@ void test_triangle(uint item, inout triangle_search search, inout hit_record hit
     uint number = triangle.number + frame.sphere_count;
 #ifdef ALTERNATIVES
     if (alternative_cuts()) {
-        inside = test_moeller(triangle, ray, v, w, det, t) && det != 0.0;
+        inside = there && test_moeller(triangle, ray, v, w, det, t) && det != 0.0;
         inverse = 1.0 / det;
     }
     starts_before = t > (alternative_moves() || ALTERNATIVE_START != 0u ? 0.0 : delta_t);
 #else
-    bool possible = highest <= delta_e || lowest >= -delta_e;
+    bool possible = there && (highest <= delta_e || lowest >= -delta_e);
     bool start_open = possible && !starts_before && !starts_behind && item != search.left;
     bool order_open = inside && starts_before && abs(t - hit.t) <= delta_t + search.wrong;
     search.doubt = order_open ? min(search.doubt, min(t, hit.t)) : search.doubt;
@@ -175,20 +176,21 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
         uint items = hits & 0x00ffffffu;
-        while (items != 0u && iterations < ITERATION_LIMIT) {
-            iterations++;
-            if (HAS_COUNTERS)
-                counted_items++;
+        WHILE(items != 0u && iterations < ITERATION_LIMIT)
             uint bit = items & (0u - items);
+            bool there = IS_WANTED(bit != 0u);
+            iterations += there ? 1u : 0u;
+            if (HAS_COUNTERS)
+                counted_items += there ? 1u : 0u;
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_triangle(item, search, hit);
+            test_triangle(item, there, search, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;
             }
-        }
+        END_WHILE(items != 0u && iterations < ITERATION_LIMIT)
     } while (more && iterations < TRAVERSAL_LIMIT);
     STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)
     LONG_KEEP(search.wrong, search.doubt)

@@ -79,7 +79,9 @@ static bool create_device(struct gpu *gpu) {
                                      .queueFamilyIndex = gpu->queue_family,
                                      .queueCount = 1,
                                      .pQueuePriorities = &priority};
-    const VkPhysicalDeviceFeatures features = {.shaderFloat64 = gpu->info.has_double};
+    // Every device has robust access; only kernels that fetch texels read past the end of a buffer.
+    const VkPhysicalDeviceFeatures features = {.shaderFloat64 = gpu->info.has_double,
+                                               .robustBufferAccess = gpu->texels};
     VkDeviceCreateInfo create = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                  .queueCreateInfoCount = 1,
                                  .pQueueCreateInfos = &queue,
