@@ -1,17 +1,20 @@
 // How fast trees are built and how good they are, against halving by the median and, where it is installed,
 // Embree's builder, in turn in the same run.
 //
-//     bench_build [TRIANGLES | MESH.ply]...
+//     bench_build [TRIANGLES | needles:TRIANGLES | MESH.ply]...
 //
-// A mesh is a PLY file, or a closed knot of so many triangles, displaced. For each mesh and builder: seconds
-// on the wall and of all threads, the least of the rounds; the median over the rounds of its processor time
-// as a multiple of Embree's; the tree's expected cost, nodes, levels, and the work of rays from around the
-// mesh through its middle. Embree's time is that of rtcCommitScene: it makes its boxes from the triangles and
-// copies these into the tree's leaves. glint's is that of bvh_build, and in the row `+ items` with the boxes
-// made from the triangles and the triangles brought into the leaves' order.
+// A mesh is a PLY file, a closed knot of so many triangles, displaced, or so many long thin ones. For each
+// mesh and builder: seconds on the wall and of all threads, the least of the rounds; the median over the
+// rounds of its processor time as a multiple of Embree's; the tree's expected cost, nodes, levels, and the
+// work of rays from around the mesh through its middle. Embree's time is that of rtcCommitScene: it makes its
+// boxes from the triangles and copies these into the tree's leaves. The row `split` is not what glint does: a
+// tree over triangles that were cut first, into at most 1.3 times as many boxes, without the time of cutting.
+// glint's is that of bvh_build, and in the row `+ items` with the boxes made from the triangles and the
+// triangles brought into the leaves' order.
 #include "bench/clocks.h"
 #include "bench/meshes.h"
 #include "bench/peer_embree.h"
+#include "bench/presplit.h"
 #include "core/parallel.h"
 #include "core/vec3.h"
 #include "shaders/gpu_scene.h"
@@ -27,20 +30,23 @@
 #include <string.h>
 
 enum {
-    ROUNDS = 7, // of halving by the median, which is slow and only a baseline, the first
+    ROUNDS = 7, // of `median` and `split`, which are only there to compare, the first
     PIECE = 16384,
     RAYS = 200000
 };
+
+#define SPLIT_EXTRA 0.3 // boxes besides those of whole triangles
 
 enum row {
     ROW_SAH,
     ROW_WHOLE,
     ROW_MEDIAN,
+    ROW_SPLIT,
     ROW_EMBREE,
     ROWS
 };
 
-static const char *const row_names[ROWS] = {"sah", "+ items", "median", "embree"};
+static const char *const row_names[ROWS] = {"sah", "+ items", "median", "split", "embree"};
 
 struct contest {
     const struct bench_mesh *mesh;
@@ -135,19 +141,24 @@ static void trace(const struct bvh *bvh, const struct contest *c, double *nodes,
 }
 
 static bool build(struct contest *c, enum row row, double seconds[2]) {
-    const uint32_t count = c->mesh->triangle_count;
+    uint32_t count = c->mesh->triangle_count;
+    struct bvh_item *items = c->items;
     if (row == ROW_EMBREE)
         return peer_embree_build(c->embree, seconds);
-    if (row != ROW_WHOLE)
+    if (row == ROW_SPLIT && !(items = presplit(c->mesh, SPLIT_EXTRA, &count)))
+        return false;
+    if (row != ROW_WHOLE && row != ROW_SPLIT)
         parallel_for(count, PIECE, make_items, c);
     bvh_finish(&c->bvh[row]);
     struct bench_clocks start = bench_clocks_now();
     if (row == ROW_WHOLE)
         parallel_for(count, PIECE, make_items, c);
-    bool done = bvh_build(c->items, count, row == ROW_MEDIAN ? BVH_MEDIAN : BVH_SAH, &c->bvh[row]);
+    bool done = bvh_build(items, count, row == ROW_MEDIAN ? BVH_MEDIAN : BVH_SAH, &c->bvh[row]);
     if (done && row == ROW_WHOLE)
         parallel_for(count, PIECE, gather_leaves, c);
     bench_clocks_since(start, seconds);
+    if (row == ROW_SPLIT)
+        free(items);
     return done;
 }
 
@@ -171,7 +182,7 @@ static void print_row(const struct contest *c, enum row row) {
     printf("%10u  %-8s %8.3f %8.3f", c->mesh->triangle_count, row_names[row], least(c->wall[row]),
            least(c->processor[row]));
     printf(c->embree ? " %8.2f" : "        -", ratios[ROUNDS / 2]);
-    if (row == ROW_SAH || row == ROW_MEDIAN) {
+    if (row != ROW_WHOLE && row != ROW_EMBREE) {
         struct bvh_quality quality = bvh_measure(&c->bvh[row]);
         double nodes, tested;
         trace(&c->bvh[row], c, &nodes, &tested);
@@ -189,11 +200,11 @@ static bool measure(struct contest *c) {
     if (!c->words || !c->leaves || !c->items)
         return false;
     make_words(c);
-    const enum row last = c->embree ? ROW_EMBREE : ROW_MEDIAN;
+    const enum row last = c->embree ? ROW_EMBREE : ROW_SPLIT;
     for (int round = 0; round < ROUNDS; round++)
         for (enum row row = 0; row <= last; row++) {
             double seconds[2] = {c->wall[row][0], c->processor[row][0]};
-            if ((row != ROW_MEDIAN || round == 0) && !build(c, row, seconds))
+            if (((row != ROW_MEDIAN && row != ROW_SPLIT) || round == 0) && !build(c, row, seconds))
                 return false;
             c->wall[row][round] = seconds[0];
             c->processor[row][round] = seconds[1];

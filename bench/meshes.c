@@ -47,6 +47,27 @@ static bool make_knot(uint32_t wanted, struct bench_mesh *mesh) {
     return true;
 }
 
+// Long thin triangles in all directions, across a cube: no tree over boxes likes them.
+static bool make_needles(uint32_t count, struct bench_mesh *mesh) {
+    if (!reserve(mesh, 3 * count, count))
+        return false;
+    uint64_t state = 1;
+    for (uint32_t i = 0; i < count; i++) {
+        double r[9];
+        for (int k = 0; k < 9; k++) {
+            state = state * 6364136223846793005u + 1442695040888963407u;
+            r[k] = (double)(state >> 40) * 0x1p-23 - 1;
+        }
+        for (uint32_t k = 0; k < 3; k++) {
+            for (int axis = 0; axis < 3; axis++)
+                mesh->positions[3 * (3 * (size_t)i + k) + (size_t)axis] =
+                    (float)(r[axis] + (k == 1 ? 0.3 * r[3 + axis] : 0) + (k == 2 ? 0.002 * r[6 + axis] : 0));
+            mesh->corners[3 * (size_t)i + k] = 3 * i + k;
+        }
+    }
+    return true;
+}
+
 static bool read_header(FILE *file, uint32_t *vertices, uint32_t *faces) {
     char line[LINE_MAX_BYTES];
     bool is_binary = false;
@@ -88,10 +109,12 @@ static bool read_ply(FILE *file, struct bench_mesh *mesh) {
 
 bool bench_mesh_open(const char *program, const char *word, struct bench_mesh *mesh) {
     char *end;
-    const unsigned long wanted = strtoul(word, &end, 10);
+    const bool is_needles = strncmp(word, "needles:", 8) == 0;
+    const char *number = is_needles ? word + 8 : word;
+    const unsigned long wanted = strtoul(number, &end, 10);
     *mesh = (struct bench_mesh){0};
-    if (*word && !*end && wanted > 0 && wanted <= UINT32_MAX / 4) {
-        if (make_knot((uint32_t)wanted, mesh))
+    if (*number && !*end && wanted > 0 && wanted <= UINT32_MAX / 4) {
+        if (is_needles ? make_needles((uint32_t)wanted, mesh) : make_knot((uint32_t)wanted, mesh))
             return true;
         fprintf(stderr, "%s: not enough memory for %s triangles\n", program, word);
     } else {

@@ -15,7 +15,8 @@ struct bench_mesh {
 
 // What `word` names: the path of a PLY file (binary, little endian, vertices that begin with three floats and
 // have no more, faces of three corners), or else about how many triangles of a closed knot with waves on it,
-// as a displaced scan is: many small triangles, all over its box. false: a line says on standard error why
+// as a displaced scan is: many small triangles, all over its box; `needles:N` is N long thin triangles across
+// a cube. false: a line says on standard error why
 // not, after `program`.
 bool bench_mesh_open(const char *program, const char *word, struct bench_mesh *mesh);
 void bench_mesh_finish(struct bench_mesh *mesh);
