@@ -1,15 +1,19 @@
 #include "assets/read_obj.h"
 
+#include "assets/obj_chunk.h"
 #include "assets/obj_lex.h"
+#include "core/parallel.h"
 #include "core/str_map.h"
 
 #include <math.h>
 #include <string.h>
 
-#define COORDINATE_MAX 1e18
-
 enum {
-    WITH_COLOR = 6 // numbers of a vertex
+    WITH_COLOR = 6, // numbers of a vertex
+    CHUNK_BYTES = 1 << 18,
+    // Lines besides vertices, normals and faces that threads read: up to these, and one in so many bytes.
+    OTHERS_FEW = 64,
+    OTHER_BYTES_LEAST = 16,
 };
 
 struct obj_reader {
@@ -19,6 +23,8 @@ struct obj_reader {
     struct obj_lex lex;
     bool refers_forward; // a face names what the file has not defined yet
     bool is_full;        // a limit is exceeded: read no further
+    bool is_quiet;       // faults are only noted
+    bool is_faulty;
     // The name of the last `usemtl`; its group is made by the first face.
     str material;
     uint32_t material_line;
@@ -29,6 +35,10 @@ struct obj_reader {
 // ---- faults
 
 static void report_word(struct obj_reader *r, enum diag_code code, str word, const char *what) {
+    if (r->is_quiet) {
+        r->is_faulty = true;
+        return;
+    }
     size_t at = (size_t)(word.ptr - r->lex.begin);
     // A word can be a whole binary file.
     int shown = word.len < 64 ? (int)word.len : 64;
@@ -47,7 +57,7 @@ static double read_coordinate(struct obj_reader *r) {
     const char *begin = r->lex.at;
     double value;
     enum number_status status = obj_lex_number(&r->lex, &value);
-    if (status == NUMBER_OK && fabs(value) <= COORDINATE_MAX)
+    if (status == NUMBER_OK && fabs(value) <= OBJ_COORDINATE_MAX)
         return value;
     str word = {begin, (size_t)(r->lex.at - begin)};
     report_word(r, DIAG_MESH_NUMBER, word,
@@ -303,17 +313,182 @@ static void check_forward(struct obj_reader *r) {
     }
 }
 
-void read_obj(struct asset_file *file, struct arena *scratch, struct obj *out) {
+// What only the whole file shows.
+static void finish(struct obj_reader *r) {
+    if (r->refers_forward)
+        check_forward(r);
+    if (r->obj->faces.count == 0 && r->file->errors == 0)
+        asset_report_line(r->file, DIAG_MESH_EMPTY, 0, "the mesh has no faces");
+}
+
+static void reader_init(struct obj_reader *r, struct asset_file *file, struct arena *scratch,
+                        struct obj *out) {
     *out = (struct obj){0};
-    struct obj_reader r = {.file = file, .scratch = scratch, .obj = out, .group = IR_NO_INDEX};
-    str_map_init(&r.groups, scratch);
-    obj_lex_init(&r.lex, file->text);
+    *r = (struct obj_reader){.file = file, .scratch = scratch, .obj = out, .group = IR_NO_INDEX};
+    str_map_init(&r->groups, scratch);
+    obj_lex_init(&r->lex, file->text);
+}
+
+void read_obj_in_order(struct asset_file *file, struct arena *scratch, struct obj *out) {
+    struct obj_reader r;
+    reader_init(&r, file, scratch, out);
     while (!obj_lex_done(&r.lex) && !r.is_full) {
         read_line(&r);
         obj_lex_next_line(&r.lex);
     }
-    if (r.refers_forward)
-        check_forward(&r);
-    if (out->faces.count == 0 && file->errors == 0)
-        asset_report_line(file, DIAG_MESH_EMPTY, 0, "the mesh has no faces");
+    finish(&r);
+}
+
+// ---- by threads
+
+struct chunks {
+    struct obj_chunk *items;
+    uint32_t count;
+    uint64_t corners_most;
+    struct obj *obj;
+    struct obj_other *others;
+};
+
+static void count_chunks(void *context, size_t begin, size_t end) {
+    const struct chunks *chunks = context;
+    for (size_t i = begin; i < end; i++)
+        obj_chunk_count(&chunks->items[i]);
+}
+
+static void read_chunks(void *context, size_t begin, size_t end) {
+    const struct chunks *chunks = context;
+    for (size_t i = begin; i < end; i++)
+        obj_chunk_read(&chunks->items[i], chunks->corners_most, chunks->obj, chunks->others);
+}
+
+// Cuts the text, from the cursor on, at the first line ends after every `bytes` bytes.
+static void cut_text(struct obj_reader *r, size_t bytes, struct chunks *chunks) {
+    const char *const text = r->lex.at;
+    const size_t length = (size_t)(r->lex.end - text);
+    size_t at = 0;
+    chunks->count = (uint32_t)(length / bytes + 1);
+    chunks->items = ARENA_ARRAY(r->scratch, struct obj_chunk, chunks->count);
+    for (uint32_t i = 0; i < chunks->count; i++) {
+        size_t end = (i + (size_t)1) * bytes;
+        if (end < at)
+            end = at;
+        const char *line = end < length ? memchr(text + end, '\n', length - end) : NULL;
+        end = line ? (size_t)(line - text) + 1 : length;
+        chunks->items[i].begin = text + at;
+        chunks->items[i].end = text + end;
+        at = end;
+    }
+}
+
+static bool are_ordinary(const struct chunks *chunks) {
+    for (uint32_t i = 0; i < chunks->count; i++)
+        if (!chunks->items[i].is_ordinary)
+            return false;
+    return true;
+}
+
+static void add_counts(struct obj_counts *sum, const struct obj_counts *counts) {
+    sum->vertices += counts->vertices;
+    sum->normals += counts->normals;
+    sum->corners += counts->corners;
+    sum->faces += counts->faces;
+    sum->others += counts->others;
+    sum->lines += counts->lines;
+}
+
+// Room for exactly what was counted, and where each chunk's part of it begins. false: it would be much more
+// than the sequential reader takes of a file that is none of ours.
+static bool make_room(struct obj_reader *r, struct chunks *chunks, struct obj_counts *sum) {
+    struct obj *obj = r->obj;
+    for (uint32_t i = 0; i < chunks->count; i++) {
+        chunks->items[i].before = *sum;
+        add_counts(sum, &chunks->items[i].here);
+    }
+    if (sum->faces > r->file->input->limits->value[LIMIT_MESH_TRIANGLES] ||
+        sum->others > r->file->text.len / OTHER_BYTES_LEAST + OTHERS_FEW)
+        return false;
+    obj->vertices.items = ARENA_ARRAY(r->scratch, vec3, sum->vertices);
+    obj->normals.items = ARENA_ARRAY(r->scratch, vec3, sum->normals);
+    obj->corners.items = ARENA_ARRAY(r->scratch, struct obj_corner, sum->corners);
+    obj->faces.items = ARENA_ARRAY(r->scratch, struct obj_face, sum->faces);
+    chunks->others = ARENA_ARRAY(r->scratch, struct obj_other, sum->others);
+    obj->vertices.count = obj->vertices.capacity = sum->vertices;
+    obj->normals.count = obj->normals.capacity = sum->normals;
+    obj->corners.count = obj->corners.capacity = sum->corners;
+    obj->faces.count = obj->faces.capacity = sum->faces;
+    return true;
+}
+
+static void give_back_room(struct obj_reader *r, struct chunks *chunks, const struct obj_counts *sum) {
+    struct obj *obj = r->obj;
+    arena_give_back(r->scratch, obj->vertices.items, obj->vertices.capacity, sizeof *obj->vertices.items);
+    arena_give_back(r->scratch, obj->normals.items, obj->normals.capacity, sizeof *obj->normals.items);
+    arena_give_back(r->scratch, obj->corners.items, obj->corners.capacity, sizeof *obj->corners.items);
+    arena_give_back(r->scratch, obj->faces.items, obj->faces.capacity, sizeof *obj->faces.items);
+    arena_give_back(r->scratch, chunks->others, sum->others, sizeof *chunks->others);
+    *obj = (struct obj){0};
+}
+
+static void name_group(struct obj_reader *r, uint32_t begin, uint32_t end) {
+    if (begin == end)
+        return;
+    const uint32_t group = current_group(r);
+    for (uint32_t i = begin; group && i < end; i++)
+        r->obj->faces.items[i].group = group;
+}
+
+// In the order of the file: sums, and the lines that only make sense in that order. false: one has a fault.
+static bool join_chunks(struct obj_reader *r, const struct chunks *chunks, uint32_t others) {
+    struct obj *obj = r->obj;
+    for (uint32_t i = 0; i < chunks->count; i++) {
+        const struct obj_chunk *chunk = &chunks->items[i];
+        obj->triangle_count += chunk->triangles;
+        r->refers_forward |= chunk->refers_forward;
+        struct mesh_loss_count *colors = &obj->losses[MESH_LOSS_COLORS];
+        if (!colors->count)
+            colors->line = chunk->colors.line;
+        colors->count += chunk->colors.count;
+    }
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < others; i++) {
+        const struct obj_other *other = &chunks->others[i];
+        r->lex.at = other->at;
+        r->lex.line = other->line;
+        const str keyword = obj_lex_word(&r->lex);
+        name_group(r, named, other->faces);
+        named = other->faces;
+        if (str_equal_cstr(keyword, "fo"))
+            return false;
+        read_other(r, keyword);
+    }
+    name_group(r, named, obj->faces.count);
+    return !r->is_faulty && obj->triangle_count <= r->file->input->limits->value[LIMIT_MESH_TRIANGLES];
+}
+
+bool read_obj_in_chunks(struct asset_file *file, struct arena *scratch, size_t chunk_bytes, struct obj *out) {
+    struct obj_reader r;
+    struct obj_counts sum = {0};
+    reader_init(&r, file, scratch, out);
+    r.is_quiet = true;
+    struct chunks chunks = {.obj = out, .corners_most = file->input->limits->value[LIMIT_MESH_CORNERS]};
+    cut_text(&r, chunk_bytes, &chunks);
+    parallel_for(chunks.count, 1, count_chunks, &chunks);
+    bool done = are_ordinary(&chunks) && make_room(&r, &chunks, &sum);
+    if (done) {
+        parallel_for(chunks.count, 1, read_chunks, &chunks);
+        done = are_ordinary(&chunks) && join_chunks(&r, &chunks, sum.others);
+    }
+    if (done) {
+        r.is_quiet = false;
+        finish(&r);
+    } else {
+        give_back_room(&r, &chunks, &sum);
+    }
+    arena_give_back(scratch, chunks.items, chunks.count, sizeof *chunks.items);
+    return done;
+}
+
+void read_obj(struct asset_file *file, struct arena *scratch, struct obj *out) {
+    if (!read_obj_in_chunks(file, scratch, CHUNK_BYTES, out))
+        read_obj_in_order(file, scratch, out);
 }

@@ -50,7 +50,17 @@ struct obj {
     struct mesh_loss_count losses[MESH_LOSS_COUNT]; // of what is in lines of their own
 };
 
-// Reads file->text. Faults are counted in file->errors; after one the result must not be used.
+#define OBJ_COORDINATE_MAX 1e18 // the largest that a vertex may have
+
+// Reads file->text, on all processors. Faults are counted in file->errors; after one the result must not be
+// used.
 void read_obj(struct asset_file *file, struct arena *scratch, struct obj *out);
+
+// The two ways in which it does, with the same result to the bit; for tests and benches.
+// By one thread, from the first line to the last.
+void read_obj_in_order(struct asset_file *file, struct arena *scratch, struct obj *out);
+// In pieces of about so many bytes, at least 1, on all processors. false: the file has something that only
+// the other way understands or reports, and nothing was reported.
+bool read_obj_in_chunks(struct asset_file *file, struct arena *scratch, size_t chunk_bytes, struct obj *out);
 
 #endif

@@ -1,11 +1,22 @@
-// How fast trees are built and how good they are, against halving by the median in the same run.
+// How fast trees are built and how good they are, against halving by the median and, where it is installed,
+// Embree's builder, in turn in the same run.
 //
-//     bench_build [TRIANGLES]...
+//     bench_build [TRIANGLES | needles:TRIANGLES | MESH.ply]...
 //
-// The mesh is a closed knot, displaced, as a displaced scan is: many small triangles, all over its box.
-// For each size and method: seconds and seconds per million triangles (best of three), the tree's
-// expected cost, nodes, levels, and the work of rays from around the mesh through its middle.
-#include "core/clock.h"
+// A mesh is a PLY file, a closed knot of so many triangles, displaced, or so many long thin ones. For each
+// mesh and builder: seconds on the wall and of all threads, the least of the rounds; the median over the
+// rounds of its processor time as a multiple of Embree's; the tree's expected cost, nodes, levels, and the
+// work of rays from around the mesh through its middle. Embree's time is that of rtcCommitScene: it makes its
+// boxes from the triangles and copies these into the tree's leaves. The row `split` is not what glint does: a
+// tree over triangles that were cut first, into at most 1.3 times as many boxes, without the time of cutting.
+// glint's is that of bvh_build, and in the row `+ items` with the boxes made from the triangles and the
+// triangles brought into the leaves' order.
+#include "bench/clocks.h"
+#include "bench/meshes.h"
+#include "bench/peer_embree.h"
+#include "bench/presplit.h"
+#include "core/parallel.h"
+#include "core/vec3.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
 #include "tests/traverse/quality.h"
@@ -19,53 +30,86 @@
 #include <string.h>
 
 enum {
-    REPEATS = 3,
+    ROUNDS = 7, // of `median` and `split`, which are only there to compare, the first
+    PIECE = 16384,
     RAYS = 200000
 };
 
-static uint32_t bits_of(double value) {
-    float rounded = (float)value;
-    uint32_t bits;
-    memcpy(&bits, &rounded, sizeof bits);
-    return bits;
-}
+#define SPLIT_EXTRA 0.3 // boxes besides those of whole triangles
 
-// A tube around a (2, 3) torus knot with waves on it.
-static struct gpu_word knot_point(uint32_t i, uint32_t rows, uint32_t k, uint32_t columns) {
-    const double turn = 6.283185307179586;
-    double s = turn * (i % rows) / rows;
-    double t = turn * (k % columns) / columns;
-    double radius = 0.2 + 0.02 * sin(31 * s) * cos(7 * t) + 0.004 * sin(211 * s + 13 * t);
-    double out = 0.6 + 0.25 * cos(3 * s) + radius * cos(t);
-    return (struct gpu_word){bits_of(out * cos(2 * s)), bits_of(0.25 * sin(3 * s) + radius * sin(t)),
-                             bits_of(out * sin(2 * s)), 0};
-}
+enum row {
+    ROW_SAH,
+    ROW_WHOLE,
+    ROW_MEDIAN,
+    ROW_SPLIT,
+    ROW_EMBREE,
+    ROWS
+};
 
-static uint32_t make_knot(uint32_t wanted, struct gpu_word **words) {
-    uint32_t columns = (uint32_t)sqrt(wanted / 16.0) + 3;
-    uint32_t rows = wanted / 2 / columns + 3;
-    uint32_t count = rows * columns * 2;
-    *words = malloc((size_t)count * TRIANGLE_WORDS * sizeof **words);
-    if (!*words)
-        return 0;
-    struct gpu_word *next = *words;
-    for (uint32_t i = 0; i < rows; i++)
-        for (uint32_t k = 0; k < columns; k++) {
-            struct gpu_word a = knot_point(i, rows, k, columns);
-            struct gpu_word b = knot_point(i + 1, rows, k, columns);
-            struct gpu_word c = knot_point(i + 1, rows, k + 1, columns);
-            struct gpu_word d = knot_point(i, rows, k + 1, columns);
-            const struct gpu_word six[6] = {a, b, c, a, c, d};
-            memcpy(next, six, sizeof six);
-            next[0].w = (uint32_t)((next - *words) / TRIANGLE_WORDS);
-            next[3].w = next[0].w + 1;
-            next += 6;
+static const char *const row_names[ROWS] = {"sah", "+ items", "median", "split", "embree"};
+
+struct contest {
+    const struct bench_mesh *mesh;
+    struct gpu_word *words; // of the triangles, by number
+    struct gpu_word *leaves;
+    struct bvh_item *items;
+    struct bvh bvh[ROWS];
+    struct peer_embree *embree;
+    double wall[ROWS][ROUNDS], processor[ROWS][ROUNDS];
+};
+
+static void make_words(struct contest *c) {
+    for (uint32_t i = 0; i < c->mesh->triangle_count; i++)
+        for (int k = 0; k < TRIANGLE_WORDS; k++) {
+            uint32_t bits[3];
+            memcpy(bits, c->mesh->positions + 3 * (size_t)c->mesh->corners[3 * (size_t)i + (size_t)k],
+                   sizeof bits);
+            c->words[(size_t)TRIANGLE_WORDS * i + (size_t)k] =
+                (struct gpu_word){bits[0], bits[1], bits[2], k == 0 ? i : 0};
         }
-    return count;
+}
+
+static void make_items(void *context, size_t begin, size_t end) {
+    const struct contest *c = context;
+    for (size_t i = begin; i < end; i++) {
+        vec3 corners[3];
+        for (size_t k = 0; k < 3; k++) {
+            const float *p = c->mesh->positions + 3 * (size_t)c->mesh->corners[3 * i + k];
+            corners[k] = (vec3){(double)p[0], (double)p[1], (double)p[2]};
+        }
+        c->items[i] = bvh_triangle_item(corners, false, (uint32_t)i);
+    }
+}
+
+static void gather_leaves(void *context, size_t begin, size_t end) {
+    const struct contest *c = context;
+    for (size_t i = begin; i < end; i++)
+        memcpy(c->leaves + i * TRIANGLE_WORDS, c->words + (size_t)c->bvh[ROW_WHOLE].order[i] * TRIANGLE_WORDS,
+               TRIANGLE_WORDS * sizeof *c->leaves);
+}
+
+struct sphere {
+    double middle[3], radius;
+};
+
+static struct sphere around(const struct bench_mesh *mesh) {
+    double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < 3 * (size_t)mesh->vertex_count; i++) {
+        lower[i % 3] = fmin(lower[i % 3], (double)mesh->positions[i]);
+        upper[i % 3] = fmax(upper[i % 3], (double)mesh->positions[i]);
+    }
+    struct sphere sphere = {.radius = 0};
+    for (int axis = 0; axis < 3; axis++) {
+        sphere.middle[axis] = 0.5 * (lower[axis] + upper[axis]);
+        sphere.radius = fmax(sphere.radius, 0.5 * (upper[axis] - lower[axis]));
+    }
+    return sphere;
 }
 
 // Average nodes and triangles that a ray reads.
-static void trace(const struct bvh *bvh, const struct gpu_word *words, double *nodes, double *items) {
+static void trace(const struct bvh *bvh, const struct contest *c, double *nodes, double *items) {
+    const struct gpu_word *words = c->words;
+    const struct sphere box = around(c->mesh);
     struct gpu_word *leaves = malloc((size_t)bvh->item_count * TRIANGLE_WORDS * sizeof *leaves);
     *nodes = *items = 0;
     if (!leaves)
@@ -79,10 +123,13 @@ static void trace(const struct bvh *bvh, const struct gpu_word *words, double *n
         double y = 1 - 2 * (i + 0.5) / RAYS;
         double r = sqrt(1 - y * y);
         double to = (i % 97) / 97.0 - 0.5;
-        struct traverse_ray ray = {
-            {(float)(3 * r * cos(a)), (float)(3 * y), (float)(3 * r * sin(a))},
-            {(float)(to - 3 * r * cos(a)), (float)(0.3 * to - 3 * y), (float)(-3 * r * sin(a))},
-            INFINITY};
+        const double from[3] = {3 * r * cos(a), 3 * y, 3 * r * sin(a)};
+        const double aim[3] = {to, 0.3 * to, 0};
+        struct traverse_ray ray = {.far = INFINITY};
+        for (int axis = 0; axis < 3; axis++) {
+            ray.origin[axis] = (float)(box.middle[axis] + box.radius * from[axis]);
+            ray.direction[axis] = (float)(aim[axis] - from[axis]);
+        }
         struct traverse_hit hit;
         traverse_closest(&scene, &ray, &hit);
         *nodes += hit.nodes_read;
@@ -93,47 +140,108 @@ static void trace(const struct bvh *bvh, const struct gpu_word *words, double *n
     *items /= RAYS;
 }
 
-static bool measure(const struct gpu_word *words, uint32_t count, enum bvh_method method) {
-    struct bvh_item *items = malloc((size_t)count * sizeof *items);
-    struct bvh bvh = {0};
-    double best = INFINITY;
-    for (int repeat = 0; repeat < REPEATS && items; repeat++) {
-        for (uint32_t i = 0; i < count; i++)
-            items[i] = traverse_item(words + (size_t)TRIANGLE_WORDS * i, i);
-        bvh_finish(&bvh);
-        double start = clock_seconds();
-        if (!bvh_build(items, count, method, &bvh))
-            break;
-        best = fmin(best, clock_seconds() - start);
-    }
-    free(items);
-    if (!bvh.nodes)
+static bool build(struct contest *c, enum row row, double seconds[2]) {
+    uint32_t count = c->mesh->triangle_count;
+    struct bvh_item *items = c->items;
+    if (row == ROW_EMBREE)
+        return peer_embree_build(c->embree, seconds);
+    if (row == ROW_SPLIT && !(items = presplit(c->mesh, SPLIT_EXTRA, &count)))
         return false;
-    struct bvh_quality quality = bvh_measure(&bvh);
-    double nodes, tested;
-    trace(&bvh, words, &nodes, &tested);
-    printf("%10u  %-6s %8.3f %8.3f %8.2f %9u %6u %6.2f %6.2f %8.1f %8.1f\n", count,
-           method == BVH_SAH ? "sah" : "median", best, best * 1e6 / count, quality.cost, quality.nodes,
-           bvh.depth, quality.children_per_node, quality.items_per_leaf, nodes, tested);
-    bvh_finish(&bvh);
+    if (row != ROW_WHOLE && row != ROW_SPLIT)
+        parallel_for(count, PIECE, make_items, c);
+    bvh_finish(&c->bvh[row]);
+    struct bench_clocks start = bench_clocks_now();
+    if (row == ROW_WHOLE)
+        parallel_for(count, PIECE, make_items, c);
+    bool done = bvh_build(items, count, row == ROW_MEDIAN ? BVH_MEDIAN : BVH_SAH, &c->bvh[row]);
+    if (done && row == ROW_WHOLE)
+        parallel_for(count, PIECE, gather_leaves, c);
+    bench_clocks_since(start, seconds);
+    if (row == ROW_SPLIT)
+        free(items);
+    return done;
+}
+
+static int compare_doubles(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double least(const double values[ROUNDS]) {
+    double result = values[0];
+    for (int i = 1; i < ROUNDS; i++)
+        result = fmin(result, values[i]);
+    return result;
+}
+
+static void print_row(const struct contest *c, enum row row) {
+    double ratios[ROUNDS];
+    for (int i = 0; i < ROUNDS; i++)
+        ratios[i] = c->processor[row][i] / c->processor[ROW_EMBREE][i];
+    qsort(ratios, ROUNDS, sizeof *ratios, compare_doubles);
+    printf("%10u  %-8s %8.3f %8.3f", c->mesh->triangle_count, row_names[row], least(c->wall[row]),
+           least(c->processor[row]));
+    printf(c->embree ? " %8.2f" : "        -", ratios[ROUNDS / 2]);
+    if (row != ROW_WHOLE && row != ROW_EMBREE) {
+        struct bvh_quality quality = bvh_measure(&c->bvh[row]);
+        double nodes, tested;
+        trace(&c->bvh[row], c, &nodes, &tested);
+        printf(" %8.2f %9u %6u %7.2f %6.2f %9.1f %9.1f", quality.cost, quality.nodes, c->bvh[row].depth,
+               quality.children_per_node, quality.items_per_leaf, nodes, tested);
+    }
+    printf("\n");
+}
+
+static bool measure(struct contest *c) {
+    const size_t count = c->mesh->triangle_count;
+    c->words = malloc(count * TRIANGLE_WORDS * sizeof *c->words);
+    c->leaves = malloc(count * TRIANGLE_WORDS * sizeof *c->leaves);
+    c->items = malloc(count * sizeof *c->items);
+    if (!c->words || !c->leaves || !c->items)
+        return false;
+    make_words(c);
+    const enum row last = c->embree ? ROW_EMBREE : ROW_SPLIT;
+    for (int round = 0; round < ROUNDS; round++)
+        for (enum row row = 0; row <= last; row++) {
+            double seconds[2] = {c->wall[row][0], c->processor[row][0]};
+            if (((row != ROW_MEDIAN && row != ROW_SPLIT) || round == 0) && !build(c, row, seconds))
+                return false;
+            c->wall[row][round] = seconds[0];
+            c->processor[row][round] = seconds[1];
+        }
+    for (enum row row = 0; row <= last; row++)
+        print_row(c, row);
+    if (!c->embree)
+        printf("            embree   not measured: not installed when this program was built\n");
     return true;
+}
+
+static bool run(const char *word) {
+    struct bench_mesh mesh;
+    if (!bench_mesh_open("bench_build", word, &mesh))
+        return false;
+    struct contest c = {.mesh = &mesh, .embree = peer_embree_open(&mesh)};
+    bool done = measure(&c);
+    if (!done)
+        fprintf(stderr, "bench_build: not enough memory for '%s'\n", word);
+    for (enum row row = 0; row < ROWS; row++)
+        bvh_finish(&c.bvh[row]);
+    free(c.words);
+    free(c.leaves);
+    free(c.items);
+    peer_embree_close(c.embree);
+    bench_mesh_finish(&mesh);
+    return done;
 }
 
 int main(int argc, char **argv) {
     static const char *const standard[] = {"100000", "1100000"};
-    int sizes = argc > 1 ? argc - 1 : 2;
-    printf(" triangles  method  seconds    per M     cost     nodes levels  fan-out items  nodes/ray "
-           "tests/ray\n");
-    for (int i = 0; i < sizes; i++) {
-        struct gpu_word *words;
-        uint32_t wanted = (uint32_t)strtoul(argc > 1 ? argv[i + 1] : standard[i], NULL, 10);
-        uint32_t count = make_knot(wanted, &words);
-        bool done = count && measure(words, count, BVH_SAH) && measure(words, count, BVH_MEDIAN);
-        free(words);
-        if (!done) {
-            fprintf(stderr, "bench_build: not enough memory for %u triangles\n", wanted);
+    const int count = argc > 1 ? argc - 1 : 2;
+    printf(
+        " triangles  builder      wall  threads x embree     cost     nodes levels fan-out  items nodes/ray "
+        "tests/ray\n");
+    for (int i = 0; i < count; i++)
+        if (!run(argc > 1 ? argv[i + 1] : standard[i]))
             return 1;
-        }
-    }
     return 0;
 }

@@ -2,18 +2,16 @@
 //
 // Every subtree covers a range of the items, which the build sorts in place. A subtree of n items has
 // n - 1 nodes, at [id, id + n - 1): its root, then its left child's, then its right child's; a subtree of
-// one item is the item itself. So ids follow from counts, and threads build subtrees without sharing.
+// one item is the item itself. So ids follow from counts, and threads build subtrees without sharing. Boxes
+// are not kept: those of wide nodes follow from the items below them.
 #ifndef GLINT_TRACER_BVH_BINARY_H
 #define GLINT_TRACER_BVH_BINARY_H
 
 #include "tracer/bvh/box.h"
 
 struct binary_node {
-    struct bvh_box box;
     uint32_t left_count; // items of the left child
-    // How to make this subtree at least cost: [0] 1 a leaf, 0 a wide node of its own; [i] for 1 <= i < 8:
-    // as up to i + 1 roots, of which the left child gives this many; 0: not more than i roots.
-    uint8_t decision[BVH_WIDTH];
+    uint32_t choices;    // how to make this subtree at least cost: see binary_choice
 };
 
 // A subtree: `node` means nothing where count is 1.
@@ -30,6 +28,17 @@ struct binary_tree {
 // false: no memory. `nodes` is allocated here and freed by the caller.
 bool binary_build(struct binary_tree *tree, enum bvh_method method);
 
+enum {
+    CHOICE_BITS = 3,
+    CHOICE_MASK = 7
+};
+
+// roots 1: whether the subtree is a leaf. 2 to 7: as up to so many roots, of which the left child gives this
+// many; 0: one root fewer costs no more. 8: the roots that the left child gives to a wide node made of it.
+static inline uint32_t binary_choice(const struct binary_node *node, int roots) {
+    return node->choices >> (CHOICE_BITS * (roots - 1)) & CHOICE_MASK;
+}
+
 static inline struct binary_range binary_left(const struct binary_tree *tree, struct binary_range r) {
     return (struct binary_range){r.node + 1, r.begin, tree->nodes[r.node].left_count};
 }
@@ -37,9 +46,8 @@ static inline struct binary_range binary_right(const struct binary_tree *tree, s
     uint32_t left = tree->nodes[r.node].left_count;
     return (struct binary_range){r.node + left, r.begin + left, r.count - left};
 }
-
-static inline struct bvh_box binary_box(const struct binary_tree *tree, struct binary_range r) {
-    return r.count == 1 ? item_box(&tree->items[r.begin]) : tree->nodes[r.node].box;
+static inline bool binary_is_leaf(const struct binary_tree *tree, struct binary_range r) {
+    return r.count == 1 || binary_choice(&tree->nodes[r.node], 1);
 }
 
 #endif

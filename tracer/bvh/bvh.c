@@ -24,8 +24,9 @@ bool bvh_build(struct bvh_item *items, uint32_t count, enum bvh_method method, s
     if (count == 0)
         return build_empty(out);
     struct binary_tree tree = {.items = items, .count = count};
-    out->order = heap_alloc(count * sizeof *out->order);
-    bool done = out->order && binary_build(&tree, method) && wide_build(&tree, out);
+    bool done = binary_build(&tree, method);
+    out->order = done ? heap_alloc(count * sizeof *out->order) : NULL;
+    done = out->order && wide_build(&tree, out);
     free(tree.nodes);
     if (!done)
         bvh_finish(out);

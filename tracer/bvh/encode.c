@@ -2,6 +2,7 @@
 
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
+#include "tracer/bvh/round.h"
 
 #include <assert.h>
 #include <math.h>
@@ -13,6 +14,8 @@ enum {
     EXPONENT_BIAS = 127,
     EXPONENT_LEAST = -100, // smaller quanta would let 2^e / d leave the normal numbers
     QUANTUM_LEAST = 32,    // and below 2^-32 of a coordinate the widening would be lost in double
+    DOUBLE_BIAS = 1023,    // as a double is stored
+    DOUBLE_DIGITS = 52,
 };
 
 // One axis of a node: planes lie at origin + q * 2^exponent, q in 0..255.
@@ -21,29 +24,48 @@ struct axis_grid {
     int exponent;
 };
 
-static float float_below(double value) {
-    float rounded = (float)value;
-    return rounded > value ? nextafterf(rounded, -INFINITY) : rounded;
+static double larger(double a, double b) {
+    return a > b ? a : b;
+}
+
+// 2^exponent, a normal number.
+static double power_of_two(int exponent) {
+    const uint64_t bits = (uint64_t)(exponent + DOUBLE_BIAS) << DOUBLE_DIGITS;
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+// The least exponent whose power of two is not below a positive normal number.
+static int exponent_above(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    const bool is_power = !(bits << (64 - DOUBLE_DIGITS));
+    return (int)(bits >> DOUBLE_DIGITS) - DOUBLE_BIAS + !is_power;
+}
+
+// Of a number that is neither negative nor large, rounded up.
+static uint32_t whole_above(double value) {
+    const int32_t below = (int32_t)value;
+    return (uint32_t)(below + (below < value));
 }
 
 // The decoding (p - o)/d + q * (2^e/d) rounds p - o, the two products and the sum. What does not scale
 // with the whole term is below 3 * 255 * 2^-24 quanta; widening by 2^-12 of a quantum covers it, and the
 // scaled far distance covers the rest.
 static double widening(int exponent) {
-    return ldexp(1, exponent - 12);
+    return power_of_two(exponent - 12);
 }
 
 static struct axis_grid axis_grid_make(double lower, double upper) {
-    double quantum = fmax((upper - lower) / 254, ldexp(fmax(fabs(lower), fabs(upper)), -QUANTUM_LEAST));
+    double quantum =
+        larger((upper - lower) / 254, larger(fabs(lower), fabs(upper)) * power_of_two(-QUANTUM_LEAST));
     int exponent = EXPONENT_LEAST;
-    if (quantum > ldexp(1, EXPONENT_LEAST)) {
-        exponent = ilogb(quantum);
-        if (ldexp(1, exponent) < quantum)
-            exponent++;
-    }
+    if (quantum > power_of_two(EXPONENT_LEAST))
+        exponent = exponent_above(quantum);
     for (;; exponent++) {
         float origin = float_below(lower - widening(exponent));
-        if (ceil(ldexp(upper + widening(exponent) - origin, -exponent)) <= 255)
+        if ((upper + widening(exponent) - origin) * power_of_two(-exponent) <= 255)
             return (struct axis_grid){origin, exponent};
     }
 }
@@ -59,17 +81,17 @@ static void put_byte(uint32_t pair[2], int slot, uint32_t byte) {
 }
 
 // Planes of an empty slot are turned inside out, so that no ray hits it.
-static void encode_axis(const struct wide_child slots[BVH_WIDTH], int axis, const struct axis_grid *grid,
-                        uint32_t low[2], uint32_t high[2]) {
+static void encode_axis(const struct wide_child slots[BVH_WIDTH], float lower[BVH_WIDTH][4],
+                        float upper[BVH_WIDTH][4], int axis, const struct axis_grid *grid, uint32_t low[2],
+                        uint32_t high[2]) {
     double wide = widening(grid->exponent);
-    double per_quantum = ldexp(1, -grid->exponent);
+    double per_quantum = power_of_two(-grid->exponent);
     for (int slot = 0; slot < BVH_WIDTH; slot++) {
         uint32_t below = 255;
         uint32_t above = 0;
         if (slots[slot].count) {
-            const struct bvh_box *box = &slots[slot].box;
-            below = (uint32_t)floor((box->lower[axis] - wide - grid->origin) * per_quantum);
-            above = (uint32_t)ceil((box->upper[axis] + wide - grid->origin) * per_quantum);
+            below = (uint32_t)((lower[slot][axis] - wide - grid->origin) * per_quantum);
+            above = whole_above((upper[slot][axis] + wide - grid->origin) * per_quantum);
             assert(below <= above && above <= 255);
         }
         put_byte(low, slot, below);
@@ -101,16 +123,21 @@ void encode_node(const struct wide_child slots[BVH_WIDTH], uint32_t first_node, 
     uint32_t low[3][2] = {{0}};
     uint32_t high[3][2] = {{0}};
     uint32_t meta[2] = {0};
+    float lower[BVH_WIDTH][4], upper[BVH_WIDTH][4], all[2][4];
     struct bvh_box box = box_empty();
     bool is_empty = true;
     for (int slot = 0; slot < BVH_WIDTH; slot++)
         if (slots[slot].count) {
-            box_grow(&box, slots[slot].box.lower, slots[slot].box.upper);
+            box_join(&box, &slots[slot].box);
+            lanes_store(slots[slot].box.lower, lower[slot]);
+            lanes_store(slots[slot].box.upper, upper[slot]);
             is_empty = false;
         }
+    lanes_store(box.lower, all[0]);
+    lanes_store(box.upper, all[1]);
     for (int axis = 0; axis < 3; axis++) {
-        grid[axis] = is_empty ? (struct axis_grid){0, 0} : axis_grid_make(box.lower[axis], box.upper[axis]);
-        encode_axis(slots, axis, &grid[axis], low[axis], high[axis]);
+        grid[axis] = is_empty ? (struct axis_grid){0, 0} : axis_grid_make(all[0][axis], all[1][axis]);
+        encode_axis(slots, lower, upper, axis, &grid[axis], low[axis], high[axis]);
     }
     uint32_t mask = encode_meta(slots, meta);
     uint32_t exponents = 0;

@@ -1,25 +1,17 @@
 #include "tracer/bvh/items.h"
+#include "tracer/bvh/round.h"
 
-#include <math.h>
-
-// How much wider boxes are than what they hold, as powers of two of its farthest coordinate: more than the
+// How much wider boxes are than what they hold, as shares of its farthest coordinate: more than the
 // error of a ray's start (shaders/ray_offset.glsl, `leave`), 45 units of 2^-24 or 2^-53, so that a ray from
 // there still meets the box of a triangle that it starts on.
-enum {
-    SINGLE_PAD = -18,
-    DOUBLE_PAD = -47,
-};
-
-static float float_below(double value) {
-    float rounded = (float)value;
-    return rounded > value ? nextafterf(rounded, -INFINITY) : rounded;
-}
+#define SINGLE_PAD 0x1p-18
+#define DOUBLE_PAD 0x1p-47
 
 static struct bvh_item padded(vec3 lower, vec3 upper, bool is_double, uint32_t index) {
     struct bvh_item item = {.index = index};
     const double low[3] = {lower.x, lower.y, lower.z}, high[3] = {upper.x, upper.y, upper.z};
-    double largest = fmax(vec3_max_abs(lower), vec3_max_abs(upper));
-    double pad = ldexp(largest, is_double ? DOUBLE_PAD : SINGLE_PAD);
+    const double largest = vec3_larger(vec3_max_abs(lower), vec3_max_abs(upper));
+    const double pad = largest * (is_double ? DOUBLE_PAD : SINGLE_PAD);
     for (int axis = 0; axis < 3; axis++) {
         item.lower[axis] = float_below(low[axis] - pad);
         item.upper[axis] = -float_below(-(high[axis] + pad));
@@ -28,8 +20,8 @@ static struct bvh_item padded(vec3 lower, vec3 upper, bool is_double, uint32_t i
 }
 
 struct bvh_item bvh_triangle_item(const vec3 corners[3], bool is_double, uint32_t index) {
-    vec3 lower = vec3_min(vec3_min(corners[0], corners[1]), corners[2]);
-    vec3 upper = vec3_max(vec3_max(corners[0], corners[1]), corners[2]);
+    vec3 lower = vec3_least(vec3_least(corners[0], corners[1]), corners[2]);
+    vec3 upper = vec3_greatest(vec3_greatest(corners[0], corners[1]), corners[2]);
     return padded(lower, upper, is_double, index);
 }
 

@@ -4,8 +4,6 @@
 
 #include "tracer/bvh/box.h"
 
-#include <stddef.h>
-
 enum {
     SPLIT_BINS = 16,
     SPLIT_SWEEP = 8, // ranges up to this size try every cut instead of bins
@@ -18,7 +16,7 @@ struct split_bins {
 
 // Maps twice the centre of an item to its bin, along each axis.
 struct split_grid {
-    float origin[3], scale[3]; // scale 0: all middles are one here
+    float origin[4], scale[4]; // scale 0: all middles are one here
 };
 
 struct split_plane {
@@ -29,9 +27,10 @@ struct split_plane {
 // Bounds of the items' middles.
 struct bvh_box split_middles(const struct bvh_item *items, size_t count);
 struct split_grid split_grid_make(const struct bvh_box *middles);
-static inline int split_bin(const struct split_grid *grid, const struct bvh_item *item, int axis) {
-    int bin = (int)((item_middle(item, axis) - grid->origin[axis]) * grid->scale[axis]);
-    return bin < SPLIT_BINS - 1 ? bin : SPLIT_BINS - 1;
+static inline bool split_is_left(const struct split_grid *grid, struct split_plane plane,
+                                 const struct bvh_item *item) {
+    float at = (item_middle(item, plane.axis) - grid->origin[plane.axis]) * grid->scale[plane.axis];
+    return at < (float)plane.bin;
 }
 void split_bins_clear(struct split_bins *bins);
 void split_bins_add(struct split_bins *bins, const struct split_grid *grid, const struct bvh_item *items,
@@ -41,8 +40,10 @@ void split_bins_merge(struct split_bins *into, const struct split_bins *from);
 struct split_plane split_best(const struct split_bins *bins, const struct split_grid *grid);
 
 // Cuts items[0, count) in place and returns the number of those on the left, 0 < result < count.
-// count is at least 2.
-uint32_t split_items(struct bvh_item *items, uint32_t count);
+// count is at least 2. `middles` bounds the items' middles; those of the two sides go to `sides`, which is
+// not written where a side has at most SPLIT_SWEEP items and needs none.
+uint32_t split_items(struct bvh_item *items, uint32_t count, const struct bvh_box *middles,
+                     struct bvh_box sides[2]);
 // Halves by number along the axis where the middles spread most; by order where they do not spread.
 uint32_t split_halves(struct bvh_item *items, uint32_t count);
 

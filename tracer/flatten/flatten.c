@@ -49,12 +49,44 @@ static bool make_tree(enum bvh_method method, struct bvh_item *items, uint32_t c
     return done;
 }
 
+struct placing {
+    const uint32_t *order;
+    uint32_t *leaf_of;
+};
+
+static void place_leaves(void *context, size_t begin, size_t end) {
+    const struct placing *p = context;
+    for (size_t i = begin; i < end; i++)
+        p->leaf_of[p->order[i]] = (uint32_t)i;
+}
+
+// Builds the tree over the items, which it frees, and says where records go.
+static bool make_triangle_tree(struct flattening *f) {
+    struct flat_scene *out = f->out;
+    struct bvh bvh;
+    if (!bvh_build(f->items, f->item_count, f->input->method, &bvh))
+        return false;
+    free(f->items);
+    f->items = NULL;
+    out->triangle_nodes = (struct flat_array){bvh.nodes, (uint64_t)bvh.node_count * NODE_WORDS};
+    out->triangle_depth = bvh.depth;
+    bvh.nodes = NULL;
+    const size_t total = f->triangle_total;
+    f->leaf_of = heap_alloc((total ? total : 1) * sizeof *f->leaf_of);
+    if (f->leaf_of) {
+        memset(f->leaf_of, 0xFF, total * sizeof *f->leaf_of);
+        struct placing placing = {bvh.order, f->leaf_of};
+        parallel_for(f->item_count, PIECE_ITEMS, place_leaves, &placing);
+    }
+    bvh_finish(&bvh);
+    return f->leaf_of != NULL;
+}
+
 static enum flatten_fault make_triangles(struct flattening *f) {
     struct flat_scene *out = f->out;
-    size_t total = f->triangle_total;
-    f->records = heap_alloc((total ? total : 1) * out->strides.triangle * sizeof *f->records);
+    const size_t total = f->triangle_total;
     f->items = heap_alloc((total ? total : 1) * sizeof *f->items);
-    if (!f->records || !f->items)
+    if (!f->items)
         return FLATTEN_NO_MEMORY;
     enum flatten_fault fault = flatten_triangles(f);
     if (fault != FLATTEN_DONE)
@@ -62,10 +94,11 @@ static enum flatten_fault make_triangles(struct flattening *f) {
     out->triangle_count = f->item_count;
     out->dropped_triangles = f->triangle_total - f->item_count;
     double start = clock_seconds();
-    bool done = make_tree(f->input->method, f->items, f->item_count, f->records, out->strides.triangle,
-                          &out->triangle_nodes, &out->triangles, &out->triangle_depth);
+    bool done = make_triangle_tree(f);
     out->build_seconds += clock_seconds() - start;
-    return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
+    if (!done || !flat_array_make(&out->triangles, (uint64_t)out->triangle_count * out->strides.triangle))
+        return FLATTEN_NO_MEMORY;
+    return flatten_records(f);
 }
 
 static enum flatten_fault make_spheres(struct flattening *f) {
@@ -144,7 +177,7 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
     free(f.material_used);
     free(f.normal_base);
     free(f.items);
-    free(f.records);
+    free(f.leaf_of);
     if (fault == FLATTEN_NO_MEMORY)
         diag_add(input->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory for the scene's triangles");

@@ -203,7 +203,8 @@ static bool has_area64(const vec3 corners[3], uint32_t corner) {
     return vec3_max_abs(vec3_cross(vec3_mul(u, scale), vec3_mul(v, scale))) != 0;
 }
 
-// `corners` relative to the origin. A triangle without area gets an item that flatten_triangles leaves out.
+// `corners` relative to the origin. Its record, where there is a tree; else its item, which flatten_triangles
+// leaves out where the triangle has no area.
 static void put_triangle(const struct flattening *f, const vec3 corners[3], uint32_t number, uint32_t body,
                          uint32_t shade) {
     const bool is_double = f->out->is_double;
@@ -217,8 +218,14 @@ static void put_triangle(const struct flattening *f, const vec3 corners[3], uint
                                   .number = number,
                                   .body = body,
                                   .shade = shade | corner << TRIANGLE_CORNER_SHIFT};
+    if (f->leaf_of) {
+        if (f->leaf_of[number] != FLATTEN_NO_LEAF)
+            gpu_pack_triangle(&record, is_double,
+                              f->out->triangles.words +
+                                  (size_t)f->out->strides.triangle * f->leaf_of[number]);
+        return;
+    }
     struct bvh_item *item = &f->items[number];
-    gpu_pack_triangle(&record, is_double, f->records + (size_t)f->out->strides.triangle * number);
     *item = bvh_triangle_item(flat, is_double, number);
     item->spare = !(is_double ? has_area64(flat, corner) : has_area(flat, corner));
 }
@@ -273,14 +280,23 @@ static enum flatten_fault fill_body(struct flattening *f, uint32_t number) {
     return FLATTEN_DONE;
 }
 
-enum flatten_fault flatten_triangles(struct flattening *f) {
+static enum flatten_fault fill_bodies(struct flattening *f) {
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         enum flatten_fault fault = f->scene->bodies[i].triangle_count ? fill_body(f, i) : FLATTEN_DONE;
         if (fault != FLATTEN_DONE)
             return fault;
     }
-    for (uint32_t i = 0; i < f->triangle_total; i++)
+    return FLATTEN_DONE;
+}
+
+enum flatten_fault flatten_triangles(struct flattening *f) {
+    enum flatten_fault fault = fill_bodies(f);
+    for (uint32_t i = 0; i < f->triangle_total && fault == FLATTEN_DONE; i++)
         if (!f->items[i].spare)
             f->items[f->item_count++] = f->items[i];
-    return FLATTEN_DONE;
+    return fault;
+}
+
+enum flatten_fault flatten_records(struct flattening *f) {
+    return fill_bodies(f);
 }

@@ -20,11 +20,11 @@ struct flattening {
     struct flat_scene *out;
     double factor;           // 2^out->scale_exponent
     uint32_t triangle_total; // of all bodies, those without area too: what triangle numbers count
-    // Leaf records by triangle number, and what the tree is built over; the latter without the triangles
-    // that have no area.
-    struct gpu_word *records;
+    // What the tree is built over, without the triangles that have no area. Records are made when it is
+    // there, so that both are never in memory.
     struct bvh_item *items;
     uint32_t item_count;
+    uint32_t *leaf_of;       // by triangle number: where its record goes; FLATTEN_NO_LEAF: it has no area
     bool *material_used;     // by index in scene->materials
     uint32_t *normal_base;   // by body: its first record of out->normals
     uint32_t light_features; // FEATURE_ bits that the lights ask for
@@ -38,8 +38,11 @@ enum flatten_fault flatten_count(struct flattening *f);
 enum flatten_fault flatten_extent(const struct flattening *f, double *extent);
 // Fills the spheres' words in IR order, and an item for each.
 void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_item *items);
-// Fills records, items and item_count with all that consists of triangles.
+// Fills items and item_count with all that consists of triangles.
 enum flatten_fault flatten_triangles(struct flattening *f);
+#define FLATTEN_NO_LEAF UINT32_MAX
+// Fills out->triangles, which is there, as leaf_of says.
+enum flatten_fault flatten_records(struct flattening *f);
 
 // ---- flatten_shade.c
 

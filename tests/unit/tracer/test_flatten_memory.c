@@ -1,7 +1,8 @@
 // Every allocation of flattening fails once: each time the sink says so and nothing is left behind
-// (the sanitizer build looks for leaks).
+// (the sanitizer build looks for leaks). And what flattening takes at most, against what it gives.
 #include "flat_kit.h"
 
+#include <malloc.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -10,13 +11,17 @@
 
 #include <cmocka.h>
 
+#define PEAK_MOST 1.3
+
 // The linker sends the program's calls here (--wrap).
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *memory, size_t size);
+void __real_free(void *memory);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *memory, size_t size);
+void __wrap_free(void *memory);
 
 static atomic_int until_failure; // 0: none is to come
 
@@ -27,14 +32,31 @@ static bool fails(void) {
     return before == 1;
 }
 
-void *__wrap_malloc(size_t size) {
-    return fails() ? NULL : __real_malloc(size);
+static atomic_size_t live, most;
+
+static void *count(void *memory) {
+    const size_t size = malloc_usable_size(memory);
+    const size_t now = atomic_fetch_add(&live, size) + size;
+    for (size_t seen = most; now > seen && !atomic_compare_exchange_weak(&most, &seen, now);)
+        ;
+    return memory;
 }
-void *__wrap_calloc(size_t count, size_t size) {
-    return fails() ? NULL : __real_calloc(count, size);
+
+void *__wrap_malloc(size_t size) {
+    return fails() ? NULL : count(__real_malloc(size));
+}
+void *__wrap_calloc(size_t number, size_t size) {
+    return fails() ? NULL : count(__real_calloc(number, size));
 }
 void *__wrap_realloc(void *memory, size_t size) {
-    return fails() ? NULL : __real_realloc(memory, size);
+    if (fails())
+        return NULL;
+    atomic_fetch_sub(&live, malloc_usable_size(memory));
+    return count(__real_realloc(memory, size));
+}
+void __wrap_free(void *memory) {
+    atomic_fetch_sub(&live, malloc_usable_size(memory));
+    __real_free(memory);
 }
 
 static void build(struct kit *kit, struct picture *picture) {
@@ -79,7 +101,28 @@ static void test_each_fails(void **state) {
     kit_finish(&kit);
 }
 
+// Items and records of triangles are never in memory together.
+static void test_peak(void **state) {
+    (void)state;
+    struct kit kit;
+    struct flat_scene flat;
+    kit_init(&kit);
+    kit_model(&kit, kit_icosphere(&kit, 6, 0));
+    kit_resolve(&kit);
+    const size_t before = live;
+    most = before;
+    assert_true(kit_flatten_resolved(&kit, &flat));
+    const double peak = (double)(most - before);
+    const double final =
+        (double)(flat.triangle_nodes.count + flat.triangles.count) * sizeof *flat.triangles.words;
+    if (peak > PEAK_MOST * final)
+        fail_msg("%u triangles: %.1f bytes each at the peak, %.1f in the end", flat.triangle_count,
+                 peak / flat.triangle_count, final / flat.triangle_count);
+    flat_finish(&flat);
+    kit_finish(&kit);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_fails)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_fails), cmocka_unit_test(test_peak)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
