@@ -5,6 +5,7 @@
 // The mesh is a closed knot, displaced, as a displaced scan is: many small triangles, all over its box.
 // For each size and method: seconds and seconds per million triangles (best of three), the tree's
 // expected cost, nodes, levels, and the work of rays from around the mesh through its middle.
+#include "bench/mesh/knot.h"
 #include "core/clock.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
@@ -30,31 +31,24 @@ static uint32_t bits_of(double value) {
     return bits;
 }
 
-// A tube around a (2, 3) torus knot with waves on it.
-static struct gpu_word knot_point(uint32_t i, uint32_t rows, uint32_t k, uint32_t columns) {
-    const double turn = 6.283185307179586;
-    double s = turn * (i % rows) / rows;
-    double t = turn * (k % columns) / columns;
-    double radius = 0.2 + 0.02 * sin(31 * s) * cos(7 * t) + 0.004 * sin(211 * s + 13 * t);
-    double out = 0.6 + 0.25 * cos(3 * s) + radius * cos(t);
-    return (struct gpu_word){bits_of(out * cos(2 * s)), bits_of(0.25 * sin(3 * s) + radius * sin(t)),
-                             bits_of(out * sin(2 * s)), 0};
+static struct gpu_word corner_of(struct knot_grid grid, uint32_t row, uint32_t column) {
+    const vec3 p = knot_point(grid, row, column);
+    return (struct gpu_word){bits_of(p.x), bits_of(p.y), bits_of(p.z), 0};
 }
 
 static uint32_t make_knot(uint32_t wanted, struct gpu_word **words) {
-    uint32_t columns = (uint32_t)sqrt(wanted / 16.0) + 3;
-    uint32_t rows = wanted / 2 / columns + 3;
-    uint32_t count = rows * columns * 2;
+    const struct knot_grid grid = knot_grid(wanted);
+    const uint32_t rows = grid.rows, columns = grid.columns, count = rows * columns * 2;
     *words = malloc((size_t)count * TRIANGLE_WORDS * sizeof **words);
     if (!*words)
         return 0;
     struct gpu_word *next = *words;
     for (uint32_t i = 0; i < rows; i++)
         for (uint32_t k = 0; k < columns; k++) {
-            struct gpu_word a = knot_point(i, rows, k, columns);
-            struct gpu_word b = knot_point(i + 1, rows, k, columns);
-            struct gpu_word c = knot_point(i + 1, rows, k + 1, columns);
-            struct gpu_word d = knot_point(i, rows, k + 1, columns);
+            struct gpu_word a = corner_of(grid, i, k);
+            struct gpu_word b = corner_of(grid, i + 1, k);
+            struct gpu_word c = corner_of(grid, i + 1, k + 1);
+            struct gpu_word d = corner_of(grid, i, k + 1);
             const struct gpu_word six[6] = {a, b, c, a, c, d};
             memcpy(next, six, sizeof six);
             next[0].w = (uint32_t)((next - *words) / TRIANGLE_WORDS);
