@@ -79,8 +79,8 @@ static int export_loaded(const struct options *o, struct session *session) {
     const int status = write_file(o->words[2], &text);
     strbuf_finish(&text);
     if (status == 0)
-        printf("{\"lacks\": \"%s\", \"srgb\": %s}\n", lacks,
-               session->scene->image.transfer == IR_TRANSFER_SRGB ? "true" : "false");
+        printf("{\"lacks\": \"%s\", \"srgb\": %s, \"width\": %u, \"height\": %u}\n", lacks,
+               session->scene->image.transfer == IR_TRANSFER_SRGB ? "true" : "false", input.width, input.height);
     return status;
 }
 
