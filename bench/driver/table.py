@@ -15,11 +15,11 @@ def mib(count):
 
 
 def lines(head, rows):
-    """Columns as wide as they must be; the first one to the left."""
+    """Columns as wide as they must be; the first and the last one to the left."""
     texts = [head] + [[str(cell) for cell in row] for row in rows]
     widths = [max(len(row[i]) for row in texts) for i in range(len(head))]
     return [
-        "  ".join([row[0].ljust(widths[0])] + [cell.rjust(width) for cell, width in zip(row[1:], widths[1:])]).rstrip()
+        "  ".join([row[0].ljust(widths[0])] + [c.rjust(w) for c, w in zip(row[1:-1], widths[1:-1])] + row[-1:]).rstrip()
         for row in texts
     ]
 

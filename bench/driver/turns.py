@@ -65,10 +65,11 @@ class System:
         return self.answer()
 
     def warm(self):
-        """A frame that nobody counts decides how many make a turn."""
-        first = self.ask("frames 2")["wall"][1]
-        self.frames = max(1, min(FRAMES_MOST, math.ceil(TURN_SECONDS / max(first, 1e-5))))
+        """Frames that nobody counts decide how many make a turn."""
+        first = self.ask("frames 1")["wall"][0]
         self.slow = first > SLOW_SECONDS
+        first = first if self.slow else self.ask("frames 1")["wall"][0]
+        self.frames = max(1, min(FRAMES_MOST, math.ceil(TURN_SECONDS / max(first, 1e-5))))
 
     def turn(self):
         times = self.ask(f"frames {self.frames}")
@@ -151,7 +152,7 @@ def measure(place, scene, assets, group, rounds, skipped):
                     return None
         for number in range(rounds):
             for system in systems:
-                if not (system.slow and number >= max(2, rounds // 3)):
+                if not (system.slow and number >= max(1, rounds // 4)):
                     system.turn()
         agrees = agreement(place, systems)
         return {

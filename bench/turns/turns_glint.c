@@ -25,14 +25,11 @@ static enum turns_status device_says(const struct glint *g) {
 
 static enum turns_status open_baseline(struct glint *g, struct image *image) {
     char error[GPU_ERROR_BYTES];
-    double device;
     // It takes camera and frame of glint's last picture.
     if (shot_take(&g->shot, image, NULL, &g->last) != SHOT_OK)
         return device_says(g);
     g->original = original_create(g->shot.renderer, ORIGINAL_STORAGE, error);
-    if (!g->original)
-        return turns_say(TURNS_CANNOT, "%s", error);
-    return original_render(g->original, image->rgb, &device, &g->cut) ? TURNS_DONE : device_says(g);
+    return g->original ? TURNS_DONE : turns_say(TURNS_CANNOT, "%s", error);
 }
 
 static enum turns_status warm(struct glint *g, const struct turns_options *o) {
