@@ -127,8 +127,6 @@ def agreement(place, systems):
     path = place.file("pictures", first.name + ".png")
     first.picture(path)
     for other in systems[1:]:
-        if other.name == "pipeline":  # another shading
-            continue
         theirs = place.file("pictures", other.name + ".png")
         other.picture(theirs)
         report = json.loads(run([place.glint, "compare", path, theirs, "--format", "json", "--threshold", "0.005"])["text"])
