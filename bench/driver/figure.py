@@ -4,7 +4,10 @@ from html import escape
 
 WIDTH, LABELS, BAR, GAP, TITLE = 760, 150, 15, 14, 34
 ROOM = 150  # after the longest bar, for its number
-COLORS = ["#2b6cb0", "#dd6b20", "#718096", "#2f855a", "#97266d", "#b7791f"]
+COLORS = {
+    "glint": "#2b6cb0", "glint, no shader cache": "#90cdf4", "Embree": "#dd6b20", "POV-Ray": "#2f855a", "Tachyon": "#97266d",
+}
+OTHER = "#718096"
 
 
 def text(x, y, words, size=12, anchor="start", weight="normal"):
@@ -14,7 +17,8 @@ def text(x, y, words, size=12, anchor="start", weight="normal"):
 
 def legend(names, y):
     parts, x = [], LABELS
-    for name, color in zip(names, COLORS):
+    for name in names:
+        color = COLORS.get(name, OTHER)
         parts.append(f'<rect x="{x}" y="{y - 10}" width="11" height="11" fill="{color}"/>')
         parts.append(text(x + 16, y, name))
         x += 34 + int(6.6 * len(name))
@@ -27,7 +31,7 @@ def bars(title, names, rows, unit):
     per_unit = (WIDTH - LABELS - ROOM) / most
     parts, y = [text(10, 22, title, 15, weight="bold")] + legend(names, TITLE + 12), TITLE + 34
     for label, values in rows:
-        shown = [(value, color) for value, color in zip(values, COLORS) if value is not None]
+        shown = [(value, COLORS.get(name, OTHER)) for name, value in zip(names, values) if value is not None]
         parts.append(text(LABELS - 8, y + len(shown) * BAR / 2 + 4, label, anchor="end"))
         for value, color in shown:
             parts.append(f'<rect x="{LABELS}" y="{y}" width="{max(1, round(value * per_unit))}" height="{BAR - 2}" fill="{color}"/>')

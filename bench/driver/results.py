@@ -20,8 +20,10 @@ def measure_scene(place, scene, options, on_processor):
     for group in scene.groups:
         if fits(group, options.quick, on_processor):
             say(f"{scene.name}: {group.name}")
-            done = turns.measure(place, path, assets, group, options.rounds, skipped)
-            found += [done] if done else []
+            try:
+                found.append(turns.measure(place, path, assets, group, options.rounds, skipped))
+            except (Skip, Failure) as why:
+                skipped.append(turns.left_out(group.name, why))
     report = {"scene": scene.name, "what": scene.what, "groups": found, "whole": None, "before": None, "encoding": []}
     if found and scene.whole and not options.frames_only:
         say(f"{scene.name}: whole processes")
@@ -58,12 +60,11 @@ def measure(place, chosen, options):
     for scene in chosen:
         try:
             report["scenes"].append(measure_scene(place, scene, options, on_processor))
-        except Skip as why:
-            report["skipped"].append({"what": scene.name, "why": str(why)})
-        except Failure as why:
-            report["skipped"].append({"what": scene.name, "why": str(why)})
-            report["failed"] = True
-            say(f"bench/run: {scene.name}: {why}")
+        except (Skip, Failure) as why:
+            report["skipped"].append(turns.left_out(scene.name, why))
+    every = report["skipped"] + [one for scene in report["scenes"] for one in scene["skipped"]]
+    if any(one["why"].startswith(turns.FAILED) for one in every):
+        report["failed"] = True
     return report
 
 

@@ -31,8 +31,10 @@ NAMES = {
     "povray": "POV-Ray",
     "tachyon": "Tachyon",
 }
-TURN_SECONDS = 0.06  # at least so long is a turn, so that clocks stay up
-FRAMES_MOST = 64
+TURN_SECONDS = 0.06  # at least so long is a turn
+GPU_TURN_SECONDS = 0.25  # a GPU's clocks need some time to go up
+FRAMES_MOST = 256
+FAILED = "failed"
 SLOW_SECONDS = 4.0  # a system with longer frames gets fewer turns
 
 
@@ -55,7 +57,7 @@ class System:
         status = self.child.wait()
         self.errors.seek(0)
         text = self.errors.read().strip()
-        if status == 77:
+        if status in (77, 127):  # 127: a library of it is missing
             raise Skip(text or "it cannot run here")
         raise Failure(f"{' '.join(self.command)} ended with {status}:\n{text[-2000:]}")
 
@@ -69,7 +71,8 @@ class System:
         first = self.ask("frames 1")["wall"][0]
         self.slow = first > SLOW_SECONDS
         first = first if self.slow else self.ask("frames 1")["wall"][0]
-        self.frames = max(1, min(FRAMES_MOST, math.ceil(TURN_SECONDS / max(first, 1e-5))))
+        seconds = TURN_SECONDS if self.facts["on_processor"] else GPU_TURN_SECONDS
+        self.frames = max(1, min(FRAMES_MOST, math.ceil(seconds / max(first, 1e-5))))
 
     def turn(self):
         times = self.ask(f"frames {self.frames}")
@@ -134,8 +137,13 @@ def agreement(place, systems):
     return found
 
 
+def left_out(what, why):
+    """A row for what cannot be measured; a failure says so."""
+    return {"what": what, "why": str(why) if isinstance(why, Skip) else f"{FAILED}: {why}"}
+
+
 def measure(place, scene, assets, group, rounds, skipped):
-    """One group of systems, in turn. None: glint itself cannot."""
+    """One group of systems, in turn. What glint itself cannot is raised."""
     systems = []
     try:
         for name in group.systems:
@@ -144,10 +152,10 @@ def measure(place, scene, assets, group, rounds, skipped):
             try:
                 systems.append(System(place, name, scene, assets, group.options()))
                 systems[-1].warm()
-            except Skip as why:
-                skipped.append({"what": NAMES[name], "why": str(why)})
+            except (Skip, Failure) as why:
                 if name == group.systems[0]:
-                    return None
+                    raise
+                skipped.append(left_out(NAMES[name], why))
         for number in range(rounds):
             for system in systems:
                 if not (system.slow and number >= max(1, rounds // 4)):

@@ -6,9 +6,9 @@ import re
 import shutil
 import tempfile
 
-from .machine import Skip, installed, paired, run, spread
+from .machine import Failure, Skip, installed, paired, run, spread
 from .scenes import Group
-from .turns import NAMES, PROGRAMS
+from .turns import NAMES, PROGRAMS, left_out
 
 PARTS = ("read_s", "assets_s", "flatten_s", "trees_s", "open_device_s", "upload_s", "first_frame_s", "encode_s")
 MANY = 9  # frames more, for the steady frame of a glint that cannot take turns
@@ -162,8 +162,8 @@ def prepared(place, names, scene, assets, group, skipped):
         try:
             one.prepare()
             jobs.append(one)
-        except Skip as why:
-            skipped.append({"what": f"{NAMES[name]}, whole process", "why": str(why)})
+        except (Skip, Failure) as why:
+            skipped.append(left_out(f"{NAMES[name]}, whole process", why))
     return jobs
 
 

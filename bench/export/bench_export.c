@@ -80,7 +80,8 @@ static int export_loaded(const struct options *o, struct session *session) {
     strbuf_finish(&text);
     if (status == 0)
         printf("{\"lacks\": \"%s\", \"srgb\": %s, \"width\": %u, \"height\": %u}\n", lacks,
-               session->scene->image.transfer == IR_TRANSFER_SRGB ? "true" : "false", input.width, input.height);
+               session->scene->image.transfer == IR_TRANSFER_SRGB ? "true" : "false", input.width,
+               input.height);
     return status;
 }
 

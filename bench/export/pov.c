@@ -80,8 +80,8 @@ static void put_cells(const struct scene_body *body, double cell, struct strbuf 
         map.linear = (mat3){{{u.x, v.x, n.x}, {u.y, v.y, n.y}, {u.z, v.z, n.z}}};
     }
     // A flat one lies in the middle of its cells, where rounding does no harm.
-    strbuf_format(out, " %s scale %.9g matrix <", body->shape == SCENE_PARALLELOGRAM ? "translate -z*0.5" : "",
-                  cell);
+    strbuf_format(out, " %s scale %.9g matrix <",
+                  body->shape == SCENE_PARALLELOGRAM ? "translate -z*0.5" : "", cell);
     for (int i = 0; i < 3; i++) {
         const vec3 column = mat3_column(map.linear, i);
         strbuf_format(out, "%.9g,%.9g,%.9g,", column.x, column.y, column.z);

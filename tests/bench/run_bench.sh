@@ -25,7 +25,7 @@ spheres:
 rectangles: [{corner: [-3, -1, -3], edge_u: [0, 0, 6], edge_v: [6, 0, 0]}]
 S
 # shellcheck disable=SC2086 -- words
-expect "a small scene" 0 '^ball: ' '' $bench --scene ball.yaml --rounds 2 --json report.json --against "$glint" --targets
+expect "a small scene" 0 '^ball: ' '' $bench --scene ball.yaml --rounds 1 --json report.json --against "$glint" --targets
 also "has whole processes" '^  glint, no shader cache ' ''
 also "and what was aimed at" 'not measured here' ''
 ok "its report is valid by its schema" "$tool" validate "$source/docs/schema/bench-report.schema.json" report.json
