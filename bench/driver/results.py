@@ -79,10 +79,19 @@ def load(path):
     return report
 
 
+def shortened(value):
+    """Numbers with as many digits as a clock has."""
+    if isinstance(value, float):
+        return float(f"{value:.6g}")
+    if isinstance(value, dict):
+        return {key: shortened(one) for key, one in value.items()}
+    return [shortened(one) for one in value] if isinstance(value, list) else value
+
+
 def save(report, path):
     """Complete or absent."""
     with open(path + ".part", "w", encoding="utf-8") as file:
-        json.dump(report, file, indent=1)
+        json.dump(shortened(report), file, indent=1)
         file.write("\n")
     os.replace(path + ".part", path)
 

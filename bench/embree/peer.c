@@ -74,19 +74,33 @@ static void place_rectangle(struct peer *peer, struct peer_body *body, const aff
     body->edge_v = (float)vec3_length(mat3_column(map->linear, 1));
 }
 
+struct turning {
+    const vec3 *from;
+    mat3 map;
+    float3 *to;
+};
+
+static void turn_normals(void *context, size_t begin, size_t end) {
+    const struct turning *t = context;
+    for (size_t i = begin; i < end; i++)
+        t->to[i] = float3_of(vec3_unit(mat3_apply(t->map, t->from[i])));
+}
+
 static void smooth_normals(struct peer *peer, struct peer_body *body, uint32_t twin) {
-    if (twin != UINT32_MAX && peer->bodies[twin].normals) {
+    if (body->instance && twin != UINT32_MAX && peer->bodies[twin].normals) {
         body->normals = peer->bodies[twin].normals;
         return;
     }
+    static const mat3 same = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     const struct mesh *mesh = body->is->mesh;
     const size_t count = 3 * (size_t)mesh->triangle_count;
     struct arena scratch;
     arena_init(&scratch, SIZE_MAX);
-    const vec3 *exact = mesh_smooth_normals(mesh, &scratch);
     float3 *normals = ARENA_ARRAY(&peer->arena, float3, count);
-    for (size_t i = 0; i < count; i++)
-        normals[i] = float3_of(exact[i]);
+    struct turning turning = {mesh_smooth_normals(mesh, &scratch),
+                              body->instance ? same : transform_for_normals(body->is->object_to_world.linear),
+                              normals};
+    parallel_for(count, PIECE, turn_normals, &turning);
     body->normals = normals;
     arena_finish(&scratch);
 }

@@ -26,9 +26,10 @@ struct peer_body {
     uint32_t stride;
     bool instance;            // positions go through `to_world`
     float34 to_world, to_own; // `to_own`: to the coordinates of a checker
-    float34 normal_map;       // of smooth ones; no offset
-    const float3 *normals;    // three a triangle, the mesh's own; NULL: flat
-    float edge_u, edge_v;     // of a parallelogram: lengths
+    float34 normal_map;       // of smooth instances; no offset
+    const float3
+        *normals;         // three a triangle: unit, in world space; of an instance the mesh's own; NULL: flat
+    float edge_u, edge_v; // of a parallelogram: lengths
 };
 
 struct peer_sphere {

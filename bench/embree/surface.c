@@ -35,9 +35,11 @@ static float3 mixed(const float3 *v, const float b[3]) {
 
 static void smooth(const struct peer_body *body, uint32_t triangle, const float b[3],
                    struct peer_surface *s) {
-    float3 n[3];
-    for (uint32_t k = 0; k < 3; k++)
-        n[k] = float3_unit(float34_turn(&body->normal_map, body->normals[3 * (size_t)triangle + k]));
+    const float3 *n = body->normals + 3 * (size_t)triangle;
+    float3 turned[3];
+    for (int k = 0; k < 3 && body->instance; k++)
+        turned[k] = float3_unit(float34_turn(&body->normal_map, n[k]));
+    n = body->instance ? turned : n;
     const float3 sum = mixed(n, b);
     const float length2 = float3_dot(sum, sum);
     if (!(length2 > 0))

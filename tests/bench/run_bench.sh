@@ -35,6 +35,25 @@ if [ -x "$build/bench/turns_embree" ]; then
     # Of pixels off: those at edges of the balls at most.
     share=$("$tool" get report.json scenes/0/groups/0/agreement/0/share)
     ok "and whose picture is" awk -v share="$share" 'BEGIN { exit !(share <= 0.02) }'
+    # Models of one mesh, each with the triangles of its own and as instances of one tree.
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 -1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n' >wedge.obj
+    cat >wedges.yaml <<'S'
+glint: 1
+image: {width: 48, height: 32}
+camera: {position: [0, 1, 6], look_at: [0, 0, 0]}
+lights: [{position: [-5, 8, 5]}]
+models:
+  - {mesh: wedge.obj, translation: [-1, 0, 0]}
+  - {mesh: wedge.obj, translation: [1, -0.5, 0], scale: 1.5, rotation: [0, 40, 0], smooth: true}
+  - {mesh: wedge.obj, translation: [0, 1, -1], scale: [-1, 1, 1]}
+S
+    for system in embree instances; do
+        expect "wedges by $system" 0 '"triangles": 12' - "$build/bench/turns_embree" wedges.yaml --system $system --whole $system.png
+    done
+    "$glint" render wedges.yaml -o wedges.png -q --device reference || fail "the wedges' picture"
+    for system in embree instances; do
+        expect "$system shows the same" 0 '' - "$glint" compare $system.png wedges.png --threshold 0.005 --max-share 0.002
+    done
 else
     also "without Embree" 'skipped: Embree: ' ''
 fi
