@@ -68,6 +68,10 @@ fi
     expect "or is not" 1 'scene_bytes +7 .*WORSE' - $again --check --expected less.json
     expect "a scene that does not exist" 1 - "there is no scene 'none'" $bench --scene none
     expect "a file that is not a report" 1 - 'is not a report of bench/run' $bench --from "$source/docs/schema/glint.schema.json"
+    sed 's/"scene": "ball"/"scene": "venus-1000"/' report.json >many.json
+    expect "a target that is reached" 0 '^1000 models, memory on the device .* aim met$' '' $bench --from many.json --targets
+    sed -E 's/"scene_bytes": [0-9]+/"scene_bytes": 99000000/' many.json >large.json
+    expect "or missed" 0 '^1000 models, memory on the device .* MISSED$' '' $bench --from large.json --targets
     expect "the page" 0 - - $bench --page page.md
 }
 ok "is the one in docs" cmp page.md "$source/docs/performance.md"
