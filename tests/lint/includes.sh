@@ -29,7 +29,8 @@ function own(path, target,    room) {
 function foreign(path, target) {
     if (target ~ /^yaml\.h$/) return path ~ /^(parser\/yaml\/|bench\/bench_check)/
     if (target ~ /^expat/) return path ~ /^(parser\/xml\/|bench\/bench_check)/
-    if (target ~ /^(volk|vulkan)/) return path ~ /^(tracer\/gpu|tests\/faults)\//
+    if (target ~ /^(volk|vulkan)/) return path ~ /^(tracer\/gpu|tests\/faults|bench\/pipeline)\//
+    if (target ~ /^embree/) return path ~ /^bench\/embree\//
     if (target ~ /^stb/) return path ~ /^(tools|tests|bench)\//
     if (target ~ /^png\.h/) return path ~ /^(picture|tests)\//
     if (target ~ /^zlib/) return path ~ /^(shaders|tools|picture\/read)\//
