@@ -3,6 +3,7 @@
 #include "core/clock.h"
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "core/timeline.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
 
@@ -49,6 +50,11 @@ static bool make_tree(enum bvh_method method, struct bvh_item *items, uint32_t c
     return done;
 }
 
+static void end_tree(struct flattening *f, double start) {
+    f->out->build_seconds += clock_seconds() - start;
+    timeline_add(f->input->timeline, "tree", STR(""), start);
+}
+
 static enum flatten_fault make_triangles(struct flattening *f) {
     struct flat_scene *out = f->out;
     size_t total = f->triangle_total;
@@ -64,7 +70,7 @@ static enum flatten_fault make_triangles(struct flattening *f) {
     double start = clock_seconds();
     bool done = make_tree(f->input->method, f->items, f->item_count, f->records, out->strides.triangle,
                           &out->triangle_nodes, &out->triangles, &out->triangle_depth);
-    out->build_seconds += clock_seconds() - start;
+    end_tree(f, start);
     return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
 }
 
@@ -79,7 +85,7 @@ static enum flatten_fault make_spheres(struct flattening *f) {
         double start = clock_seconds();
         done = make_tree(f->input->method, items, count, words, out->strides.sphere, &out->sphere_nodes,
                          &out->spheres, &out->sphere_depth);
-        out->build_seconds += clock_seconds() - start;
+        end_tree(f, start);
     }
     free(items);
     free(words);
@@ -140,7 +146,9 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
                                .origin = origin_of(input),
                                .background = input->scene->background.picture};
     struct flattening f = {.input = input, .scene = input->scene, .out = out};
+    const double start = clock_seconds();
     enum flatten_fault fault = run(&f);
+    timeline_add(input->timeline, "flatten", STR(""), start);
     free(f.material_used);
     free(f.normal_base);
     free(f.items);

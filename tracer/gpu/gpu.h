@@ -123,5 +123,8 @@ bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_
 // between the first dispatch's start and the last one's end on the device's own clock.
 bool gpu_submit(struct gpu *gpu);
 bool gpu_wait(struct gpu *gpu, double *seconds);
+// Has a device that compiles a kernel with its first dispatch (lavapipe) compile it, by a dispatch of
+// nothing, while this thread goes on: gpu_write and gpu_fill do not wait for that, other calls do.
+bool gpu_compile(struct gpu *gpu, struct gpu_program *program, const void *push);
 
 #endif

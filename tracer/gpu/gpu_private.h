@@ -34,6 +34,7 @@ struct gpu {
     VkPipelineCache cache;
     struct gpu_pipeline *pipelines; // all of them, the one used last first
     bool recording, submitted, timed;
+    bool compiling;             // what was submitted touches no buffer
     bool stuck;                 // what was submitted may run for ever: all that it uses is kept
     uint32_t recorded;          // dispatches since the recording began
     struct gpu_buffer *staging; // grown as needed; NULL at first
