@@ -6,7 +6,10 @@
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "core/timeline.h"
+#include "files/folder_store.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -122,9 +125,52 @@ static int report_opening(struct cli *cli, enum gpu_status status, const char *e
     return CLI_DEVICE;
 }
 
+// ---- compiled kernels
+
+enum {
+    KERNEL_BYTES = 16 << 20,
+    KERNELS_BYTES = 128 << 20,
+    KERNELS_VERSION = 1,
+    NAME_BYTES = 33
+};
+
+static struct folder_seal seal_of(const uint64_t key[2]) {
+    return (struct folder_seal){.magic = "glintVK", .version = KERNELS_VERSION, .key = {key[0], key[1]}};
+}
+
+static void name_of(const uint64_t key[2], char name[NAME_BYTES]) {
+    snprintf(name, NAME_BYTES, "%016" PRIx64 "%016" PRIx64, key[0], key[1]);
+}
+
+static void *read_kernel(void *context, const uint64_t key[2], size_t *count) {
+    const struct folder_seal seal = seal_of(key);
+    char name[NAME_BYTES];
+    name_of(key, name);
+    return folder_store_open(context, name, &seal, KERNEL_BYTES, count);
+}
+
+static void write_kernel(void *context, const uint64_t key[2], const void *bytes, size_t count) {
+    const struct folder_seal seal = seal_of(key);
+    const struct folder_store_part part = {bytes, count};
+    char name[NAME_BYTES];
+    name_of(key, name);
+    if (count <= KERNEL_BYTES)
+        folder_store_seal(context, name, &seal, &part, 1);
+}
+
+static struct gpu_options device_options(struct cli *cli) {
+    struct folder_store *store = ARENA_NEW(&cli->arena, struct folder_store);
+    char *path = folder_store_path("kernels");
+    if (path)
+        *store = (struct folder_store){arena_copy(&cli->arena, str_from(path)).ptr, KERNELS_BYTES};
+    free(path);
+    return (struct gpu_options){.device = cli_device_wanted(cli),
+                                .keep = {.read = read_kernel, .write = write_kernel, .context = store}};
+}
+
 int cli_open_device(struct cli *cli, struct gpu **gpu) {
     char error[GPU_ERROR_BYTES] = "";
-    const struct gpu_options options = {.device = cli_device_wanted(cli)};
+    const struct gpu_options options = device_options(cli);
     return report_opening(cli, gpu_create(&options, gpu, error), error);
 }
 
@@ -150,7 +196,7 @@ struct cli_opening *cli_begin_opening(struct cli *cli, struct timeline *timeline
     struct cli_opening *opening = heap_zeroed(1, sizeof *opening);
     if (!opening)
         return NULL;
-    opening->options.device = cli_device_wanted(cli);
+    opening->options = device_options(cli);
     opening->timeline = timeline;
     parallel_start(&opening->task, open_beside, opening);
     return opening;

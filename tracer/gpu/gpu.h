@@ -47,6 +47,17 @@ struct gpu_device_info {
     bool preferred;         // what an empty choice takes
 };
 
+// Where compiled kernels are kept from run to run, under a key of device, driver and all that was compiled.
+// Called on the gpu's thread. What cannot be read is NULL, and what cannot be kept is lost: neither is an
+// error.
+struct gpu_keep {
+    void *(*read)(void *context, const uint64_t key[2], size_t *count); // from malloc; NULL: there is none
+    void (*write)(void *context, const uint64_t key[2], const void *bytes, size_t count);
+    void *context; // outlives the gpu
+    // For tests: on a CPU device too, and even if there is nothing in it but what the driver writes before.
+    bool always;
+};
+
 struct gpu_options {
     // A number, or part of a device's name (case ignored). NULL or empty: discrete before integrated
     // before virtual before CPU, then the lower number.
@@ -55,6 +66,7 @@ struct gpu_options {
     // Where validation messages are counted, leaks found by gpu_destroy included; may be NULL. Must
     // outlive the gpu.
     uint32_t *validation_messages;
+    struct gpu_keep keep; // zeroed: nowhere
 };
 
 struct gpu;
