@@ -106,8 +106,7 @@ static bool forecast(const struct session *session, const struct flat_input *inp
                      struct precision_choice *out) {
     const struct precision_trial trial = {
         .input = input, .width = (uint32_t)session->image->width, .height = (uint32_t)session->image->height};
-    bool has_flat;
-    return precision_try(&trial, out, NULL, &has_flat) == PRECISION_DONE;
+    return precision_try(&trial, out, NULL) == PRECISION_DONE;
 }
 
 void precision_check(struct session *session) {
@@ -134,7 +133,8 @@ struct flat_input precision_input(struct session *session, const struct view *vi
                                .view = view,
                                .origin = session_origin(session, view),
                                .limits = &session->options.limits,
-                               .sink = &session->sink};
+                               .sink = &session->sink,
+                               .timeline = session->options.timeline};
 }
 
 bool precision_forecast(struct session *session, const struct flat_input *input,
@@ -146,14 +146,17 @@ bool precision_forecast(struct session *session, const struct flat_input *input,
 }
 
 static enum precision_status choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                    bool has_double, struct precision_gains gains) {
+                                    bool has_double, struct precision_wish wish,
+                                    struct precision_gains *gains) {
     const struct precision_trial trial = {.input = input,
                                           .width = (uint32_t)session->image->width,
                                           .height = (uint32_t)session->image->height,
                                           .gpu = gpu,
-                                          .reference = gains.reference};
+                                          .reference = wish.reference,
+                                          .ready = wish.ready,
+                                          .ready_context = wish.ready_context};
     struct precision_choice choice;
-    const enum precision_status status = precision_try(&trial, &choice, gains.flat, gains.has_flat);
+    const enum precision_status status = precision_try(&trial, &choice, gains);
     if (status == PRECISION_MEMORY)
         report_no_memory(session);
     if (status != PRECISION_DONE)
@@ -165,9 +168,11 @@ static enum precision_status choose(struct session *session, struct flat_input *
 }
 
 enum precision_status precision_choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                       bool has_double, struct precision_gains gains) {
+                                       bool has_double, struct precision_wish wish,
+                                       struct precision_gains *gains) {
     const struct ir_trace *trace = &session->scene->trace;
-    *gains.has_flat = false;
+    if (gains)
+        *gains = (struct precision_gains){0};
     input->is_double = trace->precision == IR_PRECISION_DOUBLE;
     if (input->is_double && !has_double) {
         diag_add(&session->sink, DIAG_NO_DOUBLE,
@@ -175,6 +180,6 @@ enum precision_status precision_choose(struct session *session, struct flat_inpu
                  "'trace.precision' is 'double', but the device cannot compute in double precision");
         return PRECISION_SCENE;
     }
-    return trace->precision == IR_PRECISION_AUTO ? choose(session, input, gpu, has_double, gains)
+    return trace->precision == IR_PRECISION_AUTO ? choose(session, input, gpu, has_double, wish, gains)
                                                  : PRECISION_DONE;
 }

@@ -11,19 +11,19 @@
 // The input of flattening for a session seen in this view; `view` must outlive it.
 struct flat_input precision_input(struct session *session, const struct view *view);
 
-// What is left of a trial, to be used again.
-struct precision_gains {
-    struct flat_scene
-        *flat;      // NULL, or where the scene goes as flattened for single precision: then *has_flat
-    bool *has_flat; // is true, and the caller finishes it
-    struct reference **reference; // as in struct precision_trial
+// What a trial leaves and waits for: members of struct precision_trial.
+struct precision_wish {
+    struct reference **reference;
+    bool (*ready)(void *context);
+    void *ready_context;
 };
 
-// Sets input->is_double: the scene's setting, or, if that is auto, what a trial on the device finds.
-// `has_double`: the device can. The session's sink gets the error E707, or the warning W701, or that there is
-// no memory.
+// Sets input->is_double: the scene's setting, or, if that is auto, what a trial on the device finds, which
+// leaves *gains (may be NULL; else zeroed where nothing is left). `has_double`: the device can. The session's
+// sink gets the error E707, or the warning W701, or that there is no memory.
 enum precision_status precision_choose(struct session *session, struct flat_input *input, struct gpu *gpu,
-                                       bool has_double, struct precision_gains gains);
+                                       bool has_double, struct precision_wish wish,
+                                       struct precision_gains *gains);
 // What a trial without a device finds. false: no memory; the sink has it.
 bool precision_forecast(struct session *session, const struct flat_input *input,
                         struct precision_choice *out);

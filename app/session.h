@@ -20,6 +20,7 @@
 
 struct ir_image;
 struct ir_scene;
+struct timeline;
 
 struct session_options {
     str path;     // of the scene, or of a mesh, which is then a scene with that one model
@@ -42,8 +43,14 @@ struct session_options {
     struct baseline_found
         *found;     // for check_scene: takes all findings that a baseline can hold; NULL: not asked
     bool skip_lint; // for check_scene: leaves the rules about light out, and the use of comments unjudged
-    bool judged;    // the caller judges the findings by policy and comments (app/check.h): they are not yet
-                    // sorted
+    // Called when the text was read and has no errors, before the files that it names are opened: for work
+    // that may go on beside that. NULL: nothing.
+    void (*on_text)(void *context);
+    void *on_text_context;
+    bool pixels_later;         // session_load need not wait for the background's pixels: session_settle does
+    struct timeline *timeline; // may be NULL
+    bool judged; // the caller judges the findings by policy and comments (app/check.h): they are not yet
+                 // sorted
 };
 
 enum session_state {
@@ -67,6 +74,7 @@ struct session {
     const struct ir_image *image; // the scene's, with the options' size and samples
     struct assets assets;
     struct scene resolved; // what scene and assets mean together; without assets: nothing
+    bool unsettled;        // pixels are still being decoded, and nothing has failed so far
     enum session_state state;
     double read_seconds, assets_seconds, lint_seconds;
 };
@@ -75,6 +83,9 @@ struct session {
 enum session_state session_load(struct session *session, const struct session_options *options,
                                 struct asset_store *store);
 void session_finish(struct session *session);
+// The rest of a session_load that did not wait for pixels, with what it reports. Does nothing after one that
+// did. A sink that the caller exchanged meanwhile must be in its place again.
+void session_settle(struct session *session);
 // What is reported about a scene file that cannot be read.
 enum diag_code session_file_code(enum file_status status);
 // What reads meshes and images of the loaded scene; it points into the session.

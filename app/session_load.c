@@ -3,6 +3,7 @@
 #include "app/what_file.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
+#include "core/timeline.h"
 #include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
 #include "parser/parser.h"
@@ -138,6 +139,15 @@ static void load_assets(struct session *session, struct asset_store *store) {
     session->assets_seconds = clock_seconds() - start;
 }
 
+// What needs the pixels, too.
+static void finish_load(void *context) {
+    struct session *session = context;
+    const double start = clock_seconds();
+    assets_settle(&session->assets);
+    session->assets_seconds += clock_seconds() - start;
+    session_lint(session);
+}
+
 static void take_image_options(struct session *session) {
     struct ir_image *image = ARENA_NEW(&session->arena, struct ir_image);
     *image = session->scene->image;
@@ -168,6 +178,7 @@ static enum session_state load_stages(struct session *session, struct asset_stor
         return SESSION_NO_SCENE;
     }
     enum session_state state = open_source(session, &source);
+    timeline_add(session->options.timeline, "read", session->options.path, start);
     if (state != SESSION_LOADED)
         return state;
     struct parser_input input = {.sources = &session->sources,
@@ -176,7 +187,8 @@ static enum session_state load_stages(struct session *session, struct asset_stor
                                  .limits = &session->options.limits,
                                  .arena = &session->arena,
                                  .sets = session->options.sets,
-                                 .set_count = session->options.set_count};
+                                 .set_count = session->options.set_count,
+                                 .timeline = session->options.timeline};
     struct parser_output output = {0};
     bool found = alone ? parser_load_file(&input, source, &output) : parser_load(&input, source, &output);
     session->read_seconds = clock_seconds() - start;
@@ -186,8 +198,12 @@ static enum session_state load_stages(struct session *session, struct asset_stor
     session->origin = output.origin;
     take_image_options(session);
     if (!alone && !session->options.text_only) {
+        if (session->options.on_text && session->sink.errors == 0)
+            session->options.on_text(session->options.on_text_context);
         load_assets(session, store);
-        session_lint(session);
+        session->unsettled = session->assets.pixels_later && session->sink.errors == 0;
+        if (!session->unsettled)
+            finish_load(session);
     }
     return SESSION_LOADED;
 }
@@ -209,26 +225,42 @@ static void load(void *context) {
     session->state = load_stages(session, l->store, l->extent);
 }
 
+// Runs work that allocates from the session's arena.
+static void run_guarded(struct session *session, arena_work *work, void *context) {
+    const enum arena_fault fault = arena_guarded(&session->arena, work, context);
+    if (!fault)
+        return;
+    diag_add(&session->sink, fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
+             "the scene needs more memory than %s", fault == ARENA_FAULT_CAP ? "the limit" : "is available");
+    diag_help(&session->sink, "raise the limit with --limit %s=BYTES", limit_info(LIMIT_SCENE_MEMORY)->name);
+    session->unsettled = false;
+    session->state = SESSION_NO_SCENE;
+}
+
+static void put_in_order(struct session *session) {
+    if (session->options.judged || session->unsettled)
+        return;
+    check_silence(session);
+    diag_sort(&session->sink);
+}
+
 static enum session_state guarded_load(struct session *session, const struct session_options *options,
                                        struct asset_store *store, enum extent extent) {
     struct loading loading = {session, store, extent};
     *session = (struct session){.options = *options};
     diag_sink_init(&session->sink);
     arena_init(&session->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
-    enum arena_fault fault = arena_guarded(&session->arena, load, &loading);
-    if (fault) {
-        diag_add(&session->sink, fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
-                 "the scene needs more memory than %s",
-                 fault == ARENA_FAULT_CAP ? "the limit" : "is available");
-        diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
-                  limit_info(LIMIT_SCENE_MEMORY)->name);
-        session->state = SESSION_NO_SCENE;
-    }
-    if (!options->judged) {
-        check_silence(session);
-        diag_sort(&session->sink);
-    }
+    run_guarded(session, load, &loading);
+    put_in_order(session);
     return session->state;
+}
+
+void session_settle(struct session *session) {
+    if (!session->unsettled)
+        return;
+    session->unsettled = false;
+    run_guarded(session, finish_load, session);
+    put_in_order(session);
 }
 
 enum session_state session_load(struct session *session, const struct session_options *options,

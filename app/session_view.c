@@ -12,7 +12,9 @@ struct assets_input session_assets_input(struct session *session) {
                                  .files = &session->files,
                                  .limits = &session->options.limits,
                                  .sink = &session->sink,
-                                 .arena = &session->arena};
+                                 .arena = &session->arena,
+                                 .pixels_later = session->options.pixels_later,
+                                 .timeline = session->options.timeline};
 }
 
 uint32_t session_camera(struct session *session, str name) {

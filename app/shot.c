@@ -6,17 +6,43 @@
 #include "grammar/ir.h"
 #include "reference/reference.h"
 
-static enum shot_status flatten_shot(struct shot *shot) {
+struct opening {
+    struct shot *shot;
+    bool asked;            // for the pixels, by the trial that `auto` makes
+    double waited_seconds; // for them
+};
+
+static bool ask(void *context) {
+    struct opening *opening = context;
+    const struct shot_wish *wish = &opening->shot->wish;
+    const double start = clock_seconds();
+    opening->asked = true;
+    const bool goes_on = !wish->ready || wish->ready(wish->ready_context);
+    opening->waited_seconds = clock_seconds() - start;
+    return goes_on;
+}
+
+static enum shot_status flatten_shot(struct opening *opening, struct precision_gains *gains) {
+    struct shot *shot = opening->shot;
     struct session *s = shot->session;
     double start = clock_seconds();
     struct flat_input input = precision_input(s, &shot->view);
-    bool has_flat;
-    const enum precision_status status = precision_choose(
-        s, &input, shot->gpu, gpu_info(shot->gpu)->has_double,
-        (struct precision_gains){&shot->flat, &has_flat, shot->wish.audits ? &shot->reference : NULL});
-    const bool good = status == PRECISION_DONE && (has_flat || flatten(&input, &shot->flat));
-    shot->flatten_seconds += clock_seconds() - start;
-    return good ? SHOT_OK : status == PRECISION_DEVICE ? SHOT_DEVICE : SHOT_SCENE;
+    const struct precision_wish wish = {.reference = shot->wish.audits ? &shot->reference : NULL,
+                                        .ready = shot->wish.ready ? ask : NULL,
+                                        .ready_context = opening};
+    const enum precision_status status =
+        precision_choose(s, &input, shot->gpu, gpu_info(shot->gpu)->has_double, wish, gains);
+    bool good = status == PRECISION_DONE;
+    if (good && gains->has_flat)
+        shot->flat = gains->flat;
+    else
+        good = good && flatten(&input, &shot->flat);
+    gains->flat = (struct flat_scene){0};
+    shot->flatten_seconds += clock_seconds() - start - opening->waited_seconds;
+    return good                         ? SHOT_OK
+           : status == PRECISION_DEVICE ? SHOT_DEVICE
+           : status == PRECISION_ENDED  ? SHOT_ENDED
+                                        : SHOT_SCENE;
 }
 
 enum shot_status shot_no_memory(struct session *session, const char *what) {
@@ -25,22 +51,42 @@ enum shot_status shot_no_memory(struct session *session, const char *what) {
     return SHOT_SCENE;
 }
 
-static enum shot_status open_shot(struct shot *shot, uint32_t camera) {
-    struct session *session = shot->session;
-    if (!session_view(session, camera, &shot->view))
-        return shot_no_memory(session, "the view");
-    const enum shot_status flattened = flatten_shot(shot);
-    if (flattened != SHOT_OK)
-        return flattened;
+static void set_up(struct shot *shot) {
+    const struct session *session = shot->session;
     shot->settings = render_settings_of(&session->resolved, &shot->flat, &session->options.limits);
     shot->settings.width = (uint32_t)session->image->width;
     shot->settings.height = (uint32_t)session->image->height;
     shot->settings.samples = (uint32_t)session->image->samples;
     shot->settings.counts = shot->wish.counts;
-    double start = clock_seconds();
-    shot->renderer = renderer_create(shot->gpu, &shot->flat, &shot->settings);
-    shot->upload_seconds = clock_seconds() - start;
-    return shot->renderer ? SHOT_OK : SHOT_DEVICE;
+    shot->settings.timeline = session->options.timeline;
+}
+
+// The scene is on the device if a trial left it there.
+static enum shot_status make_renderer(struct opening *opening, struct renderer *renderer) {
+    struct shot *shot = opening->shot;
+    const bool waits = shot->wish.ready && !opening->asked;
+    shot->settings.background_later = waits;
+    shot->renderer = renderer ? renderer : renderer_create(shot->gpu, &shot->flat, &shot->settings);
+    if (!shot->renderer || (renderer && !renderer_change(renderer, &shot->flat, &shot->settings)))
+        return SHOT_DEVICE;
+    if (waits && !ask(opening))
+        return SHOT_ENDED;
+    return !waits || renderer_background(shot->renderer) ? SHOT_OK : SHOT_DEVICE;
+}
+
+static enum shot_status open_shot(struct shot *shot, uint32_t camera) {
+    struct opening opening = {.shot = shot};
+    struct precision_gains gains;
+    if (!session_view(shot->session, camera, &shot->view))
+        return shot_no_memory(shot->session, "the view");
+    enum shot_status status = flatten_shot(&opening, &gains);
+    if (status != SHOT_OK)
+        return status;
+    set_up(shot);
+    const double start = clock_seconds(), waited = opening.waited_seconds;
+    status = make_renderer(&opening, gains.renderer);
+    shot->upload_seconds = clock_seconds() - start - (opening.waited_seconds - waited);
+    return status;
 }
 
 enum shot_status shot_open_for(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera,
@@ -74,8 +120,9 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
     if (session->scene->lights.count && shot->renderer)
         return session_view(session, camera, &shot->view) ? SHOT_OK : shot_no_memory(session, "the view");
     struct gpu *gpu = shot->gpu;
+    const struct shot_wish wish = {.counts = shot->wish.counts, .audits = shot->wish.audits};
     shot_close(shot);
-    return shot_open_for(shot, session, gpu, camera, shot->wish);
+    return shot_open_for(shot, session, gpu, camera, wish);
 }
 
 static void report_fault(struct shot *shot, enum render_fault_kind kind, const struct render_fault *fault) {

@@ -15,11 +15,16 @@ enum shot_status {
     SHOT_SCENE,  // the sink has errors
     SHOT_DEVICE, // see gpu_error
     SHOT_CANCELLED,
+    SHOT_ENDED, // shot_wish.ready did not want to go on
 };
 
 struct shot_wish {
     bool counts; // frames count their rays: render_statistics has them
     bool audits; // the reference that chose the precision is kept for app/audit.h
+    // For a session that is not settled: called once all is done that needs no pixels of the background, and
+    // settles it. false: the shot is not opened. NULL: the session is settled.
+    bool (*ready)(void *context);
+    void *ready_context;
 };
 
 struct shot {

@@ -1,18 +1,17 @@
 #include "assets/assets.h"
 
+#include "assets/ahead.h"
 #include "assets/loader.h"
 #include "assets/mesh_build.h"
 #include "assets/mesh_losses.h"
+#include "core/clock.h"
 #include "core/strbuf.h"
+#include "core/timeline.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "picture/read/picture_read.h"
 
 #include <assert.h>
-
-enum {
-    TEXT_ROOM = 64
-}; // that an arena needs besides the text itself
 
 bool assets_is_mesh_path(str path) {
     return str_ends_with_nocase(path, ".obj");
@@ -103,7 +102,9 @@ static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const s
         }
         arena_init(scratch, cap);
         arena_init(&entry->mesh.arena, cap);
+        const double start = clock_seconds();
         read_mesh_guarded(file, scratch, &entry->mesh);
+        timeline_add(loader->input->timeline, "mesh", file->path, start);
         entry->is_whole = file->errors == 0;
         if (entry->is_whole)
             report_mesh(file, &entry->mesh);
@@ -220,11 +221,6 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
 
 // ---- the background
 
-// A device may get each pixel as four floats.
-enum {
-    TEXEL_BYTES = 16
-};
-
 static bool fits_memory(struct asset_file *file, str name, const struct store_entry *entry) {
     const struct limit_info *info = limit_info(LIMIT_IMAGE_MEMORY);
     const uint64_t bytes = entry->picture_bytes;
@@ -255,7 +251,7 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
         return;
     }
     entry->picture = picture_of_header(&header);
-    entry->picture_bytes = fault ? 0 : picture_memory(&header, TEXEL_BYTES);
+    entry->picture_bytes = fault ? 0 : picture_memory(&header, ASSET_TEXEL_BYTES);
     if (!fits_memory(file, name, entry))
         return;
     if (!fault && entry->kind == STORE_PICTURE_KEPT)
@@ -270,9 +266,11 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
 
 static void read_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry) {
     struct arena *scratch = &loader->hold->scratch;
-    arena_init(scratch, (size_t)file->input->limits->value[LIMIT_IMAGE_BYTES] + TEXT_ROOM);
+    arena_init(scratch, (size_t)file->input->limits->value[LIMIT_IMAGE_BYTES] + ASSET_TEXT_ROOM);
+    const double start = clock_seconds();
     if (asset_read(file, scratch))
         decode_image(file, name, entry);
+    timeline_add(loader->input->timeline, "image", file->path, start);
     file->text = STR("");
     arena_finish(scratch);
     entry->is_whole = file->errors == 0;
@@ -293,6 +291,18 @@ static struct store_entry *find_image(struct loader *loader, enum assets_pixels 
     return entry ? entry : store_add(loader->hold, kinds[pixels], identity);
 }
 
+// What is known of the picture once its pixels are; NULL: it cannot be used.
+static const struct picture *judge_background(struct asset_file *file, struct store_entry *entry) {
+    if (entry->picture_fault)
+        asset_report_line(file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s",
+                          entry->picture_fault);
+    if (file->errors)
+        return NULL;
+    if (entry->picture.ignored)
+        asset_report_line(file, DIAG_IMAGE_CHUNKS, 0, "the image's %s ignored", entry->picture.ignored);
+    return &entry->picture;
+}
+
 static const struct picture *load_background(struct loader *loader, enum assets_pixels pixels,
                                              struct assets *out) {
     const struct assets_input *input = loader->input;
@@ -307,19 +317,42 @@ static const struct picture *load_background(struct loader *loader, enum assets_
         asset_report_memory(&file, ARENA_FAULT_SYSTEM);
         return NULL;
     }
+    out->pixels_later = !entry->is_whole && ahead_is_for(out->ahead, &identity, entry, &file);
+    if (out->pixels_later)
+        return &entry->picture;
     if (!entry->is_whole)
         read_image(loader, &file, background->image, entry);
     else
         fits_memory(&file, background->image, entry);
-    if (entry->picture_fault)
-        asset_report_line(&file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s",
-                          entry->picture_fault);
-    if (file.errors)
-        return NULL;
-    out->pixels_skipped = entry->kind == STORE_PICTURE_SKIPPED;
-    if (entry->picture.ignored)
-        asset_report_line(&file, DIAG_IMAGE_CHUNKS, 0, "the image's %s ignored", entry->picture.ignored);
-    return &entry->picture;
+    const struct picture *picture = judge_background(&file, entry);
+    out->pixels_skipped = picture && entry->kind == STORE_PICTURE_SKIPPED;
+    return picture;
+}
+
+void assets_settle(struct assets *assets) {
+    struct store_entry *entry;
+    struct asset_file *file = assets->pixels_later ? ahead_take(assets->ahead, &entry) : NULL;
+    assets->pixels_later = false;
+    if (!file)
+        return;
+    if (entry->picture_fault == picture_no_memory) {
+        asset_report_memory(file, ARENA_FAULT_SYSTEM);
+        entry->picture_fault = NULL;
+    }
+    entry->is_whole = file->errors == 0;
+    assets->background = judge_background(file, entry);
+}
+
+static bool has_background_image(const struct assets_input *input) {
+    const struct ir_background *background = &input->scene->background;
+    return background->kind == IR_BACKDROP_IMAGE && background->image.len &&
+           !is_poisoned(&background->head, &SCHEMA_BACKGROUND, "image");
+}
+
+static struct asset_ahead *decode_ahead(const struct assets_input *input, struct asset_hold *hold) {
+    return ahead_begin(input, hold,
+                       base_of(input, ir_place_value(input->origin, &input->scene->background.head,
+                                                     &SCHEMA_BACKGROUND, "image")));
 }
 
 // ---- all
@@ -346,14 +379,15 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
     }
     struct loader loader = {.input = input, .hold = out->hold};
     add_scene_materials(&loader);
+    const bool has_image = has_background_image(input);
+    if (has_image && input->pixels_later && pixels == ASSETS_KEEP_PIXELS)
+        out->ahead = decode_ahead(input, out->hold);
     out->models = ARENA_ARRAY(input->arena, struct assets_model, scene->models.count);
     out->model_count = scene->models.count;
     for (uint32_t i = 0; i < scene->models.count; i++)
         load_model(&loader, out, i);
     report_unfit(&loader, out);
-    const struct ir_background *background = &scene->background;
-    if (background->kind == IR_BACKDROP_IMAGE && background->image.len &&
-        !is_poisoned(&background->head, &SCHEMA_BACKGROUND, "image"))
+    if (has_image)
         out->background = load_background(&loader, pixels, out);
     out->materials = loader.materials.items;
     out->material_count = loader.materials.count;
@@ -363,6 +397,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
 void assets_finish(struct assets *assets) {
     if (!assets)
         return;
+    ahead_finish(assets->ahead);
     store_release(assets->hold);
     *assets = (struct assets){0};
 }

@@ -19,8 +19,10 @@ struct ir_material;
 struct ir_material_ref;
 struct ir_scene;
 
+struct asset_ahead;
 struct asset_store;
 struct asset_hold;
+struct timeline;
 
 struct asset_store *asset_store_create(void); // NULL: no memory
 // All assets that were loaded with the store must be finished before.
@@ -58,8 +60,10 @@ struct assets {
     uint32_t model_count;
     const struct picture *background; // NULL: none, or not loaded; without pixels unless they are kept
     bool pixels_skipped;              // it has an image of which only the header was ever read
-    uint64_t triangle_count;          // of all models
-    struct asset_uses uses;           // in the order of loading; text is in the arena of the scene
+    bool pixels_later;                // its pixels are still being decoded: assets_settle
+    struct asset_ahead *ahead;
+    uint64_t triangle_count; // of all models
+    struct asset_uses uses;  // in the order of loading; text is in the arena of the scene
 };
 
 struct assets_input {
@@ -69,8 +73,10 @@ struct assets_input {
     struct files *files;
     const struct limits *limits;
     struct diag_sink *sink;
-    struct arena *arena;     // for what belongs to this scene; guarded by the caller
-    struct asset_uses *uses; // of the assets being loaded: set by assets_load
+    struct arena *arena;       // for what belongs to this scene; guarded by the caller
+    struct asset_uses *uses;   // of the assets being loaded: set by assets_load
+    bool pixels_later;         // pixels that are kept may still be decoded when assets_load returns
+    struct timeline *timeline; // may be NULL
 };
 
 // What is done with the pixels of an image.
@@ -85,6 +91,9 @@ enum assets_pixels {
 // still releases what was taken.
 void assets_load(struct asset_store *store, const struct assets_input *input, enum assets_pixels pixels,
                  struct assets *out);
+// Waits for pixels that are still being decoded; what is wrong with them is reported now. It needs the guards
+// of assets_load. Does nothing if none are.
+void assets_settle(struct assets *assets);
 // Accepts zeroed, half-loaded and finished assets.
 void assets_finish(struct assets *assets);
 // The index in assets.materials of a body's reference.

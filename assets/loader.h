@@ -24,6 +24,11 @@ struct loaded_mesh {
     struct loaded_mesh *next;
 };
 
+enum {
+    ASSET_TEXT_ROOM = 64,  // that an arena needs besides the text itself
+    ASSET_TEXEL_BYTES = 16 // a device may get each pixel as four floats
+};
+
 struct loader {
     const struct assets_input *input;
     struct asset_hold *hold;

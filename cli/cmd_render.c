@@ -4,6 +4,7 @@
 #include "cli/study.h"
 #include "core/clock.h"
 #include "core/quantile.h"
+#include "core/timeline.h"
 #include "files/output.h"
 #include "grammar/ir.h"
 
@@ -12,12 +13,53 @@
 #include <string.h>
 #include <sys/resource.h>
 
-static int open_device(struct render_job *job) {
-    double start = clock_seconds();
-    int status = job->gpu ? CLI_OK : cli_open_device(job->cli, &job->gpu);
-    job->stats.device_seconds = clock_seconds() - start;
-    return status;
+// ---- what goes on while the background's pixels are decoded
+
+static void begin_device(void *context) {
+    struct render_job *job = context;
+    job->opening = cli_begin_opening(job->cli, job->timeline);
 }
+
+static void part_sinks(struct render_job *job) {
+    job->loaded = job->session.sink;
+    job->is_apart = true;
+    diag_sink_init(&job->session.sink);
+    diag_sink_keep(&job->session.sink, job->loaded.kept_max);
+}
+
+static int judge_load(struct render_job *job) {
+    const double start = clock_seconds();
+    const bool waits = job->session.unsettled;
+    session_settle(&job->session);
+    if (waits)
+        timeline_add(job->timeline, "wait", STR(""), start);
+    if (job->session.state != SESSION_LOADED || job->session.sink.errors)
+        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
+    if (interrupt_signal())
+        return render_interrupted(job);
+    return cli_try_output(job->cli, job->output);
+}
+
+// Waits for the pixels. What the load has to say comes first, and alone if there are errors; then what was
+// found meanwhile. An exit code, the same each time.
+static int settle(struct render_job *job) {
+    if (!job->is_apart)
+        return job->settled;
+    struct diag_sink meanwhile = job->session.sink;
+    job->session.sink = job->loaded;
+    job->is_apart = false;
+    job->settled = judge_load(job);
+    if (job->settled == CLI_OK)
+        diag_merge(&job->session.sink, &meanwhile);
+    diag_sink_finish(&meanwhile);
+    return job->settled;
+}
+
+static bool is_ready(void *context) {
+    return settle(context) == CLI_OK;
+}
+
+// ---- frames
 
 static int take_frames(struct render_job *job, uint32_t cameras) {
     int32_t frames = job->cli->options.repeat ? job->cli->options.repeat : 1;
@@ -32,6 +74,7 @@ static int take_frames(struct render_job *job, uint32_t cameras) {
         enum shot_status status = render_take_frame(job, cameras, &callback);
         times[i] = clock_seconds() - start;
         on_device[i] = job->stats.last.device_seconds;
+        timeline_add(job->timeline, "frame", STR(""), start);
         if (status != SHOT_OK)
             return render_failed(job, status);
         if (i == 0)
@@ -54,6 +97,8 @@ static int report_stats(struct render_job *job) {
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     s->peak_memory_bytes = usage.ru_maxrss * 1024;
+    s->timeline = job->timeline;
+    s->begun = job->cli->begun;
     s->read_seconds = job->session.read_seconds;
     s->assets_seconds = job->session.assets_seconds;
     s->flatten_seconds = job->shot.flatten_seconds;
@@ -110,15 +155,27 @@ static int render_camera(struct render_job *job, const char *path, uint32_t came
     return status;
 }
 
+// A device that fails is told after what the scene has wrong.
+static int open_device(struct render_job *job) {
+    struct cli_opening *opening = job->opening;
+    if (job->gpu)
+        return CLI_OK;
+    if (!cli_opening_is_good(opening) && settle(job) != CLI_OK)
+        return job->settled;
+    return cli_end_opening(job->cli, &job->opening, &job->gpu, &job->stats.device_seconds);
+}
+
 static int render_by_device(struct render_job *job, uint32_t first, uint32_t end) {
     int status = open_device(job);
     if (status != CLI_OK)
         return status;
     const struct shot_wish wish = {.counts = job->cli->options.stats != CLI_STATS_NONE,
-                                   .audits = render_wants_audit(&job->cli->options)};
+                                   .audits = render_wants_audit(&job->cli->options),
+                                   .ready = job->is_apart ? is_ready : NULL,
+                                   .ready_context = job};
     enum shot_status opened = shot_open_for(&job->shot, &job->session, job->gpu, first, wish);
     if (opened != SHOT_OK)
-        return render_failed(job, opened);
+        return settle(job) != CLI_OK ? job->settled : render_failed(job, opened);
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
             return render_failed(job, opened);
@@ -130,30 +187,36 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
 
 static int render_cameras(struct render_job *job) {
     const struct ir_cameras *cameras = &job->session.scene->cameras;
+    const bool exact = cli_device_is_reference(job->cli);
     bool all = str_equal(job->cli->options.camera, STR("all"));
     job->all_cameras = all && cameras->count > 0;
     uint32_t first = all ? 0 : session_camera(&job->session, job->cli->options.camera);
+    const bool good = first != IR_NO_INDEX && image_init(&job->image, (uint32_t)job->session.image->width,
+                                                         (uint32_t)job->session.image->height);
+    if ((!good || exact) && settle(job) != CLI_OK)
+        return job->settled;
     if (first == IR_NO_INDEX)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
-    if (!image_init(&job->image, (uint32_t)job->session.image->width, (uint32_t)job->session.image->height)) {
+    if (!good) {
         cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->output, NULL, "not enough memory for the picture");
         return CLI_SCENE;
     }
     uint32_t end = job->all_cameras ? cameras->count : first + 1;
-    return cli_device_is_reference(job->cli) ? render_by_reference(job, first, end)
-                                             : render_by_device(job, first, end);
+    return exact ? render_by_reference(job, first, end) : render_by_device(job, first, end);
 }
 
 static int run_job(struct render_job *job, struct asset_store *store) {
     struct session_options options = cli_session_options(job->cli, job->cli->operands[0]);
+    const bool device = !cli_device_is_reference(job->cli);
     options.lint = LINT_CHEAP;
+    options.pixels_later = device;
+    options.on_text = device && !job->gpu ? begin_device : NULL;
+    options.on_text_context = job;
+    options.timeline = job->timeline;
     session_load(&job->session, &options, store);
-    if (job->session.state != SESSION_LOADED || job->session.sink.errors)
-        return cli_report(job->cli, &job->session, !job->cli->options.quiet);
-    if (interrupt_signal())
-        return render_interrupted(job);
-    int status = cli_try_output(job->cli, job->output);
-    return status == CLI_OK ? render_cameras(job) : status;
+    part_sinks(job);
+    const bool goes_on = job->session.unsettled || settle(job) == CLI_OK;
+    return goes_on ? render_cameras(job) : job->settled;
 }
 
 static int needs_output(struct cli *cli) {
@@ -201,10 +264,13 @@ int cmd_render(struct cli *cli) {
     interrupt_catch();
     strbuf_init(&job.note);
     struct asset_store *store = asset_store_create();
+    if (cli->options.stats)
+        job.timeline = ARENA_NEW(&cli->arena, struct timeline);
     int status = cli_has_study(cli) ? cli_choose_settings(cli, store, &job.gpu) : CLI_OK;
     if (status == CLI_OK)
         status = run_job(&job, store);
     shot_close(&job.shot);
+    cli_drop_opening(cli, job.opening);
     image_finish(&job.image);
     strbuf_finish(&job.note);
     cli_close_device(cli, job.gpu);

@@ -2,6 +2,14 @@
 // or a part of the name goes to --device.
 #include "cli/device.h"
 
+#include "core/clock.h"
+#include "core/heap.h"
+#include "core/parallel.h"
+#include "core/timeline.h"
+#include "files/folder_store.h"
+
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,13 +111,11 @@ static void no_device(struct cli *cli, const char *place, const char *error) {
     strbuf_finish(&help);
 }
 
-int cli_open_device(struct cli *cli, struct gpu **gpu) {
-    char error[GPU_ERROR_BYTES] = "";
-    struct gpu_options options = {.device = cli_device_wanted(cli)};
-    enum gpu_status status = gpu_create(&options, gpu, error);
+static int report_opening(struct cli *cli, enum gpu_status status, const char *error) {
+    const char *wanted = cli_device_wanted(cli);
+    const char *asked = cli->options.device ? "--device" : wanted ? "GLINT_DEVICE" : "device";
     if (status == GPU_OK)
         return CLI_OK;
-    const char *asked = cli->options.device ? "--device" : options.device ? "GLINT_DEVICE" : "device";
     if (status == GPU_NO_DEVICE)
         no_device(cli, asked, error);
     else if (status == GPU_NO_LOADER || status == GPU_NO_DRIVER)
@@ -117,6 +123,119 @@ int cli_open_device(struct cli *cli, struct gpu **gpu) {
     else
         cli_error(cli, DIAG_DEVICE_FAILED, "device", NULL, "%s", error);
     return CLI_DEVICE;
+}
+
+// ---- compiled kernels
+
+enum {
+    KERNEL_BYTES = 16 << 20,
+    KERNELS_BYTES = 128 << 20,
+    KERNELS_VERSION = 1,
+    NAME_BYTES = 33
+};
+
+static struct folder_seal seal_of(const uint64_t key[2]) {
+    return (struct folder_seal){.magic = "glintVK", .version = KERNELS_VERSION, .key = {key[0], key[1]}};
+}
+
+static void name_of(const uint64_t key[2], char name[NAME_BYTES]) {
+    snprintf(name, NAME_BYTES, "%016" PRIx64 "%016" PRIx64, key[0], key[1]);
+}
+
+static void *read_kernel(void *context, const uint64_t key[2], size_t *count) {
+    const struct folder_seal seal = seal_of(key);
+    char name[NAME_BYTES];
+    name_of(key, name);
+    return folder_store_open(context, name, &seal, KERNEL_BYTES, count);
+}
+
+static void write_kernel(void *context, const uint64_t key[2], const void *bytes, size_t count) {
+    const struct folder_seal seal = seal_of(key);
+    const struct folder_store_part part = {bytes, count};
+    char name[NAME_BYTES];
+    name_of(key, name);
+    if (count <= KERNEL_BYTES)
+        folder_store_seal(context, name, &seal, &part, 1);
+}
+
+static struct gpu_options device_options(struct cli *cli) {
+    struct folder_store *store = ARENA_NEW(&cli->arena, struct folder_store);
+    char *path = folder_store_path("kernels");
+    if (path)
+        *store = (struct folder_store){arena_copy(&cli->arena, str_from(path)).ptr, KERNELS_BYTES};
+    free(path);
+    return (struct gpu_options){.device = cli_device_wanted(cli),
+                                .keep = {.read = read_kernel, .write = write_kernel, .context = store}};
+}
+
+int cli_open_device(struct cli *cli, struct gpu **gpu) {
+    char error[GPU_ERROR_BYTES] = "";
+    const struct gpu_options options = device_options(cli);
+    return report_opening(cli, gpu_create(&options, gpu, error), error);
+}
+
+struct cli_opening {
+    struct parallel_task task;
+    struct gpu_options options;
+    struct timeline *timeline;
+    struct gpu *gpu;
+    enum gpu_status status;
+    char error[GPU_ERROR_BYTES];
+    double seconds;
+};
+
+static void open_beside(void *context) {
+    struct cli_opening *opening = context;
+    const double start = clock_seconds();
+    opening->status = gpu_create(&opening->options, &opening->gpu, opening->error);
+    opening->seconds = clock_seconds() - start;
+    timeline_add(opening->timeline, "device", STR(""), start);
+}
+
+struct cli_opening *cli_begin_opening(struct cli *cli, struct timeline *timeline) {
+    struct cli_opening *opening = heap_zeroed(1, sizeof *opening);
+    if (!opening)
+        return NULL;
+    opening->options = device_options(cli);
+    opening->timeline = timeline;
+    parallel_start(&opening->task, open_beside, opening);
+    return opening;
+}
+
+bool cli_opening_is_good(struct cli_opening *opening) {
+    if (opening)
+        parallel_wait(&opening->task);
+    return opening && opening->status == GPU_OK;
+}
+
+int cli_end_opening(struct cli *cli, struct cli_opening **opening, struct gpu **gpu, double *seconds) {
+    struct cli_opening *o = *opening;
+    const double start = clock_seconds();
+    int status;
+    *opening = NULL;
+    if (o) {
+        parallel_wait(&o->task);
+        *gpu = o->gpu;
+        status = report_opening(cli, o->status, o->error);
+    } else {
+        status = cli_open_device(cli, gpu);
+    }
+    *seconds = o ? o->seconds : clock_seconds() - start;
+    free(o);
+    return status;
+}
+
+// A thread that is still at work keeps what it works on: the program then ends around it (main.c).
+void cli_drop_opening(struct cli *cli, struct cli_opening *opening) {
+    if (!opening)
+        return;
+    if (!parallel_is_over(&opening->task)) {
+        cli->stuck = true;
+        return;
+    }
+    parallel_wait(&opening->task);
+    cli_close_device(cli, opening->gpu);
+    free(opening);
 }
 
 void cli_close_device(struct cli *cli, struct gpu *gpu) {

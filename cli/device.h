@@ -7,12 +7,24 @@
 #include "cli/cli.h"
 #include "tracer/gpu/gpu.h"
 
+struct timeline;
+
 // NULL: none in particular.
 const char *cli_device_wanted(const struct cli *cli);
 // Whether that is the reference.
 bool cli_device_is_reference(const struct cli *cli);
 // CLI_OK, or CLI_DEVICE with an error printed. *gpu is the caller's to destroy.
 int cli_open_device(struct cli *cli, struct gpu **gpu);
+// The same beside other work: begun, and awaited; what is wrong is printed only then.
+struct cli_opening;
+// NULL: no memory, and cli_end_opening opens it.
+struct cli_opening *cli_begin_opening(struct cli *cli, struct timeline *timeline);
+// Waits, and says whether cli_end_opening will be CLI_OK; false for NULL.
+bool cli_opening_is_good(struct cli_opening *opening);
+// As cli_open_device; *opening (may be NULL) is gone. *seconds is how long it took.
+int cli_end_opening(struct cli *cli, struct cli_opening **opening, struct gpu **gpu, double *seconds);
+// The device is not wanted any more: does not wait until it is open. NULL does nothing.
+void cli_drop_opening(struct cli *cli, struct cli_opening *opening);
 // Destroys it; notes in cli->stuck whether it may still be at work. NULL does nothing.
 void cli_close_device(struct cli *cli, struct gpu *gpu);
 // Prints what failed last; returns CLI_DEVICE.

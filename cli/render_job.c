@@ -2,6 +2,7 @@
 
 #include "cli/device.h"
 #include "core/clock.h"
+#include "core/timeline.h"
 #include "grammar/ir.h"
 #include "picture/write/scale.h"
 
@@ -64,12 +65,15 @@ int render_write_picture(struct render_job *job, const char *path) {
     double start = clock_seconds();
     image_encode(&job->image, job->format, display, &file);
     job->stats.encode_seconds = clock_seconds() - start;
+    timeline_add(job->timeline, "encode", str_from(path), start);
     int status = CLI_OK;
     if (file.failed) {
         cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
         status = CLI_FILE;
     } else {
+        start = clock_seconds();
         status = cli_write(job->cli, path, strbuf_view(&file));
+        timeline_add(job->timeline, "write", str_from(path), start);
     }
     job->written = clock_seconds();
     strbuf_finish(&file);

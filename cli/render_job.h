@@ -10,9 +10,18 @@
 #include "cli/stats.h"
 #include "grammar/ir.h"
 
+struct cli_opening;
+
 struct render_job {
     struct cli *cli;
     struct session session;
+    // While the background's pixels are still being decoded, what is found goes into another sink: this is
+    // the session's own.
+    struct diag_sink loaded;
+    bool is_apart;
+    int settled;                 // the exit code of what the load and the output say
+    struct cli_opening *opening; // of the device, beside the reading of files
+    struct timeline *timeline;   // NULL: not asked for
     struct gpu *gpu;
     struct shot shot;
     struct image image;

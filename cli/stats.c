@@ -1,6 +1,7 @@
 #include "cli/stats.h"
 
 #include "core/json_write.h"
+#include "core/timeline.h"
 #include "grammar/ir_features.h"
 
 #include <string.h>
@@ -24,6 +25,31 @@ static void put_audit(const struct audit *audit, struct strbuf *out) {
         strbuf_format(out, ", the first at %u,%u", audit->x, audit->y);
     strbuf_char(out, '\n');
     seconds(out, "traced again in", audit->seconds);
+}
+
+// Threads are numbered as they turn up.
+static unsigned thread_number(const struct timeline *timeline, unsigned at) {
+    unsigned number = 1;
+    for (unsigned i = 0; i < at; i++) {
+        bool first = true;
+        for (unsigned k = 0; k < i; k++)
+            first &= timeline->phases[k].thread != timeline->phases[i].thread;
+        if (timeline->phases[i].thread == timeline->phases[at].thread)
+            return number;
+        number += first;
+    }
+    return number;
+}
+
+static void put_timeline(const struct stats *s, struct strbuf *out) {
+    const unsigned count = timeline_sort(s->timeline);
+    strbuf_cstr(out, "timeline: start, length, thread\n");
+    for (unsigned i = 0; i < count; i++) {
+        const struct timeline_phase *p = &s->timeline->phases[i];
+        const str file = path_base(p->detail);
+        strbuf_format(out, "  %-10s %10.3f %10.3f ms %4u%s%.*s\n", p->name, 1e3 * (p->begin - s->begun),
+                      1e3 * p->seconds, thread_number(s->timeline, i), file.len ? "  " : "", STR_ARG(file));
+    }
 }
 
 void stats_text(const struct stats *s, struct strbuf *out) {
@@ -72,6 +98,7 @@ void stats_text(const struct stats *s, struct strbuf *out) {
     bytes(out, "process, peak", (uint64_t)s->peak_memory_bytes);
     if (s->has_audit)
         put_audit(&s->audit, out);
+    put_timeline(s, out);
 }
 
 static void put_times(struct json_writer *w, const struct stats *s) {
@@ -133,6 +160,29 @@ static void put_features(struct json_writer *w, uint32_t mask) {
     json_close_list(w);
 }
 
+// As the Trace Event Format of Chrome has it (N. Duca, D. Sinclair): complete events, times in microseconds.
+static void put_trace(struct json_writer *w, const struct stats *s) {
+    const unsigned count = timeline_sort(s->timeline);
+    json_open_list(w, "traceEvents");
+    for (unsigned i = 0; i < count; i++) {
+        const struct timeline_phase *p = &s->timeline->phases[i];
+        json_open_object(w, NULL);
+        json_write_text(w, "name", str_from(p->name));
+        json_write_text(w, "ph", STR("X"));
+        json_write_real(w, "ts", 1e6 * (p->begin - s->begun));
+        json_write_real(w, "dur", 1e6 * p->seconds);
+        json_write_integer(w, "pid", 1);
+        json_write_integer(w, "tid", (uint64_t)p->thread);
+        if (p->detail.len) {
+            json_open_object(w, "args");
+            json_write_text(w, "file", p->detail);
+            json_close_object(w);
+        }
+        json_close_object(w);
+    }
+    json_close_list(w);
+}
+
 void stats_json(const struct stats *s, struct strbuf *out) {
     struct json_writer w;
     json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
@@ -158,6 +208,7 @@ void stats_json(const struct stats *s, struct strbuf *out) {
     json_write_integer(&w, "peak_memory_bytes", (uint64_t)s->peak_memory_bytes);
     if (s->has_audit)
         json_audit(&w, &s->audit);
+    put_trace(&w, s);
     json_close_object(&w);
     json_end(&w);
 }

@@ -6,6 +6,8 @@
 #include "app/shot.h"
 #include "cli/cli.h"
 
+struct timeline;
+
 struct stats {
     double read_seconds, assets_seconds, device_seconds;   // device: opening it
     double flatten_seconds, build_seconds, upload_seconds; // build: the trees, a part of flatten
@@ -23,6 +25,8 @@ struct stats {
     str camera; // its name; empty where the scene has none
     bool has_audit;
     struct audit audit;
+    struct timeline *timeline; // since `begun`, a time of the clock
+    double begun;
 };
 
 void stats_text(const struct stats *stats, struct strbuf *out);

@@ -91,9 +91,8 @@ static int failed(struct cli *cli, struct session *session, struct gpu *gpu, enu
 static int run(struct cli *cli, struct session *session, struct gpu *gpu, const struct view *view,
                const struct tradeoff_options *options, struct tradeoff *study) {
     struct flat_input flat = precision_input(session, view);
-    bool has_flat;
-    const enum precision_status tried = precision_choose(session, &flat, gpu, gpu_info(gpu)->has_double,
-                                                         (struct precision_gains){.has_flat = &has_flat});
+    const enum precision_status tried =
+        precision_choose(session, &flat, gpu, gpu_info(gpu)->has_double, (struct precision_wish){0}, NULL);
     if (tried != PRECISION_DONE)
         return failed(cli, session, gpu, tried == PRECISION_DEVICE ? TRADEOFF_DEVICE : TRADEOFF_SCENE);
     char *store = cli->options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);

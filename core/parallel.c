@@ -34,7 +34,7 @@ unsigned parallel_processors(void) {
     return online < 1 ? 1 : online > THREADS_MAX ? THREADS_MAX : (unsigned)online;
 }
 
-static void *work(void *argument) {
+static void *take_pieces(void *argument) {
     struct job *job = argument;
     share = job->share;
     for (;;) {
@@ -57,10 +57,40 @@ void parallel_for(size_t count, size_t piece, parallel_body *body, void *context
     job.share = most > 1 ? (wanted + most - 1) / most : before;
     unsigned started = 0;
     while (started + 1 < wanted && started + 1 < pieces &&
-           pthread_create(&threads[started], NULL, work, &job) == 0)
+           pthread_create(&threads[started], NULL, take_pieces, &job) == 0)
         started++;
-    work(&job);
+    take_pieces(&job);
     share = before;
     for (unsigned i = 0; i < started; i++)
         pthread_join(threads[i], NULL);
+}
+
+static void *run_task(void *argument) {
+    struct parallel_task *task = argument;
+    share = 1;
+    task->work(task->context);
+    task->over = true;
+    return NULL;
+}
+
+void parallel_start(struct parallel_task *task, parallel_work *work, void *context) {
+    task->work = work;
+    task->context = context;
+    task->over = false;
+    task->has_thread = parallel_processors() > 1 && pthread_create(&task->thread, NULL, run_task, task) == 0;
+}
+
+void parallel_wait(struct parallel_task *task) {
+    if (!task->work)
+        return;
+    if (task->has_thread)
+        pthread_join(task->thread, NULL);
+    else
+        task->work(task->context);
+    task->over = true;
+    task->work = NULL;
+}
+
+bool parallel_is_over(struct parallel_task *task) {
+    return !task->work || task->over;
 }

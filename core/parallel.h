@@ -1,7 +1,11 @@
-// Work cut into pieces of a fixed size, so that results never depend on the number of threads.
+// Work cut into pieces of a fixed size, so that results never depend on the number of threads; and work that
+// goes on beside its caller's.
 #ifndef GLINT_CORE_PARALLEL_H
 #define GLINT_CORE_PARALLEL_H
 
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef void parallel_body(void *context, size_t begin, size_t end);
@@ -14,5 +18,29 @@ typedef void parallel_body(void *context, size_t begin, size_t end);
 void parallel_for(size_t count, size_t piece, parallel_body *body, void *context);
 // Processors that this process may use, at least 1.
 unsigned parallel_processors(void);
+
+// A piece of work that goes on beside its caller's until that waits for it: a file that is decoded, a device
+// that is opened. It is for work that another cannot be cut into pieces with: what can be uses parallel_for.
+//
+// The work has one thread of its own; a parallel_for inside of it takes no other. Where there is one
+// processor only, or no thread can be made, it runs when it is waited for: so what it does must not depend on
+// when it runs. It reads what is there before parallel_start and does not change until parallel_wait, and
+// writes what nobody reads until then; its arenas are its own, guarded by itself, so that no jump leaves its
+// thread. It says nothing and reports nothing: errors are among its results, and its caller's to tell, in
+// their turn. Ownership: the task and its context stay where they are until parallel_wait; a zeroed task was
+// never started. Thread safety: start and wait belong to one thread.
+typedef void parallel_work(void *context);
+struct parallel_task {
+    parallel_work *work; // NULL: nothing is left to wait for
+    void *context;
+    bool has_thread;
+    atomic_bool over;
+    pthread_t thread;
+};
+void parallel_start(struct parallel_task *task, parallel_work *work, void *context);
+// Returns when the work is done. Does nothing for a task that was not started, or was waited for.
+void parallel_wait(struct parallel_task *task);
+// Whether parallel_wait would return at once.
+bool parallel_is_over(struct parallel_task *task);
 
 #endif

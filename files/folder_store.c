@@ -1,9 +1,11 @@
 #include "files/folder_store.h"
 
 #include "core/heap.h"
+#include "core/xxh64.h"
 #include "files/folder.h"
 #include "files/output.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -165,6 +167,52 @@ bool folder_store_write(const struct folder_store *store, const char *name,
     free(path);
     evict(store);
     return kept;
+}
+
+// ---- with a seal
+
+struct head {
+    struct folder_seal seal;
+    uint64_t count, hash; // of what follows
+};
+
+enum {
+    PARTS_MOST = 4
+};
+
+void *folder_store_open(const struct folder_store *store, const char *name, const struct folder_seal *seal,
+                        size_t most_bytes, size_t *count) {
+    struct head head;
+    size_t whole;
+    *count = 0;
+    char *bytes = folder_store_read(store, name, sizeof head + most_bytes, &whole);
+    if (bytes && whole >= sizeof head) {
+        memcpy(&head, bytes, sizeof head);
+        memmove(bytes, bytes + sizeof head, whole - sizeof head);
+        if (memcmp(&head.seal, seal, sizeof *seal) == 0 && head.count == whole - sizeof head &&
+            head.hash == xxh64_of(bytes, whole - sizeof head, 0)) {
+            *count = whole - sizeof head;
+            return bytes;
+        }
+    }
+    free(bytes);
+    return NULL;
+}
+
+bool folder_store_seal(const struct folder_store *store, const char *name, const struct folder_seal *seal,
+                       const struct folder_store_part *parts, int part_count) {
+    struct head head = {.seal = *seal};
+    struct folder_store_part all[PARTS_MOST] = {{&head, sizeof head}};
+    struct xxh64 hash;
+    assert(part_count < PARTS_MOST);
+    xxh64_begin(&hash, 0);
+    for (int i = 0; i < part_count; i++) {
+        all[i + 1] = parts[i];
+        head.count += parts[i].count;
+        xxh64_add(&hash, parts[i].bytes, parts[i].count);
+    }
+    head.hash = xxh64_end(&hash);
+    return folder_store_write(store, name, all, part_count + 1);
 }
 
 // ---- where

@@ -25,6 +25,20 @@ void *folder_store_read(const struct folder_store *store, const char *name, size
 bool folder_store_write(const struct folder_store *store, const char *name,
                         const struct folder_store_part *parts, int part_count);
 
+// What an entry is of, written before it with its length and a checksum: so that what is damaged, cut off, of
+// another version or of another thing is as if it were not there. An entry is read on the machine that wrote
+// it.
+struct folder_seal {
+    char magic[8];
+    uint64_t version;
+    uint64_t key[2];
+};
+// As folder_store_read and folder_store_write, for what follows the seal.
+void *folder_store_open(const struct folder_store *store, const char *name, const struct folder_seal *seal,
+                        size_t most_bytes, size_t *count);
+bool folder_store_seal(const struct folder_store *store, const char *name, const struct folder_seal *seal,
+                       const struct folder_store_part *parts, int part_count);
+
 // "$XDG_CACHE_HOME/glint/NAME", or ~/.cache/glint/NAME, from malloc; NULL if neither is known (XDG Base
 // Directory Specification 0.8: a relative XDG_CACHE_HOME is ignored).
 char *folder_store_path(const char *name);

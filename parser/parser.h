@@ -27,6 +27,7 @@
 #include "grammar/ir_origin.h"
 
 struct ir_scene;
+struct timeline;
 
 struct parser_input {
     struct source_set *sources;
@@ -36,7 +37,8 @@ struct parser_input {
     struct arena *arena; // guarded inside parser_load
     const str *sets;     // --set options, "PATH=VALUE", in order
     uint32_t set_count;
-    bool whole; // nothing is bound before its file is read: slower, with the same result
+    bool whole;                // nothing is bound before its file is read: slower, with the same result
+    struct timeline *timeline; // may be NULL
 };
 
 struct parser_output {

@@ -1,6 +1,8 @@
 #include "precision/precision.h"
 
+#include "core/clock.h"
 #include "core/heap.h"
+#include "core/timeline.h"
 #include "grammar/ir.h"
 #include "picture/write/image.h"
 #include "reference/reference.h"
@@ -21,6 +23,7 @@ struct small {
     const struct precision_trial *trial;
     struct view view; // that of `reference`, too
     struct reference *reference;
+    struct precision_gains device; // the scene in single precision, where there is a device
     uint32_t width, height;
     bool whole; // no smaller than the picture
     double *exact, *rounded;
@@ -79,19 +82,39 @@ static bool draw_reference(const struct small *small, const struct reference *re
     return reference_render(reference, &settings, rgb, NULL, statistics) == REFERENCE_DONE;
 }
 
-static bool draw_device(const struct small *small, const struct flat_scene *flat, double *rgb) {
+static struct render_settings device_settings(const struct small *small) {
     const struct flat_input *input = small->trial->input;
-    struct render_settings settings = render_settings_of(input->scene, flat, input->limits);
+    struct render_settings settings = render_settings_of(input->scene, &small->device.flat, input->limits);
     settings.width = small->width;
     settings.height = small->height;
     settings.samples = 1;
     settings.features |= small->trial->features;
+    settings.background_later = small->trial->ready != NULL;
+    settings.timeline = input->timeline;
+    return settings;
+}
+
+// What needs no pixels of the background: the scene on the device, and its kernel. Its size is not known yet.
+static enum precision_status prepare_device(struct small *small) {
+    struct flat_input input = *small->trial->input;
+    input.is_double = false;
+    small->device.has_flat = flatten(&input, &small->device.flat);
+    if (!small->device.has_flat)
+        return PRECISION_SCENE;
+    choose_size(small, LEAST_PIXELS);
+    const struct render_settings settings = device_settings(small);
+    small->device.renderer = renderer_create(small->trial->gpu, &small->device.flat, &settings);
+    return small->device.renderer ? PRECISION_DONE : PRECISION_DEVICE;
+}
+
+static bool draw_device(const struct small *small, double *rgb) {
+    const struct render_settings settings = device_settings(small);
+    struct renderer *renderer = small->device.renderer;
     struct render_statistics statistics;
     float *values = small->shown[0];
-    struct renderer *renderer = renderer_create(small->trial->gpu, flat, &settings);
     const bool good =
-        renderer && renderer_render(renderer, &small->view.camera, values, NULL, &statistics) == RENDER_DONE;
-    renderer_destroy(renderer);
+        renderer_change(renderer, &small->device.flat, &settings) &&
+        renderer_render(renderer, &small->view.camera, values, NULL, &statistics) == RENDER_DONE;
     for (size_t i = 0; good && i < values_of(small); i++)
         rgb[i] = (double)values[i];
     return good;
@@ -122,23 +145,11 @@ static void compare(const struct small *small, struct precision_choice *out) {
     out->needs_double = out->off > PRECISION_SHARE * (small->whole ? 1 : PRECISION_PART) * out->pixels;
 }
 
-static enum precision_status try_device(struct small *small, struct precision_choice *out,
-                                        struct flat_scene *flat, bool *has_flat) {
-    struct flat_input input = *small->trial->input;
-    struct flat_scene made;
-    input.is_double = false;
-    if (!flatten(&input, &made))
-        return PRECISION_SCENE;
-    const bool good = draw_device(small, &made, small->rounded);
-    if (good)
+static enum precision_status try_device(struct small *small, struct precision_choice *out) {
+    out->on_device = draw_device(small, small->rounded);
+    if (out->on_device)
         compare(small, out);
-    out->on_device = good;
-    *has_flat = good && flat && !out->needs_double;
-    if (*has_flat)
-        *flat = made;
-    else
-        flat_finish(&made);
-    return good ? PRECISION_DONE : PRECISION_DEVICE;
+    return out->on_device ? PRECISION_DONE : PRECISION_DEVICE;
 }
 
 static bool forecast(struct small *small, struct precision_choice *out) {
@@ -150,14 +161,13 @@ static bool forecast(struct small *small, struct precision_choice *out) {
     return good;
 }
 
-static enum precision_status try_small(struct small *small, struct precision_choice *out,
-                                       struct flat_scene *flat, bool *has_flat) {
+static enum precision_status try_small(struct small *small, struct precision_choice *out) {
     struct reference_statistics statistics;
     if (!draw_reference(small, small->reference, small->exact, &statistics))
         return PRECISION_MEMORY;
     // A device follows all rays, so what was cut here cannot be compared with it.
     if (small->trial->gpu && !statistics.cut_by_segments)
-        return try_device(small, out, flat, has_flat);
+        return try_device(small, out);
     return forecast(small, out) ? PRECISION_DONE : PRECISION_MEMORY;
 }
 
@@ -185,11 +195,24 @@ static bool make_pictures(struct small *small) {
     return small->exact && small->rounded && small->shown[0] && small->shown[1];
 }
 
+// Up to where pixels of the background are needed, and until they are there.
+static enum precision_status prepare(struct small *small) {
+    const struct precision_trial *trial = small->trial;
+    small->view = *trial->input->view;
+    small->reference = make_reference(small, false);
+    if (!small->reference)
+        return PRECISION_MEMORY;
+    const enum precision_status status = trial->gpu ? prepare_device(small) : PRECISION_DONE;
+    if (status != PRECISION_DONE || !trial->ready)
+        return status;
+    if (!trial->ready(trial->ready_context))
+        return PRECISION_ENDED;
+    return !trial->gpu || renderer_background(small->device.renderer) ? PRECISION_DONE : PRECISION_DEVICE;
+}
+
 static bool make_small(struct small *small) {
     double pixels;
-    small->view = *small->trial->input->view;
-    small->reference = make_reference(small, false);
-    if (!small->reference || !afford(small, &pixels))
+    if (!afford(small, &pixels))
         return false;
     choose_size(small, pixels);
     return make_pictures(small);
@@ -203,7 +226,14 @@ static void leave_reference(struct small *small) {
     small->reference = NULL;
 }
 
+void precision_drop(struct precision_gains *gains) {
+    renderer_destroy(gains->renderer);
+    flat_finish(&gains->flat);
+    *gains = (struct precision_gains){0};
+}
+
 static void finish_small(struct small *small) {
+    precision_drop(&small->device);
     reference_destroy(small->reference);
     free(small->exact);
     free(small->rounded);
@@ -218,21 +248,35 @@ static uint64_t size_of(const struct scene *scene) {
     return sum;
 }
 
+static enum precision_status try_traced(struct small *small, struct precision_choice *out) {
+    enum precision_status status = prepare(small);
+    if (status != PRECISION_DONE)
+        return status;
+    const double start = clock_seconds();
+    status = make_small(small) ? try_small(small, out) : PRECISION_MEMORY;
+    timeline_add(small->trial->input->timeline, "trial", STR(""), start);
+    return status;
+}
+
 enum precision_status precision_try(const struct precision_trial *trial, struct precision_choice *out,
-                                    struct flat_scene *flat, bool *has_flat) {
+                                    struct precision_gains *gains) {
     struct small small = {.trial = trial};
     *out = (struct precision_choice){.pixels = 0};
-    *has_flat = false;
+    if (gains)
+        *gains = (struct precision_gains){0};
     if (!precision_measure(trial->input, &out->report))
         return PRECISION_MEMORY;
     if (size_of(trial->input->scene) > PRECISION_TRACED) {
         out->needs_double = !out->report.suffices;
         return PRECISION_DONE;
     }
-    const enum precision_status status =
-        make_small(&small) ? try_small(&small, out, flat, has_flat) : PRECISION_MEMORY;
+    const enum precision_status status = try_traced(&small, out);
     if (status == PRECISION_DONE)
         leave_reference(&small);
+    if (status == PRECISION_DONE && gains && !out->needs_double) {
+        *gains = small.device;
+        small.device = (struct precision_gains){0};
+    }
     finish_small(&small);
     return status;
 }

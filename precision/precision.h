@@ -31,9 +31,18 @@ enum precision_status {
     PRECISION_MEMORY,
     PRECISION_SCENE,  // flattening failed; the sink has it
     PRECISION_DEVICE, // see gpu_error
+    PRECISION_ENDED,  // `ready` did not want to go on
 };
 
 struct reference;
+struct renderer;
+
+// What of a trial on a device is left where single precision suffices, to be used again.
+struct precision_gains {
+    bool has_flat;             // flat is the scene as flattened, the caller's to flat_finish;
+    struct flat_scene flat;    // zeroed otherwise
+    struct renderer *renderer; // over a flat scene that must be replaced: renderer_change; NULL: none
+};
 
 struct precision_trial {
     const struct flat_input *input; // is_double does not count
@@ -43,12 +52,16 @@ struct precision_trial {
     // Where the reference is left that drew on a device's behalf, to be used for the whole picture: it sees
     // input->view, and the caller destroys it. NULL stays there where there was none. May be NULL.
     struct reference **reference;
+    // Called once all is done that needs no pixels of the background; they must be there when it returns.
+    // false: the trial ends. NULL: they are there.
+    bool (*ready)(void *context);
+    void *ready_context;
 };
 
-// Where a device was asked and single precision suffices, *flat (which may be NULL) becomes the scene as it
-// was flattened for it, the caller's to flat_finish, and *has_flat true.
+// *gains, which is the caller's to release, may be NULL.
 enum precision_status precision_try(const struct precision_trial *trial, struct precision_choice *out,
-                                    struct flat_scene *flat, bool *has_flat);
+                                    struct precision_gains *gains);
+void precision_drop(struct precision_gains *gains);
 // What a scene is traced in: its own setting, or what the choice says.
 bool precision_is_double(const struct ir_scene *ir, const struct precision_choice *choice);
 

@@ -1,6 +1,5 @@
 #include "reference/cache.h"
 
-#include "core/xxh64.h"
 #include "reference/key.h"
 
 #include <inttypes.h>
@@ -8,16 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The header of an entry. An entry is read on the machine that wrote it.
-struct entry_head {
-    char magic[8];
-    uint64_t version, head_bytes;
-    uint64_t key[2];
-    uint64_t body_bytes, body_hash;
-    struct reference_statistics statistics;
-};
-
-static const char MAGIC[8] = "glintRF";
+static struct folder_seal seal_of(const uint64_t key[2]) {
+    return (struct folder_seal){.magic = "glintRF", .version = REFERENCE_VERSION, .key = {key[0], key[1]}};
+}
 
 void reference_source_init(struct reference_source *source, const struct reference_input *input,
                            struct folder_store store) {
@@ -71,25 +63,16 @@ struct answer {
     struct reference_statistics statistics;
 };
 
-static bool is_whole(const struct answer *a, const char *bytes, size_t count, struct entry_head *head) {
-    if (count != sizeof *head + a->body_bytes)
-        return false;
-    memcpy(head, bytes, sizeof *head);
-    return memcmp(head->magic, MAGIC, sizeof MAGIC) == 0 && head->version == REFERENCE_VERSION &&
-           head->head_bytes == sizeof *head && memcmp(head->key, a->key, sizeof head->key) == 0 &&
-           head->body_bytes == a->body_bytes &&
-           head->body_hash == xxh64_of(bytes + sizeof *head, a->body_bytes, 0);
-}
-
+// An entry holds the statistics, then the body.
 static bool find(struct reference_source *source, struct answer *a) {
-    struct entry_head head;
+    const struct folder_seal seal = seal_of(a->key);
+    const size_t before = sizeof a->statistics;
     size_t count;
-    char *bytes =
-        folder_store_read(&source->store, a->name, sizeof(struct entry_head) + a->body_bytes, &count);
-    bool found = bytes && is_whole(a, bytes, count, &head);
+    char *bytes = folder_store_open(&source->store, a->name, &seal, before + a->body_bytes, &count);
+    const bool found = bytes && count == before + a->body_bytes;
     if (found) {
-        memcpy(a->body, bytes + sizeof head, a->body_bytes);
-        a->statistics = head.statistics;
+        memcpy(&a->statistics, bytes, before);
+        memcpy(a->body, bytes + before, a->body_bytes);
         source->found++;
     }
     free(bytes);
@@ -97,18 +80,13 @@ static bool find(struct reference_source *source, struct answer *a) {
 }
 
 static void keep(struct reference_source *source, const struct answer *a) {
-    struct entry_head head;
+    const struct folder_seal seal = seal_of(a->key);
+    struct reference_statistics statistics;
     // Padding too: an entry's bytes depend on nothing else.
-    memset(&head, 0, sizeof head);
-    memcpy(head.magic, MAGIC, sizeof MAGIC);
-    head.version = REFERENCE_VERSION;
-    head.head_bytes = sizeof head;
-    memcpy(head.key, a->key, sizeof head.key);
-    head.body_bytes = a->body_bytes;
-    head.body_hash = xxh64_of(a->body, a->body_bytes, 0);
-    head.statistics = a->statistics;
-    const struct folder_store_part parts[2] = {{&head, sizeof head}, {a->body, a->body_bytes}};
-    folder_store_write(&source->store, a->name, parts, 2);
+    memset(&statistics, 0, sizeof statistics);
+    statistics = a->statistics;
+    const struct folder_store_part parts[2] = {{&statistics, sizeof statistics}, {a->body, a->body_bytes}};
+    folder_store_seal(&source->store, a->name, &seal, parts, 2);
 }
 
 static struct answer ask(struct reference_source *source, const struct reference_settings *settings,

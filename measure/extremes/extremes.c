@@ -61,9 +61,8 @@ static enum extremes_status choose_precision(const struct run *run, const struct
         return EXTREMES_DONE;
     const struct precision_trial trial = {
         .input = input, .width = v->width, .height = v->height, .gpu = run->input->gpu};
-    bool has_flat;
     if (v->ir.trace.precision == IR_PRECISION_AUTO) {
-        const enum precision_status tried = precision_try(&trial, &choice, NULL, &has_flat);
+        const enum precision_status tried = precision_try(&trial, &choice, NULL);
         if (tried == PRECISION_MEMORY || tried == PRECISION_DEVICE)
             return tried == PRECISION_MEMORY ? EXTREMES_MEMORY : EXTREMES_DEVICE;
     }

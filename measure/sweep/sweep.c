@@ -146,8 +146,7 @@ static enum sweep_status judge_pictures(struct judging *j) {
                                           .height = j->input->height,
                                           .gpu = j->input->gpu,
                                           .features = FEATURE_SCENE_MASK};
-    bool has_flat;
-    const enum precision_status tried = precision_try(&trial, &choice, NULL, &has_flat);
+    const enum precision_status tried = precision_try(&trial, &choice, NULL);
     if (tried != PRECISION_DONE)
         return tried == PRECISION_MEMORY  ? SWEEP_MEMORY
                : tried == PRECISION_SCENE ? SWEEP_COORDINATES

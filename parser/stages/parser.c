@@ -1,5 +1,7 @@
 #include "parser/parser.h"
 
+#include "core/clock.h"
+#include "core/timeline.h"
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/stages/loader.h"
@@ -8,6 +10,8 @@
 // Runs the stages; false if there is no scene.
 static bool run(struct loader *loader, uint32_t main_source, bool alone) {
     struct parser_output *output = loader->output;
+    struct timeline *timeline = loader->input->timeline;
+    double start = clock_seconds();
     ir_origin_init(&output->origin, loader->input->arena);
     schema_index_init(&loader->index, &loader->steady);
     loader_add_file(loader, main_source, 0, SPAN_NONE);
@@ -15,12 +19,15 @@ static bool run(struct loader *loader, uint32_t main_source, bool alone) {
     if (alone || !output->scene)
         return output->scene != NULL;
     resolve_includes(loader, 0);
+    timeline_add(timeline, "parse", STR(""), start);
+    start = clock_seconds();
     output->scene = merge_files(loader);
     override_apply(loader, output->scene);
     names_resolve(loader, output->scene);
     merge_compact(loader, output->scene);
     validate_scene(loader, output->scene);
     resolve_note_includes(loader);
+    timeline_add(timeline, "validate", STR(""), start);
     return true;
 }
 

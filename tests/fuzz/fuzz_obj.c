@@ -67,8 +67,13 @@ static void load(void *context) {
     schema_init(&SCHEMA_MODEL, model);
     model->mesh = STR("/mesh.obj"); // each folder of a path is asked for its links
     model->material.index = IR_NO_INDEX;
-    struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
-                                 &s->limits, &s->sink,   &s->arena,   NULL};
+    struct assets_input input = {.scene = &s->scene,
+                                 .origin = &s->origin,
+                                 .sources = &s->sources,
+                                 .files = &s->files,
+                                 .limits = &s->limits,
+                                 .sink = &s->sink,
+                                 .arena = &s->arena};
     assets_load(s->store, &input, false, &s->assets);
     const struct mesh *loaded = s->assets.models[0].mesh;
     require(loaded || s->sink.errors > 0, "a mesh, or an error");

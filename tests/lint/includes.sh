@@ -32,8 +32,8 @@ function foreign(path, target) {
     if (target ~ /^(volk|vulkan)/) return path ~ /^(tracer\/gpu|tests\/faults|bench\/pipeline)\//
     if (target ~ /^embree/) return path ~ /^bench\/embree\//
     if (target ~ /^stb/) return path ~ /^(tools|tests|bench)\//
-    if (target ~ /^png\.h/) return path ~ /^(picture|tests)\//
-    if (target ~ /^zlib/) return path ~ /^(shaders|tools|picture\/read)\//
+    if (target ~ /^png\.h/) return path ~ /^(picture|bench|tests)\//
+    if (target ~ /^zlib/) return path ~ /^(shaders|tools|picture\/(read|write))\//
     if (target ~ /^(jpeglib|jerror)\.h/) return path ~ /^(picture\/read|bench)\//
     if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
     if (target ~ /^minizip/) return path ~ /^app\/pack\/pack_zip/

@@ -3,6 +3,7 @@
 #include "core/clock.h"
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "core/timeline.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
 
@@ -82,6 +83,11 @@ static bool make_triangle_tree(struct flattening *f) {
     return f->leaf_of != NULL;
 }
 
+static void end_tree(struct flattening *f, double start) {
+    f->out->build_seconds += clock_seconds() - start;
+    timeline_add(f->input->timeline, "tree", STR(""), start);
+}
+
 static enum flatten_fault make_triangles(struct flattening *f) {
     struct flat_scene *out = f->out;
     const size_t total = f->triangle_total;
@@ -95,7 +101,7 @@ static enum flatten_fault make_triangles(struct flattening *f) {
     out->dropped_triangles = f->triangle_total - f->item_count;
     double start = clock_seconds();
     bool done = make_triangle_tree(f);
-    out->build_seconds += clock_seconds() - start;
+    end_tree(f, start);
     if (!done || !flat_array_make(&out->triangles, (uint64_t)out->triangle_count * out->strides.triangle))
         return FLATTEN_NO_MEMORY;
     return flatten_records(f);
@@ -112,7 +118,7 @@ static enum flatten_fault make_spheres(struct flattening *f) {
         double start = clock_seconds();
         done = make_tree(f->input->method, items, count, words, out->strides.sphere, &out->sphere_nodes,
                          &out->spheres, &out->sphere_depth);
-        out->build_seconds += clock_seconds() - start;
+        end_tree(f, start);
     }
     free(items);
     free(words);
@@ -173,7 +179,9 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
                                .origin = origin_of(input),
                                .background = input->scene->background.picture};
     struct flattening f = {.input = input, .scene = input->scene, .out = out};
+    const double start = clock_seconds();
     enum flatten_fault fault = run(&f);
+    timeline_add(input->timeline, "flatten", STR(""), start);
     free(f.material_used);
     free(f.normal_base);
     free(f.items);

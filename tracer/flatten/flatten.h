@@ -44,6 +44,8 @@ struct flat_scene {
     double build_seconds;                  // tree building
 };
 
+struct timeline;
+
 struct flat_input {
     const struct scene *scene;
     const struct view *view;
@@ -52,6 +54,7 @@ struct flat_input {
     enum bvh_method method; // of the trees; none shows in a picture
     const struct limits *limits;
     struct diag_sink *sink;
+    struct timeline *timeline; // may be NULL
 };
 
 // false: too large or no memory (the sink says which).

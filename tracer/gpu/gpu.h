@@ -47,6 +47,17 @@ struct gpu_device_info {
     bool preferred;         // what an empty choice takes
 };
 
+// Where compiled kernels are kept from run to run, under a key of device, driver and all that was compiled.
+// Called on the gpu's thread. What cannot be read is NULL, and what cannot be kept is lost: neither is an
+// error.
+struct gpu_keep {
+    void *(*read)(void *context, const uint64_t key[2], size_t *count); // from malloc; NULL: there is none
+    void (*write)(void *context, const uint64_t key[2], const void *bytes, size_t count);
+    void *context; // outlives the gpu
+    // For tests: on a CPU device too, and even if there is nothing in it but what the driver writes before.
+    bool always;
+};
+
 struct gpu_options {
     // A number, or part of a device's name (case ignored). NULL or empty: discrete before integrated
     // before virtual before CPU, then the lower number.
@@ -56,6 +67,7 @@ struct gpu_options {
     // Where validation messages are counted, leaks found by gpu_destroy included; may be NULL. Must
     // outlive the gpu.
     uint32_t *validation_messages;
+    struct gpu_keep keep; // zeroed: nowhere
 };
 
 struct gpu;
@@ -131,5 +143,8 @@ bool gpu_clear(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, uint
 // between the first dispatch's start and the last one's end on the device's own clock.
 bool gpu_submit(struct gpu *gpu);
 bool gpu_wait(struct gpu *gpu, double *seconds);
+// Has a device that compiles a kernel with its first dispatch (lavapipe) compile it, by a dispatch of
+// nothing, while this thread goes on: gpu_write and gpu_fill do not wait for that, other calls do.
+bool gpu_compile(struct gpu *gpu, struct gpu_program *program, const void *push);
 
 #endif

@@ -181,7 +181,7 @@ bool gpu_fill(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, uint6
               void *context) {
     if (bytes == 0)
         return true;
-    if (!gpu_wait(gpu, NULL))
+    if (!gpu->compiling && !gpu_wait(gpu, NULL))
         return false;
     if (buffer->mapped) {
         put(context, offset, (char *)buffer->mapped + offset, bytes);

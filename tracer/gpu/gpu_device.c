@@ -127,6 +127,8 @@ enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, 
         status = choose_device(gpu, options->device, error);
     if (status == GPU_OK) {
         read_properties(gpu, options);
+        if (gpu->info.kind != GPU_CPU || options->keep.always)
+            gpu->keep = options->keep;
         if (!create_device(gpu)) {
             status = gpu->status;
             snprintf(error, GPU_ERROR_BYTES, "%s", gpu->error);

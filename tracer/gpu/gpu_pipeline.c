@@ -48,7 +48,8 @@ static size_t drop_unknown(const struct gpu *gpu, uint32_t *spirv, size_t words)
     return count;
 }
 
-static bool create_module(struct gpu *gpu, const struct gpu_program_source *source, VkShaderModule *out) {
+static bool create_module(struct gpu *gpu, const struct gpu_program_source *source,
+                          const struct gpu_pipeline *wanted, VkShaderModule *out, struct gpu_kept *kept) {
     uint32_t *spirv = kernel_inflate(source->kernel);
     if (!spirv) {
         gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
@@ -60,6 +61,8 @@ static bool create_module(struct gpu *gpu, const struct gpu_program_source *sour
                                        .pCode = spirv};
     const bool ok =
         gpu_check(gpu, gpu->vk.vkCreateShaderModule(gpu->device, &create, NULL, out), "vkCreateShaderModule");
+    if (ok)
+        *kept = gpu_keep_begin(gpu, wanted, spirv, words);
     free(spirv);
     return ok;
 }
@@ -100,7 +103,8 @@ static bool create_pipeline(struct gpu *gpu, struct gpu_pipeline *made,
                                       .dataSize = source->constant_count * sizeof(uint32_t),
                                       .pData = source->constants};
     VkShaderModule module;
-    if (!create_module(gpu, source, &module))
+    struct gpu_kept kept;
+    if (!create_module(gpu, source, made, &module, &kept))
         return false;
     VkComputePipelineCreateInfo pipeline = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
@@ -111,7 +115,8 @@ static bool create_pipeline(struct gpu *gpu, struct gpu_pipeline *made,
                   .pSpecializationInfo = &constants},
         .layout = made->layout};
     const VkResult result =
-        gpu->vk.vkCreateComputePipelines(gpu->device, gpu->cache, 1, &pipeline, NULL, &made->pipeline);
+        gpu->vk.vkCreateComputePipelines(gpu->device, kept.cache, 1, &pipeline, NULL, &made->pipeline);
+    gpu_keep_end(gpu, &kept, result == VK_SUCCESS);
     gpu->vk.vkDestroyShaderModule(gpu->device, module, NULL);
     return gpu_check(gpu, result, "vkCreateComputePipelines");
 }

@@ -30,10 +30,12 @@ struct gpu {
     VkCommandPool pool;
     VkCommandBuffer commands;
     VkFence fence;
-    VkQueryPool queries; // 0: first start, 1: last end
-    VkPipelineCache cache;
+    VkQueryPool queries;            // 0: first start, 1: last end
+    VkPipelineCache cache;          // of this run
+    struct gpu_keep keep;           // from run to run; zeroed: nowhere
     struct gpu_pipeline *pipelines; // all of them, the one used last first
     bool recording, submitted, timed;
+    bool compiling;             // what was submitted touches no buffer
     bool stuck;                 // what was submitted may run for ever: all that it uses is kept
     uint32_t recorded;          // dispatches since the recording began
     struct gpu_buffer *staging; // grown as needed; NULL at first
@@ -105,6 +107,20 @@ void gpu_settle(struct gpu *gpu);
 struct gpu_pipeline *gpu_pipeline_use(struct gpu *gpu, const struct gpu_program_source *source);
 void gpu_pipeline_leave(struct gpu *gpu, struct gpu_pipeline *pipeline); // NULL does nothing
 void gpu_pipelines_destroy(struct gpu *gpu);                             // no program may be left
+
+// ---- gpu_keep.c
+
+// A cache for one kernel, with what an earlier run kept of it; the gpu's own where nothing is kept. `spirv`
+// is what is compiled.
+struct gpu_kept {
+    VkPipelineCache cache;
+    uint64_t key[2];
+    bool owned, found;
+};
+struct gpu_kept gpu_keep_begin(struct gpu *gpu, const struct gpu_pipeline *wanted, const uint32_t *spirv,
+                               size_t words);
+// After compiling, which went well or did not.
+void gpu_keep_end(struct gpu *gpu, const struct gpu_kept *kept, bool compiled);
 
 // ---- gpu_run.c
 

@@ -111,7 +111,7 @@ bool gpu_wait(struct gpu *gpu, double *seconds) {
         *seconds = 0;
     if (!gpu->submitted)
         return true;
-    gpu->submitted = false;
+    gpu->submitted = gpu->compiling = false;
     if (!gpu_check(gpu, gpu->vk.vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, UINT64_MAX),
                    "vkWaitForFences")) {
         gpu_settle(gpu);
@@ -120,4 +120,9 @@ bool gpu_wait(struct gpu *gpu, double *seconds) {
     if (!gpu_check(gpu, gpu->vk.vkResetFences(gpu->device, 1, &gpu->fence), "vkResetFences"))
         return false;
     return !seconds || !gpu->timed || read_times(gpu, seconds);
+}
+
+bool gpu_compile(struct gpu *gpu, struct gpu_program *program, const void *push) {
+    gpu->compiling = gpu_dispatch(gpu, program, 0, 1, push) && gpu_submit(gpu);
+    return gpu->compiling;
 }

@@ -1,4 +1,7 @@
+#include "core/clock.h"
 #include "core/heap.h"
+#include "core/parallel.h"
+#include "core/timeline.h"
 #include "tracer/render/render_private.h"
 
 #include "grammar/ir.h"
@@ -148,19 +151,44 @@ static bool upload(struct renderer *renderer, uint32_t binding, enum gpu_use use
     return buffer && (!data || gpu_write(renderer->gpu, buffer, 0, data, bytes));
 }
 
+// Texels of a piece of work.
+enum {
+    TEXEL_PIECE = 1 << 16
+};
+
+struct texels {
+    const struct flat_scene *flat;
+    size_t first, bytes; // bytes: of a texel
+    char *to;
+};
+
+static void put_texels(void *context, size_t begin, size_t end) {
+    const struct texels *t = context;
+    flat_background(t->flat, t->first + begin, t->first + end, t->to + begin * t->bytes);
+}
+
 static void put_background(void *context, uint64_t offset, void *to, uint64_t bytes) {
     const struct flat_scene *flat = context;
-    const uint64_t texel = flat->background_texels.is_float ? 4 * sizeof(float) : 4;
-    flat_background(flat, (size_t)(offset / texel), (size_t)((offset + bytes) / texel), to);
+    const size_t texel = flat->background_texels.is_float ? 4 * sizeof(float) : 4;
+    struct texels texels = {flat, (size_t)(offset / texel), texel, to};
+    parallel_for((size_t)((offset + bytes) / texel) - texels.first, TEXEL_PIECE, put_texels, &texels);
 }
 
 // Texels are made where the device reads them: there is no second copy of the picture here.
-static bool upload_background(struct renderer *renderer) {
+bool renderer_background(struct renderer *renderer) {
     struct flat_scene flat = *renderer->flat;
-    const enum gpu_use use = flat.background_texels.is_float ? GPU_TEXELS_F32 : GPU_TEXELS_U8;
-    return upload(renderer, BINDING_BACKGROUND, use, NULL, flat.background_texels.bytes) &&
-           gpu_fill(renderer->gpu, renderer->buffers[BINDING_BACKGROUND], 0, flat.background_texels.bytes,
-                    put_background, &flat);
+    const double start = clock_seconds();
+    const bool put = gpu_fill(renderer->gpu, renderer->buffers[BINDING_BACKGROUND], 0,
+                              flat.background_texels.bytes, put_background, &flat);
+    timeline_add(renderer->settings.timeline, "background", STR(""), start);
+    return put;
+}
+
+static bool make_background(struct renderer *renderer) {
+    const struct flat_scene *flat = renderer->flat;
+    const enum gpu_use use = flat->background_texels.is_float ? GPU_TEXELS_F32 : GPU_TEXELS_U8;
+    return upload(renderer, BINDING_BACKGROUND, use, NULL, flat->background_texels.bytes) &&
+           (renderer->settings.background_later || renderer_background(renderer));
 }
 
 static bool upload_scene(struct renderer *renderer) {
@@ -182,7 +210,7 @@ static bool upload_scene(struct renderer *renderer) {
         if (!upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
                     arrays[i].array->count * sizeof(struct gpu_word)))
             return false;
-    return upload_background(renderer);
+    return make_background(renderer);
 }
 
 static bool make_band(struct renderer *renderer) {
@@ -250,6 +278,13 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
     return make_frame(renderer);
 }
 
+// There is time until the background comes.
+static bool compile(struct renderer *renderer) {
+    const struct dispatch_block nothing = {0};
+    struct gpu_program *program = renderer_program(renderer, renderer->settings.counts);
+    return program && gpu_compile(renderer->gpu, program, &nothing);
+}
+
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
                                  const struct render_settings *settings) {
     struct renderer *renderer = heap_zeroed(1, sizeof *renderer);
@@ -258,7 +293,13 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
     renderer->gpu = gpu;
     renderer->flat = flat;
     take_settings(renderer, settings);
-    if (upload_scene(renderer) && make_frame(renderer))
+    double start = clock_seconds();
+    bool made = upload_scene(renderer);
+    timeline_add(settings->timeline, "upload", STR(""), start);
+    start = clock_seconds();
+    made = made && make_frame(renderer) && (!settings->background_later || compile(renderer));
+    timeline_add(settings->timeline, "pipeline", STR(""), start);
+    if (made)
         return renderer;
     renderer_destroy(renderer);
     return NULL;

@@ -28,6 +28,8 @@ enum render_alternative {
 // "offset 1e-3", for reports.
 const char *render_alternative_name(enum render_alternative alternative);
 
+struct timeline;
+
 struct render_settings {
     uint32_t width, height; // pixels
     uint32_t samples;       // per pixel, at least 1
@@ -46,8 +48,10 @@ struct render_settings {
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
     uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
     uint32_t dispatch_paths;             // most paths of a dispatch; 0: as many as are over soon
-    uint32_t places; // most paths that a GPU saves at a time; 0: as many as its memory holds
-    bool counts;     // frames count their rays, which changes no bit of the picture
+    uint32_t places;           // most paths that a GPU saves at a time; 0: as many as its memory holds
+    bool counts;               // frames count their rays, which changes no bit of the picture
+    bool background_later;     // the background has no pixels yet: renderer_background, before any frame
+    struct timeline *timeline; // may be NULL
 };
 
 // What scene, flat scene and limits ask for.
@@ -120,6 +124,8 @@ void renderer_destroy(struct renderer *renderer);
 // can only be destroyed.
 bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
                      const struct render_settings *settings);
+// Puts the background's pixels onto the device, where background_later left them out. false: see gpu_error.
+bool renderer_background(struct renderer *renderer);
 // Renders a frame into width * height * 3 floats, rows from the top: the mean of the samples, before tone
 // and transfer; NaN in all three where a sample has the fault RENDER_NOT_FINITE. `progress` may be NULL.
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,

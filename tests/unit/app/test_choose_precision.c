@@ -37,9 +37,8 @@ static const char far_scene[] = "scenes/elements/precision.glint.yaml";
 static const char near_scene[] = "scenes/elements/spheres.glint.yaml";
 
 static enum precision_status choose(struct fixture *f, void **state, bool has_double) {
-    bool has_flat;
     return precision_choose(&f->session, &f->input, device_kit_need(state, has_double), has_double,
-                            (struct precision_gains){.has_flat = &has_flat});
+                            (struct precision_wish){0}, NULL);
 }
 
 static void test_settings(void **state) {
@@ -131,21 +130,20 @@ static void test_choice(void **state) {
 static void test_trial(void **state) {
     for (int needs = 0; needs < 2; needs++) {
         struct fixture f;
-        struct flat_scene flat;
+        struct precision_gains gains;
         struct precision_choice choice;
-        bool has_flat;
         begin(&f, needs ? far_scene : near_scene, "trace.precision=auto");
         const struct precision_trial trial = {
             .input = &f.input, .width = 64, .height = 48, .gpu = device_kit_need(state, true)};
-        assert_int_equal(precision_try(&trial, &choice, &flat, &has_flat), PRECISION_DONE);
+        assert_int_equal(precision_try(&trial, &choice, &gains), PRECISION_DONE);
         assert_true(choice.traced && choice.on_device && choice.pixels == 64 * 48);
         assert_int_equal(choice.needs_double, needs);
         assert_int_equal(choice.off > 3, needs);
-        assert_int_equal(has_flat, !needs);
-        if (has_flat) {
-            assert_true(flat.sphere_count > 0 && !flat.is_double);
-            flat_finish(&flat);
-        }
+        assert_int_equal(gains.has_flat, !needs);
+        assert_int_equal(gains.renderer != NULL, !needs);
+        if (gains.has_flat)
+            assert_true(gains.flat.sphere_count > 0 && !gains.flat.is_double);
+        precision_drop(&gains);
         end(&f);
     }
 }

@@ -207,16 +207,90 @@ static void paths_follow_the_scene(void **state) {
     expect_rebased(f, "scenes/sub/x.xml", "../../triangle.obj", 0);
 }
 
+static void put_findings(const struct session *session, struct strbuf *text) {
+    strbuf_init(text);
+    diag_text(text, &session->sink, (struct source_set *)&session->sources,
+              (struct diag_text_options){.notes = true});
+    strbuf_format(text, "%u %u %u, state %d", session->sink.errors, session->sink.warnings,
+                  session->sink.notes, session->state);
+}
+
+static bool has_pixels(const struct session *session) {
+    return session->assets.background && session->assets.background->pixels;
+}
+
+static void count_call(void *context) {
+    ++*(int *)context;
+}
+
+// Pixels that come later change nothing of what is found, nor its order, whatever is wrong.
+static void pixels_may_come_later(void **state) {
+    (void)state;
+    static const struct {
+        const char *path;
+        bool waits, fails;
+    } cases[] = {
+        {"tests/invalid/w416_yaml/good.yaml", true, false},
+        {"tests/invalid/e620_image/case.yaml", false, true},
+        {"tests/invalid/e621_image/case.yaml", false, true},
+        {"tests/invalid/e501_image/case.yaml", false, true},
+        {"tests/invalid/n601_image/case.yaml", true, false},
+        {"tests/invalid/e601_yaml_asset/case.yaml", false, true},
+        {"tests/invalid/w416_yaml/case.yaml", true, false},
+        {"tests/invalid/e203_yaml/case.yaml", false, true},
+        {"scenes/elements/spheres.glint.yaml", false, false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct session sessions[2];
+        struct strbuf texts[2];
+        struct asset_store *stores[2];
+        int calls = 0;
+        for (int later = 0; later < 2; later++) {
+            const struct session_options options = {.path = str_from(cases[i].path),
+                                                    .limits = limits_default(),
+                                                    .lint = LINT_ALL,
+                                                    .pixels_later = later,
+                                                    .on_text = later ? count_call : NULL,
+                                                    .on_text_context = &calls};
+            stores[later] = asset_store_create();
+            session_load(&sessions[later], &options, stores[later]);
+            if (later && cases[i].waits)
+                assert_true(sessions[later].unsettled);
+            session_settle(&sessions[later]);
+            assert_false(sessions[later].unsettled);
+            put_findings(&sessions[later], &texts[later]);
+        }
+        assert_string_equal(texts[0].data, texts[1].data);
+        assert_int_equal(sessions[0].sink.errors > 0, cases[i].fails);
+        assert_int_equal(calls, strncmp(cases[i].path + strlen("tests/invalid/"), "e2", 2) != 0);
+        assert_int_equal(has_pixels(&sessions[0]), has_pixels(&sessions[1]));
+        if (has_pixels(&sessions[0]))
+            assert_memory_equal(sessions[0].assets.background->pixels, sessions[1].assets.background->pixels,
+                                sessions[0].assets.background->size_bytes);
+        for (int later = 0; later < 2; later++) {
+            strbuf_finish(&texts[later]);
+            session_finish(&sessions[later]);
+            asset_store_destroy(stores[later]);
+        }
+    }
+}
+
+// One that nobody waits for is not in the way.
+static void pixels_may_never_be_wanted(void **state) {
+    struct fixture *f = *state;
+    const struct session_options options = {
+        .path = STR("tests/invalid/n601_image/case.yaml"), .limits = limits_default(), .pixels_later = true};
+    session_load(&f->session, &options, f->store);
+    assert_true(f->session.unsettled && f->session.sink.errors == 0);
+    session_finish(&f->session);
+}
+
 int main(void) {
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        T(files_that_cannot_be_read),
-        T(what_is_no_scene),
-        T(a_scene_and_its_options),
-        T(cameras_by_name),
-        T(a_mesh_is_a_scene),
-        T(text_alone_opens_no_assets),
-        T(asset_paths),
+        T(files_that_cannot_be_read), T(pixels_may_come_later),      T(pixels_may_never_be_wanted),
+        T(what_is_no_scene),          T(a_scene_and_its_options),    T(cameras_by_name),
+        T(a_mesh_is_a_scene),         T(text_alone_opens_no_assets), T(asset_paths),
         T(paths_follow_the_scene),
     };
     return cmocka_run_group_tests_name("session", tests, NULL, NULL);

@@ -1,5 +1,9 @@
+// For sched_setaffinity.
+#define _GNU_SOURCE
+
 #include "core/parallel.h"
 
+#include <sched.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -109,6 +113,59 @@ static void loops_may_nest(void **state) {
     }
 }
 
+struct beside {
+    struct nest nest;
+    int done;
+    bool own_thread;
+    pthread_t caller;
+};
+
+static void go_beside(void *context) {
+    struct beside *beside = context;
+    parallel_for(1000, 1, inner, &beside->nest);
+    beside->own_thread = !pthread_equal(pthread_self(), beside->caller);
+    beside->done++;
+}
+
+// It is done once it was waited for, on one thread, and only once.
+static void a_task_goes_on_beside(void **state) {
+    (void)state;
+    struct beside beside = {.caller = pthread_self()};
+    struct parallel_task task = {0}, never = {0};
+    assert_true(parallel_is_over(&never));
+    parallel_wait(&never);
+    parallel_start(&task, go_beside, &beside);
+    parallel_wait(&task);
+    parallel_wait(&task);
+    assert_true(parallel_is_over(&task));
+    assert_int_equal(beside.done, 1);
+    assert_int_equal(atomic_load(&beside.nest.visits), 1000);
+    assert_int_equal(beside.own_thread, parallel_processors() > 1);
+    if (beside.own_thread)
+        assert_int_equal(atomic_load(&beside.nest.most), 1);
+}
+
+// On one processor nothing is won by a thread: the work waits until it is needed.
+static void a_task_waits_on_one_processor(void **state) {
+    (void)state;
+    cpu_set_t before, one;
+    assert_int_equal(sched_getaffinity(0, sizeof before, &before), 0);
+    CPU_ZERO(&one);
+    for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&one) == 0; i++)
+        if (CPU_ISSET(i, &before))
+            CPU_SET(i, &one);
+    assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
+    struct beside beside = {.caller = pthread_self()};
+    struct parallel_task task;
+    parallel_start(&task, go_beside, &beside);
+    assert_int_equal(beside.done, 0);
+    assert_false(parallel_is_over(&task));
+    parallel_wait(&task);
+    assert_int_equal(beside.done, 1);
+    assert_false(beside.own_thread);
+    assert_int_equal(sched_setaffinity(0, sizeof before, &before), 0);
+}
+
 static void there_is_a_processor(void **state) {
     (void)state;
     assert_in_range(parallel_processors(), 1, 1024);
@@ -116,9 +173,10 @@ static void there_is_a_processor(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(covers_each_index_once),  cmocka_unit_test(a_huge_piece_does_not_overflow),
-        cmocka_unit_test(threads_do_not_multiply), cmocka_unit_test(loops_may_nest),
-        cmocka_unit_test(there_is_a_processor),
+        cmocka_unit_test(covers_each_index_once),        cmocka_unit_test(a_huge_piece_does_not_overflow),
+        cmocka_unit_test(threads_do_not_multiply),       cmocka_unit_test(loops_may_nest),
+        cmocka_unit_test(there_is_a_processor),          cmocka_unit_test(a_task_goes_on_beside),
+        cmocka_unit_test(a_task_waits_on_one_processor),
     };
     return cmocka_run_group_tests_name("parallel", tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -99,6 +100,118 @@ static void test_nothing_is_an_error(void **state) {
     clear();
 }
 
+// ---- with a seal
+
+static const struct folder_seal plain = {.magic = "test", .version = 3, .key = {1, 2}};
+
+static bool keep_sealed(const struct folder_store *store, const char *text) {
+    const struct folder_store_part parts[2] = {{text, 2}, {text + 2, strlen(text) - 2}};
+    return folder_store_seal(store, "a", &plain, parts, 2);
+}
+
+// `other` may be NULL.
+static bool holds_either(const struct folder_store *store, const struct folder_seal *seal, const char *text,
+                         const char *other) {
+    size_t count;
+    char *bytes = folder_store_open(store, "a", seal, 100, &count);
+    const char *expected = bytes && other && count == strlen(other) ? other : text;
+    const bool same = bytes && count == strlen(expected) && memcmp(bytes, expected, count) == 0;
+    assert_true(bytes || count == 0);
+    free(bytes);
+    return same;
+}
+
+static bool holds_sealed(const struct folder_store *store, const struct folder_seal *seal, const char *text) {
+    return holds_either(store, seal, text, NULL);
+}
+
+static size_t read_raw(char *bytes, size_t room) {
+    char path[PATH_MAX + 20];
+    snprintf(path, sizeof path, "%s/a", folder);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t count = fread(bytes, 1, room, file);
+    fclose(file);
+    return count;
+}
+
+static void write_raw(const char *bytes, size_t count) {
+    char path[PATH_MAX + 20];
+    snprintf(path, sizeof path, "%s/a", folder);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, count, file), count);
+    fclose(file);
+}
+
+static void test_a_seal_names_the_entry(void **state) {
+    (void)state;
+    const struct folder_seal others[] = {{.magic = "rest", .version = 3, .key = {1, 2}},
+                                         {.magic = "test", .version = 4, .key = {1, 2}},
+                                         {.magic = "test", .version = 3, .key = {7, 2}},
+                                         {.magic = "test", .version = 3, .key = {1, 7}}};
+    struct folder_store store = fresh(1000);
+    assert_false(holds_sealed(&store, &plain, "text"));
+    assert_true(keep_sealed(&store, "text"));
+    assert_true(holds_sealed(&store, &plain, "text"));
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        assert_false(holds_sealed(&store, &others[i], "text"));
+    clear();
+}
+
+// Cut off anywhere, longer, or with any bit turned: it is as if it were not there, and can be written again.
+static void test_a_seal_sees_damage(void **state) {
+    (void)state;
+    char whole[300], damaged[300];
+    struct folder_store store = fresh(1000);
+    assert_true(keep_sealed(&store, "some text"));
+    const size_t count = read_raw(whole, sizeof whole - 1);
+    for (size_t left = 0; left < count; left++) {
+        write_raw(whole, left);
+        assert_false(holds_sealed(&store, &plain, "some text"));
+    }
+    for (size_t bit = 0; bit < 8 * count; bit++) {
+        memcpy(damaged, whole, count);
+        damaged[bit / 8] = (char)(damaged[bit / 8] ^ 1 << bit % 8);
+        write_raw(damaged, count);
+        assert_false(holds_sealed(&store, &plain, "some text"));
+    }
+    whole[count] = 'x';
+    write_raw(whole, count + 1);
+    assert_false(holds_sealed(&store, &plain, "some text"));
+    assert_true(keep_sealed(&store, "some text"));
+    assert_true(holds_sealed(&store, &plain, "some text"));
+    clear();
+}
+
+// Programs that write the same entry at once, of other lengths: whoever reads gets one of them, whole.
+static void test_writers_do_not_meet(void **state) {
+    (void)state;
+    enum {
+        WRITERS = 4,
+        TIMES = 50
+    };
+    static const char *const texts[2] = {"short text", "a text that is a good deal longer than the other"};
+    struct folder_store store = fresh(100000);
+    assert_true(keep_sealed(&store, texts[0]));
+    for (int i = 0; i < WRITERS; i++)
+        if (fork() == 0) {
+            bool good = true;
+            for (int k = 0; k < TIMES; k++)
+                good = good && keep_sealed(&store, texts[i % 2]);
+            _exit(!good);
+        }
+    int status, left = WRITERS;
+    while (left > 0) {
+        assert_true(holds_either(&store, &plain, texts[0], texts[1]));
+        while (waitpid(-1, &status, WNOHANG) > 0) {
+            assert_int_equal(status, 0);
+            left--;
+        }
+    }
+    clear();
+}
+
 static void test_where_it_lies(void **state) {
     (void)state;
     const char *old = getenv("XDG_CACHE_HOME");
@@ -138,8 +251,13 @@ static void test_hash(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_entries_come_back),   cmocka_unit_test(test_the_oldest_go),
-        cmocka_unit_test(test_nothing_is_an_error), cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_a_seal_names_the_entry),
+        cmocka_unit_test(test_a_seal_sees_damage),
+        cmocka_unit_test(test_writers_do_not_meet),
+        cmocka_unit_test(test_entries_come_back),
+        cmocka_unit_test(test_the_oldest_go),
+        cmocka_unit_test(test_nothing_is_an_error),
+        cmocka_unit_test(test_hash),
         cmocka_unit_test(test_where_it_lies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

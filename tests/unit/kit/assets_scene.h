@@ -111,8 +111,13 @@ static inline void assets_scene_background(struct assets_scene *s, const char *i
 }
 
 static inline void assets_scene_load(struct assets_scene *s) {
-    struct assets_input input = {&s->scene,  &s->origin, &s->sources, &s->files,
-                                 &s->limits, &s->sink,   &s->arena,   NULL};
+    struct assets_input input = {.scene = &s->scene,
+                                 .origin = &s->origin,
+                                 .sources = &s->sources,
+                                 .files = &s->files,
+                                 .limits = &s->limits,
+                                 .sink = &s->sink,
+                                 .arena = &s->arena};
     assets_load(s->store, &input, false, &s->assets);
     scene_build(&s->scene, &s->assets, &s->arena, &s->resolved);
     scene_check_reach(&s->resolved, &s->sink);

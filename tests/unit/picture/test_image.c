@@ -1,5 +1,8 @@
 // Tone, transfer and rounding as docs/language.md says, and files that other readers would take.
+#include "picture/write/encode_parts.h"
 #include "picture/write/image.h"
+
+#include "core/parallel.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -9,12 +12,12 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <png.h>
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
 #define STBI_ONLY_HDR
-#define STBI_NO_STDIO
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
 #include <stb/stb_image.h>
@@ -204,20 +207,70 @@ static void test_png(void **state) {
     }
 }
 
+// On all processors, or on a share of them.
+static void encode_each(void *context, size_t begin, size_t end) {
+    struct strbuf *files = context;
+    struct image image = pattern(500, 700);
+    for (size_t i = begin; i < end; i++)
+        image_encode(&image, IMAGE_PNG, plain, &files[i]);
+    image_finish(&image);
+}
+
 // The cut into pieces is fixed, so that threads cannot show.
 static void test_png_repeats(void **state) {
     (void)state;
-    struct image image = pattern(500, 700);
-    struct strbuf files[2];
-    for (int i = 0; i < 2; i++) {
+    enum {
+        FILES = 65 // more than threads at most: all but the first are made on one
+    };
+    struct strbuf files[FILES];
+    for (int i = 0; i < FILES; i++)
         strbuf_init(&files[i]);
-        image_encode(&image, IMAGE_PNG, plain, &files[i]);
+    encode_each(files, 0, 1);
+    parallel_for(FILES - 1, 1, encode_each, files + 1);
+    for (int i = 0; i < FILES; i++) {
+        assert_false(files[i].failed);
+        assert_int_equal(files[0].len, files[i].len);
+        assert_memory_equal(files[0].data, files[i].data, files[0].len);
     }
-    assert_int_equal(files[0].len, files[1].len);
-    assert_memory_equal(files[0].data, files[1].data, files[0].len);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < FILES; i++)
         strbuf_finish(&files[i]);
-    image_finish(&image);
+}
+
+static void on_write(png_structp png, png_bytep bytes, size_t count) {
+    strbuf_add(png_get_io_ptr(png), bytes, count);
+}
+
+static size_t size_by_libpng(uint32_t width, uint32_t height, const uint8_t *rgb) {
+    struct strbuf file;
+    strbuf_init(&file);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    png_set_write_fn(png, &file, on_write, NULL);
+    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png, info);
+    for (uint32_t y = 0; y < height; y++)
+        png_write_row(png, rgb + (size_t)3 * width * y);
+    png_write_end(png, NULL);
+    png_destroy_write_struct(&png, &info);
+    const size_t size = file.len;
+    strbuf_finish(&file);
+    return size;
+}
+
+// What is bought with speed: a picture like those that are rendered is hardly larger than by libpng alone.
+static void test_png_size(void **state) {
+    (void)state;
+    struct strbuf file;
+    int width, height, channels;
+    uint8_t *rgb = stbi_load("docs/showcase.png", &width, &height, &channels, 3);
+    assert_non_null(rgb);
+    strbuf_init(&file);
+    encode_png((uint32_t)width, (uint32_t)height, rgb, NULL, &file);
+    const size_t whole = size_by_libpng((uint32_t)width, (uint32_t)height, rgb);
+    assert_in_range(file.len, 1, whole + whole / 20);
+    strbuf_finish(&file);
+    stbi_image_free(rgb);
 }
 
 static void test_pfm(void **state) {
@@ -296,8 +349,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_marked),      cmocka_unit_test(test_rounding), cmocka_unit_test(test_note),
         cmocka_unit_test(test_normalize),   cmocka_unit_test(test_srgb),     cmocka_unit_test(test_png),
-        cmocka_unit_test(test_png_repeats), cmocka_unit_test(test_pfm),      cmocka_unit_test(test_hdr),
-        cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_png_repeats), cmocka_unit_test(test_png_size), cmocka_unit_test(test_pfm),
+        cmocka_unit_test(test_hdr),         cmocka_unit_test(test_formats),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

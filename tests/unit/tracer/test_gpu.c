@@ -297,6 +297,83 @@ static void test_layout64(void **state) {
     expect_layout(state, true);
 }
 
+// ---- kernels that are kept
+
+// One entry, as a store would hold it.
+struct kept {
+    uint64_t key[2];
+    char bytes[1 << 16];
+    size_t count;
+    int asked, found, written;
+};
+
+static void *read_kept(void *context, const uint64_t key[2], size_t *count) {
+    struct kept *kept = context;
+    kept->asked++;
+    if (kept->count == 0 || memcmp(kept->key, key, sizeof kept->key) != 0)
+        return NULL;
+    kept->found++;
+    *count = kept->count;
+    return memcpy(malloc(kept->count), kept->bytes, kept->count);
+}
+
+static void write_kept(void *context, const uint64_t key[2], const void *bytes, size_t count) {
+    struct kept *kept = context;
+    assert_in_range(count, 1, sizeof kept->bytes);
+    memcpy(kept->key, key, sizeof kept->key);
+    memcpy(kept->bytes, bytes, count);
+    kept->count = count;
+    kept->written++;
+}
+
+// A device of its own compiles a kernel, twice if that is asked for.
+static void compile_with(struct kept *kept, bool always, int programs) {
+    char error[GPU_ERROR_BYTES];
+    struct gpu *gpu;
+    const struct gpu_options options = {.device = getenv("GLINT_DEVICE"),
+                                        .keep = {read_kept, write_kept, kept, always}};
+    assert_int_equal(gpu_create(&options, &gpu, error), GPU_OK);
+    struct all_words all;
+    memset(&all, 0, sizeof all);
+    struct gpu_program_source source = layout_source(gpu, false, &all);
+    for (int i = 0; i < programs; i++) {
+        struct gpu_program *program = gpu_program_create(gpu, &source);
+        assert_non_null(program);
+        assert_true(gpu_dispatch(gpu, program, 1, 1, NULL) && gpu_submit(gpu) && gpu_wait(gpu, NULL));
+        gpu_program_destroy(gpu, program);
+    }
+    for (int i = 0; i < GPU_BINDINGS; i++)
+        gpu_buffer_destroy(gpu, source.buffers[i]);
+    gpu_destroy(gpu);
+}
+
+static void test_kernels_are_kept(void **state) {
+    static struct kept kept;
+    device_kit_need(state, false);
+    kept = (struct kept){.count = 0};
+    compile_with(&kept, true, 2);
+    assert_int_equal(kept.asked, 1); // the second is the first one's
+    assert_int_equal(kept.written, 1);
+    compile_with(&kept, true, 1);
+    assert_int_equal(kept.found, 1);
+    assert_int_equal(kept.written, 1);
+    // What a driver does not know is not used; nothing fails.
+    memset(kept.bytes, 0xA5, kept.count);
+    compile_with(&kept, true, 1);
+    assert_int_equal(kept.found, 2);
+}
+
+// Mesa keeps what lavapipe compiles.
+static void test_a_processor_keeps_nothing(void **state) {
+    static struct kept kept;
+    struct gpu *gpu = device_kit_need(state, false);
+    if (gpu_info(gpu)->kind != GPU_CPU)
+        skip();
+    kept = (struct kept){.count = 0};
+    compile_with(&kept, false, 1);
+    assert_int_equal(kept.asked + kept.written, 0);
+}
+
 // What the silence of the layer in all other tests is worth: more workgroups than allowed, never submitted,
 // are a message.
 static void test_messages_are_counted(void **state) {
@@ -329,6 +406,9 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_no_driver, device_kit_setup, device_kit_teardown),
         cmocka_unit_test_setup_teardown(test_choice, device_kit_setup, device_kit_teardown),
         cmocka_unit_test_setup_teardown(test_messages_are_counted, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_kernels_are_kept, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_a_processor_keeps_nothing, device_kit_setup,
+                                        device_kit_teardown),
         cmocka_unit_test_setup_teardown(test_buffers, device_kit_setup, device_kit_teardown),
         cmocka_unit_test_setup_teardown(test_too_large, device_kit_setup, device_kit_teardown),
         cmocka_unit_test_setup_teardown(test_layout, device_kit_setup, device_kit_teardown),

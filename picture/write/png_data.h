@@ -1,0 +1,38 @@
+// The data of a PNG: rows filtered (ISO/IEC 15948, clause 9) and deflated (RFC 1950, 1951) on all processors.
+//
+// Rows are filtered as libpng does by default: of the five filters the one whose bytes, taken as signed, have
+// the least sum of sizes. The filtered bytes are cut into pieces of a fixed size; each is deflated by itself,
+// with what is before it as its dictionary, and ended on a byte (Z_SYNC_FLUSH), so that all of them one after
+// the other are one stream: the method of pigz (M. Adler). So the bytes do not depend on the number of
+// threads. Errors: false, no memory. Ownership: png_data_finish frees. Thread safety: plain data.
+#ifndef GLINT_PICTURE_WRITE_PNG_DATA_H
+#define GLINT_PICTURE_WRITE_PNG_DATA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// A part of the stream, which goes into a chunk of its own.
+struct png_piece {
+    uint8_t *bytes; // from malloc
+    size_t count;
+    size_t from, end;  // of the filtered bytes
+    unsigned long sum; // their Adler-32
+};
+
+struct png_data {
+    struct png_piece *pieces;
+    size_t count;
+};
+
+// `rgb`: three bytes per pixel, row 0 on top; width and height are at least 1.
+bool png_data_make(uint32_t width, uint32_t height, const uint8_t *rgb, struct png_data *out);
+// Accepts what png_data_make left, whatever it returned.
+void png_data_finish(struct png_data *data);
+
+// ---- png_filter.c
+
+// Rows of 3 * width bytes, each after the number of its filter. false: no memory.
+bool png_filter_rows(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t *filtered);
+
+#endif
