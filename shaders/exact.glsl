@@ -190,7 +190,7 @@ void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
 }
 
 bool is_hit_exactly(uint item, exact_search search, hit_record hit) {
-    test_exact(item, search, hit);
+    test_exact(item, true, search, hit);
     return hit.item == item;
 }
 
