@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 
+#include <embree3/rtcore.h>
 #include <stdio.h>
 
 const char *peer_error(const struct peer *peer) {

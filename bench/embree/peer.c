@@ -6,6 +6,8 @@
 #include "grammar/ir.h"
 #include "scene/transform.h"
 
+#include <embree3/rtcore.h>
+
 enum {
     PIECE = 8192,
     WORDS_OF_MESH_TRIANGLE = sizeof(struct mesh_triangle) / sizeof(uint32_t),

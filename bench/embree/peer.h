@@ -11,7 +11,9 @@
 #include "bench/embree/float3.h"
 #include "scene/view.h"
 
-#include <embree3/rtcore.h>
+struct RTCDeviceTy; // Embree's; its header is included where it is called
+struct RTCSceneTy;
+struct RTCRayHit;
 
 struct peer_material {
     float3 diffuse[2], specular; // times their weights
@@ -50,8 +52,8 @@ struct peer_counts {
 struct peer {
     const struct scene *scene;
     struct arena arena;
-    RTCDevice device;
-    RTCScene top;
+    struct RTCDeviceTy *device;
+    struct RTCSceneTy *top;
     bool robust, instances;
     struct peer_body *bodies;
     struct peer_sphere *spheres;

@@ -1,6 +1,8 @@
 // What a ray hit, and where light comes from that leaves it: shaders/surface.glsl and bounce.glsl in C.
 #include "bench/embree/peer.h"
 
+#include <embree3/rtcore.h>
+
 // gamma(7) with u = 2^-24, as glint's own. Larger ones let more light through cracks and corners: pictures
 // are nearest to glint's with this one.
 static const float POINT_ERROR = 4.1723270e-7F;

@@ -3,6 +3,7 @@
 #include "core/heap.h"
 #include "core/parallel.h"
 
+#include <embree3/rtcore.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 

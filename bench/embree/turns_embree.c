@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "grammar/ir.h"
 
+#include <embree3/rtcore.h>
 #include <string.h>
 #ifdef __SSE__
 #include <xmmintrin.h>
