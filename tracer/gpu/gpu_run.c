@@ -20,7 +20,8 @@ bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_
         return false;
     if (gpu->recorded++ == 0) {
         gpu->vk.vkCmdResetQueryPool(gpu->commands, gpu->queries, 0, 1);
-        gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, gpu->queries, 0);
+        // When what was recorded before is done: copies and clears are not the dispatches' time either.
+        gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, gpu->queries, 0);
     }
     gpu->vk.vkCmdBindPipeline(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->compiled->pipeline);
     gpu->vk.vkCmdBindDescriptorSets(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->compiled->layout,
