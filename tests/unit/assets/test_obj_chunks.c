@@ -15,7 +15,8 @@
 
 enum {
     ARENA_BYTES = 1 << 26,
-    TEXT_MOST = 1 << 16
+    TEXT_MOST = 1 << 16,
+    NUMBER_ROOM = 64,
 };
 
 static const size_t SIZES[] = {1, 7, 40, 300};
@@ -210,11 +211,11 @@ static size_t put_number(char *to) {
     const int digits = (int)random_below(18);
     switch (random_below(4)) {
     case 0:
-        return (size_t)sprintf(to, "%.*e", digits, value);
+        return (size_t)snprintf(to, NUMBER_ROOM, "%.*e", digits, value);
     case 1:
-        return (size_t)sprintf(to, "%.*g", digits, value);
+        return (size_t)snprintf(to, NUMBER_ROOM, "%.*g", digits, value);
     default:
-        return (size_t)sprintf(to, "%.*f", digits, value);
+        return (size_t)snprintf(to, NUMBER_ROOM, "%.*f", digits, value);
     }
 }
 
@@ -223,14 +224,14 @@ static void numbers_are_the_same(void **state) {
     char *text = malloc(TEXT_MOST);
     size_t length = 0;
     while (length < TEXT_MOST - 400) {
-        length += (size_t)sprintf(text + length, random_below(3) ? "v" : "vn");
+        length += (size_t)snprintf(text + length, TEXT_MOST - length, "%s", random_below(3) ? "v" : "vn");
         for (int i = 0; i < 3; i++) {
             text[length++] = random_below(9) ? ' ' : '\t';
             length += put_number(text + length);
         }
         text[length++] = '\n';
     }
-    length += (size_t)sprintf(text + length, "f 1 2 3\nf -1 -2 -3");
+    length += (size_t)snprintf(text + length, TEXT_MOST - length, "f 1 2 3\nf -1 -2 -3");
     const struct limits limits = limits_default();
     assert_true(compare(text, length, &limits));
     free(text);
