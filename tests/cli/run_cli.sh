@@ -65,6 +65,12 @@ printf 'x' | dd of=sky.png bs=1 seek=30 conv=notrunc 2>dd.txt
 for command in check inspect "render --device reference"; do
     expect "a damaged image: $command" 1 - "^sky.png:1:1: error: .*a chunk's checksum is wrong.*\[E620\]" "$glint" $command sky.yaml
 done
+# What goes on while the image is decoded says nothing before it has said what is wrong.
+for more in "--camera nobody" "-o nowhere/out.png" "--set trace.precision=double"; do
+    expect "a damaged image before $more" 1 - "^sky.png:1:1: error: .*E620" \
+        env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json "$glint" render sky.yaml $more
+    ok "nothing of cameras, outputs and devices" sh -c '! grep -qE "E302|E70[0-9]|nowhere" err.txt'
+done
 expect "only the image's header" 0 - - "$glint" check sky.yaml --skip-pixels
 expect "only the image's header, of inspect" 0 'background' '' "$glint" inspect sky.yaml --skip-pixels
 expect "render needs the pixels" 2 - "unknown or ambiguous option '--skip-pixels'" "$glint" render sky.yaml --skip-pixels
@@ -248,6 +254,10 @@ if "$glint" devices >devices.txt 2>/dev/null; then
     expect "repeat" 0 '' 'median' "$glint" render good.yaml -o out.png --repeat 3
     expect "an unknown device" 4 - 'E702' "$glint" render good.yaml -o out.png --device nonesuch
     GLINT_DEVICE=nonesuch expect "an unknown device by environment" 4 - 'E702' env GLINT_DEVICE=nonesuch "$glint" render good.yaml -o out.png
+    cp "$source/tests/data/image/interlaced.png" sky.png
+    expect "a whole image, no camera of that name" 2 - 'E302' "$glint" render sky.yaml -o sky-out.png --camera nobody
+    expect "a whole image, no driver" 4 - 'E701' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json "$glint" render sky.yaml -o sky-out.png
+    expect "a whole image" 0 '"name": "image"' - "$glint" render sky.yaml -o sky-out.png -q --stats=json
     expect "no driver" 4 - 'E701' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json "$glint" render good.yaml -o out.png
     # Faults of pixels: exit code 1, and the picture all the same. Facing mirrors with the camera between them;
     # then mirrors whose weights grow beyond what a float holds.
