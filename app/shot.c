@@ -10,6 +10,7 @@ static enum shot_status flatten_shot(struct shot *shot) {
     struct session *s = shot->session;
     double start = clock_seconds();
     struct flat_input input = precision_input(s, &shot->view);
+    input.sharing = gpu_info(shot->gpu)->has_double ? FLAT_CHEAPER : FLAT_COPIES;
     bool has_flat;
     const enum precision_status status = precision_choose(
         s, &input, shot->gpu, gpu_info(shot->gpu)->has_double,

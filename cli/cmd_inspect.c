@@ -134,6 +134,7 @@ static bool describe(struct session *session, struct strbuf *out) {
     if (!session_view(session, 0, &view))
         return false;
     struct flat_input input = precision_input(session, &view);
+    input.sharing = FLAT_CHEAPER;
     struct precision_choice precision;
     if (!precision_forecast(session, &input, &precision) || !flatten(&input, &flat))
         return false;

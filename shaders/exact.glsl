@@ -137,7 +137,7 @@ exact_place place_of(REAL3 corner, exact_search search) {
 WIDE edge_of(exact_place a, exact_place b) { return wide_difference(a.x, b.y, a.y, b.x); }
 
 void test_exact(uint item, inout exact_search search, inout hit_record hit) {
-    triangle_record triangle = load_triangle(item);
+    triangle_record triangle = load_tested(item);
     exact_place a = place_of(triangle.v0, search), b = place_of(triangle.v1, search), c = place_of(triangle.v2, search);
     WIDE u = edge_of(c, b), v = edge_of(a, c), w = edge_of(b, a);
     bool above = is_positive(u) || is_positive(v) || is_positive(w);
@@ -180,6 +180,7 @@ void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
     hit_record first = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     triangle_search search =
         triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY);
+    see_item(hit.item);
     test_triangle(hit.item, search, first);
     if (first.item == hit.item) {
         hit.t = first.t;
@@ -198,14 +199,18 @@ bool retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_recor
     uvec2 group = root_group();
     uint turns = 0u;
     bool more = true;
+    INSTANCES_BEGIN(ray, start, aim.direction, root_group())
     do {
+        INSTANCE_NEXT(ray, start, aim.direction)
         turns += 2u;
         if (HAS_COUNTERS)
             counted_nodes++;
         node_record node = load_triangle_node(next_node(group, ray.flip));
         uint hits = node_hits(node, ray, max(hit.t, search.least) + 2.0 * search.blur + margin);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
+        INSTANCE_FOUND(node, found)
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
+        INSTANCE_LEFT(ray, group)
         uint items = hits & 0x00ffffffu;
         while (items != 0u && turns < EXACT_ITERATIONS) {
             turns++;
@@ -214,13 +219,14 @@ bool retrace_triangles(ray_start start, exact_aim aim, bool any, inout hit_recor
             uint bit = items & (0u - items);
             items ^= bit;
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_exact(item, search, hit);
+            test_exact(INSTANCE_ITEM(item), search, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;
             }
         }
-    } while (more && turns < EXACT_ITERATIONS);
+    } while (more && INSTANCE_SEEN && turns < EXACT_ITERATIONS);
+    INSTANCES_END(more, turns, EXACT_ITERATIONS)
     iterations += turns;
     first_numbers(start, aim.direction, hit);
     return turns < EXACT_ITERATIONS;

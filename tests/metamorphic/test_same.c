@@ -25,16 +25,19 @@ struct variant {
     const char *name;
     enum bvh_method method;
     uint32_t workgroup;
+    enum flat_sharing sharing;
 };
 
 static const struct variant variants[] = {
-    {"once more", BVH_SAH, 0},
-    {"leaves of two", BVH_SAH_PAIRS, 0},
-    {"leaves of one", BVH_SAH_SINGLES, 0},
-    {"a tree of halves", BVH_MEDIAN, 0},
-    {"workgroups of 8", BVH_SAH, 8},
-    {"workgroups of 32", BVH_SAH, 32},
-    {"workgroups of 128", BVH_SAH, 128},
+    {"once more", BVH_SAH, 0, FLAT_COPIES},
+    {"leaves of two", BVH_SAH_PAIRS, 0, FLAT_COPIES},
+    {"leaves of one", BVH_SAH_SINGLES, 0, FLAT_COPIES},
+    {"a tree of halves", BVH_MEDIAN, 0, FLAT_COPIES},
+    {"workgroups of 8", BVH_SAH, 8, FLAT_COPIES},
+    {"workgroups of 32", BVH_SAH, 32, FLAT_COPIES},
+    {"workgroups of 128", BVH_SAH, 128, FLAT_COPIES},
+    {"instances", BVH_SAH, 0, FLAT_SHARED},
+    {"instances, leaves of one", BVH_SAH_SINGLES, 0, FLAT_SHARED},
 };
 
 static void expect(struct bench *b, bool good, const char *path, bool is_double, const char *what) {
@@ -51,6 +54,7 @@ static bool render(struct bench *b, const struct variant *variant, bool is_doubl
     struct flat_input input = precision_input(&b->session, &b->view);
     input.is_double = is_double;
     input.method = variant->method;
+    input.sharing = variant->sharing;
     if (!flatten(&input, &flat))
         return false;
     struct render_settings settings = render_settings_of(&b->session.resolved, &flat, input.limits);

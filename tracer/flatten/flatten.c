@@ -51,7 +51,11 @@ static bool make_tree(enum bvh_method method, struct bvh_item *items, uint32_t c
 
 static enum flatten_fault make_triangles(struct flattening *f) {
     struct flat_scene *out = f->out;
-    size_t total = f->triangle_total;
+    size_t total = f->record_total = (uint32_t)flatten_copied(f);
+    if (f->sharing.instance_count) {
+        out->strides.triangle = PLACED_WORDS;
+        out->strides.normal = NORMAL64_WORDS;
+    }
     f->records = heap_alloc((total ? total : 1) * out->strides.triangle * sizeof *f->records);
     f->items = heap_alloc((total ? total : 1) * sizeof *f->items);
     if (!f->records || !f->items)
@@ -60,7 +64,8 @@ static enum flatten_fault make_triangles(struct flattening *f) {
     if (fault != FLATTEN_DONE)
         return fault;
     out->triangle_count = f->item_count;
-    out->dropped_triangles = f->triangle_total - f->item_count;
+    out->dropped_triangles = f->record_total - f->item_count;
+    out->shown_triangles = f->triangle_total - out->dropped_triangles;
     double start = clock_seconds();
     bool done = make_tree(f->input->method, f->items, f->item_count, f->records, out->strides.triangle,
                           &out->triangle_nodes, &out->triangles, &out->triangle_depth);
@@ -102,8 +107,9 @@ static enum flatten_fault choose_scale(struct flattening *f) {
 static enum flatten_fault run(struct flattening *f) {
     typedef enum flatten_fault step(struct flattening *);
     static step *const steps[] = {
-        flatten_count,        choose_scale,      make_triangles, make_spheres,       flatten_normals,
-        flatten_body_records, flatten_materials, flatten_lights, flatten_background,
+        flatten_count,     choose_scale,   flatten_share,      make_triangles,
+        flatten_instances, make_spheres,   flatten_normals,    flatten_body_records,
+        flatten_materials, flatten_lights, flatten_background,
     };
     size_t bodies = f->scene->body_count;
     f->out->body_count = (uint32_t)bodies;
@@ -141,6 +147,7 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
                                .background = input->scene->background.picture};
     struct flattening f = {.input = input, .scene = input->scene, .out = out};
     enum flatten_fault fault = run(&f);
+    flatten_share_finish(&f.sharing);
     free(f.material_used);
     free(f.normal_base);
     free(f.items);
@@ -158,10 +165,11 @@ void flat_finish(struct flat_scene *flat) {
         return;
     const struct flat_array arrays[] = {flat->triangle_nodes, flat->triangles, flat->normals,
                                         flat->sphere_nodes,   flat->spheres,   flat->bodies,
-                                        flat->materials,      flat->lights};
+                                        flat->materials,      flat->lights,    flat->instances};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i].words);
     free(flat->first_triangle);
+    free(flat->uses);
     free(flat->background_texels.decoded);
     *flat = (struct flat_scene){0};
 }

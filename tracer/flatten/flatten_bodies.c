@@ -10,7 +10,8 @@
 #include <stdlib.h>
 
 #define COORDINATE_MAX 1e18
-#define CORNER_FACTOR  8.0
+// More than what rounding can make of a bound by a box's corners.
+#define BOUND_FACTOR (1 + 0x1p-40)
 
 enum {
     PIECE = 8192,
@@ -83,6 +84,17 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
     return FLATTEN_REPORTED;
 }
 
+double flatten_reach(const struct flattening *f, const struct scene_body *body) {
+    const affine3 map = flatten_map(f, body);
+    const struct mesh *mesh = body->mesh;
+    double most = 0;
+    for (int i = 0; i < 8; i++)
+        most = fmax(most, vec3_max_abs(affine3_apply(map, (vec3){i & 1 ? mesh->upper.x : mesh->lower.x,
+                                                                 i & 2 ? mesh->upper.y : mesh->lower.y,
+                                                                 i & 4 ? mesh->upper.z : mesh->lower.z})));
+    return most * BOUND_FACTOR;
+}
+
 static double measure_body(const struct flattening *f, const struct scene_body *body) {
     affine3 map = flatten_map(f, body);
     if (body->shape == SCENE_SPHERE)
@@ -97,15 +109,23 @@ static double measure_body(const struct flattening *f, const struct scene_body *
     return extent;
 }
 
+// Whether a mesh's vertices can neither be outside of what is allowed nor raise the extent's power of two.
+static bool is_bounded(const struct flattening *f, const struct scene_body *body, double extent) {
+    const double farthest = fmax(vec3_max_abs(body->lower), vec3_max_abs(body->upper)) * BOUND_FACTOR;
+    const double reach = flatten_reach(f, body);
+    return farthest <= COORDINATE_MAX && extent > 0 && (reach == 0 || ilogb(reach) <= ilogb(extent));
+}
+
 enum flatten_fault flatten_extent(const struct flattening *f, double *extent) {
     enum flatten_fault worst = FLATTEN_DONE;
     *extent = 0;
+    for (uint32_t i = 0; i < f->scene->body_count; i++)
+        if (!f->scene->bodies[i].mesh)
+            *extent = fmax(*extent, measure_body(f, &f->scene->bodies[i]));
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
-        if (!body->mesh) {
-            *extent = fmax(*extent, measure_body(f, body));
+        if (!body->mesh || is_bounded(f, body, *extent))
             continue;
-        }
         enum flatten_fault fault = measure_mesh(f, body, extent);
         if (fault > worst)
             worst = fault;
@@ -160,7 +180,7 @@ static uint32_t best_corner(const vec3 corners[3]) {
         if (product[k] < product[best])
             best = (uint32_t)k;
     }
-    return product[0] > CORNER_FACTOR * product[best] ? best : 0;
+    return product[0] > TRIANGLE_CORNER_FACTOR * product[best] ? best : 0;
 }
 
 // Whether the tracer finds a normal: the cross product of the rounded vertices' edges as it takes it, in
@@ -203,9 +223,29 @@ static bool has_area64(const vec3 corners[3], uint32_t corner) {
     return vec3_max_abs(vec3_cross(vec3_mul(u, scale), vec3_mul(v, scale))) != 0;
 }
 
+static void pack_triangle(const struct flattening *f, const struct gpu_triangle *from, struct gpu_word *to) {
+    if (!f->sharing.instance_count) {
+        gpu_pack_triangle(from, f->out->is_double, to);
+        return;
+    }
+    const struct gpu_placed record = {.v0_x = from->v0.x,
+                                      .v0_y = from->v0.y,
+                                      .v0_z = from->v0.z,
+                                      .v1_x = from->v1.x,
+                                      .v1_y = from->v1.y,
+                                      .v1_z = from->v1.z,
+                                      .v2_x = from->v2.x,
+                                      .v2_y = from->v2.y,
+                                      .v2_z = from->v2.z,
+                                      .number = from->number,
+                                      .shade = from->shade & ~(3u << TRIANGLE_CORNER_SHIFT),
+                                      .body = from->body};
+    gpu_pack_placed(&record, to);
+}
+
 // `corners` relative to the origin. A triangle without area gets an item that flatten_triangles leaves out.
-static void put_triangle(const struct flattening *f, const vec3 corners[3], uint32_t number, uint32_t body,
-                         uint32_t shade) {
+static void put_triangle(const struct flattening *f, const vec3 corners[3], uint32_t place, uint32_t number,
+                         uint32_t body, uint32_t shade) {
     const bool is_double = f->out->is_double;
     vec3 flat[3];
     for (int k = 0; k < 3; k++)
@@ -217,9 +257,9 @@ static void put_triangle(const struct flattening *f, const vec3 corners[3], uint
                                   .number = number,
                                   .body = body,
                                   .shade = shade | corner << TRIANGLE_CORNER_SHIFT};
-    struct bvh_item *item = &f->items[number];
-    gpu_pack_triangle(&record, is_double, f->records + (size_t)f->out->strides.triangle * number);
-    *item = bvh_triangle_item(flat, is_double, number);
+    struct bvh_item *item = &f->items[place];
+    pack_triangle(f, &record, f->records + (size_t)f->out->strides.triangle * place);
+    *item = bvh_triangle_item(flat, is_double, place);
     item->spare = !(is_double ? has_area64(flat, corner) : has_area(flat, corner));
 }
 
@@ -229,7 +269,9 @@ struct filling {
     affine3 map;
     const uint32_t *group_shade; // material and flags by group; NULL: `shade` of all
     uint32_t shade;
-    uint32_t number; // of the body
+    uint32_t number;        // of the body
+    uint32_t first;         // its first record
+    const uint32_t *copied; // its triangles that are copied; NULL: all
 };
 
 static uint32_t shade_of(const struct filling *fill, uint32_t triangle) {
@@ -243,44 +285,65 @@ static void fill_triangles(void *context, size_t begin, size_t end) {
     const struct filling *fill = context;
     const bool exchanges = fill->body->mirrored;
     for (size_t i = begin; i < end; i++) {
-        const uint32_t triangle = (uint32_t)i;
+        const uint32_t triangle = fill->copied ? fill->copied[i] : (uint32_t)i;
         vec3 found[3];
         scene_corners(fill->body, &fill->map, triangle, found);
         const vec3 corners[3] = {found[0], found[exchanges ? 2 : 1], found[exchanges ? 1 : 2]};
-        put_triangle(fill->f, corners, fill->f->out->first_triangle[fill->number] + triangle, fill->number,
+        put_triangle(fill->f, corners, fill->first + (uint32_t)i,
+                     fill->f->out->first_triangle[fill->number] + triangle, fill->number,
                      shade_of(fill, triangle));
     }
 }
 
-static enum flatten_fault fill_body(struct flattening *f, uint32_t number) {
+uint32_t flatten_group_shade(struct flattening *f, const struct scene_body *body, uint32_t group) {
+    return material_flags(f, body->materials[group]) | (body->smooth ? TRIANGLE_SMOOTH : 0) |
+           (body->closed ? TRIANGLE_SOLID : 0) | (body->mesh->turned != body->mirrored ? TRIANGLE_TURNED : 0);
+}
+
+// The first `count` of the body's triangles, or those of `copied`, from record `first` on.
+static enum flatten_fault fill_body(struct flattening *f, uint32_t number, uint32_t first,
+                                    const uint32_t *copied, uint32_t count) {
     const struct scene_body *body = &f->scene->bodies[number];
-    struct filling fill = {.f = f, .body = body, .map = flatten_map(f, body), .number = number};
+    struct filling fill = {.f = f,
+                           .body = body,
+                           .map = flatten_map(f, body),
+                           .number = number,
+                           .first = first,
+                           .copied = copied};
     if (!body->mesh) {
         fill.shade = material_flags(f, body->materials[0]) | TRIANGLE_HALF;
-        fill_triangles(&fill, 0, body->triangle_count);
+        fill_triangles(&fill, 0, count);
         return FLATTEN_DONE;
     }
     uint32_t *shade = heap_alloc((body->group_count + (size_t)1) * sizeof *shade);
     if (!shade)
         return FLATTEN_NO_MEMORY;
-    uint32_t flags = (body->smooth ? TRIANGLE_SMOOTH : 0) | (body->closed ? TRIANGLE_SOLID : 0) |
-                     (body->mesh->turned != body->mirrored ? TRIANGLE_TURNED : 0);
     for (uint32_t i = 0; i < body->group_count; i++)
-        shade[i] = material_flags(f, body->materials[i]) | flags;
+        shade[i] = flatten_group_shade(f, body, i);
     fill.group_shade = shade;
-    parallel_for(body->triangle_count, PIECE, fill_triangles, &fill);
+    parallel_for(count, PIECE, fill_triangles, &fill);
     free(shade);
     return FLATTEN_DONE;
 }
 
-enum flatten_fault flatten_triangles(struct flattening *f) {
+static enum flatten_fault fill_bodies(struct flattening *f) {
+    uint32_t place = 0;
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
-        enum flatten_fault fault = f->scene->bodies[i].triangle_count ? fill_body(f, i) : FLATTEN_DONE;
+        const struct shared_mesh *shared = flatten_shared(f, i);
+        const uint32_t count = shared ? shared->copied_count : f->scene->bodies[i].triangle_count;
+        enum flatten_fault fault =
+            count ? fill_body(f, i, place, shared ? shared->copied : NULL, count) : FLATTEN_DONE;
         if (fault != FLATTEN_DONE)
             return fault;
+        place += count;
     }
-    for (uint32_t i = 0; i < f->triangle_total; i++)
+    return FLATTEN_DONE;
+}
+
+enum flatten_fault flatten_triangles(struct flattening *f) {
+    enum flatten_fault fault = fill_bodies(f);
+    for (uint32_t i = 0; i < f->record_total && fault == FLATTEN_DONE; i++)
         if (!f->items[i].spare)
             f->items[f->item_count++] = f->items[i];
-    return FLATTEN_DONE;
+    return fault;
 }
