@@ -59,6 +59,7 @@ struct assets {
     const struct picture *background; // NULL: none, or not loaded; without pixels unless they are kept
     bool pixels_skipped;              // it has an image of which only the header was ever read
     uint64_t triangle_count;          // of all models
+    uint64_t held_triangles;          // the same with those of each mesh once
     struct asset_uses uses;           // in the order of loading; text is in the arena of the scene
 };
 

@@ -1,5 +1,5 @@
-// What makes no difference: frames repeated, trees of other shapes, workgroups of other sizes.
-// The picture has the same bytes, in single and in double precision.
+// What makes no difference: frames repeated, trees of other shapes, workgroups of other sizes, models that
+// share a mesh. The picture has the same bytes, in single and in double precision.
 //
 // Usage: test_same REPEATS SCENE...
 #include "app/precision.h"
@@ -45,6 +45,14 @@ static void expect(struct bench *b, bool good, const char *path, bool is_double,
     b->failed += !good;
 }
 
+static bool shares_mesh(const struct scene *scene) {
+    for (uint32_t i = 0; i < scene->body_count; i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (scene->bodies[i].mesh && scene->bodies[k].mesh == scene->bodies[i].mesh)
+                return true;
+    return false;
+}
+
 // Renders `count` times, and compares with `first`, which a count of 1 may fill.
 static bool render(struct bench *b, const struct variant *variant, bool is_double, int count,
                    struct image *first) {
@@ -57,6 +65,8 @@ static bool render(struct bench *b, const struct variant *variant, bool is_doubl
     input.sharing = variant->sharing;
     if (!flatten(&input, &flat))
         return false;
+    if ((flat.instance_count != 0) != (variant->sharing == FLAT_SHARED && shares_mesh(&b->session.resolved)))
+        expect(b, false, variant->name, is_double, "has instances where models share a mesh");
     struct render_settings settings = render_settings_of(&b->session.resolved, &flat, input.limits);
     settings.width = WIDTH;
     settings.height = HEIGHT;

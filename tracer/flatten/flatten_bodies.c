@@ -1,11 +1,13 @@
 // Bodies: transforms in double with the origin taken off first, then scale, then rounding to float.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "shaders/frame.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
 
 #include <assert.h>
 #include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -33,6 +35,13 @@ enum flatten_fault flatten_count(struct flattening *f) {
         f->out->first_triangle[i] = (uint32_t)total;
         f->out->sphere_count += body->shape == SCENE_SPHERE;
         total += body->triangle_count;
+    }
+    // What a fault has room for, and the numbers of items (flatten_instances.c).
+    if (total + f->out->sphere_count >= FAULT_NUMBER) {
+        diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
+                 "all models together show %" PRIu64 " triangles; at most %u can be told apart", total,
+                 FAULT_NUMBER - 1);
+        return FLATTEN_REPORTED;
     }
     f->triangle_total = (uint32_t)total;
     return FLATTEN_DONE;

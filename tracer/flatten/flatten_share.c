@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "tracer/flatten/flatten_parts.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -373,6 +374,23 @@ uint64_t flatten_copied(const struct flattening *f) {
     return sum;
 }
 
+// What is copied, and what is shown in all: a triangle's number must fit.
+static enum flatten_fault check_counts(const struct flattening *f) {
+    const uint64_t most = f->input->limits->value[LIMIT_SCENE_TRIANGLES], copied = flatten_copied(f);
+    const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
+    if (copied <= most)
+        return FLATTEN_DONE;
+    diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
+             "models have %" PRIu64 " triangles of their own, because %s; the limit %s is %" PRIu64, copied,
+             f->input->sharing == FLAT_COPIES ? "none can share a mesh here"
+                                              : "not all that show the same mesh can share it",
+             info->name, most);
+    if (copied <= info->greatest)
+        diag_help(f->input->sink, "if this is intended, raise the limit: --limit %s=%" PRIu64, info->name,
+                  copied);
+    return FLATTEN_REPORTED;
+}
+
 enum flatten_fault flatten_share(struct flattening *f) {
     enum flatten_fault fault = find_meshes(f);
     if (fault != FLATTEN_DONE)
@@ -384,7 +402,10 @@ enum flatten_fault flatten_share(struct flattening *f) {
             return fault;
         decide(f);
     }
-    return number_instances(f) ? report_uses(f) : FLATTEN_NO_MEMORY;
+    if (!number_instances(f))
+        return FLATTEN_NO_MEMORY;
+    fault = check_counts(f);
+    return fault == FLATTEN_DONE ? report_uses(f) : fault;
 }
 
 void flatten_share_finish(struct sharing *sharing) {
