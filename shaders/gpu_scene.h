@@ -54,7 +54,8 @@
 #define TRIANGLE_MATERIAL     0x00ffffffu
 /* What the box of a triangle is wider by, as a part of its largest coordinate; in double precision 2^-47. */
 #define TRIANGLE_BOX_PAD 3.814697265625e-6 /* 2^-18 */
-/* How much shorter the edges of another corner than the first must be, as a product of both, to be preferred. */
+/* How much shorter the edges of another corner than the first must be, as a product of both, to be preferred.
+ */
 #define TRIANGLE_CORNER_FACTOR 8.0
 
 /* Normals of smooth triangles: 3 records each, in object order of v0 v1 v2 as stored in the leaf, from
@@ -63,14 +64,14 @@
    parallelogram the first one alone, with the lengths of its edges in scene units. Zero where unused. */
 
 /* Where models share a mesh (kernels compiled with INSTANCES), the triangle tree has two levels. Nodes below
-   frame.top_nodes are the upper one, in flat space: its leaves are nodes too, of an instance each, in which byte 0 of the
-   exponents is 0, which no other node has, the first child is the root of the instance's tree and the first
-   item the instance. Below a root all is in the space of that tree, which keeps its coordinates below 2.
-   TRIANGLES holds PLACED records, NORMALS doubles. All triangles that are not shared are instance 0, which changes
-   nothing. An item that is hit is the place of its record plus first_item of its instance: such numbers rise
-   with the instances, and each begins a new block of 2^frame.instance_shift of them. INSTANCES holds a record for each,
-   ENTRY and INSTANCE one after the other; from frame.instance_table on, the instance of each block, four to a word;
-   then the shades (material and flags) of groups. */
+   frame.top_nodes are the upper one, in flat space: its leaves are nodes too, of an instance each, in which
+   byte 0 of the exponents is 0, which no other node has, the first child is the root of the instance's tree
+   and the first item the instance. Below a root all is in the space of that tree, which keeps its coordinates
+   below 2. TRIANGLES holds PLACED records, NORMALS doubles. All triangles that are not shared are instance 0,
+   which changes nothing. An item that is hit is the place of its record plus first_item of its instance: such
+   numbers rise with the instances, and each begins a new block of 2^frame.instance_shift of them. INSTANCES
+   holds a record for each, ENTRY and INSTANCE one after the other; from frame.instance_table on, the instance
+   of each block, four to a word; then the shades (material and flags) of groups. */
 #define INSTANCE_MIRRORED 1u /* the second and third corner are exchanged */
 #define INSTANCE_COPIED   2u /* instance 0: records have bodies and shades of their own */
 

@@ -42,8 +42,8 @@
     UINT(body, 1, w, 1, w)                                                                                   \
     UINT(shade, 2, w, 3, z) /* material and flags */
 
-/* A triangle where the scene has instances, in place of the one above: in the space of its mesh. Doubles in both
-   precisions: DOUBLE(name, word, half), UINT(name, word, component). */
+/* A triangle where the scene has instances, in place of the one above: in the space of its mesh. Doubles in
+   both precisions: DOUBLE(name, word, half), UINT(name, word, component). */
 #define PLACED_WORDS 6
 #define PLACED_FIELDS(DOUBLE, UINT)                                                                          \
     DOUBLE(v0_x, 0, xy)                                                                                      \
@@ -74,7 +74,8 @@
     REAL(margin, 3, z, 7, xy) /* and whatever the ray, in the tree's space */                                \
     REAL(edge, 3, w, 7, zw)   /* flat: none of the mesh is longer */
 
-/* How the triangles of a mesh and their normals become those of a body: as PLACED, after the words of ENTRY. */
+/* How the triangles of a mesh and their normals become those of a body: as PLACED, after the words of ENTRY.
+ */
 #define INSTANCE_WORDS 12
 #define INSTANCE_FIELDS(DOUBLE, UINT)                                                                        \
     DOUBLE(x_x, 0, xy)                                                                                       \
@@ -122,7 +123,7 @@
     UINT(first_triangle, 0, x, 0, x)                                                                         \
     UINT(normal_base, 0, y, 0, y)                                                                            \
     UINT(instance, 0, z, 0, z) /* whose mesh the normals are of; 0: they are the body's own */               \
-    REAL3(row_x, 1, 1) /* of a parallelogram: the lengths of its edges */                                    \
+    REAL3(row_x, 1, 1)         /* of a parallelogram: the lengths of its edges */                            \
     REAL(offset_x, 1, w, 2, zw)                                                                              \
     REAL3(row_y, 2, 3)                                                                                       \
     REAL(offset_y, 2, w, 4, zw)                                                                              \

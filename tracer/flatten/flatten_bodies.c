@@ -12,8 +12,6 @@
 #include <stdlib.h>
 
 #define COORDINATE_MAX 1e18
-// More than what rounding can make of a bound by a box's corners.
-#define BOUND_FACTOR (1 + 0x1p-40)
 
 enum {
     PIECE = 8192,
@@ -93,17 +91,6 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
     return FLATTEN_REPORTED;
 }
 
-double flatten_reach(const struct flattening *f, const struct scene_body *body) {
-    const affine3 map = flatten_map(f, body);
-    const struct mesh *mesh = body->mesh;
-    double most = 0;
-    for (int i = 0; i < 8; i++)
-        most = fmax(most, vec3_max_abs(affine3_apply(map, (vec3){i & 1 ? mesh->upper.x : mesh->lower.x,
-                                                                 i & 2 ? mesh->upper.y : mesh->lower.y,
-                                                                 i & 4 ? mesh->upper.z : mesh->lower.z})));
-    return most * BOUND_FACTOR;
-}
-
 static double measure_body(const struct flattening *f, const struct scene_body *body) {
     affine3 map = flatten_map(f, body);
     if (body->shape == SCENE_SPHERE)
@@ -120,7 +107,7 @@ static double measure_body(const struct flattening *f, const struct scene_body *
 
 // Whether a mesh's vertices can neither be outside of what is allowed nor raise the extent's power of two.
 static bool is_bounded(const struct flattening *f, const struct scene_body *body, double extent) {
-    const double farthest = fmax(vec3_max_abs(body->lower), vec3_max_abs(body->upper)) * BOUND_FACTOR;
+    const double farthest = fmax(vec3_max_abs(body->lower), vec3_max_abs(body->upper)) * FLATTEN_BOUND;
     const double reach = flatten_reach(f, body);
     return farthest <= COORDINATE_MAX && extent > 0 && (reach == 0 || ilogb(reach) <= ilogb(extent));
 }

@@ -69,8 +69,6 @@ struct flattening {
 enum flatten_fault flatten_count(struct flattening *f);
 // An extent of all bodies: its power of two is that of the largest |coordinate - origin|, in scene units.
 enum flatten_fault flatten_extent(const struct flattening *f, double *extent);
-// At least the largest |coordinate - origin| of a mesh's vertices, by the corners of its box.
-double flatten_reach(const struct flattening *f, const struct scene_body *body);
 // Fills the spheres' words in IR order, and an item for each.
 void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_item *items);
 // Material and flags of a group of a body that has a mesh.
@@ -114,6 +112,19 @@ void flatten_features(struct flattening *f);
 // How a body comes into flat space, but for the scale: relative to the origin, in scene units.
 static inline affine3 flatten_map(const struct flattening *f, const struct scene_body *body) {
     return transform_relative(body->object_to_world, f->out->origin);
+}
+// More than what rounding can make of a bound by a box's corners.
+#define FLATTEN_BOUND (1 + 0x1p-40)
+// At least the largest |coordinate - origin| of a mesh's vertices, by the corners of its box.
+static inline double flatten_reach(const struct flattening *f, const struct scene_body *body) {
+    const affine3 map = flatten_map(f, body);
+    const struct mesh *mesh = body->mesh;
+    double most = 0;
+    for (int i = 0; i < 8; i++)
+        most = fmax(most, vec3_max_abs(affine3_apply(map, (vec3){i & 1 ? mesh->upper.x : mesh->lower.x,
+                                                                 i & 2 ? mesh->upper.y : mesh->lower.y,
+                                                                 i & 4 ? mesh->upper.z : mesh->lower.z})));
+    return most * FLATTEN_BOUND;
 }
 // `words` zeroed words; false: no memory. At least one word is there, so that no buffer is empty.
 bool flat_array_make(struct flat_array *array, uint64_t words);
