@@ -143,11 +143,16 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
 
 // ---- models
 
-// What does not fit is reported once, by report_unfit: every further instance would say the same.
-static bool fits_scene(struct loader *loader, struct assets *out, const struct mesh *mesh, span at) {
-    uint64_t sum = out->triangle_count + mesh->triangle_count;
-    if (sum <= loader->input->limits->value[LIMIT_SCENE_TRIANGLES]) {
-        out->triangle_count = sum;
+// A mesh counts once, however many models show it. What does not fit is reported once, by report_unfit: every
+// further model would say the same.
+static bool fits_scene(struct loader *loader, struct assets *out, struct loaded_mesh *loaded, span at) {
+    const struct mesh *mesh = loaded->mesh;
+    const uint32_t added = loaded->is_counted ? 0 : mesh->triangle_count;
+    const uint64_t sum = out->held_triangles + added;
+    if (loaded->is_counted || sum <= loader->input->limits->value[LIMIT_SCENE_TRIANGLES]) {
+        loaded->is_counted = true;
+        out->held_triangles = sum;
+        out->triangle_count += mesh->triangle_count;
         return true;
     }
     if (loader->unfit.models++ == 0) {
@@ -155,13 +160,14 @@ static bool fits_scene(struct loader *loader, struct assets *out, const struct m
         loader->unfit.first_mesh = mesh->triangle_count;
         loader->unfit.first_sum = sum;
     }
-    loader->unfit.triangles += mesh->triangle_count;
+    loader->unfit.triangles += loaded->is_unfit ? 0 : mesh->triangle_count;
+    loaded->is_unfit = true;
     return false;
 }
 
 static void report_unfit(const struct loader *loader, const struct assets *out) {
     const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
-    const uint64_t all = out->triangle_count + loader->unfit.triangles;
+    const uint64_t all = out->held_triangles + loader->unfit.triangles;
     const uint32_t further = loader->unfit.models - 1;
     struct diag_sink *sink = loader->input->sink;
     if (loader->unfit.models == 0)
@@ -209,7 +215,7 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
     if (model->mesh.len == 0 || is_poisoned(&model->head, &SCHEMA_MODEL, "mesh"))
         return;
     struct loaded_mesh *loaded = mesh_of_model(loader, model, at);
-    if (!loaded || !loaded->mesh || !fits_scene(loader, out, loaded->mesh, at))
+    if (!loaded || !loaded->mesh || !fits_scene(loader, out, loaded, at))
         return;
     result->group_material = loader_group_materials(loader, model, loaded);
     result->mesh = loaded->mesh;

@@ -63,6 +63,7 @@ struct assets {
     bool pixels_later;                // its pixels are still being decoded: assets_settle
     struct asset_ahead *ahead;
     uint64_t triangle_count; // of all models
+    uint64_t held_triangles; // the same with those of each mesh once
     struct asset_uses uses;  // in the order of loading; text is in the arena of the scene
 };
 

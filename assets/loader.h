@@ -16,6 +16,8 @@ struct loaded_mesh {
     const struct mesh *mesh; // NULL: it could not be loaded
     struct str_map groups;   // of the mesh: 1 + index; made when first needed
     bool normals_told;       // that some have no direction
+    bool is_counted;         // its triangles are, among those of the scene
+    bool is_unfit;           // they are among those that do not fit
     bool libraries_read;
     bool library_missing;         // so that what it would have defined is not reported as missing again
     struct str_map library_paths; // of the material files that were read: each is read once

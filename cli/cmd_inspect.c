@@ -107,6 +107,47 @@ static void buffer(struct strbuf *out, const char *name, uint64_t bytes) {
         strbuf_format(out, "  %-17s%12llu bytes\n", name, (unsigned long long)bytes);
 }
 
+static void reason(struct strbuf *out, const struct flat_use *use) {
+    const double saved = (double)use->saved_bytes / (1 << 20);
+    switch (use->reason) {
+    case FLAT_REASON_UNEVEN:
+        strbuf_cstr(out, "their scales differ too much in different directions, or are extreme");
+        break;
+    case FLAT_REASON_THIN:
+        strbuf_cstr(out, "at their sizes rounding could leave too many triangles without area");
+        break;
+    default:
+        if (saved < 0.05)
+            strbuf_cstr(out, "sharing would save no memory");
+        else
+            strbuf_format(out, "sharing would save %.1f MiB, which is not worth slower rays", saved);
+    }
+}
+
+// How models hold a mesh that several of them show, and why.
+static void instances(struct strbuf *out, const struct flat_scene *flat) {
+    if (!flat->use_count)
+        return;
+    strbuf_cstr(out, "meshes of several models\n");
+    for (uint32_t i = 0; i < flat->use_count; i++) {
+        const struct flat_use *use = &flat->uses[i];
+        strbuf_format(out, "  %.*s: ", STR_ARG(use->mesh->path));
+        if (use->instances) {
+            strbuf_format(out, "%u models share %u triangles, which saves %.1f MiB", use->instances,
+                          use->mesh->triangle_count - use->copied, (double)use->saved_bytes / (1 << 20));
+            if (use->copied)
+                strbuf_format(out, "; %u more are too thin for that", use->copied);
+            strbuf_cstr(out, use->instances < use->models ? "; " : "\n");
+        }
+        if (use->instances < use->models) {
+            strbuf_format(out, "%u models have copies: ", use->models - use->instances);
+            reason(out, use);
+            strbuf_char(out, '\n');
+        }
+    }
+    strbuf_cstr(out, "  a device without doubles makes copies for all\n");
+}
+
 static void buffers(struct strbuf *out, const struct flat_scene *flat) {
     enum {
         WORD = sizeof(struct gpu_word)
@@ -118,11 +159,15 @@ static void buffers(struct strbuf *out, const struct flat_scene *flat) {
     buffer(out, "sphere tree", flat->sphere_nodes.count * WORD);
     buffer(out, "spheres", flat->spheres.count * WORD);
     buffer(out, "bodies", flat->bodies.count * WORD);
+    buffer(out, "instances", flat->instances.count * WORD);
     buffer(out, "materials", flat->materials.count * WORD);
     buffer(out, "lights", flat->lights.count * WORD);
     buffer(out, "background", flat->background_texels.bytes);
-    strbuf_format(out, "triangles   %u in a tree of depth %u, %u without area dropped\n",
-                  flat->triangle_count, flat->triangle_depth, flat->dropped_triangles);
+    strbuf_format(out, "triangles   %u in a tree of depth %u, %u without area dropped", flat->triangle_count,
+                  flat->triangle_depth, flat->dropped_triangles);
+    if (flat->shown_triangles > flat->triangle_count)
+        strbuf_format(out, "; %llu shown", (unsigned long long)flat->shown_triangles);
+    strbuf_char(out, '\n');
     strbuf_cstr(out, "origin      ");
     vector(out, flat->origin);
     strbuf_format(out, ", scaled by 2^%d\n", flat->scale_exponent);
@@ -134,6 +179,7 @@ static bool describe(struct session *session, struct strbuf *out) {
     if (!session_view(session, 0, &view))
         return false;
     struct flat_input input = precision_input(session, &view);
+    input.sharing = FLAT_CHEAPER;
     struct precision_choice precision;
     if (!precision_forecast(session, &input, &precision) || !flatten(&input, &flat))
         return false;
@@ -142,6 +188,7 @@ static bool describe(struct session *session, struct strbuf *out) {
     meshes(out, session);
     precision_words(session, &precision, out);
     features(out, session, flat.features);
+    instances(out, &flat);
     buffers(out, &flat);
     flat_finish(&flat);
     return true;

@@ -1,4 +1,5 @@
 // The bodies of a scene, from the IR's lists and the loaded meshes.
+#include "core/heap.h"
 #include "core/limits.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
@@ -7,6 +8,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 
 enum {
     PARALLELOGRAM_TRIANGLES = 2
@@ -232,21 +234,68 @@ void scene_check_reach(const struct scene *scene, struct diag_sink *sink) {
     }
 }
 
+struct triangle_use {
+    const struct mesh *mesh; // NULL: none
+    uint32_t body;
+};
+
+static int compare_uses(const void *a, const void *b) {
+    const struct triangle_use *x = a, *y = b;
+    if (x->mesh != y->mesh)
+        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
+    return x->body < y->body ? -1 : x->body > y->body;
+}
+
+static int compare_bodies(const void *a, const void *b) {
+    const struct triangle_use *x = a, *y = b;
+    return x->body < y->body ? -1 : x->body > y->body;
+}
+
+// The bodies that bring triangles: the first one of each mesh, and all without a mesh, in IR order.
+static uint32_t keep_first_uses(struct triangle_use *uses, uint32_t count) {
+    uint32_t kept = 0;
+    qsort(uses, count, sizeof *uses, compare_uses);
+    for (uint32_t i = 0; i < count; i++)
+        if (!uses[i].mesh || kept == 0 || uses[kept - 1].mesh != uses[i].mesh)
+            uses[kept++] = uses[i];
+    qsort(uses, kept, sizeof *uses, compare_bodies);
+    return kept;
+}
+
+// The body whose triangles exceed `most`, those of a mesh counted once; NULL: none does.
+static const struct scene_body *first_over(const struct scene *scene, struct triangle_use *uses,
+                                           uint64_t most, uint64_t *total) {
+    const struct scene_body *over = NULL;
+    *total = 0;
+    for (uint32_t i = 0; i < scene->body_count; i++)
+        uses[i] = (struct triangle_use){scene->bodies[i].mesh, i};
+    const uint32_t count = keep_first_uses(uses, scene->body_count);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct scene_body *body = &scene->bodies[uses[i].body];
+        *total += body->triangle_count;
+        if (*total > most && !over)
+            over = body;
+    }
+    return over;
+}
+
 bool scene_check_triangles(const struct scene *scene, const struct limits *limits, struct diag_sink *sink) {
     const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
     const uint64_t most = limits->value[LIMIT_SCENE_TRIANGLES];
-    const struct scene_body *first_over = NULL;
+    struct triangle_use *uses = heap_alloc(((size_t)scene->body_count + 1) * sizeof *uses);
     uint64_t total = 0;
-    for (uint32_t i = 0; i < scene->body_count; i++) {
-        total += scene->bodies[i].triangle_count;
-        if (total > most && !first_over)
-            first_over = &scene->bodies[i];
+    if (!uses) {
+        diag_add(sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "there is not enough memory for the scene's bodies");
+        return false;
     }
-    if (!first_over)
+    const struct scene_body *over = first_over(scene, uses, most, &total);
+    free(uses);
+    if (!over)
         return true;
     const struct ir_origin *places = scene->assets->origin;
-    diag_add(sink, DIAG_LIMIT, places ? ir_place_label(places, first_over->head) : SPAN_NONE,
-             "the scene has %" PRIu64 " triangles; the limit %s is %" PRIu64, total, info->name, most);
+    diag_add(sink, DIAG_LIMIT, places ? ir_place_label(places, over->head) : SPAN_NONE,
+             "the scene has %" PRIu64 " triangles, those of a mesh counted once; the limit %s is %" PRIu64,
+             total, info->name, most);
     if (total <= info->greatest)
         diag_help(sink, "if this is intended, raise the limit: --limit %s=%" PRIu64, info->name, total);
     return false;

@@ -138,7 +138,7 @@ WIDE edge_of(exact_place a, exact_place b) { return wide_difference(a.x, b.y, a.
 
 // As test_triangle.
 void test_exact(uint item, bool there, inout exact_search search, inout hit_record hit) {
-    triangle_record triangle = load_triangle(item);
+    triangle_record triangle = load_tested(item);
     exact_place a = place_of(triangle.v0, search), b = place_of(triangle.v1, search), c = place_of(triangle.v2, search);
     WIDE u = edge_of(c, b), v = edge_of(a, c), w = edge_of(b, a);
     bool above = is_positive(u) || is_positive(v) || is_positive(w);
@@ -181,6 +181,7 @@ void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
     hit_record first = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     triangle_search search =
         triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY, FAR_AWAY, NO_ITEM, NO_ITEM);
+    see_item(hit.item);
     test_triangle(hit.item, true, search, first);
     if (first.item == hit.item) {
         hit.t = first.t;
@@ -229,6 +230,7 @@ bool settle(ray_start start, REAL3 direction, inout ray_doubts doubts) {
 }
 
 bool is_hit_exactly(uint item, exact_search search, hit_record hit) {
+    see_item(item);
     test_exact(item, true, search, hit);
     return hit.item == item;
 }
@@ -260,14 +262,18 @@ bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool a
     uvec2 group = root_group();
     uint turns = 0u;
     bool more = true;
+    INSTANCES_BEGIN(ray, start, aim.direction, root_group())
     do {
+        INSTANCE_NEXT(ray, start, aim.direction)
         turns += 2u;
         if (HAS_COUNTERS)
             counted_nodes++;
         node_record node = load_triangle_node(next_node(group, ray.flip));
         uint hits = node_hits(node, ray, max(hit.t, search.least) + 2.0 * search.blur + margin);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
+        INSTANCE_FOUND(node, found)
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
+        INSTANCE_LEFT(ray, group)
         uint items = hits & 0x00ffffffu;
         WHILE(items != 0u && turns < EXACT_ITERATIONS)
             uint bit = items & (0u - items);
@@ -277,13 +283,14 @@ bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool a
                 counted_items += there ? 1u : 0u;
             items ^= bit;
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_exact(item, there, search, hit);
+            test_exact(INSTANCE_ITEM(item), there, search, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;
             }
         END_WHILE(items != 0u && turns < EXACT_ITERATIONS)
-    } while (more && turns < EXACT_ITERATIONS);
+    } while (more && INSTANCE_SEEN && turns < EXACT_ITERATIONS);
+    INSTANCES_END(more, turns, EXACT_ITERATIONS)
     iterations += turns;
     first_numbers(start, aim.direction, hit);
     return turns < EXACT_ITERATIONS;

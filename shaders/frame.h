@@ -27,7 +27,10 @@
     UINT(run_step) /* run k is the picture's run k * run_step mod runs */                                    \
     UINT(sphere_count)                                                                                       \
     UINT(slice_iterations) /* past these a path is saved at the next ray boundary */                         \
-    UINT(features)         /* of the scene: what the mask only makes possible, these bits decide */
+    UINT(features)         /* of the scene: what the mask only makes possible, these bits decide */          \
+    UINT(top_nodes)        /* of instances: gpu_scene.h */                                                   \
+    UINT(instance_table)                                                                                     \
+    UINT(instance_shift)
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \

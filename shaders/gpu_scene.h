@@ -21,10 +21,11 @@
 #define BINDING_STATE          10
 #define BINDING_COUNTERS       11
 #define BINDING_FRAME          12 /* uniform buffer: camera and frame parameters */
+#define BINDING_INSTANCES      13 /* where the scene has any */
 /* Of samples traced at once. */
-#define BINDING_SAMPLES 13 /* uniform buffer: their offsets in a pixel */
-#define BINDING_PICTURE 14 /* three floats a pixel, by rows: the sums of its samples, or NaN */
-#define BINDING_SUMS    15 /* as OUTPUT, a word a slot: of the samples before */
+#define BINDING_SAMPLES 14 /* uniform buffer: their offsets in a pixel */
+#define BINDING_PICTURE 15 /* three floats a pixel, by rows: the sums of its samples, or NaN */
+#define BINDING_SUMS    16 /* as OUTPUT, a word a slot: of the samples before */
 
 /* Node of the 8-wide compressed tree (Ylitie, Karras, Laine 2017, section 4.1):
    word 0: x,y,z the corner p of the node's box (float); w: byte 0..2 exponents ex,ey,ez (biased by 127),
@@ -55,11 +56,28 @@
 #define TRIANGLE_TURNED       0x20000000u /* v1 and v2 are exchanged against the file's order */
 #define TRIANGLE_CORNER_SHIFT 30          /* the corner, 0..2, whose edges tell the normal best */
 #define TRIANGLE_MATERIAL     0x00ffffffu
+/* What the box of a triangle is wider by, as a part of its largest coordinate; in double precision 2^-47. */
+#define TRIANGLE_BOX_PAD 3.814697265625e-6 /* 2^-18 */
+/* How much shorter the edges of another corner than the first must be, as a product of both, to be preferred.
+ */
+#define TRIANGLE_CORNER_FACTOR 8.0
 
 /* Normals of smooth triangles: 3 records each, in object order of v0 v1 v2 as stored in the leaf, from
    3 * (triangle number - body.first_triangle) + body.normal_base on.
    Rows of a body are those of the affine map from flat space to the coordinates of its checker; of a
    parallelogram the first one alone, with the lengths of its edges in scene units. Zero where unused. */
+
+/* Where models share a mesh (kernels compiled with INSTANCES), the triangle tree has two levels. Nodes below
+   frame.top_nodes are the upper one, in flat space: its leaves are nodes too, of an instance each, in which
+   byte 0 of the exponents is 0, which no other node has, the first child is the root of the instance's tree
+   and the first item the instance. Below a root all is in the space of that tree, which keeps its coordinates
+   below 2. TRIANGLES holds PLACED records, NORMALS doubles. All triangles that are not shared are instance 0,
+   which changes nothing. An item that is hit is the place of its record plus first_item of its instance: such
+   numbers rise with the instances, and each begins a new block of 2^frame.instance_shift of them. INSTANCES
+   holds a record for each, ENTRY and INSTANCE one after the other; from frame.instance_table on, the instance
+   of each block, four to a word; then the shades (material and flags) of groups. */
+#define INSTANCE_MIRRORED 1u /* the second and third corner are exchanged */
+#define INSTANCE_COPIED   2u /* instance 0: records have bodies and shades of their own */
 
 /* The place of a light is its position, or a unit vector to it; emission over inverse square is already times
    scale squared. */

@@ -1,4 +1,5 @@
-// A compiled kernel as a program holds it: a SPIR-V module, deflated (docs/decisions/deflated-kernels.md).
+// A compiled kernel as a program holds it: a SPIR-V module, packed and deflated
+// (docs/decisions/deflated-kernels.md).
 //
 // Errors: NULL. Ownership: kernel_inflate's memory is the caller's, to be freed by `free`. Thread safety:
 // pure.
@@ -11,7 +12,8 @@
 struct kernel {
     const unsigned char *deflated; // zlib's format, RFC 1950
     size_t deflated_bytes;
-    size_t words; // of the module
+    size_t part_bytes[3]; // of the packed module (shaders/packed.h)
+    size_t words;         // of the module
 };
 
 // The module, `kernel->words` long; NULL: not enough memory.

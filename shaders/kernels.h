@@ -18,6 +18,13 @@ KERNEL(log_pairs)
 KERNEL(trace64)
 KERNEL(hits64)
 KERNEL(log64)
+// Of scenes with instances (instances.glsl).
+KERNEL(trace_instances)
+KERNEL(hits_instances)
+KERNEL(log_instances)
+KERNEL(trace64_instances)
+KERNEL(hits64_instances)
+KERNEL(log64_instances)
 // By other tracers' ways (alternatives.glsl).
 KERNEL(trace_alternative)
 KERNEL(hits_alternative)

@@ -14,7 +14,7 @@ const uint LOW_WORD = STATE64_WORDS;
 const uint LOW_WORD = STATE_WORDS;
 #endif
 const uint PATH_WORDS = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u);
-// Words of a slot after those of its path: which tree, group, number of what was hit; t, b1; b2, item, size of
+// Words of a slot after those of its path: which tree and instance, group, number of what was hit; t, b1; b2, item, size of
 // the stack; what a search of triangles knows of its errors; then two entries of the stack a word.
 const uint LONG_STACK_WORD = LONG_RAY_WORDS;
 const uint LONG_LEVELS = TRIANGLE_STACK > SPHERE_STACK ? TRIANGLE_STACK : SPHERE_STACK;
@@ -26,6 +26,12 @@ uint long_slot = 0u, long_tree = TREE_NONE, long_stopped = TREE_NONE;
 bool long_resumes = false; // the ray that is traced is the one that stopped
 uvec2 long_group = uvec2(0u);
 uint long_size = 0u;
+#ifdef INSTANCES
+#define LONG_RAYS_KEPT
+uint long_instance = 0u; // of the group, where it lies below one
+#else
+const uint long_instance = 0u;
+#endif
 
 uint long_word(uint k) { return (PATH_WORDS + k) * dispatch.places + long_slot; }
 

@@ -135,7 +135,7 @@ void get_branch(uint slot, uint word, inout path_state p) {
 
 // The ray that stopped in the middle of a tree, and what it has hit until then.
 void put_long_ray(hit_record hit) {
-    states[long_word(0u)] = uvec4(long_stopped, long_group, hit.number);
+    states[long_word(0u)] = uvec4(long_stopped | long_instance << 2u, long_group, hit.number);
     states[long_word(1u)] = uvec4(bits_of(hit.t), bits_of(hit.b1));
     states[long_word(2u)] = uvec4(bits_of(hit.b2), hit.item, long_size);
     states[long_word(3u)] = uvec4(bits_of(long_wrong), bits_of(long_doubt));
@@ -143,7 +143,10 @@ void put_long_ray(hit_record hit) {
 
 void load_long_ray() {
     uvec4 a = states[long_word(0u)];
-    long_tree = a.x;
+    long_tree = a.x & 3u;
+#ifdef INSTANCES
+    long_instance = a.x >> 2u;
+#endif
     long_group = a.yz;
     long_size = states[long_word(2u)].w;
     uvec4 d = states[long_word(3u)];
@@ -179,7 +182,7 @@ bool save_path(bool resumes, uint place, uint path, path_state p) {
     if (HAS_MANY_LIGHTS)
         states[state_word(place, LOW_WORD)] = uvec4(floatBitsToUint(p.light_low), 0u);
     if (HAS_LONG_RAYS && long_stopped == TREE_NONE)
-        states[long_word(0u)] = uvec4(long_tree, long_group, states[long_word(0u)].w);
+        states[long_word(0u)] = uvec4(long_tree | long_instance << 2u, long_group, states[long_word(0u)].w);
     // Each saved path has an entry in the list that the next dispatch reads. Their order may differ from
     // run to run; the picture does not know it.
     uint entry = atomicAdd(counters[COUNTER_PENDING], 1u) - dispatch.pending_base;

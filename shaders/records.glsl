@@ -55,9 +55,11 @@ DEFINE_LOADER(node_record, load_triangle_node, NODE_WORDS, NODE_FIELDS)
 #define SOURCE sphere_nodes
 DEFINE_LOADER(node_record, load_sphere_node, NODE_WORDS, NODE_FIELDS)
 #undef SOURCE
+#ifndef INSTANCES
 #define SOURCE triangles
 DEFINE_LOADER(triangle_record, load_triangle, WORDS_OF(TRIANGLE), TRIANGLE_FIELDS)
 #undef SOURCE
+#endif
 #define SOURCE spheres
 DEFINE_LOADER(sphere_record, load_sphere, WORDS_OF(SPHERE), SPHERE_FIELDS)
 #undef SOURCE
@@ -71,7 +73,9 @@ DEFINE_LOADER(material_record, load_material, WORDS_OF(MATERIAL), MATERIAL_FIELD
 DEFINE_LOADER(light_record, load_light, WORDS_OF(LIGHT), LIGHT_FIELDS)
 #undef SOURCE
 
+#ifndef INSTANCES
 #define SOURCE normals
 DEFINE_LOADER(normal_record, load_normal_record, WORDS_OF(NORMAL), NORMAL_FIELDS)
 #undef SOURCE
-REAL3 load_normal(uint index) { return load_normal_record(index).unit; }
+REAL3 load_normal(body_record body, uint index) { return load_normal_record(index).unit; }
+#endif

@@ -42,6 +42,69 @@
     UINT(body, 1, w, 1, w)                                                                                   \
     UINT(shade, 2, w, 3, z) /* material and flags */
 
+/* A triangle where the scene has instances, in place of the one above: in the space of its mesh. Doubles in
+   both precisions: DOUBLE(name, word, half), UINT(name, word, component). */
+#define PLACED_WORDS 6
+#define PLACED_FIELDS(DOUBLE, UINT)                                                                          \
+    DOUBLE(v0_x, 0, xy)                                                                                      \
+    DOUBLE(v0_y, 0, zw)                                                                                      \
+    DOUBLE(v0_z, 1, xy)                                                                                      \
+    DOUBLE(v1_x, 1, zw)                                                                                      \
+    DOUBLE(v1_y, 2, xy)                                                                                      \
+    DOUBLE(v1_z, 2, zw)                                                                                      \
+    DOUBLE(v2_x, 3, xy)                                                                                      \
+    DOUBLE(v2_y, 3, zw)                                                                                      \
+    DOUBLE(v2_z, 4, xy)                                                                                      \
+    UINT(number, 4, z) /* within its body */                                                                 \
+    UINT(shade, 4, w)  /* of a mesh that is shared: the group */                                             \
+    UINT(body, 5, x)
+
+/* How a ray comes into the space of an instance's tree, and how much wider boxes are there. */
+#define ENTRY_WORDS   4
+#define ENTRY64_WORDS 8
+#define ENTRY_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                       \
+    REAL3(row_x, 0, 0)                                                                                       \
+    REAL(offset_x, 0, w, 1, zw)                                                                              \
+    REAL3(row_y, 1, 2)                                                                                       \
+    REAL(offset_y, 1, w, 3, zw)                                                                              \
+    REAL3(row_z, 2, 4)                                                                                       \
+    REAL(offset_z, 2, w, 5, zw)                                                                              \
+    REAL(reach, 3, x, 6, xy)  /* flat: what the boxes of flattened triangles are wider by */                 \
+    REAL(unit, 3, y, 6, zw)   /* error of the map, as a part of the ray's largest coordinate */              \
+    REAL(margin, 3, z, 7, xy) /* and whatever the ray, in the tree's space */                                \
+    REAL(edge, 3, w, 7, zw)   /* flat: none of the mesh is longer */
+
+/* How the triangles of a mesh and their normals become those of a body: as PLACED, after the words of ENTRY.
+ */
+#define INSTANCE_WORDS 12
+#define INSTANCE_FIELDS(DOUBLE, UINT)                                                                        \
+    DOUBLE(x_x, 0, xy)                                                                                       \
+    DOUBLE(x_y, 0, zw)                                                                                       \
+    DOUBLE(x_z, 1, xy)                                                                                       \
+    DOUBLE(x_offset, 1, zw)                                                                                  \
+    DOUBLE(y_x, 2, xy)                                                                                       \
+    DOUBLE(y_y, 2, zw)                                                                                       \
+    DOUBLE(y_z, 3, xy)                                                                                       \
+    DOUBLE(y_offset, 3, zw)                                                                                  \
+    DOUBLE(z_x, 4, xy)                                                                                       \
+    DOUBLE(z_y, 4, zw)                                                                                       \
+    DOUBLE(z_z, 5, xy)                                                                                       \
+    DOUBLE(z_offset, 5, zw)                                                                                  \
+    UINT(first_item, 6, x) /* what a place in TRIANGLES becomes an item by, modulo 2^32 */                   \
+    UINT(first_number, 6, y)                                                                                 \
+    UINT(flags, 6, z)                                                                                        \
+    UINT(body, 6, w)                                                                                         \
+    DOUBLE(turn_x_x, 7, xy)                                                                                  \
+    DOUBLE(turn_x_y, 7, zw)                                                                                  \
+    DOUBLE(turn_x_z, 8, xy)                                                                                  \
+    DOUBLE(turn_y_x, 8, zw)                                                                                  \
+    DOUBLE(turn_y_y, 9, xy)                                                                                  \
+    DOUBLE(turn_y_z, 9, zw)                                                                                  \
+    DOUBLE(turn_z_x, 10, xy)                                                                                 \
+    DOUBLE(turn_z_y, 10, zw)                                                                                 \
+    DOUBLE(turn_z_z, 11, xy)                                                                                 \
+    UINT(shades, 11, z) /* where those of its groups begin, counted in components */
+
 #define SPHERE_WORDS   2
 #define SPHERE64_WORDS 3
 #define SPHERE_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                      \
@@ -59,7 +122,8 @@
 #define BODY_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                        \
     UINT(first_triangle, 0, x, 0, x)                                                                         \
     UINT(normal_base, 0, y, 0, y)                                                                            \
-    REAL3(row_x, 1, 1) /* of a parallelogram: the lengths of its edges */                                    \
+    UINT(instance, 0, z, 0, z) /* whose mesh the normals are of; 0: they are the body's own */               \
+    REAL3(row_x, 1, 1)         /* of a parallelogram: the lengths of its edges */                            \
     REAL(offset_x, 1, w, 2, zw)                                                                              \
     REAL3(row_y, 2, 3)                                                                                       \
     REAL(offset_y, 2, w, 4, zw)                                                                              \

@@ -68,6 +68,9 @@ WORDS(BINDING_SPHERES, spheres)
 WORDS(BINDING_BODIES, bodies)
 WORDS(BINDING_MATERIALS, materials)
 WORDS(BINDING_LIGHTS, lights)
+#ifdef INSTANCES
+WORDS(BINDING_INSTANCES, instances)
+#endif
 layout(set = 0, binding = BINDING_BACKGROUND) uniform samplerBuffer background_texels;
 layout(set = 0, binding = BINDING_OUTPUT, std430) restrict buffer output_words { uvec4 pixels[]; };
 layout(set = 0, binding = BINDING_STATE, std430) restrict buffer state_words { uvec4 states[]; };

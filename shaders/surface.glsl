@@ -64,7 +64,8 @@ void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
         body_record body = load_body(triangle.body);
         bool smooth_shaded = (triangle.shade & TRIANGLE_SMOOTH) != 0u;
         uint base = smooth_shaded ? 3u * (triangle.number - body.first_triangle) + body.normal_base : 0u;
-        REAL3 n = load_normal(base) * b0 + load_normal(base + 1u) * hit.b1 + load_normal(base + 2u) * hit.b2;
+        REAL3 n = load_normal(body, base) * b0 + load_normal(body, base + 1u) * hit.b1 +
+                  load_normal(body, base + 2u) * hit.b2;
         REAL length2 = dot3(n, n);
         n = n * (1.0 / sqrt(length2));
         n = dot3(n, s.geometric) < 0.0 ? -n : n;

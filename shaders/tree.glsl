@@ -10,6 +10,10 @@ struct tree_ray {
     REAL3 inverse; // 1/direction, finite
     uint flip;    // 7 - octant: slots are visited in the order of slot ^ flip, highest first
     uint flip4;   // in each byte
+#ifdef INSTANCES
+    REAL3 pad;    // how much earlier and later than its planes a box begins and ends
+    REAL begin;   // least t of what is of interest
+#endif
 };
 
 tree_ray make_tree_ray(REAL3 origin, REAL3 direction) {
@@ -21,6 +25,10 @@ tree_ray make_tree_ray(REAL3 origin, REAL3 direction) {
                         direction.z < 0.0 ? -1.0 : 1.0) / size;
     ray.flip = (direction.x < 0.0 ? 0u : 4u) | (direction.y < 0.0 ? 0u : 2u) | (direction.z < 0.0 ? 0u : 1u);
     ray.flip4 = ray.flip * 0x01010101u;
+#ifdef INSTANCES
+    ray.pad = REAL3(0.0);
+    ray.begin = 0.0;
+#endif
     return ray;
 }
 
@@ -29,10 +37,19 @@ float byte_scaled(uint bytes, uint k) {
     return k == 3u ? float(int(bytes >> 24u)) : float(int(bytes & (0xffu << (8u * k))));
 }
 
-// A node as a ray sees it: plane q of an axis lies at base + q * scale.
+// A node as a ray sees it: plane q of an axis lies at base + q * scale, a far one at far_base + q * scale.
+#ifdef INSTANCES
+#define FAR_BASE(f) f.far_base
+#else
+#define FAR_BASE(f) f.base
+#endif
 #ifdef DOUBLE_PRECISION
 struct node_frame {
     vec3 base, scale;
+#ifdef INSTANCES
+    vec3 far_base;
+    float begin;
+#endif
     float t_max, t_min; // all t less that of entering the node
     float slack;
 };
@@ -41,9 +58,17 @@ struct node_frame {
 #else
 struct node_frame {
     vec3 base, scale;
+#ifdef INSTANCES
+    vec3 far_base;
+    float begin;
+#endif
     float t_max;
 };
+#ifdef INSTANCES
+#define NODE_BEGIN(f)    f.begin
+#else
 #define NODE_BEGIN(f)    0.0
+#endif
 #define NODE_LEAVE(f, t) (t * BOX_FAR_SCALE)
 #endif
 
@@ -66,7 +91,12 @@ node_frame make_node_frame(node_record node, tree_ray ray, bvec3 up, REAL t_max)
     dvec3 base = (dvec3(node.corner) - ray.origin) * ray.inverse;
     dvec3 enter = base + dvec3(up.x ? 0.0 : 255.0, up.y ? 0.0 : 255.0, up.z ? 0.0 : 255.0) * dvec3(cell) * ray.inverse;
     double t = largest3(enter);
+#ifdef INSTANCES
+    f.base = vec3(base - ray.pad - t);
+    f.far_base = vec3(base + ray.pad - t);
+#else
     f.base = vec3(base - t);
+#endif
     f.scale = cell * vec3(ray.inverse);
     f.t_max = float(t_max - t);
     f.t_min = float(-t);
@@ -74,6 +104,11 @@ node_frame make_node_frame(node_record node, tree_ray ray, bvec3 up, REAL t_max)
 #else
     f.scale = cell * ray.inverse;
     f.base = (node.corner - ray.origin) * ray.inverse;
+#ifdef INSTANCES
+    f.far_base = f.base + ray.pad;
+    f.base -= ray.pad;
+    f.begin = ray.begin;
+#endif
     f.t_max = t_max;
 #endif
     return f;
@@ -91,7 +126,7 @@ uint node_half(uvec3 near, uvec3 far, uint meta, node_frame f, uint flip4) {
         vec3 q_near = vec3(byte_scaled(near.x, k), byte_scaled(near.y, k), byte_scaled(near.z, k));
         vec3 q_far = vec3(byte_scaled(far.x, k), byte_scaled(far.y, k), byte_scaled(far.z, k));
         // Fused or not, the boxes stay conservative, and what they let through is tested exactly.
-        vec3 t_near = fma(q_near, unit, f.base), t_far = fma(q_far, unit, f.base);
+        vec3 t_near = fma(q_near, unit, f.base), t_far = fma(q_far, unit, FAR_BASE(f));
         float enter = MOST(MOST(t_near.x, t_near.y), MOST(t_near.z, NODE_BEGIN(f)));
         float leave = NODE_LEAVE(f, LEAST(LEAST(t_far.x, t_far.y), LEAST(t_far.z, f.t_max)));
         uint found = ((counts >> (8u * k)) & 0xffu) << ((bits >> (8u * k)) & 0x1fu);

@@ -4,6 +4,7 @@
 // Humphreys 2023, section 6.8.7. Equal t goes to the lower number, so that the tree never shows.
 // What that bound leaves open is only noted here: whether a hit lies before the ray's start or behind it, and
 // which of two hits is nearer. Such a ray is traced once more (exact.glsl).
+#include "instances.glsl"
 
 struct hit_record {
     REAL t;      // the ray's end before, where nothing was hit
@@ -32,6 +33,9 @@ struct shear_ray {
 #ifdef ALTERNATIVES
     vec3 direction;
 #endif
+#ifdef INSTANCES
+    REAL3 inverse;
+#endif
 };
 
 REAL3 turn(REAL3 v, bool along_x, bool along_z) { return along_z ? v : along_x ? v.yzx : v.zxy; }
@@ -48,6 +52,9 @@ shear_ray make_shear_ray(REAL3 origin, REAL3 direction) {
     ray.sy = d.y * ray.sz;
 #ifdef ALTERNATIVES
     ray.direction = direction;
+#endif
+#ifdef INSTANCES
+    ray.inverse = make_tree_ray(origin, direction).inverse;
 #endif
     return ray;
 }
@@ -95,7 +102,7 @@ void note_near(uint item, inout triangle_search search) {
 
 // `there`: whether the item is one.
 void test_triangle(uint item, bool there, inout triangle_search search, inout hit_record hit) {
-    triangle_record triangle = load_triangle(item);
+    triangle_record triangle = load_tested(item);
     shear_ray ray = search.ray;
     REAL3 a = turn(triangle.v0 - ray.origin, ray.along_x, ray.along_z);
     REAL3 b = turn(triangle.v1 - ray.origin, ray.along_x, ray.along_z);
@@ -136,7 +143,7 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     starts_before = t > (alternative_moves() || ALTERNATIVE_START != 0u ? 0.0 : delta_t);
 #else
     bool possible = there && (highest <= delta_e || lowest >= -delta_e);
-    bool start_open = possible && !starts_before && !starts_behind && item != search.left;
+    bool start_open = possible && !starts_before && !starts_behind && item != search.left && MEETS_BOX(triangle, ray);
     bool order_open = inside && starts_before && abs(t - hit.t) <= delta_t + search.wrong;
     search.doubt = order_open ? min(search.doubt, min(t, hit.t)) : search.doubt;
     bool edge_open = possible && starts_before && lowest <= delta_e && highest >= -delta_e;
@@ -167,14 +174,18 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
     bool more = true;
     STACK_RESUME(TRIANGLE_STACK, TREE_TRIANGLES, group)
     LONG_TAKE(search.wrong, search.doubt)
+    INSTANCES_BEGIN(ray, start, direction, group)
     do {
+        INSTANCE_NEXT(ray, start, direction)
         iterations += 2u; // this loop, and the inner one where no lane enters it
         if (HAS_COUNTERS)
             counted_nodes++;
         node_record node = load_triangle_node(next_node(group, ray.flip));
         uint hits = node_hits(node, ray, hit.t + search.wrong);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
+        INSTANCE_FOUND(node, found)
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
+        INSTANCE_LEFT(ray, group)
         uint items = hits & 0x00ffffffu;
         WHILE(items != 0u && iterations < ITERATION_LIMIT)
             uint bit = items & (0u - items);
@@ -185,13 +196,14 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_triangle(item, there, search, hit);
+            test_triangle(INSTANCE_ITEM(item), there, search, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;
             }
         END_WHILE(items != 0u && iterations < ITERATION_LIMIT)
-    } while (more && iterations < TRAVERSAL_LIMIT);
+    } while (more && INSTANCE_SEEN && iterations < TRAVERSAL_LIMIT);
+    INSTANCES_END(more, iterations, TRAVERSAL_LIMIT)
     STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)
     LONG_KEEP(search.wrong, search.doubt)
     bool is_near = search.near_a != NO_ITEM;

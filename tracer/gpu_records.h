@@ -91,4 +91,22 @@ GPU_RECORD(body, BODY)
 GPU_RECORD(material, MATERIAL)
 GPU_RECORD(light, LIGHT)
 
+// The same of records that hold doubles in both precisions.
+#define GPU_MEMBER_DOUBLE(name, word, half)     double name;
+#define GPU_MEMBER_WHOLE(name, word, component) uint32_t name;
+#define GPU_PACK_DOUBLE(name, word, half)       gpu_pack_double(words, word, GPU_PART_##half, record->name);
+#define GPU_PACK_WHOLE(name, word, component)   gpu_pack_uint(words, word, GPU_PART_##component, record->name);
+#define GPU_EXACT_RECORD(name, NAME)                                                                         \
+    struct gpu_##name {                                                                                      \
+        NAME##_FIELDS(GPU_MEMBER_DOUBLE, GPU_MEMBER_WHOLE)                                                   \
+    };                                                                                                       \
+    static inline void gpu_pack_##name(const struct gpu_##name *record, struct gpu_word *words) {            \
+        memset(words, 0, NAME##_WORDS * sizeof *words);                                                      \
+        NAME##_FIELDS(GPU_PACK_DOUBLE, GPU_PACK_WHOLE)                                                       \
+    }
+
+GPU_RECORD(entry, ENTRY)
+GPU_EXACT_RECORD(placed, PLACED)
+GPU_EXACT_RECORD(instance, INSTANCE)
+
 #endif

@@ -1,5 +1,5 @@
-// What makes no difference: frames repeated, trees of other shapes, workgroups of other sizes.
-// The picture has the same bytes, in single and in double precision.
+// What makes no difference: frames repeated, trees of other shapes, workgroups of other sizes, models that
+// share a mesh. The picture has the same bytes, in single and in double precision.
 //
 // Usage: test_same REPEATS SCENE...
 #include "app/precision.h"
@@ -25,21 +25,32 @@ struct variant {
     const char *name;
     enum bvh_method method;
     uint32_t workgroup;
+    enum flat_sharing sharing;
 };
 
 static const struct variant variants[] = {
-    {"once more", BVH_SAH, 0},
-    {"leaves of two", BVH_SAH_PAIRS, 0},
-    {"leaves of one", BVH_SAH_SINGLES, 0},
-    {"a tree of halves", BVH_MEDIAN, 0},
-    {"workgroups of 8", BVH_SAH, 8},
-    {"workgroups of 32", BVH_SAH, 32},
-    {"workgroups of 128", BVH_SAH, 128},
+    {"once more", BVH_SAH, 0, FLAT_COPIES},
+    {"leaves of two", BVH_SAH_PAIRS, 0, FLAT_COPIES},
+    {"leaves of one", BVH_SAH_SINGLES, 0, FLAT_COPIES},
+    {"a tree of halves", BVH_MEDIAN, 0, FLAT_COPIES},
+    {"workgroups of 8", BVH_SAH, 8, FLAT_COPIES},
+    {"workgroups of 32", BVH_SAH, 32, FLAT_COPIES},
+    {"workgroups of 128", BVH_SAH, 128, FLAT_COPIES},
+    {"instances", BVH_SAH, 0, FLAT_SHARED},
+    {"instances, leaves of one", BVH_SAH_SINGLES, 0, FLAT_SHARED},
 };
 
 static void expect(struct bench *b, bool good, const char *path, bool is_double, const char *what) {
     printf("%s %s %s %s\n", good ? "ok  " : "FAIL", path, is_double ? "double" : "single", what);
     b->failed += !good;
+}
+
+static bool shares_mesh(const struct scene *scene) {
+    for (uint32_t i = 0; i < scene->body_count; i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (scene->bodies[i].mesh && scene->bodies[k].mesh == scene->bodies[i].mesh)
+                return true;
+    return false;
 }
 
 // Renders `count` times, and compares with `first`, which a count of 1 may fill.
@@ -51,8 +62,11 @@ static bool render(struct bench *b, const struct variant *variant, bool is_doubl
     struct flat_input input = precision_input(&b->session, &b->view);
     input.is_double = is_double;
     input.method = variant->method;
+    input.sharing = variant->sharing;
     if (!flatten(&input, &flat))
         return false;
+    if ((flat.instance_count != 0) != (variant->sharing == FLAT_SHARED && shares_mesh(&b->session.resolved)))
+        expect(b, false, variant->name, is_double, "has instances where models share a mesh");
     struct render_settings settings = render_settings_of(&b->session.resolved, &flat, input.limits);
     settings.width = WIDTH;
     settings.height = HEIGHT;

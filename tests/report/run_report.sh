@@ -119,8 +119,11 @@ tells "text says how to see all" 1 '^glint: 100 more messages not shown \(E206: 
 tells "and shows all" 1 '^alike.yaml:152:' "$glint" check alike.yaml --max-messages 150
 ok "each" test "$(grep -c 'error: ' out.txt)" -eq 150
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
-awk 'BEGIN { print "glint: 1\nmodels:"; for (i = 0; i < 450; i++) print "  - {mesh: one.obj}" }' >instances.yaml
-tells "instances past a limit are one error" 1 'raise the limit: --limit scene-triangles=450' \
+awk 'BEGIN { print "glint: 1\nmodels:"; for (i = 0; i < 450; i++) print "  - {mesh: one.obj}" }' >shared.yaml
+tells "a mesh counts once" 0 - "$glint" check shared.yaml --limit scene-triangles=1 --only W401
+awk 'BEGIN { print "glint: 1\nmodels:"
+  for (i = 0; i < 450; i++) { print "  - {mesh: one" i ".obj}"; print "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3" >("one" i ".obj"); close("one" i ".obj") } }' >instances.yaml
+tells "meshes past a limit are one error" 1 'raise the limit: --limit scene-triangles=450' \
     "$glint" check instances.yaml --limit scene-triangles=100
 ok "with their number" grep -q '= note: 349 further models do not fit either; with all of them the scene has 450 triangles' out.txt
 ok "and one only" test "$(grep -c 'E501' out.txt)" -eq 1

@@ -1,13 +1,15 @@
 // spirv_exact IN.spv OUT.spv OUT.c NAME [plain]: decorates every floating-point arithmetic operation of a
 // module with NoContraction, so that no compiler may fuse a multiplication and an addition, and writes the
-// module as SPIR-V and, deflated, as a C file that defines the `struct kernel` NAME (shaders/kernel.h). With
-// `plain` nothing is decorated: for measuring what that saves and costs. A module that computes with doubles
-// and asks for SignedZeroInfNanPreserve of floats asks for it of doubles too: GLSL can say it of one width
-// alone.
+// module as SPIR-V and, packed and deflated, as a C file that defines the `struct kernel` NAME
+// (shaders/kernel.h). With `plain` nothing is decorated: for measuring what that saves and costs. A module
+// that computes with doubles and asks for SignedZeroInfNanPreserve of floats asks for it of doubles too: GLSL
+// can say it of one width alone.
 //
 // GLSL's `precise` stops at function calls and does nothing for dot and cross; watertight intersection
 // and conservative boxes need every operation rounded once. Exit codes: 0, or 1 with a line on stderr.
 // Reference: SPIR-V Specification 1.6, sections 2.3, 2.4 and 3.
+#include "shaders/packed.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -157,24 +159,82 @@ static bool write_module(const char *path, const uint32_t *module, size_t words)
     return fclose(file) == 0 && ok;
 }
 
+// ---- packing (shaders/packed.h)
+
+struct part {
+    unsigned char *bytes;
+    size_t count;
+};
+
+static void put_number(struct part *part, uint32_t value) {
+    for (; value >= 0x80; value >>= 7)
+        part->bytes[part->count++] = (unsigned char)(value | 0x80);
+    part->bytes[part->count++] = (unsigned char)value;
+}
+
+static void put_distance(struct part *part, uint32_t value) {
+    put_number(part, value >> 31 ? ~value << 1 | 1 : value << 1);
+}
+
+static void pack_instruction(const uint32_t *words, uint32_t *last, struct part parts[PACKED_PARTS]) {
+    const uint32_t opcode = words[0] & 0xffff, length = words[0] >> 16;
+    const enum packed_kind kind = packed_kind_of(opcode);
+    put_number(&parts[0], opcode);
+    put_number(&parts[0], length);
+    for (uint32_t i = 1; i < length; i++) {
+        if (kind == PACKED_PLAIN || (kind == PACKED_RESULT && i == 1))
+            put_number(&parts[1], words[i]);
+        else
+            put_distance(&parts[2], *last - words[i]);
+        if (i == packed_result(kind, opcode))
+            *last = words[i];
+    }
+}
+
+// Each part has room for all words: at most five bytes for one, and two numbers for an instruction.
+static void pack(const uint32_t *module, size_t words, struct part parts[PACKED_PARTS]) {
+    uint32_t last = 0;
+    for (size_t i = 0; i < HEADER_WORDS; i++)
+        put_number(&parts[1], module[i]);
+    for (size_t at = HEADER_WORDS; at < words; at += module[at] >> 16)
+        pack_instruction(module + at, &last, parts);
+}
+
 static bool write_bytes(FILE *file, const char *name, const unsigned char *bytes, size_t count,
-                        size_t words) {
+                        const struct part *parts, size_t words) {
     fprintf(file, "#include \"shaders/kernel.h\"\n\nstatic const unsigned char deflated[] = {");
     for (size_t i = 0; i < count; i++)
         fprintf(file, "%s%u,", i % 24 ? "" : "\n    ", (unsigned)bytes[i]);
-    fprintf(file, "\n};\nconst struct kernel %s = {deflated, sizeof deflated, %zu};\n", name, words);
+    fprintf(file, "\n};\nconst struct kernel %s = {deflated, sizeof deflated, {%zu, %zu, %zu}, %zu};\n", name,
+            parts[0].count, parts[1].count, parts[2].count, words);
     return !ferror(file);
 }
 
-static bool write_kernel(const char *path, const char *name, const uint32_t *module, size_t words) {
-    uLongf count = compressBound(words * 4);
+static bool write_packed(FILE *file, const char *name, struct part parts[PACKED_PARTS], size_t words) {
+    size_t all = 0;
+    for (int i = 0; i < PACKED_PARTS; i++) {
+        memmove(parts[0].bytes + all, parts[i].bytes, parts[i].count);
+        all += parts[i].count;
+    }
+    uLongf count = compressBound(all);
     unsigned char *bytes = malloc(count);
-    FILE *file = fopen(path, "w");
-    const bool ok =
-        bytes && file &&
-        compress2(bytes, &count, (const unsigned char *)module, words * 4, Z_BEST_COMPRESSION) == Z_OK &&
-        write_bytes(file, name, bytes, count, words);
+    const bool ok = bytes && compress2(bytes, &count, parts[0].bytes, all, Z_BEST_COMPRESSION) == Z_OK &&
+                    write_bytes(file, name, bytes, count, parts, words);
     free(bytes);
+    return ok;
+}
+
+static bool write_kernel(const char *path, const char *name, const uint32_t *module, size_t words) {
+    const size_t room = 10 * words;
+    unsigned char *memory = malloc(PACKED_PARTS * room);
+    FILE *file = fopen(path, "w");
+    struct part parts[PACKED_PARTS] = {{memory, 0}, {memory + room, 0}, {memory + 2 * room, 0}};
+    bool ok = memory && file;
+    if (ok) {
+        pack(module, words, parts);
+        ok = write_packed(file, name, parts, words);
+    }
+    free(memory);
     return file && fclose(file) == 0 && ok;
 }
 

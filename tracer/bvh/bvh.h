@@ -53,6 +53,22 @@ struct bvh {
 bool bvh_build(struct bvh_item *items, uint32_t count, enum bvh_method method, struct bvh *out);
 void bvh_finish(struct bvh *bvh);
 
+// A box, in the items' space.
+struct bvh_bounds {
+    double lower[3], upper[3];
+};
+enum {
+    BVH_BOUNDS_MOST = BVH_WIDTH * BVH_WIDTH
+};
+// Boxes that together hold all items: those of the second level of nodes, or of the first where that has
+// leaves. Returns how many.
+uint32_t bvh_first_bounds(const struct bvh *bvh, struct bvh_bounds out[BVH_BOUNDS_MOST]);
+// Over a tree whose leaves have one item each (BVH_SAH_SINGLES): the same tree with a node in place of each
+// leaf. What item i becomes is leaves[i], NODE_WORDS each. false: no memory.
+bool bvh_open_leaves(struct bvh *bvh, const struct gpu_word *leaves);
+// Adds to what its nodes call the first child and the first item.
+void bvh_move(struct bvh *bvh, uint32_t nodes, uint32_t items);
+
 // What the builder minimises: the expected number of nodes opened and items tested by a random ray that hits
 // the root's box, weighted with these.
 #define BVH_COST_NODE 1.0

@@ -13,5 +13,11 @@
 // that precision, and the box rounded outward to float.
 struct bvh_item bvh_triangle_item(const vec3 corners[3], bool is_double, uint32_t index);
 struct bvh_item bvh_sphere_item(vec3 center, double radius, bool is_double, uint32_t index);
+// Of a box that holds things of any kind.
+struct bvh_item bvh_box_item(vec3 lower, vec3 upper, bool is_double, uint32_t index);
+// Of a box that is wide enough already.
+struct bvh_item bvh_wide_item(vec3 lower, vec3 upper, uint32_t index);
+// What boxes are wider by, as a part of their largest coordinate.
+double bvh_pad(bool is_double);
 
 #endif

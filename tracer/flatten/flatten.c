@@ -72,7 +72,7 @@ static bool make_triangle_tree(struct flattening *f) {
     out->triangle_nodes = (struct flat_array){bvh.nodes, (uint64_t)bvh.node_count * NODE_WORDS};
     out->triangle_depth = bvh.depth;
     bvh.nodes = NULL;
-    const size_t total = f->triangle_total;
+    const size_t total = f->record_total;
     f->leaf_of = heap_alloc((total ? total : 1) * sizeof *f->leaf_of);
     if (f->leaf_of) {
         memset(f->leaf_of, 0xFF, total * sizeof *f->leaf_of);
@@ -90,7 +90,11 @@ static void end_tree(struct flattening *f, double start) {
 
 static enum flatten_fault make_triangles(struct flattening *f) {
     struct flat_scene *out = f->out;
-    const size_t total = f->triangle_total;
+    const size_t total = f->record_total = (uint32_t)flatten_copied(f);
+    if (f->sharing.instance_count) {
+        out->strides.triangle = PLACED_WORDS;
+        out->strides.normal = NORMAL64_WORDS;
+    }
     f->items = heap_alloc((total ? total : 1) * sizeof *f->items);
     if (!f->items)
         return FLATTEN_NO_MEMORY;
@@ -98,7 +102,8 @@ static enum flatten_fault make_triangles(struct flattening *f) {
     if (fault != FLATTEN_DONE)
         return fault;
     out->triangle_count = f->item_count;
-    out->dropped_triangles = f->triangle_total - f->item_count;
+    out->dropped_triangles = f->record_total - f->item_count;
+    out->shown_triangles = f->triangle_total - out->dropped_triangles;
     double start = clock_seconds();
     bool done = make_triangle_tree(f);
     end_tree(f, start);
@@ -141,8 +146,9 @@ static enum flatten_fault choose_scale(struct flattening *f) {
 static enum flatten_fault run(struct flattening *f) {
     typedef enum flatten_fault step(struct flattening *);
     static step *const steps[] = {
-        flatten_count,        choose_scale,      make_triangles, make_spheres,       flatten_normals,
-        flatten_body_records, flatten_materials, flatten_lights, flatten_background,
+        flatten_count,     choose_scale,   flatten_share,      make_triangles,
+        flatten_instances, make_spheres,   flatten_normals,    flatten_body_records,
+        flatten_materials, flatten_lights, flatten_background,
     };
     size_t bodies = f->scene->body_count;
     f->out->body_count = (uint32_t)bodies;
@@ -182,6 +188,7 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
     const double start = clock_seconds();
     enum flatten_fault fault = run(&f);
     timeline_add(input->timeline, "flatten", STR(""), start);
+    flatten_share_finish(&f.sharing);
     free(f.material_used);
     free(f.normal_base);
     free(f.items);
@@ -199,10 +206,11 @@ void flat_finish(struct flat_scene *flat) {
         return;
     const struct flat_array arrays[] = {flat->triangle_nodes, flat->triangles, flat->normals,
                                         flat->sphere_nodes,   flat->spheres,   flat->bodies,
-                                        flat->materials,      flat->lights};
+                                        flat->materials,      flat->lights,    flat->instances};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i].words);
     free(flat->first_triangle);
+    free(flat->uses);
     free(flat->background_texels.decoded);
     *flat = (struct flat_scene){0};
 }

@@ -24,6 +24,32 @@ struct flat_strides {
     uint32_t triangle, sphere, normal, body, material, light;
 };
 
+// Whether models that show the same mesh hold its triangles together (docs/decisions/instances.md). No choice
+// shows in a picture.
+enum flat_sharing {
+    FLAT_COPIES,  // each has its own: for kernels that know no instances, and devices without doubles
+    FLAT_CHEAPER, // as instances where that saves enough memory
+    FLAT_SHARED,  // as instances wherever that is possible, so that tests see it
+};
+
+enum flat_reason {
+    FLAT_REASON_SHARED,
+    FLAT_REASON_SMALL,  // copies are cheaper
+    FLAT_REASON_COPIES, // the input asks for copies
+    FLAT_REASON_UNEVEN, // scales too different in different directions, or extreme
+    FLAT_REASON_THIN,   // too many triangles that rounding may leave without area
+    FLAT_REASONS,
+};
+
+// A mesh that several models show.
+struct flat_use {
+    const struct mesh *mesh;
+    uint32_t models, instances; // those that are instances
+    uint32_t copied;            // triangles of it that each instance has for itself
+    enum flat_reason reason;    // for the models that are copies, if any are
+    int64_t saved_bytes;        // on the device, by sharing all that can be; negative: copies are smaller
+};
+
 struct flat_scene {
     bool is_double; // for the kernels in double precision
     struct flat_strides strides;
@@ -36,7 +62,14 @@ struct flat_scene {
         bool is_float;  // four floats a texel, else four bytes of 1/255
         float *decoded; // by stored value, where these are whole numbers that become floats
     } background_texels;
-    uint32_t body_count, light_count, triangle_count, sphere_count;
+    struct flat_array instances;                        // and their tables; without words: there are none
+    uint32_t instance_count;                            // with instance 0, all that is not shared
+    uint32_t top_nodes, instance_table, instance_shift; // as in the frame (shaders/frame.h)
+    struct flat_use *uses;                              // in the order of their first models
+    uint32_t use_count;
+    uint32_t body_count, light_count, sphere_count;
+    uint32_t triangle_count;               // that the trees hold
+    uint64_t shown_triangles;              // of all models: each instance shows those of its mesh
     uint32_t *first_triangle;              // by body: the number of its first triangle
     uint32_t dropped_triangles;            // without area after rounding
     uint32_t features;                     // FEATURE_ bits that the scene needs
@@ -51,6 +84,7 @@ struct flat_input {
     const struct view *view;
     vec3 origin; // of single precision; scene units
     bool is_double;
+    enum flat_sharing sharing;
     enum bvh_method method; // of the trees; none shows in a picture
     const struct limits *limits;
     struct diag_sink *sink;

@@ -1,16 +1,17 @@
 // Bodies: transforms in double with the origin taken off first, then scale, then rounding to float.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "shaders/frame.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
 
 #include <assert.h>
 #include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
 #define COORDINATE_MAX 1e18
-#define CORNER_FACTOR  8.0
 
 enum {
     PIECE = 8192,
@@ -32,6 +33,13 @@ enum flatten_fault flatten_count(struct flattening *f) {
         f->out->first_triangle[i] = (uint32_t)total;
         f->out->sphere_count += body->shape == SCENE_SPHERE;
         total += body->triangle_count;
+    }
+    // What a fault has room for, and the numbers of items (flatten_instances.c).
+    if (total + f->out->sphere_count >= FAULT_NUMBER) {
+        diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
+                 "all models together show %" PRIu64 " triangles; at most %u can be told apart", total,
+                 FAULT_NUMBER - 1);
+        return FLATTEN_REPORTED;
     }
     f->triangle_total = (uint32_t)total;
     return FLATTEN_DONE;
@@ -97,15 +105,23 @@ static double measure_body(const struct flattening *f, const struct scene_body *
     return extent;
 }
 
+// Whether a mesh's vertices can neither be outside of what is allowed nor raise the extent's power of two.
+static bool is_bounded(const struct flattening *f, const struct scene_body *body, double extent) {
+    const double farthest = fmax(vec3_max_abs(body->lower), vec3_max_abs(body->upper)) * FLATTEN_BOUND;
+    const double reach = flatten_reach(f, body);
+    return farthest <= COORDINATE_MAX && extent > 0 && (reach == 0 || ilogb(reach) <= ilogb(extent));
+}
+
 enum flatten_fault flatten_extent(const struct flattening *f, double *extent) {
     enum flatten_fault worst = FLATTEN_DONE;
     *extent = 0;
+    for (uint32_t i = 0; i < f->scene->body_count; i++)
+        if (!f->scene->bodies[i].mesh)
+            *extent = fmax(*extent, measure_body(f, &f->scene->bodies[i]));
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
-        if (!body->mesh) {
-            *extent = fmax(*extent, measure_body(f, body));
+        if (!body->mesh || is_bounded(f, body, *extent))
             continue;
-        }
         enum flatten_fault fault = measure_mesh(f, body, extent);
         if (fault > worst)
             worst = fault;
@@ -160,7 +176,7 @@ static uint32_t best_corner(const vec3 corners[3]) {
         if (product[k] < product[best])
             best = (uint32_t)k;
     }
-    return product[0] > CORNER_FACTOR * product[best] ? best : 0;
+    return product[0] > TRIANGLE_CORNER_FACTOR * product[best] ? best : 0;
 }
 
 // Whether the tracer finds a normal: the cross product of the rounded vertices' edges as it takes it, in
@@ -203,10 +219,30 @@ static bool has_area64(const vec3 corners[3], uint32_t corner) {
     return vec3_max_abs(vec3_cross(vec3_mul(u, scale), vec3_mul(v, scale))) != 0;
 }
 
+static void pack_triangle(const struct flattening *f, const struct gpu_triangle *from, struct gpu_word *to) {
+    if (!f->sharing.instance_count) {
+        gpu_pack_triangle(from, f->out->is_double, to);
+        return;
+    }
+    const struct gpu_placed record = {.v0_x = from->v0.x,
+                                      .v0_y = from->v0.y,
+                                      .v0_z = from->v0.z,
+                                      .v1_x = from->v1.x,
+                                      .v1_y = from->v1.y,
+                                      .v1_z = from->v1.z,
+                                      .v2_x = from->v2.x,
+                                      .v2_y = from->v2.y,
+                                      .v2_z = from->v2.z,
+                                      .number = from->number,
+                                      .shade = from->shade & ~(3u << TRIANGLE_CORNER_SHIFT),
+                                      .body = from->body};
+    gpu_pack_placed(&record, to);
+}
+
 // `corners` relative to the origin. Its record, where there is a tree; else its item, which flatten_triangles
 // leaves out where the triangle has no area.
-static void put_triangle(const struct flattening *f, const vec3 corners[3], uint32_t number, uint32_t body,
-                         uint32_t shade) {
+static void put_triangle(const struct flattening *f, const vec3 corners[3], uint32_t place, uint32_t number,
+                         uint32_t body, uint32_t shade) {
     const bool is_double = f->out->is_double;
     vec3 flat[3];
     for (int k = 0; k < 3; k++)
@@ -219,14 +255,13 @@ static void put_triangle(const struct flattening *f, const vec3 corners[3], uint
                                   .body = body,
                                   .shade = shade | corner << TRIANGLE_CORNER_SHIFT};
     if (f->leaf_of) {
-        if (f->leaf_of[number] != FLATTEN_NO_LEAF)
-            gpu_pack_triangle(&record, is_double,
-                              f->out->triangles.words +
-                                  (size_t)f->out->strides.triangle * f->leaf_of[number]);
+        if (f->leaf_of[place] != FLATTEN_NO_LEAF)
+            pack_triangle(f, &record,
+                          f->out->triangles.words + (size_t)f->out->strides.triangle * f->leaf_of[place]);
         return;
     }
-    struct bvh_item *item = &f->items[number];
-    *item = bvh_triangle_item(flat, is_double, number);
+    struct bvh_item *item = &f->items[place];
+    *item = bvh_triangle_item(flat, is_double, place);
     item->spare = !(is_double ? has_area64(flat, corner) : has_area(flat, corner));
 }
 
@@ -236,7 +271,9 @@ struct filling {
     affine3 map;
     const uint32_t *group_shade; // material and flags by group; NULL: `shade` of all
     uint32_t shade;
-    uint32_t number; // of the body
+    uint32_t number;        // of the body
+    uint32_t first;         // its first record
+    const uint32_t *copied; // its triangles that are copied; NULL: all
 };
 
 static uint32_t shade_of(const struct filling *fill, uint32_t triangle) {
@@ -250,48 +287,64 @@ static void fill_triangles(void *context, size_t begin, size_t end) {
     const struct filling *fill = context;
     const bool exchanges = fill->body->mirrored;
     for (size_t i = begin; i < end; i++) {
-        const uint32_t triangle = (uint32_t)i;
+        const uint32_t triangle = fill->copied ? fill->copied[i] : (uint32_t)i;
         vec3 found[3];
         scene_corners(fill->body, &fill->map, triangle, found);
         const vec3 corners[3] = {found[0], found[exchanges ? 2 : 1], found[exchanges ? 1 : 2]};
-        put_triangle(fill->f, corners, fill->f->out->first_triangle[fill->number] + triangle, fill->number,
+        put_triangle(fill->f, corners, fill->first + (uint32_t)i,
+                     fill->f->out->first_triangle[fill->number] + triangle, fill->number,
                      shade_of(fill, triangle));
     }
 }
 
-static enum flatten_fault fill_body(struct flattening *f, uint32_t number) {
+uint32_t flatten_group_shade(struct flattening *f, const struct scene_body *body, uint32_t group) {
+    return material_flags(f, body->materials[group]) | (body->smooth ? TRIANGLE_SMOOTH : 0) |
+           (body->closed ? TRIANGLE_SOLID : 0) | (body->mesh->turned != body->mirrored ? TRIANGLE_TURNED : 0);
+}
+
+// The first `count` of the body's triangles, or those of `copied`, from record `first` on.
+static enum flatten_fault fill_body(struct flattening *f, uint32_t number, uint32_t first,
+                                    const uint32_t *copied, uint32_t count) {
     const struct scene_body *body = &f->scene->bodies[number];
-    struct filling fill = {.f = f, .body = body, .map = flatten_map(f, body), .number = number};
+    struct filling fill = {.f = f,
+                           .body = body,
+                           .map = flatten_map(f, body),
+                           .number = number,
+                           .first = first,
+                           .copied = copied};
     if (!body->mesh) {
         fill.shade = material_flags(f, body->materials[0]) | TRIANGLE_HALF;
-        fill_triangles(&fill, 0, body->triangle_count);
+        fill_triangles(&fill, 0, count);
         return FLATTEN_DONE;
     }
     uint32_t *shade = heap_alloc((body->group_count + (size_t)1) * sizeof *shade);
     if (!shade)
         return FLATTEN_NO_MEMORY;
-    uint32_t flags = (body->smooth ? TRIANGLE_SMOOTH : 0) | (body->closed ? TRIANGLE_SOLID : 0) |
-                     (body->mesh->turned != body->mirrored ? TRIANGLE_TURNED : 0);
     for (uint32_t i = 0; i < body->group_count; i++)
-        shade[i] = material_flags(f, body->materials[i]) | flags;
+        shade[i] = flatten_group_shade(f, body, i);
     fill.group_shade = shade;
-    parallel_for(body->triangle_count, PIECE, fill_triangles, &fill);
+    parallel_for(count, PIECE, fill_triangles, &fill);
     free(shade);
     return FLATTEN_DONE;
 }
 
 static enum flatten_fault fill_bodies(struct flattening *f) {
+    uint32_t place = 0;
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
-        enum flatten_fault fault = f->scene->bodies[i].triangle_count ? fill_body(f, i) : FLATTEN_DONE;
+        const struct shared_mesh *shared = flatten_shared(f, i);
+        const uint32_t count = shared ? shared->copied_count : f->scene->bodies[i].triangle_count;
+        enum flatten_fault fault =
+            count ? fill_body(f, i, place, shared ? shared->copied : NULL, count) : FLATTEN_DONE;
         if (fault != FLATTEN_DONE)
             return fault;
+        place += count;
     }
     return FLATTEN_DONE;
 }
 
 enum flatten_fault flatten_triangles(struct flattening *f) {
     enum flatten_fault fault = fill_bodies(f);
-    for (uint32_t i = 0; i < f->triangle_total && fault == FLATTEN_DONE; i++)
+    for (uint32_t i = 0; i < f->record_total && fault == FLATTEN_DONE; i++)
         if (!f->items[i].spare)
             f->items[f->item_count++] = f->items[i];
     return fault;

@@ -14,17 +14,50 @@ enum flatten_fault {
     FLATTEN_NO_MEMORY, // the caller reports it
 };
 
+// A mesh that several bodies show. What lies in TRIANGLES and in the nodes is counted in records.
+struct shared_mesh {
+    const struct mesh *mesh;
+    uint32_t first_use, use_count; // of sharing.uses
+    uint32_t instances;
+    uint32_t *copied; // triangles that each instance has for itself, ascending
+    uint32_t copied_count;
+    enum flat_reason reason;
+    int64_t saved_bytes;
+    // The space of its tree: (mesh space - middle) * 2^exponent.
+    vec3 middle;
+    int exponent;
+    double farthest;              // largest |coordinate| in mesh space
+    double edge;                  // in mesh space: few are longer
+    uint32_t first_record, count; // of its tree
+    uint32_t root;                // of its tree, among all nodes
+    bool has_normals;
+    uint32_t normal_base;     // of those that are as the mesh has them
+    struct bvh_bounds *boxes; // which together hold all of it, in the tree's space
+    uint32_t box_count;
+};
+
+struct sharing {
+    uint32_t *instance;      // by body: 0 if it is copied; NULL: no body is an instance
+    uint32_t instance_count; // with instance 0; 0: none
+    uint32_t *mesh_of;       // by body that is an instance: its mesh
+    uint32_t *uses;          // bodies, those of one mesh together, in IR order
+    struct shared_mesh *meshes;
+    uint32_t mesh_count;
+};
+
 struct flattening {
     const struct flat_input *input;
     const struct scene *scene;
     struct flat_scene *out;
     double factor;           // 2^out->scale_exponent
     uint32_t triangle_total; // of all bodies, those without area too: what triangle numbers count
-    // What the tree is built over, without the triangles that have no area. Records are made when it is
-    // there, so that both are never in memory.
+    struct sharing sharing;
+    // What the tree is built over, body by body, without the triangles that have no area. Records are made
+    // when it is there, so that both are never in memory.
     struct bvh_item *items;
+    uint32_t record_total;
     uint32_t item_count;
-    uint32_t *leaf_of;       // by triangle number: where its record goes; FLATTEN_NO_LEAF: it has no area
+    uint32_t *leaf_of;       // by copied triangle: where its record goes; FLATTEN_NO_LEAF: it has no area
     bool *material_used;     // by index in scene->materials
     uint32_t *normal_base;   // by body: its first record of out->normals
     uint32_t light_features; // FEATURE_ bits that the lights ask for
@@ -34,15 +67,33 @@ struct flattening {
 
 // Numbers the triangles and checks the limits.
 enum flatten_fault flatten_count(struct flattening *f);
-// Largest |coordinate - origin| of all bodies, in scene units.
+// An extent of all bodies: its power of two is that of the largest |coordinate - origin|, in scene units.
 enum flatten_fault flatten_extent(const struct flattening *f, double *extent);
 // Fills the spheres' words in IR order, and an item for each.
 void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_item *items);
-// Fills items and item_count with all that consists of triangles.
+// Material and flags of a group of a body that has a mesh.
+uint32_t flatten_group_shade(struct flattening *f, const struct scene_body *body, uint32_t group);
+// Fills items and item_count with all triangles that are copied.
 enum flatten_fault flatten_triangles(struct flattening *f);
 #define FLATTEN_NO_LEAF UINT32_MAX
 // Fills out->triangles, which is there, as leaf_of says.
 enum flatten_fault flatten_records(struct flattening *f);
+
+// ---- flatten_share.c
+
+// Decides which bodies are instances.
+enum flatten_fault flatten_share(struct flattening *f);
+void flatten_share_finish(struct sharing *sharing);
+// The mesh of a body that is an instance; NULL: it is not.
+struct shared_mesh *flatten_shared(const struct flattening *f, uint32_t body);
+// How many triangles are copied.
+uint64_t flatten_copied(const struct flattening *f);
+
+// ---- flatten_instances.c
+
+// After flatten_triangles and the tree over what is copied: adds the trees of shared meshes to it and one
+// over all instances, and fills out->instances.
+enum flatten_fault flatten_instances(struct flattening *f);
 
 // ---- flatten_shade.c
 
@@ -64,6 +115,19 @@ void flatten_features(struct flattening *f);
 // How a body comes into flat space, but for the scale: relative to the origin, in scene units.
 static inline affine3 flatten_map(const struct flattening *f, const struct scene_body *body) {
     return transform_relative(body->object_to_world, f->out->origin);
+}
+// More than what rounding can make of a bound by a box's corners.
+#define FLATTEN_BOUND (1 + 0x1p-40)
+// At least the largest |coordinate - origin| of a mesh's vertices, by the corners of its box.
+static inline double flatten_reach(const struct flattening *f, const struct scene_body *body) {
+    const affine3 map = flatten_map(f, body);
+    const struct mesh *mesh = body->mesh;
+    double most = 0;
+    for (int i = 0; i < 8; i++)
+        most = fmax(most, vec3_max_abs(affine3_apply(map, (vec3){i & 1 ? mesh->upper.x : mesh->lower.x,
+                                                                 i & 2 ? mesh->upper.y : mesh->lower.y,
+                                                                 i & 4 ? mesh->upper.z : mesh->lower.z})));
+    return most * FLATTEN_BOUND;
 }
 // `words` zeroed words; false: no memory. At least one word is there, so that no buffer is empty.
 bool flat_array_make(struct flat_array *array, uint64_t words);

@@ -49,7 +49,8 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
     for (uint32_t i = 0; i < f->out->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
         struct gpu_body record = {.first_triangle = f->out->first_triangle[i],
-                                  .normal_base = f->normal_base[i]};
+                                  .normal_base = f->normal_base[i],
+                                  .instance = f->sharing.instance[i]};
         if (has_checker(f->scene, body)) {
             if (body->shape == SCENE_PARALLELOGRAM)
                 put_edge_lengths(body, &record);
@@ -87,9 +88,17 @@ static enum flatten_fault list_uses(struct flattening *f, struct smooth_use **us
         const struct scene_body *body = &f->scene->bodies[i];
         if (!body->smooth || !body->mesh)
             continue;
-        f->normal_base[i] = (uint32_t)normals;
-        normals += (uint64_t)body->triangle_count * 3;
+        // Instances have those of the first one, as the mesh has them.
+        struct shared_mesh *shared = flatten_shared(f, i);
+        f->normal_base[i] = shared && shared->has_normals ? shared->normal_base : (uint32_t)normals;
+        if (shared && shared->has_normals)
+            continue;
+        if (shared) {
+            shared->has_normals = true;
+            shared->normal_base = (uint32_t)normals;
+        }
         (*uses)[(*count)++] = (struct smooth_use){body->mesh, i};
+        normals += (uint64_t)body->triangle_count * 3;
     }
     qsort(*uses, *count, sizeof **uses, compare_uses);
     return flat_array_make(&f->out->normals, normals * f->out->strides.normal) ? FLATTEN_DONE
@@ -102,16 +111,19 @@ struct turning {
     const vec3 *normals; // of the mesh, three a triangle
     mat3 turn;
     size_t base;
+    bool is_shared; // kernels turn them
 };
 
 static void turn_normals(void *context, size_t begin, size_t end) {
     const struct turning *t = context;
     const uint32_t stride = t->f->out->strides.normal;
+    const bool is_double = stride == NORMAL64_WORDS;
     for (size_t i = 3 * begin; i < 3 * end; i++) {
         // A mirror exchanges the second and third corner.
         const size_t k = i % 3, corner = t->body->mirrored && k ? 3 - k : k;
-        struct gpu_normal record = {vec3_unit(mat3_apply(t->turn, t->normals[i - k + corner]))};
-        gpu_pack_normal(&record, t->f->out->is_double, t->f->out->normals.words + (t->base + i) * stride);
+        const struct gpu_normal record = {
+            t->is_shared ? t->normals[i] : vec3_unit(mat3_apply(t->turn, t->normals[i - k + corner]))};
+        gpu_pack_normal(&record, is_double, t->f->out->normals.words + (t->base + i) * stride);
     }
 }
 
@@ -134,7 +146,8 @@ static void turn_mesh(void *context) {
                                   .body = body,
                                   .normals = normals,
                                   .turn = transform_for_normals(body->object_to_world.linear),
-                                  .base = m->f->normal_base[number]};
+                                  .base = m->f->normal_base[number],
+                                  .is_shared = flatten_shared(m->f, number) != NULL};
         parallel_for(mesh->triangle_count, PIECE, turn_normals, &turning);
     }
 }

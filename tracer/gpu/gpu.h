@@ -33,7 +33,7 @@ enum gpu_kind {
 
 enum {
     GPU_ERROR_BYTES = 512,
-    GPU_BINDINGS = 16
+    GPU_BINDINGS = 20
 };
 
 struct gpu_device_info {

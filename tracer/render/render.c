@@ -205,8 +205,10 @@ static bool upload_scene(struct renderer *renderer) {
         {BINDING_BODIES, &flat->bodies},
         {BINDING_MATERIALS, &flat->materials},
         {BINDING_LIGHTS, &flat->lights},
+        {BINDING_INSTANCES, &flat->instances},
     };
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+    const size_t count = sizeof arrays / sizeof *arrays - (flat->instance_count == 0);
+    for (size_t i = 0; i < count; i++)
         if (!upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
                     arrays[i].array->count * sizeof(struct gpu_word)))
             return false;

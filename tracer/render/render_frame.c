@@ -69,6 +69,9 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .sphere_count = flat->sphere_count,
         .slice_iterations = settings->slice_iterations,
         .features = flat->features,
+        .top_nodes = flat->top_nodes,
+        .instance_table = flat->instance_table,
+        .instance_shift = flat->instance_shift,
     };
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
     const vec3 right = vec3_mul(camera->right, camera->tan_half_fov * aspect);

@@ -25,6 +25,8 @@ struct kernel_pair {
 static const struct kernel_pair exact_kernels[RENDERER_KERNELS] = KERNELS();
 static const struct kernel_pair pairs_kernels[RENDERER_KERNELS] = KERNELS(_pairs);
 static const struct kernel_pair double_kernels[RENDERER_KERNELS] = KERNELS(64);
+static const struct kernel_pair instance_kernels[RENDERER_KERNELS] = KERNELS(_instances);
+static const struct kernel_pair double_instance_kernels[RENDERER_KERNELS] = KERNELS(64_instances);
 static const struct kernel_pair alternative_kernels[RENDERER_KERNELS] = KERNELS(_alternative);
 static const struct kernel_pair fused_kernels[RENDERER_KERNELS] = KERNELS(_fused);
 
@@ -47,7 +49,10 @@ const char *render_alternative_name(enum render_alternative alternative) {
 }
 
 static const struct kernel_pair *pair_of(const struct renderer *renderer, enum renderer_kernel kernel) {
-    if (renderer->flat->is_double)
+    const struct flat_scene *flat = renderer->flat;
+    if (flat->instance_count)
+        return flat->is_double ? &double_instance_kernels[kernel] : &instance_kernels[kernel];
+    if (flat->is_double)
         return &double_kernels[kernel];
     switch (renderer->settings.alternative) {
     case RENDER_ALTERNATIVE_NONE:

@@ -1,0 +1,227 @@
+// Models that share a mesh: a tree of instances over trees of meshes (gpu_scene.h).
+//
+// A triangle is placed where flattening would have placed it, by the same operations in double precision and one
+// rounding, so that a picture has the same bytes as one of copies. Only boxes know the mesh's own space: a ray is
+// taken there, with its t, and boxes are as much wider as flattened ones would be and as the ray may be off
+// (docs/decisions/instances.md).
+#ifdef INSTANCES
+#define MEMBER_DOUBLE(name, word, half64)  double name;
+#define MEMBER_WHOLE(name, word, component) uint name;
+#define LOAD_DOUBLE(name, word, half64)     record.name = packDouble2x32(FETCH(SOURCE, at + word).half64);
+#define LOAD_WHOLE(name, word, component)   record.name = FETCH(SOURCE, at + word).component;
+
+struct placed_record { PLACED_FIELDS(MEMBER_DOUBLE, MEMBER_WHOLE) };
+struct instance_record { INSTANCE_FIELDS(MEMBER_DOUBLE, MEMBER_WHOLE) };
+struct entry_record { MEMBERS(ENTRY_FIELDS) };
+struct normal64_record { dvec3 unit; };
+
+const uint INSTANCE_STRIDE = WORDS_OF(ENTRY) + INSTANCE_WORDS;
+#define SOURCE triangles
+placed_record load_placed(uint index) {
+    uint at = index * PLACED_WORDS;
+    placed_record record;
+    PLACED_FIELDS(LOAD_DOUBLE, LOAD_WHOLE)
+    return record;
+}
+#undef SOURCE
+#define SOURCE instances
+DEFINE_LOADER(entry_record, load_entry, INSTANCE_STRIDE, ENTRY_FIELDS)
+instance_record load_instance(uint index) {
+    uint at = index * INSTANCE_STRIDE + WORDS_OF(ENTRY);
+    instance_record record;
+    INSTANCE_FIELDS(LOAD_DOUBLE, LOAD_WHOLE)
+    return record;
+}
+#undef SOURCE
+
+// Component `index` of INSTANCES from its table on.
+uint instance_table(uint index) {
+    uvec4 word = FETCH(instances, frame.instance_table + index / 4u);
+    uint k = index % 4u;
+    return k == 0u ? word.x : k == 1u ? word.y : k == 2u ? word.z : word.w;
+}
+
+const uint NO_INSTANCE = 0xffffffffu;
+
+// Whose triangles this invocation loads: only what a test needs stays in registers.
+uint seen_instance = NO_INSTANCE;
+instance_record seen;
+
+void see_instance(uint instance) {
+    seen_instance = instance;
+    seen = load_instance(instance);
+}
+
+// ---- triangles
+
+dvec3 placed(double x, double y, double z) {
+    return dvec3(seen.x_x * x + seen.x_y * y + seen.x_z * z + seen.x_offset,
+                 seen.y_x * x + seen.y_y * y + seen.y_z * z + seen.y_offset,
+                 seen.z_x * x + seen.z_y * y + seen.z_z * z + seen.z_offset);
+}
+
+double length_of(REAL3 a, REAL3 b) {
+    dvec3 v = dvec3(b) - dvec3(a);
+    return sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+// As flattening decides it (tracer/flatten/flatten_bodies.c).
+uint best_corner(REAL3 v0, REAL3 v1, REAL3 v2) {
+    double a = length_of(v0, v1), b = length_of(v1, v2), c = length_of(v2, v0);
+    double p0 = a * c, p1 = b * a, p2 = c * b;
+    uint best = p1 < p0 ? 1u : 0u;
+    double least = p1 < p0 ? p1 : p0;
+    best = p2 < least ? 2u : best;
+    least = p2 < least ? p2 : least;
+    return p0 > TRIANGLE_CORNER_FACTOR * least ? best : 0u;
+}
+
+uint seen_shade(uint group) {
+    return (seen.flags & INSTANCE_COPIED) != 0u ? group : instance_table(seen.shades + group);
+}
+
+// An item of the instance that is seen.
+triangle_record load_tested(uint item) {
+    placed_record mesh = load_placed(item - seen.first_item);
+    bool mirrored = (seen.flags & INSTANCE_MIRRORED) != 0u;
+    REAL3 b = REAL3(placed(mesh.v1_x, mesh.v1_y, mesh.v1_z)), c = REAL3(placed(mesh.v2_x, mesh.v2_y, mesh.v2_z));
+    triangle_record triangle;
+    triangle.v0 = REAL3(placed(mesh.v0_x, mesh.v0_y, mesh.v0_z));
+    triangle.v1 = mirrored ? c : b;
+    triangle.v2 = mirrored ? b : c;
+    triangle.number = seen.first_number + mesh.number;
+    triangle.body = (seen.flags & INSTANCE_COPIED) != 0u ? mesh.body : seen.body;
+    triangle.shade = seen_shade(mesh.shade) |
+                     best_corner(triangle.v0, triangle.v1, triangle.v2) << TRIANGLE_CORNER_SHIFT;
+    return triangle;
+}
+
+void see_item(uint item) { see_instance(instance_table(item >> frame.instance_shift)); }
+
+triangle_record load_triangle(uint item) {
+    see_item(item);
+    return load_tested(item);
+}
+
+// ---- normals
+
+// As flattening turns it (tracer/flatten/flatten_shade.c), by operations in the same order.
+dvec3 turned_normal(dvec3 n, instance_record by) {
+    dvec3 v = dvec3(by.turn_x_x * n.x + by.turn_x_y * n.y + by.turn_x_z * n.z,
+                    by.turn_y_x * n.x + by.turn_y_y * n.y + by.turn_y_z * n.z,
+                    by.turn_z_x * n.x + by.turn_z_y * n.y + by.turn_z_z * n.z);
+    double size = sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    return size > 0.0lf ? dvec3(v.x / size, v.y / size, v.z / size) : v;
+}
+
+// `index`: three to a triangle, from a multiple of three on.
+REAL3 load_normal(body_record body, uint index) {
+    instance_record by = load_instance(body.instance);
+    uint corner = index % 3u;
+    bool exchanged = (by.flags & INSTANCE_MIRRORED) != 0u && corner != 0u;
+    uint at = NORMAL64_WORDS * (exchanged ? index - corner + 3u - corner : index);
+    uvec4 xy = FETCH(normals, at), z = FETCH(normals, at + 1u);
+    dvec3 n = dvec3(packDouble2x32(xy.xy), packDouble2x32(xy.zw), packDouble2x32(z.xy));
+    dvec3 turned = turned_normal(n, by);
+    return REAL3(body.instance == 0u ? n : turned);
+}
+
+// ---- whether a triangle near its start concerns a ray
+
+// A search of flattened triangles sees those whose boxes it meets. Here other boxes are met, so that the same question is
+// asked of each triangle by itself: where it is only the rounding of the ray's start that a triangle is about, the
+// answer must not depend on how its box lies.
+#ifdef DOUBLE_PRECISION
+#define MEETS_BOX(triangle, ray) true
+#else
+bool meets_box(triangle_record triangle, vec3 origin, vec3 inverse) {
+    vec3 lower = min(min(triangle.v0, triangle.v1), triangle.v2), upper = max(max(triangle.v0, triangle.v1), triangle.v2);
+    float pad = largest3(max(abs(lower), abs(upper))) * TRIANGLE_BOX_PAD;
+    vec3 a = (lower - pad - origin) * inverse, b = (upper + pad - origin) * inverse;
+    vec3 first = min(a, b), last = max(a, b);
+    return max(largest3(first), 0.0) <= min(min(last.x, last.y), last.z) * BOX_FAR_SCALE;
+}
+#define MEETS_BOX(triangle, ray) meets_box(triangle, ray.origin, ray.inverse)
+#endif
+
+// ---- the two levels of a search
+
+// The ray in the space of an instance's tree, with the same t. Where rounding leaves its start open, with what lies
+// behind it as far as a triangle may reach.
+tree_ray entered_ray(uint instance, REAL3 origin, REAL3 direction, bool is_open) {
+    entry_record e = load_entry(instance);
+    REAL3 place = REAL3(dot3(e.row_x, origin) + e.offset_x, dot3(e.row_y, origin) + e.offset_y,
+                        dot3(e.row_z, origin) + e.offset_z);
+    tree_ray ray =
+        make_tree_ray(place, REAL3(dot3(e.row_x, direction), dot3(e.row_y, direction), dot3(e.row_z, direction)));
+    REAL3 sum = REAL3(dot3(abs(e.row_x), REAL3(1.0)), dot3(abs(e.row_y), REAL3(1.0)), dot3(abs(e.row_z), REAL3(1.0)));
+    ray.pad = (sum * (e.reach + e.unit * largest3(abs(origin))) + e.margin) * abs(ray.inverse);
+#ifndef DOUBLE_PRECISION
+    ray.begin = is_open ? -e.edge / largest3(abs(direction)) : 0.0;
+#endif
+    return ray;
+}
+
+// A search has two rays: `ray` goes through the nodes, `flat_ray` is it again where an instance is left. An instance
+// that is found is entered before the next node is. lavapipe runs what an `if` holds for all lanes, and would
+// transform a ray at every node: there lanes that found one wait outside of a loop of their own.
+#ifdef LONG_RAYS_KEPT
+#define INSTANCE_RESUMED(group)                                                                              \
+    (HAS_LONG_RAYS && group.x >= frame.top_nodes ? long_instance : NO_INSTANCE)
+#define INSTANCE_KEPT(more)                                                                                  \
+    if (HAS_LONG_RAYS && more)                                                                               \
+        long_instance = found_instance != NO_INSTANCE ? found_instance : seen_instance;
+#else
+#define INSTANCE_RESUMED(group) NO_INSTANCE
+#define INSTANCE_KEPT(more)
+#endif
+#define INSTANCE_ENTER(ray, start, direction)                                                               \
+    if (found_instance != NO_INSTANCE) {                                                                     \
+        see_instance(found_instance);                                                                        \
+        ray = entered_ray(found_instance, start.at, direction, start.slack > 0.0);                                              \
+        found_instance = NO_INSTANCE;                                                                        \
+    }
+#ifdef FETCH_TEXELS
+#define INSTANCES_BEGIN(ray, start, direction, group)                                                       \
+    tree_ray flat_ray = ray;                                                                                 \
+    uint found_instance = INSTANCE_RESUMED(group);                                                           \
+    do {                                                                                                     \
+        iterations++;                                                                                        \
+        INSTANCE_ENTER(ray, start, direction)
+#define INSTANCE_NEXT(ray, start, direction)
+#define INSTANCE_SEEN (found_instance == NO_INSTANCE)
+#define INSTANCES_END(more, count, limit)                                                                    \
+    } while (more && count < limit);                                                                         \
+    INSTANCE_KEPT(more)
+#else
+#define INSTANCES_BEGIN(ray, start, direction, group)                                                       \
+    tree_ray flat_ray = ray;                                                                                 \
+    uint found_instance = INSTANCE_RESUMED(group);
+#define INSTANCE_NEXT(ray, start, direction) INSTANCE_ENTER(ray, start, direction)
+#define INSTANCE_SEEN true
+#define INSTANCES_END(more, count, limit) INSTANCE_KEPT(more)
+#endif
+// After a node: whether it is an instance's, whose root is next then.
+#define INSTANCE_FOUND(node, found)                                                                          \
+    if ((node.exponents & 0xffu) == 0u) {                                                                    \
+        found_instance = node.first_item;                                                                    \
+        found.y = 0x80000000u;                                                                               \
+    }
+// After the next group is chosen.
+#define INSTANCE_LEFT(ray, group)                                                                            \
+    if (group.x < frame.top_nodes)                                                                           \
+        ray = flat_ray;
+// An item of the node that is open.
+#define INSTANCE_ITEM(item) (item + seen.first_item)
+#else
+#define MEETS_BOX(triangle, ray) true
+#define load_tested(item) load_triangle(item)
+#define see_item(item)
+#define INSTANCES_BEGIN(ray, start, direction, group)
+#define INSTANCE_NEXT(ray, start, direction)
+#define INSTANCE_SEEN true
+#define INSTANCES_END(more, count, limit)
+#define INSTANCE_FOUND(node, found)
+#define INSTANCE_LEFT(ray, group)
+#define INSTANCE_ITEM(item) item
+#endif

@@ -1,0 +1,420 @@
+// Which models become instances of the mesh that they share, and which have triangles of their own.
+//
+// An instance must show what a copy would, bit for bit. Flattening leaves out triangles that rounding leaves
+// without area: those that it might leave out in any instance are copied for each, and where there are too
+// many of them the whole model is. `height` is a triangle's least one: a map by a matrix M shrinks it by no
+// more than |M^-1|, for which the Frobenius norm is a bound.
+#include "core/heap.h"
+#include "core/parallel.h"
+#include "tracer/flatten/flatten_parts.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+// The rounded corners of a triangle that is higher than this part of the instance's largest coordinate have
+// an area: 64 units of 2^-24 or 2^-53, where 40 are the sum of what moving each corner by half a unit,
+// subtracting them and the products of their cross product may add up to.
+#define HEIGHT_STEPS   0x1p-18
+#define HEIGHT_STEPS64 0x1p-47
+// More than a COPIED_PART-th of a mesh's triangles is too much to be copied for an instance.
+#define COPIED_PART 32
+// How different scales may be in different directions; numbers within these bounds keep all operations on
+// them, the device's among them, away from the ends of what doubles hold.
+#define UNEVEN_MOST  1e4
+#define NUMBER_LEAST 0x1p-200
+#define NUMBER_MOST  0x1p200
+// What sharing must save on the device (docs/decisions/instances.md).
+#define SAVED_LEAST (INT64_C(32) << 20)
+
+enum {
+    PIECE = 8192,
+    NODE_BYTES = 9, // of the trees, for each triangle: measured on meshes of 1e3 to 1e6 triangles
+};
+
+// ---- meshes
+
+struct heights {
+    const struct mesh *mesh;
+    double *of; // by triangle
+};
+
+static double height_of(const struct mesh *mesh, size_t triangle) {
+    const uint32_t *corners = mesh->triangles[triangle].corners;
+    const vec3 p = mesh->positions[corners[0]];
+    const vec3 u = vec3_sub(mesh->positions[corners[1]], p), v = vec3_sub(mesh->positions[corners[2]], p);
+    const double longest = fmax(vec3_length(vec3_sub(v, u)), fmax(vec3_length(u), vec3_length(v)));
+    return longest > 0 ? vec3_length(vec3_cross(u, v)) / longest : 0;
+}
+
+static void measure_heights(void *context, size_t begin, size_t end) {
+    const struct heights *h = context;
+    for (size_t i = begin; i < end; i++)
+        h->of[i] = height_of(h->mesh, i);
+}
+
+static bool is_moderate(double value) {
+    return value == 0 || (fabs(value) >= NUMBER_LEAST && fabs(value) <= NUMBER_MOST);
+}
+
+static bool is_moderate3(vec3 v) {
+    return is_moderate(v.x) && is_moderate(v.y) && is_moderate(v.z);
+}
+
+static bool has_moderate_positions(const struct mesh *mesh) {
+    for (uint32_t i = 0; i < mesh->position_count; i++)
+        if (!is_moderate3(mesh->positions[i]))
+            return false;
+    return true;
+}
+
+static int compare_numbers(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+// How many of the sorted heights are no greater than `most`.
+static uint32_t count_lower(const double *sorted, uint32_t count, double most) {
+    uint32_t low = 0, high = count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (sorted[middle] <= most)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+// ---- models
+
+static double frobenius(const mat3 *m) {
+    double sum = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            sum += m->m[i][k] * m->m[i][k];
+    return sqrt(sum);
+}
+
+static bool is_even(const struct flattening *f, const affine3 *map, double inverse) {
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            if (!is_moderate(map->linear.m[i][k] * f->factor))
+                return false;
+    const double product = frobenius(&map->linear) * inverse;
+    return is_moderate3(vec3_mul(map->offset, f->factor)) && product <= UNEVEN_MOST;
+}
+
+// At which height triangles of a model may lose their area; negative: the model cannot be an instance.
+static double critical_height(const struct flattening *f, const struct scene_body *body) {
+    const affine3 map = flatten_map(f, body), back = transform_inverse(map);
+    const double inverse = frobenius(&back.linear);
+    if (!is_even(f, &map, inverse))
+        return -1;
+    return flatten_reach(f, body) * inverse * (f->out->is_double ? HEIGHT_STEPS64 : HEIGHT_STEPS);
+}
+
+struct judging {
+    struct flattening *f;
+    struct shared_mesh *shared;
+    double *height, *sorted, *critical; // the last by use
+};
+
+// Marks the models that are instances with 1, and says what keeps the others from it.
+static double choose_models(struct judging *j) {
+    struct sharing *sharing = &j->f->sharing;
+    struct shared_mesh *shared = j->shared;
+    const uint32_t count = shared->mesh->triangle_count;
+    double most = 0;
+    for (uint32_t i = 0; i < shared->use_count; i++) {
+        const uint32_t body = sharing->uses[shared->first_use + i];
+        const double critical = critical_height(j->f, &j->f->scene->bodies[body]);
+        const bool few = count_lower(j->sorted, count, critical) <= count / COPIED_PART;
+        if (critical >= 0 && few) {
+            sharing->instance[body] = 1;
+            shared->instances++;
+            most = fmax(most, critical);
+        } else {
+            shared->reason = critical < 0 ? FLAT_REASON_UNEVEN : FLAT_REASON_THIN;
+        }
+    }
+    return most;
+}
+
+static bool list_copied(struct judging *j, double most) {
+    struct shared_mesh *shared = j->shared;
+    const uint32_t count = shared->mesh->triangle_count;
+    shared->copied = heap_alloc(((size_t)count_lower(j->sorted, count, most) + 1) * sizeof *shared->copied);
+    if (!shared->copied)
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        if (j->height[i] <= most)
+            shared->copied[shared->copied_count++] = i;
+    return true;
+}
+
+static bool judge_models(struct judging *j) {
+    const struct mesh *mesh = j->shared->mesh;
+    struct heights heights = {mesh, j->height};
+    if (!has_moderate_positions(mesh)) {
+        j->shared->reason = FLAT_REASON_UNEVEN;
+        return true;
+    }
+    parallel_for(mesh->triangle_count, PIECE, measure_heights, &heights);
+    for (uint32_t i = 0; i < mesh->triangle_count; i++)
+        j->sorted[i] = j->height[i];
+    qsort(j->sorted, mesh->triangle_count, sizeof *j->sorted, compare_numbers);
+    return list_copied(j, choose_models(j));
+}
+
+static enum flatten_fault judge_mesh(struct flattening *f, struct shared_mesh *shared) {
+    const size_t count = shared->mesh->triangle_count;
+    struct judging j = {.f = f, .shared = shared};
+    j.height = heap_alloc(2 * (count + 1) * sizeof *j.height);
+    if (!j.height)
+        return FLATTEN_NO_MEMORY;
+    j.sorted = j.height + count;
+    const bool done = judge_models(&j);
+    free(j.height);
+    return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
+}
+
+// ---- the choice
+
+static int64_t word_bytes(uint64_t words) {
+    return (int64_t)(words * sizeof(struct gpu_word));
+}
+
+// What a triangle takes that models share, or that is copied beside such ones.
+static int64_t placed_bytes(bool smooth) {
+    return word_bytes(PLACED_WORDS) + (smooth ? 3 * word_bytes(NORMAL64_WORDS) : 0) + NODE_BYTES;
+}
+
+static void count_bytes(const struct flattening *f, struct shared_mesh *shared) {
+    const struct flat_strides *strides = &f->out->strides;
+    const int64_t triangles = shared->mesh->triangle_count;
+    int64_t copies = 0, own = 0;
+    bool any_smooth = false;
+    for (uint32_t i = 0; i < shared->use_count; i++) {
+        const uint32_t body = f->sharing.uses[shared->first_use + i];
+        const bool smooth = f->scene->bodies[body].smooth;
+        if (!f->sharing.instance[body])
+            continue;
+        any_smooth = any_smooth || smooth;
+        copies +=
+            triangles * (word_bytes(strides->triangle + (smooth ? 3 * strides->normal : 0)) + NODE_BYTES);
+        own += word_bytes(ENTRY64_WORDS + INSTANCE_WORDS + NODE_WORDS) +
+               shared->copied_count * placed_bytes(false);
+    }
+    shared->saved_bytes = copies - own - (shared->instances ? triangles * placed_bytes(any_smooth) : 0);
+}
+
+static void keep_copies(struct flattening *f, struct shared_mesh *shared, enum flat_reason reason) {
+    for (uint32_t i = 0; i < shared->use_count; i++)
+        f->sharing.instance[f->sharing.uses[shared->first_use + i]] = 0;
+    if (shared->instances)
+        shared->reason = reason;
+    shared->instances = shared->copied_count = 0;
+}
+
+// Of triangles that are not shared: in a scene with instances their records are larger.
+static int64_t lost_bytes(const struct flattening *f) {
+    int64_t triangles = f->triangle_total;
+    for (uint32_t i = 0; i < f->sharing.mesh_count; i++)
+        triangles -= (int64_t)f->sharing.meshes[i].instances * f->sharing.meshes[i].mesh->triangle_count;
+    return triangles * (word_bytes(PLACED_WORDS) - word_bytes(f->out->strides.triangle));
+}
+
+static void decide(struct flattening *f) {
+    struct sharing *sharing = &f->sharing;
+    const enum flat_sharing wanted = f->input->sharing;
+    int64_t saved = 0;
+    for (uint32_t i = 0; i < sharing->mesh_count; i++) {
+        count_bytes(f, &sharing->meshes[i]);
+        if (wanted == FLAT_CHEAPER && sharing->meshes[i].saved_bytes <= 0)
+            keep_copies(f, &sharing->meshes[i], FLAT_REASON_SMALL);
+        saved += sharing->meshes[i].instances ? sharing->meshes[i].saved_bytes : 0;
+    }
+    if (wanted == FLAT_CHEAPER && saved - lost_bytes(f) < SAVED_LEAST)
+        for (uint32_t i = 0; i < sharing->mesh_count; i++)
+            keep_copies(f, &sharing->meshes[i], FLAT_REASON_SMALL);
+}
+
+// Without a look at the triangles: whether it would be too little if all models could be instances, or copies
+// are asked for.
+static bool is_decided(struct flattening *f) {
+    struct sharing *sharing = &f->sharing;
+    int64_t saved = 0;
+    if (f->input->sharing == FLAT_SHARED)
+        return false;
+    for (uint32_t i = 0; i < sharing->mesh_count; i++) {
+        struct shared_mesh *shared = &sharing->meshes[i];
+        for (uint32_t k = 0; k < shared->use_count; k++)
+            sharing->instance[sharing->uses[shared->first_use + k]] = 1;
+        shared->instances = shared->use_count;
+        count_bytes(f, shared);
+        saved += shared->saved_bytes > 0 ? shared->saved_bytes : 0;
+        keep_copies(f, shared, f->input->sharing == FLAT_COPIES ? FLAT_REASON_COPIES : FLAT_REASON_SMALL);
+    }
+    return f->input->sharing == FLAT_COPIES || saved < SAVED_LEAST;
+}
+
+// ---- which models share a mesh
+
+struct use {
+    const struct mesh *mesh;
+    uint32_t body;
+};
+
+static int compare_uses(const void *a, const void *b) {
+    const struct use *x = a, *y = b;
+    if (x->mesh != y->mesh)
+        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
+    return x->body < y->body ? -1 : x->body > y->body;
+}
+
+static int compare_meshes(const void *a, const void *b) {
+    const struct shared_mesh *x = a, *y = b;
+    return x->first_use < y->first_use ? -1 : x->first_use > y->first_use;
+}
+
+// Meshes of two models at least, in the order of their first models: while they are sorted `first_use` is
+// that body, after it a place in `uses`.
+static bool list_meshes(struct flattening *f, const struct use *uses, uint32_t count) {
+    struct sharing *sharing = &f->sharing;
+    sharing->meshes = heap_zeroed((size_t)count / 2 + 1, sizeof *sharing->meshes);
+    sharing->uses = heap_alloc(((size_t)count + 1) * sizeof *sharing->uses);
+    sharing->instance = heap_zeroed((size_t)f->scene->body_count + 1, sizeof *sharing->instance);
+    if (!sharing->meshes || !sharing->uses || !sharing->instance)
+        return false;
+    for (uint32_t begin = 0, end; begin < count; begin = end) {
+        for (end = begin + 1; end < count && uses[end].mesh == uses[begin].mesh;)
+            end++;
+        for (uint32_t i = begin; i < end; i++)
+            sharing->uses[i] = uses[i].body;
+        if (end - begin > 1)
+            sharing->meshes[sharing->mesh_count++] =
+                (struct shared_mesh){.mesh = uses[begin].mesh, .first_use = begin, .use_count = end - begin};
+    }
+    return true;
+}
+
+static void order_meshes(struct sharing *sharing) {
+    for (uint32_t i = 0; i < sharing->mesh_count; i++) {
+        // The place, kept where no mesh has one yet.
+        sharing->meshes[i].root = sharing->meshes[i].first_use;
+        sharing->meshes[i].first_use = sharing->uses[sharing->meshes[i].first_use];
+    }
+    qsort(sharing->meshes, sharing->mesh_count, sizeof *sharing->meshes, compare_meshes);
+    for (uint32_t i = 0; i < sharing->mesh_count; i++)
+        sharing->meshes[i].first_use = sharing->meshes[i].root;
+}
+
+static enum flatten_fault find_meshes(struct flattening *f) {
+    struct use *uses = heap_alloc(((size_t)f->scene->body_count + 1) * sizeof *uses);
+    uint32_t count = 0;
+    if (!uses)
+        return FLATTEN_NO_MEMORY;
+    for (uint32_t i = 0; i < f->scene->body_count; i++)
+        if (f->scene->bodies[i].mesh && f->scene->bodies[i].triangle_count)
+            uses[count++] = (struct use){f->scene->bodies[i].mesh, i};
+    qsort(uses, count, sizeof *uses, compare_uses);
+    const bool done = list_meshes(f, uses, count);
+    free(uses);
+    if (done)
+        order_meshes(&f->sharing);
+    return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
+}
+
+// ---- the whole
+
+static enum flatten_fault report_uses(struct flattening *f) {
+    struct flat_scene *out = f->out;
+    out->uses = heap_alloc(((size_t)f->sharing.mesh_count + 1) * sizeof *out->uses);
+    if (!out->uses)
+        return FLATTEN_NO_MEMORY;
+    for (uint32_t i = 0; i < f->sharing.mesh_count; i++) {
+        const struct shared_mesh *shared = &f->sharing.meshes[i];
+        out->uses[out->use_count++] = (struct flat_use){.mesh = shared->mesh,
+                                                        .models = shared->use_count,
+                                                        .instances = shared->instances,
+                                                        .copied = shared->copied_count,
+                                                        .reason = shared->reason,
+                                                        .saved_bytes = shared->saved_bytes};
+    }
+    return FLATTEN_DONE;
+}
+
+// Numbers the instances, from 1 on in IR order.
+static bool number_instances(struct flattening *f) {
+    struct sharing *sharing = &f->sharing;
+    sharing->mesh_of = heap_alloc(((size_t)f->scene->body_count + 1) * sizeof *sharing->mesh_of);
+    if (!sharing->mesh_of)
+        return false;
+    for (uint32_t i = 0; i < f->scene->body_count; i++)
+        if (sharing->instance[i])
+            sharing->instance[i] = ++sharing->instance_count;
+    sharing->instance_count += sharing->instance_count != 0;
+    for (uint32_t i = 0; i < sharing->mesh_count; i++)
+        for (uint32_t k = 0; k < sharing->meshes[i].use_count; k++)
+            sharing->mesh_of[sharing->uses[sharing->meshes[i].first_use + k]] = i;
+    return true;
+}
+
+struct shared_mesh *flatten_shared(const struct flattening *f, uint32_t body) {
+    return f->sharing.instance[body] ? &f->sharing.meshes[f->sharing.mesh_of[body]] : NULL;
+}
+
+uint64_t flatten_copied(const struct flattening *f) {
+    uint64_t sum = f->triangle_total;
+    for (uint32_t i = 0; i < f->sharing.mesh_count; i++) {
+        const struct shared_mesh *shared = &f->sharing.meshes[i];
+        sum -= (uint64_t)shared->instances * (shared->mesh->triangle_count - shared->copied_count);
+    }
+    return sum;
+}
+
+// What is copied, and what is shown in all: a triangle's number must fit.
+static enum flatten_fault check_counts(const struct flattening *f) {
+    const uint64_t most = f->input->limits->value[LIMIT_SCENE_TRIANGLES], copied = flatten_copied(f);
+    const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
+    if (copied <= most)
+        return FLATTEN_DONE;
+    diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
+             "models have %" PRIu64 " triangles of their own, because %s; the limit %s is %" PRIu64, copied,
+             f->input->sharing == FLAT_COPIES ? "none can share a mesh here"
+                                              : "not all that show the same mesh can share it",
+             info->name, most);
+    if (copied <= info->greatest)
+        diag_help(f->input->sink, "if this is intended, raise the limit: --limit %s=%" PRIu64, info->name,
+                  copied);
+    return FLATTEN_REPORTED;
+}
+
+enum flatten_fault flatten_share(struct flattening *f) {
+    enum flatten_fault fault = find_meshes(f);
+    if (fault != FLATTEN_DONE)
+        return fault;
+    if (!is_decided(f)) {
+        for (uint32_t i = 0; i < f->sharing.mesh_count && fault == FLATTEN_DONE; i++)
+            fault = judge_mesh(f, &f->sharing.meshes[i]);
+        if (fault != FLATTEN_DONE)
+            return fault;
+        decide(f);
+    }
+    if (!number_instances(f))
+        return FLATTEN_NO_MEMORY;
+    fault = check_counts(f);
+    return fault == FLATTEN_DONE ? report_uses(f) : fault;
+}
+
+void flatten_share_finish(struct sharing *sharing) {
+    for (uint32_t i = 0; i < sharing->mesh_count; i++) {
+        free(sharing->meshes[i].copied);
+        free(sharing->meshes[i].boxes);
+    }
+    free(sharing->meshes);
+    free(sharing->uses);
+    free(sharing->mesh_of);
+    free(sharing->instance);
+}
