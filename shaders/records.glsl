@@ -17,6 +17,16 @@ dvec3 double3_of(uvec4 a, uvec2 b) {
     record.name = double3_of(FETCH(SOURCE, at + word64), FETCH(SOURCE, at + word64 + 1u).xy);
 #define LOAD_REAL(name, word, component, word64, half64)                                                     \
     record.name = packDouble2x32(FETCH(SOURCE, at + word64).half64);
+// A double from the float that it begins with and its last bits: of the float as a double those are 0.
+double split_double(float first, uint rest) {
+    return packDouble2x32(unpackDouble2x32(double(first)) | uvec2(rest, 0u));
+}
+dvec3 split_double3(vec3 first, uvec3 rest) {
+    return dvec3(split_double(first.x, rest.x), split_double(first.y, rest.y), split_double(first.z, rest.z));
+}
+#define LOAD_SPLIT3(name, word, word64)                                                                      \
+    record.name = split_double3(uintBitsToFloat(FETCH(SOURCE, at + word64).xyz),                             \
+                                FETCH(SOURCE, at + word64 + TRIANGLE_REST).xyz);
 #define WORD_OF(word, word64)       word64
 #define PART_OF(component, part64)  part64
 #define WORDS_OF(record)            record##64_WORDS
@@ -24,6 +34,7 @@ dvec3 double3_of(uvec4 a, uvec2 b) {
 #define LOAD_REAL3(name, word, word64) record.name = uintBitsToFloat(FETCH(SOURCE, at + word).xyz);
 #define LOAD_REAL(name, word, component, word64, half64)                                                     \
     record.name = uintBitsToFloat(FETCH(SOURCE, at + word).component);
+#define LOAD_SPLIT3                 LOAD_REAL3
 #define WORD_OF(word, word64)       word
 #define PART_OF(component, part64)  component
 #define WORDS_OF(record)            record##_WORDS
@@ -34,16 +45,18 @@ dvec3 double3_of(uvec4 a, uvec2 b) {
     record.name = uintBitsToFloat(FETCH(SOURCE, at + WORD_OF(word, word64)).PART_OF(component, component64));
 #define LOAD_UINT(name, word, component, word64, component64)                                                \
     record.name = FETCH(SOURCE, at + WORD_OF(word, word64)).PART_OF(component, component64);
-#define DEFINE_LOADER(type, loader, words, FIELDS)                                                           \
+#define DEFINE_LOADER_OF(type, loader, words, FIELDS, LOAD_PLACE)                                            \
     type loader(uint index) {                                                                                \
         uint at = index * words;                                                                             \
         type record;                                                                                         \
-        FIELDS(LOAD_REAL3, LOAD_REAL, LOAD_FLOAT3, LOAD_FLOAT, LOAD_UINT)                                     \
+        FIELDS(LOAD_PLACE, LOAD_REAL, LOAD_FLOAT3, LOAD_FLOAT, LOAD_UINT)                                     \
         return record;                                                                                       \
     }
+#define DEFINE_LOADER(type, loader, words, FIELDS) DEFINE_LOADER_OF(type, loader, words, FIELDS, LOAD_REAL3)
 
 struct node_record { MEMBERS(NODE_FIELDS) };
 struct triangle_record { MEMBERS(TRIANGLE_FIELDS) };
+struct outline_record { MEMBERS(OUTLINE_FIELDS) };
 struct sphere_record { MEMBERS(SPHERE_FIELDS) };
 struct body_record { MEMBERS(BODY_FIELDS) };
 struct material_record { MEMBERS(MATERIAL_FIELDS) };
@@ -57,7 +70,8 @@ DEFINE_LOADER(node_record, load_sphere_node, NODE_WORDS, NODE_FIELDS)
 #undef SOURCE
 #ifndef INSTANCES
 #define SOURCE triangles
-DEFINE_LOADER(triangle_record, load_triangle, WORDS_OF(TRIANGLE), TRIANGLE_FIELDS)
+DEFINE_LOADER_OF(triangle_record, load_triangle, WORDS_OF(TRIANGLE), TRIANGLE_FIELDS, LOAD_SPLIT3)
+DEFINE_LOADER(outline_record, load_outline, WORDS_OF(TRIANGLE), OUTLINE_FIELDS)
 #undef SOURCE
 #endif
 #define SOURCE spheres

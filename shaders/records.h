@@ -36,11 +36,22 @@
 #define TRIANGLE64_WORDS 6
 #define TRIANGLE_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                    \
     REAL3(v0, 0, 0)                                                                                          \
-    REAL3(v1, 1, 2)                                                                                          \
-    REAL3(v2, 2, 4)                                                                                          \
-    UINT(number, 0, w, 1, z)                                                                                 \
+    REAL3(v1, 1, 1)                                                                                          \
+    REAL3(v2, 2, 2)                                                                                          \
+    UINT(number, 0, w, 0, w)                                                                                 \
     UINT(body, 1, w, 1, w)                                                                                   \
-    UINT(shade, 2, w, 3, z) /* material and flags */
+    UINT(shade, 2, w, 2, w) /* material and flags */
+
+/* REAL3 of a triangle in double precision, and of no other record: in x, y, z of word64 the floats that the
+   numbers begin with, cut off, and in those of word64 + TRIANGLE_REST the SPLIT_BITS last bits of each. So a
+   kernel sees by the first three words that a ray passes a triangle by, and seldom reads the others. For
+   numbers that are 0 or lie among the normal floats. OUTLINE are those floats alone. */
+#define TRIANGLE_REST 3
+#define SPLIT_BITS    29
+#define OUTLINE_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                     \
+    FLOAT3(v0, 0, 0)                                                                                         \
+    FLOAT3(v1, 1, 1)                                                                                         \
+    FLOAT3(v2, 2, 2)
 
 /* A triangle where the scene has instances, in place of the one above: in the space of its mesh. Doubles in
    both precisions: DOUBLE(name, word, half), UINT(name, word, component). */

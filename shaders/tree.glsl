@@ -73,8 +73,9 @@ struct node_frame {
 #endif
 
 // The larger and the smaller of two floats, by their bits: lavapipe's own take three instructions, for NaN. Of two
-// negative ones they give the wrong one, which no box notices: rays begin at 0.
-#ifdef DOUBLE_PRECISION
+// negative ones they give the wrong one, which no box notices where rays begin at 0; in an instance's tree they may begin
+// before.
+#if defined(DOUBLE_PRECISION) || defined(INSTANCES)
 #define MOST(a, b)  max(a, b)
 #define LEAST(a, b) min(a, b)
 #else

@@ -162,6 +162,35 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     }
 }
 
+#if defined(DOUBLE_PRECISION) && !defined(INSTANCES) && !defined(NO_OUTLINES)
+#include "misses.glsl"
+#ifdef FETCH_TEXELS
+#define OUTLINES_WAIT
+
+// Items of a node, as bits counted from `first`.
+void test_kept(inout uint kept, uint first, bool any, inout triangle_search search, inout hit_record hit,
+               inout uint iterations) {
+    do {
+        uint bit = kept & (0u - kept);
+        iterations += bit != 0u ? 1u : 0u;
+        kept ^= bit;
+        test_triangle(first + (floatBitsToUint(float(int(bit))) >> 23u) - 127u, bit != 0u, search, hit);
+        if (any && hit.item != NO_ITEM)
+            kept = 0u;
+    } while (kept != 0u);
+}
+#endif
+#define OUTLINES_BEGIN(search)                                                                               \
+    outline_ray outline = make_outline_ray(search);                                                          \
+    uint kept = 0u, kept_first = 0u;
+#define SKIP_MISSED(item)                                                                                    \
+    if (misses(item, outline, search.ray))                                                                   \
+        continue;
+#else
+#define OUTLINES_BEGIN(search)
+#define SKIP_MISSED(item)
+#endif
+
 // `any`: the first hit found ends the search. Stops unfinished at ITERATION_LIMIT. true: rounding leaves open what
 // is hit; retrace_triangles decides.
 bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout ray_doubts doubts,
@@ -175,8 +204,16 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
     STACK_RESUME(TRIANGLE_STACK, TREE_TRIANGLES, group)
     LONG_TAKE(search.wrong, search.doubt)
     INSTANCES_BEGIN(ray, start, direction, group)
+    OUTLINES_BEGIN(search)
+#ifdef OUTLINES_WAIT
+    do { // from one triangle that is not rejected to the next
+#endif
     do {
         INSTANCE_NEXT(ray, start, direction)
+#ifdef OUTLINES_WAIT
+        // Always so. On lavapipe a lane that has left a loop keeps what it had only through a branch.
+        if (iterations < ITERATION_LIMIT) {
+#endif
         iterations += 2u; // this loop, and the inner one where no lane enters it
         if (HAS_COUNTERS)
             counted_nodes++;
@@ -196,12 +233,24 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+#ifdef OUTLINES_WAIT
+            kept |= there && !misses(item, outline, search.ray) ? bit : 0u;
+#else
+            SKIP_MISSED(item)
             test_triangle(INSTANCE_ITEM(item), there, search, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;
             }
+#endif
         END_WHILE(items != 0u && iterations < ITERATION_LIMIT)
+#ifdef OUTLINES_WAIT
+        kept_first = kept != 0u ? node.first_item : kept_first;
+        }
+    } while (more && kept == 0u && iterations < TRAVERSAL_LIMIT);
+    test_kept(kept, kept_first, any, search, hit, iterations);
+    more = has_nodes(group) && !(any && hit.item != NO_ITEM);
+#endif
     } while (more && INSTANCE_SEEN && iterations < TRAVERSAL_LIMIT);
     INSTANCES_END(more, iterations, TRAVERSAL_LIMIT)
     STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)

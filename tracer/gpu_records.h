@@ -43,6 +43,31 @@ static inline void gpu_pack_float3(struct gpu_word *words, uint32_t word, vec3 v
 static inline void gpu_pack_double(struct gpu_word *words, uint32_t word, uint32_t part, double value) {
     memcpy((unsigned char *)(words + word) + part * sizeof(uint32_t), &value, sizeof value);
 }
+// What TRIANGLE_REST says: bits of a double cut off after those of a float, and the rest.
+static inline void gpu_pack_split(struct gpu_word *words, uint32_t word, uint32_t part, double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    const uint64_t rest = bits & ((UINT64_C(1) << SPLIT_BITS) - 1);
+    const uint64_t cut = bits - rest;
+    double first;
+    memcpy(&first, &cut, sizeof first);
+    gpu_pack_float(words, word, part, first);
+    gpu_pack_uint(words, word + TRIANGLE_REST, part, (uint32_t)rest);
+}
+static inline void gpu_pack_split3(struct gpu_word *words, uint32_t word, vec3 value) {
+    gpu_pack_split(words, word, GPU_PART_x, value.x);
+    gpu_pack_split(words, word, GPU_PART_y, value.y);
+    gpu_pack_split(words, word, GPU_PART_z, value.z);
+}
+// The number again that gpu_pack_split packed.
+static inline double gpu_split_value(float first, uint32_t rest) {
+    double value = first;
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    bits |= rest;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
 static inline void gpu_pack_double3(struct gpu_word *words, uint32_t word, vec3 value) {
     const double numbers[3] = {value.x, value.y, value.z};
     memcpy(words + word, numbers, sizeof numbers);
@@ -57,7 +82,8 @@ static inline void gpu_pack_double3(struct gpu_word *words, uint32_t word, vec3 
 #define GPU_PACK_UINT(name, word, component, word64, component64)                                            \
     gpu_pack_uint(words, word, GPU_PART_##component, record->name);
 
-#define GPU_PACK64_REAL3(name, word, word64) gpu_pack_double3(words, word64, record->name);
+#define GPU_PACK64_REAL3(name, word, word64)  gpu_pack_double3(words, word64, record->name);
+#define GPU_PACK64_SPLIT3(name, word, word64) gpu_pack_split3(words, word64, record->name);
 #define GPU_PACK64_REAL(name, word, component, word64, half64)                                               \
     gpu_pack_double(words, word64, GPU_PART_##half64, record->name);
 #define GPU_PACK64_FLOAT3(name, word, word64) gpu_pack_float3(words, word64, record->name);
@@ -67,7 +93,7 @@ static inline void gpu_pack_double3(struct gpu_word *words, uint32_t word, vec3 
     gpu_pack_uint(words, word64, GPU_PART_##component64, record->name);
 
 // `struct gpu_x`, and gpu_pack_x, which writes a record's words: X_WORDS, in double precision X64_WORDS.
-#define GPU_RECORD(name, NAME)                                                                               \
+#define GPU_RECORD_OF(name, NAME, GPU_PACK64_PLACE)                                                          \
     struct gpu_##name {                                                                                      \
         NAME##_FIELDS(GPU_MEMBER_REAL3, GPU_MEMBER_REAL, GPU_MEMBER_FLOAT3, GPU_MEMBER_FLOAT,                \
                       GPU_MEMBER_UINT)                                                                       \
@@ -76,15 +102,17 @@ static inline void gpu_pack_double3(struct gpu_word *words, uint32_t word, vec3 
                                        struct gpu_word *words) {                                             \
         memset(words, 0, (is_double ? NAME##64_WORDS : NAME##_WORDS) * sizeof *words);                       \
         if (is_double) {                                                                                     \
-            NAME##_FIELDS(GPU_PACK64_REAL3, GPU_PACK64_REAL, GPU_PACK64_FLOAT3, GPU_PACK64_FLOAT,            \
+            NAME##_FIELDS(GPU_PACK64_PLACE, GPU_PACK64_REAL, GPU_PACK64_FLOAT3, GPU_PACK64_FLOAT,            \
                           GPU_PACK64_UINT)                                                                   \
         } else {                                                                                             \
             NAME##_FIELDS(GPU_PACK_REAL3, GPU_PACK_REAL, GPU_PACK_FLOAT3, GPU_PACK_FLOAT, GPU_PACK_UINT)     \
         }                                                                                                    \
     }
 
+#define GPU_RECORD(name, NAME) GPU_RECORD_OF(name, NAME, GPU_PACK64_REAL3)
+
 GPU_RECORD(node, NODE)
-GPU_RECORD(triangle, TRIANGLE)
+GPU_RECORD_OF(triangle, TRIANGLE, GPU_PACK64_SPLIT3)
 GPU_RECORD(sphere, SPHERE)
 GPU_RECORD(normal, NORMAL)
 GPU_RECORD(body, BODY)

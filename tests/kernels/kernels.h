@@ -13,6 +13,8 @@ KERNEL(layout64)
 KERNEL(probe64)
 // By other ways.
 KERNEL(probe_alternative)
+KERNEL(probe64_whole) // every triangle is tested in double precision
+KERNEL(probe64_bold)  // rejected in single precision, with no margin for its errors
 
 #undef KERNEL
 

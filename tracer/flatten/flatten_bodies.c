@@ -239,14 +239,22 @@ static void pack_triangle(const struct flattening *f, const struct gpu_triangle 
     gpu_pack_placed(&record, to);
 }
 
+// 0 for what is below all normal floats: no part of the scene, whose size is 1, and its record could not hold
+// it (shaders/records.h, TRIANGLE_REST).
+static double without_trace(double value) {
+    return fabs(value) < FLT_MIN ? 0 : value;
+}
+
 // `corners` relative to the origin. Its record, where there is a tree; else its item, which flatten_triangles
 // leaves out where the triangle has no area.
 static void put_triangle(const struct flattening *f, const vec3 corners[3], uint32_t place, uint32_t number,
                          uint32_t body, uint32_t shade) {
     const bool is_double = f->out->is_double;
     vec3 flat[3];
-    for (int k = 0; k < 3; k++)
-        flat[k] = rounded3(f, vec3_mul(corners[k], f->factor));
+    for (int k = 0; k < 3; k++) {
+        vec3 v = rounded3(f, vec3_mul(corners[k], f->factor));
+        flat[k] = (vec3){without_trace(v.x), without_trace(v.y), without_trace(v.z)};
+    }
     const uint32_t corner = best_corner(flat);
     struct gpu_triangle record = {.v0 = flat[0],
                                   .v1 = flat[1],

@@ -1,4 +1,5 @@
 #include "flat_kit.h"
+#include "tracer/gpu_records.h"
 
 #include "grammar/schema.h"
 #include "shaders/gpu_scene.h"
@@ -191,19 +192,19 @@ float kit_float(uint32_t bits) {
 
 vec3 kit_vertex(const struct flat_scene *flat, uint32_t item, int corner) {
     if (flat->is_double) {
-        const struct gpu_word *words =
-            &flat->triangles.words[(size_t)TRIANGLE64_WORDS * item + 2 * (size_t)corner];
-        double place[3];
-        memcpy(place, words, sizeof place);
-        return (vec3){place[0], place[1], place[2]};
+        const struct gpu_word *first =
+            &flat->triangles.words[(size_t)TRIANGLE64_WORDS * item + (size_t)corner];
+        const struct gpu_word *rest = first + TRIANGLE_REST;
+        return (vec3){gpu_split_value(kit_float(first->x), rest->x),
+                      gpu_split_value(kit_float(first->y), rest->y),
+                      gpu_split_value(kit_float(first->z), rest->z)};
     }
     const struct gpu_word *word = &flat->triangles.words[(size_t)TRIANGLE_WORDS * item + (size_t)corner];
     return (vec3){kit_float(word->x), kit_float(word->y), kit_float(word->z)};
 }
 
 uint32_t kit_number(const struct flat_scene *flat, uint32_t item) {
-    const struct gpu_word *words = &flat->triangles.words[(size_t)flat->strides.triangle * item];
-    return flat->is_double ? words[1].z : words[0].w;
+    return flat->triangles.words[(size_t)flat->strides.triangle * item].w;
 }
 
 uint32_t kit_find_triangle(const struct flat_scene *flat, uint32_t number) {

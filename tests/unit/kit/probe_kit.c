@@ -70,13 +70,16 @@ bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scen
         [CONSTANT_ALTERNATIVE_START] = way == PROBE_POSITIVE};
     const struct kernel *const kernels[2][2] = {{&kernel_probe_storage, &kernel_probe_texels},
                                                 {&kernel_probe64_storage, &kernel_probe64_texels}};
-    const struct kernel *const other[2] = {&kernel_probe_alternative_storage,
-                                           &kernel_probe_alternative_texels};
+    const struct kernel *const other[][2] = {
+        [PROBE_BOUND] = {&kernel_probe_alternative_storage, &kernel_probe_alternative_texels},
+        [PROBE_POSITIVE] = {&kernel_probe_alternative_storage, &kernel_probe_alternative_texels},
+        [PROBE_WHOLE] = {&kernel_probe64_whole_storage, &kernel_probe64_whole_texels},
+        [PROBE_BOLD] = {&kernel_probe64_bold_storage, &kernel_probe64_bold_texels}};
     const bool texels = gpu_fetches_texels(gpu);
     *probe =
         (struct probe){.gpu = gpu, .flat = flat, .is_double = flat->is_double, .items = list_items(flat)};
     probe->source = (struct gpu_program_source){
-        .kernel = way == PROBE_EXACT ? kernels[flat->is_double][texels] : other[texels],
+        .kernel = way == PROBE_EXACT ? kernels[flat->is_double][texels] : other[way][texels],
         .constants = constants,
         .constant_count = CONSTANT_COUNT,
         .push_bytes = sizeof(struct dispatch_block)};

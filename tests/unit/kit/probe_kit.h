@@ -46,12 +46,14 @@ struct probe {
 
 // `packed`: keep waiting groups in one word, as for small trees. false: no memory on the device.
 bool probe_init(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed);
-// The ways in which the first search may end that the tracer does not use, in single precision, to see that a
-// test finds what they lose: hits beyond the bound of their error alone, or any before the ray's start.
+// Ways to search that the tracer does not use, to compare with its own, and to see that a test finds what
+// they lose.
 enum probe_way {
     PROBE_EXACT,    // the tracer's own
-    PROBE_BOUND,    // t beyond the bound of its error, for all triangles
-    PROBE_POSITIVE, // t > 0
+    PROBE_BOUND,    // in single precision: t beyond the bound of its error, for all triangles
+    PROBE_POSITIVE, // in single precision: t > 0
+    PROBE_WHOLE,    // in double precision: every triangle is tested in it
+    PROBE_BOLD,     // in double precision: rejected in single, with no margin for its errors
 };
 bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scene *flat, bool packed,
                     enum probe_way way);

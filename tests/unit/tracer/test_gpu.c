@@ -162,9 +162,10 @@ struct all_words {
         sphere[MOST_WORDS], body[MOST_WORDS], material[MOST_WORDS], light[MOST_WORDS], normal[MOST_WORDS];
 };
 
-// Every number gets a value of its own that a float holds.
+// Every number gets a value of its own, with digits that only a double holds.
 static double next_number(double *last) {
-    return *last += 1;
+    *last += 1;
+    return *last * (1 + 0x1p-40 + 0x1p-50);
 }
 #define FILL_REAL3(name, ...)  record->name = (vec3){next_number(last), next_number(last), next_number(last)};
 #define FILL_NUMBER(name, ...) record->name = next_number(last);
