@@ -122,7 +122,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
 awk 'BEGIN { print "glint: 1\nmodels:"; for (i = 0; i < 450; i++) print "  - {mesh: one.obj}" }' >shared.yaml
 tells "a mesh counts once" 0 - "$glint" check shared.yaml --limit scene-triangles=1 --only W401
 awk 'BEGIN { print "glint: 1\nmodels:"
-  for (i = 0; i < 450; i++) { print "  - {mesh: one" i ".obj}"; print "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3" >("one" i ".obj"); close("one" i ".obj") } }' >instances.yaml
+  for (i = 0; i < 450; i++) { print "  - {mesh: one" i ".obj}"; printf "v %d 0 0\nv %d.5 0 0\nv %d 1 0\nf 1 2 3\n", i, i, i >("one" i ".obj"); close("one" i ".obj") } }' >instances.yaml
 tells "meshes past a limit are one error" 1 'raise the limit: --limit scene-triangles=450' \
     "$glint" check instances.yaml --limit scene-triangles=100
 ok "with their number" grep -q '= note: 349 further models do not fit either; with all of them the scene has 450 triangles' out.txt

@@ -229,7 +229,7 @@ static bool make_band(struct renderer *renderer) {
                   (COUNTER_COUNT + lists) * sizeof(uint32_t)) &&
            gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, zero, sizeof zero) &&
            upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block)) &&
-           (!at_once || renderer_make_at_once(renderer));
+           renderer_make_at_once(renderer);
 }
 
 // What depends on the settings: the band's buffers and the kernel.

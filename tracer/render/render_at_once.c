@@ -17,13 +17,20 @@ static bool create(struct renderer *renderer, uint32_t binding, enum gpu_use use
     return renderer->buffers[binding] != NULL;
 }
 
+// A kernel names these buffers even where it does not trace at once.
+static bool make_named(struct renderer *renderer, uint64_t picture) {
+    return create(renderer, BINDING_SAMPLES, GPU_UNIFORM, sizeof(struct samples_block)) &&
+           create(renderer, BINDING_PICTURE, GPU_STORAGE, picture);
+}
+
 bool renderer_make_at_once(struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint64_t picture = (uint64_t)settings->width * settings->height * 3 * sizeof(float);
     const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
     const bool has_sums = settings->samples > renderer->samples_at_once;
-    if (!create(renderer, BINDING_SAMPLES, GPU_UNIFORM, sizeof(struct samples_block)) ||
-        !create(renderer, BINDING_PICTURE, GPU_STORAGE, picture) ||
+    if (renderer->samples_at_once == 0)
+        return gpu_fetches_texels(renderer->gpu) || make_named(renderer, 0);
+    if (!make_named(renderer, picture) ||
         !create(renderer, BINDING_SUMS, GPU_STORAGE, has_sums ? slots * sizeof(struct gpu_word) : 0))
         return false;
     renderer->picture = gpu_buffer_create(renderer->gpu, GPU_HOST, picture);

@@ -134,7 +134,7 @@ bool renderer_is_wanted(const struct renderer_frame *run, double part);
 bool renderer_write_samples(struct renderer *renderer, uint32_t first, uint32_t count);
 // Records what follows a pass of such a frame, at the end of it.
 bool renderer_follow_pass(struct renderer_frame *run, bool ends);
-// Their buffers, and the kernel that resolves them. false: see gpu_error.
+// Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
 // From a band's sums, as the kernel leaves them, to their pixels of the picture.

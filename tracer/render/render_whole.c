@@ -5,7 +5,7 @@
 
 static bool clear_counters(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
-    renderer->pending = 0;
+    renderer->pending = renderer->taken = renderer->restarts = 0;
     for (int i = 0; i < COUNTER_COUNT; i++)
         run->counters[i] = 0;
     for (int i = 0; i < COUNTER_KINDS; i++)
