@@ -12,8 +12,8 @@
 // glint's is that of bvh_build, and in the row `+ items` with the boxes made from the triangles and the
 // triangles brought into the leaves' order.
 #include "bench/clocks.h"
+#include "bench/embree/peer_embree.h"
 #include "bench/meshes.h"
-#include "bench/peer_embree.h"
 #include "bench/presplit.h"
 #include "core/parallel.h"
 #include "core/vec3.h"

@@ -149,19 +149,17 @@ static void instances(struct strbuf *out, const struct flat_scene *flat) {
 }
 
 static void buffers(struct strbuf *out, const struct flat_scene *flat) {
-    enum {
-        WORD = sizeof(struct gpu_word)
-    };
+    const uint64_t word = sizeof(struct gpu_word);
     strbuf_cstr(out, "buffers\n");
-    buffer(out, "triangle tree", flat->triangle_nodes.count * WORD);
-    buffer(out, "triangles", flat->triangles.count * WORD);
-    buffer(out, "normals", flat->normals.count * WORD);
-    buffer(out, "sphere tree", flat->sphere_nodes.count * WORD);
-    buffer(out, "spheres", flat->spheres.count * WORD);
-    buffer(out, "bodies", flat->bodies.count * WORD);
-    buffer(out, "instances", flat->instances.count * WORD);
-    buffer(out, "materials", flat->materials.count * WORD);
-    buffer(out, "lights", flat->lights.count * WORD);
+    buffer(out, "triangle tree", flat->triangle_nodes.count * word);
+    buffer(out, "triangles", flat->triangles.count * word);
+    buffer(out, "normals", flat->normals.count * word);
+    buffer(out, "sphere tree", flat->sphere_nodes.count * word);
+    buffer(out, "spheres", flat->spheres.count * word);
+    buffer(out, "bodies", flat->bodies.count * word);
+    buffer(out, "instances", flat->instances.count * word);
+    buffer(out, "materials", flat->materials.count * word);
+    buffer(out, "lights", flat->lights.count * word);
     buffer(out, "background", flat->background_texels.bytes);
     strbuf_format(out, "triangles   %u in a tree of depth %u, %u without area dropped", flat->triangle_count,
                   flat->triangle_depth, flat->dropped_triangles);

@@ -35,9 +35,7 @@ static int judge_load(struct render_job *job) {
         timeline_add(job->timeline, "wait", STR(""), start);
     if (job->session.state != SESSION_LOADED || job->session.sink.errors)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
-    if (interrupt_signal())
-        return render_interrupted(job);
-    return cli_try_output(job->cli, job->output);
+    return interrupt_signal() ? render_interrupted(job) : cli_try_output(job->cli, job->output);
 }
 
 // Waits for the pixels. What the load has to say comes first, and alone if there are errors; then what was

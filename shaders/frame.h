@@ -49,11 +49,11 @@
 
 /* Push constants. */
 #define DISPATCH_FIELDS(FLOAT, UINT)                                                                         \
-    UINT(tile_begin) /* first tile of the band */                                                            \
-    UINT(tile_count) /* of the band; 64 slots each */                                                        \
-    UINT(grid_width) /* workgroups in x */                                                                   \
+    UINT(tile_begin)   /* first tile of the band */                                                          \
+    UINT(tile_count)   /* of the band; 64 slots each */                                                      \
+    UINT(grid_width)   /* workgroups in x */                                                                 \
     UINT(sample_index) /* samples whose sum lies in the output */                                            \
-    FLOAT(offset_x) /* of the sample inside the pixel */                                                     \
+    FLOAT(offset_x)    /* of the sample inside the pixel */                                                  \
     FLOAT(offset_y)                                                                                          \
     UINT(path_begin) /* slots of this dispatch, or places in the list that is read */                        \
     UINT(path_end)                                                                                           \
@@ -84,8 +84,8 @@
 /* State of a path, word k of slot s at k * slots + s: ray origin, throughput; direction, depth; radiance,
    segments; sum over lights, light; hit t, b1, b2, item; number of hit, stack size, kind of ray, spare;
    what the ray leaves: error of its start, b1, b2, item: kept between dispatches; then three words for each
-   refracted ray that waits: origin, throughput; direction, depth; what it leaves. Of paths traced at once, which take
-   places and not slots, the spare word is the path's number. In double precision places,
+   refracted ray that waits: origin, throughput; direction, depth; what it leaves. Of paths traced at once,
+   which take places and not slots, the spare word is the path's number. In double precision places,
    directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. With FEATURE_LONG_RAYS
    the words of long_rays.glsl lie between the two. */
 #define STATE_WORDS         7
@@ -99,18 +99,20 @@
    reads them after each dispatch, and sums what was added. */
 #define COUNTER_PENDING   0
 #define COUNTER_LONG_RAYS 1 /* samples with FAULT_ITERATIONS */
-/* Of samples traced at once: places that were taken, and paths that found none, in lists after the two others. */
+/* Of samples traced at once: places that were taken, and paths that found none, in lists after the two
+ * others. */
 #define COUNTER_PLACES   2
 #define COUNTER_RESTARTS 3
-/* By kind of fault: its pixels; the complement of the first one's number, which is y * width + x; and its word. */
+/* By kind of fault: its pixels; the complement of the first one's number, which is y * width + x; and its
+ * word. */
 #define COUNTER_FAULT_PIXELS 4
 #define COUNTER_FAULT_FIRST  8
 #define COUNTER_FAULT_WORD   12
 #define FAULT_KINDS          4
 #define COUNTER_SHARED       32
-#define COUNTER_BANKS     32
-#define COUNTER_BANK      32 /* words of one */
-#define COUNTER_COUNT     (COUNTER_SHARED + COUNTER_BANKS * COUNTER_BANK)
+#define COUNTER_BANKS        32
+#define COUNTER_BANK         32 /* words of one */
+#define COUNTER_COUNT        (COUNTER_SHARED + COUNTER_BANKS * COUNTER_BANK)
 /* In a bank. */
 #define COUNTER_REFLECTED     0
 #define COUNTER_REFRACTED     1
@@ -153,8 +155,8 @@
 /* Most samples of a pixel that are traced at once. */
 #define SAMPLES_AT_ONCE 64
 
-/* resolve.comp, in dispatch.read_list: adds the samples to the sums of those before; or shows them all in the picture,
-   and counts its faults; or finds the words of the first ones. */
+/* resolve.comp, in dispatch.read_list: adds the samples to the sums of those before; or shows them all in the
+   picture, and counts its faults; or finds the words of the first ones. */
 #define RESOLVE_ADD  0
 #define RESOLVE_SHOW 1
 #define RESOLVE_FIND 2

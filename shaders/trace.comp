@@ -251,6 +251,15 @@ bool decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray sh
     return retrace_triangles(start, aim, doubts, !own, hit, iterations);
 }
 
+// The same at once: GOES_ON with what the ray hits, or SUSPENDED. `sphere`: what it hits without triangles.
+uint decide_here(path_state p, bool own, ray_start start, light_ray shadow, ray_doubts doubts, hit_record sphere,
+                 bool fresh, inout hit_record hit, inout uint iterations) {
+    uint state = room_for_exact(fresh, iterations);
+    if (state == UNDECIDED && decide_exactly(p, own, start, shadow, doubts, sphere, iterations))
+        hit = sphere;
+    return state == SUSPENDED ? SUSPENDED : GOES_ON;
+}
+
 // From a surface: to its next light, or on with the path.
 uint go_on(uint slot, inout path_state p, surface s, ray_start start, inout uint phase, inout light_ray shadow,
            inout uint iterations, inout uint fault) {
@@ -282,6 +291,22 @@ uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, in
     return state;
 }
 
+// After a ray that was wanted, or a surface that was found before: on from there.
+uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit, inout surface s, inout ray_start start,
+                      inout uint phase, inout light_ray shadow, inout uint iterations, inout bool fresh,
+                      inout uint fault) {
+    uint state = GOES_ON;
+    if (wanted)
+        state = after_ray(p, iterations, fresh, fault);
+    if (wanted && state == GOES_ON)
+        count_ray(p, phase == PHASE_RAY);
+    if (state == GOES_ON)
+        state = arrive(p, phase, hit, shadow, s, start);
+    if (state == GOES_ON)
+        state = go_on(slot, p, s, start, phase, shadow, iterations, fault);
+    return state;
+}
+
 // A chain of rays that ended: its background, and a refracted ray that waits.
 void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase) {
     if (state == MISSED)
@@ -293,16 +318,16 @@ void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase
     }
 }
 
-// Follows a path until it ends, or until its slice does.
+// Follows a path until it ends, or until its slice does. A ray that is open is decided after the inner loop on lavapipe, which
+// runs every branch for every ray; within it on a GPU, whose lanes would wait for all others.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON;
     uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
-    bool fresh = true; // no ray was finished in this slice
+    bool fresh = true, decided = false; // no ray was finished in this slice; the ray is
     surface s;
     ray_start start = exact_start(REAL3(0.0)); // of shadow rays
     light_ray shadow = light_ray(vec3(0.0), start.at, 0.0);
-    hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; `decided`: the ray's
-    bool decided = false;
+    hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; decided: the ray's
     do {
         ray_doubts doubts = no_doubts();
         do {
@@ -318,15 +343,12 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             ray_start from = start;
             if (own)
                 from = p.start;
-            REAL3 direction = own ? p.direction : shadow.direction;
             hit_record sphere = hit;
-            bool open = trace_ray(from, direction, traced, !own, hit, sphere, doubts, iterations);
+            bool open = trace_ray(from, own ? p.direction : shadow.direction, traced, !own, hit, sphere, doubts, iterations);
             if (HAS_LONG_RAYS && long_stopped != TREE_NONE) {
                 state = SUSPENDED;
                 break;
             }
-            // lavapipe runs every branch for every ray: there rays are decided after this loop. A GPU skips a branch that none
-            // of its lanes takes, but lanes that left the loop would wait until the last of the others has.
 #ifdef FETCH_TEXELS
             if (HAS_TRIANGLES && traced && open) {
                 state = room_for_exact(fresh, iterations);
@@ -336,27 +358,15 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     break;
             }
 #else
-            if (HAS_TRIANGLES && traced && open) {
-                state = room_for_exact(fresh, iterations);
-                if (state == SUSPENDED)
-                    break;
-                if (state == UNDECIDED && decide_exactly(p, own, start, shadow, doubts, sphere, iterations))
-                    hit = sphere;
-                state = GOES_ON;
-            }
+            if (HAS_TRIANGLES && traced && open)
+                state = decide_here(p, own, start, shadow, doubts, sphere, fresh, hit, iterations);
+            if (state == SUSPENDED)
+                break;
 #endif
             if (decided)
                 hit = held;
             decided = false;
-            if (wanted) {
-                state = after_ray(p, iterations, fresh, fault);
-                if (state != GOES_ON)
-                    break;
-                count_ray(p, own);
-            }
-            state = arrive(p, phase, hit, shadow, s, start);
-            if (state == GOES_ON)
-                state = go_on(slot, p, s, start, phase, shadow, iterations, fault);
+            state = arrive_and_go_on(slot, p, wanted, hit, s, start, phase, shadow, iterations, fresh, fault);
         } while (state == GOES_ON);
 #ifdef FETCH_TEXELS
         if (HAS_TRIANGLES && state == UNDECIDED) {

@@ -180,16 +180,51 @@ void test_kept(inout uint kept, uint first, bool any, inout triangle_search sear
     } while (kept != 0u);
 }
 #endif
-#define OUTLINES_BEGIN(search)                                                                               \
-    outline_ray outline = make_outline_ray(search);                                                          \
-    uint kept = 0u, kept_first = 0u;
 #define SKIP_MISSED(item)                                                                                    \
     if (misses(item, outline, search.ray))                                                                   \
         continue;
+#define OUTLINES_MAKE(search) outline_ray outline = make_outline_ray(search);
 #else
-#define OUTLINES_BEGIN(search)
+#define OUTLINES_MAKE(search)
 #define SKIP_MISSED(item)
 #endif
+
+// With OUTLINES_WAIT nodes are searched until one has triangles that are not rejected, which are tested then. On lavapipe a
+// lane that has left a loop keeps what it had only through a branch: one that is always taken.
+#ifdef OUTLINES_WAIT
+#define OUTLINES_BEGIN(search)                                                                               \
+    OUTLINES_MAKE(search)                                                                                    \
+    uint kept = 0u, kept_first = 0u;                                                                         \
+    do {
+#define OUTLINES_NODE if (iterations < ITERATION_LIMIT) {
+#define TEST_ITEM(item, bit, there) kept |= there && !misses(item, outline, search.ray) ? bit : 0u;
+#define OUTLINES_END(first)                                                                                  \
+    kept_first = kept != 0u ? first : kept_first;                                                            \
+    }                                                                                                        \
+    }                                                                                                        \
+    while (more && kept == 0u && iterations < TRAVERSAL_LIMIT)                                               \
+        ;                                                                                                    \
+    test_kept(kept, kept_first, any, search, hit, iterations);                                               \
+    more = has_nodes(group) && !(any && hit.item != NO_ITEM);
+#else
+#define OUTLINES_BEGIN(search) OUTLINES_MAKE(search)
+#define OUTLINES_NODE
+#define TEST_ITEM(item, bit, there)                                                                          \
+    SKIP_MISSED(item)                                                                                        \
+    test_triangle(INSTANCE_ITEM(item), there, search, hit);                                                  \
+    if (any && hit.item != NO_ITEM) {                                                                        \
+        items = 0u;                                                                                          \
+        more = false;                                                                                        \
+    }
+#define OUTLINES_END(first)
+#endif
+
+// What the search leaves open.
+ray_doubts doubts_of(triangle_search search, hit_record hit) {
+    bool is_near = search.near_a != NO_ITEM;
+    REAL doubt = is_near ? min(search.doubt, search.edge) : search.doubt;
+    return ray_doubts(doubt <= hit.t && doubt < FAR_AWAY, search.near_a, search.near_b);
+}
 
 // `any`: the first hit found ends the search. Stops unfinished at ITERATION_LIMIT. true: rounding leaves open what
 // is hit; retrace_triangles decides.
@@ -205,15 +240,9 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
     LONG_TAKE(search.wrong, search.doubt)
     INSTANCES_BEGIN(ray, start, direction, group)
     OUTLINES_BEGIN(search)
-#ifdef OUTLINES_WAIT
-    do { // from one triangle that is not rejected to the next
-#endif
     do {
         INSTANCE_NEXT(ray, start, direction)
-#ifdef OUTLINES_WAIT
-        // Always so. On lavapipe a lane that has left a loop keeps what it had only through a branch.
-        if (iterations < ITERATION_LIMIT) {
-#endif
+        OUTLINES_NODE
         iterations += 2u; // this loop, and the inner one where no lane enters it
         if (HAS_COUNTERS)
             counted_nodes++;
@@ -233,30 +262,13 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-#ifdef OUTLINES_WAIT
-            kept |= there && !misses(item, outline, search.ray) ? bit : 0u;
-#else
-            SKIP_MISSED(item)
-            test_triangle(INSTANCE_ITEM(item), there, search, hit);
-            if (any && hit.item != NO_ITEM) {
-                items = 0u;
-                more = false;
-            }
-#endif
+            TEST_ITEM(item, bit, there)
         END_WHILE(items != 0u && iterations < ITERATION_LIMIT)
-#ifdef OUTLINES_WAIT
-        kept_first = kept != 0u ? node.first_item : kept_first;
-        }
-    } while (more && kept == 0u && iterations < TRAVERSAL_LIMIT);
-    test_kept(kept, kept_first, any, search, hit, iterations);
-    more = has_nodes(group) && !(any && hit.item != NO_ITEM);
-#endif
+        OUTLINES_END(node.first_item)
     } while (more && INSTANCE_SEEN && iterations < TRAVERSAL_LIMIT);
     INSTANCES_END(more, iterations, TRAVERSAL_LIMIT)
     STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)
     LONG_KEEP(search.wrong, search.doubt)
-    bool is_near = search.near_a != NO_ITEM;
-    REAL doubt = is_near ? min(search.doubt, search.edge) : search.doubt;
-    doubts = ray_doubts(doubt <= hit.t && doubt < FAR_AWAY, search.near_a, search.near_b);
-    return (doubts.all || is_near) && !(any && hit.item != NO_ITEM);
+    doubts = doubts_of(search, hit);
+    return (doubts.all || doubts.near_a != NO_ITEM) && !(any && hit.item != NO_ITEM);
 }

@@ -47,57 +47,6 @@ void renderer_drop_at_once(struct renderer *renderer) {
     renderer->picture = renderer->counters = NULL;
 }
 
-bool renderer_write_samples(struct renderer *renderer, uint32_t first, uint32_t count) {
-    struct samples_block block;
-    for (uint32_t i = 0; i < SAMPLES_AT_ONCE; i++) {
-        double a, b;
-        view_sample_offset(renderer->settings.first_sample + first + (i < count ? i : 0), &a, &b);
-        block.offsets[i][0] = (float)a;
-        block.offsets[i][1] = (float)b;
-    }
-    return gpu_write(renderer->gpu, renderer->buffers[BINDING_SAMPLES], 0, &block, sizeof block);
-}
-
-static bool resolve(struct renderer_frame *run, uint32_t mode) {
-    struct renderer *renderer = run->renderer;
-    struct dispatch_block block = run->resolve;
-    block.read_list = mode;
-    block.grid_width = block.tile_count < UINT16_MAX ? block.tile_count : UINT16_MAX;
-    const uint32_t rows = (block.tile_count + block.grid_width - 1) / block.grid_width;
-    return gpu_dispatch(renderer->gpu, renderer->resolve, block.grid_width, rows, &block);
-}
-
-// Samples that are not the last ones are added up before the next ones take their words.
-static bool add_samples(struct renderer_frame *run) {
-    return resolve(run, RESOLVE_ADD);
-}
-
-static bool clear_faults(struct renderer *renderer) {
-    const uint64_t begin = COUNTER_FAULT_PIXELS * sizeof(uint32_t);
-    const uint64_t bytes = (COUNTER_FAULT_WORD - COUNTER_FAULT_PIXELS) * sizeof(uint32_t);
-    return gpu_clear(renderer->gpu, renderer->buffers[BINDING_COUNTERS], begin, bytes);
-}
-
-// Paths that are saved may be left, of which the picture then knows nothing yet: it is shown again after the
-// next pass. An only sample shows its pixel when it ends.
-static bool show_samples(struct renderer_frame *run) {
-    struct renderer *renderer = run->renderer;
-    return (renderer->settings.samples == 1 || (clear_faults(renderer) && resolve(run, RESOLVE_SHOW))) &&
-           (!run->shows_all || gpu_copy(renderer->gpu, renderer->buffers[BINDING_PICTURE], renderer->picture,
-                                        gpu_buffer_bytes(renderer->picture)));
-}
-
-static bool copy_counters(struct renderer_frame *run) {
-    struct renderer *renderer = run->renderer;
-    const uint64_t words = run->counting ? COUNTER_COUNT : COUNTER_SHARED;
-    return gpu_copy(renderer->gpu, renderer->buffers[BINDING_COUNTERS], renderer->counters,
-                    words * sizeof(uint32_t));
-}
-
-bool renderer_follow_pass(struct renderer_frame *run, bool ends) {
-    return (!ends || !run->shows || show_samples(run)) && copy_counters(run);
-}
-
 // The word of each kind's first fault is looked up only where there is one.
 static bool note_faults(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
@@ -107,7 +56,7 @@ static bool note_faults(struct renderer_frame *run) {
         faults += counters[COUNTER_FAULT_PIXELS + kind];
     if (faults == 0)
         return true;
-    if (!resolve(run, RESOLVE_FIND) || !copy_counters(run) || !gpu_submit(renderer->gpu) ||
+    if (!renderer_resolve(run, RESOLVE_FIND) || !renderer_copy_counters(run) || !gpu_submit(renderer->gpu) ||
         !gpu_wait(renderer->gpu, NULL))
         return false;
     for (uint32_t kind = 1; kind < RENDER_FAULT_KINDS; kind++) {
@@ -130,13 +79,15 @@ static enum render_result draw_samples(struct renderer_frame *run, struct dispat
     run->shows = left == block->samples;
     run->shows_all = run->shows && last_band;
     block->shows = renderer->settings.samples == 1;
-    if (!renderer_write_samples(renderer, first, block->samples) || (block->shows && !clear_faults(renderer)))
+    if (!renderer_write_samples(renderer, first, block->samples) ||
+        (block->shows && !renderer_clear_faults(renderer)))
         return RENDER_FAILED;
     const enum render_result result = renderer_draw_paths(run, block);
     if (result != RENDER_DONE)
         return result;
     run->steps_done += block->samples;
-    if (!(run->shows ? note_faults(run) : add_samples(run)))
+    // Samples that are not the last ones are added up before the next ones take their words.
+    if (!(run->shows ? note_faults(run) : renderer_resolve(run, RESOLVE_ADD)))
         return RENDER_FAILED;
     return renderer_is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;
 }

@@ -132,6 +132,11 @@ enum render_result renderer_draw_at_once(struct renderer_frame *run, float *rgb)
 bool renderer_is_wanted(const struct renderer_frame *run, double part);
 // The offsets of samples that are traced at once. false: see gpu_error.
 bool renderer_write_samples(struct renderer *renderer, uint32_t first, uint32_t count);
+// Records what samples become: a mode of shaders/frame.h. Zeros for the faults that it counts. A copy of the
+// counters to this process.
+bool renderer_resolve(struct renderer_frame *run, uint32_t mode);
+bool renderer_clear_faults(struct renderer *renderer);
+bool renderer_copy_counters(struct renderer_frame *run);
 // Records what follows a pass of such a frame, at the end of it.
 bool renderer_follow_pass(struct renderer_frame *run, bool ends);
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.

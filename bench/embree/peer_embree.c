@@ -1,4 +1,4 @@
-#include "bench/peer_embree.h"
+#include "bench/embree/peer_embree.h"
 
 #include <stdlib.h>
 
