@@ -88,11 +88,9 @@ static int create_beside(struct output *output) {
     for (unsigned attempt = 0; attempt < TEMPORARY_NAMES; attempt++) {
         snprintf(output->temporary, size, "%.*s.glint-%ld-%u.tmp", folder, output->path, (long)getpid(),
                  attempt);
-        int fd = open_again(output->temporary, O_WRONLY | O_CREAT | O_EXCL);
-        if (fd >= 0) {
-            temporary_note(&output->entry, output->temporary);
+        int fd = temporary_create(&output->entry, output->temporary);
+        if (fd >= 0)
             return fd;
-        }
         if (errno != EEXIST)
             break;
     }

@@ -31,11 +31,30 @@ static void unlock(void) {
     atomic_flag_clear(&locked);
 }
 
-void temporary_note(struct temporary *entry, const char *path) {
-    lock();
+// The lock is held.
+static void note(struct temporary *entry, const char *path) {
     *entry = (struct temporary){path, noted};
     noted = entry;
+}
+
+void temporary_note(struct temporary *entry, const char *path) {
+    lock();
+    note(entry, path);
     unlock();
+}
+
+int temporary_create(struct temporary *entry, const char *path) {
+    lock();
+    int fd;
+    do
+        fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    while (fd < 0 && errno == EINTR);
+    const int error = errno;
+    if (fd >= 0)
+        note(entry, path);
+    unlock();
+    errno = error;
+    return fd;
 }
 
 void temporary_forget(struct temporary *entry) {
@@ -98,6 +117,5 @@ void temporary_remove_all(void) {
     lock();
     for (const struct temporary *entry = noted; entry; entry = entry->next)
         temporary_remove(entry->path);
-    noted = NULL;
-    unlock();
+    noted = NULL; // and the lock stays held: another thread makes none until the process ends
 }

@@ -165,15 +165,14 @@ uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint
 bool find_light(inout path_state p, surface s, ray_start start, inout light_ray shadow, inout uint iterations) {
     uint count = frame.light_count + OPAQUE_ZERO;
     bool found = false;
-    WHILE(p.light < count && !found && iterations < ITERATION_LIMIT)
-        bool there = IS_WANTED(p.light < count);
-        iterations += there ? 1u : 0u;
+    while (p.light < count && !found && iterations < ITERATION_LIMIT) {
+        iterations++;
         shadow = light_at(p.light, s, start.at, p.direction);
-        found = there && HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
-        if (there && !(HAS_SHADOWS && wants(FEATURE_SHADOWS)))
+        found = HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
+        if (!(HAS_SHADOWS && wants(FEATURE_SHADOWS)))
             add_light(shadow.value, p.light_sum, p.light_low);
-        p.light += there && !found ? 1u : 0u;
-    END_WHILE(p.light < count && !found && iterations < ITERATION_LIMIT)
+        p.light += found ? 0u : 1u;
+    }
     return found;
 }
 

@@ -23,7 +23,8 @@ expect "paths are relative to the current folder" 1 - 'standard input:3:17: erro
 expect "or to --base" 0 - - from good.yaml "$glint" check - --base parts
 : >parts/.glintrc.yaml
 printf 'limits: {scene-triangles: 1}\n' >parts/.glintrc.yaml
-printf 'glint: 1\nmodels: [{mesh: tri.obj}, {mesh: tri.obj, translation: [5, 0, 0]}]\n' >two.yaml
+cp parts/tri.obj parts/other.obj # a mesh counts once
+printf 'glint: 1\nmodels: [{mesh: tri.obj}, {mesh: other.obj, translation: [5, 0, 0]}]\n' >two.yaml
 expect "settings are those of --base" 1 - 'scene-triangles is 1' from two.yaml "$glint" check - --base parts
 rm parts/.glintrc.yaml
 expect "beside files" 1 - 'standard input:2:39: error' from bad.yaml "$glint" check - good.xml

@@ -353,10 +353,10 @@ static void test_first_sample(struct frames *f) {
 }
 
 int main(int argc, char **argv) {
-    struct frames f = {.path = argc > 1 ? argv[1] : NULL, .kit.storage = argc > 2};
+    struct frames f = {.path = argc > 1 ? argv[1] : NULL};
     if (argc < 2)
         return 2;
-    if (!picture_kit_open(&f.kit))
+    if (!(argc > 2 ? picture_kit_open_as_gpu(&f.kit) : picture_kit_open(&f.kit)))
         return 77;
     test_cancel(&f);
     test_bands(&f);

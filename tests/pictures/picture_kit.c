@@ -9,16 +9,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-bool picture_kit_open(struct picture_kit *kit) {
+static bool open_kit(struct picture_kit *kit, bool storage) {
     char error[GPU_ERROR_BYTES] = "";
     const char *device = getenv("GLINT_DEVICE");
-    *kit = (struct picture_kit){.by_reference = device && strcmp(device, "reference") == 0,
-                                .storage = kit->storage};
+    *kit = (struct picture_kit){.by_reference = device && strcmp(device, "reference") == 0};
     kit->store = asset_store_create();
     if (kit->by_reference)
         return kit->store != NULL;
     struct gpu_options options = {.device = device,
-                                  .storage = kit->storage,
+                                  .storage = storage,
                                   .validate = true,
                                   .validation_messages = &kit->validation_messages};
     enum gpu_status status = gpu_create(&options, &kit->gpu, error);
@@ -28,6 +27,14 @@ bool picture_kit_open(struct picture_kit *kit) {
         return false;
     }
     return kit->store != NULL;
+}
+
+bool picture_kit_open(struct picture_kit *kit) {
+    return open_kit(kit, false);
+}
+
+bool picture_kit_open_as_gpu(struct picture_kit *kit) {
+    return open_kit(kit, true);
 }
 
 uint32_t picture_kit_close(struct picture_kit *kit) {

@@ -20,11 +20,12 @@ struct picture_kit {
     bool by_reference; // GLINT_DEVICE is "reference": the tracer in double precision, which has no device
     struct asset_store *store;
     uint32_t validation_messages;
-    bool storage; // set before it is opened: a CPU device reads storage buffers, and traces as GPUs do
 };
 
-// Keeps `storage`, clears the rest. false: no device; the test is to be skipped.
+// false: no device; the test is to be skipped.
 bool picture_kit_open(struct picture_kit *kit);
+// The same on a device that reads storage buffers, and traces as GPUs do, though it is a CPU.
+bool picture_kit_open_as_gpu(struct picture_kit *kit);
 // The number of validation messages, those of closing included.
 uint32_t picture_kit_close(struct picture_kit *kit);
 
