@@ -68,7 +68,8 @@ if [ -z "$mode" ]; then
     done
     expect "a damaged entry does not matter" 0 - 'settings tried on [^;]*; [0-9.]+ s' \
         "$glint" render small.yaml --size 40x30 --max-error flip=0.5 -o chosen.png
-    expect "nor does it change the picture" 0 - - cmp first.png chosen.png
+    # Which settings are the cheapest that fit, another search may see otherwise: it measures times.
+    also "and another search makes a picture" - 'wrote chosen\.png, 40 x 30'
     for entry in cache/glint/studies/*.study; do : >"$entry"; done
     expect "an empty one neither" 0 - 'settings tried on [^;]*; [0-9.]+ s' \
         "$glint" render small.yaml --size 40x30 --max-error flip=0.5 -o chosen.png
