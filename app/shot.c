@@ -28,7 +28,8 @@ static enum shot_status flatten_shot(struct opening *opening, struct precision_g
     double start = clock_seconds();
     struct flat_input input = precision_input(s, &shot->view);
     input.sharing = gpu_info(shot->gpu)->has_double ? FLAT_CHEAPER : FLAT_COPIES;
-    const struct precision_wish wish = {.reference = shot->wish.audits ? &shot->reference : NULL,
+    const struct precision_wish wish = {.counts = shot->wish.counts,
+                                        .reference = shot->wish.audits ? &shot->reference : NULL,
                                         .ready = shot->wish.ready ? ask : NULL,
                                         .ready_context = opening};
     const enum precision_status status =

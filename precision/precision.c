@@ -89,6 +89,7 @@ static struct render_settings device_settings(const struct small *small) {
     settings.height = small->height;
     settings.samples = 1;
     settings.features |= small->trial->features;
+    settings.counts = small->trial->counts;
     settings.background_later = small->trial->ready != NULL;
     settings.timeline = input->timeline;
     return settings;

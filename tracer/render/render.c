@@ -284,7 +284,10 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
 static bool compile(struct renderer *renderer) {
     const struct dispatch_block nothing = {0};
     struct gpu_program *program = renderer_program(renderer, renderer->settings.counts);
-    return program && gpu_compile(renderer->gpu, program, &nothing);
+    const double start = clock_seconds();
+    const bool compiled = program && gpu_compile(renderer->gpu, program, &nothing);
+    timeline_add(renderer->settings.timeline, "compile", STR(""), start);
+    return compiled;
 }
 
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
@@ -295,12 +298,10 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
     renderer->gpu = gpu;
     renderer->flat = flat;
     take_settings(renderer, settings);
-    double start = clock_seconds();
+    const double start = clock_seconds();
     bool made = upload_scene(renderer);
     timeline_add(settings->timeline, "upload", STR(""), start);
-    start = clock_seconds();
     made = made && make_frame(renderer) && (!settings->background_later || compile(renderer));
-    timeline_add(settings->timeline, "pipeline", STR(""), start);
     if (made)
         return renderer;
     renderer_destroy(renderer);

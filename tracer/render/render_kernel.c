@@ -1,6 +1,8 @@
 // Which compiled kernel a renderer's settings want, and its specialization constants.
 #include "tracer/render/render_private.h"
 
+#include "core/clock.h"
+#include "core/timeline.h"
 #include "shaders/kernels.h"
 
 #include <float.h>
@@ -121,7 +123,9 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint32_t feat
             gpu_program_bind(renderer->gpu, renderer->kept[i].program, renderer->buffers);
             return renderer->kept[i].program;
         }
+    const double start = clock_seconds();
     struct gpu_program *program = renderer_compile_kernel(renderer, RENDERER_TRACE, features, NULL, NULL);
+    timeline_add(renderer->settings.timeline, "pipeline", STR(""), start);
     if (!program)
         return NULL;
     while (is_in_use(renderer, renderer->kept[renderer->kept_next].program))
