@@ -145,7 +145,7 @@ void write_sample(uint path, path_state p, uint fault) {
     pixels[path] = after;
 #ifndef FETCH_TEXELS
     if (AT_ONCE && dispatch.shows > OPAQUE_ZERO)
-        show(pixel_of_slot(path), after);
+        show(pixel_in_order(path), after);
 #endif
 }
 
@@ -395,11 +395,15 @@ void main() {
             path = saved_number(place);
         else if (dispatch.restarts > OPAQUE_ZERO)
             path = counters[COUNTER_COUNT + 2u * dispatch.places + index];
+        else
+            path = path_of(index, dispatch.tile_count * TILE_PIXELS);
         slot = path % (dispatch.tile_count * TILE_PIXELS);
         sample_number = path / (dispatch.tile_count * TILE_PIXELS);
     }
-#endif
+    uvec2 pixel = AT_ONCE ? pixel_in_order(slot) : pixel_of_slot(slot);
+#else
     uvec2 pixel = pixel_of_slot(slot);
+#endif
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     path_state p;

@@ -240,7 +240,7 @@ static bool make_frame(struct renderer *renderer) {
 
 static void drop_frame(struct renderer *renderer) {
     static const int bindings[] = {BINDING_OUTPUT,  BINDING_STATE,   BINDING_COUNTERS, BINDING_FRAME,
-                                   BINDING_SAMPLES, BINDING_PICTURE, BINDING_SUMS};
+                                   BINDING_SAMPLES, BINDING_PICTURE, BINDING_SUMS,     BINDING_ORDER};
     renderer_drop_at_once(renderer);
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
@@ -320,7 +320,7 @@ void renderer_destroy(struct renderer *renderer) {
 
 static bool is_of_band(int binding) {
     return binding == BINDING_OUTPUT || binding == BINDING_STATE || binding == BINDING_COUNTERS ||
-           binding == BINDING_PICTURE || binding == BINDING_SUMS;
+           binding == BINDING_PICTURE || binding == BINDING_SUMS || binding == BINDING_ORDER;
 }
 
 static uint64_t sum_bytes(const struct renderer *renderer, bool of_band) {

@@ -97,7 +97,7 @@ bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *
     run->statistics->bands = (renderer->tiles + renderer->band_tiles - 1) / renderer->band_tiles;
     run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
     run->statistics->samples = renderer->settings.samples;
-    return renderer_write_frame(run->renderer, camera);
+    return renderer_write_frame(run->renderer, camera) && renderer_order_tiles(run->renderer, camera);
 }
 
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,

@@ -67,6 +67,8 @@ struct renderer {
     struct gpu_buffer *picture,
         *counters; // where samples are traced at once: what was copied to this process
     struct gpu_program *resolve;
+    uint32_t *order; // there too: as in the buffer BINDING_ORDER, for the camera `ordered`; NULL: none yet
+    struct view_camera ordered;
     uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
@@ -139,6 +141,8 @@ bool renderer_clear_faults(struct renderer *renderer);
 bool renderer_copy_counters(struct renderer_frame *run);
 // Records what follows a pass of such a frame, at the end of it.
 bool renderer_follow_pass(struct renderer_frame *run, bool ends);
+// In which order tiles are traced at once, for a camera. false: see gpu_error.
+bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *camera);
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
@@ -174,7 +178,10 @@ void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made
 // Adds a fault, whose word is as in shaders/frame.h, to those of its kind.
 void renderer_note_fault(const struct renderer *renderer, uint32_t word, uint32_t pixels, uint32_t x,
                          uint32_t y, struct render_fault *fault);
-// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture.
+// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture. Of a band that the
+// tracing kernel has filled, and of others.
+bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+                           uint32_t *y);
 bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y);
 
