@@ -141,6 +141,9 @@ bool gpu_program_tell(struct gpu *gpu, const struct gpu_program *program, gpu_te
 // the ones before it wrote. `push` holds the program's push constants.
 bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
                   const void *push);
+// The same for one that may run beside the next one that is recorded: neither sees what the other writes.
+bool gpu_dispatch_beside(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
+                         const void *push);
 // Record a copy between two buffers, and zeros into one, after what was recorded before; the ranges are
 // multiples of four bytes and must lie inside. What is recorded afterwards sees them.
 bool gpu_copy(struct gpu *gpu, struct gpu_buffer *from, struct gpu_buffer *to, uint64_t bytes);

@@ -94,14 +94,17 @@ static enum rank rank_of(const struct grid *grid, uint32_t tile) {
     return (enum rank)rank;
 }
 
-static void sort_tiles(const struct grid *grid, uint32_t tiles, uint32_t *order) {
+// Returns how many tiles have a rank of long paths.
+static uint32_t sort_tiles(const struct grid *grid, uint32_t tiles, uint32_t *order) {
     uint32_t next[RANKS + 1] = {0};
     for (uint32_t tile = 0; tile < tiles; tile++)
         next[rank_of(grid, tile) + 1]++;
     for (int rank = 1; rank <= RANKS; rank++)
         next[rank] += next[rank - 1];
+    const uint32_t long_tiles = next[RANK_ENDS];
     for (uint32_t tile = 0; tile < tiles; tile++)
         order[next[rank_of(grid, tile)]++] = tile % grid->width | tile / grid->width << 16;
+    return long_tiles;
 }
 
 static bool make_order(struct renderer *renderer, const struct view_camera *camera) {
@@ -118,7 +121,7 @@ static bool make_order(struct renderer *renderer, const struct view_camera *came
     }
     for (int rank = 0; rank < RANK_ENDS; rank++)
         sum_edges(&grid, grid.edges[rank]);
-    sort_tiles(&grid, renderer->tiles, renderer->order);
+    renderer->long_tiles = sort_tiles(&grid, renderer->tiles, renderer->order);
     free(edges);
     return true;
 }
@@ -138,4 +141,11 @@ bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *c
     renderer->ordered = *camera;
     return renderer->order && make_order(renderer, camera) &&
            gpu_write(renderer->gpu, renderer->buffers[BINDING_ORDER], 0, renderer->order, bytes);
+}
+
+uint32_t renderer_plain_begin(const struct renderer *renderer, const struct dispatch_block *block) {
+    const uint32_t done = block->tile_begin < renderer->long_tiles ? block->tile_begin : renderer->long_tiles;
+    const uint32_t left = renderer->long_tiles - done;
+    return (left < block->tile_count ? left : block->tile_count) * TILE_PIXELS *
+           (block->samples ? block->samples : 1);
 }
