@@ -145,7 +145,7 @@ void write_sample(uint path, path_state p, uint fault) {
     pixels[path] = after;
 #ifndef FETCH_TEXELS
     if (AT_ONCE && dispatch.shows > OPAQUE_ZERO)
-        show(pixel_of_slot(path), after);
+        show(pixel_in_order(path), after);
 #endif
 }
 
@@ -301,6 +301,8 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
         count_ray(p, phase == PHASE_RAY);
     if (state == GOES_ON)
         state = arrive(p, phase, hit, shadow, s, start);
+    if (PLAIN && state == GOES_ON && (s.reflection > 0.0 || s.refraction > 0.0))
+        state = SUSPENDED;
     if (state == GOES_ON)
         state = go_on(slot, p, s, start, phase, shadow, iterations, fault);
     return state;
@@ -357,7 +359,9 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     break;
             }
 #else
-            if (HAS_TRIANGLES && traced && open)
+            if (PLAIN && HAS_TRIANGLES && traced && open)
+                state = SUSPENDED;
+            else if (HAS_TRIANGLES && traced && open)
                 state = decide_here(p, own, start, shadow, doubts, sphere, fresh, hit, iterations);
             if (state == SUSPENDED)
                 break;
@@ -383,7 +387,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
     uint index = dispatch.path_begin + group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
+    bool resumes = HAS_SLICES && !PLAIN && dispatch.resume > OPAQUE_ZERO;
     if (index >= dispatch.path_end)
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
@@ -395,11 +399,15 @@ void main() {
             path = saved_number(place);
         else if (dispatch.restarts > OPAQUE_ZERO)
             path = counters[COUNTER_COUNT + 2u * dispatch.places + index];
+        else
+            path = path_of(index, dispatch.tile_count * TILE_PIXELS);
         slot = path % (dispatch.tile_count * TILE_PIXELS);
         sample_number = path / (dispatch.tile_count * TILE_PIXELS);
     }
-#endif
+    uvec2 pixel = AT_ONCE ? pixel_in_order(slot) : pixel_of_slot(slot);
+#else
     uvec2 pixel = pixel_of_slot(slot);
+#endif
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     path_state p;

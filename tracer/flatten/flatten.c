@@ -148,7 +148,7 @@ static enum flatten_fault run(struct flattening *f) {
     static step *const steps[] = {
         flatten_count,     choose_scale,   flatten_share,      make_triangles,
         flatten_instances, make_spheres,   flatten_normals,    flatten_body_records,
-        flatten_materials, flatten_lights, flatten_background,
+        flatten_materials, flatten_lights, flatten_background, flatten_bounces,
     };
     size_t bodies = f->scene->body_count;
     f->out->body_count = (uint32_t)bodies;
@@ -211,6 +211,7 @@ void flat_finish(struct flat_scene *flat) {
         free(arrays[i].words);
     free(flat->first_triangle);
     free(flat->uses);
+    free(flat->bounces);
     free(flat->background_texels.decoded);
     *flat = (struct flat_scene){0};
 }

@@ -46,18 +46,41 @@ static void learn(struct renderer_pace *pace, uint32_t ran, uint32_t workgroup, 
     pace->paths = paths < workgroup ? workgroup : paths - paths % workgroup;
 }
 
+// Paths [begin, end) by a program, which another dispatch may follow at once.
+static bool dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t workgroup,
+                     struct dispatch_block *block, uint32_t begin, uint32_t end, bool is_last) {
+    const uint32_t groups = (end - begin + workgroup - 1) / workgroup;
+    block->path_begin = begin;
+    block->path_end = end;
+    block->grid_width = grid_width(groups);
+    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
+    return (is_last ? gpu_dispatch : gpu_dispatch_beside)(gpu, program, block->grid_width, height, block);
+}
+
+// The plain kernel takes the paths from renderer_plain_begin on, at the same time.
+static bool dispatch_both(struct renderer_frame *run, uint32_t workgroup, struct dispatch_block *block,
+                          uint32_t end) {
+    struct gpu *gpu = run->renderer->gpu;
+    const uint32_t begin = block->path_begin, plain = renderer_plain_begin(run->renderer, block);
+    const uint32_t middle = plain < begin ? begin : plain < end ? plain : end;
+    const bool done =
+        (begin == middle || dispatch(gpu, run->program, workgroup, block, begin, middle, middle == end)) &&
+        (middle == end || dispatch(gpu, run->plain, workgroup, block, middle, end, true));
+    block->path_begin = begin;
+    return done;
+}
+
 bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
                         uint32_t workgroup, struct dispatch_block *block, uint32_t end,
                         struct renderer_frame *run, double *seconds) {
     struct renderer_pace *pace = &renderer->paces[pass];
     const uint32_t fit = paths_of(renderer, pace, end - block->path_begin);
     const uint32_t paths = program == renderer->counting && fit > COUNTED_PATHS ? COUNTED_PATHS : fit;
-    const uint32_t groups = (paths + workgroup - 1) / workgroup;
-    block->path_end = block->path_begin + paths;
-    block->grid_width = grid_width(groups);
-    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
+    const uint32_t to = block->path_begin + paths;
+    const bool both = run && run->plain && pass == RENDERER_BEGINS && !block->restarts;
     const double start = clock_seconds();
-    if (!gpu_dispatch(renderer->gpu, program, block->grid_width, height, block) ||
+    if (!(both ? dispatch_both(run, workgroup, block, to)
+               : dispatch(renderer->gpu, program, workgroup, block, block->path_begin, to, true)) ||
         (run && !renderer_follow_pass(run, block->path_end == end)) || !gpu_submit(renderer->gpu) ||
         !gpu_wait(renderer->gpu, seconds))
         return false;
