@@ -65,7 +65,8 @@
     UINT(restarts)     /* 1: paths begin that found no place before, by their list */                        \
     UINT(place_base)   /* value of COUNTER_PLACES when all places were free */                               \
     UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */                              \
-    UINT(shows)        /* 1: a path is its pixel's only one, and shows it */
+    UINT(shows)        /* 1: a path is its pixel's only one, and shows it */                                 \
+    UINT(spread)       /* one of so many invocations has a path; 0: each */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8

@@ -386,7 +386,15 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
-    uint index = dispatch.path_begin + group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+#ifndef FETCH_TEXELS
+    if (dispatch.spread > OPAQUE_ZERO) {
+        if (index % dispatch.spread != 0u)
+            return;
+        index /= dispatch.spread;
+    }
+#endif
+    index += dispatch.path_begin;
     bool resumes = HAS_SLICES && !PLAIN && dispatch.resume > OPAQUE_ZERO;
     if (index >= dispatch.path_end)
         return;

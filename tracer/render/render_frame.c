@@ -94,7 +94,7 @@ static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_be
 static bool choose_plain(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
     const bool wanted = renderer->samples_at_once && renderer->has_drawn && !renderer->plain_fails &&
-                        !run->counting && renderer->long_tiles < renderer->tiles;
+                        !run->counting && renderer->rank_begins[RENDERER_RANK_ENDS] < renderer->tiles;
     run->plain = wanted ? renderer_plain_program(renderer) : NULL;
     return run->plain || !wanted;
 }

@@ -11,21 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum rank {
-    RANK_REFRACTS,
-    RANK_REFLECTS,
-    RANK_ENDS, // paths end at what they hit first
-    RANKS,
-};
-
 // Tiles [x0, x1) by [y0, y1).
 struct area {
     uint32_t x0, y0, x1, y1;
 };
 
 struct grid {
-    uint32_t width, height;    // in tiles
-    int32_t *edges[RANK_ENDS]; // by rank: where areas begin (1) and end (-1), with a tile more in x and y
+    uint32_t width, height; // in tiles
+    int32_t *
+        edges[RENDERER_RANK_ENDS]; // by rank: where areas begin (1) and end (-1), with a tile more in x and y
 };
 
 // From -1..1 to tiles.
@@ -65,7 +59,7 @@ static struct area area_of(const struct renderer *renderer, const struct view_ca
                          clamp_tile(floor(x1) + 1, grid->width), clamp_tile(floor(y1) + 1, grid->height)};
 }
 
-static void add_area(const struct grid *grid, enum rank rank, struct area area) {
+static void add_area(const struct grid *grid, enum renderer_rank rank, struct area area) {
     const size_t row = grid->width + 1;
     int32_t *edges = grid->edges[rank];
     if (area.x0 >= area.x1 || area.y0 >= area.y1)
@@ -86,42 +80,41 @@ static void sum_edges(const struct grid *grid, int32_t *edges) {
         edges[at] += edges[at - row];
 }
 
-static enum rank rank_of(const struct grid *grid, uint32_t tile) {
+static enum renderer_rank rank_of(const struct grid *grid, uint32_t tile) {
     const size_t at = (size_t)(tile / grid->width) * (grid->width + 1) + tile % grid->width;
     int rank = 0;
-    while (rank < RANK_ENDS && grid->edges[rank][at] == 0)
+    while (rank < RENDERER_RANK_ENDS && grid->edges[rank][at] == 0)
         rank++;
-    return (enum rank)rank;
+    return (enum renderer_rank)rank;
 }
 
-// Returns how many tiles have a rank of long paths.
-static uint32_t sort_tiles(const struct grid *grid, uint32_t tiles, uint32_t *order) {
-    uint32_t next[RANKS + 1] = {0};
+// `begins`: the first tile of each rank, and the end.
+static void sort_tiles(const struct grid *grid, uint32_t tiles, uint32_t *order, uint32_t *begins) {
+    uint32_t next[RENDERER_RANKS + 1] = {0};
     for (uint32_t tile = 0; tile < tiles; tile++)
         next[rank_of(grid, tile) + 1]++;
-    for (int rank = 1; rank <= RANKS; rank++)
+    for (int rank = 1; rank <= RENDERER_RANKS; rank++)
         next[rank] += next[rank - 1];
-    const uint32_t long_tiles = next[RANK_ENDS];
+    memcpy(begins, next, sizeof next);
     for (uint32_t tile = 0; tile < tiles; tile++)
         order[next[rank_of(grid, tile)]++] = tile % grid->width | tile / grid->width << 16;
-    return long_tiles;
 }
 
 static bool make_order(struct renderer *renderer, const struct view_camera *camera) {
     const uint32_t width = renderer->tiles_x, height = (renderer->tiles + width - 1) / width;
     const size_t words = ((size_t)width + 1) * (height + 1);
-    int32_t *edges = heap_zeroed(words * RANK_ENDS, sizeof *edges);
+    int32_t *edges = heap_zeroed(words * RENDERER_RANK_ENDS, sizeof *edges);
     if (!edges)
         return false;
     struct grid grid = {width, height, {edges, edges + words}};
     for (uint32_t i = 0; i < renderer->flat->bounce_count; i++) {
         const struct flat_bounce *body = &renderer->flat->bounces[i];
-        add_area(&grid, body->refracts ? RANK_REFRACTS : RANK_REFLECTS,
+        add_area(&grid, body->refracts ? RENDERER_RANK_REFRACTS : RENDERER_RANK_REFLECTS,
                  area_of(renderer, camera, body, &grid));
     }
-    for (int rank = 0; rank < RANK_ENDS; rank++)
+    for (int rank = 0; rank < RENDERER_RANK_ENDS; rank++)
         sum_edges(&grid, grid.edges[rank]);
-    renderer->long_tiles = sort_tiles(&grid, renderer->tiles, renderer->order);
+    sort_tiles(&grid, renderer->tiles, renderer->order, renderer->rank_begins);
     free(edges);
     return true;
 }
@@ -143,9 +136,10 @@ bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *c
            gpu_write(renderer->gpu, renderer->buffers[BINDING_ORDER], 0, renderer->order, bytes);
 }
 
-uint32_t renderer_plain_begin(const struct renderer *renderer, const struct dispatch_block *block) {
-    const uint32_t done = block->tile_begin < renderer->long_tiles ? block->tile_begin : renderer->long_tiles;
-    const uint32_t left = renderer->long_tiles - done;
-    return (left < block->tile_count ? left : block->tile_count) * TILE_PIXELS *
-           (block->samples ? block->samples : 1);
+uint32_t renderer_rank_begin(const struct renderer *renderer, const struct dispatch_block *block, int rank) {
+    const uint32_t tile = renderer->rank_begins[rank], begin = block->tile_begin;
+    const uint32_t tiles = tile < begin                       ? 0
+                           : tile - begin < block->tile_count ? tile - begin
+                                                              : block->tile_count;
+    return tiles * TILE_PIXELS * (block->samples ? block->samples : 1);
 }

@@ -44,6 +44,14 @@ enum {
     RENDERER_KEPT = 16
 };
 
+// What tiles show, in the order in which their paths begin.
+enum renderer_rank {
+    RENDERER_RANK_REFRACTS,
+    RENDERER_RANK_REFLECTS,
+    RENDERER_RANK_ENDS, // paths end at what they hit first
+    RENDERER_RANKS,
+};
+
 // How many paths a dispatch may take so that it is over soon, and a signal heard (render_pace.c).
 struct renderer_pace {
     uint32_t paths; // of the next one; 0: nothing is known yet
@@ -70,8 +78,8 @@ struct renderer {
     struct gpu_program *resolve;
     uint32_t *order; // there too: as in the buffer BINDING_ORDER, for the camera `ordered`; NULL: none yet
     struct view_camera ordered;
-    uint32_t long_tiles;     // of that order, the first ones, where paths may be long
-    uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
+    uint32_t rank_begins[RENDERER_RANKS + 1]; // of that order: the first tile of each rank, and the end
+    uint32_t tiles_x, tiles;                  // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
@@ -172,8 +180,9 @@ enum render_result renderer_draw_frame(struct renderer_frame *run, const struct 
 uint32_t renderer_stack_levels(const struct renderer *renderer);
 // From now on with kernels that can save a ray in the middle of a tree. false: see gpu_error.
 bool renderer_take_long_rays(struct renderer *renderer);
-// The first path, of those of a band in the order in which they begin, that the plain kernel traces.
-uint32_t renderer_plain_begin(const struct renderer *renderer, const struct dispatch_block *block);
+// The first path of a rank, of those of a band in the order in which they begin; of RENDERER_RANKS: their
+// end.
+uint32_t renderer_rank_begin(const struct renderer *renderer, const struct dispatch_block *block, int rank);
 // Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
 // than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
 // *seconds is the device's time. `workgroup` is the program's.
