@@ -34,6 +34,7 @@ const bool HAS_BACKGROUND_IMAGE = (FEATURES & FEATURE_BACKGROUND_IMAGE) != 0u;
 const bool HAS_DEPTH_BLACK = (FEATURES & FEATURE_DEPTH_BLACK) != 0u;
 const bool HAS_SLICES = (FEATURES & FEATURE_SLICES) != 0u;
 const bool HAS_MANY_LIGHTS = (FEATURES & FEATURE_MANY_LIGHTS) != 0u;
+const bool BEGINS = (FEATURES & FEATURE_BEGINS) != 0u;
 const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 // Of this invocation, with HAS_COUNTERS.
 uint counted_nodes = 0u, counted_items = 0u;

@@ -333,7 +333,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             iterations += SEGMENT_ITERATIONS;
             bool own = phase == PHASE_RAY;
             bool wanted = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
-            bool traced = wanted && !decided;
+            bool traced = wanted && (BEGINS || !decided);
             if (HAS_SLICES && traced && is_late(fresh, iterations)) {
                 state = SUSPENDED;
                 break;
@@ -350,7 +350,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             }
 #ifdef FETCH_TEXELS
             if (HAS_TRIANGLES && traced && open) {
-                state = room_for_exact(fresh, iterations);
+                state = BEGINS ? SUSPENDED : room_for_exact(fresh, iterations);
                 held = sphere;
                 rough = hit;
                 if (state != GOES_ON)
@@ -362,13 +362,13 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             if (state == SUSPENDED)
                 break;
 #endif
-            if (decided)
+            if (!BEGINS && decided)
                 hit = held;
             decided = false;
             state = arrive_and_go_on(slot, p, wanted, hit, s, start, phase, shadow, iterations, fresh, fault);
         } while (state == GOES_ON);
 #ifdef FETCH_TEXELS
-        if (HAS_TRIANGLES && state == UNDECIDED) {
+        if (HAS_TRIANGLES && !BEGINS && state == UNDECIDED) {
             if (!decide_exactly(p, phase == PHASE_RAY, start, shadow, doubts, held, iterations))
                 held = rough;
             decided = true;
@@ -383,7 +383,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
     uint index = dispatch.path_begin + group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
+    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
     if (index >= dispatch.path_end)
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;

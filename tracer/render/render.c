@@ -113,6 +113,9 @@ static void plan(struct renderer *renderer) {
     // Without shadow rays the lights are scanned in one go, however many there are.
     if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
         renderer->features |= FEATURE_SLICES;
+    // Paths with a ray that is open go on in another kernel (render_kernel.c).
+    if (gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_TRIANGLES))
+        renderer->features |= FEATURE_SLICES;
     if (renderer->flat->light_count > MANY_LIGHTS)
         renderer->features |= FEATURE_MANY_LIGHTS;
     if (renderer->has_long_rays)
@@ -244,7 +247,7 @@ static void drop_frame(struct renderer *renderer) {
     renderer_drop_at_once(renderer);
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
-    renderer->counting = renderer->program = NULL;
+    renderer->counting = renderer->program = renderer->rest = NULL;
     for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++) {
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[bindings[i]]);
         renderer->buffers[bindings[i]] = NULL;

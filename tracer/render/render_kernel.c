@@ -111,7 +111,8 @@ static bool is_for(const struct renderer_kept *kept, const struct renderer *rend
 }
 
 static bool is_in_use(const struct renderer *renderer, const struct gpu_program *program) {
-    return program && (program == renderer->program || program == renderer->counting);
+    return program &&
+           (program == renderer->program || program == renderer->counting || program == renderer->rest);
 }
 
 // The tracing kernel with these features, compiled now or before, over the band's buffers.
@@ -137,11 +138,28 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint32_t feat
     return program;
 }
 
+// On lavapipe a kernel costs what all of its code does, wanted or not: paths begin in one that neither takes
+// up saved paths nor searches a second time, and those that need that are saved. Counts would tell of this.
+static bool begins_alone(const struct renderer *renderer) {
+    return gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_SLICES) &&
+           !(renderer->features & FEATURE_LONG_RAYS) &&
+           renderer->settings.alternative == RENDER_ALTERNATIVE_NONE;
+}
+
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts) {
     struct gpu_program **program = counts ? &renderer->counting : &renderer->program;
+    const uint32_t more = counts ? FEATURE_COUNTERS : begins_alone(renderer) ? FEATURE_BEGINS : 0;
     if (!*program)
-        *program = keep_program(renderer, renderer->features | (counts ? FEATURE_COUNTERS : 0));
+        *program = keep_program(renderer, renderer->features | more);
     return *program;
+}
+
+struct gpu_program *renderer_rest_program(struct renderer *renderer, bool counts) {
+    if (counts || !begins_alone(renderer))
+        return renderer_program(renderer, counts);
+    if (!renderer->rest)
+        renderer->rest = keep_program(renderer, renderer->features);
+    return renderer->rest;
 }
 
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
