@@ -301,7 +301,7 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
         count_ray(p, phase == PHASE_RAY);
     if (state == GOES_ON)
         state = arrive(p, phase, hit, shadow, s, start);
-    if (PLAIN && state == GOES_ON && (s.reflection > 0.0 || s.refraction > 0.0))
+    if (PLAIN && !BEGINS && state == GOES_ON && (s.reflection > 0.0 || s.refraction > 0.0))
         state = SUSPENDED;
     if (state == GOES_ON)
         state = go_on(slot, p, s, start, phase, shadow, iterations, fault);
@@ -335,7 +335,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             iterations += SEGMENT_ITERATIONS;
             bool own = phase == PHASE_RAY;
             bool wanted = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
-            bool traced = wanted && !decided;
+            bool traced = wanted && (BEGINS || !decided);
             if (HAS_SLICES && traced && is_late(fresh, iterations)) {
                 state = SUSPENDED;
                 break;
@@ -352,7 +352,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             }
 #ifdef FETCH_TEXELS
             if (HAS_TRIANGLES && traced && open) {
-                state = room_for_exact(fresh, iterations);
+                state = BEGINS ? SUSPENDED : room_for_exact(fresh, iterations);
                 held = sphere;
                 rough = hit;
                 if (state != GOES_ON)
@@ -366,13 +366,13 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             if (state == SUSPENDED)
                 break;
 #endif
-            if (decided)
+            if (!BEGINS && decided)
                 hit = held;
             decided = false;
             state = arrive_and_go_on(slot, p, wanted, hit, s, start, phase, shadow, iterations, fresh, fault);
         } while (state == GOES_ON);
 #ifdef FETCH_TEXELS
-        if (HAS_TRIANGLES && state == UNDECIDED) {
+        if (HAS_TRIANGLES && !BEGINS && state == UNDECIDED) {
             if (!decide_exactly(p, phase == PHASE_RAY, start, shadow, doubts, held, iterations))
                 held = rough;
             decided = true;

@@ -114,6 +114,9 @@ static void plan(struct renderer *renderer) {
     // Without shadow rays the lights are scanned in one go, however many there are.
     if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
         renderer->features |= FEATURE_SLICES;
+    // Paths with a ray that is open go on in another kernel (render_kernel.c).
+    if (gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_TRIANGLES))
+        renderer->features |= FEATURE_SLICES;
     if (renderer->flat->light_count > MANY_LIGHTS)
         renderer->features |= FEATURE_MANY_LIGHTS;
     if (renderer->has_long_rays)
@@ -239,7 +242,7 @@ static bool make_band(struct renderer *renderer) {
 // What depends on the settings: the band's buffers and the kernel.
 static bool make_frame(struct renderer *renderer) {
     plan(renderer);
-    return make_band(renderer) && renderer_program(renderer, renderer->settings.counts);
+    return make_band(renderer) && renderer_first_program(renderer, renderer->settings.counts);
 }
 
 static void drop_frame(struct renderer *renderer) {
@@ -280,7 +283,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
         old.features == now->features && old.alternative == now->alternative &&
         old.workgroup == now->workgroup && old.band_tiles == now->band_tiles &&
         (old.samples == now->samples || renderer->samples_at_once == 0))
-        return renderer_program(renderer, now->counts) != NULL;
+        return renderer_first_program(renderer, now->counts) != NULL;
     drop_frame(renderer);
     return make_frame(renderer);
 }
@@ -288,7 +291,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
 // There is time until the background comes.
 static bool compile(struct renderer *renderer) {
     const struct dispatch_block nothing = {0};
-    struct gpu_program *program = renderer_program(renderer, renderer->settings.counts);
+    struct gpu_program *program = renderer_first_program(renderer, renderer->settings.counts);
     const double start = clock_seconds();
     const bool compiled = program && gpu_compile(renderer->gpu, program, &nothing);
     timeline_add(renderer->settings.timeline, "compile", STR(""), start);

@@ -146,6 +146,14 @@ static struct gpu_program *keep_program(struct renderer *renderer, enum renderer
     return program;
 }
 
+// On lavapipe a kernel costs what all of its code does, wanted or not: paths begin in one that neither takes
+// up saved paths nor searches a second time, and those that need that are saved. Counts would tell of this.
+static bool begins_plain(const struct renderer *renderer) {
+    return gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_SLICES) &&
+           !(renderer->features & FEATURE_LONG_RAYS) &&
+           renderer->settings.alternative == RENDER_ALTERNATIVE_NONE;
+}
+
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts) {
     struct gpu_program **program = counts ? &renderer->counting : &renderer->program;
     if (!*program)
@@ -155,10 +163,16 @@ struct gpu_program *renderer_program(struct renderer *renderer, bool counts) {
 }
 
 struct gpu_program *renderer_plain_program(struct renderer *renderer) {
-    const uint32_t features = renderer->features & ~(FEATURE_REFLECTION | FEATURE_REFRACTION);
+    const uint32_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
+    const uint32_t features = renderer->features & ~(gpu_fetches_texels(renderer->gpu) ? 0 : bounces);
     if (!renderer->plain)
         renderer->plain = keep_program(renderer, RENDERER_PLAIN, features);
     return renderer->plain;
+}
+
+struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts) {
+    return counts || !begins_plain(renderer) ? renderer_program(renderer, counts)
+                                             : renderer_plain_program(renderer);
 }
 
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,

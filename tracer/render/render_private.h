@@ -85,9 +85,10 @@ struct renderer {
     struct gpu_buffer *buffers[GPU_BINDINGS];
     struct gpu_program *program;  // of those kept; NULL: none was wanted yet
     struct gpu_program *counting; // the same, with counters
-    struct gpu_program *plain;    // where samples are traced at once: for other than long tiles
-    bool plain_fails;             // too many paths need more: it would cost more than it saves
-    bool has_drawn;               // a frame with these settings
+    struct gpu_program *plain; // most of it: on lavapipe for paths that begin, else where samples are traced
+                               // at once, for other than long tiles
+    bool plain_fails;          // too many paths need more: it would cost more than it saves
+    bool has_drawn;            // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
@@ -113,7 +114,10 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
+// That which does less, for paths that begin: what needs more is saved, for the other.
 struct gpu_program *renderer_plain_program(struct renderer *renderer);
+// That in which the paths of a frame begin, but for those that a GPU begins in the plain one.
+struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts);
 float renderer_float(uint32_t bits);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);

@@ -35,7 +35,7 @@ static struct render_rays rays_of(const struct renderer_frame *run) {
 // The kernel that counts, or the other, with no count from before. false: see gpu_error.
 static bool begin(struct renderer_frame *run, bool counts) {
     run->counting = counts;
-    run->program = renderer_program(run->renderer, counts);
+    run->program = renderer_first_program(run->renderer, counts);
     return run->program && (!counts || clear_counters(run));
 }
 
