@@ -165,23 +165,26 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     }
 }
 
-#if defined(DOUBLE_PRECISION) && !defined(INSTANCES) && !defined(NO_OUTLINES)
-#include "misses.glsl"
-#ifdef FETCH_TEXELS
-#define OUTLINES_WAIT
-
 // Items of a node, as bits counted from `first`.
 void test_kept(inout uint kept, uint first, bool any, inout triangle_search search, inout hit_record hit,
                inout uint iterations) {
     do {
         uint bit = kept & (0u - kept);
-        iterations += bit != 0u ? 1u : 0u;
+        bool there = bit != 0u;
+        iterations += there ? 1u : 0u;
         kept ^= bit;
-        test_triangle(first + (floatBitsToUint(float(int(bit))) >> 23u) - 127u, bit != 0u, search, hit);
+        uint item = first + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+        test_triangle(INSTANCE_ITEM(item), there, search, hit);
         if (any && hit.item != NO_ITEM)
             kept = 0u;
     } while (kept != 0u);
 }
+
+#if defined(DOUBLE_PRECISION) && !defined(INSTANCES) && !defined(NO_OUTLINES)
+#include "misses.glsl"
+#ifdef FETCH_TEXELS
+#define ITEMS_WAIT
+#define KEEP_ITEM(item, bit, there) kept |= there && !misses(item, outline, search.ray) ? bit : 0u;
 #endif
 #define SKIP_MISSED(item)                                                                                    \
     if (misses(item, outline, search.ray))                                                                   \
@@ -190,25 +193,35 @@ void test_kept(inout uint kept, uint first, bool any, inout triangle_search sear
 #else
 #define OUTLINES_MAKE(search)
 #define SKIP_MISSED(item)
+#if defined(INSTANCES) && defined(FETCH_TEXELS)
+#define ITEMS_WAIT
+// All of the node at once.
+#define KEEP_ITEM(item, bit, there)                                                                          \
+    if (HAS_COUNTERS)                                                                                        \
+        counted_items += uint(bitCount(items));                                                              \
+    kept |= bit | items;                                                                                     \
+    items = 0u;
+#endif
 #endif
 
-// With OUTLINES_WAIT nodes are searched until one has triangles that are not rejected, which are tested then. On lavapipe a
-// lane that has left a loop keeps what it had only through a branch: one that is always taken.
-#ifdef OUTLINES_WAIT
+// With ITEMS_WAIT nodes are searched until one has triangles to test: not rejected by their outlines, or of instances,
+// which take longer. On lavapipe a lane that has left a loop keeps what it had only through a branch: one that is always
+// taken.
+#ifdef ITEMS_WAIT
 #define OUTLINES_BEGIN(search)                                                                               \
     OUTLINES_MAKE(search)                                                                                    \
     uint kept = 0u, kept_first = 0u;                                                                         \
     do {
 #define OUTLINES_NODE if (iterations < ITERATION_LIMIT) {
-#define TEST_ITEM(item, bit, there) kept |= there && !misses(item, outline, search.ray) ? bit : 0u;
+#define TEST_ITEM(item, bit, there) KEEP_ITEM(item, bit, there)
 #define OUTLINES_END(first)                                                                                  \
     kept_first = kept != 0u ? first : kept_first;                                                            \
     }                                                                                                        \
     }                                                                                                        \
-    while (more && kept == 0u && iterations < TRAVERSAL_LIMIT)                                               \
+    while (more && kept == 0u && INSTANCE_SEEN && iterations < TRAVERSAL_LIMIT)                              \
         ;                                                                                                    \
     test_kept(kept, kept_first, any, search, hit, iterations);                                               \
-    more = has_nodes(group) && !(any && hit.item != NO_ITEM);
+    more = more && !(any && hit.item != NO_ITEM);
 #else
 #define OUTLINES_BEGIN(search) OUTLINES_MAKE(search)
 #define OUTLINES_NODE
@@ -249,7 +262,7 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
         iterations += 2u; // this loop, and the inner one where no lane enters it
         if (HAS_COUNTERS)
             counted_nodes++;
-        node_record node = load_triangle_node(next_node(group, ray.flip));
+        node_record node = load_triangle_node(NODE_AT(group, ray));
         uint hits = node_hits(node, ray, hit.t + search.wrong);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         INSTANCE_FOUND(node, found)
@@ -269,7 +282,7 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
         END_WHILE(items != 0u && iterations < ITERATION_LIMIT)
         OUTLINES_END(node.first_item)
     } while (more && INSTANCE_SEEN && iterations < TRAVERSAL_LIMIT);
-    INSTANCES_END(more, iterations, TRAVERSAL_LIMIT)
+    INSTANCES_END(group, more, iterations, TRAVERSAL_LIMIT)
     STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)
     LONG_KEEP(search.wrong, search.doubt)
     doubts = doubts_of(search, hit);
