@@ -76,8 +76,8 @@ struct node_frame {
 // negative ones they give the wrong one, which no box notices where rays begin at 0; in an instance's tree they may begin
 // before.
 #if defined(DOUBLE_PRECISION) || defined(INSTANCES)
-#define MOST(a, b)  max(a, b)
-#define LEAST(a, b) min(a, b)
+#define MOST(a, b)  LARGER(a, b)
+#define LEAST(a, b) SMALLER(a, b)
 #else
 #define MOST(a, b)  intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)))
 #define LEAST(a, b) intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)))
