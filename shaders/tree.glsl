@@ -69,8 +69,8 @@ struct node_frame {
 // The larger and the smaller of two floats, by their bits: lavapipe's own take three instructions, for NaN. Of two
 // negative ones they give the wrong one, which no box notices because rays begin at 0.
 #ifdef DOUBLE_PRECISION
-#define MOST(a, b)  max(a, b)
-#define LEAST(a, b) min(a, b)
+#define MOST(a, b)  LARGER(a, b)
+#define LEAST(a, b) SMALLER(a, b)
 #else
 #define MOST(a, b)  intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)))
 #define LEAST(a, b) intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)))
