@@ -119,8 +119,7 @@ static void test_bands(struct frames *f) {
     stage.shot.settings.max_depth = 64;
     good = apply(&stage) && take(&stage, &deep, &of_deep) && good;
     good = good && renderer_count(stage.shot.renderer, &stage.shot.view.camera, NULL, &rays) == RENDER_DONE;
-    expect(f, good && rays.deepest < 20 && rays.primary == (uint64_t)96 * 72 * 2,
-           "no path needs more depth");
+    expect(f, good && rays.deepest < 20 && rays.primary == (uint64_t)96 * 72 * 2, "no path needs more depth");
     expect(f, of_one.bands == 1 && of_many.bands > 1 && of_deep.bands > 1, "one band, and several");
     expect(f, good && picture_differences(&one, &many, "bands") == 0, "bands do not show");
     expect(f, good && picture_differences(&one, &deep, "deep") == 0, "room for deeper paths does not show");
