@@ -49,14 +49,12 @@ static bool open_way(const struct bench *bench, struct bench_scene *scene, enum 
     struct flat_input input = precision_input(&scene->session, &scene->view);
     input.is_double = scene->session.scene->trace.precision == IR_PRECISION_DOUBLE;
     input.sharing = sharing;
-    double seconds[2];
     const struct bench_clocks start = bench_clocks_now();
     if (!flatten(&input, &way->flat)) {
         fprintf(stderr, "%s: cannot be flattened\n", scene->path);
         return false;
     }
-    bench_clocks_since(start, seconds);
-    way->flatten_seconds = seconds[1];
+    way->flatten_seconds = bench_clocks_since(start).processor;
     struct render_settings settings = render_settings_of(&scene->session.resolved, &way->flat, input.limits);
     settings.width = (uint32_t)scene->session.image->width;
     settings.height = (uint32_t)scene->session.image->height;
