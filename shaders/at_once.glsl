@@ -7,9 +7,6 @@
 
 layout(constant_id = CONSTANT_AT_ONCE) const bool AT_ONCE = false;
 layout(constant_id = CONSTANT_BRANCHES) const uint BRANCHES = 1u;
-// Without second searches, and without rays that a surface sends on: most paths need none, and a GPU runs twice as many of
-// a kernel that has neither. A path that does is saved before the ray, or at the surface, and goes on in a kernel that can.
-layout(constant_id = CONSTANT_PLAIN) const bool PLAIN = false;
 
 layout(set = 0, binding = BINDING_SAMPLES, std140) uniform sample_block {
     vec4 offsets[SAMPLES_AT_ONCE / 2]; // two samples each

@@ -165,7 +165,6 @@ hit_record long_hit() {
 // lavapipe writes and reads an indexed private array for all lanes, and a storage buffer only for those that want it: the
 // refracted rays that wait are always in this buffer.
 const bool AT_ONCE = false;
-const bool PLAIN = false;
 uint at_once_place(bool resumes, uint place, uint path) { return place; }
 void save_waiting(uint place, uint count) {}
 void load_waiting(uint place, uint count) {}

@@ -16,8 +16,8 @@ struct kernel_pair {
 // Those of one way, which ends their names.
 #define KERNELS(way)                                                                                         \
     {                                                                                                        \
-        [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_PLAIN] = KERNEL(trace##way),                        \
-        [RENDERER_HITS] = KERNEL(hits##way), [RENDERER_LOG] = KERNEL(log##way), [RENDERER_RESOLVE] = {       \
+        [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
+        [RENDERER_LOG] = KERNEL(log##way), [RENDERER_RESOLVE] = {                                            \
             NULL,                                                                                            \
             &kernel_resolve_storage                                                                          \
         }                                                                                                    \
@@ -104,28 +104,24 @@ static uint32_t private_branches(const struct renderer *renderer) {
     return renderer->path_stack ? renderer->path_stack : 1;
 }
 
-static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, bool is_plain,
-                   uint32_t features) {
-    return kept->program && kept->is_plain == is_plain && kept->features == features &&
+static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {
+    return kept->program && kept->features == features &&
            kept->alternative == renderer->settings.alternative &&
            kept->workgroup == renderer->settings.workgroup && kept->branches == private_branches(renderer);
 }
 
 static bool is_in_use(const struct renderer *renderer, const struct gpu_program *program) {
-    return program &&
-           (program == renderer->program || program == renderer->counting || program == renderer->plain);
+    return program && (program == renderer->program || program == renderer->counting);
 }
 
 // The tracing kernel with these features, compiled now or before, over the band's buffers.
-static struct gpu_program *keep_program(struct renderer *renderer, enum renderer_kernel kernel,
-                                        uint32_t features) {
-    const bool is_plain = kernel == RENDERER_PLAIN;
+static struct gpu_program *keep_program(struct renderer *renderer, uint32_t features) {
     for (uint32_t i = 0; i < RENDERER_KEPT; i++)
-        if (is_for(&renderer->kept[i], renderer, is_plain, features)) {
+        if (is_for(&renderer->kept[i], renderer, features)) {
             gpu_program_bind(renderer->gpu, renderer->kept[i].program, renderer->buffers);
             return renderer->kept[i].program;
         }
-    struct gpu_program *program = renderer_compile_kernel(renderer, kernel, features, NULL, NULL);
+    struct gpu_program *program = renderer_compile_kernel(renderer, RENDERER_TRACE, features, NULL, NULL);
     if (!program)
         return NULL;
     while (is_in_use(renderer, renderer->kept[renderer->kept_next].program))
@@ -133,7 +129,6 @@ static struct gpu_program *keep_program(struct renderer *renderer, enum renderer
     struct renderer_kept *kept = &renderer->kept[renderer->kept_next];
     gpu_program_destroy(renderer->gpu, kept->program);
     *kept = (struct renderer_kept){.features = features,
-                                   .is_plain = is_plain,
                                    .workgroup = renderer->settings.workgroup,
                                    .branches = private_branches(renderer),
                                    .alternative = renderer->settings.alternative,
@@ -145,16 +140,8 @@ static struct gpu_program *keep_program(struct renderer *renderer, enum renderer
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts) {
     struct gpu_program **program = counts ? &renderer->counting : &renderer->program;
     if (!*program)
-        *program =
-            keep_program(renderer, RENDERER_TRACE, renderer->features | (counts ? FEATURE_COUNTERS : 0));
+        *program = keep_program(renderer, renderer->features | (counts ? FEATURE_COUNTERS : 0));
     return *program;
-}
-
-struct gpu_program *renderer_plain_program(struct renderer *renderer) {
-    const uint32_t features = renderer->features & ~(FEATURE_REFLECTION | FEATURE_REFRACTION);
-    if (!renderer->plain)
-        renderer->plain = keep_program(renderer, RENDERER_PLAIN, features);
-    return renderer->plain;
 }
 
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
@@ -173,7 +160,6 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,
         [CONSTANT_BRANCHES] = renderer->samples_at_once ? private_branches(renderer) : 1,
-        [CONSTANT_PLAIN] = kernel == RENDERER_PLAIN,
         [CONSTANT_ALTERNATIVE_OFFSET] = bits_of(ldexp(alternative->offset, flat->scale_exponent)),
         [CONSTANT_ALTERNATIVE_DISTANCE] = bits_of(alternative->distance),
         [CONSTANT_ALTERNATIVE_CUT] = bits_of(ldexp(alternative->cut, 2 * flat->scale_exponent)),

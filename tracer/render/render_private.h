@@ -35,7 +35,6 @@ struct renderer_log;
 // A kernel that was compiled, for the settings that it depends on.
 struct renderer_kept {
     uint32_t features, workgroup;
-    bool is_plain;
     uint32_t branches; // in private memory; 0: samples are not traced at once
     enum render_alternative alternative;
     struct gpu_program *program; // NULL: none
@@ -85,9 +84,6 @@ struct renderer {
     struct gpu_buffer *buffers[GPU_BINDINGS];
     struct gpu_program *program;  // of those kept; NULL: none was wanted yet
     struct gpu_program *counting; // the same, with counters
-    struct gpu_program *plain;    // where samples are traced at once: for other than long tiles
-    bool plain_fails;             // too many paths need more: it would cost more than it saves
-    bool has_drawn;               // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
@@ -102,7 +98,6 @@ struct renderer {
 // of the band's where not NULL.
 enum renderer_kernel {
     RENDERER_TRACE,
-    RENDERER_PLAIN, // most of what the tracing kernel does: CONSTANT_PLAIN
     RENDERER_HITS,
     RENDERER_LOG,
     RENDERER_RESOLVE,
@@ -113,7 +108,6 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
-struct gpu_program *renderer_plain_program(struct renderer *renderer);
 float renderer_float(uint32_t bits);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
@@ -123,7 +117,6 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
 struct renderer_frame {
     struct renderer *renderer;
     struct gpu_program *program;
-    struct gpu_program *plain; // for paths that begin in other than long tiles; NULL: `program` traces all
     const struct render_progress *progress;
     struct render_statistics *statistics;
     uint64_t steps_done, steps; // a band's sample is a step
