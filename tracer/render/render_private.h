@@ -152,6 +152,8 @@ bool renderer_copy_counters(struct renderer_frame *run);
 bool renderer_follow_pass(struct renderer_frame *run, bool ends);
 // In which order tiles are traced at once, for a camera. false: see gpu_error.
 bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *camera);
+// Fills renderer->order and rank_begins; needs no device. false: no memory.
+bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *camera);
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
