@@ -230,6 +230,7 @@ static const struct feature_name {
     {FEATURE_COUNTERS, "counters"},
     {FEATURE_LONG_RAYS, "long_rays"},
     {FEATURE_MANY_LIGHTS, "many_lights"},
+    {FEATURE_BEGINS, "begins"},
 };
 static_assert(sizeof feature_names / sizeof feature_names[0] == FEATURE_COUNT, "every feature has a name");
 

@@ -118,14 +118,19 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     REAL det = u + v + w;
     REAL highest = LARGER(LARGER(u, v), w), lowest = SMALLER(SMALLER(u, v), w);
     bool inside = there && (highest <= 0.0 || lowest >= 0.0) && det != 0.0;
-    REAL inverse = 1.0 / det;
-    REAL t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
     REAL x_most = LARGER(LARGER(abs(ax), abs(bx)), abs(cx));
     REAL y_most = LARGER(LARGER(abs(ay), abs(by)), abs(cy));
     REAL z_most = LARGER(LARGER(abs(a.z), abs(b.z)), abs(c.z));
     REAL delta_x = GAMMA_5 * (x_most + z_most) + 2.0 * search.slack;
     REAL delta_y = GAMMA_5 * (y_most + z_most) + 2.0 * search.slack;
     REAL delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
+#if !defined(FETCH_TEXELS) && !defined(DOUBLE_PRECISION) && !defined(ALTERNATIVES)
+    // Most triangles of a leaf are passed by, and often by all lanes of a subgroup.
+    if (!(highest <= delta_e || lowest >= -delta_e || inside))
+        return;
+#endif
+    REAL inverse = 1.0 / det;
+    REAL t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
     // t is a mean of the vertices' z: an error of its weights moves it by their spread at most. Seen edge-on, it
     // may be anywhere among them.
     REAL z_low = SMALLER(SMALLER(a.z, b.z), c.z) * ray.sz, z_high = LARGER(LARGER(a.z, b.z), c.z) * ray.sz;
