@@ -18,7 +18,7 @@
 struct ir_image;
 
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
-#define REFERENCE_VERSION 4
+#define REFERENCE_VERSION 5
 
 // How far paths are followed where the file's own limits do not apply.
 #define REFERENCE_MIN_WEIGHT 1e-6
@@ -164,6 +164,7 @@ struct reference_segment {
     uint32_t body, triangle;        // body HIT_NONE: the background
     uint32_t material;              // in assets.materials; IR_NO_INDEX where nothing was hit
     bool enters;                    // the ray comes from outside the body
+    bool passes;                    // it goes straight on, unseen: the medium is the same on both sides
     bool total_reflection;          // the refracted ray was turned back
     double distance;                // scene units; 0 where nothing was hit
     vec3 point, geometric, shading; // as in reference_hit; 0 where nothing was hit
