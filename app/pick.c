@@ -23,6 +23,7 @@ static struct reference_segment common_segment(const struct render_segment *s) {
                                       .triangle = s->triangle,
                                       .material = s->material,
                                       .enters = s->enters,
+                                      .passes = s->passes,
                                       .total_reflection = s->total_reflection,
                                       .distance = s->distance,
                                       .point = s->point,

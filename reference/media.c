@@ -54,7 +54,7 @@ static bool is_same(const struct reference *r, uint32_t a, uint32_t b) {
     const struct scene_material *all = r->input.scene->materials;
     if (a == NOTHING || b == NOTHING)
         return a == b;
-    return a == b || scene_same_medium(&all[r->bodies[a].filling], &all[r->bodies[b].filling]);
+    return a == b || scene_compare_media(&all[r->bodies[a].filling], &all[r->bodies[b].filling]) == 0;
 }
 
 // Without media: the side of the surface tells all.

@@ -25,18 +25,40 @@ uint32_t scene_medium_material(const struct scene *scene, const struct scene_bod
     return body->materials[0];
 }
 
-static bool same_vector(vec3 a, vec3 b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
+enum {
+    KEY_NUMBERS = 24
+};
+
+static double *put_vector(double *to, vec3 v) {
+    *to++ = v.x;
+    *to++ = v.y;
+    *to++ = v.z;
+    return to;
 }
 
-bool scene_same_medium(const struct scene_material *a, const struct scene_material *b) {
-    return a == b ||
-           (a->diffuse_weight == b->diffuse_weight && a->specular_weight == b->specular_weight &&
-            a->reflection == b->reflection && a->refraction == b->refraction &&
-            same_vector(a->diffuse[0], b->diffuse[0]) && same_vector(a->diffuse[1], b->diffuse[1]) &&
-            a->checker == b->checker && same_vector(a->specular, b->specular) &&
-            a->specular_exponent == b->specular_exponent && a->refractive_index == b->refractive_index &&
-            a->fresnel == b->fresnel && same_vector(a->absorption, b->absorption));
+// All that light knows of a material but the size of a checker's cells, which each body counts in its own coordinates.
+static void key_of(const struct scene_material *m, double key[KEY_NUMBERS]) {
+    const double single[] = {m->diffuse_weight, m->specular_weight,   m->reflection,       m->refraction,
+                             m->checker,        m->specular_exponent, m->refractive_index, m->fresnel};
+    double *to = key;
+    for (size_t i = 0; i < sizeof single / sizeof *single; i++)
+        *to++ = single[i];
+    to = put_vector(to, m->diffuse[0]);
+    to = put_vector(to, m->diffuse[1]);
+    to = put_vector(to, m->specular);
+    to = put_vector(to, m->absorption);
+    while (to < key + KEY_NUMBERS)
+        *to++ = 0;
+}
+
+int scene_compare_media(const struct scene_material *a, const struct scene_material *b) {
+    double own[KEY_NUMBERS], other[KEY_NUMBERS];
+    key_of(a, own);
+    key_of(b, other);
+    for (int i = 0; i < KEY_NUMBERS; i++)
+        if (own[i] != other[i])
+            return own[i] < other[i] ? -1 : 1;
+    return 0;
 }
 
 // ---- which scenes need them

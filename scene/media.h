@@ -17,14 +17,14 @@ struct scene_inside {
     bool is_over; // there are more: `bodies` holds the outermost ones
 };
 
-// Whether the ray comes from above, but from no direction that edges and faces usually have.
+// Where that ray comes from, unit: from above, but along nothing that edges and faces usually follow.
 vec3 scene_inside_direction(void);
 
 bool scene_is_medium(const struct scene *scene, const struct scene_body *body);
 // The material that fills a medium: the first of its groups' that refracts.
 uint32_t scene_medium_material(const struct scene *scene, const struct scene_body *body);
-// Whether two materials are alike in all that light knows of them, so that bodies of them are one where they overlap.
-bool scene_same_medium(const struct scene_material *a, const struct scene_material *b);
+// An order of materials by all that light knows of them. 0: they are alike, and bodies of them are one where they overlap.
+int scene_compare_media(const struct scene_material *a, const struct scene_material *b);
 
 enum scene_media_need {
     SCENE_MEDIA_APART,       // no two media can have a place in common, and none is coloured

@@ -7,6 +7,8 @@ const uint BRANCHES_WORD = PATH_WORDS + LONG_WORDS; // the first of those rays
 // traced at once (at_once.glsl): then only paths that are saved have one.
 uint state_word(uint place, uint word) { return word * dispatch.places + place; }
 
+#include "media_words.glsl"
+
 vec3 get_low(uint slot) {
     vec3 low = vec3(0.0);
     if (HAS_MANY_LIGHTS)
@@ -15,7 +17,7 @@ vec3 get_low(uint slot) {
 }
 
 #ifdef DOUBLE_PRECISION
-const uint BRANCH_WORDS = STACK64_ENTRY_WORDS;
+const uint BRANCH_WORDS = STACK64_ENTRY_WORDS + MEDIA_BRANCH_WORDS;
 
 // Two numbers in a word, the third in the next with two more components.
 void put_real3(uint slot, uint word, dvec3 v, uvec2 more) {
@@ -57,6 +59,7 @@ path_state load_path(uint slot) {
     p.light_low = get_low(slot);
     p.light = w5.w;
     p.hit = hit_record(hit.x, hit.y, hit.z, c.x, c.y);
+    get_path_media(slot, p);
     return p;
 }
 
@@ -76,7 +79,7 @@ void get_branch(uint slot, uint word, inout path_state p) {
     p.depth = more.y;
 }
 #else
-const uint BRANCH_WORDS = STACK_ENTRY_WORDS;
+const uint BRANCH_WORDS = STACK_ENTRY_WORDS + MEDIA_BRANCH_WORDS;
 
 uvec4 left_word(ray_start start) {
     return uvec4(floatBitsToUint(vec3(start.slack, start.b1, start.b2)), start.left);
@@ -115,6 +118,7 @@ path_state load_path(uint slot) {
     p.hit = hit_record(uintBitsToFloat(w4.x), uintBitsToFloat(w4.y), uintBitsToFloat(w4.z), w4.w, w5.x);
     p.stack_size = w5.y;
     p.kind = w5.z;
+    get_path_media(slot, p);
     return p;
 }
 
@@ -177,6 +181,7 @@ bool save_path(bool resumes, uint place, uint path, path_state p) {
     if (AT_ONCE && place == NO_PLACE)
         return false;
     put_path(place, p, AT_ONCE ? path : 0u);
+    put_path_media(place, p);
     if (AT_ONCE)
         save_waiting(place, p.stack_size);
     if (HAS_MANY_LIGHTS)
@@ -200,6 +205,17 @@ void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction
     p.stack_size++;
 }
 
+// The media of the ray that was pushed last.
+void push_media(uint slot, path_state p, media_set inside) {
+    uint word = BRANCHES_WORD + BRANCH_WORDS * p.stack_size - MEDIA_BRANCH_WORDS;
+#ifndef FETCH_TEXELS
+    if (AT_ONCE)
+        waiting_media[p.stack_size - 1u] = waiting_medium(inside, p.tint);
+#endif
+    if (!AT_ONCE)
+        put_media(slot, word, inside, p.tint);
+}
+
 void pop_branch(uint slot, inout path_state p) {
     p.stack_size--;
 #ifndef FETCH_TEXELS
@@ -208,5 +224,7 @@ void pop_branch(uint slot, inout path_state p) {
 #endif
     if (!AT_ONCE)
         get_branch(slot, BRANCHES_WORD + BRANCH_WORDS * p.stack_size, p);
+    if (HAS_MEDIA && !AT_ONCE)
+        get_media(slot, BRANCHES_WORD + BRANCH_WORDS * (p.stack_size + 1u) - MEDIA_BRANCH_WORDS, p);
     p.kind = RAY_REFRACTED;
 }

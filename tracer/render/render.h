@@ -165,6 +165,7 @@ struct render_segment {
     uint32_t body, triangle;        // as in struct hit_pixel
     uint32_t material;              // in assets.materials; UINT32_MAX where nothing was hit
     bool enters;                    // the ray comes from outside the body
+    bool passes;                    // it goes straight on, unseen: the medium is the same on both sides
     bool total_reflection;          // the refracted ray was turned back
     bool unfinished;                // a ray to it or to a light did not end
     double distance;                // scene units; 0 where nothing was hit
