@@ -30,6 +30,7 @@ void where_material_words(const struct where *where, struct strbuf *out);
 
 // What either tracer may report about pixels.
 #define WHERE_NOT_FINITE    "got a value that is infinite or not a number"
+#define WHERE_NESTED        "show rays that are inside more than 8 bodies at once that refract"
 #define WHERE_OVER_SEGMENTS "needed more rays than the limit path-segments"
 #define WHERE_CUT_SHORT     "needed more rays than the limit reference-segments"
 

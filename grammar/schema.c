@@ -251,7 +251,7 @@ static const struct schema_row material_rows[] = {
      .doc = "Where bodies that refract overlap, the one of the highest priority fills the place; of equal ones "
             "the one entered last."},
     {.name = "attenuation_color", .element = "AttenuationColor", FIELD(ir_material, attenuation_color),
-     .also = "transmittance_color absorption_color transmission_color tint interior_color tf volume_color",
+     .also = "transmittance_color absorption_color transmission_color tint interior_color volume_color",
      .example = "0.5 0.8 0.9", .range = SCHEMA_RANGE_FRACTION, .standard = "1 1 1",
      .feature = FEATURE_ATTENUATION,
      .doc = "What is left of white light after 'attenuation_distance' inside a sphere or closed mesh; 1 is clear."},

@@ -1,8 +1,6 @@
 // Which media a ray is inside (docs/language.md, "Media").
 #include "reference/parts.h"
 
-#define NOTHING UINT32_MAX
-
 enum {
     CROSSINGS_MOST = 1000000 // on the way to the camera
 };
@@ -10,8 +8,8 @@ enum {
 // ---- sets
 
 // The medium that fills a place: of highest priority, the last one entered among equals.
-static uint32_t filling(const struct reference *r, const struct inside *inside) {
-    uint32_t found = NOTHING;
+uint32_t reference_filling(const struct reference *r, const struct inside *inside) {
+    uint32_t found = HIT_NONE;
     int32_t most = INT32_MIN;
     for (uint32_t i = 0; i < inside->count; i++) {
         const int32_t priority = r->materials[r->bodies[inside->bodies[i]].filling].priority;
@@ -45,14 +43,14 @@ static bool enter(struct inside *inside, uint32_t body) {
 
 // The index on one side; a body's own faces tell that of the body.
 static double index_of(const struct reference *r, uint32_t medium, const struct surface *s) {
-    if (medium == NOTHING)
+    if (medium == HIT_NONE)
         return 1;
     return medium == s->body ? s->index : r->materials[r->bodies[medium].filling].index;
 }
 
 static bool is_same(const struct reference *r, uint32_t a, uint32_t b) {
     const struct scene_material *all = r->input.scene->materials;
-    if (a == NOTHING || b == NOTHING)
+    if (a == HIT_NONE || b == HIT_NONE)
         return a == b;
     return a == b || scene_compare_media(&all[r->bodies[a].filling], &all[r->bodies[b].filling]) == 0;
 }
@@ -73,7 +71,7 @@ void reference_cross(const struct reference *r, const struct inside *before, str
     struct inside around = *before; // what the ray is inside but for this body
     const bool was_inside = leave(&around, s->body);
     if (!s->solid || !(s->refraction > 0)) {
-        s->index_before = index_of(r, filling(r, before), s);
+        s->index_before = index_of(r, reference_filling(r, before), s);
         s->index_after = s->index;
         return;
     }
@@ -82,15 +80,16 @@ void reference_cross(const struct reference *r, const struct inside *before, str
     struct inside within = was_inside ? *before : around;
     s->is_over = !was_inside && !enter(&within, s->body);
     s->after = leaves ? around : within;
-    const uint32_t left = filling(r, leaves ? &within : &around), entered = filling(r, &s->after);
+    const uint32_t left = reference_filling(r, leaves ? &within : &around);
+    const uint32_t entered = reference_filling(r, &s->after);
     s->passes = is_same(r, left, entered);
     s->index_before = index_of(r, left, s);
     s->index_after = index_of(r, entered, s);
 }
 
 vec3 reference_left(const struct reference *r, const struct inside *inside, double way) {
-    const uint32_t medium = r->media ? filling(r, inside) : NOTHING;
-    if (medium == NOTHING)
+    const uint32_t medium = r->media ? reference_filling(r, inside) : HIT_NONE;
+    if (medium == HIT_NONE)
         return (vec3){1, 1, 1};
     const vec3 rate = r->materials[r->bodies[medium].filling].absorption;
     return (vec3){exp(-rate.x * way), exp(-rate.y * way), exp(-rate.z * way)};

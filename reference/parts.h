@@ -191,6 +191,8 @@ double reference_shine(const struct surface *s, vec3 direction);
 bool reference_make_media(struct reference *r);
 // Which media are on both sides of a surface.
 void reference_cross(const struct reference *r, const struct inside *before, struct surface *s);
+// The body that fills the place; HIT_NONE: air.
+uint32_t reference_filling(const struct reference *r, const struct inside *inside);
 // What is left of light after a way in the medium that fills a place.
 vec3 reference_left(const struct reference *r, const struct inside *inside, double way);
 
@@ -247,6 +249,7 @@ struct sample {
     uint32_t deepest;
     double left_weight, brightest;
     bool over_segments;
+    bool is_nested; // a ray would have been inside too many media
     bool cancelled;
     uint32_t body, triangle; // last hit
 };

@@ -136,6 +136,8 @@ static struct reference_segment *log_segment(struct following *f, const struct b
                                           .origin = vec3_add(b->start.at, f->r->origin),
                                           .direction = b->direction,
                                           .body = HIT_NONE,
+                                          .medium = reference_filling(f->r, &b->inside),
+                                          .tint = b->tint,
                                           .material = IR_NO_INDEX};
     return segment;
 }
@@ -203,7 +205,10 @@ static void follow_ray(struct following *f, struct branch *b) {
     b->tint = scaled(b->tint, reference_left(f->r, &b->inside, s.distance));
     f->sample->body = s.body;
     f->sample->triangle = s.triangle;
+    if (segment)
+        segment->tint = b->tint;
     if (s.is_over) {
+        f->sample->is_nested = true;
         f->sample->radiance = (vec3){NAN, NAN, NAN};
     } else if (s.passes) {
         const struct lighting none = {.considered = 0};

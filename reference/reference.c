@@ -167,7 +167,7 @@ static bool goes_on(void *context) {
 
 static void note_fault(struct reference_fault *fault, uint32_t x, uint32_t y, const struct sample *s) {
     if (fault->pixels++ == 0)
-        *fault = (struct reference_fault){1, x, y, s->body, s->triangle};
+        *fault = (struct reference_fault){1, x, y, s->body, s->triangle, s->is_nested};
 }
 
 static bool is_finite(vec3 v) {

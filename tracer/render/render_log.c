@@ -197,6 +197,16 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
     add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + 15, told + 21);
 }
 
+// As filling() of media.glsl.
+static uint32_t filling(const struct gpu_word inside[2]) {
+    const uint32_t entries[MEDIA_MOST] = {inside[0].x, inside[0].y, inside[0].z, inside[0].w,
+                                          inside[1].x, inside[1].y, inside[1].z, inside[1].w};
+    uint32_t best = 0;
+    for (int i = 0; i < MEDIA_MOST; i++)
+        best = entries[i] >> MEDIUM_BITS > best >> MEDIUM_BITS ? entries[i] : best;
+    return best ? (best & MEDIUM_MASK) - 1 : HIT_NONE;
+}
+
 static void take(struct walk *walk, uint32_t index, const struct gpu_word *told) {
     const struct renderer *renderer = walk->renderer;
     struct node *node = &walk->nodes[index];
@@ -210,9 +220,12 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
     node->radiance[2] = (float)s->radiance.z;
     s->unfinished = told[2].w != 0;
     s->body = HIT_NONE;
+    s->medium = filling(node->ray + 5);
     s->material = UINT32_MAX;
     if (told[1].z != LOG_NOTHING)
         take_surface(walk, index, told);
+    const float *tint = walk->nodes[index].tint;
+    s->tint = (vec3){(double)tint[0], (double)tint[1], (double)tint[2]};
 }
 
 // Depth-first, mirrored rays before refracted ones: the order in which the tracer adds.
