@@ -7,6 +7,8 @@
 
 #include "scene/scene.h"
 
+#define SCENE_PRIORITY_MAX 1000
+
 // Most media that a ray can be inside at once.
 #define SCENE_MEDIA_MOST 8
 
