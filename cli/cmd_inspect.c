@@ -1,5 +1,6 @@
 // glint inspect SCENE [--ir]: counts, bounds, features with their reasons, buffers; or the canonical dump.
 #include "app/precision.h"
+#include "app/where.h"
 #include "cli/cli.h"
 #include "grammar/schema.h"
 
@@ -73,7 +74,27 @@ static void meshes(struct strbuf *out, const struct session *s) {
     }
 }
 
-static void features(struct strbuf *out, struct session *s, uint32_t mask) {
+// Which bodies make it necessary that rays know what they are inside.
+static void media_reason(struct strbuf *out, struct session *s, const struct scene_media_reason *reason) {
+    struct where a, b;
+    if (reason->need == SCENE_MEDIA_MANY || !where_find(s, reason->a, 0, &a) || !where_find(s, reason->b, 0, &b)) {
+        strbuf_cstr(out, "bodies that refract are too many to be compared\n");
+        return;
+    }
+    const struct source_place place = source_locate(&s->sources, b.at);
+    strbuf_format(out, "%.*s:%u:%u: ", STR_ARG(place.path), place.line, place.column);
+    where_body_words(&b, out);
+    if (reason->need == SCENE_MEDIA_ATTENUATION) {
+        strbuf_cstr(out, " is coloured inside\n");
+        return;
+    }
+    strbuf_cstr(out, " may share a place with ");
+    where_body_words(&a, out);
+    strbuf_char(out, '\n');
+}
+
+static void features(struct strbuf *out, struct session *s, const struct flat_scene *flat) {
+    const uint32_t mask = flat->features;
     struct ir_feature_reasons reasons;
     ir_features_explain(s->scene, &s->origin, &reasons);
     strbuf_cstr(out, "features\n");
@@ -82,6 +103,10 @@ static void features(struct strbuf *out, struct session *s, uint32_t mask) {
         if (!(mask & bit))
             continue;
         strbuf_format(out, "  %-17s", feature_name(bit));
+        if (bit == FEATURE_MEDIA) {
+            media_reason(out, s, &flat->media);
+            continue;
+        }
         uint32_t k = 0;
         while (k < reasons.count && reasons.items[k].bit != bit)
             k++;
@@ -185,7 +210,7 @@ static bool describe(struct session *session, struct strbuf *out) {
     bounds(out, session);
     meshes(out, session);
     precision_words(session, &precision, out);
-    features(out, session, flat.features);
+    features(out, session, &flat);
     instances(out, &flat);
     buffers(out, &flat);
     flat_finish(&flat);

@@ -217,13 +217,17 @@ static bool is_some_inside(const struct pair *p, const struct lint_body *body, c
 }
 
 static enum relation meshes(const struct pair *p) {
-    bool all;
+    bool all_a, all_b;
     if (cut_each_other(p))
         return CROSSES;
-    if (is_some_inside(p, p->a, p->b, &all))
-        return all ? INSIDE : CROSSES;
-    if (is_some_inside(p, p->b, p->a, &all))
-        return all ? AROUND : CROSSES;
+    const bool a_in_b = is_some_inside(p, p->a, p->b, &all_a), b_in_a = is_some_inside(p, p->b, p->a, &all_b);
+    // Water whose surface lies in the wall of its glass: the other side of the wall is in the water.
+    if (a_in_b && b_in_a)
+        return CROSSES;
+    if (a_in_b)
+        return all_a ? INSIDE : CROSSES;
+    if (b_in_a)
+        return all_b ? AROUND : CROSSES;
     return APART;
 }
 
