@@ -152,6 +152,7 @@ static enum precision_status choose(struct session *session, struct flat_input *
                                           .width = (uint32_t)session->image->width,
                                           .height = (uint32_t)session->image->height,
                                           .gpu = gpu,
+                                          .counts = wish.counts,
                                           .reference = wish.reference,
                                           .ready = wish.ready,
                                           .ready_context = wish.ready_context};

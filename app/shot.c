@@ -27,8 +27,9 @@ static enum shot_status flatten_shot(struct opening *opening, struct precision_g
     struct session *s = shot->session;
     double start = clock_seconds();
     struct flat_input input = precision_input(s, &shot->view);
-    input.sharing = gpu_info(shot->gpu)->has_double ? FLAT_CHEAPER : FLAT_COPIES;
-    const struct precision_wish wish = {.reference = shot->wish.audits ? &shot->reference : NULL,
+    input.sharing = gpu_info(shot->gpu)->has_double && !shot->wish.copies ? FLAT_CHEAPER : FLAT_COPIES;
+    const struct precision_wish wish = {.counts = shot->wish.counts,
+                                        .reference = shot->wish.audits ? &shot->reference : NULL,
                                         .ready = shot->wish.ready ? ask : NULL,
                                         .ready_context = opening};
     const enum precision_status status =
@@ -121,7 +122,8 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
     if (session->scene->lights.count && shot->renderer)
         return session_view(session, camera, &shot->view) ? SHOT_OK : shot_no_memory(session, "the view");
     struct gpu *gpu = shot->gpu;
-    const struct shot_wish wish = {.counts = shot->wish.counts, .audits = shot->wish.audits};
+    const struct shot_wish wish = {
+        .counts = shot->wish.counts, .audits = shot->wish.audits, .copies = shot->wish.copies};
     shot_close(shot);
     return shot_open_for(shot, session, gpu, camera, wish);
 }

@@ -21,6 +21,7 @@ enum shot_status {
 struct shot_wish {
     bool counts; // frames count their rays: render_statistics has them
     bool audits; // the reference that chose the precision is kept for app/audit.h
+    bool copies; // each model has triangles of its own, even where instances are cheaper
     // For a session that is not settled: called once all is done that needs no pixels of the background, and
     // settles it. false: the shot is not opened. NULL: the session is settled.
     bool (*ready)(void *context);

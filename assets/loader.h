@@ -8,6 +8,7 @@
 #include "core/str_map.h"
 
 struct ir_model;
+struct meshes_ahead;
 
 // A mesh file that models of this scene name.
 struct loaded_mesh {
@@ -34,6 +35,7 @@ enum {
 struct loader {
     const struct assets_input *input;
     struct asset_hold *hold;
+    struct meshes_ahead *ahead; // meshes that were read already; NULL: none
     struct loaded_mesh *meshes;
     struct {
         struct ir_material *items;

@@ -164,6 +164,14 @@ void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct m
     mesh_turn_outward(mesh);
 }
 
+void mesh_read(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
+    struct obj obj;
+    read_obj(file, scratch, &obj);
+    mesh->arena.cap_bytes -= scratch->used_bytes;
+    if (file->errors == 0)
+        mesh_build(&obj, file->path, scratch, mesh);
+}
+
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle) {
     const uint32_t *c = mesh->triangles[triangle].corners;
     vec3 u = vec3_sub(mesh->positions[c[1]], mesh->positions[c[0]]);

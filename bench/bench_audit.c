@@ -221,14 +221,14 @@ static bool time_round(struct shot *shot, struct image *image, struct bench_seri
                        struct bench_series *audits, struct audit *audit) {
     const struct audit_wish wish = {.reference = shot->reference, .share = AUDIT_SHARE};
     struct render_statistics statistics;
-    struct bench_start start = bench_begin();
+    struct bench_clocks start = bench_clocks_now();
     if (shot_take(shot, image, NULL, &statistics) != SHOT_OK)
         return false;
-    bench_end(frames, start, statistics.device_seconds);
-    start = bench_begin();
+    bench_add(frames, start, statistics.device_seconds);
+    start = bench_clocks_now();
     if (audit_take(shot->session, &shot->view, image, &wish, NULL, audit) != SHOT_OK)
         return false;
-    bench_end(audits, start, 0);
+    bench_add(audits, start, 0);
     return true;
 }
 

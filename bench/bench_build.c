@@ -13,7 +13,7 @@
 // triangles brought into the leaves' order.
 #include "bench/clocks.h"
 #include "bench/embree/peer_embree.h"
-#include "bench/meshes.h"
+#include "bench/mesh/mesh.h"
 #include "bench/presplit.h"
 #include "core/parallel.h"
 #include "core/vec3.h"
@@ -140,11 +140,11 @@ static void trace(const struct bvh *bvh, const struct contest *c, double *nodes,
     *items /= RAYS;
 }
 
-static bool build(struct contest *c, enum row row, double seconds[2]) {
+static bool build(struct contest *c, enum row row, struct bench_clocks *taken) {
     uint32_t count = c->mesh->triangle_count;
     struct bvh_item *items = c->items;
     if (row == ROW_EMBREE)
-        return peer_embree_build(c->embree, seconds);
+        return peer_embree_build(c->embree, taken);
     if (row == ROW_SPLIT && !(items = presplit(c->mesh, SPLIT_EXTRA, &count)))
         return false;
     if (row != ROW_WHOLE && row != ROW_SPLIT)
@@ -156,32 +156,19 @@ static bool build(struct contest *c, enum row row, double seconds[2]) {
     bool done = bvh_build(items, count, row == ROW_MEDIAN ? BVH_MEDIAN : BVH_SAH, &c->bvh[row]);
     if (done && row == ROW_WHOLE)
         parallel_for(count, PIECE, gather_leaves, c);
-    bench_clocks_since(start, seconds);
+    *taken = bench_clocks_since(start);
     if (row == ROW_SPLIT)
         free(items);
     return done;
-}
-
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double least(const double values[ROUNDS]) {
-    double result = values[0];
-    for (int i = 1; i < ROUNDS; i++)
-        result = fmin(result, values[i]);
-    return result;
 }
 
 static void print_row(const struct contest *c, enum row row) {
     double ratios[ROUNDS];
     for (int i = 0; i < ROUNDS; i++)
         ratios[i] = c->processor[row][i] / c->processor[ROW_EMBREE][i];
-    qsort(ratios, ROUNDS, sizeof *ratios, compare_doubles);
-    printf("%10u  %-8s %8.3f %8.3f", c->mesh->triangle_count, row_names[row], least(c->wall[row]),
-           least(c->processor[row]));
-    printf(c->embree ? " %8.2f" : "        -", ratios[ROUNDS / 2]);
+    printf("%10u  %-8s %8.3f %8.3f", c->mesh->triangle_count, row_names[row],
+           bench_least(c->wall[row], ROUNDS), bench_least(c->processor[row], ROUNDS));
+    printf(c->embree ? " %8.2f" : "        -", bench_median(ratios, ROUNDS));
     if (row != ROW_WHOLE && row != ROW_EMBREE) {
         struct bvh_quality quality = bvh_measure(&c->bvh[row]);
         double nodes, tested;
@@ -203,11 +190,11 @@ static bool measure(struct contest *c) {
     const enum row last = c->embree ? ROW_EMBREE : ROW_SPLIT;
     for (int round = 0; round < ROUNDS; round++)
         for (enum row row = 0; row <= last; row++) {
-            double seconds[2] = {c->wall[row][0], c->processor[row][0]};
-            if (((row != ROW_MEDIAN && row != ROW_SPLIT) || round == 0) && !build(c, row, seconds))
+            struct bench_clocks taken = {c->wall[row][0], c->processor[row][0]};
+            if (((row != ROW_MEDIAN && row != ROW_SPLIT) || round == 0) && !build(c, row, &taken))
                 return false;
-            c->wall[row][round] = seconds[0];
-            c->processor[row][round] = seconds[1];
+            c->wall[row][round] = taken.wall;
+            c->processor[row][round] = taken.processor;
         }
     for (enum row row = 0; row <= last; row++)
         print_row(c, row);

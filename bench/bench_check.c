@@ -1,5 +1,6 @@
 // Reading at size: glint's parsing, binding and checking against the bare event loop of libyaml or expat over
 // the same file, in turn, with the memory that glint takes. See README.md.
+#include "bench/clocks.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
 #include "grammar/ir.h"
@@ -312,16 +313,6 @@ static struct run measure(const char *path, bool xml, bool glint) {
     return run;
 }
 
-static int compare(const void *a, const void *b) {
-    double left = *(const double *)a, right = *(const double *)b;
-    return (left > right) - (left < right);
-}
-
-static double median(double *values, unsigned count) {
-    qsort(values, count, sizeof *values, compare);
-    return count % 2 ? values[count / 2] : (values[count / 2 - 1] + values[count / 2]) / 2;
-}
-
 static bool contest(const char *title, const char *path, bool xml, unsigned rounds) {
     double wall[2][ROUNDS_MAX], processor[2][ROUNDS_MAX], ratios[ROUNDS_MAX];
     uint64_t peak = 0;
@@ -341,10 +332,10 @@ static bool contest(const char *title, const char *path, bool xml, unsigned roun
         fprintf(stderr, "bench_check: %s: not read without mistakes\n", path);
         return false;
     }
-    double events = median(wall[0], rounds), glint = median(wall[1], rounds);
+    double events = bench_median(wall[0], rounds), glint = bench_median(wall[1], rounds);
     double megabytes = (double)file.st_size / 1e6;
     // Judged by processor time: what else runs makes one process wait longer than the other.
-    double share = median(ratios, rounds), memory = (double)peak / (double)file.st_size;
+    double share = bench_median(ratios, rounds), memory = (double)peak / (double)file.st_size;
     good = share >= SPEED_LEAST && memory <= MEMORY_MOST;
     printf("%-22s %7.1f MB  %s %6.1f MB/s  glint %6.1f MB/s  speed %.2f (processor %.2f)  memory %.1f x%s\n",
            title, megabytes, xml ? "expat  " : "libyaml", megabytes / events, megabytes / glint,

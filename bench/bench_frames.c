@@ -75,10 +75,10 @@ static bool fight(const struct bench *bench, struct duel *duel) {
         if (!glint_frames(bench, duel))
             return false;
         double device;
-        const struct bench_start start = bench_begin();
+        const struct bench_clocks start = bench_clocks_now();
         if (!original_render(duel->original, duel->image.rgb, &device, &duel->cut))
             return bench_device_failed(bench->gpu);
-        bench_end(&duel->original_times, start, device);
+        bench_add(&duel->original_times, start, device);
     }
     return glint_frames(bench, duel);
 }

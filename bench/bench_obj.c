@@ -2,14 +2,14 @@
 //
 //     bench_obj [TRIANGLES | MESH.ply | MESH.obj]...
 //
-// A mesh that is not an OBJ file (bench/meshes.h) is written as one into memory, with six decimals. For each
-// part: megabytes (10^6 bytes) per second on the wall and of all threads' processor time, the best of the
-// rounds; the median over the rounds of the processor time as a multiple of that of reading in order; and
+// A mesh that is not an OBJ file (bench/mesh/mesh.h) is written as one into memory, with six decimals. For
+// each part: megabytes (10^6 bytes) per second on the wall and of all threads' processor time, the best of
+// the rounds; the median over the rounds of the processor time as a multiple of that of reading in order; and
 // where this makes sense, whether the results are the same to the bit.
 #include "assets/mesh_build.h"
 #include "assets/read_obj.h"
 #include "bench/clocks.h"
-#include "bench/meshes.h"
+#include "bench/mesh/mesh.h"
 #include "core/strbuf.h"
 
 #include <math.h>
@@ -113,7 +113,6 @@ static void measure(void *context) {
     struct assets_input input = {.sources = &c->sources, .sink = &c->sink, .limits = &c->limits};
     struct asset_file file = {.input = &input, .what = "mesh", .text = c->text};
     struct obj by_one, by_all;
-    double seconds[2];
     for (enum part part = 0; part < PARTS; part++) {
         struct bench_clocks start = bench_clocks_now();
         if (part == PART_ORDER)
@@ -122,25 +121,13 @@ static void measure(void *context) {
             c->is_read = read_obj_in_chunks(&file, &round->arenas[1], CHUNK_BYTES, &by_all);
         else if (file.errors == 0)
             mesh_build(&by_one, STR("bench"), &round->arenas[0], &round->mesh);
-        bench_clocks_since(start, seconds);
-        c->wall[part][round->number] = seconds[0];
-        c->processor[part][round->number] = seconds[1];
+        const struct bench_clocks taken = bench_clocks_since(start);
+        c->wall[part][round->number] = taken.wall;
+        c->processor[part][round->number] = taken.processor;
     }
     c->is_read = c->is_read && file.errors == 0;
     c->is_same = c->is_read && same(&by_one, &by_all);
     c->triangles = round->mesh.triangle_count;
-}
-
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double least(const double values[ROUNDS]) {
-    double result = values[0];
-    for (int i = 1; i < ROUNDS; i++)
-        result = fmin(result, values[i]);
-    return result;
 }
 
 static void print(const struct contest *c) {
@@ -148,10 +135,10 @@ static void print(const struct contest *c) {
         double ratios[ROUNDS];
         for (int i = 0; i < ROUNDS; i++)
             ratios[i] = c->processor[part][i] / c->processor[PART_ORDER][i];
-        qsort(ratios, ROUNDS, sizeof *ratios, compare_doubles);
         printf("%10u %8.1f  %-10s %8.0f %8.0f %8.2f  %s\n", c->triangles, (double)c->text.len / 1e6,
-               part_names[part], (double)c->text.len / 1e6 / least(c->wall[part]),
-               (double)c->text.len / 1e6 / least(c->processor[part]), ratios[ROUNDS / 2],
+               part_names[part], (double)c->text.len / 1e6 / bench_least(c->wall[part], ROUNDS),
+               (double)c->text.len / 1e6 / bench_least(c->processor[part], ROUNDS),
+               bench_median(ratios, ROUNDS),
                part != PART_CHUNKS ? ""
                : c->is_same        ? "the same"
                : c->is_read        ? "NOT the same"

@@ -94,10 +94,10 @@ static bool take_frames(const struct options *o, struct original *original, stru
                         struct bench_series *series, uint32_t *cut) {
     for (uint32_t i = 0; i < o->frames; i++) {
         double device;
-        const struct bench_start start = bench_begin();
+        const struct bench_clocks start = bench_clocks_now();
         if (!original_render(original, image->rgb, &device, cut))
             return false;
-        bench_end(series, start, device);
+        bench_add(series, start, device);
     }
     return true;
 }

@@ -58,9 +58,9 @@ static void measure(const char *path, struct job *job) {
     for (int round = 0; round < ROUNDS; round++)
         for (int i = 0; i < WAYS; i++) {
             strbuf_clear(&job->file);
-            const struct bench_start start = bench_begin();
+            const struct bench_clocks start = bench_clocks_now();
             ways[i].write(job);
-            bench_end(&series[i], start, 0);
+            bench_add(&series[i], start, 0);
             bytes[i] = job->file.len;
         }
     printf("%s: %u x %u\n  %-14s %10s %10s %12s\n", path, job->width, job->height, "", "clock", "processor",

@@ -85,48 +85,13 @@ bool bench_device_failed(const struct gpu *gpu) {
     return false;
 }
 
-struct bench_start bench_begin(void) {
-    struct timespec spent = {0};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
-    return (struct bench_start){clock_seconds(), (double)spent.tv_sec + 1e-9 * (double)spent.tv_nsec};
-}
-
-void bench_end(struct bench_series *series, struct bench_start start, double device) {
-    const struct bench_start now = bench_begin();
+void bench_add(struct bench_series *series, struct bench_clocks start, double device) {
+    const struct bench_clocks taken = bench_clocks_since(start);
     if (series->count == BENCH_SAMPLES_MOST)
         return;
-    series->wall[series->count] = now.wall - start.wall;
-    series->processor[series->count] = now.processor - start.processor;
+    series->wall[series->count] = taken.wall;
+    series->processor[series->count] = taken.processor;
     series->device[series->count++] = device;
-}
-
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
-double bench_median(const double *seconds, uint32_t count) {
-    double sorted[BENCH_SAMPLES_MOST];
-    if (count == 0)
-        return 0;
-    memcpy(sorted, seconds, count * sizeof *sorted);
-    qsort(sorted, count, sizeof *sorted, compare_doubles);
-    return 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
-}
-
-double bench_least(const double *seconds, uint32_t count) {
-    double least = INFINITY;
-    for (uint32_t i = 0; i < count; i++)
-        least = fmin(least, seconds[i]);
-    return least;
-}
-
-double bench_most(const double *seconds, uint32_t count) {
-    double most = 0;
-    for (uint32_t i = 0; i < count; i++)
-        most = fmax(most, seconds[i]);
-    return most;
 }
 
 bool bench_glint_open(struct bench_glint *glint, struct gpu *gpu, const struct bench_scene *scene,
@@ -146,12 +111,12 @@ void bench_glint_close(struct bench_glint *glint) {
 
 bool bench_glint_frame(struct bench_glint *glint, struct gpu *gpu, struct bench_series *series) {
     struct render_statistics statistics;
-    const struct bench_start start = bench_begin();
+    const struct bench_clocks start = bench_clocks_now();
     if (renderer_render(glint->renderer, &glint->scene->view.camera, glint->image.rgb, NULL, &statistics) !=
         RENDER_DONE)
         return bench_device_failed(gpu);
     if (series)
-        bench_end(series, start, statistics.device_seconds);
+        bench_add(series, start, statistics.device_seconds);
     return true;
 }
 

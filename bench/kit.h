@@ -7,6 +7,7 @@
 #define GLINT_BENCH_KIT_H
 
 #include "app/session.h"
+#include "bench/clocks.h"
 #include "picture/write/image.h"
 #include "tracer/render/render.h"
 
@@ -30,10 +31,6 @@ void bench_print_machine(const struct gpu *gpu);
 // Says what failed last on the device; always false.
 bool bench_device_failed(const struct gpu *gpu);
 
-enum {
-    BENCH_SAMPLES_MOST = 1024
-};
-
 // Seconds of the frames of one contestant; further ones than fit are left out.
 struct bench_series {
     uint32_t count;
@@ -42,17 +39,8 @@ struct bench_series {
     double processor[BENCH_SAMPLES_MOST]; // of all threads of this process: a CPU device works in them
 };
 
-// The clocks at the start of a frame.
-struct bench_start {
-    double wall, processor;
-};
-
-struct bench_start bench_begin(void);
-// Adds the frame that ends now.
-void bench_end(struct bench_series *series, struct bench_start start, double device);
-double bench_median(const double *seconds, uint32_t count);
-double bench_least(const double *seconds, uint32_t count);
-double bench_most(const double *seconds, uint32_t count);
+// Adds the frame that began there and ends now; `device`: its seconds on the device's own clock.
+void bench_add(struct bench_series *series, struct bench_clocks start, double device);
 
 // A renderer of glint, and its last picture.
 struct bench_glint {

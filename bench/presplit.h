@@ -3,7 +3,7 @@
 #ifndef GLINT_BENCH_PRESPLIT_H
 #define GLINT_BENCH_PRESPLIT_H
 
-#include "bench/meshes.h"
+#include "bench/mesh/mesh.h"
 #include "tracer/bvh/bvh.h"
 
 // Items of all triangles, `extra` times as many besides at most (0.3: a third more): each with its triangle's

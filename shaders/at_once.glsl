@@ -1,6 +1,9 @@
 // Many samples of many pixels traced at once, for GPUs: path k * slots + s is sample k of slot s. A path lives in private
 // memory, the refracted rays that wait in it too, and takes a place in the state buffer only when its slice ends. Where
 // all places are taken, the path begins once more in a later dispatch.
+//
+// The samples of a tile follow each other, and tiles come in an order of the host's: the last paths leave a GPU idle, so
+// that long ones are to begin first.
 
 layout(constant_id = CONSTANT_AT_ONCE) const bool AT_ONCE = false;
 layout(constant_id = CONSTANT_BRANCHES) const uint BRANCHES = 1u;
@@ -14,6 +17,12 @@ layout(set = 0, binding = BINDING_SAMPLES, std140) uniform sample_block {
 vec2 sample_offset(uint k) {
     vec4 both = sample_places.offsets[k / 2u];
     return (k & 1u) == 0u ? both.xy : both.zw;
+}
+
+// The path that an invocation begins.
+uint path_of(uint index, uint slots) {
+    uint samples = max(dispatch.samples, 1u), block = index / TILE_PIXELS;
+    return block % samples * slots + block / samples * TILE_PIXELS + index % TILE_PIXELS;
 }
 
 struct waiting_ray {

@@ -73,7 +73,8 @@
     UINT(restarts)     /* 1: paths begin that found no place before, by their list */                        \
     UINT(place_base)   /* value of COUNTER_PLACES when all places were free */                               \
     UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */                              \
-    UINT(shows)        /* 1: a path is its pixel's only one, and shows it */
+    UINT(shows)        /* 1: a path is its pixel's only one, and shows it */                                 \
+    UINT(spread)       /* one of so many invocations has a path; 0: each */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8
@@ -163,7 +164,8 @@
 /* Samples are traced at once, and refracted rays that wait lie in private memory, this many at most. */
 #define CONSTANT_AT_ONCE  9
 #define CONSTANT_BRANCHES 10
-#define CONSTANT_COUNT    11
+#define CONSTANT_PLAIN    11 /* 1: a path that needs more than most is saved, for a kernel that has it */
+#define CONSTANT_COUNT    12
 
 /* Most samples of a pixel that are traced at once. */
 #define SAMPLES_AT_ONCE 64

@@ -26,6 +26,7 @@
 #define BINDING_SAMPLES 14 /* uniform buffer: their offsets in a pixel */
 #define BINDING_PICTURE 15 /* three floats a pixel, by rows: the sums of its samples, or NaN */
 #define BINDING_SUMS    16 /* as OUTPUT, a word a slot: of the samples before */
+#define BINDING_ORDER   17 /* tiles in the order of their slots: x + (y << 16) */
 
 /* Node of the 8-wide compressed tree (Ylitie, Karras, Laine 2017, section 4.1):
    word 0: x,y,z the corner p of the node's box (float); w: byte 0..2 exponents ex,ey,ez (biased by 127),

@@ -43,10 +43,16 @@ const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 // Of this invocation, with HAS_COUNTERS.
 uint counted_nodes = 0u, counted_items = 0u;
 
+// Without second searches; on GPUs without rays that a surface sends on, too. Most paths need none, and such a kernel is
+// faster. What does is saved before the ray, or at the surface, and goes on in a kernel that can.
+layout(constant_id = CONSTANT_PLAIN) const bool PLAIN = false;
+
 #ifdef FETCH_TEXELS
+const bool BEGINS = PLAIN;
 #define WORDS(number, name) layout(set = 0, binding = number) uniform usamplerBuffer name;
 #define FETCH(name, index)  texelFetch(name, int(index))
 #else
+const bool BEGINS = false;
 #define WORDS(number, name)                                                                                  \
     layout(set = 0, binding = number, std430) readonly restrict buffer name##_words { uvec4 name[]; };
 #define FETCH(name, index) name[index]

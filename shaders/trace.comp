@@ -152,7 +152,7 @@ void write_sample(uint path, path_state p, uint fault) {
     pixels[path] = after;
 #ifndef FETCH_TEXELS
     if (AT_ONCE && dispatch.shows > OPAQUE_ZERO)
-        show(pixel_of_slot(path), after);
+        show(pixel_in_order(path), after);
 #endif
 }
 
@@ -350,6 +350,8 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
         count_ray(p, phase == PHASE_RAY);
     if (state == GOES_ON)
         state = arrive(p, phase, hit, shadow, s, start);
+    if (PLAIN && !BEGINS && state == GOES_ON && (s.reflection > 0.0 || s.refraction > 0.0))
+        state = SUSPENDED;
     bool passes = HAS_MEDIA && state == GOES_ON && s.passes && phase != PHASE_SHADOW;
     if (passes) {
         pass_surface(p, s);
@@ -387,7 +389,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             iterations += SEGMENT_ITERATIONS;
             bool own = phase == PHASE_RAY;
             bool wanted = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
-            bool traced = wanted && !decided;
+            bool traced = wanted && (BEGINS || !decided);
             if (HAS_SLICES && traced && is_late(fresh, iterations)) {
                 state = SUSPENDED;
                 break;
@@ -405,25 +407,27 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             }
 #ifdef FETCH_TEXELS
             if (HAS_TRIANGLES && traced && open) {
-                state = room_for_exact(fresh, iterations);
+                state = BEGINS ? SUSPENDED : room_for_exact(fresh, iterations);
                 held = sphere;
                 rough = hit;
                 if (state != GOES_ON)
                     break;
             }
 #else
-            if (HAS_TRIANGLES && traced && open)
+            if (PLAIN && HAS_TRIANGLES && traced && open)
+                state = SUSPENDED;
+            else if (HAS_TRIANGLES && traced && open)
                 state = decide_here(p, own, from, shadow, doubts, sphere, fresh, hit, iterations);
             if (state == SUSPENDED)
                 break;
 #endif
-            if (decided)
+            if (!BEGINS && decided)
                 hit = held;
             decided = false;
             state = arrive_and_go_on(slot, p, wanted, hit, s, start, phase, shadow, iterations, fresh, fault);
         } while (state == GOES_ON);
 #ifdef FETCH_TEXELS
-        if (HAS_TRIANGLES && state == UNDECIDED) {
+        if (HAS_TRIANGLES && !BEGINS && state == UNDECIDED) {
             if (!decide_exactly(p, phase == PHASE_RAY, shadow_start(p, start), shadow, doubts, held, iterations))
                 held = rough;
             decided = true;
@@ -437,8 +441,16 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
-    uint index = dispatch.path_begin + group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
+    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+#ifndef FETCH_TEXELS
+    if (dispatch.spread > OPAQUE_ZERO) {
+        if (index % dispatch.spread != 0u)
+            return;
+        index /= dispatch.spread;
+    }
+#endif
+    index += dispatch.path_begin;
+    bool resumes = HAS_SLICES && !PLAIN && dispatch.resume > OPAQUE_ZERO;
     if (index >= dispatch.path_end)
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
@@ -450,11 +462,15 @@ void main() {
             path = saved_number(place);
         else if (dispatch.restarts > OPAQUE_ZERO)
             path = counters[COUNTER_COUNT + 2u * dispatch.places + index];
+        else
+            path = path_of(index, dispatch.tile_count * TILE_PIXELS);
         slot = path % (dispatch.tile_count * TILE_PIXELS);
         sample_number = path / (dispatch.tile_count * TILE_PIXELS);
     }
-#endif
+    uvec2 pixel = AT_ONCE ? pixel_in_order(slot) : pixel_of_slot(slot);
+#else
     uvec2 pixel = pixel_of_slot(slot);
+#endif
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     path_state p;

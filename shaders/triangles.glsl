@@ -94,8 +94,10 @@ ray_doubts no_doubts() { return ray_doubts(false, NO_ITEM, NO_ITEM); }
 
 // Two such triangles are noted: a corner may have more, and then all are looked at once more.
 void note_near(uint item, inout triangle_search search) {
-    bool is_full = HAS_LONG_RAYS || search.near_b != NO_ITEM;
+    bool is_full = HAS_LONG_RAYS || BEGINS || search.near_b != NO_ITEM;
     search.doubt = is_full ? 0.0 : search.doubt;
+    if (BEGINS)
+        return;
     search.near_b = search.near_a != NO_ITEM ? item : search.near_b;
     search.near_a = search.near_a == NO_ITEM ? item : search.near_a;
 }
@@ -147,7 +149,8 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     bool order_open = inside && starts_before && abs(t - hit.t) <= delta_t + search.wrong;
     search.doubt = order_open ? min(search.doubt, min(t, hit.t)) : search.doubt;
     bool edge_open = possible && starts_before && lowest <= delta_e && highest >= -delta_e;
-    search.edge = edge_open ? min(search.edge, edge_on ? first - delta_z : t - delta_t) : search.edge;
+    if (!BEGINS)
+        search.edge = edge_open ? min(search.edge, edge_on ? first - delta_z : t - delta_t) : search.edge;
     if (start_open)
         note_near(item, search);
 #endif

@@ -156,7 +156,7 @@ SCENES = [
     Scene("knot-1m", "a displaced knot of 1 M triangles", knot("knot-1m", 1000000), mesh_groups(), OWN),
     Scene("knot-10m", "a displaced knot of 10 M triangles", knot("knot-10m", 10000000), mesh_groups(), OWN),
     Scene("venus-1000", "1000 models of one mesh of 31 398 triangles", copies,
-          [Group("frame", ["single", "instances"])], ["warm", "instances"]),
+          [Group("frame", ["single", "baked", "instances"])], ["warm", "instances"]),
 ]
 
 

@@ -11,6 +11,7 @@ from .machine import ROOT, Failure, Skip, paired, run, say, spread
 PROGRAMS = {
     "single": "turns_glint",
     "double": "turns_glint",
+    "baked": "turns_glint",
     "baseline": "turns_glint",
     "embree": "turns_embree",
     "robust": "turns_embree",
@@ -20,6 +21,7 @@ PROGRAMS = {
 NAMES = {
     "single": "glint",
     "double": "glint, double precision",
+    "baked": "glint, a copy for each model",
     "baseline": "the course project's method",
     "embree": "Embree",
     "robust": "Embree, robust",

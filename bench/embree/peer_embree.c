@@ -3,8 +3,6 @@
 #include <stdlib.h>
 
 #ifdef BENCH_EMBREE
-#include "bench/clocks.h"
-
 #include <embree3/rtcore.h>
 #include <string.h>
 
@@ -24,7 +22,7 @@ struct peer_embree *peer_embree_open(const struct bench_mesh *mesh) {
     return NULL;
 }
 
-bool peer_embree_build(struct peer_embree *peer, double seconds[2]) {
+bool peer_embree_build(struct peer_embree *peer, struct bench_clocks *taken) {
     const struct bench_mesh *mesh = peer->mesh;
     RTCScene scene = rtcNewScene(peer->device);
     RTCGeometry geometry = rtcNewGeometry(peer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -39,7 +37,7 @@ bool peer_embree_build(struct peer_embree *peer, double seconds[2]) {
         rtcAttachGeometry(scene, geometry);
         struct bench_clocks start = bench_clocks_now();
         rtcCommitScene(scene);
-        bench_clocks_since(start, seconds);
+        *taken = bench_clocks_since(start);
     }
     rtcReleaseGeometry(geometry);
     rtcReleaseScene(scene);
@@ -60,9 +58,9 @@ struct peer_embree *peer_embree_open(const struct bench_mesh *mesh) {
     return NULL;
 }
 
-bool peer_embree_build(struct peer_embree *peer, double seconds[2]) {
+bool peer_embree_build(struct peer_embree *peer, struct bench_clocks *taken) {
     (void)peer;
-    (void)seconds;
+    (void)taken;
     return false;
 }
 

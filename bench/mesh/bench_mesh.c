@@ -8,9 +8,8 @@
 #include "bench/mesh/knot.h"
 #include "bench/mesh/read_ply.h"
 #include "core/number.h"
-#include "files/output.h"
-
 #include "core/strbuf.h"
+#include "files/output.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,15 +59,12 @@ static void write_knot(struct writing *w, uint32_t triangles) {
     for (uint32_t row = 0; row < grid.rows; row++)
         for (uint32_t column = 0; column < grid.columns; column++)
             put_vertex(w, knot_point(grid, row, column));
-    for (uint32_t row = 0; row < grid.rows; row++)
-        for (uint32_t column = 0; column < grid.columns; column++) {
-            const uint32_t next = (row + 1) % grid.rows, right = (column + 1) % grid.columns;
-            const uint32_t a = row * grid.columns + column, b = next * grid.columns + column;
-            const uint32_t c = next * grid.columns + right, d = row * grid.columns + right;
-            // Counter-clockwise seen from outside.
-            put_face(w, (const uint32_t[]){a, c, b}, 3);
-            put_face(w, (const uint32_t[]){a, d, c}, 3);
-        }
+    for (uint32_t i = 0; i < grid.rows * grid.columns; i++) {
+        uint32_t both[2][3];
+        knot_cell(grid, i, both);
+        put_face(w, both[0], 3);
+        put_face(w, both[1], 3);
+    }
 }
 
 static const char *write_ply(struct writing *w, struct ply *ply) {

@@ -16,5 +16,8 @@ struct knot_grid {
 struct knot_grid knot_grid(uint32_t triangles);
 // Rows and columns beyond the last are the first again.
 vec3 knot_point(struct knot_grid grid, uint32_t row, uint32_t column);
+// The two triangles between a point and the next ones along and around, by the numbers of points: row *
+// columns + column. Counter-clockwise seen from outside.
+void knot_cell(struct knot_grid grid, uint32_t point, uint32_t triangles[2][3]);
 
 #endif

@@ -134,10 +134,10 @@ static bool load(struct turns *t) {
 
 static bool take_frame(struct turns *t) {
     double device = 0;
-    const struct bench_start start = bench_begin();
+    const struct bench_clocks start = bench_clocks_now();
     if (!t->system->frame(t->state, &t->image, &device))
         return false;
-    bench_end(&t->series, start, device);
+    bench_add(&t->series, start, device);
     return true;
 }
 

@@ -1,7 +1,7 @@
-// glint as a system that takes turns, in single or double precision, and the method of the course project
-// that it grew out of.
+// glint as a system that takes turns, in single or double precision, or with a copy of the mesh for each
+// model in place of instances; and the method of the course project that it grew out of.
 //
-//     turns_glint [--system single|double|baseline] ... (turns.h)
+//     turns_glint [--system single|double|baked|baseline] ... (turns.h)
 #include "app/shot.h"
 #include "bench/kit.h"
 #include "bench/original/original.h"
@@ -55,7 +55,8 @@ static enum turns_status open_glint(void *state, const struct turns_options *o, 
     if (is_double && !gpu_info(g->gpu)->has_double)
         return turns_say(TURNS_CANNOT, "%s has no double precision", gpu_info(g->gpu)->name);
     session->scene->trace.precision = is_double ? IR_PRECISION_DOUBLE : IR_PRECISION_SINGLE;
-    const enum shot_status status = shot_open(&g->shot, session, g->gpu, 0);
+    const struct shot_wish wish = {.copies = strcmp(o->system, "baked") == 0};
+    const enum shot_status status = shot_open_for(&g->shot, session, g->gpu, 0, wish);
     if (status != SHOT_OK)
         return status == SHOT_DEVICE ? device_says(g) : TURNS_FAILED;
     return warm(g, o);

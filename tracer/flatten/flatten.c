@@ -146,9 +146,9 @@ static enum flatten_fault choose_scale(struct flattening *f) {
 static enum flatten_fault run(struct flattening *f) {
     typedef enum flatten_fault step(struct flattening *);
     static step *const steps[] = {
-        flatten_count,     choose_scale,   flatten_share,      make_triangles,
-        flatten_instances, make_spheres,   flatten_normals,    flatten_media,
-        flatten_body_records, flatten_materials, flatten_lights, flatten_background,
+        flatten_count,  choose_scale,       flatten_share,   make_triangles,       flatten_instances,
+        make_spheres,   flatten_normals,    flatten_media,   flatten_body_records, flatten_materials,
+        flatten_lights, flatten_background, flatten_bounces,
     };
     size_t bodies = f->scene->body_count;
     f->out->body_count = (uint32_t)bodies;
@@ -213,6 +213,7 @@ void flat_finish(struct flat_scene *flat) {
         free(arrays[i].words);
     free(flat->first_triangle);
     free(flat->uses);
+    free(flat->bounces);
     free(flat->background_texels.decoded);
     *flat = (struct flat_scene){0};
 }

@@ -51,6 +51,12 @@ struct flat_use {
     int64_t saved_bytes;        // on the device, by sharing all that can be; negative: copies are smaller
 };
 
+// A body whose surfaces send on rays: paths are long where it is seen.
+struct flat_bounce {
+    vec3 lower, upper; // a box around it, scene units
+    bool refracts;     // a path may branch on it
+};
+
 struct flat_scene {
     bool is_double; // for the kernels in double precision
     struct flat_strides strides;
@@ -70,6 +76,8 @@ struct flat_scene {
     uint32_t top_nodes, instance_table, instance_shift; // as in the frame (shaders/frame.h)
     struct flat_use *uses;                              // in the order of their first models
     uint32_t use_count;
+    struct flat_bounce *bounces; // in IR order
+    uint32_t bounce_count;
     uint32_t body_count, light_count, sphere_count;
     uint32_t triangle_count;               // that the trees hold
     uint64_t shown_triangles;              // of all models: each instance shows those of its mesh

@@ -81,6 +81,11 @@ enum flatten_fault flatten_triangles(struct flattening *f);
 // Fills out->triangles, which is there, as leaf_of says.
 enum flatten_fault flatten_records(struct flattening *f);
 
+// ---- flatten_bounces.c
+
+// Fills out->bounces.
+enum flatten_fault flatten_bounces(struct flattening *f);
+
 // ---- flatten_share.c
 
 // Decides which bodies are instances.

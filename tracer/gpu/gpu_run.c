@@ -14,8 +14,21 @@ bool gpu_record(struct gpu *gpu) {
     return true;
 }
 
-bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
-                  const void *push) {
+// Between what this stage writes and all that comes after it: kernels, transfers, and the host's reads.
+static void order(struct gpu *gpu, VkPipelineStageFlags stage, VkAccessFlags writes) {
+    const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                     .srcAccessMask = writes,
+                                     .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                                                      VK_ACCESS_TRANSFER_READ_BIT |
+                                                      VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT};
+    gpu->vk.vkCmdPipelineBarrier(gpu->commands, stage,
+                                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
+                                     VK_PIPELINE_STAGE_HOST_BIT,
+                                 0, 1, &barrier, 0, NULL, 0, NULL);
+}
+
+bool gpu_dispatch_beside(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
+                         const void *push) {
     if (!gpu_record(gpu))
         return false;
     if (gpu->recorded++ == 0) {
@@ -30,37 +43,23 @@ bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_
         gpu->vk.vkCmdPushConstants(gpu->commands, program->compiled->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                    program->compiled->push_bytes, push);
     gpu->vk.vkCmdDispatch(gpu->commands, groups_x, groups_y, 1);
-    // Of the last dispatch it stays: copies after it are not the dispatches' time.
-    gpu->vk.vkCmdResetQueryPool(gpu->commands, gpu->queries, 1, 1);
-    gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, gpu->queries, 1);
-    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                               .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
-                               .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
-                                                VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
-                                                VK_ACCESS_HOST_READ_BIT};
-    gpu->vk.vkCmdPipelineBarrier(gpu->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                                     VK_PIPELINE_STAGE_HOST_BIT,
-                                 0, 1, &barrier, 0, NULL, 0, NULL);
     return true;
 }
 
-// Between a transfer and what comes after it.
-static void order_transfer(struct gpu *gpu) {
-    VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                               .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                               .dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
-                                                VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                                                VK_ACCESS_TRANSFER_WRITE_BIT};
-    gpu->vk.vkCmdPipelineBarrier(gpu->commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                 VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT |
-                                     VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                 0, 1, &barrier, 0, NULL, 0, NULL);
+bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
+                  const void *push) {
+    if (!gpu_dispatch_beside(gpu, program, groups_x, groups_y, push))
+        return false;
+    // Of the last dispatch it stays: copies after it are not the dispatches' time.
+    gpu->vk.vkCmdResetQueryPool(gpu->commands, gpu->queries, 1, 1);
+    gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, gpu->queries, 1);
+    order(gpu, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
+    return true;
 }
 
 void gpu_record_copy(struct gpu *gpu, VkBuffer from, VkBuffer to, VkBufferCopy region) {
     gpu->vk.vkCmdCopyBuffer(gpu->commands, from, to, 1, &region);
-    order_transfer(gpu);
+    order(gpu, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
 }
 
 bool gpu_copy(struct gpu *gpu, struct gpu_buffer *from, struct gpu_buffer *to, uint64_t bytes) {
@@ -74,7 +73,7 @@ bool gpu_clear(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, uint
     if (!gpu_record(gpu))
         return false;
     gpu->vk.vkCmdFillBuffer(gpu->commands, buffer->buffer, offset, bytes, 0);
-    order_transfer(gpu);
+    order(gpu, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     return true;
 }
 

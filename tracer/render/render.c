@@ -103,7 +103,8 @@ static void plan_at_once(struct renderer *renderer) {
     renderer->samples_at_once = least_of(least_of(fit, renderer->settings.samples), SAMPLES_AT_ONCE);
     const uint64_t paths = slots * renderer->samples_at_once, bytes = slot_state_bytes(renderer);
     const uint64_t most = bytes ? band_bytes(gpu_info(renderer->gpu)) / bytes : 0;
-    renderer->places = has_state(renderer) ? least_of(paths, most) : 0;
+    const bool bounces = renderer->features & (FEATURE_REFLECTION | FEATURE_REFRACTION);
+    renderer->places = least_of(bounces ? paths : (paths + 7) / 8, most);
     if (renderer->settings.places && renderer->settings.places < renderer->places)
         renderer->places = renderer->settings.places;
 }
@@ -114,6 +115,9 @@ static void plan(struct renderer *renderer) {
     renderer->features = settings->features;
     // Without shadow rays the lights are scanned in one go, however many there are.
     if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
+        renderer->features |= FEATURE_SLICES;
+    // Paths with a ray that is open go on in another kernel (render_kernel.c).
+    if (gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_TRIANGLES))
         renderer->features |= FEATURE_SLICES;
     if (renderer->flat->light_count > MANY_LIGHTS)
         renderer->features |= FEATURE_MANY_LIGHTS;
@@ -128,6 +132,9 @@ static void plan(struct renderer *renderer) {
     renderer->run_tiles = RUN_TILES;
     renderer->runs = (renderer->tiles_x * tiles_y + renderer->run_tiles - 1) / renderer->run_tiles;
     const bool at_once = goes_at_once(renderer);
+    // The plain kernel saves the paths that need more.
+    if (at_once)
+        renderer->features |= FEATURE_SLICES;
     renderer->run_step = gpu_fetches_texels(renderer->gpu) ? run_step_of(renderer->runs) : 1;
     renderer->tiles = renderer->runs * renderer->run_tiles;
     uint64_t slot_bytes = at_once ? 0 : slot_state_bytes(renderer);
@@ -237,16 +244,17 @@ static bool make_band(struct renderer *renderer) {
 // What depends on the settings: the band's buffers and the kernel.
 static bool make_frame(struct renderer *renderer) {
     plan(renderer);
-    return make_band(renderer) && renderer_program(renderer, renderer->settings.counts);
+    return make_band(renderer) && renderer_first_program(renderer, renderer->settings.counts);
 }
 
 static void drop_frame(struct renderer *renderer) {
     static const int bindings[] = {BINDING_OUTPUT,  BINDING_STATE,   BINDING_COUNTERS, BINDING_FRAME,
-                                   BINDING_SAMPLES, BINDING_PICTURE, BINDING_SUMS};
+                                   BINDING_SAMPLES, BINDING_PICTURE, BINDING_SUMS,     BINDING_ORDER};
     renderer_drop_at_once(renderer);
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
-    renderer->counting = renderer->program = NULL;
+    renderer->counting = renderer->program = renderer->plain = NULL;
+    renderer->has_drawn = renderer->plain_fails = false;
     for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++) {
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[bindings[i]]);
         renderer->buffers[bindings[i]] = NULL;
@@ -277,7 +285,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
         old.features == now->features && old.alternative == now->alternative &&
         old.workgroup == now->workgroup && old.band_tiles == now->band_tiles &&
         (old.samples == now->samples || renderer->samples_at_once == 0))
-        return renderer_program(renderer, now->counts) != NULL;
+        return renderer_first_program(renderer, now->counts) != NULL;
     drop_frame(renderer);
     return make_frame(renderer);
 }
@@ -285,8 +293,11 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
 // There is time until the background comes.
 static bool compile(struct renderer *renderer) {
     const struct dispatch_block nothing = {0};
-    struct gpu_program *program = renderer_program(renderer, renderer->settings.counts);
-    return program && gpu_compile(renderer->gpu, program, &nothing);
+    struct gpu_program *program = renderer_first_program(renderer, renderer->settings.counts);
+    const double start = clock_seconds();
+    const bool compiled = program && gpu_compile(renderer->gpu, program, &nothing);
+    timeline_add(renderer->settings.timeline, "compile", STR(""), start);
+    return compiled;
 }
 
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
@@ -297,12 +308,10 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
     renderer->gpu = gpu;
     renderer->flat = flat;
     take_settings(renderer, settings);
-    double start = clock_seconds();
+    const double start = clock_seconds();
     bool made = upload_scene(renderer);
     timeline_add(settings->timeline, "upload", STR(""), start);
-    start = clock_seconds();
     made = made && make_frame(renderer) && (!settings->background_later || compile(renderer));
-    timeline_add(settings->timeline, "pipeline", STR(""), start);
     if (made)
         return renderer;
     renderer_destroy(renderer);
@@ -322,7 +331,7 @@ void renderer_destroy(struct renderer *renderer) {
 
 static bool is_of_band(int binding) {
     return binding == BINDING_OUTPUT || binding == BINDING_STATE || binding == BINDING_COUNTERS ||
-           binding == BINDING_PICTURE || binding == BINDING_SUMS;
+           binding == BINDING_PICTURE || binding == BINDING_SUMS || binding == BINDING_ORDER;
 }
 
 static uint64_t sum_bytes(const struct renderer *renderer, bool of_band) {

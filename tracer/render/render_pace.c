@@ -11,6 +11,7 @@ enum {
     GRID_WIDTH_MAX = 65535, // what every device allows; more workgroups go to further rows
     FIRST_PATHS_CPU = 1024,
     FIRST_PATHS = 65536, // a GPU is not busy with fewer
+    SPREAD_MOST = 32,    // lanes of the largest subgroup
     GROWTH_MOST = 4,     // from one dispatch to the next: where few paths were cheap, others may not be
 };
 static const double DISPATCH_SECONDS = 0.05;
@@ -46,18 +47,64 @@ static void learn(struct renderer_pace *pace, uint32_t ran, uint32_t workgroup, 
     pace->paths = paths < workgroup ? workgroup : paths - paths % workgroup;
 }
 
+// Few long paths leave a GPU idle anyway: then each gets more of it for itself, because the lanes of a
+// subgroup wait for each other wherever their rays differ.
+static uint32_t spread_of(uint32_t paths) {
+    uint32_t spread = 1;
+    while (spread < SPREAD_MOST && paths <= FIRST_PATHS / 2 / spread)
+        spread *= 2;
+    return spread;
+}
+
+// Paths [begin, end) by a program, a spread apart, which another dispatch may follow at once.
+static bool dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t workgroup,
+                     struct dispatch_block *block, uint32_t begin, uint32_t end, bool is_last) {
+    const uint32_t groups = ((end - begin) * (block->spread ? block->spread : 1) + workgroup - 1) / workgroup;
+    block->path_begin = begin;
+    block->path_end = end;
+    block->grid_width = grid_width(groups);
+    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
+    return (is_last ? gpu_dispatch : gpu_dispatch_beside)(gpu, program, block->grid_width, height, block);
+}
+
+static uint32_t clamp(uint32_t value, uint32_t least, uint32_t most) {
+    return value < least ? least : value < most ? value : most;
+}
+
+// Paths that begin: those of each rank beside each other, the last ones by the plain kernel if there is one.
+static bool dispatch_ranks(struct renderer_frame *run, uint32_t workgroup, struct dispatch_block *block,
+                           uint32_t end) {
+    const uint32_t all = block->path_begin;
+    for (int rank = 0; rank < RENDERER_RANKS; rank++) {
+        const uint32_t begin = clamp(renderer_rank_begin(run->renderer, block, rank), all, end);
+        const uint32_t next = clamp(renderer_rank_begin(run->renderer, block, rank + 1), all, end);
+        const bool is_plain = run->plain && rank == RENDERER_RANK_ENDS;
+        block->spread = rank == RENDERER_RANK_ENDS ? 1 : spread_of(next - begin);
+        if (begin < next && !dispatch(run->renderer->gpu, is_plain ? run->plain : run->program, workgroup,
+                                      block, begin, next, next == end))
+            return false;
+    }
+    block->path_begin = all;
+    return true;
+}
+
+static bool dispatch_one(struct renderer_frame *run, struct gpu *gpu, struct gpu_program *program,
+                         uint32_t workgroup, struct dispatch_block *block, uint32_t end) {
+    block->spread = run ? spread_of(end - block->path_begin) : 1;
+    return dispatch(gpu, program, workgroup, block, block->path_begin, end, true);
+}
+
 bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
                         uint32_t workgroup, struct dispatch_block *block, uint32_t end,
                         struct renderer_frame *run, double *seconds) {
     struct renderer_pace *pace = &renderer->paces[pass];
     const uint32_t fit = paths_of(renderer, pace, end - block->path_begin);
     const uint32_t paths = program == renderer->counting && fit > COUNTED_PATHS ? COUNTED_PATHS : fit;
-    const uint32_t groups = (paths + workgroup - 1) / workgroup;
-    block->path_end = block->path_begin + paths;
-    block->grid_width = grid_width(groups);
-    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
+    const uint32_t to = block->path_begin + paths;
+    const bool by_rank = run && pass == RENDERER_BEGINS && !block->restarts;
     const double start = clock_seconds();
-    if (!gpu_dispatch(renderer->gpu, program, block->grid_width, height, block) ||
+    if (!(by_rank ? dispatch_ranks(run, workgroup, block, to)
+                  : dispatch_one(run, renderer->gpu, program, workgroup, block, to)) ||
         (run && !renderer_follow_pass(run, block->path_end == end)) || !gpu_submit(renderer->gpu) ||
         !gpu_wait(renderer->gpu, seconds))
         return false;

@@ -35,12 +35,21 @@ struct renderer_log;
 // A kernel that was compiled, for the settings that it depends on.
 struct renderer_kept {
     uint32_t features, workgroup;
+    bool is_plain;
     uint32_t branches; // in private memory; 0: samples are not traced at once
     enum render_alternative alternative;
     struct gpu_program *program; // NULL: none
 };
 enum {
     RENDERER_KEPT = 16
+};
+
+// What tiles show, in the order in which their paths begin.
+enum renderer_rank {
+    RENDERER_RANK_REFRACTS,
+    RENDERER_RANK_REFLECTS,
+    RENDERER_RANK_ENDS, // paths end at what they hit first
+    RENDERER_RANKS,
 };
 
 // How many paths a dispatch may take so that it is over soon, and a signal heard (render_pace.c).
@@ -67,12 +76,19 @@ struct renderer {
     struct gpu_buffer *picture,
         *counters; // where samples are traced at once: what was copied to this process
     struct gpu_program *resolve;
-    uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
+    uint32_t *order; // there too: as in the buffer BINDING_ORDER, for the camera `ordered`; NULL: none yet
+    struct view_camera ordered;
+    uint32_t rank_begins[RENDERER_RANKS + 1]; // of that order: the first tile of each rank, and the end
+    uint32_t tiles_x, tiles;                  // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
     struct gpu_program *program;  // of those kept; NULL: none was wanted yet
     struct gpu_program *counting; // the same, with counters
+    struct gpu_program *plain; // most of it: on lavapipe for paths that begin, else where samples are traced
+                               // at once, for other than long tiles
+    bool plain_fails;          // too many paths need more: it would cost more than it saves
+    bool has_drawn;            // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
@@ -87,6 +103,7 @@ struct renderer {
 // of the band's where not NULL.
 enum renderer_kernel {
     RENDERER_TRACE,
+    RENDERER_PLAIN, // most of what the tracing kernel does: CONSTANT_PLAIN
     RENDERER_HITS,
     RENDERER_LOG,
     RENDERER_RESOLVE,
@@ -97,6 +114,10 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
+// That which does less, for paths that begin: what needs more is saved, for the other.
+struct gpu_program *renderer_plain_program(struct renderer *renderer);
+// That in which the paths of a frame begin, but for those that a GPU begins in the plain one.
+struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts);
 float renderer_float(uint32_t bits);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
@@ -106,6 +127,7 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
 struct renderer_frame {
     struct renderer *renderer;
     struct gpu_program *program;
+    struct gpu_program *plain; // for paths that begin in other than long tiles; NULL: `program` traces all
     const struct render_progress *progress;
     struct render_statistics *statistics;
     uint64_t steps_done, steps; // a band's sample is a step
@@ -139,6 +161,8 @@ bool renderer_clear_faults(struct renderer *renderer);
 bool renderer_copy_counters(struct renderer_frame *run);
 // Records what follows a pass of such a frame, at the end of it.
 bool renderer_follow_pass(struct renderer_frame *run, bool ends);
+// In which order tiles are traced at once, for a camera. false: see gpu_error.
+bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *camera);
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
@@ -160,6 +184,9 @@ enum render_result renderer_draw_frame(struct renderer_frame *run, const struct 
 uint32_t renderer_stack_levels(const struct renderer *renderer);
 // From now on with kernels that can save a ray in the middle of a tree. false: see gpu_error.
 bool renderer_take_long_rays(struct renderer *renderer);
+// The first path of a rank, of those of a band in the order in which they begin; of RENDERER_RANKS: their
+// end.
+uint32_t renderer_rank_begin(const struct renderer *renderer, const struct dispatch_block *block, int rank);
 // Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
 // than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
 // *seconds is the device's time. `workgroup` is the program's.
@@ -174,7 +201,10 @@ void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made
 // Adds a fault, whose word is as in shaders/frame.h, to those of its kind.
 void renderer_note_fault(const struct renderer *renderer, uint32_t word, uint32_t pixels, uint32_t x,
                          uint32_t y, struct render_fault *fault);
-// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture.
+// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture. Of a band that the
+// tracing kernel has filled, and of others.
+bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+                           uint32_t *y);
 bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y);
 
