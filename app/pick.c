@@ -126,8 +126,7 @@ static vec3 share_of(const struct reference_segment *s) {
 
 // In what the pixel gets of it: another cell of a checker, or another place of the background.
 static bool has_other_color(const struct reference_segment *a, const struct reference_segment *b) {
-    const double apart =
-        vec3_max_abs(vec3_sub(share_of(a), share_of(b)));
+    const double apart = vec3_max_abs(vec3_sub(share_of(a), share_of(b)));
     return !(apart <= PICK_COLOR_ERROR * fmax(1, vec3_max_abs(b->radiance) * b->weight));
 }
 

@@ -134,16 +134,15 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
         [RENDER_SEGMENTS] = WHERE_OVER_SEGMENTS,
     };
     struct session *s = shot->session;
-    where_report_fault(
-        s, &(struct where_fault){.code = fault->is_nested            ? DIAG_LIMIT
-                                         : kind == RENDER_NOT_FINITE ? DIAG_NOT_FINITE
-                                                                     : DIAG_PATH_SEGMENTS,
-                                 .words = fault->is_nested ? WHERE_NESTED : words[kind],
-                                 .pixels = fault->pixels,
-                                 .x = fault->x,
-                                 .y = fault->y,
-                                 .body = fault->has_body ? fault->body : HIT_NONE,
-                                 .triangle = fault->triangle});
+    where_report_fault(s, &(struct where_fault){.code = fault->is_nested            ? DIAG_LIMIT
+                                                        : kind == RENDER_NOT_FINITE ? DIAG_NOT_FINITE
+                                                                                    : DIAG_PATH_SEGMENTS,
+                                                .words = fault->is_nested ? WHERE_NESTED : words[kind],
+                                                .pixels = fault->pixels,
+                                                .x = fault->x,
+                                                .y = fault->y,
+                                                .body = fault->has_body ? fault->body : HIT_NONE,
+                                                .triangle = fault->triangle});
     if (fault->is_nested)
         diag_help(&s->sink, "move some of them apart, or join those of one material into one mesh");
     else if (kind == RENDER_NOT_FINITE)

@@ -77,7 +77,8 @@ static void meshes(struct strbuf *out, const struct session *s) {
 // Which bodies make it necessary that rays know what they are inside.
 static void media_reason(struct strbuf *out, struct session *s, const struct scene_media_reason *reason) {
     struct where a, b;
-    if (reason->need == SCENE_MEDIA_MANY || !where_find(s, reason->a, 0, &a) || !where_find(s, reason->b, 0, &b)) {
+    if (reason->need == SCENE_MEDIA_MANY || !where_find(s, reason->a, 0, &a) ||
+        !where_find(s, reason->b, 0, &b)) {
         strbuf_cstr(out, "bodies that refract are too many to be compared\n");
         return;
     }

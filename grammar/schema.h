@@ -125,7 +125,7 @@ struct schema_row {
     uint8_t alternative;
     // FEATURE_ bit while the value is not zero, false, the first word, empty, or white
     uint32_t feature;
-    uint32_t weight_features[4]; // SCHEMA_WEIGHTS: one per component
+    uint32_t weight_features[4];        // SCHEMA_WEIGHTS: one per component
     const struct schema_element *child; // SCHEMA_ELEMENT, SCHEMA_REFERENCE, SCHEMA_LIST
     const char *doc;                    // one sentence
 };

@@ -189,8 +189,9 @@ static void report(struct search *s) {
         lint_note_mesh(lint, s->b->mesh, s->b->mesh->mesh->triangles[s->first_b].line,
                        s->a->mesh ? "with this one" : "the first is this face");
     if (scene_is_medium(lint->scene, first->is) && scene_is_medium(lint->scene, second->is))
-        diag_help(lint->sink, "let one reach into the other, and give the material of the one that fills that place the "
-                              "higher 'priority'");
+        diag_help(lint->sink,
+                  "let one reach into the other, and give the material of the one that fills that place the "
+                  "higher 'priority'");
     else
         diag_help(lint->sink, "move one of the bodies by a visible amount");
 }

@@ -130,7 +130,8 @@ static const struct scene_material *filling(const struct layers *l) {
     const struct scene_material *found = NULL;
     for (uint32_t i = 0; i < l->count; i++) {
         const struct scene_body *body = l->lint->bodies[l->inside[i]].is;
-        const struct scene_material *m = &l->lint->scene->materials[scene_medium_material(l->lint->scene, body)];
+        const struct scene_material *m =
+            &l->lint->scene->materials[scene_medium_material(l->lint->scene, body)];
         found = !found || m->priority >= found->priority ? m : found;
     }
     return found;

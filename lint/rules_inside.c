@@ -123,7 +123,8 @@ static struct light_finding judge_light(struct lint *lint, const struct ir_light
     // Light shines through what refracts, wherever it comes from.
     const bool shines = lint->ir->trace.transparent_shadows && !body->is_opaque && body->is->closed;
     found.is_on = is_on(lint, body, light->position, near, &found.triangle);
-    if (found.is_on || (!shines && lint_is_inside(lint, body, light->position) && !any_camera_inside(lint, body)))
+    if (found.is_on ||
+        (!shines && lint_is_inside(lint, body, light->position) && !any_camera_inside(lint, body)))
         found.body = body;
     return found;
 }
@@ -140,7 +141,8 @@ static void report_light(struct lint *lint, const struct ir_light *light, const 
             diag_help(lint->sink, "move the light out, or set trace.shadows to false");
         } else {
             diag_note(lint->sink, lint_place(lint, body), "all bodies, even glass, cast full shadows");
-            diag_help(lint->sink, "move the light out, or let glass shine: trace: {transparent_shadows: true}");
+            diag_help(lint->sink,
+                      "move the light out, or let glass shine: trace: {transparent_shadows: true}");
         }
         return;
     }

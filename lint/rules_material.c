@@ -40,8 +40,10 @@ static void report_index(struct lint *lint, const struct lint_body *body,
               "write refractive_index: 1.5 for glass, 1.33 for water; for a thin pane use a rectangle");
 }
 
-// Whether a body around it may have another index, as an air bubble in glass, or it is seen by its colour: then 1 is meant.
-static bool is_meant(const struct lint *lint, const struct lint_body *body, const struct ir_material *material) {
+// Whether a body around it may have another index, as an air bubble in glass, or it is seen by its colour:
+// then 1 is meant.
+static bool is_meant(const struct lint *lint, const struct lint_body *body,
+                     const struct ir_material *material) {
     const uint32_t index = (uint32_t)(material - lint->scene->assets->materials);
     if (!vec3_is_zero(lint->scene->materials[index].absorption))
         return true;
@@ -171,15 +173,18 @@ void lint_attenuation(struct lint *lint) {
     for (uint32_t i = 0; i < lint->scene->assets->material_count; i++) {
         const struct ir_material *material = &lint->scene->assets->materials[i];
         const bool colored = !vec3_is_zero(lint->scene->materials[i].absorption);
-        const char *row = is_written(material, "attenuation_color") ? "attenuation_color" : "attenuation_distance";
+        const char *row =
+            is_written(material, "attenuation_color") ? "attenuation_color" : "attenuation_distance";
         // What no body has is reported as such (W408).
         if (!used[i] || material->head.origin == 0 || !is_written(material, row) || (colored && shown[i]))
             continue;
-        diag_add(lint->sink, DIAG_NO_EFFECT, ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
+        diag_add(lint->sink, DIAG_NO_EFFECT,
+                 ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
                  "'%s' of %.*s has no effect: %s", row, STR_ARG(material_words(lint, material)),
                  why_not_shown(material, colored));
-        diag_help(lint->sink, colored ? "light is attenuated on its way inside a body: through a sphere or closed mesh "
-                                        "that refracts"
-                                      : "write what is left of white light after that distance: attenuation_color");
+        diag_help(lint->sink,
+                  colored ? "light is attenuated on its way inside a body: through a sphere or closed mesh "
+                            "that refracts"
+                          : "write what is left of white light after that distance: attenuation_color");
     }
 }

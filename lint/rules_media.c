@@ -1,5 +1,5 @@
-// Refracting bodies that share a part of space: which of them fills it, and whether their indices are meant as they are
-// written.
+// Refracting bodies that share a part of space: which of them fills it, and whether their indices are meant
+// as they are written.
 //
 // Pairs whose boxes overlap (body_pairs.c). Spheres are compared by their distance; a sphere and a mesh by
 // the mesh's nearest and farthest points; two meshes by faces that cut each other, and else by points just
@@ -23,8 +23,8 @@ enum {
 
 enum finding {
     FINDING_NONE,
-    FINDING_EQUAL,    // they cross with equal priority: what fills the place depends on where a ray comes from
-    FINDING_HIDDEN,   // the inner one's priority is lower: it is never seen
+    FINDING_EQUAL,  // they cross with equal priority: what fills the place depends on where a ray comes from
+    FINDING_HIDDEN, // the inner one's priority is lower: it is never seen
     FINDING_RELATIVE, // the inner one's index is below 1: it was meant relative to the outer one's
 };
 
@@ -302,9 +302,10 @@ static int compare_overlaps(const void *left, const void *right) {
     return x->other < y->other ? -1 : x->other > y->other;
 }
 
-// Another value of a row of the material, which the file may not have yet: then after the index, on a line of its own where
-// that has one.
-static void fix_row(struct lint *lint, const struct ir_material *material, const char *row, const char *value) {
+// Another value of a row of the material, which the file may not have yet: then after the index, on a line of
+// its own where that has one.
+static void fix_row(struct lint *lint, const struct ir_material *material, const char *row,
+                    const char *value) {
     const struct source_set *sources = lint->input->files->sources;
     const int own = schema_find_row(&SCHEMA_MATERIAL, str_from(row));
     const int index = schema_find_row(&SCHEMA_MATERIAL, STR("refractive_index"));
@@ -338,9 +339,11 @@ static void fix_row(struct lint *lint, const struct ir_material *material, const
 static void advise_priority(struct media *media, const struct lint_body *body) {
     struct lint *lint = media->lint;
     media->priority += media->priority < SCENE_PRIORITY_MAX;
-    diag_help(lint->sink, "give the material of the one that fills that place a higher one, such as priority: %d",
+    diag_help(lint->sink,
+              "give the material of the one that fills that place a higher one, such as priority: %d",
               media->priority);
-    fix_row(lint, filling_in_file(lint, body), "priority", arena_format(lint->arena, "%d", media->priority).ptr);
+    fix_row(lint, filling_in_file(lint, body), "priority",
+            arena_format(lint->arena, "%d", media->priority).ptr);
 }
 
 static void report_equal(struct media *media, const struct overlap *first, uint32_t count) {
@@ -350,12 +353,14 @@ static void report_equal(struct media *media, const struct overlap *first, uint3
     str words = lint_words(lint, body);
     if (count == 1)
         diag_add(lint->sink, DIAG_MEDIA_OVERLAP, lint_place(lint, body),
-                 "%.*s crosses %.*s, and both refract with priority %d: what fills the place that they share depends on "
+                 "%.*s crosses %.*s, and both refract with priority %d: what fills the place that they share "
+                 "depends on "
                  "where a ray comes from",
                  STR_ARG(words), STR_ARG(lint_words_other(lint, first->other)), priority);
     else
         diag_add(lint->sink, DIAG_MEDIA_OVERLAP, lint_place(lint, body),
-                 "%.*s crosses %u other bodies that refract with the same priority, %d: what fills the places that they "
+                 "%.*s crosses %u other bodies that refract with the same priority, %d: what fills the "
+                 "places that they "
                  "share depends on where a ray comes from",
                  STR_ARG(words), count, priority);
     for (uint32_t i = 0; i < count && i < NOTED; i++)
@@ -387,7 +392,8 @@ static void report_relative(struct lint *lint, const struct overlap *found) {
                         ? lint_place(lint, body)
                         : ir_place_value(lint->origin, &material->head, &SCHEMA_MATERIAL, "refractive_index");
     diag_add(lint->sink, DIAG_RELATIVE_INDEX, at,
-             "the index %.6g looks relative to that of %.*s, which %.*s is inside: rays know that, so light is bent twice",
+             "the index %.6g looks relative to that of %.*s, which %.*s is inside: rays know that, so light "
+             "is bent twice",
              own, STR_ARG(lint_words_other(lint, found->other)), STR_ARG(lint_words_other(lint, body)));
     diag_note(lint->sink, lint_place(lint, body), "%.*s has this material", STR_ARG(lint_words(lint, body)));
     diag_help(lint->sink, "write its own index: refractive_index: %.3g", right);
@@ -442,9 +448,9 @@ void lint_media(struct lint *lint) {
         return;
     qsort(media.found.items, media.found.count, sizeof *media.found.items, compare_overlaps);
     for (uint32_t i = 0, end; i < media.found.count; i = end) {
-        for (end = i + 1;
-             end < media.found.count && media.found.items[end].body == media.found.items[i].body &&
-             media.found.items[end].finding == media.found.items[i].finding;)
+        for (end = i + 1; end < media.found.count &&
+                          media.found.items[end].body == media.found.items[i].body &&
+                          media.found.items[end].finding == media.found.items[i].finding;)
             end++;
         report(&media, &media.found.items[i], end - i);
     }

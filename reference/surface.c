@@ -169,7 +169,8 @@ vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3
     return reference_rounded3(r, vec3_unit(out), 1);
 }
 
-// The cosine of a ray to the normal, and the square of that behind the surface: below 0 nothing comes through.
+// The cosine of a ray to the normal, and the square of that behind the surface: below 0 nothing comes
+// through.
 struct angles {
     double c, k;
 };

@@ -36,7 +36,8 @@ static double *put_vector(double *to, vec3 v) {
     return to;
 }
 
-// All that light knows of a material but the size of a checker's cells, which each body counts in its own coordinates.
+// All that light knows of a material but the size of a checker's cells, which each body counts in its own
+// coordinates.
 static void key_of(const struct scene_material *m, double key[KEY_NUMBERS]) {
     const double single[] = {m->diffuse_weight, m->specular_weight,   m->reflection,       m->refraction,
                              m->checker,        m->specular_exponent, m->refractive_index, m->fresnel};
@@ -170,8 +171,9 @@ bool scene_media_need(const struct scene *scene, struct scene_media_reason *out)
 // ---- what surrounds a point
 
 static const vec3 ABOVE[DIRECTIONS] = {
-    {0.0152137, 0.9996533, 0.0214791},  {0.0734183, 0.9956128, -0.0581937}, {-0.1173961, 0.9887442, 0.0927413},
-    {0.2319843, 0.9587711, 0.1641279},  {-0.3128417, 0.9071863, -0.281343}, {0.4417319, 0.8143377, -0.376429},
+    {0.0152137, 0.9996533, 0.0214791},  {0.0734183, 0.9956128, -0.0581937},
+    {-0.1173961, 0.9887442, 0.0927413}, {0.2319843, 0.9587711, 0.1641279},
+    {-0.3128417, 0.9071863, -0.281343}, {0.4417319, 0.8143377, -0.376429},
     {-0.5613297, 0.7129441, 0.4201837}, {0.6217131, 0.5813921, 0.5249913},
 };
 
@@ -202,8 +204,8 @@ enum crossing {
     CROSSING_EDGE, // the ray meets an edge: another direction is needed
 };
 
-// Triangles that share an edge compute it from the same numbers, so that none or one of them is hit (Woop, Benthin and
-// Wald 2013).
+// Triangles that share an edge compute it from the same numbers, so that none or one of them is hit (Woop,
+// Benthin and Wald 2013).
 static enum crossing cross_triangle(const struct upward *ray, const vec3 corners[3], double *height) {
     double p[3][3];
     for (int k = 0; k < 3; k++)
@@ -218,8 +220,10 @@ static enum crossing cross_triangle(const struct upward *ray, const vec3 corners
     return *height > 0 ? CROSSING_HIT : CROSSING_NONE;
 }
 
-// Whether the point is inside: an odd number of crossings. *way: to the first of them, along +y. false at an edge.
-static bool count_crossings(const struct scene_body *body, const struct upward *ray, bool *inside, double *way) {
+// Whether the point is inside: an odd number of crossings. *way: to the first of them, along +y. false at an
+// edge.
+static bool count_crossings(const struct scene_body *body, const struct upward *ray, bool *inside,
+                            double *way) {
     *inside = false;
     *way = INFINITY;
     for (uint32_t i = 0; i < body->triangle_count; i++) {

@@ -1,7 +1,8 @@
 // Media: the bodies that a ray can be inside, and which of them surround a point (docs/language.md, "Media").
 //
-// A medium is a sphere or closed mesh of which something refracts. Input: a built scene, or one whose bodies were moved
-// since (scene_body_place). Ownership: nothing is kept. Errors: as the functions say. Thread safety: pure functions.
+// A medium is a sphere or closed mesh of which something refracts. Input: a built scene, or one whose bodies
+// were moved since (scene_body_place). Ownership: nothing is kept. Errors: as the functions say. Thread
+// safety: pure functions.
 #ifndef GLINT_SCENE_MEDIA_H
 #define GLINT_SCENE_MEDIA_H
 
@@ -25,7 +26,8 @@ vec3 scene_inside_direction(void);
 bool scene_is_medium(const struct scene *scene, const struct scene_body *body);
 // The material that fills a medium: the first of its groups' that refracts.
 uint32_t scene_medium_material(const struct scene *scene, const struct scene_body *body);
-// An order of materials by all that light knows of them. 0: they are alike, and bodies of them are one where they overlap.
+// An order of materials by all that light knows of them. 0: they are alike, and bodies of them are one where
+// they overlap.
 int scene_compare_media(const struct scene_material *a, const struct scene_material *b);
 
 enum scene_media_need {

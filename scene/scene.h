@@ -61,7 +61,7 @@ struct scene_material {
     double specular_exponent, refractive_index;
     bool fresnel;
     int32_t priority;
-    vec3 absorption;   // per scene unit, at most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light
+    vec3 absorption; // per scene unit, at most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light
     uint32_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
 };
 

@@ -17,7 +17,8 @@
    6: geometric normal   8: shading normal; in what they leave of 7 and 9, what rounding dropped of the sum
    10: the mirrored ray as in STATE, without what it is inside
    15: the refracted ray
-   20: what is left of light on the way to the surface, as bits of floats   21: what the refracted ray is inside */
+   20: what is left of light on the way to the surface, as bits of floats   21: what the refracted ray is
+   inside */
 #define LOG_WORDS   23
 #define LOG_NOTHING 0xffffffffu
 #define LOG_ENTERS  1u

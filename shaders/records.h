@@ -153,8 +153,8 @@
     FLOAT(exponent, 1, w, 1, w)                                                                              \
     FLOAT3(specular, 2, 2)                                                                                   \
     REAL(index, 2, w, 4, xy)                                                                                 \
-    FLOAT3(second, 3, 3)    /* colour of the checker's odd cells */                                          \
-    REAL(cell, 3, w, 4, zw) /* 0: no checker */                                                              \
+    FLOAT3(second, 3, 3)     /* colour of the checker's odd cells */                                         \
+    REAL(cell, 3, w, 4, zw)  /* 0: no checker */                                                             \
     FLOAT3(absorption, 4, 5) /* per flat unit: exp(-absorption * way) is left of light */                    \
     UINT(fresnel, 4, w, 5, w)
 

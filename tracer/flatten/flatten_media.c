@@ -12,7 +12,8 @@
 static_assert(MEDIA_MOST == SCENE_MEDIA_MOST, "a path has room for what the language allows");
 
 static int compare(const void *a, const void *b) {
-    return scene_compare_media(*(const struct scene_material *const *)a, *(const struct scene_material *const *)b);
+    return scene_compare_media(*(const struct scene_material *const *)a,
+                               *(const struct scene_material *const *)b);
 }
 
 // The materials of all media, alike ones next to each other.
@@ -73,7 +74,8 @@ enum flatten_fault flatten_media(struct flattening *f) {
         return FLATTEN_DONE;
     if (f->scene->body_count >= MEDIUM_MASK || f->scene->material_count >= MEDIUM_MASK) {
         diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
-                 "bodies that refract overlap or are coloured inside: then there may be at most %u bodies and materials",
+                 "bodies that refract overlap or are coloured inside: then there may be at most %u bodies "
+                 "and materials",
                  MEDIUM_MASK - 1);
         return FLATTEN_REPORTED;
     }

@@ -174,7 +174,8 @@ struct render_segment {
     double distance;                // scene units; 0 where nothing was hit
     vec3 point, geometric, shading; // scene units; unit, towards the ray; 0 where nothing was hit
     uint32_t considered, lit;       // as in struct hit_pixel
-    vec3 radiance; // direct light of the surface, or the background; times weight and tint it is what the pixel gets
+    vec3 radiance;     // direct light of the surface, or the background; times weight and tint it is what the
+                       // pixel gets
     double cut_weight; // of the rays that this surface would have sent and that were not followed
 };
 

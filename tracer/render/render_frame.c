@@ -29,7 +29,8 @@ static double cos_degrees(double degrees) {
 }
 
 // What the camera is inside, as media.glsl has it: that entered last first.
-static void put_inside(const struct flat_scene *flat, const struct view_camera *camera, struct frame_block *frame) {
+static void put_inside(const struct flat_scene *flat, const struct view_camera *camera,
+                       struct frame_block *frame) {
     uint32_t *entries[MEDIA_MOST] = {&frame->inside_0, &frame->inside_1, &frame->inside_2, &frame->inside_3,
                                      &frame->inside_4, &frame->inside_5, &frame->inside_6, &frame->inside_7};
     const struct scene *scene = flat->scene;

@@ -26,7 +26,7 @@ struct node {
     struct render_segment segment;
     struct gpu_word ray[LOG_RAY_WORDS];
     float throughput, radiance[3];
-    float tint[3]; // what attenuation has left of each channel
+    float tint[3];        // what attenuation has left of each channel
     uint32_t children[2]; // mirrored, refracted; NO_NODE: none
 };
 
@@ -117,8 +117,8 @@ static vec3 point_at(const struct renderer *renderer, const struct gpu_word *wor
 }
 
 // NULL: there is no room.
-static struct node *put_child(struct walk *walk, uint32_t parent, enum render_ray kind, const struct gpu_word *ray,
-                              const struct gpu_word inside[2]) {
+static struct node *put_child(struct walk *walk, uint32_t parent, enum render_ray kind,
+                              const struct gpu_word *ray, const struct gpu_word inside[2]) {
     struct node *from = &walk->nodes[parent];
     if (walk->count == walk->capacity) {
         walk->whole = false;
@@ -185,7 +185,8 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
     s->geometric = vector_at(renderer, told + 6);
     s->shading = vector_at(renderer, told + 8);
     if (told[2].z & LOG_NESTED) {
-        walk->nodes[index].radiance[0] = walk->nodes[index].radiance[1] = walk->nodes[index].radiance[2] = NAN;
+        walk->nodes[index].radiance[0] = walk->nodes[index].radiance[1] = walk->nodes[index].radiance[2] =
+            NAN;
         return;
     }
     if (s->passes) {
