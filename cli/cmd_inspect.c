@@ -74,45 +74,19 @@ static void meshes(struct strbuf *out, const struct session *s) {
     }
 }
 
-// Which bodies make it necessary that rays know what they are inside.
-static void media_reason(struct strbuf *out, struct session *s, const struct scene_media_reason *reason) {
-    struct where a, b;
-    if (reason->need == SCENE_MEDIA_MANY || !where_find(s, reason->a, 0, &a) ||
-        !where_find(s, reason->b, 0, &b)) {
-        strbuf_cstr(out, "bodies that refract are too many to be compared\n");
-        return;
-    }
-    const struct source_place place = source_locate(&s->sources, b.at);
-    strbuf_format(out, "%.*s:%u:%u: ", STR_ARG(place.path), place.line, place.column);
-    where_body_words(&b, out);
-    if (reason->need == SCENE_MEDIA_ATTENUATION) {
-        strbuf_cstr(out, " is coloured inside\n");
-        return;
-    }
-    strbuf_cstr(out, " may share a place with ");
-    where_body_words(&a, out);
-    strbuf_char(out, '\n');
-}
-
 static void features(struct strbuf *out, struct session *s, const struct flat_scene *flat) {
-    const uint32_t mask = flat->features;
     struct ir_feature_reasons reasons;
     ir_features_explain(s->scene, &s->origin, &reasons);
     strbuf_cstr(out, "features\n");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++) {
-        uint32_t bit = 1u << i;
-        if (!(mask & bit))
+        uint32_t bit = 1u << i, k = 0;
+        if (!(flat->features & bit))
             continue;
         strbuf_format(out, "  %-17s", feature_name(bit));
-        if (bit == FEATURE_MEDIA) {
-            media_reason(out, s, &flat->media);
-            continue;
-        }
-        uint32_t k = 0;
         while (k < reasons.count && reasons.items[k].bit != bit)
             k++;
         if (k == reasons.count) {
-            strbuf_cstr(out, "a material from a mesh's material file\n");
+            where_feature_words(s, bit, &flat->media, out);
             continue;
         }
         if (!span_is_none(reasons.items[k].at)) {
@@ -123,7 +97,7 @@ static void features(struct strbuf *out, struct session *s, const struct flat_sc
     }
     strbuf_cstr(out, "not required:");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++)
-        if ((FEATURE_SCENE_MASK & (1u << i)) && !(mask & (1u << i)))
+        if ((FEATURE_SCENE_MASK & (1u << i)) && !(flat->features & (1u << i)))
             strbuf_format(out, " %s", feature_name(1u << i));
     strbuf_char(out, '\n');
 }

@@ -84,8 +84,9 @@
    the number of what was hit last: spheres by body, then triangles from sphere_count on; all ones where
    nothing was hit. Samples traced at once have a word each; resolve.comp adds them up. */
 #define FAULT_NUMBER 0x3fffffffu
-#define FAULT_NESTED 0x3ffffffeu /* with FAULT_NOT_FINITE: a ray would be inside more than MEDIA_MOST media  \
-                                  */
+#define FAULT_NESTED                                                                                         \
+    0x3ffffffeu /* with FAULT_NOT_FINITE: a ray would be inside more than MEDIA_MOST media                   \
+                 */
 #define FAULT_KIND_SHIFT 30
 #define FAULT_NONE       0u
 #define FAULT_NOT_FINITE 1u /* a value on the way was infinite or no number; the sample counts as 0 */
@@ -105,7 +106,7 @@
 #define LONG_RAY_WORDS      4 /* and two entries of a tree's stack in each word after them */
 #define STACK64_ENTRY_WORDS 6
 /* With FEATURE_MEDIA, of a path and of each ray that waits: what it is inside, and what attenuation left of
-   its light; with FEATURE_CLEAR_SHADOWS then, of a path, a shadow ray on its way (media_words.glsl). */
+   its light; with FEATURE_CLEAR_SHADOWS then, of a path, a shadow ray on its way (path_words.glsl). */
 #define MEDIA_WORDS 3
 #define SHINE_WORDS 7
 

@@ -21,11 +21,10 @@
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
-#include "media.glsl"
 #include "lights.glsl"
 #include "background.glsl"
 #include "bounce.glsl"
-#include "shine.glsl"
+#include "media.glsl"
 #include "path.glsl"
 #include "path_words.glsl"
 
@@ -295,10 +294,12 @@ uint go_on(uint slot, inout path_state p, surface s, ray_start start, inout uint
     return state;
 }
 
-// Where a shadow ray starts: at the surface, or behind what its light shines through.
-ray_start shadow_start(path_state p, ray_start start) {
+// Where a ray starts: the path's own; a shadow ray at the surface, or behind what its light shines through.
+ray_start ray_from(path_state p, bool own, ray_start start) {
     if (HAS_CLEAR_SHADOWS && p.shine.goes_on)
         start = p.shine.start;
+    if (own)
+        start = p.start;
     return start;
 }
 
@@ -376,8 +377,7 @@ void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase
 // Follows a path until it ends, or until its slice does. A ray that is open is decided after the inner loop on lavapipe, which
 // runs every branch for every ray; within it on a GPU, whose lanes would wait for all others.
 uint follow(uint slot, inout path_state p, inout uint fault) {
-    uint iterations = 0u, state = GOES_ON;
-    uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
+    uint iterations = 0u, state = GOES_ON, phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
     bool fresh = true, decided = false; // no ray was finished in this slice; the ray is
     surface s;
     ray_start start = exact_start(REAL3(0.0)); // of shadow rays
@@ -395,12 +395,10 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                 break;
             }
             hit_record hit = hit_record(!traced ? -FAR_AWAY : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
-            ray_start from = shadow_start(p, start);
-            if (own)
-                from = p.start;
+            ray_start from = ray_from(p, own, start);
             hit_record sphere = hit;
-            bool open = trace_ray(from, own ? p.direction : shadow.direction, traced, !own && !shines(), hit, sphere,
-                                  doubts, iterations);
+            REAL3 to = own ? p.direction : shadow.direction;
+            bool open = trace_ray(from, to, traced, !own && !shines(), hit, sphere, doubts, iterations);
             if (HAS_LONG_RAYS && long_stopped != TREE_NONE) {
                 state = SUSPENDED;
                 break;
@@ -428,7 +426,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
         } while (state == GOES_ON);
 #ifdef FETCH_TEXELS
         if (HAS_TRIANGLES && !BEGINS && state == UNDECIDED) {
-            if (!decide_exactly(p, phase == PHASE_RAY, shadow_start(p, start), shadow, doubts, held, iterations))
+            if (!decide_exactly(p, phase == PHASE_RAY, ray_from(p, false, start), shadow, doubts, held, iterations))
                 held = rough;
             decided = true;
             state = GOES_ON;
