@@ -69,6 +69,7 @@ enum schema_range {
     SCHEMA_RANGE_FOV,        // between 0 and 180, both excluded
     SCHEMA_RANGE_EXPONENT,   // 0..1e6
     SCHEMA_RANGE_INDEX,      // 0.1..10
+    SCHEMA_RANGE_PRIORITY,   // -1000..1000
     SCHEMA_RANGE_COUNT,
 };
 
@@ -122,8 +123,9 @@ struct schema_row {
     // Rows of one choice exclude each other; taking one stores `alternative` in the element's tag field.
     uint8_t choice; // 0: none; else an index into the element's choices, from 1
     uint8_t alternative;
-    uint32_t feature;            // FEATURE_ bit while the value is not zero, false, the first word, or empty
-    uint32_t weight_features[4]; // SCHEMA_WEIGHTS: one per component
+    // FEATURE_ bit while the value is not zero, false, the first word, empty, or white
+    uint32_t feature;
+    uint32_t weight_features[4];        // SCHEMA_WEIGHTS: one per component
     const struct schema_element *child; // SCHEMA_ELEMENT, SCHEMA_REFERENCE, SCHEMA_LIST
     const char *doc;                    // one sentence
 };

@@ -26,8 +26,10 @@ const struct lint_rule lint_rules[] = {
     {DIAG_OPPOSING_NORMALS, lint_opposing_normals, LINT_ALL},
     // The header of one image.
     {DIAG_OVERSIZED_IMAGE, lint_oversized_image, LINT_ALL},
-    // Refracting bodies whose boxes overlap; of meshes the faces that they have in common.
+    // Refracting bodies whose boxes overlap; of meshes the faces that they have in common. W419 too.
     {DIAG_MEDIA_OVERLAP, lint_media, LINT_ALL},
+    // One pass over the bodies.
+    {DIAG_NO_EFFECT, lint_attenuation, LINT_ALL},
     {.run = NULL},
 };
 

@@ -145,8 +145,11 @@ static struct light_finding judge_light(struct lint *lint, const struct ir_light
     struct light_finding found = {.body = NULL};
     if (!lint_box_holds(&reach, light->position))
         return found;
+    // Light shines through what refracts, wherever it comes from.
+    const bool shines = lint->ir->trace.transparent_shadows && !body->is_opaque && body->is->closed;
     found.is_on = is_on(lint, body, light->position, near, &found.triangle);
-    if (found.is_on || (lint_is_inside(lint, body, light->position) && !any_camera_inside(lint, body)))
+    if (found.is_on ||
+        (!shines && lint_is_inside(lint, body, light->position) && !any_camera_inside(lint, body)))
         found.body = body;
     return found;
 }
@@ -158,8 +161,14 @@ static void report_light(struct lint *lint, const struct ir_light *light, const 
         diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
                  "this light is inside %.*s, which blocks its light from everything outside",
                  STR_ARG(lint_words_other(lint, body)));
-        diag_note(lint->sink, lint_place(lint, body), "all bodies, even glass, cast full shadows");
-        diag_help(lint->sink, "move the light out, or set trace.shadows to false");
+        if (body->is_opaque || lint->ir->trace.transparent_shadows) {
+            diag_note(lint->sink, lint_place(lint, body), "this body lets no light through");
+            diag_help(lint->sink, "move the light out, or set trace.shadows to false");
+        } else {
+            diag_note(lint->sink, lint_place(lint, body), "all bodies, even glass, cast full shadows");
+            diag_help(lint->sink,
+                      "move the light out, or let glass shine: trace: {transparent_shadows: true}");
+        }
         return;
     }
     diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,

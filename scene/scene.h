@@ -48,6 +48,9 @@ struct scene_body {
     vec3 lower, upper; // a box around it: of a mesh, around its transformed box; lower > upper: no mesh
 };
 
+// Black after any way that is not 0, and finite.
+#define SCENE_ABSORPTION_MAX 1e30
+
 // A material as the tracers see it. Colours are linear and not yet multiplied by their weights.
 struct scene_material {
     double diffuse_weight, specular_weight, reflection, refraction;
@@ -56,6 +59,9 @@ struct scene_material {
     double cell; // edge of a checker's cells, scene units; 1 without
     vec3 specular;
     double specular_exponent, refractive_index;
+    bool fresnel;
+    int32_t priority;
+    vec3 absorption; // per scene unit, at most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light
     uint32_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
 };
 

@@ -33,18 +33,33 @@ struct waiting_ray {
 };
 waiting_ray waiting[BRANCHES];
 
+// Of each of them.
+struct waiting_medium {
+    media_set inside;
+    vec3 tint;
+};
+const uint MEDIA_BRANCHES = HAS_MEDIA ? BRANCHES : 1u;
+waiting_medium waiting_media[MEDIA_BRANCHES];
+
 void take_waiting(inout path_state p) {
     waiting_ray ray = waiting[p.stack_size];
     p.start = ray.start;
     p.direction = ray.direction;
     p.throughput = ray.throughput;
     p.depth = ray.depth;
+    if (HAS_MEDIA) {
+        p.inside = waiting_media[p.stack_size].inside;
+        p.tint = waiting_media[p.stack_size].tint;
+    }
 }
 
 void save_waiting(uint place, uint count) {
-    for (uint i = 0u; i < count; i++)
-        put_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, waiting[i].start, waiting[i].direction,
-                   waiting[i].throughput, waiting[i].depth);
+    for (uint i = 0u; i < count; i++) {
+        uint word = BRANCHES_WORD + BRANCH_WORDS * i;
+        put_branch(place, word, waiting[i].start, waiting[i].direction, waiting[i].throughput, waiting[i].depth);
+        if (HAS_MEDIA)
+            put_media(place, word + BRANCH_WORDS - MEDIA_BRANCH_WORDS, waiting_media[i].inside, waiting_media[i].tint);
+    }
 }
 
 void load_waiting(uint place, uint count) {
@@ -52,6 +67,10 @@ void load_waiting(uint place, uint count) {
         path_state p;
         get_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, p);
         waiting[i] = waiting_ray(p.start, p.direction, p.throughput, p.depth);
+        if (HAS_MEDIA) {
+            get_media(place, BRANCHES_WORD + BRANCH_WORDS * (i + 1u) - MEDIA_BRANCH_WORDS, p);
+            waiting_media[i] = waiting_medium(p.inside, p.tint);
+        }
     }
 }
 

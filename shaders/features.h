@@ -22,9 +22,14 @@
 #define FEATURE_COUNTERS         (1u << 15) /* count rays for --stats */
 #define FEATURE_LONG_RAYS        (1u << 16) /* a ray may be saved and resumed in the middle of a tree */
 #define FEATURE_MANY_LIGHTS      (1u << 17) /* the sum over the lights keeps what rounding drops */
-#define FEATURE_BEGINS           (1u << 18) /* only paths that begin; one with an open ray is saved for another kernel */
-#define FEATURE_COUNT            19
-/* What only a scene can switch on; the last bits are the renderer's. */
-#define FEATURE_SCENE_MASK ((1u << 14) - 1u)
+#define FEATURE_MEDIA            (1u << 18) /* rays know the bodies that they are inside */
+#define FEATURE_ATTENUATION      (1u << 19) /* of light on its way inside */
+#define FEATURE_FRESNEL          (1u << 20)
+#define FEATURE_CLEAR_SHADOWS    (1u << 21) /* light shines through what refracts */
+#define FEATURE_BEGINS           (1u << 22) /* only paths that begin; one with an open ray is saved for another kernel */
+#define FEATURE_COUNT            23
+/* What only a scene can switch on; the others are the renderer's. */
+#define FEATURE_SCENE_MASK                                                                                   \
+    (((1u << 14) - 1u) | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_FRESNEL | FEATURE_CLEAR_SHADOWS)
 
 #endif

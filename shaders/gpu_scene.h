@@ -82,6 +82,14 @@
 #define INSTANCE_MIRRORED 1u /* the second and third corner are exchanged */
 #define INSTANCE_COPIED   2u /* instance 0: records have bodies and shades of their own */
 
+/* A medium (scene/media.h): its priority, above 0, and below it the number, from 1 on, of a material that
+   fills it; the same one for all that are alike. What a path is inside (media.glsl) is kept with the number
+   of the body, from 1 on, in place of the material's. */
+#define MEDIUM_BITS     21
+#define MEDIUM_MASK     ((1u << MEDIUM_BITS) - 1u)
+#define MEDIUM_PRIORITY 1001 /* what is added to priorities */
+#define MEDIA_MOST      8
+
 /* The place of a light is its position, or a unit vector to it; emission over inverse square is already times
    scale squared. */
 #define LIGHT_DIRECTIONAL    1u

@@ -1,5 +1,10 @@
 // What a hit is made of: point, error, normals, colours (docs/language.md, "Hit" and "Checker").
 
+// Which media a ray is inside: media.glsl.
+struct media_set {
+    uvec4 a, b;
+};
+
 struct surface {
     REAL3 point;
     REAL3 error;     // bound of the point's error, by component
@@ -13,6 +18,13 @@ struct surface {
     bool has_diffuse, has_specular;
     float reflection, refraction;
     REAL index;
+    bool fresnel;
+    uint body;
+    // Of a ray that comes from a place inside certain media (media.glsl).
+    REAL index_before, index_after;
+    media_set after; // what it is inside once it is through
+    bool passes;     // it goes on unseen: nothing changes here
+    bool is_over;    // it would be inside more than MEDIA_MOST
 };
 
 bool is_odd(REAL cells) { return cells - 2.0 * floor(cells * 0.5) != 0.0; }
@@ -40,6 +52,9 @@ void read_material(uint shade, uint body, REAL2 along, inout surface s) {
     s.exponent = material.exponent;
     s.reflection = material.weight_reflection;
     s.refraction = material.weight_refraction;
+    if (HAS_FRESNEL)
+        s.fresnel = material.fresnel != 0u;
+    s.body = body;
 }
 
 void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {

@@ -117,7 +117,9 @@ static bool change(const struct bench *b, const struct use *use, void *field) {
         return true;
     case SCHEMA_INTEGER: {
         int32_t *value = field;
-        *value = row->range == SCHEMA_RANGE_DEPTH ? (*value > 1 ? 1 : 6) : *value + 1;
+        *value = row->range == SCHEMA_RANGE_DEPTH      ? (*value > 1 ? 1 : 6)
+                 : row->range == SCHEMA_RANGE_PRIORITY ? (*value > 0 ? -1000 : 1000)
+                                                       : *value + 1;
         return schema_in_range(row->range, *value);
     }
     case SCHEMA_NUMBER:

@@ -1,8 +1,9 @@
 // How a frame is made does not show in it: bands, slices, a frame cancelled before, and the part of the
 // picture that is asked for.
 //
-// Usage: test_frames SCENE [storage], a scene in which paths branch and none is deeper than 20 levels by
-// weight. With `storage` the device traces as GPUs do: samples at once, which must not show either.
+// Usage: test_frames SCENE [storage] [saved], a scene in which paths branch and none is deeper than 20 levels
+// by weight. With `storage` the device traces as GPUs do: samples at once, which must not show either. With
+// `saved` only what saves paths is tested.
 #include "shaders/features.h"
 #include "shaders/frame.h"
 #include "tests/pictures/picture_kit.h"
@@ -357,22 +358,32 @@ static void test_first_sample(struct frames *f) {
     close_stage(&stage);
 }
 
+static void test_whole_frames(struct frames *f) {
+    test_cancel(f);
+    test_bands(f);
+    test_crop(f);
+    test_segments(f);
+    test_limits(f, 0);
+    test_limits(f, 20);
+    test_first_sample(f);
+}
+
 int main(int argc, char **argv) {
     struct frames f = {.path = argc > 1 ? argv[1] : NULL};
     if (argc < 2)
         return 2;
-    if (!(argc > 2 ? picture_kit_open_as_gpu(&f.kit) : picture_kit_open(&f.kit)))
+    bool storage = false, saved = false;
+    for (int i = 2; i < argc; i++) {
+        storage = storage || strcmp(argv[i], "storage") == 0;
+        saved = saved || strcmp(argv[i], "saved") == 0;
+    }
+    if (!(storage ? picture_kit_open_as_gpu(&f.kit) : picture_kit_open(&f.kit)))
         return 77;
-    test_cancel(&f);
-    test_bands(&f);
     test_slices(&f);
     test_pieces(&f);
     test_at_once(&f);
-    test_crop(&f);
-    test_segments(&f);
-    test_limits(&f, 0);
-    test_limits(&f, 20);
-    test_first_sample(&f);
+    if (!saved)
+        test_whole_frames(&f);
     uint32_t messages = picture_kit_close(&f.kit);
     expect(&f, messages == 0, "the validation layer is silent");
     return f.failed != 0;

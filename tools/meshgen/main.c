@@ -47,6 +47,9 @@ static const struct product PRODUCTS[] = {
     {"fox", "a sitting fox", fox_generate, NULL, "fox.mtl"},
     {"fox-mtl", "the fox's colours", NULL, write_fox_mtl, NULL},
     {"vase", "a vase", vase_generate, NULL, NULL},
+    {"tumbler", "a drinking glass", tumbler_generate, NULL, NULL},
+    {"drink", "what is in the drinking glass", drink_generate, NULL, NULL},
+    {"ice", "a cube of ice", ice_generate, NULL, NULL},
     {"word", "the word glint", word_generate, NULL, NULL},
     {"sky", "sky, mountains and lake", NULL, write_sky, NULL},
 };

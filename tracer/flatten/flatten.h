@@ -10,6 +10,7 @@
 #ifndef GLINT_TRACER_FLATTEN_FLATTEN_H
 #define GLINT_TRACER_FLATTEN_FLATTEN_H
 
+#include "scene/media.h"
 #include "scene/view.h"
 #include "tracer/bvh/bvh.h"
 #include "tracer/gpu_word.h"
@@ -62,6 +63,8 @@ struct flat_scene {
     vec3 origin;
     int scale_exponent; // flat = (scene - origin) * 2^scale_exponent
     struct flat_array triangle_nodes, triangles, normals, sphere_nodes, spheres, bodies, materials, lights;
+    const struct scene *scene;        // not owned: what a camera is inside is asked of it
+    struct scene_media_reason media;  // whether rays must know what they are inside
     const struct picture *background; // not owned
     struct {
         uint64_t bytes; // as texels of the device; 0: there is no image

@@ -51,6 +51,8 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
         struct gpu_body record = {.first_triangle = f->out->first_triangle[i],
                                   .normal_base = f->normal_base[i],
                                   .instance = f->sharing.instance[i]};
+        if (f->medium)
+            record.medium = f->medium[i];
         if (has_checker(f->scene, body)) {
             if (body->shape == SCENE_PARALLELOGRAM)
                 put_edge_lengths(body, &record);

@@ -75,7 +75,9 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
                              ? LONG_RAY_WORDS + (renderer_stack_levels(renderer) + 1) / 2
                              : 0;
     const uint64_t low = renderer->features & FEATURE_MANY_LIGHTS ? 1 : 0;
-    return (state + low + ray + renderer->path_stack * entry) * WORD_BYTES;
+    const uint64_t media = renderer->features & FEATURE_MEDIA ? MEDIA_WORDS : 0;
+    const uint64_t shine = renderer->features & FEATURE_CLEAR_SHADOWS ? SHINE_WORDS : 0;
+    return (state + low + media + shine + ray + renderer->path_stack * (entry + media)) * WORD_BYTES;
 }
 
 static bool has_state(const struct renderer *renderer) {

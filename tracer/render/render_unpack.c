@@ -94,7 +94,8 @@ void renderer_note_fault(const struct renderer *renderer, uint32_t word, uint32_
     const uint32_t number = word & FAULT_NUMBER;
     fault->x = x;
     fault->y = y;
-    fault->has_body = number != FAULT_NUMBER;
+    fault->is_nested = number == FAULT_NESTED;
+    fault->has_body = number != FAULT_NUMBER && !fault->is_nested;
     fault->body = fault->triangle = 0;
     if (fault->has_body)
         renderer_number(renderer, number, &fault->body, &fault->triangle);
