@@ -102,6 +102,22 @@ void note_near(uint item, inout triangle_search search) {
     search.near_a = search.near_a == NO_ITEM ? item : search.near_a;
 }
 
+// Most triangles of a leaf are passed by, and often by all lanes of a GPU's subgroup. lavapipe runs every branch.
+#if defined(FETCH_TEXELS) || defined(DOUBLE_PRECISION) || defined(ALTERNATIVES)
+#define LEAVE_IF(condition)
+#else
+#define LEAVE_IF(condition)                                                                                  \
+    if (condition)                                                                                           \
+        return;
+#endif
+
+// Bound of the error of u, v and w, where no corner is farther than this from the ray.
+REAL edge_error(REAL x_most, REAL y_most, REAL z_most, REAL slack) {
+    REAL delta_x = GAMMA_5 * (x_most + z_most) + 2.0 * slack;
+    REAL delta_y = GAMMA_5 * (y_most + z_most) + 2.0 * slack;
+    return 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
+}
+
 // `there`: whether the item is one.
 void test_triangle(uint item, bool there, inout triangle_search search, inout hit_record hit) {
     triangle_record triangle = load_tested(item);
@@ -121,14 +137,8 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     REAL x_most = LARGER(LARGER(abs(ax), abs(bx)), abs(cx));
     REAL y_most = LARGER(LARGER(abs(ay), abs(by)), abs(cy));
     REAL z_most = LARGER(LARGER(abs(a.z), abs(b.z)), abs(c.z));
-    REAL delta_x = GAMMA_5 * (x_most + z_most) + 2.0 * search.slack;
-    REAL delta_y = GAMMA_5 * (y_most + z_most) + 2.0 * search.slack;
-    REAL delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
-#if !defined(FETCH_TEXELS) && !defined(DOUBLE_PRECISION) && !defined(ALTERNATIVES)
-    // Most triangles of a leaf are passed by, and often by all lanes of a subgroup.
-    if (!(highest <= delta_e || lowest >= -delta_e || inside))
-        return;
-#endif
+    REAL delta_e = edge_error(x_most, y_most, z_most, search.slack);
+    LEAVE_IF(!(highest <= delta_e || lowest >= -delta_e || inside))
     REAL inverse = 1.0 / det;
     REAL t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
     // t is a mean of the vertices' z: an error of its weights moves it by their spread at most. Seen edge-on, it
