@@ -22,7 +22,7 @@
 #define FEATURE_COUNTERS         (1u << 15) /* count rays for --stats */
 #define FEATURE_LONG_RAYS        (1u << 16) /* a ray may be saved and resumed in the middle of a tree */
 #define FEATURE_MANY_LIGHTS      (1u << 17) /* the sum over the lights keeps what rounding drops */
-#define FEATURE_BEGINS           (1u << 18) /* only paths that begin; one with an open ray is saved for another kernel */
+#define FEATURE_BEGINS           (1u << 18) /* paths begin; they are saved where a ray is open */
 #define FEATURE_COUNT            19
 /* What only a scene can switch on; the last bits are the renderer's. */
 #define FEATURE_SCENE_MASK ((1u << 14) - 1u)
