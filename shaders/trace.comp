@@ -373,7 +373,8 @@ void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase
 }
 
 // Follows a path until it ends, or until its slice does. A ray that is open is decided after the inner loop on lavapipe, which
-// runs every branch for every ray; within it on a GPU, whose lanes would wait for all others.
+// runs every branch for every ray; within it on a GPU, whose lanes would wait for all others. A kernel in which paths begin
+// (BEGINS) saves the path before such a ray.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON, phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
     bool fresh = true, decided = false; // no ray was finished in this slice; the ray is

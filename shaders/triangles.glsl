@@ -163,9 +163,8 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     bool start_open = possible && !starts_before && !starts_behind && item != search.left && MEETS_BOX(triangle, ray);
     bool order_open = inside && starts_before && abs(t - hit.t) <= delta_t + search.wrong;
     search.doubt = order_open ? SMALLER(search.doubt, SMALLER(t, hit.t)) : search.doubt;
-    bool edge_open = possible && starts_before && lowest <= delta_e && highest >= -delta_e;
-    if (!BEGINS)
-        search.edge = edge_open ? min(search.edge, edge_on ? first - delta_z : t - delta_t) : search.edge;
+    bool edge_open = !BEGINS && possible && starts_before && lowest <= delta_e && highest >= -delta_e;
+    search.edge = edge_open ? min(search.edge, edge_on ? first - delta_z : t - delta_t) : search.edge;
     if (start_open)
         note_near(item, search);
 #endif
