@@ -185,6 +185,10 @@ void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
     }
 }
 
+bool assets_is_mesh_path(str path) {
+    return str_ends_with_nocase(path, ".obj");
+}
+
 str asset_base(const struct assets_input *input, span at) {
     uint32_t source = at.source;
     const struct source *s = &input->sources->items[source < input->sources->count ? source : SOURCE_DEFAULT];

@@ -14,10 +14,6 @@
 
 #include <assert.h>
 
-bool assets_is_mesh_path(str path) {
-    return str_ends_with_nocase(path, ".obj");
-}
-
 static bool is_poisoned(const struct ir_head *head, const struct schema_element *schema, const char *row) {
     return head->poisoned >> schema_find_row(schema, str_from(row)) & 1;
 }

@@ -31,10 +31,7 @@ static bool print_kernels(struct gpu *gpu, const struct bench_scene *scene, bool
     if (done) {
         printf("%s, %s precision, features %#x\n", scene->path, is_double ? "double" : "single",
                glint.renderer->features);
-        const struct gpu_program *plain =
-            glint.renderer->resolve ? renderer_plain_program(glint.renderer) : NULL;
         done = print_program(gpu, glint.renderer->program, "trace") &&
-               (!plain || print_program(gpu, plain, "plain")) &&
                (!glint.renderer->resolve || print_program(gpu, glint.renderer->resolve, "resolve"));
     }
     bench_glint_close(&glint);

@@ -242,6 +242,7 @@ static const struct feature_name {
     {FEATURE_ATTENUATION, "attenuation"},
     {FEATURE_FRESNEL, "fresnel"},
     {FEATURE_CLEAR_SHADOWS, "clear_shadows"},
+    {FEATURE_BEGINS, "begins"},
 };
 static_assert(sizeof feature_names / sizeof feature_names[0] == FEATURE_COUNT, "every feature has a name");
 

@@ -2,7 +2,7 @@
 
 // The rules in the order of their codes.
 const struct lint_rule lint_rules[] = {
-    // One test of a box for each pair of camera and solid, rays only where the box holds the camera.
+    // A walk for each solid through a tree of the cameras, rays only where its box holds one.
     {DIAG_CAMERA_INSIDE, lint_camera_inside, LINT_ALL},
     {DIAG_LIGHT_INSIDE, lint_light_inside, LINT_ALL},
     // One pass over the bodies.

@@ -5,7 +5,7 @@
 #include "grammar/ir.h"
 
 enum {
-    WORK_MAX = 50000000, // bodies against cameras, or lights: further ones are not looked at
+    WORK_MAX = 50000000, // bodies against trees of cameras, or lights: further ones are not looked at
 };
 
 // ---- cameras
@@ -34,18 +34,43 @@ static void report_camera(struct lint *lint, const struct ir_camera *camera, con
     diag_help(lint->sink, "move the camera out of the body");
 }
 
+struct camera_search {
+    struct lint *lint;
+    const struct lint_body *body;
+    const struct lint_body **found; // for each camera: the first body that it is inside
+};
+
+static bool take_camera(void *context, const void *of) {
+    struct camera_search *s = context;
+    const struct ir_camera *camera = of;
+    const size_t i = (size_t)(camera - s->lint->ir->cameras.items);
+    if (!s->found[i] && lint_is_inside(s->lint, s->body, s->lint->views[i].camera.position) &&
+        !(s->body->is_opaque && holds_light(s->lint, s->body)))
+        s->found[i] = s->body;
+    return true;
+}
+
+// The tree is over the cameras, which are mostly few; bodies come in their order, as for lights.
 void lint_camera_inside(struct lint *lint) {
+    const uint32_t count = lint->ir->cameras.count;
+    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, count);
+    struct camera_search s = {.lint = lint};
+    struct lint_box_tree tree;
     uint64_t work = 0;
-    for (uint32_t i = 0; i < lint->ir->cameras.count && work < WORK_MAX; i++, work += lint->body_count) {
-        vec3 position = lint->views[i].camera.position;
-        for (uint32_t k = 0; k < lint->body_count; k++) {
-            const struct lint_body *body = &lint->bodies[k];
-            if (!lint_is_inside(lint, body, position) || (body->is_opaque && holds_light(lint, body)))
-                continue;
-            report_camera(lint, &lint->ir->cameras.items[i], body);
-            break;
-        }
+    s.found = ARENA_ARRAY(lint->arena, const struct lint_body *, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const vec3 position = lint->views[i].camera.position;
+        items[i] = (struct lint_box_item){{position, position}, &lint->ir->cameras.items[i]};
     }
+    lint_box_tree_build(&tree, lint->arena, items, count);
+    for (uint32_t k = 0; k < lint->body_count && work < WORK_MAX; k++) {
+        s.body = &lint->bodies[k];
+        if (s.body->is->closed && lint_is_there(s.body))
+            work += lint_box_tree_in_box(&tree, &s.body->box, 0, take_camera, &s);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        if (s.found[i])
+            report_camera(lint, &lint->ir->cameras.items[i], s.found[i]);
 }
 
 // ---- lights

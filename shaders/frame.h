@@ -166,8 +166,7 @@
 /* Samples are traced at once, and refracted rays that wait lie in private memory, this many at most. */
 #define CONSTANT_AT_ONCE  9
 #define CONSTANT_BRANCHES 10
-#define CONSTANT_PLAIN    11 /* 1: a path that needs more than most is saved, for a kernel that has it */
-#define CONSTANT_COUNT    12
+#define CONSTANT_COUNT    11
 
 /* Most samples of a pixel that are traced at once. */
 #define SAMPLES_AT_ONCE 64

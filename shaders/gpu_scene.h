@@ -71,7 +71,9 @@
 /* Where models share a mesh (kernels compiled with INSTANCES), the triangle tree has two levels. Nodes below
    frame.top_nodes are the upper one, in flat space: its leaves are nodes too, of an instance each, in which
    byte 0 of the exponents is 0, which no other node has, the first child is the root of the instance's tree
-   and the first item the instance. Below a root all is in the space of that tree, which keeps its coordinates
+   and the first item the instance; kernels read only these two. In the other nodes of the upper tree, which
+   have no items, the first item is a mask: the slots whose children are leaves. Below a root all is in the
+   space of that tree, which keeps its coordinates
    below 2. TRIANGLES holds PLACED records, NORMALS doubles. All triangles that are not shared are instance 0,
    which changes nothing. An item that is hit is the place of its record plus first_item of its instance: such
    numbers rise with the instances, and each begins a new block of 2^frame.instance_shift of them. INSTANCES

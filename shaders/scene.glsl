@@ -34,6 +34,7 @@ const bool HAS_BACKGROUND_IMAGE = (FEATURES & FEATURE_BACKGROUND_IMAGE) != 0u;
 const bool HAS_DEPTH_BLACK = (FEATURES & FEATURE_DEPTH_BLACK) != 0u;
 const bool HAS_SLICES = (FEATURES & FEATURE_SLICES) != 0u;
 const bool HAS_MANY_LIGHTS = (FEATURES & FEATURE_MANY_LIGHTS) != 0u;
+const bool BEGINS = (FEATURES & FEATURE_BEGINS) != 0u;
 const bool HAS_MEDIA = (FEATURES & FEATURE_MEDIA) != 0u;
 const bool HAS_ATTENUATION = (FEATURES & FEATURE_ATTENUATION) != 0u; // only with HAS_MEDIA
 const bool HAS_FRESNEL = (FEATURES & FEATURE_FRESNEL) != 0u;
@@ -43,16 +44,10 @@ const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 // Of this invocation, with HAS_COUNTERS.
 uint counted_nodes = 0u, counted_items = 0u;
 
-// Without second searches; on GPUs without rays that a surface sends on, too. Most paths need none, and such a kernel is
-// faster. What does is saved before the ray, or at the surface, and goes on in a kernel that can.
-layout(constant_id = CONSTANT_PLAIN) const bool PLAIN = false;
-
 #ifdef FETCH_TEXELS
-const bool BEGINS = PLAIN;
 #define WORDS(number, name) layout(set = 0, binding = number) uniform usamplerBuffer name;
 #define FETCH(name, index)  texelFetch(name, int(index))
 #else
-const bool BEGINS = false;
 #define WORDS(number, name)                                                                                  \
     layout(set = 0, binding = number, std430) readonly restrict buffer name##_words { uvec4 name[]; };
 #define FETCH(name, index) name[index]

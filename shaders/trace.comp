@@ -351,8 +351,6 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
         count_ray(p, phase == PHASE_RAY);
     if (state == GOES_ON)
         state = arrive(p, phase, hit, shadow, s, start);
-    if (PLAIN && !BEGINS && state == GOES_ON && (s.reflection > 0.0 || s.refraction > 0.0))
-        state = SUSPENDED;
     bool passes = HAS_MEDIA && state == GOES_ON && s.passes && phase != PHASE_SHADOW;
     if (passes) {
         pass_surface(p, s);
@@ -412,9 +410,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     break;
             }
 #else
-            if (PLAIN && HAS_TRIANGLES && traced && open)
-                state = SUSPENDED;
-            else if (HAS_TRIANGLES && traced && open)
+            if (HAS_TRIANGLES && traced && open)
                 state = decide_here(p, own, from, shadow, doubts, sphere, fresh, hit, iterations);
             if (state == SUSPENDED)
                 break;
@@ -448,7 +444,7 @@ void main() {
     }
 #endif
     index += dispatch.path_begin;
-    bool resumes = HAS_SLICES && !PLAIN && dispatch.resume > OPAQUE_ZERO;
+    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
     if (index >= dispatch.path_end)
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;

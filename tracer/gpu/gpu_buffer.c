@@ -104,8 +104,11 @@ static bool fits(struct gpu *gpu, const struct gpu_buffer *buffer, enum gpu_use 
         most = limits->maxUniformBufferRange;
     if (buffer->size <= most)
         return true;
-    gpu_fail(gpu, GPU_NO_MEMORY, "a buffer of %llu MiB exceeds the %llu MiB that %s allows",
-             (unsigned long long)(buffer->size >> 20), (unsigned long long)(most >> 20), gpu->info.name);
+    gpu_fail(gpu, GPU_NO_MEMORY, "a buffer of %llu MiB exceeds the %llu MiB that %s allows%s",
+             (unsigned long long)(buffer->size >> 20), (unsigned long long)(most >> 20), gpu->info.name,
+             use == GPU_WORDS
+                 ? ": use smaller meshes, or models that share one; 'glint inspect' lists the buffers"
+                 : "");
     return false;
 }
 

@@ -103,8 +103,7 @@ static void plan_at_once(struct renderer *renderer) {
     renderer->samples_at_once = least_of(least_of(fit, renderer->settings.samples), SAMPLES_AT_ONCE);
     const uint64_t paths = slots * renderer->samples_at_once, bytes = slot_state_bytes(renderer);
     const uint64_t most = bytes ? band_bytes(gpu_info(renderer->gpu)) / bytes : 0;
-    const bool bounces = renderer->features & (FEATURE_REFLECTION | FEATURE_REFRACTION);
-    renderer->places = least_of(bounces ? paths : (paths + 7) / 8, most);
+    renderer->places = has_state(renderer) ? least_of(paths, most) : 0;
     if (renderer->settings.places && renderer->settings.places < renderer->places)
         renderer->places = renderer->settings.places;
 }
@@ -132,9 +131,6 @@ static void plan(struct renderer *renderer) {
     renderer->run_tiles = RUN_TILES;
     renderer->runs = (renderer->tiles_x * tiles_y + renderer->run_tiles - 1) / renderer->run_tiles;
     const bool at_once = goes_at_once(renderer);
-    // The plain kernel saves the paths that need more.
-    if (at_once)
-        renderer->features |= FEATURE_SLICES;
     renderer->run_step = gpu_fetches_texels(renderer->gpu) ? run_step_of(renderer->runs) : 1;
     renderer->tiles = renderer->runs * renderer->run_tiles;
     uint64_t slot_bytes = at_once ? 0 : slot_state_bytes(renderer);
@@ -253,8 +249,7 @@ static void drop_frame(struct renderer *renderer) {
     renderer_drop_at_once(renderer);
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
-    renderer->counting = renderer->program = renderer->plain = NULL;
-    renderer->has_drawn = renderer->plain_fails = false;
+    renderer->counting = renderer->program = renderer->begins = NULL;
     for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++) {
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[bindings[i]]);
         renderer->buffers[bindings[i]] = NULL;

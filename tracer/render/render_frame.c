@@ -109,15 +109,6 @@ static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_be
     return RENDER_DONE;
 }
 
-// A picture that is made once does not pay for compiling a second kernel.
-static bool choose_plain(struct renderer_frame *run) {
-    struct renderer *renderer = run->renderer;
-    const bool wanted = renderer->samples_at_once && renderer->has_drawn && !renderer->plain_fails &&
-                        !run->counting && renderer->rank_begins[RENDERER_RANK_ENDS] < renderer->tiles;
-    run->plain = wanted ? renderer_plain_program(renderer) : NULL;
-    return run->plain || !wanted;
-}
-
 bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *camera) {
     const struct renderer *renderer = run->renderer;
     run->steps_done = 0;
@@ -125,8 +116,7 @@ bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *
     run->statistics->bands = (renderer->tiles + renderer->band_tiles - 1) / renderer->band_tiles;
     run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
     run->statistics->samples = renderer->settings.samples;
-    return renderer_write_frame(run->renderer, camera) && renderer_order_tiles(run->renderer, camera) &&
-           choose_plain(run);
+    return renderer_write_frame(run->renderer, camera) && renderer_order_tiles(run->renderer, camera);
 }
 
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,

@@ -18,8 +18,8 @@ struct kernel_pair {
 // Those of one way, which ends their names.
 #define KERNELS(way)                                                                                         \
     {                                                                                                        \
-        [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_PLAIN] = KERNEL(trace##way),                        \
-        [RENDERER_HITS] = KERNEL(hits##way), [RENDERER_LOG] = KERNEL(log##way), [RENDERER_RESOLVE] = {       \
+        [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
+        [RENDERER_LOG] = KERNEL(log##way), [RENDERER_RESOLVE] = {                                            \
             NULL,                                                                                            \
             &kernel_resolve_storage                                                                          \
         }                                                                                                    \
@@ -106,29 +106,26 @@ static uint32_t private_branches(const struct renderer *renderer) {
     return renderer->path_stack ? renderer->path_stack : 1;
 }
 
-static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, bool is_plain,
-                   uint32_t features) {
-    return kept->program && kept->is_plain == is_plain && kept->features == features &&
+static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {
+    return kept->program && kept->features == features &&
            kept->alternative == renderer->settings.alternative &&
            kept->workgroup == renderer->settings.workgroup && kept->branches == private_branches(renderer);
 }
 
 static bool is_in_use(const struct renderer *renderer, const struct gpu_program *program) {
     return program &&
-           (program == renderer->program || program == renderer->counting || program == renderer->plain);
+           (program == renderer->program || program == renderer->counting || program == renderer->begins);
 }
 
 // The tracing kernel with these features, compiled now or before, over the band's buffers.
-static struct gpu_program *keep_program(struct renderer *renderer, enum renderer_kernel kernel,
-                                        uint32_t features) {
-    const bool is_plain = kernel == RENDERER_PLAIN;
+static struct gpu_program *keep_program(struct renderer *renderer, uint32_t features) {
     for (uint32_t i = 0; i < RENDERER_KEPT; i++)
-        if (is_for(&renderer->kept[i], renderer, is_plain, features)) {
+        if (is_for(&renderer->kept[i], renderer, features)) {
             gpu_program_bind(renderer->gpu, renderer->kept[i].program, renderer->buffers);
             return renderer->kept[i].program;
         }
     const double start = clock_seconds();
-    struct gpu_program *program = renderer_compile_kernel(renderer, kernel, features, NULL, NULL);
+    struct gpu_program *program = renderer_compile_kernel(renderer, RENDERER_TRACE, features, NULL, NULL);
     timeline_add(renderer->settings.timeline, "pipeline", STR(""), start);
     if (!program)
         return NULL;
@@ -137,7 +134,6 @@ static struct gpu_program *keep_program(struct renderer *renderer, enum renderer
     struct renderer_kept *kept = &renderer->kept[renderer->kept_next];
     gpu_program_destroy(renderer->gpu, kept->program);
     *kept = (struct renderer_kept){.features = features,
-                                   .is_plain = is_plain,
                                    .workgroup = renderer->settings.workgroup,
                                    .branches = private_branches(renderer),
                                    .alternative = renderer->settings.alternative,
@@ -148,7 +144,7 @@ static struct gpu_program *keep_program(struct renderer *renderer, enum renderer
 
 // On lavapipe a kernel costs what all of its code does, wanted or not: paths begin in one that neither takes
 // up saved paths nor searches a second time, and those that need that are saved. Counts would tell of this.
-static bool begins_plain(const struct renderer *renderer) {
+static bool begins_apart(const struct renderer *renderer) {
     return gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_SLICES) &&
            !(renderer->features & FEATURE_LONG_RAYS) &&
            renderer->settings.alternative == RENDER_ALTERNATIVE_NONE;
@@ -157,22 +153,16 @@ static bool begins_plain(const struct renderer *renderer) {
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts) {
     struct gpu_program **program = counts ? &renderer->counting : &renderer->program;
     if (!*program)
-        *program =
-            keep_program(renderer, RENDERER_TRACE, renderer->features | (counts ? FEATURE_COUNTERS : 0));
+        *program = keep_program(renderer, renderer->features | (counts ? FEATURE_COUNTERS : 0));
     return *program;
 }
 
-struct gpu_program *renderer_plain_program(struct renderer *renderer) {
-    const uint32_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
-    const uint32_t features = renderer->features & ~(gpu_fetches_texels(renderer->gpu) ? 0 : bounces);
-    if (!renderer->plain)
-        renderer->plain = keep_program(renderer, RENDERER_PLAIN, features);
-    return renderer->plain;
-}
-
 struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts) {
-    return counts || !begins_plain(renderer) ? renderer_program(renderer, counts)
-                                             : renderer_plain_program(renderer);
+    if (counts || !begins_apart(renderer))
+        return renderer_program(renderer, counts);
+    if (!renderer->begins)
+        renderer->begins = keep_program(renderer, renderer->features | FEATURE_BEGINS);
+    return renderer->begins;
 }
 
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
@@ -187,11 +177,12 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_FEATURES] = features,
         [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
-        [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
+        // A group of the tree over instances says of its children too which are leaves.
+        [CONSTANT_PACKED_GROUPS] =
+            !flat->instance_count && flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,
         [CONSTANT_BRANCHES] = renderer->samples_at_once ? private_branches(renderer) : 1,
-        [CONSTANT_PLAIN] = kernel == RENDERER_PLAIN,
         [CONSTANT_ALTERNATIVE_OFFSET] = bits_of(ldexp(alternative->offset, flat->scale_exponent)),
         [CONSTANT_ALTERNATIVE_DISTANCE] = bits_of(alternative->distance),
         [CONSTANT_ALTERNATIVE_CUT] = bits_of(ldexp(alternative->cut, 2 * flat->scale_exponent)),

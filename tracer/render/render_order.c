@@ -100,7 +100,7 @@ static void sort_tiles(const struct grid *grid, uint32_t tiles, uint32_t *order,
         order[next[rank_of(grid, tile)]++] = tile % grid->width | tile / grid->width << 16;
 }
 
-static bool make_order(struct renderer *renderer, const struct view_camera *camera) {
+bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *camera) {
     const uint32_t width = renderer->tiles_x, height = (renderer->tiles + width - 1) / width;
     const size_t words = ((size_t)width + 1) * (height + 1);
     int32_t *edges = heap_zeroed(words * RENDERER_RANK_ENDS, sizeof *edges);
@@ -131,9 +131,14 @@ bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *c
     const size_t bytes = renderer->tiles * sizeof *renderer->order;
     if (!renderer->order)
         renderer->order = heap_alloc(bytes);
-    renderer->ordered = *camera;
-    return renderer->order && make_order(renderer, camera) &&
-           gpu_write(renderer->gpu, renderer->buffers[BINDING_ORDER], 0, renderer->order, bytes);
+    if (renderer->order && renderer_sort_tiles(renderer, camera) &&
+        gpu_write(renderer->gpu, renderer->buffers[BINDING_ORDER], 0, renderer->order, bytes)) {
+        renderer->ordered = *camera;
+        return true;
+    }
+    free(renderer->order);
+    renderer->order = NULL;
+    return false;
 }
 
 uint32_t renderer_rank_begin(const struct renderer *renderer, const struct dispatch_block *block, int rank) {

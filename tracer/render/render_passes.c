@@ -86,8 +86,6 @@ static enum render_result draw_to_end(struct renderer_frame *run, struct dispatc
         block->resume = run->renderer->pending - block->pending_base;
         if (block->resume == 0)
             return RENDER_DONE;
-        if (run->plain && block->resume > run->renderer->places / 2)
-            run->renderer->plain_fails = true;
         begin = 0;
         end = block->resume;
         block->read_list = 1 - block->read_list;

@@ -35,7 +35,6 @@ struct renderer_log;
 // A kernel that was compiled, for the settings that it depends on.
 struct renderer_kept {
     uint32_t features, workgroup;
-    bool is_plain;
     uint32_t branches; // in private memory; 0: samples are not traced at once
     enum render_alternative alternative;
     struct gpu_program *program; // NULL: none
@@ -85,10 +84,7 @@ struct renderer {
     struct gpu_buffer *buffers[GPU_BINDINGS];
     struct gpu_program *program;  // of those kept; NULL: none was wanted yet
     struct gpu_program *counting; // the same, with counters
-    struct gpu_program *plain; // most of it: on lavapipe for paths that begin, else where samples are traced
-                               // at once, for other than long tiles
-    bool plain_fails;          // too many paths need more: it would cost more than it saves
-    bool has_drawn;            // a frame with these settings
+    struct gpu_program *begins;   // most of it, for paths that begin: on lavapipe alone
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
@@ -103,7 +99,6 @@ struct renderer {
 // of the band's where not NULL.
 enum renderer_kernel {
     RENDERER_TRACE,
-    RENDERER_PLAIN, // most of what the tracing kernel does: CONSTANT_PLAIN
     RENDERER_HITS,
     RENDERER_LOG,
     RENDERER_RESOLVE,
@@ -114,9 +109,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
-// That which does less, for paths that begin: what needs more is saved, for the other.
-struct gpu_program *renderer_plain_program(struct renderer *renderer);
-// That in which the paths of a frame begin, but for those that a GPU begins in the plain one.
+// The kernel in which the paths of a frame begin; those that it saves go on in the tracing kernel.
 struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts);
 float renderer_float(uint32_t bits);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
@@ -127,7 +120,6 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
 struct renderer_frame {
     struct renderer *renderer;
     struct gpu_program *program;
-    struct gpu_program *plain; // for paths that begin in other than long tiles; NULL: `program` traces all
     const struct render_progress *progress;
     struct render_statistics *statistics;
     uint64_t steps_done, steps; // a band's sample is a step
@@ -163,6 +155,8 @@ bool renderer_copy_counters(struct renderer_frame *run);
 bool renderer_follow_pass(struct renderer_frame *run, bool ends);
 // In which order tiles are traced at once, for a camera. false: see gpu_error.
 bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *camera);
+// Fills renderer->order and rank_begins; needs no device. false: no memory.
+bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *camera);
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
