@@ -26,8 +26,9 @@
 #define FEATURE_ATTENUATION      (1u << 19) /* of light on its way inside */
 #define FEATURE_FRESNEL          (1u << 20)
 #define FEATURE_CLEAR_SHADOWS    (1u << 21) /* light shines through what refracts */
-#define FEATURE_BEGINS           (1u << 22) /* only paths that begin; one with an open ray is saved for another kernel */
-#define FEATURE_COUNT            23
+#define FEATURE_BEGINS                                                                                       \
+    (1u << 22) /* only paths that begin; one with an open ray is saved for another kernel */
+#define FEATURE_COUNT 23
 /* What only a scene can switch on; the others are the renderer's. */
 #define FEATURE_SCENE_MASK                                                                                   \
     (((1u << 14) - 1u) | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_FRESNEL | FEATURE_CLEAR_SHADOWS)
