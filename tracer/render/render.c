@@ -250,6 +250,7 @@ static void drop_frame(struct renderer *renderer) {
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
     renderer->counting = renderer->program = renderer->begins = NULL;
+    renderer->has_drawn = false;
     for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++) {
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[bindings[i]]);
         renderer->buffers[bindings[i]] = NULL;

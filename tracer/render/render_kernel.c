@@ -9,6 +9,10 @@
 #include <math.h>
 #include <string.h>
 
+enum {
+    PATHS_APART = 8 << 20, // what the second kernel saves in so many is what making it takes
+};
+
 struct kernel_pair {
     const struct kernel *texels, *storage; // by what the device fetches
 };
@@ -143,9 +147,13 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint32_t feat
 }
 
 // On lavapipe a kernel costs what all of its code does, wanted or not: paths begin in one that neither takes
-// up saved paths nor searches a second time, and those that need that are saved. Counts would tell of this.
+// up saved paths nor searches a second time, and those that need that are saved. Counts would tell of this. A
+// picture that is made once does not pay for making a second kernel, unless it is large.
 static bool begins_apart(const struct renderer *renderer) {
-    return gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_SLICES) &&
+    const struct render_settings *settings = &renderer->settings;
+    const bool pays = renderer->has_drawn ||
+                      (uint64_t)settings->width * settings->height * settings->samples >= PATHS_APART;
+    return pays && gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_SLICES) &&
            !(renderer->features & FEATURE_LONG_RAYS) &&
            renderer->settings.alternative == RENDER_ALTERNATIVE_NONE;
 }

@@ -85,6 +85,7 @@ struct renderer {
     struct gpu_program *program;  // of those kept; NULL: none was wanted yet
     struct gpu_program *counting; // the same, with counters
     struct gpu_program *begins;   // most of it, for paths that begin: on lavapipe alone
+    bool has_drawn;               // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot

@@ -53,6 +53,7 @@ static enum render_result draw_frame(struct renderer_frame *run, const struct vi
     if (run->met_long_ray)
         result = renderer_take_long_rays(run->renderer) && begin(run, counts) ? draw(run, camera, rgb)
                                                                               : RENDER_FAILED;
+    run->renderer->has_drawn |= result == RENDER_DONE;
     if (counts)
         run->statistics->rays = rays_of(run);
     run->statistics->wall_seconds = clock_seconds() - start;
