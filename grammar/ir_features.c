@@ -243,6 +243,13 @@ static const struct feature_name {
     {FEATURE_FRESNEL, "fresnel"},
     {FEATURE_CLEAR_SHADOWS, "clear_shadows"},
     {FEATURE_BEGINS, "begins"},
+    {FEATURE_SOFT_LIGHT, "soft_light"},
+    {FEATURE_AMBIENT, "ambient"},
+    {FEATURE_OCCLUSION, "occlusion"},
+    {FEATURE_SKY_LIGHT, "sky_light"},
+    {FEATURE_EMISSION, "emission"},
+    {FEATURE_ROUGHNESS, "roughness"},
+    {FEATURE_CAMERA, "camera"},
 };
 static_assert(sizeof feature_names / sizeof feature_names[0] == FEATURE_COUNT, "every feature has a name");
 

@@ -7,6 +7,7 @@
 #include "core/arena.h"
 #include "reference/reference.h"
 #include "scene/media.h"
+#include "scene/points.h"
 
 // gamma(n) = n u / (1 - n u), u = 2^-53: bounds the relative error of n roundings (Higham 2002, section 3.1).
 #define REFERENCE_UNIT     0x1p-53
@@ -223,6 +224,7 @@ struct branch {
     double throughput;
     vec3 tint; // what attenuation has left of each channel
     struct inside inside;
+    uint32_t key; // of its points
     uint32_t depth;
     uint32_t parent; // in a log
     enum reference_kind kind;
@@ -259,8 +261,8 @@ struct log {
     uint32_t capacity, count;
 };
 
-// Follows a sample's paths to their ends. `log` may be NULL.
-void reference_follow(const struct reference *r, const struct reference_settings *settings, vec3 direction,
-                      struct queue *queue, struct log *log, struct sample *out);
+// Follows the paths of a sample of pixel (x, y) to their ends; `sample` is its number. `log` may be NULL.
+void reference_follow(const struct reference *r, const struct reference_settings *settings, uint32_t x,
+                      uint32_t y, uint32_t sample, struct queue *queue, struct log *log, struct sample *out);
 
 #endif

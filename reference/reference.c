@@ -113,7 +113,7 @@ uint32_t reference_log(const struct reference *r, const struct reference_setting
     struct queue queue = {0};
     struct log log = {segments, capacity, 0};
     struct sample out;
-    reference_follow(r, settings, reference_camera_ray(r, settings, x, y, sample), &queue, &log, &out);
+    reference_follow(r, settings, x, y, sample, &queue, &log, &out);
     bool failed = queue.failed;
     reference_queue_finish(&queue);
     if (radiance)
@@ -196,8 +196,7 @@ static void draw_pixel(const struct reference *r, const struct reference_setting
     bool cut_short = false;
     struct sample sample = {0};
     for (uint32_t n = 0; n < settings->samples && !queue->failed && !sample.cancelled; n++) {
-        vec3 direction = reference_camera_ray(r, settings, x, y, settings->first_sample + n);
-        reference_follow(r, settings, direction, queue, NULL, &sample);
+        reference_follow(r, settings, x, y, settings->first_sample + n, queue, NULL, &sample);
         bool bad = !is_finite(sample.radiance);
         sum = bad ? (vec3){NAN, NAN, NAN} : vec3_add(sum, sample.radiance);
         if (bad && !not_finite)

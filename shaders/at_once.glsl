@@ -41,6 +41,9 @@ struct waiting_medium {
 const uint MEDIA_BRANCHES = HAS_MEDIA ? BRANCHES : 1u;
 waiting_medium waiting_media[MEDIA_BRANCHES];
 
+const uint KEY_BRANCHES = HAS_POINTS ? BRANCHES : 1u;
+uint waiting_keys[KEY_BRANCHES];
+
 void take_waiting(inout path_state p) {
     waiting_ray ray = waiting[p.stack_size];
     p.start = ray.start;
@@ -51,6 +54,8 @@ void take_waiting(inout path_state p) {
         p.inside = waiting_media[p.stack_size].inside;
         p.tint = waiting_media[p.stack_size].tint;
     }
+    if (HAS_POINTS)
+        p.key = waiting_keys[p.stack_size];
 }
 
 void save_waiting(uint place, uint count) {
@@ -59,6 +64,8 @@ void save_waiting(uint place, uint count) {
         put_branch(place, word, waiting[i].start, waiting[i].direction, waiting[i].throughput, waiting[i].depth);
         if (HAS_MEDIA)
             put_media(place, word + BRANCH_WORDS - MEDIA_BRANCH_WORDS, waiting_media[i].inside, waiting_media[i].tint);
+        if (HAS_POINTS)
+            put_key(place, word + BRANCH_WORDS - MORE_BRANCH_WORDS, waiting_keys[i]);
     }
 }
 
@@ -71,6 +78,8 @@ void load_waiting(uint place, uint count) {
             get_media(place, BRANCHES_WORD + BRANCH_WORDS * (i + 1u) - MEDIA_BRANCH_WORDS, p);
             waiting_media[i] = waiting_medium(p.inside, p.tint);
         }
+        if (HAS_POINTS)
+            waiting_keys[i] = get_key(place, BRANCHES_WORD + BRANCH_WORDS * (i + 1u) - MORE_BRANCH_WORDS);
     }
 }
 

@@ -31,7 +31,8 @@
     UINT(top_nodes)        /* of instances: gpu_scene.h */                                                   \
     UINT(instance_table)                                                                                     \
     UINT(instance_shift)                                                                                     \
-    UINT(inside_0) /* what the camera is inside, that entered last first (media.glsl) */                     \
+    UINT(point_bits) /* of the numbers of a pixel's samples; 0: its one sample is the middle */              \
+    UINT(inside_0)   /* what the camera is inside, that entered last first (media.glsl) */                   \
     UINT(inside_1)                                                                                           \
     UINT(inside_2)                                                                                           \
     UINT(inside_3)                                                                                           \
@@ -74,7 +75,8 @@
     UINT(place_base)   /* value of COUNTER_PLACES when all places were free */                               \
     UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */                              \
     UINT(shows)        /* 1: a path is its pixel's only one, and shows it */                                 \
-    UINT(spread)       /* one of so many invocations has a path; 0: each */
+    UINT(spread)       /* one of so many invocations has a path; 0: each */                                  \
+    UINT(first_sample) /* number of the dispatch's first sample */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8
@@ -109,6 +111,8 @@
    its light; with FEATURE_CLEAR_SHADOWS then, of a path, a shadow ray on its way (path_words.glsl). */
 #define MEDIA_WORDS 3
 #define SHINE_WORDS 7
+/* With FEATURE_POINTS, of both, after those of a path and before those of a ray that waits: its key. */
+#define KEY_WORDS 1
 
 /* Counters, 32-bit each: those that all invocations share, then banks of those of FEATURE_COUNTERS, then two
    lists of slots. A workgroup counts in one bank, so that workgroups seldom wait for each other. The host

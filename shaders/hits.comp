@@ -8,6 +8,7 @@
 #include "scene.glsl"
 #include "records.glsl"
 #include "math.glsl"
+#include "light/points.glsl"
 #include "camera.glsl"
 #include "tree.glsl"
 #include "wide.glsl"
@@ -88,6 +89,7 @@ void main() {
     uvec2 pixel = pixel_of_slot(slot);
     if (slot >= dispatch.path_end || pixel.x >= frame.width || pixel.y >= frame.height)
         return;
+    point_pixel = pixel;
     uint kind = dispatch.resume + OPAQUE_ZERO, at = slot * HITS_WORDS;
     bool first = kind == HITS_FIRST;
     REAL3 direction = camera_direction(pixel);

@@ -6,6 +6,7 @@
 #include "scene.glsl"
 #include "records.glsl"
 #include "math.glsl"
+#include "light/points.glsl"
 #include "camera.glsl"
 #include "tree.glsl"
 #include "wide.glsl"
@@ -28,6 +29,7 @@ struct log_ray {
     ray_start start;
     REAL3 direction;
     media_set inside;
+    uint key;
 };
 
 log_ray load_ray(uint at) {
@@ -35,11 +37,11 @@ log_ray load_ray(uint at) {
     ray_start start = ray_start(REAL3(number_of(a.xy), number_of(a.zw), number_of(b.xy)), number_of(d.zw), b.w,
                                 number_of(e.xy), number_of(e.zw));
     return log_ray(start, REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)),
-                   media_set(states[at + 5u], states[at + 6u]));
+                   media_set(states[at + 5u], states[at + 6u]), point_key(states[at + 7u].x, states[at + 7u].y));
 }
 
 void write_camera_ray() {
-    REAL3 o = CAMERA(position), d = camera_direction(uvec2(dispatch.read_list, dispatch.pending_base));
+    REAL3 o = CAMERA(position), d = camera_direction(point_pixel);
     states[0] = uvec4(bits_of(o.x), bits_of(o.y));
     states[1] = uvec4(bits_of(o.z), 0u, NO_ITEM);
     states[2] = uvec4(bits_of(d.x), bits_of(d.y));
@@ -47,6 +49,7 @@ void write_camera_ray() {
     states[4] = uvec4(0u);
     states[5] = camera_media().a;
     states[6] = camera_media().b;
+    states[7] = uvec4(point_root(point_pixel.x, point_pixel.y), POINT_SAME, 0u, 0u);
 }
 
 hit_record load_hit(uint at) {
@@ -90,7 +93,7 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     vec3 left = vec3(1.0);
     if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION))
         left = media_left(ray.inside, hit.t);
-    pixels[at + 20u] = uvec4(floatBitsToUint(left), 0u);
+    pixels[at + 20u] = uvec4(floatBitsToUint(left), ray.key);
     pixels[at + 21u] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.a : uvec4(0u);
     pixels[at + 22u] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.b : uvec4(0u);
 }
@@ -114,6 +117,8 @@ bool trace(ray_start start, exact_aim aim, bool any, inout hit_record hit) {
 void main() {
     uint index = gl_WorkGroupID.x * TILE_PIXELS + gl_LocalInvocationID.x;
     uint kind = dispatch.resume + OPAQUE_ZERO, at = index * LOG_WORDS;
+    point_pixel = uvec2(dispatch.read_list, dispatch.pending_base);
+    point_sample = dispatch.first_sample;
     if (kind == LOG_CAMERA && index == 0u)
         write_camera_ray();
     if (kind == LOG_CAMERA || index >= dispatch.tile_count)

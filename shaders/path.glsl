@@ -20,6 +20,7 @@ struct path_state {
     media_set inside; // with HAS_MEDIA
     vec3 tint;        // what attenuation has left of each channel
     shining shine;    // with HAS_CLEAR_SHADOWS: of the light `light`
+    uint key;         // with HAS_POINTS: of its ray (points.h)
 };
 
 path_state begin_path(REAL3 direction) {
@@ -40,6 +41,7 @@ path_state begin_path(REAL3 direction) {
         p.inside = camera_media();
     p.tint = vec3(1.0);
     p.shine.goes_on = false;
+    p.key = point_root(point_pixel.x, point_pixel.y);
     return p;
 }
 

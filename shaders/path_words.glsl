@@ -11,7 +11,10 @@ uint state_word(uint place, uint word) { return word * dispatch.places + place; 
 
 const uint MEDIA_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u);
 const uint SHINE_WORD = MEDIA_WORD + (HAS_MEDIA ? MEDIA_WORDS : 0u);
+const uint KEY_WORD = SHINE_WORD + (HAS_CLEAR_SHADOWS ? SHINE_WORDS : 0u);
 const uint MEDIA_BRANCH_WORDS = HAS_MEDIA ? MEDIA_WORDS : 0u;
+const uint KEY_BRANCH_WORDS = HAS_POINTS ? KEY_WORDS : 0u;
+const uint MORE_BRANCH_WORDS = KEY_BRANCH_WORDS + MEDIA_BRANCH_WORDS;
 
 void put_media(uint slot, uint word, media_set inside, vec3 tint) {
     states[state_word(slot, word)] = inside.a;
@@ -64,6 +67,20 @@ void get_path_media(uint slot, inout path_state p) {
         p.shine = get_shine(slot);
 }
 
+// ---- the key of its points, and those of the refracted rays that wait
+
+void put_key(uint slot, uint word, uint key) {
+    if (HAS_POINTS)
+        states[state_word(slot, word)] = uvec4(key, 0u, 0u, 0u);
+}
+
+uint get_key(uint slot, uint word) {
+    uint key = 0u;
+    if (HAS_POINTS)
+        key = states[state_word(slot, word)].x;
+    return key;
+}
+
 // ---- the rest of it
 
 vec3 get_low(uint slot) {
@@ -74,7 +91,7 @@ vec3 get_low(uint slot) {
 }
 
 #ifdef DOUBLE_PRECISION
-const uint BRANCH_WORDS = STACK64_ENTRY_WORDS + MEDIA_BRANCH_WORDS;
+const uint BRANCH_WORDS = STACK64_ENTRY_WORDS + MORE_BRANCH_WORDS;
 
 // Two numbers in a word, the third in the next with two more components.
 void put_real3(uint slot, uint word, dvec3 v, uvec2 more) {
@@ -117,6 +134,7 @@ path_state load_path(uint slot) {
     p.light = w5.w;
     p.hit = hit_record(hit.x, hit.y, hit.z, c.x, c.y);
     get_path_media(slot, p);
+    p.key = get_key(slot, KEY_WORD);
     return p;
 }
 
@@ -136,7 +154,7 @@ void get_branch(uint slot, uint word, inout path_state p) {
     p.depth = more.y;
 }
 #else
-const uint BRANCH_WORDS = STACK_ENTRY_WORDS + MEDIA_BRANCH_WORDS;
+const uint BRANCH_WORDS = STACK_ENTRY_WORDS + MORE_BRANCH_WORDS;
 
 uvec4 left_word(ray_start start) {
     return uvec4(floatBitsToUint(vec3(start.slack, start.b1, start.b2)), start.left);
@@ -176,6 +194,7 @@ path_state load_path(uint slot) {
     p.stack_size = w5.y;
     p.kind = w5.z;
     get_path_media(slot, p);
+    p.key = get_key(slot, KEY_WORD);
     return p;
 }
 
@@ -239,6 +258,7 @@ bool save_path(bool resumes, uint place, uint path, path_state p) {
         return false;
     put_path(place, p, AT_ONCE ? path : 0u);
     put_path_media(place, p);
+    put_key(place, KEY_WORD, p.key);
     if (AT_ONCE)
         save_waiting(place, p.stack_size);
     if (HAS_MANY_LIGHTS)
@@ -256,9 +276,14 @@ void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction
 #ifndef FETCH_TEXELS
     if (AT_ONCE)
         waiting[p.stack_size] = waiting_ray(start, direction, throughput, depth);
+    if (AT_ONCE && HAS_POINTS)
+        waiting_keys[p.stack_size] = point_key(p.key, POINT_REFRACTED);
 #endif
+    uint word = BRANCHES_WORD + BRANCH_WORDS * p.stack_size;
     if (!AT_ONCE)
-        put_branch(slot, BRANCHES_WORD + BRANCH_WORDS * p.stack_size, start, direction, throughput, depth);
+        put_branch(slot, word, start, direction, throughput, depth);
+    if (!AT_ONCE)
+        put_key(slot, word + BRANCH_WORDS - MORE_BRANCH_WORDS, point_key(p.key, POINT_REFRACTED));
     p.stack_size++;
 }
 
@@ -283,5 +308,7 @@ void pop_branch(uint slot, inout path_state p) {
         get_branch(slot, BRANCHES_WORD + BRANCH_WORDS * p.stack_size, p);
     if (HAS_MEDIA && !AT_ONCE)
         get_media(slot, BRANCHES_WORD + BRANCH_WORDS * (p.stack_size + 1u) - MEDIA_BRANCH_WORDS, p);
+    if (HAS_POINTS && !AT_ONCE)
+        p.key = get_key(slot, BRANCHES_WORD + BRANCH_WORDS * (p.stack_size + 1u) - MORE_BRANCH_WORDS);
     p.kind = RAY_REFRACTED;
 }

@@ -11,6 +11,7 @@
 #include "scene.glsl"
 #include "records.glsl"
 #include "math.glsl"
+#include "light/points.glsl"
 #include "camera.glsl"
 #include "bits.glsl"
 #include "long_rays.glsl"
@@ -133,6 +134,8 @@ bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_st
     p.direction = back ? reflected(p.direction, s) : rays.bent;
     p.throughput = throughput * (back ? rays.reflection : rays.refraction);
     p.kind = back ? RAY_REFLECTED : RAY_REFRACTED;
+    if (HAS_POINTS)
+        p.key = point_key(p.key, back ? POINT_REFLECTED : POINT_REFRACTED);
     p.depth++;
     taint(p, back || through, p.direction, p.throughput);
     taint(p, HAS_BRANCHES && back && through, rays.bent, throughput * rays.refraction);
@@ -468,6 +471,11 @@ void main() {
 #endif
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
+    point_pixel = pixel;
+    point_sample = dispatch.first_sample;
+#ifndef FETCH_TEXELS
+    point_sample += sample_number;
+#endif
     path_state p;
     long_slot = slot;
     if (HAS_LONG_RAYS && resumes)

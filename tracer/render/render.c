@@ -77,7 +77,9 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
     const uint64_t low = renderer->features & FEATURE_MANY_LIGHTS ? 1 : 0;
     const uint64_t media = renderer->features & FEATURE_MEDIA ? MEDIA_WORDS : 0;
     const uint64_t shine = renderer->features & FEATURE_CLEAR_SHADOWS ? SHINE_WORDS : 0;
-    return (state + low + media + shine + ray + renderer->path_stack * (entry + media)) * WORD_BYTES;
+    const uint64_t key = renderer->features & FEATURE_POINTS ? KEY_WORDS : 0;
+    const uint64_t path = state + low + media + shine + key + ray;
+    return (path + renderer->path_stack * (entry + key + media)) * WORD_BYTES;
 }
 
 static bool has_state(const struct renderer *renderer) {

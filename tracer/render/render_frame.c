@@ -1,4 +1,5 @@
 // One frame: its uniforms, bands and samples.
+#include "scene/points.h"
 #include "tracer/render/render_private.h"
 
 #include <math.h>
@@ -74,6 +75,7 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .top_nodes = flat->top_nodes,
         .instance_table = flat->instance_table,
         .instance_shift = flat->instance_shift,
+        .point_bits = points_bits(settings->first_sample, settings->samples),
     };
     put_inside(flat, camera, &frame);
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);

@@ -3,6 +3,7 @@
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
 
+#include "shaders/light/points.h"
 #include "shaders/log.h"
 
 #include <math.h>
@@ -27,11 +28,13 @@ struct node {
     struct gpu_word ray[LOG_RAY_WORDS];
     float throughput, radiance[3];
     float tint[3];        // what attenuation has left of each channel
+    uint32_t key;         // of its points, as the device reports it
     uint32_t children[2]; // mirrored, refracted; NO_NODE: none
 };
 
 struct walk {
     struct renderer *renderer;
+    uint32_t x, y, sample; // the pixel, and which sample of it
     struct node *nodes;
     uint32_t count, capacity;
     bool whole;
@@ -71,16 +74,21 @@ static bool dispatch(struct renderer *renderer, struct dispatch_block block, uin
            gpu_submit(renderer->gpu) && gpu_wait(renderer->gpu, NULL);
 }
 
-static bool make_camera_ray(struct renderer *renderer, uint32_t x, uint32_t y, uint32_t sample,
-                            struct gpu_word ray[LOG_RAY_WORDS]) {
+static struct dispatch_block block_of(const struct walk *walk, uint32_t rays) {
+    return (struct dispatch_block){.tile_count = rays,
+                                   .grid_width = 1,
+                                   .read_list = walk->x,
+                                   .pending_base = walk->y,
+                                   .first_sample = walk->sample};
+}
+
+static bool make_camera_ray(const struct walk *walk, struct gpu_word ray[LOG_RAY_WORDS]) {
+    struct renderer *renderer = walk->renderer;
+    struct dispatch_block block = block_of(walk, 1);
     double offset_x, offset_y;
-    view_sample_offset(sample, &offset_x, &offset_y);
-    const struct dispatch_block block = {.tile_count = 1,
-                                         .grid_width = 1,
-                                         .read_list = x,
-                                         .pending_base = y,
-                                         .offset_x = (float)offset_x,
-                                         .offset_y = (float)offset_y};
+    view_sample_offset(walk->sample, &offset_x, &offset_y);
+    block.offset_x = (float)offset_x;
+    block.offset_y = (float)offset_y;
     return dispatch(renderer, block, LOG_CAMERA) &&
            gpu_read(renderer->gpu, renderer->log->state, 0, ray, LOG_RAY_WORDS * sizeof *ray);
 }
@@ -89,7 +97,7 @@ static bool make_camera_ray(struct renderer *renderer, uint32_t x, uint32_t y, u
 static bool follow(struct walk *walk, uint32_t begin, uint32_t end) {
     struct renderer *renderer = walk->renderer;
     struct renderer_log *log = renderer->log;
-    const struct dispatch_block block = {.tile_count = end - begin, .grid_width = 1};
+    const struct dispatch_block block = block_of(walk, end - begin);
     for (uint32_t i = begin; i < end; i++)
         memcpy(log->rays + (size_t)(i - begin) * LOG_RAY_WORDS, walk->nodes[i].ray,
                sizeof walk->nodes[i].ray);
@@ -131,6 +139,8 @@ static struct node *put_child(struct walk *walk, uint32_t parent, enum render_ra
     memcpy(child->tint, from->tint, sizeof child->tint);
     memcpy(child->ray, ray, 5 * sizeof *ray);
     memcpy(child->ray + 5, inside, 2 * sizeof *inside);
+    child->ray[7] = (struct gpu_word){.x = from->key,
+                                      .y = kind == RENDER_RAY_REFRACTED ? POINT_REFRACTED : POINT_REFLECTED};
     from->children[kind == RENDER_RAY_REFRACTED] = walk->count++;
     return child;
 }
@@ -162,6 +172,7 @@ static void pass(struct walk *walk, uint32_t parent, const struct gpu_word *told
     struct node *child = put_child(walk, parent, from->segment.kind, told + 15, told + 21);
     if (!child)
         return;
+    child->ray[7].y = POINT_SAME;
     child->throughput = from->throughput;
     child->segment.depth = from->segment.depth;
     child->ray[1].z = 0;
@@ -180,6 +191,7 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
     walk->nodes[index].tint[0] *= renderer_float(told[20].x);
     walk->nodes[index].tint[1] *= renderer_float(told[20].y);
     walk->nodes[index].tint[2] *= renderer_float(told[20].z);
+    walk->nodes[index].key = told[20].w;
     s->material = told[3].w;
     s->point = point_at(renderer, told + 4);
     s->geometric = vector_at(renderer, told + 6);
@@ -273,7 +285,8 @@ enum render_result renderer_log(struct renderer *renderer, const struct view_cam
     log->count = 0;
     log->whole = true;
     memset(log->rgb, 0, sizeof log->rgb);
-    struct walk walk = {.renderer = renderer, .capacity = log->capacity, .whole = true};
+    struct walk walk = {
+        .renderer = renderer, .x = x, .y = y, .sample = sample, .capacity = log->capacity, .whole = true};
     walk.nodes = heap_alloc((size_t)log->capacity * sizeof *walk.nodes);
     if (!walk.nodes || (!renderer->log && !make(renderer)) || !renderer_write_frame(renderer, camera)) {
         free(walk.nodes);
@@ -282,7 +295,7 @@ enum render_result renderer_log(struct renderer *renderer, const struct view_cam
     walk.nodes[0] = (struct node){.throughput = 1, .tint = {1, 1, 1}, .children = {NO_NODE, NO_NODE}};
     walk.count = 1;
     enum render_result result = RENDER_FAILED;
-    if (make_camera_ray(renderer, x, y, sample, walk.nodes[0].ray))
+    if (make_camera_ray(&walk, walk.nodes[0].ray))
         result = walk_path(&walk);
     log->whole = walk.whole;
     if (result == RENDER_DONE && !tell(&walk, log))

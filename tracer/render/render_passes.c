@@ -118,6 +118,7 @@ enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t til
     struct dispatch_block block = {.tile_begin = tile_begin,
                                    .tile_count = tile_count,
                                    .sample_index = sample,
+                                   .first_sample = renderer->settings.first_sample + sample,
                                    .offset_x = (float)a,
                                    .offset_y = (float)b};
     if (renderer->samples_at_once && !renderer_write_samples(renderer, sample, 1))

@@ -1,0 +1,23 @@
+// Where a sample of a pixel takes its points of what has extent: the same for GPU and reference
+// (shaders/light/points.h says which, and names the keys).
+//
+// Units: pixels; points in the unit square. Errors: none. Thread safety: pure.
+#ifndef GLINT_SCENE_POINTS_H
+#define GLINT_SCENE_POINTS_H
+
+#include "shaders/light/points.h"
+
+// A sample of a pixel.
+struct points {
+    uint32_t x, y, sample;
+    uint32_t bits; // points_bits
+};
+
+// Bits of the numbers of `samples` samples that begin with number `first`, at most POINT_MOST. 0: the only
+// sample of a picture, which takes the middle of everything.
+uint32_t points_bits(uint32_t first, uint32_t samples);
+
+// The sample's point of what has the key: both coordinates in [0, 1), multiples of 2^-24.
+void points_at(const struct points *points, uint32_t key, double *a, double *b);
+
+#endif

@@ -1,0 +1,16 @@
+// The points of a sample (points.h). The kernel says once which sample this invocation traces.
+#include "light/points.h"
+
+const bool HAS_POINTS = (FEATURES & FEATURE_POINTS) != 0u;
+
+uvec2 point_pixel = uvec2(0u);
+uint point_sample = 0u;
+
+// Where what has the key is sampled. Both in 0..1; the middle where the picture has one sample a pixel.
+vec2 point_at(uint key) {
+    uint bits = frame.point_bits;
+    uint seed = point_seed(key, point_sample, bits);
+    uint order = point_order(point_place(point_pixel.x, point_pixel.y, point_sample, bits), seed);
+    uvec2 both = uvec2(point_first(order, seed), point_second(order, seed)) >> 8u;
+    return bits > OPAQUE_ZERO ? vec2(both) * (1.0 / POINT_DIVISOR) : vec2(0.5);
+}
