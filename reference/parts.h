@@ -261,8 +261,9 @@ struct log {
     uint32_t capacity, count;
 };
 
-// Follows the paths of a sample of pixel (x, y) to their ends; `sample` is its number. `log` may be NULL.
-void reference_follow(const struct reference *r, const struct reference_settings *settings, uint32_t x,
-                      uint32_t y, uint32_t sample, struct queue *queue, struct log *log, struct sample *out);
+// Follows a sample's paths to their ends, from the camera's ray on. `log` may be NULL.
+void reference_follow(const struct reference *r, const struct reference_settings *settings,
+                      const struct points *points, vec3 direction, struct queue *queue, struct log *log,
+                      struct sample *out);
 
 #endif

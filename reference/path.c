@@ -225,16 +225,16 @@ static uint64_t rays_of(const struct sample *s) {
     return s->rays[0] + s->rays[1] + s->rays[2] + s->shadow;
 }
 
-void reference_follow(const struct reference *r, const struct reference_settings *settings, uint32_t x,
-                      uint32_t y, uint32_t sample, struct queue *queue, struct log *log, struct sample *out) {
-    const uint32_t bits = points_bits(settings->first_sample, settings->samples);
-    struct following f = {r, settings, queue, log, out, {x, y, sample, bits}};
+void reference_follow(const struct reference *r, const struct reference_settings *settings,
+                      const struct points *points, vec3 direction, struct queue *queue, struct log *log,
+                      struct sample *out) {
+    struct following f = {r, settings, queue, log, out, *points};
     struct branch first = {.start = reference_start((vec3){0, 0, 0}),
-                           .direction = reference_camera_ray(r, settings, x, y, sample),
+                           .direction = direction,
                            .throughput = 1,
                            .tint = {1, 1, 1},
                            .inside = r->around_camera,
-                           .key = point_root(x, y),
+                           .key = point_root(points->x, points->y),
                            .parent = REFERENCE_NO_SEGMENT};
     *out = (struct sample){.body = HIT_NONE};
     queue->count = 0;

@@ -107,13 +107,19 @@ bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, 
     return reference_blocks(r, &ray);
 }
 
+static void follow(const struct reference *r, const struct reference_settings *settings, uint32_t x,
+                   uint32_t y, uint32_t number, struct queue *queue, struct log *log, struct sample *out) {
+    const struct points points = {x, y, number, points_bits(settings->first_sample, settings->samples)};
+    reference_follow(r, settings, &points, reference_camera_ray(r, settings, x, y, number), queue, log, out);
+}
+
 uint32_t reference_log(const struct reference *r, const struct reference_settings *settings, uint32_t x,
                        uint32_t y, uint32_t sample, struct reference_segment *segments, uint32_t capacity,
                        vec3 *radiance) {
     struct queue queue = {0};
     struct log log = {segments, capacity, 0};
     struct sample out;
-    reference_follow(r, settings, x, y, sample, &queue, &log, &out);
+    follow(r, settings, x, y, sample, &queue, &log, &out);
     bool failed = queue.failed;
     reference_queue_finish(&queue);
     if (radiance)
@@ -196,7 +202,7 @@ static void draw_pixel(const struct reference *r, const struct reference_setting
     bool cut_short = false;
     struct sample sample = {0};
     for (uint32_t n = 0; n < settings->samples && !queue->failed && !sample.cancelled; n++) {
-        reference_follow(r, settings, x, y, settings->first_sample + n, queue, NULL, &sample);
+        follow(r, settings, x, y, settings->first_sample + n, queue, NULL, &sample);
         bool bad = !is_finite(sample.radiance);
         sum = bad ? (vec3){NAN, NAN, NAN} : vec3_add(sum, sample.radiance);
         if (bad && !not_finite)

@@ -4,8 +4,8 @@
 #define GLINT_SHADERS_LOG_H
 
 /* STATE, a ray: its origin, LOG_BLIND or 0, item of the triangle that it leaves; its direction, unit, bound
-   of the origin's error; b1, b2 of the place on that triangle (ray_start); what it is inside (media.glsl); key of the ray from
-   whose hit it leaves, and how (points.h). */
+   of the origin's error; b1, b2 of the place on that triangle (ray_start); what it is inside (media.glsl);
+   key of the ray from whose hit it leaves, and how (points.h). */
 #define LOG_RAY_WORDS 8
 #define LOG_BLIND     1u /* it is not traced, and sees the background */
 
@@ -18,8 +18,8 @@
    6: geometric normal   8: shading normal; in what they leave of 7 and 9, what rounding dropped of the sum
    10: the mirrored ray as in STATE, without what it is inside
    15: the refracted ray
-   20: what is left of light on the way to the surface, as bits of floats; key of the ray   21: what the refracted ray is
-   inside */
+   20: what is left of light on the way to the surface, as bits of floats; key of the ray   21: what the
+   refracted ray is inside */
 #define LOG_WORDS   23
 #define LOG_NOTHING 0xffffffffu
 #define LOG_ENTERS  1u
@@ -27,8 +27,9 @@
 #define LOG_PASSES  4u /* it goes straight on, unseen */
 #define LOG_NESTED  8u /* it would be inside too many media */
 
-/* dispatch.first_sample and (read_list, pending_base): the sample, and its pixel. dispatch.resume: make the camera's ray the first ray; follow the rays
-   and make their surfaces; send the shadow ray to light i. tile_count is the number of rays. */
+/* dispatch.first_sample and (read_list, pending_base): the sample, and its pixel. dispatch.resume: make the
+   camera's ray the first ray; follow the rays and make their surfaces; send the shadow ray to light i.
+   tile_count is the number of rays. */
 #define LOG_CAMERA 0
 #define LOG_FOLLOW 1
 #define LOG_LIGHTS 2

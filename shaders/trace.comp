@@ -437,6 +437,16 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     return state;
 }
 
+// Of a sample of those that the dispatch traces.
+vec2 offset_in_pixel(uint sample_number) {
+    vec2 offset = vec2(dispatch.offset_x, dispatch.offset_y);
+#ifndef FETCH_TEXELS
+    if (AT_ONCE)
+        offset = sample_offset(sample_number);
+#endif
+    return offset;
+}
+
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
     uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -453,8 +463,8 @@ void main() {
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
     uint path = place, slot = place;
-#ifndef FETCH_TEXELS
     uint sample_number = 0u;
+#ifndef FETCH_TEXELS
     if (AT_ONCE) {
         if (resumes)
             path = saved_number(place);
@@ -472,10 +482,7 @@ void main() {
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     point_pixel = pixel;
-    point_sample = dispatch.first_sample;
-#ifndef FETCH_TEXELS
-    point_sample += sample_number;
-#endif
+    point_sample = dispatch.first_sample + sample_number;
     path_state p;
     long_slot = slot;
     if (HAS_LONG_RAYS && resumes)
@@ -485,12 +492,7 @@ void main() {
         if (AT_ONCE)
             load_waiting(place, p.stack_size);
     } else {
-        vec2 offset = vec2(dispatch.offset_x, dispatch.offset_y);
-#ifndef FETCH_TEXELS
-        if (AT_ONCE)
-            offset = sample_offset(sample_number);
-#endif
-        p = begin_path(camera_direction_at(pixel, offset));
+        p = begin_path(camera_direction_at(pixel, offset_in_pixel(sample_number)));
     }
     uint fault = FAULT_NONE;
     uint state = follow(slot, p, fault);
