@@ -24,6 +24,7 @@ struct work {
     const struct reference *reference;
     struct reference_settings settings;
     const struct image *image;
+    const uint32_t *samples; // NULL: all pixels have those of the settings
     struct image_display display;
     struct spread grid;
     uint32_t first; // cell of the chunk
@@ -58,7 +59,9 @@ static void trace_piece(void *context, size_t begin, size_t end) {
         double exact[3];
         spread_pixel(&w->grid, w->first + (uint32_t)i, &x, &y);
         const size_t place = (size_t)y * w->image->width + x;
-        if (!reference_pixel(w->reference, &w->settings, x, y, exact))
+        struct reference_settings settings = w->settings;
+        settings.samples = w->samples ? w->samples[place] : settings.samples;
+        if (!reference_pixel(w->reference, &settings, x, y, exact))
             atomic_store(&w->failed, true);
         else if (audit_is_off(w->image->rgb + 3 * place, exact, w->display))
             note_off(w, (uint32_t)place);
@@ -135,6 +138,7 @@ enum shot_status audit_take(struct session *session, const struct view *view, co
     struct reference *made = wish->reference ? NULL : reference_create(&input);
     struct work work = {.reference = wish->reference ? wish->reference : made,
                         .image = image,
+                        .samples = wish->samples,
                         .display = {session->image->tone, session->image->transfer},
                         .first_off = UINT32_MAX};
     work.settings = reference_settings_of(session->scene, session->image, &session->options.limits, true);

@@ -37,6 +37,7 @@ struct session_options {
     enum assets_pixels pixels;        // of the background
     int32_t width, height;            // 0: as the scene says
     int32_t samples;                  // 0: as the scene says
+    double error;                     // of pixels that end by it; 0: as the scene says; below 0: none does
     enum lint_level lint;             // rules about light that run if the scene has no error; check_scene
                                       // runs all, unless skip_lint
     const struct diag_policy *policy; // laid over that of the folder's configuration; NULL: nothing
@@ -52,6 +53,9 @@ struct session_options {
     bool judged; // the caller judges the findings by policy and comments (app/check.h): they are not yet
                  // sorted
 };
+
+// Most samples of a pixel where session_options.error is given, and neither scene nor options say enough.
+#define SESSION_SAMPLES_MOST 1024
 
 enum session_state {
     SESSION_LOADED,     // there is a scene; the sink may still hold errors

@@ -157,6 +157,13 @@ static void take_image_options(struct session *session) {
         image->height = session->options.height;
     if (session->options.samples)
         image->samples = session->options.samples;
+    if (session->options.error > 0 && !session->options.samples && image->samples <= image->min_samples)
+        image->samples = SESSION_SAMPLES_MOST;
+    if (session->options.error != 0)
+        image->error = fmax(session->options.error, 0);
+    // With fewer samples no pixel could end before the others.
+    if (image->samples <= image->min_samples)
+        image->error = 0;
     session->image = image;
 }
 

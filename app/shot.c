@@ -53,12 +53,22 @@ enum shot_status shot_no_memory(struct session *session, const char *what) {
     return SHOT_SCENE;
 }
 
+static void show(const void *context, const float *linear, size_t pixels, float *shown) {
+    const struct image_display *display = context;
+    image_to_displayed(linear, pixels, *display, shown);
+}
+
 static void set_up(struct shot *shot) {
     const struct session *session = shot->session;
     shot->settings = render_settings_of(&session->resolved, &shot->flat, &session->options.limits);
     shot->settings.width = (uint32_t)session->image->width;
     shot->settings.height = (uint32_t)session->image->height;
     shot->settings.samples = (uint32_t)session->image->samples;
+    shot->display = (struct image_display){session->image->tone, session->image->transfer};
+    shot->settings.error = session->image->error;
+    shot->settings.least_samples = (uint32_t)session->image->min_samples;
+    shot->settings.show = show;
+    shot->settings.show_context = &shot->display;
     shot->settings.counts = shot->wish.counts;
     shot->settings.timeline = session->options.timeline;
 }

@@ -35,6 +35,7 @@ struct shot {
     struct view view;
     struct flat_scene flat;
     struct render_settings settings;
+    struct image_display display;
     struct renderer *renderer;
     struct reference *reference; // of the view; NULL: none was needed, or it was not to be kept
     double flatten_seconds, upload_seconds;

@@ -33,6 +33,14 @@ enum cli_stats {
     CLI_STATS_JSON,
 };
 
+// What else is known of a picture's pixels; the order of cli_aov_names.
+enum cli_aov {
+    CLI_AOV_ERROR,
+    CLI_AOV_SAMPLES,
+    CLI_AOVS,
+};
+extern const char *const cli_aov_names[CLI_AOVS];
+
 struct cli_list {
     str *items;
     uint32_t count, capacity;
@@ -41,7 +49,9 @@ struct cli_list {
 struct cli_options {
     const char *output;                     // NULL: not given
     int32_t width, height, samples, repeat; // 0: not given
-    int32_t sample;                         // of a pixel, from 0
+    uint32_t aovs;                          // bits of enum cli_aov
+    int aov_arg;
+    int32_t sample; // of a pixel, from 0
     int sample_arg;
     str camera;
     const char *device;     // NULL: not given
@@ -138,6 +148,7 @@ bool cli_take_config(struct cli *cli);
 // Values of options; false: a mistake went to cli->sink.
 bool cli_read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least, int64_t most,
                     int32_t *out);
+bool cli_read_aovs(struct cli *cli, int arg, const char *text);
 bool cli_read_size(struct cli *cli, int arg, const char *text);
 bool cli_read_limit(struct cli *cli, int arg, const char *text);
 bool cli_read_max_messages(struct cli *cli, int arg, const char *text);

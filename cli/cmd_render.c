@@ -128,12 +128,16 @@ static int render_camera(struct render_job *job, const char *path, uint32_t came
     progress_begin(&job->progress, job->cli->options.quiet);
     int status = take_frames(job, cameras);
     if (status == CLI_OK)
+        status = render_note_estimate(job);
+    if (status == CLI_OK)
         status = render_audit(job);
     progress_end(&job->progress);
     if (status == CLI_OK)
         status = render_scale_up(job);
     if (status == CLI_OK)
         status = render_write_picture(job, path);
+    if (status == CLI_OK)
+        status = render_write_aovs(job, path);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
     if (status == CLI_OK)
@@ -231,6 +235,22 @@ static bool has_useless_option(struct cli *cli) {
             cli_has_no_effect(cli, "no-cache", "the cache is that of '--device reference'"));
 }
 
+static bool noise_fits(struct render_job *job) {
+    struct cli *cli = job->cli;
+    const struct cli_measure *m = &cli->options.measure;
+    if (m->noise > 0 && (m->time_s > 0 || cli_has_study(cli)))
+        cli_usage(cli, m->noise_arg,
+                  "--noise says when pixels end, and so do --time, --max-error and --max-time: choose one");
+    else if (m->noise > 0 && cli_device_is_reference(cli))
+        cli_usage(cli, m->noise_arg,
+                  "the reference takes all samples of all pixels: --noise works on a device");
+    else if (cli->options.aovs && strcmp(job->output, "-") == 0)
+        cli_usage(cli, cli->options.aov_arg, "--aov writes files beside the picture: name one with -o");
+    else
+        return true;
+    return false;
+}
+
 int cmd_render(struct cli *cli) {
     struct render_job job = {.cli = cli, .format = IMAGE_PNG};
     if (!cli->options.output && cli_is_stream(cli, cli->operands[0]))
@@ -259,8 +279,11 @@ int cmd_render(struct cli *cli) {
         return cli_usage(
             cli, cli->options.measure.time_arg,
             "'--time' works for one frame on a device: without --repeat and '--device reference'");
+    if (!noise_fits(&job))
+        return CLI_USAGE;
     interrupt_catch();
     strbuf_init(&job.note);
+    strbuf_init(&job.audit_note);
     struct asset_store *store = asset_store_create();
     if (cli->options.stats)
         job.timeline = ARENA_NEW(&cli->arena, struct timeline);
@@ -271,6 +294,7 @@ int cmd_render(struct cli *cli) {
     cli_drop_opening(cli, job.opening);
     image_finish(&job.image);
     strbuf_finish(&job.note);
+    strbuf_finish(&job.audit_note);
     cli_close_device(cli, job.gpu);
     session_finish(&job.session);
     asset_store_destroy(store);

@@ -16,6 +16,7 @@ enum option_id {
     OPTION_SIZE,
     OPTION_SAMPLES,
     OPTION_SAMPLE,
+    OPTION_AOV,
     OPTION_CAMERA,
     OPTION_SET,
     OPTION_DEVICE,
@@ -91,6 +92,13 @@ static const struct option_row rows[] = {
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render inspect tradeoff",
      "rays through each pixel, instead of the scene's"},
+    {OPTION_MEASURE + CLI_MEASURE_NOISE, "noise", 0, "E", "render",
+     "end each pixel once the standard error of its displayed colour is at most E, such as 0.01; with at "
+     "most "
+     "1024 samples, or those of --samples"},
+    {OPTION_AOV, "aov", 0, "NAME,...", "render",
+     "write beside OUT what else is known of each pixel: OUT.error.pfm, its standard error, and "
+     "OUT.samples.pfm, with --noise"},
     {OPTION_SAMPLE, "sample", 0, "N", "pick", "the sample whose path is shown, counted from 0"},
     {OPTION_CAMERA, "camera", 0, "NAME", "pick tradeoff extremes", "the camera to look through"},
     {OPTION_CAMERA, "camera", 0, "NAME", "render",
@@ -350,6 +358,8 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         return cli_read_size(cli, arg, value);
     case OPTION_SAMPLES:
         return cli_read_count(cli, arg, "samples", value, 1, 4096, &options->samples);
+    case OPTION_AOV:
+        return cli_read_aovs(cli, arg, value);
     case OPTION_SAMPLE:
         return cli_read_count(cli, arg, "sample", value, 0, 4095, &options->sample);
     case OPTION_CAMERA:

@@ -151,6 +151,9 @@ bool cli_measure_apply(struct cli *cli, int arg, enum cli_measure_option option,
     case CLI_MEASURE_TIME:
         m->time_arg = arg;
         return read_number(cli, arg, name, value, 1e-3, 1e6, &m->time_s);
+    case CLI_MEASURE_NOISE:
+        m->noise_arg = arg;
+        return read_number(cli, arg, name, value, 1e-6, 1, &m->noise);
     case CLI_MEASURE_BUDGET:
         return read_number(cli, arg, name, value, 1, 1e6, &m->budget_s);
     case CLI_MEASURE_MAX_OFF:

@@ -21,6 +21,7 @@ enum cli_measure_option {
     CLI_MEASURE_MAX_TIME,
     CLI_MEASURE_BUDGET,
     CLI_MEASURE_TIME,
+    CLI_MEASURE_NOISE,
     CLI_MEASURE_MAX_OFF,
     CLI_MEASURE_RANDOM,
     CLI_MEASURE_SEED,
@@ -70,6 +71,8 @@ struct cli_measure {
         scale_height; // to which a smaller picture that was chosen is scaled up; 0: it is not
     double time_s;    // from the program's start to the picture's file; 0: not given
     int time_arg;
+    double noise; // standard error at which pixels end; 0: not given
+    int noise_arg;
     struct cli_sweep sweep;
 };
 

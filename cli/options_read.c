@@ -42,6 +42,31 @@ bool cli_read_size(struct cli *cli, int arg, const char *text) {
     return true;
 }
 
+const char *const cli_aov_names[CLI_AOVS] = {[CLI_AOV_ERROR] = "error", [CLI_AOV_SAMPLES] = "samples"};
+
+static int aov_named(str name) {
+    for (int i = 0; i < CLI_AOVS; i++)
+        if (str_equal(name, str_from(cli_aov_names[i])))
+            return i;
+    return -1;
+}
+
+bool cli_read_aovs(struct cli *cli, int arg, const char *text) {
+    cli->options.aov_arg = arg;
+    while (*text) {
+        const size_t length = strcspn(text, ",");
+        const int aov = aov_named((str){text, length});
+        if (aov < 0) {
+            cli_usage(cli, arg, "--aov does not know '%.*s'", (int)length, text);
+            diag_help(&cli->sink, "write error, samples or both, separated by a comma");
+            return false;
+        }
+        cli->options.aovs |= 1u << aov;
+        text += length + (text[length] == ',');
+    }
+    return true;
+}
+
 bool cli_read_limit(struct cli *cli, int arg, const char *text) {
     enum limit which = LIMIT_COUNT;
     if (strcmp(text, "help") == 0) {

@@ -9,13 +9,18 @@
 #include <math.h>
 #include <stdio.h>
 
-// OUT.NAME.png for OUT.png.
-static const char *camera_output(struct render_job *job, str camera) {
-    str path = str_from(job->output);
+// Without its ending.
+static str stem_of(str path) {
     size_t dot = path.len;
     while (dot > 0 && path.ptr[dot - 1] != '.')
         dot--;
-    str stem = str_slice(path, 0, dot ? dot - 1 : path.len);
+    return str_slice(path, 0, dot ? dot - 1 : path.len);
+}
+
+// OUT.NAME.png for OUT.png.
+static const char *camera_output(struct render_job *job, str camera) {
+    str path = str_from(job->output);
+    const str stem = stem_of(path);
     return arena_format(&job->cli->arena, "%.*s.%.*s%s", STR_ARG(stem), STR_ARG(camera), path.ptr + stem.len)
         .ptr;
 }
@@ -86,17 +91,21 @@ bool render_wants_audit(const struct cli_options *options) {
     return options->audit || options->has_max_off || options->stats;
 }
 
+static const struct render_estimate *estimate_of(const struct render_job *job) {
+    return job->shot.settings.error > 0 ? renderer_estimate(job->shot.renderer) : NULL;
+}
+
 static struct audit_wish wish_of(const struct render_job *job) {
     const struct cli_options *options = &job->cli->options;
     // With --time it is not decided: that may take any time.
+    const struct render_estimate *estimate = estimate_of(job);
     return (struct audit_wish){.reference = job->shot.reference,
+                               .samples = estimate ? estimate->samples : NULL,
                                .share = options->has_max_off ? options->max_off : AUDIT_SHARE,
                                .decides = options->has_max_off && options->measure.time_s <= 0};
 }
 
 int render_audit(struct render_job *job) {
-    strbuf_clear(&job->note);
-    job->image.note = NULL;
     job->stats.has_audit = render_wants_audit(&job->cli->options);
     if (!job->stats.has_audit)
         return CLI_OK;
@@ -107,9 +116,82 @@ int render_audit(struct render_job *job) {
         audit_take(&job->session, &job->shot.view, &job->image, &wish, &callback, audit);
     if (status != SHOT_OK)
         return render_failed(job, status);
-    audit_words(audit, &job->note);
+    strbuf_clear(&job->audit_note);
+    audit_words(audit, &job->audit_note);
+    if (job->note.len)
+        strbuf_cstr(&job->note, "; ");
+    strbuf_str(&job->note, strbuf_view(&job->audit_note));
     job->image.note = job->note.data;
     return CLI_OK;
+}
+
+// ---- a picture states its noise: --noise and image.error
+
+int render_note_estimate(struct render_job *job) {
+    const struct render_estimate *estimate = estimate_of(job);
+    struct cli *cli = job->cli;
+    if (cli->options.aovs && !estimate) {
+        progress_end(&job->progress);
+        const int status = cli_usage(cli, cli->options.aov_arg,
+                                     "--aov knows error and samples only where pixels end by their error");
+        diag_help(&cli->sink,
+                  "add --noise 0.01, or write image.error and more samples than min_samples into the scene");
+        return status;
+    }
+    const struct ir_image *image = job->session.image;
+    strbuf_clear(&job->note);
+    job->image.note = NULL;
+    job->stats.estimate = estimate;
+    if (!estimate)
+        return CLI_OK;
+    const double pixels = (double)job->image.width * job->image.height;
+    strbuf_format(&job->note,
+                  "standard error %.3g of displayed colours, at most %.3g (95 %% sure), by %.4g samples per "
+                  "pixel of at most %d",
+                  estimate->mean, estimate->most, (double)job->stats.last.all_samples / pixels,
+                  (int)image->samples);
+    job->image.note = job->note.data;
+    if (!job->cli->options.quiet)
+        fprintf(stderr, "glint: %s\n", job->note.data);
+    return CLI_OK;
+}
+
+static float aov_of(const struct render_estimate *estimate, int aov, size_t pixel) {
+    return aov == CLI_AOV_ERROR ? estimate->error[pixel] : (float)estimate->samples[pixel];
+}
+
+static int write_aov(struct render_job *job, const struct render_estimate *estimate, const char *path,
+                     int aov) {
+    struct image image;
+    struct strbuf file;
+    const str whole = str_from(path);
+    if (!image_init(&image, job->image.width, job->image.height)) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory for '%s'", cli_aov_names[aov]);
+        return CLI_SCENE;
+    }
+    for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++)
+        image.rgb[i] = aov_of(estimate, aov, i / 3);
+    strbuf_init(&file);
+    image_encode(&image, IMAGE_PFM, (struct image_display){0}, &file);
+    const str stem = stem_of(whole);
+    const str name = arena_format(&job->cli->arena, "%.*s.%s.pfm", STR_ARG(stem), cli_aov_names[aov]);
+    const int status = file.failed ? CLI_FILE : cli_write(job->cli, name.ptr, strbuf_view(&file));
+    if (file.failed)
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, name.ptr, NULL, "not enough memory to encode the picture");
+    else if (status == CLI_OK && !job->cli->options.quiet)
+        fprintf(stderr, "glint: wrote %s, %u x %u\n", name.ptr, image.width, image.height);
+    strbuf_finish(&file);
+    image_finish(&image);
+    return status;
+}
+
+int render_write_aovs(struct render_job *job, const char *path) {
+    const struct render_estimate *estimate = estimate_of(job);
+    int status = CLI_OK;
+    for (int aov = 0; estimate && aov < CLI_AOVS && status == CLI_OK; aov++)
+        if (job->cli->options.aovs >> aov & 1)
+            status = write_aov(job, estimate, path, aov);
+    return status;
 }
 
 int render_tell_audit(const struct render_job *job) {
@@ -119,7 +201,7 @@ int render_tell_audit(const struct render_job *job) {
         return CLI_OK;
     const bool broken = options->has_max_off && audit->bound > options->max_off;
     if ((options->audit || options->has_max_off) && (broken || !options->quiet)) {
-        fprintf(stderr, "glint: %.*s", STR_ARG(strbuf_view(&job->note)));
+        fprintf(stderr, "glint: %.*s", STR_ARG(strbuf_view(&job->audit_note)));
         if (audit->off)
             fprintf(stderr, ", the first at %u,%u", audit->x, audit->y);
         if (broken)

@@ -30,7 +30,8 @@ struct render_job {
     enum image_format format;
     const char *output; // without the camera's name
     bool all_cameras;
-    struct strbuf note; // what the audit says of the picture; empty without
+    struct strbuf note;       // what the picture states of itself; empty: nothing
+    struct strbuf audit_note; // what the audit says of it
     // --time: what ends the frame, and the session's image with the samples that were made.
     struct deadline deadline;
     double written; // clock: when the last picture was
@@ -54,6 +55,11 @@ int render_audit(struct render_job *job);
 bool render_wants_audit(const struct cli_options *options);
 // After the picture was written: says what was found, and whether it is within --max-off; an exit code.
 int render_tell_audit(const struct render_job *job);
+
+// Where pixels end by their error: appends to the picture's note what it states of itself, and writes what
+// --aov asks for beside `path`. An exit code.
+int render_note_estimate(struct render_job *job);
+int render_write_aovs(struct render_job *job, const char *path);
 
 // One frame, that ends in time if the command line says when. `cameras` is how many pictures
 // are still to be made, this one included.

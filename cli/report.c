@@ -124,6 +124,12 @@ int cli_interrupted(struct cli *cli) {
     return signal_number == SIGTERM ? CLI_TERMINATED : CLI_INTERRUPTED;
 }
 
+// --time and the searches say themselves how many samples there are: then all pixels have as many.
+static double error_of(const struct cli_options *options) {
+    const struct cli_measure *m = &options->measure;
+    return m->time_s > 0 || m->max_error || m->max_time_ms > 0 ? -1 : m->noise;
+}
+
 struct session_options cli_session_options(const struct cli *cli, const char *path) {
     const struct cli_options *o = &cli->options;
     return (struct session_options){.path = str_from(path),
@@ -138,6 +144,7 @@ struct session_options cli_session_options(const struct cli *cli, const char *pa
                                     .width = o->width,
                                     .height = o->height,
                                     .samples = o->samples,
+                                    .error = error_of(o),
                                     .pixels = o->skip_pixels ? ASSETS_SKIP_PIXELS : ASSETS_KEEP_PIXELS};
 }
 

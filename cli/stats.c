@@ -52,10 +52,19 @@ static void put_timeline(const struct stats *s, struct strbuf *out) {
     }
 }
 
+static double mean_samples(const struct stats *s) {
+    return (double)s->last.all_samples / ((double)s->width * s->height);
+}
+
 void stats_text(const struct stats *s, struct strbuf *out) {
-    strbuf_format(out, "device: %s\npicture: %u x %u, %u sample%s, in %s precision\ntimes\n", s->device,
-                  s->width, s->height, s->samples, s->samples == 1 ? "" : "s",
+    strbuf_format(out, "device: %s\npicture: %u x %u, %s%u sample%s, in %s precision\n", s->device, s->width,
+                  s->height, s->estimate ? "at most " : "", s->samples, s->samples == 1 ? "" : "s",
                   s->is_double ? "double" : "single");
+    if (s->estimate)
+        strbuf_format(
+            out, "  taken %.4g on average: standard error %.3g as displayed, at most %.3g (95 %% sure)\n",
+            mean_samples(s), s->estimate->mean, s->estimate->most);
+    strbuf_cstr(out, "times\n");
     seconds(out, "read", s->read_seconds);
     seconds(out, "assets", s->assets_seconds);
     seconds(out, "flatten", s->flatten_seconds);
@@ -152,6 +161,17 @@ static void json_audit(struct json_writer *w, const struct audit *audit) {
     json_close_object(w);
 }
 
+static void put_estimate(struct json_writer *w, const struct stats *s) {
+    if (!s->estimate)
+        return;
+    json_open_object(w, "noise");
+    json_write_real(w, "mean_samples", mean_samples(s));
+    json_write_real(w, "standard_error", s->estimate->mean);
+    json_write_real(w, "at_most", s->estimate->most);
+    json_write_real(w, "confidence", RENDER_ESTIMATE_CONFIDENCE);
+    json_close_object(w);
+}
+
 static void put_features(struct json_writer *w, uint32_t mask) {
     json_open_list(w, "features");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++)
@@ -192,6 +212,7 @@ void stats_json(const struct stats *s, struct strbuf *out) {
     json_write_integer(&w, "width", s->width);
     json_write_integer(&w, "height", s->height);
     json_write_integer(&w, "samples", s->samples);
+    put_estimate(&w, s);
     json_write_text(&w, "precision", s->is_double ? STR("double") : STR("single"));
     put_times(&w, s);
     put_rays(&w, &s->last.rays);

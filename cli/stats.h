@@ -22,7 +22,8 @@ struct stats {
     long peak_memory_bytes; // of the process
     char device[256];
     uint32_t width, height, samples;
-    str camera; // its name; empty where the scene has none
+    str camera;                             // its name; empty where the scene has none
+    const struct render_estimate *estimate; // where pixels end by their error; NULL: all have `samples`
     bool has_audit;
     struct audit audit;
     struct timeline *timeline; // since `begun`, a time of the clock

@@ -49,7 +49,9 @@ enum ir_paint_kind {
 struct ir_image {
     struct ir_head head;
     int32_t width, height; // pixels
-    int32_t samples;       // per pixel
+    int32_t samples;       // per pixel; at most, with `error`
+    double error;          // standard error of a displayed colour at which a pixel ends; 0: none
+    int32_t min_samples;   // before it may end
     unsigned tone;         // ir_tone
     unsigned transfer;     // ir_transfer
 };

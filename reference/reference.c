@@ -55,6 +55,7 @@ struct reference_settings reference_settings_of(const struct ir_scene *ir, const
         .width = (uint32_t)image->width,
         .height = (uint32_t)image->height,
         .samples = (uint32_t)image->samples,
+        .points_of = image->error > 0 && image->samples > 1 ? (uint32_t)image->samples : 0,
         .max_depth = as_file ? (uint32_t)trace->max_depth : REFERENCE_MAX_DEPTH,
         .min_weight = as_file ? trace->min_weight : REFERENCE_MIN_WEIGHT,
         .cut_sees_background = as_file && trace->depth_limit == IR_DEPTH_BACKGROUND,
@@ -64,11 +65,22 @@ struct reference_settings reference_settings_of(const struct ir_scene *ir, const
 
 // ---- single rays
 
+static struct points points_of(const struct reference_settings *settings, uint32_t x, uint32_t y,
+                               uint32_t sample) {
+    const uint32_t samples = settings->points_of ? settings->points_of : settings->samples;
+    return (struct points){x, y, sample, points_bits(settings->first_sample, samples)};
+}
+
 vec3 reference_camera_ray(const struct reference *r, const struct reference_settings *settings, uint32_t x,
                           uint32_t y, uint32_t sample) {
     const struct view_camera *camera = &r->input.view->camera;
     double a, b;
-    view_sample_offset(sample, &a, &b);
+    if (settings->points_of) {
+        const struct points points = points_of(settings, x, y, sample);
+        points_at(&points, point_key(point_root(x, y), POINT_PIXEL), &a, &b);
+    } else {
+        view_sample_offset(sample, &a, &b);
+    }
     double right = (2 * (x + a) / settings->width - 1) * ((double)settings->width / settings->height);
     double up = 1 - 2 * (y + b) / settings->height;
     vec3 across = vec3_add(vec3_mul(camera->right, right), vec3_mul(camera->up, up));
@@ -109,7 +121,7 @@ bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, 
 
 static void follow(const struct reference *r, const struct reference_settings *settings, uint32_t x,
                    uint32_t y, uint32_t number, struct queue *queue, struct log *log, struct sample *out) {
-    const struct points points = {x, y, number, points_bits(settings->first_sample, settings->samples)};
+    const struct points points = points_of(settings, x, y, number);
     reference_follow(r, settings, &points, reference_camera_ray(r, settings, x, y, number), queue, log, out);
 }
 

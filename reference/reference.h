@@ -46,9 +46,12 @@ struct reference_input {
 };
 
 struct reference_settings {
-    uint32_t width, height;   // pixels
-    uint32_t samples;         // per pixel, at least 1
-    uint32_t first_sample;    // number of the first of them (view_sample_offset); pictures begin with 0
+    uint32_t width, height; // pixels
+    uint32_t samples;       // per pixel, at least 1
+    uint32_t first_sample;  // number of the first of them (view_sample_offset); pictures begin with 0
+    // Above 0: where samples lie in a pixel are points of a picture of so many samples (scene/points.h), as
+    // where pixels end by their error. 0: view_sample_offset.
+    uint32_t points_of;
     uint32_t max_depth;       // a surface this deep sends no ray
     double min_weight;        // rays of a lower weight are not followed
     bool cut_sees_background; // what a ray sees that max_depth cut; else nothing

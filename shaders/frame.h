@@ -76,7 +76,8 @@
     UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */                              \
     UINT(shows)        /* 1: a path is its pixel's only one, and shows it */                                 \
     UINT(spread)       /* one of so many invocations has a path; 0: each */                                  \
-    UINT(first_sample) /* number of the dispatch's first sample */
+    UINT(first_sample) /* number of the dispatch's first sample */                                           \
+    UINT(listed)       /* with CONSTANT_LISTED: how many paths begin, in the list after the two others */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8
@@ -170,7 +171,8 @@
 /* Samples are traced at once, and refracted rays that wait lie in private memory, this many at most. */
 #define CONSTANT_AT_ONCE  9
 #define CONSTANT_BRANCHES 10
-#define CONSTANT_COUNT    11
+#define CONSTANT_LISTED   11 /* paths begin by a list: render_adaptive.c */
+#define CONSTANT_COUNT    12
 
 /* Most samples of a pixel that are traced at once. */
 #define SAMPLES_AT_ONCE 64

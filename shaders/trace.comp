@@ -437,13 +437,18 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     return state;
 }
 
-// Of a sample of those that the dispatch traces.
+layout(constant_id = CONSTANT_LISTED) const bool LISTED = false;
+
+// Of a sample of those that the dispatch traces. Pixels that end by their error have points of their own: what they share
+// would not be seen as an error.
 vec2 offset_in_pixel(uint sample_number) {
     vec2 offset = vec2(dispatch.offset_x, dispatch.offset_y);
 #ifndef FETCH_TEXELS
     if (AT_ONCE)
         offset = sample_offset(sample_number);
 #endif
+    if (LISTED)
+        offset = point_at(point_key(point_root(point_pixel.x, point_pixel.y), POINT_PIXEL));
     return offset;
 }
 
@@ -462,6 +467,8 @@ void main() {
     if (index >= dispatch.path_end)
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
+    if (LISTED && !resumes)
+        place = counters[COUNTER_COUNT + 2u * dispatch.places + index];
     uint path = place, slot = place;
     uint sample_number = 0u;
 #ifndef FETCH_TEXELS

@@ -90,8 +90,9 @@ static bool has_state(const struct renderer *renderer) {
 static bool goes_at_once(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint64_t picture = (uint64_t)settings->width * settings->height * PICTURE_PIXEL_BYTES;
-    return !gpu_fetches_texels(renderer->gpu) && !(renderer->features & FEATURE_LONG_RAYS) &&
-           renderer->path_stack <= PRIVATE_BRANCHES && picture <= gpu_info(renderer->gpu)->storage_bytes;
+    return !renderer_is_adaptive(renderer) && !gpu_fetches_texels(renderer->gpu) &&
+           !(renderer->features & FEATURE_LONG_RAYS) && renderer->path_stack <= PRIVATE_BRANCHES &&
+           picture <= gpu_info(renderer->gpu)->storage_bytes;
 }
 
 static uint32_t least_of(uint64_t a, uint64_t b) {
@@ -226,7 +227,8 @@ static bool make_band(struct renderer *renderer) {
     const bool at_once = renderer->samples_at_once != 0;
     const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
     const uint64_t paths = slots * (at_once ? renderer->samples_at_once : 1);
-    const uint64_t lists = 2 * (uint64_t)renderer->places + (at_once && has_state(renderer) ? paths : 0);
+    const bool third = renderer_is_adaptive(renderer) || (at_once && has_state(renderer));
+    const uint64_t lists = 2 * (uint64_t)renderer->places + (third ? paths : 0);
     const uint32_t zero[COUNTER_COUNT] = {0};
     renderer->band = heap_alloc(slots * PATH_OUTPUT_BYTES);
     return renderer->band && upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, paths * PATH_OUTPUT_BYTES) &&
@@ -259,6 +261,9 @@ static void drop_frame(struct renderer *renderer) {
     }
     free(renderer->band);
     renderer->band = NULL;
+    free(renderer->estimate.error);
+    free(renderer->estimate.samples);
+    renderer->estimate = (struct render_estimate){0};
     renderer->pending = renderer->taken = renderer->restarts = 0;
 }
 
@@ -282,6 +287,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
     if (old.width == now->width && old.height == now->height && old.max_depth == now->max_depth &&
         old.features == now->features && old.alternative == now->alternative &&
         old.workgroup == now->workgroup && old.band_tiles == now->band_tiles &&
+        (old.error > 0) == (now->error > 0) &&
         (old.samples == now->samples || renderer->samples_at_once == 0))
         return renderer_first_program(renderer, now->counts) != NULL;
     drop_frame(renderer);

@@ -48,6 +48,13 @@ struct render_settings {
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
     uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
     uint32_t dispatch_paths;             // most paths of a dispatch; 0: as many as are over soon
+    // More than 0: a pixel ends before it has all its samples where the standard error of its displayed
+    // colour is at most this, 0..1, but not before it has `least_samples` (at least 4; rounded up to fours).
+    double error;
+    uint32_t least_samples;
+    // How colours are displayed: `shown` gets 0..1. Needed where `error` is.
+    void (*show)(const void *context, const float *linear, size_t pixels, float *shown);
+    const void *show_context;
     uint32_t places;           // most paths that a GPU saves at a time; 0: as many as its memory holds
     bool counts;               // frames count their rays, which changes no bit of the picture
     bool background_later;     // the background has no pixels yet: renderer_background, before any frame
@@ -86,10 +93,20 @@ struct render_rays {
 struct render_statistics {
     double device_seconds; // on the device's clock, dispatches alone
     double wall_seconds;
-    uint32_t samples;                               // that each pixel has
-    uint32_t bands, dispatches, slices;             // slices: dispatches that resumed paths
+    uint32_t samples;                   // that each pixel has; at most, where pixels end by their error
+    uint64_t all_samples;               // of all pixels
+    uint32_t bands, dispatches, slices; // slices: dispatches that resumed paths
     struct render_fault faults[RENDER_FAULT_KINDS]; // by kind
     struct render_rays rays;                        // where the settings ask for it
+};
+
+#define RENDER_ESTIMATE_CONFIDENCE 0.95
+// What a picture whose pixels end by their error says of itself, as displayed, 0..1.
+struct render_estimate {
+    float *error;      // by pixel, rows from the top: the standard error
+    uint32_t *samples; // that it has
+    double mean;       // root of the mean square of the error of all pixels and channels
+    double most;       // the same, as sure as RENDER_ESTIMATE_CONFIDENCE
 };
 
 // Called between dispatches with what is done, 0..1; false ends the frame.
@@ -132,6 +149,9 @@ bool renderer_background(struct renderer *renderer);
 enum render_result renderer_render(struct renderer *renderer, const struct view_camera *camera, float *rgb,
                                    const struct render_progress *progress,
                                    struct render_statistics *statistics);
+// Of the last frame that renderer_render made with settings.error; the renderer's, until the next one. NULL:
+// there was none.
+const struct render_estimate *renderer_estimate(const struct renderer *renderer);
 // The same until `limit` ends it: the picture is that of statistics->samples samples, bit for bit. It needs
 // 32 bytes a pixel more.
 enum render_result renderer_render_until(struct renderer *renderer, const struct view_camera *camera,

@@ -118,6 +118,8 @@ bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *
     run->statistics->bands = (renderer->tiles + renderer->band_tiles - 1) / renderer->band_tiles;
     run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
     run->statistics->samples = renderer->settings.samples;
+    run->statistics->all_samples =
+        (uint64_t)renderer->settings.width * renderer->settings.height * renderer->settings.samples;
     return renderer_write_frame(run->renderer, camera) && renderer_order_tiles(run->renderer, camera);
 }
 
@@ -126,6 +128,8 @@ enum render_result renderer_draw_frame(struct renderer_frame *run, const struct 
     struct renderer *renderer = run->renderer;
     const uint32_t tiles = renderer->tiles;
     enum render_result result = renderer_begin_frame(run, camera) ? RENDER_DONE : RENDER_FAILED;
+    if (result == RENDER_DONE && renderer_is_adaptive(renderer))
+        return renderer_draw_adaptive(run, rgb);
     if (result == RENDER_DONE && renderer->samples_at_once)
         return renderer_draw_at_once(run, rgb);
     for (uint32_t begin = 0; result == RENDER_DONE && begin < tiles; begin += renderer->band_tiles) {

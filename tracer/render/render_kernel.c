@@ -113,7 +113,8 @@ static uint32_t private_branches(const struct renderer *renderer) {
 static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {
     return kept->program && kept->features == features &&
            kept->alternative == renderer->settings.alternative &&
-           kept->workgroup == renderer->settings.workgroup && kept->branches == private_branches(renderer);
+           kept->workgroup == renderer->settings.workgroup && kept->branches == private_branches(renderer) &&
+           kept->is_listed == renderer_is_adaptive(renderer);
 }
 
 static bool is_in_use(const struct renderer *renderer, const struct gpu_program *program) {
@@ -140,6 +141,7 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint32_t feat
     *kept = (struct renderer_kept){.features = features,
                                    .workgroup = renderer->settings.workgroup,
                                    .branches = private_branches(renderer),
+                                   .is_listed = renderer_is_adaptive(renderer),
                                    .alternative = renderer->settings.alternative,
                                    .program = program};
     renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
@@ -191,6 +193,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,
         [CONSTANT_BRANCHES] = renderer->samples_at_once ? private_branches(renderer) : 1,
+        [CONSTANT_LISTED] = kernel == RENDERER_TRACE && renderer_is_adaptive(renderer),
         [CONSTANT_ALTERNATIVE_OFFSET] = bits_of(ldexp(alternative->offset, flat->scale_exponent)),
         [CONSTANT_ALTERNATIVE_DISTANCE] = bits_of(alternative->distance),
         [CONSTANT_ALTERNATIVE_CUT] = bits_of(ldexp(alternative->cut, 2 * flat->scale_exponent)),

@@ -3,7 +3,7 @@
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
 
-#include "shaders/light/points.h"
+#include "scene/points.h"
 #include "shaders/log.h"
 
 #include <math.h>
@@ -82,11 +82,22 @@ static struct dispatch_block block_of(const struct walk *walk, uint32_t rays) {
                                    .first_sample = walk->sample};
 }
 
+// Where the sample lies in its pixel.
+static void place_of(const struct walk *walk, double *a, double *b) {
+    const struct render_settings *settings = &walk->renderer->settings;
+    const struct points points = {walk->x, walk->y, walk->sample,
+                                  points_bits(settings->first_sample, settings->samples)};
+    if (renderer_is_adaptive(walk->renderer))
+        points_at(&points, point_key(point_root(walk->x, walk->y), POINT_PIXEL), a, b);
+    else
+        view_sample_offset(walk->sample, a, b);
+}
+
 static bool make_camera_ray(const struct walk *walk, struct gpu_word ray[LOG_RAY_WORDS]) {
     struct renderer *renderer = walk->renderer;
     struct dispatch_block block = block_of(walk, 1);
     double offset_x, offset_y;
-    view_sample_offset(walk->sample, &offset_x, &offset_y);
+    place_of(walk, &offset_x, &offset_y);
     block.offset_x = (float)offset_x;
     block.offset_y = (float)offset_y;
     return dispatch(renderer, block, LOG_CAMERA) &&

@@ -56,9 +56,15 @@ static bool run_paths(struct renderer_frame *run, struct dispatch_block *block, 
     return read_counters(run);
 }
 
+// That begin.
+static uint32_t paths_of(const struct dispatch_block *block) {
+    return block->listed ? block->listed
+                         : block->tile_count * TILE_PIXELS * (block->samples ? block->samples : 1);
+}
+
 // All paths from the camera, or all that were saved, until they end or are saved again.
 static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_block *block, uint32_t end) {
-    const uint32_t all = block->tile_count * TILE_PIXELS * (block->samples ? block->samples : 1);
+    const uint32_t all = paths_of(block);
     block->pending_base = run->renderer->pending;
     for (; block->path_begin < end; block->path_begin = block->path_end) {
         if (!run_paths(run, block, end))
@@ -98,7 +104,7 @@ enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispat
     block->places = renderer->places;
     block->restart_base = renderer->restarts;
     block->restarts = 0;
-    const uint32_t all = block->tile_count * TILE_PIXELS * (block->samples ? block->samples : 1);
+    const uint32_t all = paths_of(block);
     enum render_result result = draw_to_end(run, block, 0, all);
     // Those that found no place, as many at a time as there are places.
     const uint32_t left = renderer->restarts - block->restart_base;
@@ -110,15 +116,17 @@ enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispat
     return result;
 }
 
-enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
-                                        uint32_t sample) {
+static enum render_result draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
+                                      uint32_t sample, uint32_t before, uint32_t listed) {
     struct renderer *renderer = run->renderer;
+    const uint32_t number = renderer->settings.first_sample + sample;
     double a, b;
-    view_sample_offset(renderer->settings.first_sample + sample, &a, &b);
+    view_sample_offset(number, &a, &b);
     struct dispatch_block block = {.tile_begin = tile_begin,
                                    .tile_count = tile_count,
-                                   .sample_index = sample,
-                                   .first_sample = renderer->settings.first_sample + sample,
+                                   .sample_index = before,
+                                   .first_sample = number,
+                                   .listed = listed,
                                    .offset_x = (float)a,
                                    .offset_y = (float)b};
     if (renderer->samples_at_once && !renderer_write_samples(renderer, sample, 1))
@@ -128,6 +136,16 @@ enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t til
         return result;
     run->steps_done++;
     return renderer_is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;
+}
+
+enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
+                                        uint32_t sample) {
+    return draw_sample(run, tile_begin, tile_count, sample, sample, 0);
+}
+
+enum render_result renderer_draw_listed(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
+                                        uint32_t sample, uint32_t before, uint32_t listed) {
+    return draw_sample(run, tile_begin, tile_count, sample, before, listed);
 }
 
 bool renderer_write_samples(struct renderer *renderer, uint32_t first, uint32_t count) {

@@ -36,6 +36,7 @@ struct renderer_log;
 struct renderer_kept {
     uint32_t features, workgroup;
     uint32_t branches; // in private memory; 0: samples are not traced at once
+    bool is_listed;    // paths begin by a list
     enum render_alternative alternative;
     struct gpu_program *program; // NULL: none
 };
@@ -94,6 +95,7 @@ struct renderer {
     uint32_t pending;           // value of COUNTER_PENDING after the last dispatch
     uint32_t taken, restarts;   // and of COUNTER_PLACES and COUNTER_RESTARTS
     struct renderer_pace paces[RENDERER_PASSES];
+    struct render_estimate estimate; // of an adaptive frame; its arrays NULL: there was none
 };
 
 // A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` take the place
@@ -139,8 +141,18 @@ struct renderer_frame {
 // One sample of one band: all its paths to their ends.
 enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                         uint32_t sample);
+// One sample of those pixels of a band whose slots are in the list: `listed` of them. It is added to what the
+// output holds, or replaces it where `before` is 0: how many samples lie there.
+enum render_result renderer_draw_listed(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
+                                        uint32_t sample, uint32_t before, uint32_t listed);
 // Samples of a band, from `first` on: `count` of them at once, or one that is added to what the output holds.
 enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispatch_block *block);
+// Whether pixels end when their error is small enough.
+static inline bool renderer_is_adaptive(const struct renderer *renderer) {
+    return renderer->settings.error > 0;
+}
+// The frame where they do (render_adaptive.c).
+enum render_result renderer_draw_adaptive(struct renderer_frame *run, float *rgb);
 // The frame where samples are traced at once (render_at_once.c).
 enum render_result renderer_draw_at_once(struct renderer_frame *run, float *rgb);
 // Reports how far the frame is, with a part of the step under way; false: it is to end.

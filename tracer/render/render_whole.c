@@ -15,10 +15,8 @@ static bool clear_counters(struct renderer_frame *run) {
 }
 
 static struct render_rays rays_of(const struct renderer_frame *run) {
-    const struct render_settings *settings = &run->renderer->settings;
     const uint64_t *counts = run->counts;
-    return (struct render_rays){.primary =
-                                    (uint64_t)settings->width * settings->height * run->statistics->samples,
+    return (struct render_rays){.primary = run->statistics->all_samples,
                                 .reflected = counts[COUNTER_REFLECTED],
                                 .refracted = counts[COUNTER_REFRACTED],
                                 .shadow = counts[COUNTER_SHADOW],

@@ -1,0 +1,41 @@
+#!/bin/sh
+# glint render --noise and image.error: what is said, what is written, and what cannot be wished for.
+# Usage: run_noise.sh GLINT SOURCE_FOLDER WORK_FOLDER
+. "$(dirname -- "$0")/lib.sh"
+
+scene=$source/scenes/elements/spheres.glint.yaml
+if ! "$glint" render "$source/scenes/elements/minimal.glint.yaml" --size 8x8 -o probe.png -q 2>/dev/null; then
+    echo "skip: no Vulkan device"
+    exit $failed
+fi
+
+expect 'a picture states its own error' 0 - 'standard error 0.00[0-9]* of displayed colours, at most 0.00[0-9]* .95 % sure., by [0-9.]* samples per pixel of at most 64' \
+    "$glint" render "$scene" --size 64x48 --noise 0.02 --samples 64 --aov samples,error -o n.png
+grep -q 'Accuracy' n.png && grep -q 'standard error' n.png && pass 'it is in the file' || fail 'it is in the file'
+for name in error samples; do
+    [ "$(head -c 2 n.$name.pfm)" = PF ] && pass "--aov writes n.$name.pfm" || fail "--aov writes n.$name.pfm"
+done
+expect 'the report has it' 0 '"mean_samples": [0-9.]*' '' \
+    "$glint" render "$scene" --size 64x48 --noise 0.02 --stats=json -q -o report.png
+expect 'as text too' 0 '' 'at most 1024 samples.*' "$glint" render "$scene" --size 64x48 --noise 0.02 --stats -q -o report.png
+expect 'with an audit the file states both' 0 - 'traced again' \
+    "$glint" render "$scene" --size 64x48 --noise 0.02 --samples 64 --audit -o audited.png
+grep -aq 'standard error.*; .*traced again' audited.png && pass 'both are in the file' || fail 'both are in the file'
+"$glint" render "$scene" --size 64x48 --samples 64 --set image.error=0.02 -q -o same.png
+"$glint" render "$scene" --size 64x48 --samples 64 --noise 0.02 -q -o option.png
+cmp -s same.png option.png && pass 'the option is the attribute' || fail 'the option is the attribute'
+LP_NUM_THREADS=1 "$glint" render "$scene" --size 64x48 --samples 64 --noise 0.02 -q -o one.png
+cmp -s one.png option.png && pass 'threads change no byte' || fail 'threads change no byte'
+"$glint" render "$scene" --size 64x48 --samples 16 -q -o plain.png
+"$glint" render "$scene" --size 64x48 --samples 16 --set image.error=0.02 -q -o few.png
+cmp -s plain.png few.png && pass 'with few samples all pixels take them' || fail 'with few samples all pixels take them'
+
+expect 'not with a time' 2 - 'noise.*--time.*E801' "$glint" render "$scene" --noise 0.02 --time 3 -o no.png
+expect 'not with a search' 2 - 'noise.*E801' "$glint" render "$scene" --noise 0.02 --max-error flip=0.1 -o no.png
+expect 'not by the reference' 2 - 'all samples of all pixels' "$glint" render "$scene" --noise 0.02 --device reference -o no.png
+expect 'not more than all' 2 - 'a number from' "$glint" render "$scene" --noise 2 -o no.png
+expect 'what is not known of a pixel' 2 - "does not know 'depth'" "$glint" render "$scene" --noise 0.1 --aov depth -o no.png
+expect 'files beside a stream' 2 - 'name one with -o' "$glint" render "$scene" --noise 0.1 --aov error -o -
+expect 'nothing to write' 2 - "only where pixels end by their error" "$glint" render "$scene" --aov error -o no.png
+[ ! -e no.png ] && pass 'nothing was written' || fail 'nothing was written'
+exit $failed

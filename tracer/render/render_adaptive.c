@@ -1,0 +1,319 @@
+// A frame whose pixels end when the error of their displayed colour is small enough.
+//
+// A pixel's samples are taken in rounds, and of each round a quarter goes to each of four groups. The means
+// of the groups differ by what each of them has wrong: the variance of those four, over four, is that of
+// their mean. Points of a good sequence err less together than apart, so that it is rather too large than too
+// small. A pixel goes on where its own error or that of the 3 x 3 pixels around it, within its tile, is above
+// the bound: so pixels that look even by chance go on with their neighbours, and what a pixel does depends on
+// nothing outside its tile.
+#include "core/heap.h"
+#include "core/parallel.h"
+#include "tracer/render/render_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    GROUPS = 4,
+    TILES_A_PIECE = 64,
+    COLUMNS = TILE_SIDE,
+};
+// One-sided, of the normal distribution.
+static const double SURE = 1.645;
+
+// What is known of the pixels of a band, by slot.
+struct band {
+    struct renderer_frame *run;
+    uint32_t begin, tiles;
+    float (*sums)[GROUPS][3];
+    float *variance;   // of the displayed mean; a mean over the channels
+    uint32_t *samples; // that the pixel has
+    uint32_t *faults;  // the first word with a fault, as in shaders/frame.h
+    uint32_t *list;    // slots of the pixels that go on
+    uint32_t count;    // of them
+    float *shown;      // GROUPS colours for each pixel of the list
+    bool *goes_on;     // by slot
+    uint64_t ended;    // pixels of the frame
+};
+
+static void finish(struct band *band) {
+    free(band->sums);
+    free(band->variance);
+    free(band->samples);
+    free(band->faults);
+    free(band->list);
+    free(band->shown);
+    free(band->goes_on);
+}
+
+static bool make(struct band *band, uint32_t tiles) {
+    const size_t slots = (size_t)tiles * TILE_PIXELS;
+    band->sums = heap_alloc(slots * sizeof *band->sums);
+    band->variance = heap_alloc(slots * sizeof *band->variance);
+    band->samples = heap_alloc(slots * sizeof *band->samples);
+    band->faults = heap_alloc(slots * sizeof *band->faults);
+    band->list = heap_alloc(slots * sizeof *band->list);
+    band->shown = heap_alloc(slots * GROUPS * 3 * sizeof *band->shown);
+    band->goes_on = heap_alloc(slots * sizeof *band->goes_on);
+    return band->sums && band->variance && band->samples && band->faults && band->list && band->shown &&
+           band->goes_on;
+}
+
+// ---- rounds
+
+// Samples of a pixel after the round that follows `samples`: twice as many, because parts of the sequence whose lengths are
+// powers of two are the even ones.
+static uint32_t next_samples(const struct render_settings *settings, uint32_t samples) {
+    const uint32_t most = settings->samples / GROUPS * GROUPS;
+    const uint32_t least = (settings->least_samples + GROUPS - 1) / GROUPS * GROUPS;
+    const uint32_t next = samples ? 2 * samples : least > GROUPS ? least : GROUPS;
+    return next < most ? next : most;
+}
+
+static void take_sums(struct band *band, int group) {
+    const struct renderer *renderer = band->run->renderer;
+    for (uint32_t i = 0; i < band->count; i++) {
+        const uint32_t slot = band->list[i], *words = renderer->band + 4 * (size_t)slot;
+        for (int k = 0; k < 3; k++)
+            band->sums[slot][group][k] += renderer_float(words[k]);
+        if (band->faults[slot] >> FAULT_KIND_SHIFT == FAULT_NONE)
+            band->faults[slot] = words[3];
+    }
+}
+
+// Samples first .. end - 1 of the pixels of the list, into a group.
+static enum render_result draw_group(struct band *band, int group, uint32_t first, uint32_t end) {
+    struct renderer *renderer = band->run->renderer;
+    for (uint32_t sample = first; sample < end; sample++) {
+        const enum render_result result =
+            renderer_draw_listed(band->run, band->begin, band->tiles, sample, sample - first, band->count);
+        if (result != RENDER_DONE)
+            return result;
+    }
+    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_OUTPUT], 0, renderer->band,
+                  (uint64_t)band->tiles * TILE_PIXELS * sizeof(struct gpu_word)))
+        return RENDER_FAILED;
+    take_sums(band, group);
+    return RENDER_DONE;
+}
+
+static enum render_result draw_round(struct band *band, uint32_t samples, uint32_t next) {
+    struct renderer *renderer = band->run->renderer;
+    const uint32_t step = (next - samples) / GROUPS;
+    const uint64_t at = COUNTER_COUNT + 2 * (uint64_t)renderer->places;
+    if (!gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], at * sizeof *band->list, band->list,
+                   band->count * sizeof *band->list))
+        return RENDER_FAILED;
+    for (int group = 0; group < GROUPS; group++) {
+        const uint32_t first = samples + (uint32_t)group * step;
+        const enum render_result result = draw_group(band, group, first, first + step);
+        if (result != RENDER_DONE)
+            return result;
+    }
+    for (uint32_t i = 0; i < band->count; i++)
+        band->samples[band->list[i]] = next;
+    band->run->statistics->all_samples += (uint64_t)band->count * (next - samples);
+    return RENDER_DONE;
+}
+
+// ---- errors
+
+// The variance of the mean of the groups, as displayed.
+static float variance_of(const float *shown) {
+    float sum = 0;
+    for (int k = 0; k < 3; k++) {
+        float mean = 0;
+        for (int group = 0; group < GROUPS; group++)
+            mean += shown[3 * group + k] / GROUPS;
+        for (int group = 0; group < GROUPS; group++) {
+            const float off = shown[3 * group + k] - mean;
+            sum += off * off;
+        }
+    }
+    return sum / (3 * (GROUPS - 1) * GROUPS);
+}
+
+static void estimate(struct band *band) {
+    const struct render_settings *settings = &band->run->renderer->settings;
+    for (uint32_t i = 0; i < band->count; i++) {
+        const uint32_t slot = band->list[i];
+        const float part = (float)GROUPS / (float)band->samples[slot];
+        for (int c = 0; c < GROUPS * 3; c++)
+            band->shown[GROUPS * 3 * (size_t)i + (size_t)c] = band->sums[slot][c / 3][c % 3] * part;
+    }
+    settings->show(settings->show_context, band->shown, (size_t)GROUPS * band->count, band->shown);
+    for (uint32_t i = 0; i < band->count; i++)
+        band->variance[band->list[i]] = variance_of(band->shown + GROUPS * 3 * (size_t)i);
+}
+
+static int slot_in_tile(int x, int y) {
+    return (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2 | (x & 4) << 2 | (y & 4) << 3;
+}
+
+// The greater one of the pixel's own variance and the mean of those around it; pixels outside the picture
+// have NaN.
+static float pooled(const float *variance, int x, int y) {
+    float sum = 0;
+    int count = 0;
+    for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < TILE_SIDE; j++)
+        for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < TILE_SIDE; i++) {
+            const float v = variance[slot_in_tile(i, j)];
+            sum += isnan(v) ? 0 : v;
+            count += !isnan(v);
+        }
+    const float own = variance[slot_in_tile(x, y)], mean = sum / (float)count;
+    return own > mean ? own : mean;
+}
+
+static void judge_tiles(void *context, size_t begin, size_t end) {
+    const struct band *band = context;
+    const double bound = band->run->renderer->settings.error;
+    for (size_t tile = begin; tile < end; tile++)
+        for (int i = 0; i < TILE_PIXELS; i++) {
+            const size_t slot = tile * TILE_PIXELS + (size_t)slot_in_tile(i % COLUMNS, i / COLUMNS);
+            if (band->goes_on[slot])
+                band->goes_on[slot] = (double)pooled(band->variance + tile * TILE_PIXELS, i % COLUMNS,
+                                                     i / COLUMNS) > bound * bound;
+        }
+}
+
+// Those of the list that go on. What is not finite does not get better.
+static void shorten_list(struct band *band) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < band->count; i++) {
+        const uint32_t slot = band->list[i];
+        if (band->goes_on[slot] && band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE)
+            band->list[count++] = slot;
+    }
+    band->count = count;
+}
+
+// ---- a band
+
+static void begin_band(struct band *band) {
+    const size_t slots = (size_t)band->tiles * TILE_PIXELS;
+    memset(band->sums, 0, slots * sizeof *band->sums);
+    band->count = 0;
+    for (uint32_t slot = 0; slot < slots; slot++) {
+        uint32_t x, y;
+        const bool exists = renderer_pixel(band->run->renderer, band->begin, slot, &x, &y);
+        band->variance[slot] = NAN;
+        band->samples[slot] = band->faults[slot] = 0;
+        band->goes_on[slot] = exists;
+        if (exists)
+            band->list[band->count++] = slot;
+    }
+}
+
+static void put_pixel(const struct band *band, uint32_t slot, float *rgb) {
+    struct renderer *renderer = band->run->renderer;
+    uint32_t x, y;
+    if (!renderer_pixel(renderer, band->begin, slot, &x, &y))
+        return;
+    const size_t pixel = (size_t)y * renderer->settings.width + x;
+    const bool sound = band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
+    for (int k = 0; k < 3; k++) {
+        float sum = 0;
+        for (int group = 0; group < GROUPS; group++)
+            sum += band->sums[slot][group][k];
+        rgb[3 * pixel + (size_t)k] = sound ? sum / (float)band->samples[slot] : NAN;
+    }
+    const float *tile = band->variance + slot / TILE_PIXELS * TILE_PIXELS;
+    const float most = pooled(tile, (int)(x % TILE_SIDE), (int)(y % TILE_SIDE));
+    renderer->estimate.error[pixel] = sqrtf(most);
+    renderer->estimate.samples[pixel] = band->samples[slot];
+}
+
+// Sums over the tiles: of the variances, and of the squares of a tile's.
+struct total {
+    double variance, squares;
+};
+
+static void end_band(const struct band *band, float *rgb, struct total *total) {
+    struct renderer *renderer = band->run->renderer;
+    for (uint32_t slot = 0; rgb && slot < band->tiles * TILE_PIXELS; slot++) {
+        uint32_t x, y;
+        put_pixel(band, slot, rgb);
+        if (band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NONE &&
+            renderer_pixel(renderer, band->begin, slot, &x, &y))
+            renderer_note_fault(renderer, band->faults[slot], 1, x, y,
+                                &band->run->statistics->faults[band->faults[slot] >> FAULT_KIND_SHIFT]);
+    }
+    for (uint32_t tile = 0; tile < band->tiles; tile++) {
+        double sum = 0;
+        for (int i = 0; i < TILE_PIXELS; i++) {
+            const float v = band->variance[tile * TILE_PIXELS + (uint32_t)i];
+            sum += isnan(v) ? 0 : (double)v;
+        }
+        total->variance += sum;
+        total->squares += sum * sum;
+    }
+}
+
+static enum render_result draw_band(struct band *band, float *rgb, struct total *total) {
+    const struct render_settings *settings = &band->run->renderer->settings;
+    enum render_result result = RENDER_DONE;
+    begin_band(band);
+    for (uint32_t samples = 0, next; band->count > 0 && result == RENDER_DONE; samples = next) {
+        next = next_samples(settings, samples);
+        if (next == samples)
+            break;
+        result = draw_round(band, samples, next);
+        if (result != RENDER_DONE)
+            return result;
+        estimate(band);
+        parallel_for(band->tiles, TILES_A_PIECE, judge_tiles, band);
+        band->ended += band->count;
+        shorten_list(band);
+        band->ended -= band->count;
+        band->run->steps_done = band->ended;
+    }
+    band->ended += band->count;
+    end_band(band, rgb, total);
+    return result;
+}
+
+// ---- the frame
+
+static bool make_estimate(struct renderer *renderer) {
+    const size_t pixels = (size_t)renderer->settings.width * renderer->settings.height;
+    struct render_estimate *estimate = &renderer->estimate;
+    if (!estimate->error)
+        estimate->error = heap_alloc(pixels * sizeof *estimate->error);
+    if (!estimate->samples)
+        estimate->samples = heap_alloc(pixels * sizeof *estimate->samples);
+    return estimate->error && estimate->samples;
+}
+
+// Neither the errors nor their estimates are independent within a tile, where edges go on; of a tile the
+// square of the error varies by twice its square, and an estimate from four groups by two thirds of it.
+static void conclude(struct renderer *renderer, const struct total *total) {
+    const double pixels = (double)renderer->settings.width * renderer->settings.height;
+    const double spread = SURE * sqrt((2 + 2.0 / (GROUPS - 1)) * total->squares);
+    renderer->estimate.mean = sqrt(total->variance / pixels);
+    renderer->estimate.most = sqrt((total->variance + spread) / pixels);
+}
+
+enum render_result renderer_draw_adaptive(struct renderer_frame *run, float *rgb) {
+    struct renderer *renderer = run->renderer;
+    struct band band = {.run = run};
+    struct total total = {0, 0};
+    run->statistics->all_samples = 0;
+    run->steps = (uint64_t)renderer->settings.width * renderer->settings.height;
+    enum render_result result =
+        make_estimate(renderer) && make(&band, renderer->band_tiles) ? RENDER_DONE : RENDER_FAILED;
+    for (; result == RENDER_DONE && band.begin < renderer->tiles; band.begin += band.tiles) {
+        const uint32_t left = renderer->tiles - band.begin;
+        band.tiles = left < renderer->band_tiles ? left : renderer->band_tiles;
+        result = draw_band(&band, rgb, &total);
+    }
+    finish(&band);
+    if (result == RENDER_DONE)
+        conclude(renderer, &total);
+    return result;
+}
+
+const struct render_estimate *renderer_estimate(const struct renderer *renderer) {
+    return renderer->estimate.error ? &renderer->estimate : NULL;
+}
