@@ -26,6 +26,7 @@ static void text_of(const struct exact *exact, const struct reference_statistics
                   {"refracted", s->refracted},
                   {"shadow", s->shadow},
                   {"total reflections", s->total_reflections},
+                  {"unseen crossings", s->unseen},
                   {"cut by depth", s->cut_by_depth},
                   {"cut by weight", s->cut_by_weight},
                   {"cut by segments", s->cut_by_segments},
@@ -59,6 +60,7 @@ static void json_of(const struct exact *exact, const struct reference_statistics
     json_write_integer(&w, "refracted", s->refracted);
     json_write_integer(&w, "shadow", s->shadow);
     json_write_integer(&w, "total_reflections", s->total_reflections);
+    json_write_integer(&w, "unseen_crossings", s->unseen);
     json_write_integer(&w, "cut_by_depth", s->cut_by_depth);
     json_write_integer(&w, "cut_by_weight", s->cut_by_weight);
     json_write_integer(&w, "cut_by_segments", s->cut_by_segments);

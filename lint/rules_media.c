@@ -413,6 +413,21 @@ static void report_nested(struct lint *lint, const struct media *media) {
     }
 }
 
+// The same of cameras, where the bodies around one need not be inside each other.
+static void report_crowded(struct lint *lint) {
+    for (uint32_t i = 0; i < lint->ir->cameras.count; i++) {
+        const struct ir_camera *camera = &lint->ir->cameras.items[i];
+        const uint32_t crowd = scene_media_crowd(lint->scene, lint->views[i].camera.position);
+        if (!crowd)
+            continue;
+        diag_add(lint->sink, DIAG_LIMIT,
+                 ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position"),
+                 "the camera is inside %u bodies that refract; at most %d may surround a ray", crowd,
+                 SCENE_MEDIA_MOST);
+        diag_help(lint->sink, "move the camera, or join bodies of one material into one mesh");
+    }
+}
+
 static void report(struct media *media, const struct overlap *first, uint32_t count) {
     struct lint *lint = media->lint;
     switch (first->finding) {
@@ -444,6 +459,7 @@ void lint_media(struct lint *lint) {
         }
     lint_body_pairs(lint->arena, items, count, take_pair, &media);
     report_nested(lint, &media);
+    report_crowded(lint);
     if (media.found.count == 0)
         return;
     qsort(media.found.items, media.found.count, sizeof *media.found.items, compare_overlaps);

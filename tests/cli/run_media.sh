@@ -135,4 +135,93 @@ for device in $devices; do
     [ "$device" = 0 ] || export GLINT_DEVICE="$device"
     expect "and a picture says so" 1 - 'show rays that are inside more than 8 bodies at once that refract.*E501' "$glint" render nested.yaml --set camera.position.z=50 -o nested.pfm
 done
+
+unset GLINT_DEVICE
+
+# The medium of the kernel is that of the ball: each pixel's ray comes to it twice, without being another ray after it.
+cat >counted.yaml <<'END'
+glint: 1
+image: {width: 16, height: 12}
+trace: {shadows: false, min_weight: 0}
+camera: {position: [0, 0, 5], look_at: [0, 0, 0], fov: 1}
+lights: [{position: [0, 9, 5]}]
+materials: {glass: {albedo: [0, 0, 0, 1], refractive_index: 1.5}}
+spheres:
+  - {center: [0, 0, 0], radius: 1, material: glass}
+  - {center: [0, 0, 0], radius: 0.5, material: glass}
+END
+for device in $devices; do
+    [ "$device" = 0 ] || export GLINT_DEVICE="$device"
+    expect "a ray that goes on unseen" 0 '"unseen_crossings": 384,' - "$glint" render counted.yaml --stats=json -q -o counted.png
+    also "is still the same ray" '"refracted": 384,' -
+    also "from the camera too" '"primary": 192,' -
+    expect "the same in words" 0 - 'unseen crossings +384$' "$glint" render counted.yaml --stats -q -o counted.png
+done
+unset GLINT_DEVICE
+# The floor's 192 shadow rays each pass through the ball and, unseen, through its kernel.
+cat >shone.yaml <<'END'
+glint: 1
+image: {width: 16, height: 12}
+trace: {transparent_shadows: true, min_weight: 0}
+camera: {position: [0, -1.5, 0], look_at: [0, -2, 0], fov: 1}
+lights: [{position: [0, 9, 0]}]
+materials: {glass: {albedo: [0, 0, 0, 1], refractive_index: 1.5}}
+spheres:
+  - {center: [0, 0, 0], radius: 1, material: glass}
+  - {center: [0, 0, 0], radius: 0.5, material: glass}
+rectangles: [{corner: [-9, -2, -9], edge_u: [18, 0, 0], edge_v: [0, 0, 18], material: {diffuse_color: 1}}]
+END
+for device in $devices; do
+    [ "$device" = 0 ] || export GLINT_DEVICE="$device"
+    expect "a shadow ray that goes on unseen" 0 '"unseen_crossings": 384,' - "$glint" render shone.yaml --stats=json -q -o shone.png
+    also "is still the same shadow ray" '"shadow": 576,' -
+done
+unset GLINT_DEVICE
+
+# Nine balls that all cross each other, and nine cubes that do: around the camera, and above it.
+{
+    echo 'spheres:'
+    for i in 1 2 3 4 5 6 7 8 9; do
+        echo "  - {center: [0.$i, 0, 0], radius: 1, material: {albedo: [0, 0, 0, 1], refractive_index: 1.$i, priority: $i}}"
+    done
+} | scene crossing.yaml
+expect "a camera in nine that cross each other" 1 - 'the camera is inside 9 bodies that refract; at most 8 may surround a ray \[E501\]' "$glint" check crossing.yaml --set camera.position='[0.5, 0.1, 0]'
+for device in $devices; do
+    [ "$device" = 0 ] || export GLINT_DEVICE="$device"
+    expect "and no picture" 1 - 'the camera is inside 9 bodies that refract.*E501' "$glint" render crossing.yaml --set camera.position='[0.5, 0.1, 0]' -o crossing.pfm
+    expect "nor a pick" 1 - 'the camera is inside 9 bodies that refract.*E501' "$glint" pick crossing.yaml 1,1 --set camera.position='[0.5, 0.1, 0]'
+done
+unset GLINT_DEVICE
+[ ! -e crossing.pfm ] || fail "there is a picture all the same"
+
+# box.obj: a cube; lid.obj: the same, and what covers it lets nothing through.
+cube='v -1 -1 -1\nv 1 -1 -1\nv 1 -1 1\nv -1 -1 1\nv -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\n'
+sides='f 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n'
+printf "${cube}${sides}f 8 7 6 5\n" >box.obj
+printf "${cube}usemtl tank\n${sides}usemtl lid\nf 8 7 6 5\n" >lid.obj
+{
+    echo 'spheres: [{center: [0, 0, 0], radius: 1, material: glass}]'
+    echo 'models:'
+    for i in 1 2 3 4 5 6 7 8 9; do
+        echo "  - {mesh: box.obj, scale: [9, 0.5, 9], translation: [0, 3.$i, 0], material: {albedo: [0, 0, 0, 1], refractive_index: 1.$i}}"
+    done
+} | scene above.yaml
+scene tank.yaml <<'END'
+models:
+  - {name: tank, mesh: lid.obj, material: {albedo: [0, 0, 0, 1], refractive_index: 1.5}, material_map: {lid: floor}}
+spheres:
+  - {name: bubble, center: [0, 0, -0.5], radius: 0.2, material: {albedo: [0, 0, 0.1, 0.9], refractive_index: 1}}
+END
+if [ "$devices" != reference ]; then
+    # against NAME SCENE OPTION...: device and reference.
+    against() {
+        name=$1 of=$2
+        shift 2
+        ok "$name: device" "$glint" render "$of" "$@" --set trace.precision=double -q -o a.pfm
+        ok "$name: reference" "$glint" render "$of" "$@" --device reference --as-file --no-cache -q -o b.pfm
+        expect "$name" 0 '' - "$glint" compare a.pfm b.pfm --max-share 0
+    }
+    against "a camera under nine cubes, in none of them" above.yaml --set camera.position='[0, 0.6, 2]'
+    against "a camera below an opaque lid" tank.yaml --set camera.position='[0.03, 0.05, 0.52]'
+fi
 exit $failed
