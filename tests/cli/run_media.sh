@@ -200,7 +200,7 @@ sides='f 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n'
 printf "${cube}${sides}f 8 7 6 5\n" >box.obj
 printf "${cube}usemtl tank\n${sides}usemtl lid\nf 8 7 6 5\n" >lid.obj
 {
-    echo 'spheres: [{center: [0, 0, 0], radius: 1, material: glass}]'
+    echo 'spheres: [{center: [0, 0, 0], radius: 0.5, material: {albedo: [0, 0, 0, 1], refractive_index: 1.5}}]'
     echo 'models:'
     for i in 1 2 3 4 5 6 7 8 9; do
         echo "  - {mesh: box.obj, scale: [9, 0.5, 9], translation: [0, 3.$i, 0], material: {albedo: [0, 0, 0, 1], refractive_index: 1.$i}}"
@@ -212,6 +212,7 @@ models:
 spheres:
   - {name: bubble, center: [0, 0, -0.5], radius: 0.2, material: {albedo: [0, 0, 0.1, 0.9], refractive_index: 1}}
 END
+expect "a camera under nine cubes is in none of them" 0 '0  camera, weight 1: spheres' - "$glint" pick above.yaml 44,33 --set camera.position='[0, 2, 0.1]' --device reference
 if [ "$devices" != reference ]; then
     # against NAME SCENE OPTION...: device and reference.
     against() {
@@ -221,7 +222,7 @@ if [ "$devices" != reference ]; then
         ok "$name: reference" "$glint" render "$of" "$@" --device reference --as-file --no-cache -q -o b.pfm
         expect "$name" 0 '' - "$glint" compare a.pfm b.pfm --max-share 0
     }
-    against "a camera under nine cubes, in none of them" above.yaml --set camera.position='[0, 0.6, 2]'
+    expect "and on the device" 0 '0  camera, weight 1: spheres' - "$glint" pick above.yaml 44,33 --set camera.position='[0, 2, 0.1]'
     against "a camera below an opaque lid" tank.yaml --set camera.position='[0.03, 0.05, 0.52]'
 fi
 exit $failed
