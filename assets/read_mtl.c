@@ -67,7 +67,7 @@ struct mtl_reader {
 // ---- what has no effect
 
 static const char TF_AT_SURFACES[] = "light takes its colour on its way inside, and not at surfaces";
-static const char NOT_TRANSPARENT[] = "'d' and 'Tr' say how much light is let through, and here it is none";
+static const char NOT_TRANSPARENT[] = "'d' and 'Tr' say how much light is let through, and neither lets any";
 static const char FRESNEL_NEEDS_INDEX[] = "Fresnel's equations need an 'Ni' above 1";
 
 static void drop(struct mtl_reader *r, str word, const char *why, bool is_map) {

@@ -85,6 +85,19 @@ spheres:
 END
 expect "a colour asks, too" 0 "media +coloured.yaml:[0-9]+:12: sphere 'amber' is coloured inside" '' "$glint" inspect coloured.yaml
 
+# As an author draws it at first: no priorities, or the same faces twice.
+for order in overlap turned; do
+    sed 's/, priority: 1//' $order.yaml >$order-plain.yaml
+    expect "$order: equal priorities are told" 0 '' "model '(drink|bottle)' crosses model '(drink|bottle)', and both refract with priority 0.*W418" "$glint" check $order-plain.yaml
+    expect "$order: and mended" 0 '' '1 fix made' "$glint" check --fix=all $order-plain.yaml
+    expect "$order: for good" 0 - - "$glint" check $order-plain.yaml
+done
+expect "the drink gives way to its glass" 0 'name: drink.*priority: -1' - cat overlap-plain.yaml
+expect "whichever comes first" 0 'glass: .*priority: 1' - cat turned-plain.yaml
+sed 's/within.obj/inner.obj/' overlap.yaml >coincident.yaml
+expect "coincident faces are told" 0 - "faces of model 'drink' and of model 'bottle' lie in the same plane and overlap.*W410" "$glint" check coincident.yaml
+also "and what to do" - "help: let one reach into the other, and give the material of the one that fills that place the higher 'priority'"
+
 # same NAME A B OPTION...: pictures of two scenes, byte for byte.
 same() {
     name=$1 a=$2 b=$3
@@ -117,6 +130,50 @@ for device in $devices; do
     done
 done
 unset GLINT_DEVICE
+
+# A glass that is open above, of points (radius, height) from the middle of its bottom, around and back: drawn as a glass
+# with water that reaches into its wall; and as one body up to the water's surface with the water in it, whose faces are those
+# between the two.
+lathe() {
+    awk -v n=24 'BEGIN { pi = 3.14159265358979 }
+    { r[NR] = $1; y[NR] = $2 }
+    END {
+        printf "v 0 %.9g 0\n", y[1]
+        for (i = 2; i < NR; i++)
+            for (k = 0; k < n; k++)
+                printf "v %.9g %.9g %.9g\n", r[i] * cos(2 * pi * k / n), y[i], r[i] * sin(2 * pi * k / n)
+        printf "v 0 %.9g 0\n", y[NR]
+        last = (NR - 2) * n + 2
+        for (k = 0; k < n; k++) {
+            j = (k + 1) % n
+            print "f", 1, 2 + k, 2 + j
+            for (i = 0; i < NR - 3; i++)
+                print "f", 2 + i * n + j, 2 + i * n + k, 2 + (i + 1) * n + k, 2 + (i + 1) * n + j
+            print "f", last - n + j, last - n + k, last
+        }
+    }'
+}
+outside='0 0,0.5 0,0.55 0.5,0.6 1'
+cavity='0.5 0.5,0.45 0.1,0 0.1'
+echo "$outside,0.55 1,$cavity" | tr , '\n' | lathe >open.obj
+echo "0 0.05,0.48 0.05,0.525 0.5,0 0.5" | tr , '\n' | lathe >reaching.obj
+echo "$outside,0.55 1,0.5 0.5,0 0.5" | tr , '\n' | lathe >solid.obj
+echo "0 0.1,0.45 0.1,0.5 0.5,0.5 0.50001,0 0.50001" | tr , '\n' | lathe >exactly.obj
+scene reaching.yaml <<'END'
+models:
+  - {name: open, mesh: open.obj, material: glass, scale: 1.6, translation: [0, -1, 0]}
+  - {name: drink, mesh: reaching.obj, material: {albedo: [0, 0.5, 0.1, 0.8], refractive_index: 1.33}, scale: 1.6, translation: [0, -1, 0]}
+END
+scene exactly.yaml <<'END'
+models:
+  - {name: open, mesh: solid.obj, material: glass, scale: 1.6, translation: [0, -1, 0]}
+  - {name: drink, mesh: exactly.obj, material: {albedo: [0, 0.5, 0.1, 0.8], refractive_index: 1.33, priority: 2}, scale: 1.6, translation: [0, -1, 0]}
+END
+for open in reaching exactly; do
+    expect "an open glass, $open" 0 - - "$glint" check $open.yaml
+    ok "and its picture" "$glint" render $open.yaml --device reference --as-file --no-cache --size 320x240 -q -o $open.pfm
+done
+expect "an open glass of water" 0 '' - "$glint" compare reaching.pfm exactly.pfm --max-share 0.001
 
 expect "what a ray is inside" 0 "refracted from 0, weight 0.8, inside sphere 'ball'" - "$glint" pick two.yaml 48,36 --device reference
 also "and that it passes" "sphere 'kernel', at .*passes unseen: the medium stays the same" -

@@ -23,16 +23,16 @@ compare() {
     "$glint" compare "$1" "$2" --max-share 0.005 --max-mae 0.0004 >compared.txt
 }
 
-kept() { # NAME COMMAND...: the command makes the picture in the file that is its last argument
-    name=$1
+kept() { # STEM COMMAND...: the command makes the picture in the file that is its last argument
+    stem=$1
     shift
-    kept=$source/docs/pictures/$name.png
-    now=$name.png
+    kept=$source/docs/pictures/$stem.png
+    now=$stem.png
     [ "$mode" = check ] || now=$kept
-    ok "$name: rendered" "$@" "$now"
-    ok "$name: as kept" compare "$now" "$kept"
-    [ "$(wc -c <"$kept")" -le $largest ] || fail "$name: more than $largest bytes"
-    grep -qF "pictures/$name.png" "$source"/docs/*.md || fail "$name: no page shows it"
+    ok "$stem: rendered" "$@" "$now"
+    ok "$stem: as kept" compare "$now" "$kept"
+    [ "$(wc -c <"$kept")" -le $largest ] || fail "$stem: more than $largest bytes"
+    grep -qF "pictures/$stem.png" "$source"/docs/*.md || fail "$stem: no page shows it"
 }
 
 for scene in "$source"/scenes/tutorial/*.glint.yaml "$source"/scenes/language/*.glint.yaml; do

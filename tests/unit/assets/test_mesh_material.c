@@ -102,7 +102,7 @@ static void what_illum_and_filters_cannot_do_is_told(void **state) {
         {"Tf .5 .9 1\nd 0\nNi 1.5", "own.mtl:2:1: warning: 'Tf' has no effect: light takes its colour on its "
                                     "way inside, and not at surfaces [W605]"},
         {"illum 4\nTf .5\nNi 1", "own.mtl:3:1: warning: 'Tf' has no effect: 'd' and 'Tr' say how much light "
-                                 "is let through, and here it is none [W605]"},
+                                 "is let through, and neither lets any [W605]"},
         {"Tf 1\nillum 4\nNi 1", NULL}, // as Maya writes what is opaque
         {"illum 4\nNi 1.5", "own.mtl:2:1: warning: 'illum 4' has no effect: 'd' and 'Tr' say how much"},
         {"illum 4\nNi 1.5\nd 1", NULL},
