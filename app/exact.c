@@ -12,6 +12,8 @@ enum shot_status exact_open(struct exact *exact, struct session *session, uint32
     *exact = (struct exact){.session = session};
     if (!session_view(session, camera, &exact->view))
         return shot_no_memory(session, "the view");
+    if (!where_camera_fits(session, camera, &exact->view))
+        return SHOT_SCENE;
     struct reference_input input = {.scene = &session->resolved, .view = &exact->view};
     exact->settings =
         reference_settings_of(session->scene, session->image, &session->options.limits, options.as_file);

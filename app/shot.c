@@ -91,6 +91,8 @@ static enum shot_status open_shot(struct shot *shot, uint32_t camera) {
     struct precision_gains gains;
     if (!session_view(shot->session, camera, &shot->view))
         return shot_no_memory(shot->session, "the view");
+    if (!where_camera_fits(shot->session, camera, &shot->view))
+        return SHOT_SCENE;
     enum shot_status status = flatten_shot(&opening, &gains);
     if (status != SHOT_OK)
         return status;
@@ -130,7 +132,9 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
     struct session *session = shot->session;
     drop_reference(shot);
     if (session->scene->lights.count && shot->renderer)
-        return session_view(session, camera, &shot->view) ? SHOT_OK : shot_no_memory(session, "the view");
+        return !session_view(session, camera, &shot->view)       ? shot_no_memory(session, "the view")
+               : where_camera_fits(session, camera, &shot->view) ? SHOT_OK
+                                                                 : SHOT_SCENE;
     struct gpu *gpu = shot->gpu;
     const struct shot_wish wish = {
         .counts = shot->wish.counts, .audits = shot->wish.audits, .copies = shot->wish.copies};

@@ -106,3 +106,16 @@ void where_feature_words(struct session *session, uint32_t feature, const struct
     else
         strbuf_cstr(out, "a material from a mesh's material file\n");
 }
+
+bool where_camera_fits(struct session *session, uint32_t camera, const struct view *view) {
+    const uint32_t crowd = scene_media_crowd(&session->resolved, view->camera.position);
+    if (!crowd)
+        return true;
+    const struct ir_cameras *cameras = &session->scene->cameras;
+    const struct ir_head *head =
+        camera < cameras->count ? &cameras->items[camera].head : &session->scene->head;
+    diag_add(&session->sink, DIAG_LIMIT, ir_place_label(&session->origin, head),
+             "the camera is inside %u bodies that refract; at most %d may surround a ray", crowd,
+             SCENE_MEDIA_MOST);
+    return false;
+}

@@ -34,6 +34,9 @@ void where_material_words(const struct where *where, struct strbuf *out);
 void where_feature_words(struct session *session, uint32_t feature, const struct scene_media_reason *reason,
                          struct strbuf *out);
 
+// false: the camera is inside more media than a ray can be, which is an error in the sink.
+bool where_camera_fits(struct session *session, uint32_t camera, const struct view *view);
+
 // What either tracer may report about pixels.
 #define WHERE_NOT_FINITE    "got a value that is infinite or not a number"
 #define WHERE_NESTED        "show rays that are inside more than 8 bodies at once that refract"

@@ -13,9 +13,25 @@
 enum {
     KINDS_MAX = 16,  // of what has no effect, each told by itself; the others share a last one
     WORD_SHOWN = 64, // bytes of a statement
-    ILLUM_UNSHADED = 0,
+    ILLUM_MATT = 1,
+    ILLUM_USUAL = 2,
     ILLUM_REFLECTS_FIRST = 3,
     ILLUM_REFLECTS_LAST = 7,
+    ILLUM_MODES = 11,
+};
+
+// What the modes of `illum` say besides (Ramey, Rose and Tyerman: MTL material format, 1995).
+static const struct illum_mode {
+    bool fresnel, transparent;
+    const char *never; // why it has no effect, whatever else is written; NULL: it may have
+} illum_modes[ILLUM_MODES] = {
+    [0] = {.never = "all surfaces are shaded"},
+    [4] = {.transparent = true},
+    [5] = {.fresnel = true},
+    [6] = {.transparent = true},
+    [7] = {.fresnel = true, .transparent = true},
+    [9] = {.transparent = true},
+    [10] = {.never = "all surfaces are seen"},
 };
 
 // One `newmtl` as the file has it.
@@ -23,11 +39,11 @@ struct mtl_entry {
     bool open; // a newmtl was read
     str name;
     str statement; // newmtl and name, in the text
-    str tr_statement;
-    double kd[3], ks[3];
-    bool has_kd, has_ks, has_d, has_tr, has_ns, has_ni;
+    str tr_statement, tf_statement, illum_statement;
+    double kd[3], ks[3], tf[3];
+    bool has_kd, has_ks, has_tf, has_d, has_tr, has_ns, has_ni;
     double d, tr, ns, ni;
-    int64_t illum;
+    uint32_t illum;
 };
 
 // Statements that have no effect, for one reason.
@@ -50,6 +66,10 @@ struct mtl_reader {
 
 // ---- what has no effect
 
+static const char TF_AT_SURFACES[] = "light takes its colour on its way inside, and not at surfaces";
+static const char NOT_TRANSPARENT[] = "'d' and 'Tr' say how much light is let through, and neither lets any";
+static const char FRESNEL_NEEDS_INDEX[] = "Fresnel's equations need an 'Ni' above 1";
+
 static void drop(struct mtl_reader *r, str word, const char *why, bool is_map) {
     for (uint32_t i = 0; i < r->dropped_kinds; i++) {
         struct mtl_dropped *kind = &r->dropped[i];
@@ -68,12 +88,17 @@ static const struct known_statement {
     const char *word;
     const char *why;
 } known_statements[] = {
-    {"Ka", "there is no ambient light"},        {"Ke", "surfaces give no light of their own"},
-    {"Tf", "refracted light keeps its colour"}, {"sharpness", "reflections are always sharp"},
-    {"Pr", "materials have no roughness"},      {"Pm", "materials have no metallic part"},
-    {"Ps", "materials have no sheen"},          {"Pc", "materials have no clear coat"},
-    {"Pcr", "materials have no clear coat"},    {"aniso", "highlights are round"},
-    {"anisor", "highlights are round"},         {NULL, "glint does not know this statement"},
+    {"Ka", "there is no ambient light"},
+    {"Ke", "surfaces give no light of their own"},
+    {"sharpness", "reflections are always sharp"},
+    {"Pr", "materials have no roughness"},
+    {"Pm", "materials have no metallic part"},
+    {"Ps", "materials have no sheen"},
+    {"Pc", "materials have no clear coat"},
+    {"Pcr", "materials have no clear coat"},
+    {"aniso", "highlights are round"},
+    {"anisor", "highlights are round"},
+    {NULL, "glint does not know this statement"},
 };
 
 static bool is_map(str keyword) {
@@ -84,12 +109,12 @@ static bool is_map(str keyword) {
     return str_starts_with(keyword, STR("map_"));
 }
 
-// Whether all numbers of the line are the one with which the statement changes nothing.
-static bool is_neutral(struct mtl_reader *r, double neutral) {
+// Whether all numbers of the line are 0, with which the statement changes nothing.
+static bool is_zero(struct mtl_reader *r) {
     bool all = obj_lex_more(&r->lex);
     while (obj_lex_more(&r->lex)) {
         double value;
-        all = obj_lex_number(&r->lex, &value) == NUMBER_OK && value == neutral && all;
+        all = obj_lex_number(&r->lex, &value) == NUMBER_OK && value == 0 && all;
     }
     return all;
 }
@@ -102,8 +127,21 @@ static void drop_statement(struct mtl_reader *r, str keyword) {
     const struct known_statement *known = known_statements;
     while (known->word && !str_equal_cstr(keyword, known->word))
         known++;
-    if (!known->word || !is_neutral(r, str_equal_cstr(keyword, "Tf") ? 1 : 0))
+    if (!known->word || !is_zero(r))
         drop(r, keyword, known->why, false);
+}
+
+static const char *advice_for(const struct mtl_dropped *kind) {
+    if (kind->is_map)
+        return "write the image's main colour as Kd, or give the model a 'material'";
+    if (kind->why == TF_AT_SURFACES)
+        return "give the model a 'material' with this colour as 'attenuation_color', and with the thickness "
+               "of the body as 'attenuation_distance'";
+    if (kind->why == NOT_TRANSPARENT)
+        return "write d 0 where all light is let through, and d 1 where none is";
+    if (kind->why == FRESNEL_NEEDS_INDEX)
+        return "write the index, such as Ni 1.5, or give the model a 'material'";
+    return "remove it, or give the model a 'material'";
 }
 
 static void report_dropped(struct mtl_reader *r) {
@@ -118,10 +156,7 @@ static void report_dropped(struct mtl_reader *r) {
         if (!asset_report(r->file, DIAG_MTL_DROPPED, at, at + kind->word.len, "'%.*s'%s no effect%s: %s",
                           shown, kind->word.ptr, has, lines, kind->why))
             continue;
-        diag_help(r->file->input->sink, kind->is_map
-                                            ? "write the image's main colour as Kd, or give the model a "
-                                              "'material'"
-                                            : "remove it, or give the model a 'material'");
+        diag_help(r->file->input->sink, "%s", advice_for(kind));
     }
 }
 
@@ -199,6 +234,24 @@ static bool read_dissolve(struct mtl_reader *r, str keyword, double *value) {
 
 // ---- materials
 
+// What `illum` and `Tf` say and the others do not.
+static void judge_entry(struct mtl_reader *r, struct ir_material *m) {
+    const struct mtl_entry *e = &r->entry;
+    const struct illum_mode *mode = &illum_modes[e->illum];
+    const bool clear = m->albedo.refraction > 0, filters = e->tf[0] != 1 || e->tf[1] != 1 || e->tf[2] != 1;
+    if (e->has_tf && filters)
+        drop(r, e->tf_statement, clear ? TF_AT_SURFACES : NOT_TRANSPARENT, false);
+    m->fresnel = mode->fresnel && e->ni > 1 && (clear || m->albedo.reflection > 0);
+    if (mode->never)
+        drop(r, e->illum_statement, mode->never, false);
+    else if (mode->transparent && e->ni > 1 && !clear && !e->has_d && !e->has_tr)
+        drop(r, e->illum_statement, NOT_TRANSPARENT, false);
+    else if (mode->fresnel && !m->fresnel && (clear || m->albedo.reflection > 0))
+        drop(r, e->illum_statement, FRESNEL_NEEDS_INDEX, false);
+    else if (e->illum == ILLUM_MATT && m->albedo.specular > 0)
+        drop(r, e->illum_statement, "'Ks' gives a highlight", false);
+}
+
 static void close_entry(struct mtl_reader *r) {
     struct mtl_entry *e = &r->entry;
     if (!e->open || mtl_find(r->out, e->name)) {
@@ -227,13 +280,14 @@ static void close_entry(struct mtl_reader *r) {
         m->specular_exponent = e->ns;
     if (e->has_ni)
         m->refractive_index = e->ni;
+    judge_entry(r, m);
     e->open = false;
 }
 
 static void read_newmtl(struct mtl_reader *r, str keyword) {
     close_entry(r);
     bool named = obj_lex_more(&r->lex) || (!obj_lex_done(&r->lex) && *r->lex.at == '#');
-    r->entry = (struct mtl_entry){.name = named ? obj_lex_rest(&r->lex) : STR("")};
+    r->entry = (struct mtl_entry){.name = named ? obj_lex_rest(&r->lex) : STR(""), .illum = ILLUM_USUAL};
     r->entry.open = r->entry.name.len > 0;
     r->entry.statement = (str){keyword.ptr, (size_t)(r->entry.name.ptr + r->entry.name.len - keyword.ptr)};
     size_t at = (size_t)(keyword.ptr - r->lex.begin);
@@ -248,11 +302,15 @@ static void read_transparency(struct mtl_reader *r, str keyword) {
 
 static void read_illum(struct mtl_reader *r, str keyword) {
     double illum;
-    if (!read_value(r, keyword, 0, 10, &illum))
+    if (!read_value(r, keyword, 0, ILLUM_MODES - 1, &illum))
         return;
-    r->entry.illum = (int64_t)illum;
-    if (r->entry.illum == ILLUM_UNSHADED)
-        drop(r, (str){keyword.ptr, (size_t)(r->lex.at - keyword.ptr)}, "all surfaces are shaded", false);
+    r->entry.illum = (uint32_t)illum;
+    r->entry.illum_statement = (str){keyword.ptr, (size_t)(r->lex.at - keyword.ptr)};
+}
+
+static void read_filter(struct mtl_reader *r, str keyword) {
+    r->entry.has_tf |= read_color(r, keyword, r->entry.tf);
+    r->entry.tf_statement = keyword;
 }
 
 // Whether the keyword is one of a material's values; they have no meaning before the first newmtl, where they
@@ -271,6 +329,8 @@ static bool read_attribute(struct mtl_reader *r, str keyword) {
         e->has_d |= read_dissolve(r, keyword, &e->d);
     else if (str_equal_cstr(keyword, "Tr"))
         read_transparency(r, keyword);
+    else if (str_equal_cstr(keyword, "Tf"))
+        read_filter(r, keyword);
     else if (str_equal_cstr(keyword, "illum"))
         read_illum(r, keyword);
     else

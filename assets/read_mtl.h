@@ -1,8 +1,8 @@
 // MTL, the material files of OBJ meshes: Kd, Ks, Ns, Ni, d, Tr and illum become materials of the scene
-// language.
+// language. Tf has no length with which its colour would belong to what is inside a body: it is told.
 //
 //     diffuse_color Kd; albedo (1-t, 1 if Ks is not 0, max(Ks) if illum is 3..7, t) with t = 1-d
-//     specular_color Ks; specular_exponent Ns; refractive_index Ni
+//     specular_color Ks; specular_exponent Ns; refractive_index Ni; fresnel if illum is 5 or 7 and Ni above 1
 //
 // d wins over Tr if both are given. Of several materials of one name the first counts. What is in the file
 // and has no effect is a warning, one for each kind of statement, unless it would change nothing (Ke 0 0 0).

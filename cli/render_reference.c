@@ -12,27 +12,28 @@ static bool report(void *context, double fraction) {
     return progress->report(progress->context, fraction);
 }
 
+#define RAY_COUNTS(X)                                                                                        \
+    X("primary", "primary", s->primary)                                                                      \
+    X("reflected", "reflected", s->reflected)                                                                \
+    X("refracted", "refracted", s->refracted)                                                                \
+    X("shadow", "shadow", s->shadow)                                                                         \
+    X("total reflections", "total_reflections", s->total_reflections)                                        \
+    X("unseen crossings", "unseen_crossings", s->unseen)                                                     \
+    X("cut by depth", "cut_by_depth", s->cut_by_depth)                                                       \
+    X("cut by weight", "cut_by_weight", s->cut_by_weight)                                                    \
+    X("cut by segments", "cut_by_segments", s->cut_by_segments)                                              \
+    X("deepest level", "deepest", s->deepest)
+
 static void text_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
     const struct reference_settings *settings = &exact->settings;
     strbuf_format(
         out, "device: reference, double precision%s\npicture: %u x %u, %u sample%s, computed in %.3f s\n",
         exact->source.found ? ", from its cache" : "", settings->width, settings->height, settings->samples,
         settings->samples == 1 ? "" : "s", s->seconds);
-    const struct {
-        const char *name;
-        uint64_t value;
-    } counts[] = {{"primary", s->primary},
-                  {"reflected", s->reflected},
-                  {"refracted", s->refracted},
-                  {"shadow", s->shadow},
-                  {"total reflections", s->total_reflections},
-                  {"cut by depth", s->cut_by_depth},
-                  {"cut by weight", s->cut_by_weight},
-                  {"cut by segments", s->cut_by_segments},
-                  {"deepest level", s->deepest}};
     strbuf_cstr(out, "rays\n");
-    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
-        strbuf_format(out, "  %-18s %12llu\n", counts[i].name, (unsigned long long)counts[i].value);
+#define WORDS(words, name, value) strbuf_format(out, "  %-18s %12llu\n", words, (unsigned long long)(value));
+    RAY_COUNTS(WORDS)
+#undef WORDS
     strbuf_format(
         out,
         "weight of the rays not followed\n  worst pixel        %12.3g\n  mean               %12.3g\n"
@@ -54,15 +55,9 @@ static void json_of(const struct exact *exact, const struct reference_statistics
     json_write_integer(&w, "samples", settings->samples);
     json_write_real(&w, "seconds", s->seconds);
     json_open_object(&w, "rays");
-    json_write_integer(&w, "primary", s->primary);
-    json_write_integer(&w, "reflected", s->reflected);
-    json_write_integer(&w, "refracted", s->refracted);
-    json_write_integer(&w, "shadow", s->shadow);
-    json_write_integer(&w, "total_reflections", s->total_reflections);
-    json_write_integer(&w, "cut_by_depth", s->cut_by_depth);
-    json_write_integer(&w, "cut_by_weight", s->cut_by_weight);
-    json_write_integer(&w, "cut_by_segments", s->cut_by_segments);
-    json_write_integer(&w, "deepest", s->deepest);
+#define JSON(words, name, value) json_write_integer(&w, name, value);
+    RAY_COUNTS(JSON)
+#undef JSON
     json_close_object(&w);
     json_open_object(&w, "left");
     json_write_real(&w, "worst_pixel", s->left_weight_most);

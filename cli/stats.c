@@ -86,6 +86,7 @@ void stats_text(const struct stats *s, struct strbuf *out) {
     count(out, "refracted", r->refracted);
     count(out, "shadow", r->shadow);
     count(out, "total reflection", r->total_reflections);
+    count(out, "unseen crossings", r->unseen);
     strbuf_format(out, "  deepest level    %10u\n", r->deepest);
     count(out, "nodes tested", r->nodes);
     count(out, "items tested", r->items);
@@ -136,6 +137,7 @@ static void put_rays(struct json_writer *w, const struct render_rays *r) {
     json_write_integer(w, "refracted", r->refracted);
     json_write_integer(w, "shadow", r->shadow);
     json_write_integer(w, "total_reflections", r->total_reflections);
+    json_write_integer(w, "unseen_crossings", r->unseen);
     json_write_integer(w, "deepest", r->deepest);
     json_write_integer(w, "nodes_tested", r->nodes);
     json_write_integer(w, "items_tested", r->items);

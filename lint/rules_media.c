@@ -43,9 +43,9 @@ struct overlap {
 
 struct media {
     struct lint *lint;
-    uint64_t work_left; // faces
-    uint32_t *around;   // by body: how many others it is inside of
-    int32_t priority;   // the highest one so far, with those that were advised
+    uint64_t work_left;      // faces
+    uint32_t *around;        // by body: how many others it is inside of
+    int32_t highest, lowest; // priorities so far, with those that were advised
     struct {
         struct overlap *items;
         uint32_t count, capacity;
@@ -335,15 +335,32 @@ static void fix_row(struct lint *lint, const struct ir_material *material, const
         diag_fix(lint->sink, false, end, arena_format(lint->arena, ", %s: %s", row, value));
 }
 
-// Above all others, so that what follows one piece of advice does not need another.
-static void advise_priority(struct media *media, const struct lint_body *body) {
+static double volume_of(const struct lint_body *body) {
+    const double r = body->is->radius;
+    if (body->is->shape == SCENE_SPHERE)
+        return 4.0 / 3 * 3.14159265358979323846 * r * r * r;
+    return fabs(body->mesh->mesh->volume * mat3_determinant(body->is->object_to_world.linear));
+}
+
+// What a drink is to its glass, and to the ice in it: larger than what it gives way to.
+static bool gives_way(const struct media *media, const struct overlap *first, uint32_t count) {
+    bool all = media->around[first->body - media->lint->bodies] == 0;
+    for (uint32_t i = 0; i < count && all; i++)
+        all = volume_of(first->body) > volume_of(first[i].other);
+    return all;
+}
+
+// Above or below all others, so that what follows one piece of advice does not need another.
+static void advise_priority(struct media *media, const struct overlap *first, uint32_t count) {
     struct lint *lint = media->lint;
-    media->priority += media->priority < SCENE_PRIORITY_MAX;
-    diag_help(lint->sink,
-              "give the material of the one that fills that place a higher one, such as priority: %d",
-              media->priority);
-    fix_row(lint, filling_in_file(lint, body), "priority",
-            arena_format(lint->arena, "%d", media->priority).ptr);
+    const bool lower = gives_way(media, first, count);
+    media->highest += !lower && media->highest < SCENE_PRIORITY_MAX;
+    media->lowest -= lower && media->lowest > -SCENE_PRIORITY_MAX;
+    const int32_t priority = lower ? media->lowest : media->highest;
+    diag_help(lint->sink, "give the material of the one that %s a %s one, such as priority: %d",
+              lower ? "gives way there" : "fills that place", lower ? "lower" : "higher", priority);
+    fix_row(lint, filling_in_file(lint, first->body), "priority",
+            arena_format(lint->arena, "%d", priority).ptr);
 }
 
 static void report_equal(struct media *media, const struct overlap *first, uint32_t count) {
@@ -368,7 +385,7 @@ static void report_equal(struct media *media, const struct overlap *first, uint3
                   STR_ARG(lint_words_other(lint, first[i].other)));
     if (count > NOTED)
         diag_note(lint->sink, SPAN_NONE, "and %u more", count - NOTED);
-    advise_priority(media, body);
+    advise_priority(media, first, count);
 }
 
 static void report_hidden(struct lint *lint, const struct overlap *found) {
@@ -413,6 +430,21 @@ static void report_nested(struct lint *lint, const struct media *media) {
     }
 }
 
+// The same of cameras, where the bodies around one need not be inside each other.
+static void report_crowded(struct lint *lint) {
+    for (uint32_t i = 0; i < lint->ir->cameras.count; i++) {
+        const struct ir_camera *camera = &lint->ir->cameras.items[i];
+        const uint32_t crowd = scene_media_crowd(lint->scene, lint->views[i].camera.position);
+        if (!crowd)
+            continue;
+        diag_add(lint->sink, DIAG_LIMIT,
+                 ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position"),
+                 "the camera is inside %u bodies that refract; at most %d may surround a ray", crowd,
+                 SCENE_MEDIA_MOST);
+        diag_help(lint->sink, "move the camera, or join bodies of one material into one mesh");
+    }
+}
+
 static void report(struct media *media, const struct overlap *first, uint32_t count) {
     struct lint *lint = media->lint;
     switch (first->finding) {
@@ -437,13 +469,14 @@ void lint_media(struct lint *lint) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < lint->body_count; i++)
         if (is_medium(lint, &lint->bodies[i])) {
-            media.priority = filling(lint, &lint->bodies[i])->priority > media.priority
-                                 ? filling(lint, &lint->bodies[i])->priority
-                                 : media.priority;
+            const int32_t priority = filling(lint, &lint->bodies[i])->priority;
+            media.highest = priority > media.highest ? priority : media.highest;
+            media.lowest = priority < media.lowest ? priority : media.lowest;
             items[count++] = (struct lint_box_item){lint->bodies[i].box, &lint->bodies[i]};
         }
     lint_body_pairs(lint->arena, items, count, take_pair, &media);
     report_nested(lint, &media);
+    report_crowded(lint);
     if (media.found.count == 0)
         return;
     qsort(media.found.items, media.found.count, sizeof *media.found.items, compare_overlaps);

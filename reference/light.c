@@ -56,20 +56,22 @@ static struct ray ray_to(const struct reference *r, const struct view_light *lig
 // What bodies that refract let through to the light: a product of what each does, in the order in which the
 // ray meets them. 0: something opaque is between.
 static vec3 shining(const struct reference *r, const struct view_light *light, struct start start,
-                    struct inside inside, uint32_t *rays) {
+                    struct inside inside, struct lighting *out) {
     vec3 left = {1, 1, 1};
     while (vec3_max_abs(left) > 0) {
         const struct ray ray = ray_to(r, light, start);
         const double length = vec3_length(ray.direction);
         struct intersection hit;
         struct surface s;
-        ++*rays;
+        out->shadow_rays++;
         reference_intersect(r, &ray, &hit);
         if (hit.primitive == NO_PRIMITIVE)
             return light->directional ? left : scaled(left, reference_left(r, &inside, length));
         reference_surface(r, &ray, &hit, &s);
         reference_cross(r, &inside, &s);
         left = scaled(left, reference_left(r, &inside, s.distance * length));
+        out->shadow_rays -= s.passes; // it is the same ray that goes on
+        out->unseen += s.passes;
         if (!s.passes)
             left = vec3_mul(left, reference_shine(&s, vec3_mul(ray.direction, 1 / length)));
         inside = s.after;
@@ -80,12 +82,12 @@ static vec3 shining(const struct reference *r, const struct view_light *light, s
 
 // The share of the light that comes to the surface.
 static vec3 arriving(const struct reference *r, const struct view_light *light, struct start start,
-                     const struct inside *inside, uint32_t *rays) {
+                     const struct inside *inside, struct lighting *out) {
     const struct ir_trace *trace = &r->input.scene->ir->trace;
     if (trace->shadows && trace->transparent_shadows)
-        return shining(r, light, start, *inside, rays);
+        return shining(r, light, start, *inside, out);
     const struct ray ray = ray_to(r, light, start);
-    *rays += trace->shadows;
+    out->shadow_rays += trace->shadows;
     return trace->shadows && reference_blocks(r, &ray) ? (vec3){0, 0, 0} : (vec3){1, 1, 1};
 }
 
@@ -101,7 +103,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
             continue;
         uint32_t bit = i < 32 ? UINT32_C(1) << i : 0;
         out->considered |= bit;
-        const vec3 share = arriving(r, light, start, inside, &out->shadow_rays);
+        const vec3 share = arriving(r, light, start, inside, out);
         if (!(vec3_max_abs(share) > 0))
             continue;
         out->lit |= bit;

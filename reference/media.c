@@ -1,5 +1,8 @@
 // Which media a ray is inside (docs/language.md, "Media").
+#include "core/heap.h"
 #include "reference/parts.h"
+
+#include <stdlib.h>
 
 enum {
     CROSSINGS_MOST = 1000000 // on the way to the camera
@@ -97,8 +100,28 @@ vec3 reference_left(const struct reference *r, const struct inside *inside, doub
 
 // ---- the camera
 
+// The media that a ray is inside on its way to the camera may be more than a path has room for.
+struct approach {
+    uint32_t *bodies; // room for all; those entered first in front
+    uint32_t count;
+};
+
+// Any face of a medium counts, also one that lets nothing through. Of a sphere the side is certain.
+static void cross_on_the_way(const struct reference *r, struct approach *on, const struct surface *s) {
+    if (!r->bodies[s->body].is_medium)
+        return;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < on->count; i++)
+        if (on->bodies[i] != s->body)
+            on->bodies[kept++] = on->bodies[i];
+    const bool leaves = r->primitives[s->primitive].is_sphere ? !s->enters : kept < on->count;
+    if (!leaves)
+        on->bodies[kept++] = s->body;
+    on->count = kept;
+}
+
 // A ray comes from above all bodies to the camera, and is inside what it entered and did not leave.
-static void look_from_above(struct reference *r) {
+static void look_from_above(const struct reference *r, struct approach *on) {
     const vec3 up = scene_inside_direction();
     const double height = r->primitive_count ? r->nodes[0].upper[1] : 0;
     if (!(height > 0))
@@ -112,10 +135,21 @@ static void look_from_above(struct reference *r) {
         if (hit.primitive == NO_PRIMITIVE)
             return;
         reference_surface(r, &ray, &hit, &s);
-        reference_cross(r, &r->around_camera, &s);
-        r->around_camera = s.after;
+        cross_on_the_way(r, on, &s);
         start = reference_leave(r, &s, vec3_neg(s.geometric));
     }
+}
+
+// false: no memory. Of too many the outermost ones count; who opened the scene has said so.
+static bool find_around_camera(struct reference *r) {
+    struct approach on = {heap_alloc(((size_t)r->input.scene->body_count + 1) * sizeof *on.bodies), 0};
+    if (!on.bodies)
+        return false;
+    look_from_above(r, &on);
+    for (uint32_t i = 0; i < on.count; i++)
+        enter(&r->around_camera, on.bodies[i]);
+    free(on.bodies);
+    return true;
 }
 
 bool reference_make_media(struct reference *r) {
@@ -123,7 +157,5 @@ bool reference_make_media(struct reference *r) {
     if (!scene_media_need(r->input.scene, &reason))
         return false;
     r->media = reason.need != SCENE_MEDIA_APART;
-    if (r->media)
-        look_from_above(r);
-    return true;
+    return !r->media || find_around_camera(r);
 }

@@ -210,8 +210,8 @@ vec3 reference_background(const struct reference *r, vec3 direction);
 
 struct lighting {
     vec3 sum;
-    uint32_t considered, lit; // bits of lights 0..31
-    uint32_t shadow_rays;
+    uint32_t considered, lit;     // bits of lights 0..31
+    uint32_t shadow_rays, unseen; // the latter on their way
 };
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
                      const struct inside *inside, struct lighting *out);
@@ -247,7 +247,7 @@ void reference_queue_finish(struct queue *queue);
 struct sample {
     vec3 radiance;
     uint64_t rays[3]; // by kind
-    uint64_t shadow, total_reflections, cut_by_depth, cut_by_weight, cut_by_segments;
+    uint64_t shadow, unseen, total_reflections, cut_by_depth, cut_by_weight, cut_by_segments;
     uint32_t deepest;
     double left_weight, brightest;
     bool over_segments;

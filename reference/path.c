@@ -167,6 +167,8 @@ static void pass(struct following *f, struct branch *b, const struct surface *s,
     b->start = reference_leave(f->r, s, vec3_neg(s->geometric));
     b->inside = s->after;
     b->parent = segment;
+    f->sample->rays[b->kind]--; // which goes on, and counts there
+    f->sample->unseen++;
     push(f->queue, b);
 }
 
@@ -175,6 +177,7 @@ static void show_surface(struct following *f, const struct branch *b, const stru
     struct lighting lighting;
     reference_light(f->r, s, b->direction, &b->inside, &lighting);
     f->sample->shadow += lighting.shadow_rays;
+    f->sample->unseen += lighting.unseen;
     see(f, lighting.sum);
     add(f, lighting.sum, b);
     log_surface(f, segment, s, &lighting);
@@ -222,7 +225,7 @@ static void follow_ray(struct following *f, struct branch *b) {
 }
 
 static uint64_t rays_of(const struct sample *s) {
-    return s->rays[0] + s->rays[1] + s->rays[2] + s->shadow;
+    return s->rays[0] + s->rays[1] + s->rays[2] + s->shadow + s->unseen;
 }
 
 void reference_follow(const struct reference *r, const struct reference_settings *settings,

@@ -197,6 +197,7 @@ static void add_sample(struct tile_sum *t, const struct sample *s) {
         t->sum.rays[k] += s->rays[k];
     t->sum.shadow += s->shadow;
     t->sum.total_reflections += s->total_reflections;
+    t->sum.unseen += s->unseen;
     t->sum.cut_by_depth += s->cut_by_depth;
     t->sum.cut_by_weight += s->cut_by_weight;
     t->sum.cut_by_segments += s->cut_by_segments;
@@ -353,6 +354,7 @@ static struct reference_statistics join_tiles(const struct work *w, size_t count
                                          .refracted = s->rays[REFERENCE_REFRACTED],
                                          .shadow = s->shadow,
                                          .total_reflections = s->total_reflections,
+                                         .unseen = s->unseen,
                                          .cut_by_depth = s->cut_by_depth,
                                          .cut_by_weight = s->cut_by_weight,
                                          .cut_by_segments = s->cut_by_segments,

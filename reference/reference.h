@@ -18,7 +18,7 @@
 struct ir_image;
 
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
-#define REFERENCE_VERSION 5
+#define REFERENCE_VERSION 6
 
 // How far paths are followed where the file's own limits do not apply.
 #define REFERENCE_MIN_WEIGHT 1e-6
@@ -77,6 +77,7 @@ struct reference_fault {
 struct reference_statistics {
     uint64_t primary, reflected, refracted, shadow; // rays traced
     uint64_t total_reflections;
+    uint64_t unseen; // crossings between equal media, behind which the same ray goes on
     uint64_t cut_by_depth, cut_by_weight, cut_by_segments; // rays not followed
     uint32_t deepest;
     // Weight of the rays not followed, summed over a pixel and divided by its samples: of the worst pixel,

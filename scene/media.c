@@ -286,15 +286,31 @@ static void put(struct scene_inside *out, double ways[SCENE_MEDIA_MOST], uint32_
     out->bodies[at] = body;
 }
 
+static bool may_hold(const struct scene *scene, const struct scene_body *body, vec3 point) {
+    return is_in_box(body, point) && scene_is_medium(scene, body);
+}
+
+static bool holds(const struct scene_body *body, vec3 point, double *way) {
+    return body->shape == SCENE_SPHERE ? is_in_sphere(body, point, way) : is_in_mesh(body, point, way);
+}
+
 void scene_media_at(const struct scene *scene, vec3 point, struct scene_inside *out) {
     double ways[SCENE_MEDIA_MOST];
     *out = (struct scene_inside){.count = 0};
     for (uint32_t i = 0; i < scene->body_count; i++) {
-        const struct scene_body *body = &scene->bodies[i];
         double way;
-        if (!is_in_box(body, point) || !scene_is_medium(scene, body))
-            continue;
-        if (body->shape == SCENE_SPHERE ? is_in_sphere(body, point, &way) : is_in_mesh(body, point, &way))
+        if (may_hold(scene, &scene->bodies[i], point) && holds(&scene->bodies[i], point, &way))
             put(out, ways, i, way);
     }
+}
+
+uint32_t scene_media_crowd(const struct scene *scene, vec3 point) {
+    uint32_t boxes = 0, count = 0;
+    for (uint32_t i = 0; i < scene->body_count; i++)
+        boxes += may_hold(scene, &scene->bodies[i], point);
+    for (uint32_t i = 0; boxes > SCENE_MEDIA_MOST && i < scene->body_count; i++) {
+        double way;
+        count += may_hold(scene, &scene->bodies[i], point) && holds(&scene->bodies[i], point, &way);
+    }
+    return count > SCENE_MEDIA_MOST ? count : 0;
 }

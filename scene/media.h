@@ -45,5 +45,7 @@ bool scene_media_need(const struct scene *scene, struct scene_media_reason *out)
 
 // What surrounds the point.
 void scene_media_at(const struct scene *scene, vec3 point, struct scene_inside *out);
+// How many media surround the point if they are more than a ray can be inside; else 0.
+uint32_t scene_media_crowd(const struct scene *scene, vec3 point);
 
 #endif

@@ -143,11 +143,12 @@
 #define COUNTER_TOTAL_REFLECT 5  /* total reflections */
 #define COUNTER_NODES         6  /* nodes of both trees tested */
 #define COUNTER_ITEMS         7  /* triangles and spheres tested */
-#define COUNTER_SUMS          8  /* those before are sums, those from here on largest values */
-#define COUNTER_DEEPEST       8  /* deepest level of a ray that was traced */
-#define COUNTER_LOST_DEPTH    9  /* largest weight cut at max_depth, as bits of a float */
-#define COUNTER_LOST_WEIGHT   10 /* largest weight cut below min_weight, as bits of a float */
-#define COUNTER_KINDS         11
+#define COUNTER_UNSEEN        8  /* crossings between equal media */
+#define COUNTER_SUMS          9  /* those before are sums, those from here on largest values */
+#define COUNTER_DEEPEST       9  /* deepest level of a ray that was traced */
+#define COUNTER_LOST_DEPTH    10 /* largest weight cut at max_depth, as bits of a float */
+#define COUNTER_LOST_WEIGHT   11 /* largest weight cut below min_weight, as bits of a float */
+#define COUNTER_KINDS         12
 
 /* lavapipe stops all loops of a vector of 8 invocations, silently, after 65535 iterations in sum over the
    8: an invocation ends its slice before its share of 8191. */

@@ -98,6 +98,12 @@ void cross_surface(inout media_set before, hit_record hit, inout surface s) {
         cross_media(before, hit, s);
 }
 
+// A ray that goes on behind a surface that nobody sees is still the same ray.
+void count_unseen(surface s) {
+    if (HAS_COUNTERS && HAS_MEDIA)
+        counted_unseen += s.passes ? 1u : 0u;
+}
+
 // exp(-x) for x >= 0: the series of what is left below a power of two, relative error 1e-7. Vulkan's own may differ from
 // device to device.
 float fading(float x) {
@@ -170,6 +176,7 @@ bool shine_on(inout shining way, hit_record hit, light_ray ray) {
     surface s;
     make_surface(hit, way.start.at, ray.direction, s);
     cross_surface(way.inside, hit, s);
+    count_unseen(s);
     float share = shine_share(s, ray.direction * (1.0 / size));
     way.left *= HAS_MEDIA && s.passes ? 1.0 : share;
     if (HAS_MEDIA)

@@ -42,7 +42,7 @@ const bool HAS_CLEAR_SHADOWS = (FEATURES & FEATURE_CLEAR_SHADOWS) != 0u;
 const bool HAS_SIDES = HAS_MEDIA || HAS_FRESNEL; // surfaces know the indices on both sides
 const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 // Of this invocation, with HAS_COUNTERS.
-uint counted_nodes = 0u, counted_items = 0u;
+uint counted_nodes = 0u, counted_items = 0u, counted_unseen = 0u;
 
 #ifdef FETCH_TEXELS
 #define WORDS(number, name) layout(set = 0, binding = number) uniform usamplerBuffer name;

@@ -74,6 +74,7 @@ void add_counts(uint group) {
     add_count(bank + COUNTER_CUT_WEIGHT, counted.cut_by_weight);
     add_count(bank + COUNTER_NODES, counted_nodes);
     add_count(bank + COUNTER_ITEMS, counted_items);
+    add_count(bank + COUNTER_UNSEEN, counted_unseen);
     raise_count(bank + COUNTER_DEEPEST, counted.deepest);
     raise_count(bank + COUNTER_LOST_DEPTH, floatBitsToUint(counted.lost_by_depth));
     raise_count(bank + COUNTER_LOST_WEIGHT, floatBitsToUint(counted.lost_by_weight));
@@ -311,6 +312,7 @@ uint come_to_surface(inout path_state p, bool arrives, inout surface s) {
     REAL way = p.hit.t;
     if (HAS_MEDIA || HAS_FRESNEL)
         cross_surface(p.inside, p.hit, s);
+    count_unseen(s);
     if (HAS_ATTENUATION && arrives && wants(FEATURE_ATTENUATION))
         p.tint *= media_left(p.inside, way);
     if (HAS_MEDIA && s.is_over) {
@@ -350,10 +352,12 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
     uint state = GOES_ON;
     if (wanted)
         state = after_ray(p, iterations, fresh, fault);
-    if (wanted && state == GOES_ON)
-        count_ray(p, phase == PHASE_RAY);
+    bool counts = wanted && state == GOES_ON;
+    uint unseen = counted_unseen;
     if (state == GOES_ON)
         state = arrive(p, phase, hit, shadow, s, start);
+    if (counts && counted_unseen == unseen)
+        count_ray(p, phase == PHASE_RAY);
     bool passes = HAS_MEDIA && state == GOES_ON && s.passes && phase != PHASE_SHADOW;
     if (passes) {
         pass_surface(p, s);

@@ -370,7 +370,10 @@ static void check_fresnel(struct analytic *a) {
                                "scale: [9, 9, 1], rotation: [-90, 0, 0], translation: [0, 1.5, 0]}\n";
     const struct boundary boundary = {1, 1.5, 0.5, 0.75, true, false, false};
     check_fresnel_at(a, ALL_ANGLES);
-    check_boundary(a, "into glass", slab, boundary, 0);
+    check_fresnel_at(a, 0);
+    check_fresnel_at(a, atan(1 / 1.5));    // Brewster's angle out of glass
+    check_fresnel_at(a, atan(1.5 / 1.33)); // from water into glass
+    check_fresnel_at(a, 88 * PI / 180);    // grazing, beyond the critical angle out of glass
     check_boundary(a, "into glass, Brewster's angle", slab, boundary, atan(1.5));
     check_boundary(a, "into glass, grazing", slab, boundary, 89.5 * PI / 180);
 }

@@ -1,12 +1,14 @@
 #!/bin/sh
 # The pictures of the documentation are what glint makes of their scenes now. Usage:
-# run_pictures.sh check|update GLINT SOURCE_FOLDER WORK_FOLDER
+# run_pictures.sh check|update GLINT SOURCE_FOLDER WORK_FOLDER ALONE
 #
-# docs/pictures/NAME.png is NAME.glint.yaml of scenes/tutorial or scenes/language. Few pixels may
+# docs/pictures/NAME.png is NAME.glint.yaml of scenes/tutorial or scenes/language; NAME-alone.png what tests/pictures/alone
+# makes of it. Few pixels may
 # be off by much, and all of them together by little: drivers for other processors round otherwise.
 mode=$1
 shift
 . "$(dirname -- "$0")/../cli/lib.sh"
+alone=$4
 largest=30000 # bytes of a file
 
 # The steps of the tutorial are as large as each other; the other scenes say themselves how large they are.
@@ -21,18 +23,25 @@ compare() {
     "$glint" compare "$1" "$2" --max-share 0.005 --max-mae 0.0004 >compared.txt
 }
 
-for scene in "$source"/scenes/tutorial/*.glint.yaml "$source"/scenes/language/*.glint.yaml; do
-    stem=$(basename "$scene" .glint.yaml)
+kept() { # STEM COMMAND...: the command makes the picture in the file that is its last argument
+    stem=$1
+    shift
     kept=$source/docs/pictures/$stem.png
     now=$stem.png
     [ "$mode" = check ] || now=$kept
-    ok "$stem: rendered" render "$scene" "$now"
+    ok "$stem: rendered" "$@" "$now"
     ok "$stem: as kept" compare "$now" "$kept"
     [ "$(wc -c <"$kept")" -le $largest ] || fail "$stem: more than $largest bytes"
     grep -qF "pictures/$stem.png" "$source"/docs/*.md || fail "$stem: no page shows it"
+}
+
+for scene in "$source"/scenes/tutorial/*.glint.yaml "$source"/scenes/language/*.glint.yaml; do
+    kept "$(basename "$scene" .glint.yaml)" render "$scene"
 done
+kept nested-alone "$alone" "$source/scenes/language/nested.glint.yaml"
 for kept in "$source"/docs/pictures/*.png; do
     stem=$(basename "$kept" .png)
+    stem=${stem%-alone}
     [ -f "$source/scenes/tutorial/$stem.glint.yaml" ] || [ -f "$source/scenes/language/$stem.glint.yaml" ] || fail "$kept: has no scene"
 done
 # The tolerance can fail: a lamp that is a little brighter.

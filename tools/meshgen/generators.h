@@ -25,9 +25,12 @@ void word_generate(struct mesh *mesh);
 void vase_generate(struct mesh *mesh);
 
 // A drinking glass, 1 high, with a thick bottom, standing on y = 0; what is in it, whose wall lies in the
-// middle of the glass's own; and a cube of ice around the origin. The first two have 48 sides and no normals.
+// middle of the glass's own; the same of a low, heavy glass, 0.9 high; and a cube of ice around the origin.
+// The glasses have 48 and 64 sides and no normals.
 void tumbler_generate(struct mesh *mesh);
 void drink_generate(struct mesh *mesh);
+void rocks_generate(struct mesh *mesh);
+void whisky_generate(struct mesh *mesh);
 void ice_generate(struct mesh *mesh);
 
 // Equirectangular sky, mountains and lake: width * height RGB bytes (sRGB), width twice the height.

@@ -49,6 +49,8 @@ static const struct product PRODUCTS[] = {
     {"vase", "a vase", vase_generate, NULL, NULL},
     {"tumbler", "a drinking glass", tumbler_generate, NULL, NULL},
     {"drink", "what is in the drinking glass", drink_generate, NULL, NULL},
+    {"rocks", "a low, heavy glass", rocks_generate, NULL, NULL},
+    {"whisky", "what is in the low glass", whisky_generate, NULL, NULL},
     {"ice", "a cube of ice", ice_generate, NULL, NULL},
     {"word", "the word glint", word_generate, NULL, NULL},
     {"sky", "sky, mountains and lake", NULL, write_sky, NULL},

@@ -21,6 +21,20 @@ static const struct point DRINK[] = {
     {0.388, 0.705}, {0.150, 0.705}, {0.000, 0.705},
 };
 
+// A low, heavy glass, and what is in it: in the same way.
+static const struct point ROCKS[] = {
+    {0.000, 0.018}, {0.150, 0.014}, {0.300, 0.000}, {0.395, 0.000}, {0.418, 0.006}, {0.432, 0.020},
+    {0.438, 0.045}, {0.442, 0.120}, {0.447, 0.240}, {0.452, 0.400}, {0.458, 0.560}, {0.464, 0.720},
+    {0.470, 0.880}, {0.470, 0.890}, {0.466, 0.898}, {0.459, 0.901}, {0.452, 0.898}, {0.448, 0.890},
+    {0.448, 0.880}, {0.441, 0.720}, {0.434, 0.560}, {0.427, 0.400}, {0.419, 0.280}, {0.412, 0.240},
+    {0.396, 0.205}, {0.365, 0.180}, {0.310, 0.165}, {0.150, 0.155}, {0.000, 0.153},
+};
+static const struct point WHISKY[] = {
+    {0.000, 0.110}, {0.150, 0.110}, {0.330, 0.118}, {0.390, 0.140},  {0.419, 0.180},
+    {0.429, 0.240}, {0.433, 0.280}, {0.440, 0.400}, {0.4455, 0.536}, {0.4455, 0.540},
+    {0.441, 0.542}, {0.150, 0.542}, {0.000, 0.542},
+};
+
 // A ring for each point, but one vertex on the axis.
 static void lathe(struct mesh *mesh, const struct point *profile, int count, int sides) {
     const double turn = 2 * 3.14159265358979323846 / sides;
@@ -52,6 +66,14 @@ void tumbler_generate(struct mesh *mesh) {
 
 void drink_generate(struct mesh *mesh) {
     lathe(mesh, DRINK, sizeof DRINK / sizeof *DRINK, 48);
+}
+
+void rocks_generate(struct mesh *mesh) {
+    lathe(mesh, ROCKS, sizeof ROCKS / sizeof *ROCKS, 64);
+}
+
+void whisky_generate(struct mesh *mesh) {
+    lathe(mesh, WHISKY, sizeof WHISKY / sizeof *WHISKY, 64);
 }
 
 // ---- ice: a cube whose edges and corners are cut off

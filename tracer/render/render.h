@@ -84,6 +84,7 @@ struct render_rays {
     uint64_t primary, reflected, refracted, shadow;
     uint64_t cut_by_depth, cut_by_weight; // not sent
     uint64_t total_reflections;
+    uint64_t unseen;       // crossings between equal media, behind which the same ray goes on
     uint64_t nodes, items; // of the trees that were tested; items are triangles and spheres
     uint32_t deepest;      // level of a ray that was traced; the camera's is 0
     double lost_by_depth;  // largest weight of a ray cut at max_depth

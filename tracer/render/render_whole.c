@@ -25,6 +25,7 @@ static struct render_rays rays_of(const struct renderer_frame *run) {
                                 .total_reflections = counts[COUNTER_TOTAL_REFLECT],
                                 .nodes = counts[COUNTER_NODES],
                                 .items = counts[COUNTER_ITEMS],
+                                .unseen = counts[COUNTER_UNSEEN],
                                 .deepest = (uint32_t)counts[COUNTER_DEEPEST],
                                 .lost_by_depth = renderer_float((uint32_t)counts[COUNTER_LOST_DEPTH]),
                                 .lost_by_weight = renderer_float((uint32_t)counts[COUNTER_LOST_WEIGHT])};

@@ -56,7 +56,7 @@ static void weights_follow_from_illum_and_transparency(void **state) {
         {"", {1, 0, 0, 0}},
         {"Ks 0 0 0\nillum 3", {1, 0, 0, 0}},
         {"Ks 0 .5 .25\nillum 3", {1, 1, .5, 0}},
-        {"Ks .5\nillum 7\nd 0", {0, 1, .5, 1}},
+        {"Ks .5\nillum 7\nd 0\nNi 1.5", {0, 1, .5, 1}},
         {"Ks .5 .5 .5\nillum 8", {1, 1, 0, 0}},
         {"Ks .5 .5 .5\nillum 2", {1, 1, 0, 0}},
         {"Tr 0.75", {.25, 0, 0, .75}},
@@ -71,6 +71,52 @@ static void weights_follow_from_illum_and_transparency(void **state) {
         bool disagree = strstr(cases[i].lines, "Tr 0.75") && strstr(cases[i].lines, "d 0.5");
         assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), disagree);
         assert_int_equal(s->sink.count, assets_scene_count(s, DIAG_OPEN_DIELECTRIC) + disagree);
+        assets_scene_end(s);
+    }
+}
+
+static void fresnel_follows_from_illum_and_the_index(void **state) {
+    (void)state;
+    static const struct {
+        const char *lines;
+        bool fresnel, told;
+    } cases[] = {
+        {"Ks 1\nillum 5\nNi 1.5", true, false},  {"illum 7\nNi 1.5\nd 0", true, false},
+        {"Ks 1\nillum 3\nNi 1.5", false, false}, {"illum 6\nNi 1.5\nd 0", false, false},
+        {"illum 7\nd 0", false, true},           {"Ks 1\nillum 5\nNi 1", false, true},
+        {"illum 5\nNi 1.5", false, false}, // nothing to mirror
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct assets_scene *s = assets_scene_begin();
+        assert_int_equal(from_mtl(s, cases[i].lines)->fresnel, cases[i].fresnel);
+        assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), cases[i].told);
+        assets_scene_end(s);
+    }
+}
+
+static void what_illum_and_filters_cannot_do_is_told(void **state) {
+    (void)state;
+    static const struct {
+        const char *lines, *told; // NULL: nothing
+    } cases[] = {
+        {"Tf .5 .9 1\nd 0\nNi 1.5", "own.mtl:2:1: warning: 'Tf' has no effect: light takes its colour on its "
+                                    "way inside, and not at surfaces [W605]"},
+        {"illum 4\nTf .5\nNi 1", "own.mtl:3:1: warning: 'Tf' has no effect: 'd' and 'Tr' say how much light "
+                                 "is let through, and neither lets any [W605]"},
+        {"Tf 1\nillum 4\nNi 1", NULL}, // as Maya writes what is opaque
+        {"illum 4\nNi 1.5", "own.mtl:2:1: warning: 'illum 4' has no effect: 'd' and 'Tr' say how much"},
+        {"illum 4\nNi 1.5\nd 1", NULL},
+        {"illum 1\nKs .5", "own.mtl:2:1: warning: 'illum 1' has no effect: 'Ks' gives a highlight [W605]"},
+        {"illum 1\nKs 0", NULL},
+        {"illum 0", "own.mtl:2:1: warning: 'illum 0' has no effect: all surfaces are shaded [W605]"},
+        {"illum 10", "own.mtl:2:1: warning: 'illum 10' has no effect: all surfaces are seen [W605]"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct assets_scene *s = assets_scene_begin();
+        from_mtl(s, cases[i].lines);
+        assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), cases[i].told != NULL);
+        if (cases[i].told)
+            assert_says(s, cases[i].told);
         assets_scene_end(s);
     }
 }
@@ -372,6 +418,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_value_has_its_place),
         cmocka_unit_test(weights_follow_from_illum_and_transparency),
+        cmocka_unit_test(fresnel_follows_from_illum_and_the_index),
+        cmocka_unit_test(what_illum_and_filters_cannot_do_is_told),
         cmocka_unit_test(what_is_not_written_has_the_default),
         cmocka_unit_test(each_kind_of_unused_line_is_a_warning),
         cmocka_unit_test(what_changes_nothing_is_not_told),
