@@ -113,6 +113,10 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     const struct assets_input *input = loader->input;
     struct asset_file file = {.input = input, .what = "mesh", .limit = LIMIT_MESH_BYTES, .named_at = at};
     struct file_read identity;
+    // Thousands of models may name one mesh: that its file is there was seen when the first of them did.
+    for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
+        if (known->file.named_at.source == at.source && str_equal(known->name, model->mesh))
+            return known;
     if (!asset_find(&file, asset_base(input, at), model->mesh, &identity, NULL))
         return NULL;
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
@@ -124,6 +128,7 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     }
     struct loaded_mesh *loaded = ARENA_NEW(input->arena, struct loaded_mesh);
     loaded->file = file;
+    loaded->name = model->mesh;
     loaded->canonical = arena_copy(input->arena, identity.path);
     loaded->next = loader->meshes;
     loader->meshes = loaded;

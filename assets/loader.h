@@ -13,6 +13,7 @@ struct meshes_ahead;
 // A mesh file that models of this scene name.
 struct loaded_mesh {
     struct asset_file file;
+    str name; // as the first model that names it does
     str canonical;
     const struct mesh *mesh; // NULL: it could not be loaded
     struct str_map groups;   // of the mesh: 1 + index; made when first needed

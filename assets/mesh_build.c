@@ -36,14 +36,18 @@ static void copy_names(const struct obj *obj, str path, struct mesh *mesh) {
 }
 
 // Positions that faces use, in file order. Returns the new index of each vertex.
-static uint32_t *keep_used_positions(const struct obj *obj, struct arena *scratch, struct mesh *mesh) {
+static uint32_t *keep_used_positions(struct obj *obj, struct arena *scratch, struct mesh *mesh) {
     uint32_t *place = ARENA_ARRAY(scratch, uint32_t, obj->vertices.count);
     for (uint32_t i = 0; i < obj->corners.count; i++)
         place[obj->corners.items[i].vertex] = 1;
     uint32_t count = 0;
     for (uint32_t i = 0; i < obj->vertices.count; i++)
         count += place[i];
-    mesh->positions = ARENA_ARRAY(&mesh->arena, vec3, count);
+    const bool all = count == obj->vertices.count && count == obj->vertices.capacity;
+    if (all && arena_hand_over(scratch, &mesh->arena, obj->vertices.items, count, sizeof(vec3)))
+        mesh->positions = obj->vertices.items;
+    else
+        mesh->positions = ARENA_ARRAY(&mesh->arena, vec3, count);
     for (uint32_t i = 0; i < obj->vertices.count; i++) {
         if (!place[i])
             continue;
@@ -67,9 +71,10 @@ struct face_buffer {
 };
 
 static void add_face(const struct obj *obj, const uint32_t *place, const struct obj_face *face,
-                     const uint32_t *cuts, uint32_t triangles, struct mesh *mesh) {
+                     const uint32_t *cuts, uint32_t triangles, const struct mesh *mesh,
+                     struct mesh_triangle *out) {
     for (uint32_t t = 0; t < triangles; t++) {
-        struct mesh_triangle *triangle = &mesh->triangles[mesh->triangle_count++];
+        struct mesh_triangle *triangle = &out[t];
         triangle->group = face->group;
         triangle->line = face->line;
         for (int k = 0; k < 3; k++) {
@@ -120,20 +125,47 @@ static void count_lost_normals(const struct obj *obj, const struct obj_face *fac
     }
 }
 
+static const uint32_t whole[3] = {0, 1, 2};
+
+struct taking {
+    const struct obj *obj;
+    const uint32_t *place;
+    const struct mesh *mesh;
+};
+
+static void take_faces(void *context, size_t begin, size_t end) {
+    const struct taking *t = context;
+    for (size_t i = begin; i < end; i++)
+        add_face(t->obj, t->place, &t->obj->faces.items[i], whole, 1, t->mesh, &t->mesh->triangles[i]);
+}
+
+// Whether every face is a triangle and no normal is lost: then faces do not depend on each other.
+static bool are_plain(const struct obj *obj, const struct mesh *mesh) {
+    bool are = obj->triangle_count == obj->faces.count;
+    for (uint32_t i = 0; are && i < mesh->normal_count; i++)
+        are = !vec3_is_zero(mesh->normals[i]);
+    return are;
+}
+
 static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena *scratch,
                       struct mesh *mesh) {
-    static const uint32_t whole[3] = {0, 1, 2};
     struct face_buffer buffer = {0};
     struct triangulator triangulator;
     triangulate_init(&triangulator, scratch);
     mesh->triangles = ARENA_ARRAY(&mesh->arena, struct mesh_triangle, (size_t)obj->triangle_count);
+    if (are_plain(obj, mesh)) {
+        struct taking taking = {obj, place, mesh};
+        mesh->triangle_count = obj->faces.count;
+        parallel_for(mesh->triangle_count, PIECE, take_faces, &taking);
+        return;
+    }
     for (uint32_t f = 0; f < obj->faces.count; f++) {
         const struct obj_face *face = &obj->faces.items[f];
         uint32_t end = f + 1 < obj->faces.count ? face[1].first : obj->corners.count;
         uint32_t n = end - face->first;
         count_lost_normals(obj, face, n, mesh);
         if (n == 3) {
-            add_face(obj, place, face, whole, 1, mesh);
+            add_face(obj, place, face, whole, 1, mesh, &mesh->triangles[mesh->triangle_count++]);
             continue;
         }
         if (n > buffer.capacity) {
@@ -145,7 +177,8 @@ static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena
             buffer.corners[i] = obj->vertices.items[obj->corners.items[face->first + i].vertex];
         measure_bend(mesh, buffer.corners, n, face->line);
         triangulate(&triangulator, buffer.corners, n, buffer.cuts);
-        add_face(obj, place, face, buffer.cuts, n - 2, mesh);
+        add_face(obj, place, face, buffer.cuts, n - 2, mesh, &mesh->triangles[mesh->triangle_count]);
+        mesh->triangle_count += n - 2;
     }
 }
 
@@ -173,14 +206,23 @@ static void measure(struct mesh *mesh) {
     mesh->zero_area = measuring.zero_area;
 }
 
-void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct mesh *mesh) {
+// Of what is not needed any more.
+static struct mesh_room room_of(struct obj *obj, struct arena *scratch) {
+    return (struct mesh_room){
+        {{(char *)obj->faces.items, obj->faces.capacity * sizeof *obj->faces.items},
+         {(char *)obj->corners.items, obj->corners.capacity * sizeof *obj->corners.items}},
+        scratch};
+}
+
+void mesh_build(struct obj *obj, str path, struct arena *scratch, struct mesh *mesh) {
     copy_names(obj, path, mesh);
     uint32_t *place = keep_used_positions(obj, scratch, mesh);
     keep_normals(obj, mesh);
     cut_faces(obj, place, scratch, mesh);
     measure(mesh);
-    mesh_merge_positions(mesh, scratch);
-    mesh_find_edges(mesh, scratch);
+    struct mesh_room room = room_of(obj, scratch);
+    mesh_merge_positions(mesh, &room);
+    mesh_find_edges(mesh, &room);
     mesh_turn_outward(mesh);
 }
 

@@ -11,14 +11,25 @@
 // memory and the scratch arena's together take no more than the cap, which is that of both.
 void mesh_read(struct asset_file *file, struct arena *scratch, struct mesh *mesh);
 // Fills a zeroed mesh whose arena is set up; everything that stays is there, `scratch` may be freed. Both
-// arenas must be guarded.
-void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct mesh *mesh);
+// arenas must be guarded. `obj` is used up: its vertices become the mesh's positions, if all of them are
+// used, and its corners and faces are overwritten.
+void mesh_build(struct obj *obj, str path, struct arena *scratch, struct mesh *mesh);
+
+// Memory for the steps after triangulation. What has been touched before is used first: a page that is new
+// costs more than what is done in it.
+struct mesh_room {
+    struct {
+        char *at;
+        size_t left;
+    } used[2];
+    struct arena *scratch;
+};
 
 // The steps after triangulation, in this order (mesh_topology.c).
 // mesh->merged, from the bits of the positions.
-void mesh_merge_positions(struct mesh *mesh, struct arena *scratch);
+void mesh_merge_positions(struct mesh *mesh, struct mesh_room *room);
 // closed, open_edges and open_line: over merged positions, every directed edge as often as its opposite.
-void mesh_find_edges(struct mesh *mesh, struct arena *scratch);
+void mesh_find_edges(struct mesh *mesh, struct mesh_room *room);
 // volume, and a closed mesh of negative volume turned.
 void mesh_turn_outward(struct mesh *mesh);
 

@@ -8,9 +8,28 @@
 
 enum {
     INSERTION_SORT_MAX = 24,
-    PIECE = 1 << 14,     // lower ends of edges, in parallel work
+    PIECE = 1 << 14, // lower ends of edges, in parallel work
+    ROOM_ALIGN = 16,
     EXPONENT_MAX = 1000, // of a power of two that is a double
 };
+
+// `count` items of `size` bytes, not cleared.
+static void *take(struct mesh_room *room, size_t count, size_t size) {
+    const size_t bytes = (count * size + ROOM_ALIGN - 1) / ROOM_ALIGN * ROOM_ALIGN;
+    for (int i = 0; i < 2; i++) {
+        if (room->used[i].left < bytes)
+            continue;
+        void *taken = room->used[i].at;
+        room->used[i].at += bytes;
+        room->used[i].left -= bytes;
+        return taken;
+    }
+    return arena_alloc_array(room->scratch, count, size);
+}
+
+static void *take_zeroed(struct mesh_room *room, size_t count, size_t size) {
+    return memset(take(room, count, size), 0, count * size);
+}
 
 // ---- equal positions
 
@@ -27,11 +46,11 @@ static uint64_t position_hash(vec3 p) {
     return hash;
 }
 
-void mesh_merge_positions(struct mesh *mesh, struct arena *scratch) {
+void mesh_merge_positions(struct mesh *mesh, struct mesh_room *room) {
     uint64_t slots = 16;
     while (slots < 2 * (uint64_t)mesh->position_count)
         slots *= 2;
-    uint32_t *table = ARENA_ARRAY(scratch, uint32_t, slots); // index plus 1
+    uint32_t *table = take_zeroed(room, slots, sizeof *table); // index plus 1
     mesh->merged = ARENA_ARRAY(&mesh->arena, uint32_t, mesh->position_count);
     for (uint32_t i = 0; i < mesh->position_count; i++) {
         uint64_t at = position_hash(mesh->positions[i]) & (slots - 1);
@@ -126,35 +145,40 @@ struct triangle_edge {
     bool leads_down;
 };
 
-// false: the edge has no length, and is its own opposite.
-static bool edge_of(const struct mesh *mesh, uint32_t triangle, int k, struct triangle_edge *edge) {
+// Fills those with a length: without one an edge is its own opposite. Returns how many there are.
+static uint32_t edges_of(const struct mesh *mesh, uint32_t triangle, struct triangle_edge edges[3]) {
     const uint32_t *corners = mesh->triangles[triangle].corners;
-    uint32_t a = mesh->merged[corners[k]];
-    uint32_t b = mesh->merged[corners[(k + 1) % 3]];
-    *edge = (struct triangle_edge){a < b ? a : b, a < b ? b : a, b < a};
-    return a != b;
+    const uint32_t ends[4] = {mesh->merged[corners[0]], mesh->merged[corners[1]], mesh->merged[corners[2]],
+                              mesh->merged[corners[0]]};
+    uint32_t count = 0;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t a = ends[k], b = ends[k + 1];
+        edges[count] = (struct triangle_edge){a < b ? a : b, a < b ? b : a, b < a};
+        count += a != b;
+    }
+    return count;
 }
 
-void mesh_find_edges(struct mesh *mesh, struct arena *scratch) {
+void mesh_find_edges(struct mesh *mesh, struct mesh_room *room) {
     // Sorted by their lower end by counting: one pass over memory, where a hash table would jump around.
-    uint32_t *first = ARENA_ARRAY(scratch, uint32_t, (size_t)mesh->position_count + 1);
-    struct half_edge *edges = ARENA_ARRAY(scratch, struct half_edge, 3 * (size_t)mesh->triangle_count);
-    struct triangle_edge edge;
+    uint32_t *first = take_zeroed(room, (size_t)mesh->position_count + 1, sizeof *first);
+    struct half_edge *edges = take(room, 3 * (size_t)mesh->triangle_count, sizeof *edges);
+    struct triangle_edge found[3];
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        for (int k = 0; k < 3; k++)
-            if (edge_of(mesh, t, k, &edge))
-                first[edge.low]++;
+        for (uint32_t k = edges_of(mesh, t, found); k > 0; k--)
+            first[found[k - 1].low]++;
     uint32_t sum = 0;
     for (uint32_t i = 0; i <= mesh->position_count; i++) {
         sum += first[i];
         first[i] = sum;
     }
     for (uint32_t t = mesh->triangle_count; t > 0; t--)
-        for (int k = 2; k >= 0; k--)
-            if (edge_of(mesh, t - 1, k, &edge))
-                edges[--first[edge.low]] = (struct half_edge){edge.high, 2 * (t - 1) + edge.leads_down};
+        for (uint32_t k = edges_of(mesh, t - 1, found); k > 0; k--)
+            edges[--first[found[k - 1].low]] =
+                (struct half_edge){found[k - 1].high, 2 * (t - 1) + found[k - 1].leads_down};
     const uint32_t pieces = mesh->position_count / PIECE + 1;
-    struct comparison comparison = {mesh, first, edges, ARENA_ARRAY(scratch, struct open_edges, pieces)};
+    struct comparison comparison = {mesh, first, edges,
+                                    ARENA_ARRAY(room->scratch, struct open_edges, pieces)};
     parallel_for(mesh->position_count, PIECE, compare_piece, &comparison);
     struct open_edges all = {0};
     for (uint32_t i = 0; i < pieces; i++) {

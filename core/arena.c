@@ -297,3 +297,16 @@ void arena_give_back(struct arena *arena, void *items, uint32_t capacity, size_t
     unlink_block(arena, block);
     free(block);
 }
+
+bool arena_hand_over(struct arena *from, struct arena *to, void *items, uint32_t capacity, size_t item_size) {
+    if (!items || !has_own_block(rounded(capacity * item_size)))
+        return false;
+    struct arena_block *block = (struct arena_block *)items - 1;
+    if (block->size > to->cap_bytes || to->used_bytes > to->cap_bytes - block->size)
+        return false;
+    unlink_block(from, block);
+    from->used_bytes -= block->size;
+    link_block(to, block, true);
+    to->used_bytes += block->size;
+    return true;
+}

@@ -17,6 +17,7 @@
 
 #include "core/str.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -79,6 +80,9 @@ void *arena_regrow(struct arena *arena, void *items, size_t count, uint32_t *cap
 #define ARENA_IS_FULL(list) ((list)->count >= (list)->capacity)
 // Frees an array that arena_regrow made; small ones stay with the arena. NULL does nothing.
 void arena_give_back(struct arena *arena, void *items, uint32_t capacity, size_t item_size);
+// Moves an array, which `from` gave with a size of `capacity` items, to another arena, where it is. false: it
+// is too small for that, or more than `to` may have, and nothing has changed.
+bool arena_hand_over(struct arena *from, struct arena *to, void *items, uint32_t capacity, size_t item_size);
 // Appends a zeroed item to a list {items, count, capacity}; returns its address.
 #define ARENA_PUSH(arena, list)                                                                              \
     ((list)->items =                                                                                         \

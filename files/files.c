@@ -2,6 +2,7 @@
 
 #include "core/heap.h"
 #include "core/nearest.h"
+#include "core/parallel.h"
 #include "files/folder.h"
 
 #include <errno.h>
@@ -14,7 +15,9 @@
 #include <unistd.h>
 
 enum {
-    SUGGEST_ENTRIES_MAX = 10000
+    SUGGEST_ENTRIES_MAX = 10000,
+    PIECE_BYTES = 4 << 20, // of a large file
+    PIECES_MAX = 1024,
 };
 
 void files_init(struct files *files, struct arena *arena) {
@@ -202,24 +205,72 @@ static void log_read(struct files *files, str path, const struct stat *info) {
                                 (int64_t)info->st_mtim.tv_sec * 1000000000 + info->st_mtim.tv_nsec};
 }
 
-static enum file_status read_all(struct files *files, int fd, size_t size, struct arena *into,
-                                 str *contents) {
-    char *data = arena_try_alloc(into, size + 1);
-    if (!data)
-        return FILE_NO_MEMORY;
+// Of a large file, which is read in pieces side by side: its memory is new, and its first touch takes as long
+// as the copying.
+struct pieces {
+    int fd;
+    char *data;
+    size_t got[PIECES_MAX];
+    int error[PIECES_MAX]; // 0: none
+};
+
+static void read_piece(void *context, size_t begin, size_t end) {
+    struct pieces *p = context;
+    size_t at = begin;
+    while (at < end) {
+        const ssize_t n = pread(p->fd, p->data + at, end - at, (off_t)at);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            p->error[begin / PIECE_BYTES] = errno;
+        if (n <= 0)
+            break;
+        at += (size_t)n;
+    }
+    p->got[begin / PIECE_BYTES] = at - begin;
+}
+
+// Returns how much of it there is before an end that came too early; -1: errno says why.
+static ssize_t read_pieces(int fd, char *data, size_t size) {
+    struct pieces pieces = {.fd = fd, .data = data};
+    size_t got = 0;
+    parallel_for(size, PIECE_BYTES, read_piece, &pieces);
+    for (size_t i = 0; i * PIECE_BYTES < size; i++) {
+        errno = pieces.error[i];
+        if (errno)
+            return -1;
+        if (got == i * PIECE_BYTES)
+            got += pieces.got[i];
+    }
+    return (ssize_t)got;
+}
+
+static ssize_t read_in_order(int fd, char *data, size_t size) {
     size_t got = 0;
     while (got < size) {
         ssize_t n = read(fd, data + got, size - got);
         if (n < 0 && errno == EINTR)
             continue;
         if (n < 0)
-            return status_of_errno(files, errno);
+            return n;
         if (n == 0)
             break;
         got += (size_t)n;
     }
+    return (ssize_t)got;
+}
+
+static enum file_status read_all(struct files *files, int fd, size_t size, struct arena *into,
+                                 str *contents) {
+    char *data = arena_try_alloc(into, size + 1);
+    if (!data)
+        return FILE_NO_MEMORY;
+    const bool in_pieces = size > PIECE_BYTES && size <= (size_t)PIECE_BYTES * PIECES_MAX;
+    const ssize_t got = in_pieces ? read_pieces(fd, data, size) : read_in_order(fd, data, size);
+    if (got < 0)
+        return status_of_errno(files, errno);
     data[got] = '\0';
-    *contents = (str){data, got};
+    *contents = (str){data, (size_t)got};
     return FILE_OK;
 }
 

@@ -102,6 +102,7 @@ struct search {
     struct lint *lint;
     const struct lint_body *a, *b; // faces of `a` against those of `b`
     affine3 back_b;                // into the object space of its mesh
+    struct lint_box own, other;    // what of `a` and of `b` can count, in the object spaces of their meshes
     struct lint_face face;         // of `a`, in scene units
     uint32_t triangle;             // of `a`
     double near;
@@ -137,11 +138,19 @@ static void compare_faces(struct search *s, struct lint_triangle triangle, uint3
     s->count++;
 }
 
+// Leaves hold several triangles, of which most are not where their box is searched.
+static bool is_in(const struct lint_triangle *t, const struct lint_box *box) {
+    const struct lint_box own = lint_box_of(t);
+    return lint_boxes_overlap(&own, box);
+}
+
 static bool visit_other(void *context, uint32_t first, uint32_t count) {
     struct search *s = context;
     const struct lint_tree *tree = &s->b->mesh->tree;
     for (uint32_t i = first; i < first + count; i++) {
         struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
+        if (!is_in(&t, &s->other))
+            continue;
         compare_faces(s, lint_triangle_place(t, &s->b->is->object_to_world), tree->order[i]);
     }
     *s->work_left -= *s->work_left < count ? *s->work_left : count;
@@ -158,8 +167,8 @@ static void search_face(struct search *s, struct lint_triangle triangle, uint32_
     if (count)
         return;
     struct lint_box box = lint_box_grow(lint_box_of(&triangle), s->near);
-    box = lint_box_place(box, &s->back_b);
-    lint_tree_in_box(lint_tree_of(s->lint, s->b->mesh), &box, visit_other, s);
+    s->other = lint_box_place(box, &s->back_b);
+    lint_tree_in_box(lint_tree_of(s->lint, s->b->mesh), &s->other, visit_other, s);
 }
 
 static bool visit_own(void *context, uint32_t first, uint32_t count) {
@@ -167,6 +176,8 @@ static bool visit_own(void *context, uint32_t first, uint32_t count) {
     const struct lint_tree *tree = &s->a->mesh->tree;
     for (uint32_t i = first; i<first + count && * s->work_left> 0; i++) {
         struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
+        if (!is_in(&t, &s->own))
+            continue;
         search_face(s, lint_triangle_place(t, &s->a->is->object_to_world), tree->order[i]);
         *s->work_left -= *s->work_left > 0;
     }
@@ -219,8 +230,8 @@ static void check_pair(struct lint *lint, const struct lint_body *a, const struc
         search_face(&s, flat[i], i);
     if (s.a->mesh) {
         affine3 back = transform_inverse(s.a->is->object_to_world);
-        struct lint_box own = lint_box_place(common, &back);
-        lint_tree_in_box(lint_tree_of(lint, s.a->mesh), &own, visit_own, &s);
+        s.own = lint_box_place(common, &back);
+        lint_tree_in_box(lint_tree_of(lint, s.a->mesh), &s.own, visit_own, &s);
     }
     if (s.count)
         report(&s);

@@ -22,7 +22,8 @@ static struct material make_material(const struct scene_material *from) {
 static struct body make_body(const struct reference *r, const struct scene_body *from) {
     struct body body = {.is = from,
                         .object_to_world = transform_relative(from->object_to_world, r->origin),
-                        .primitive_count = from->shape == SCENE_SPHERE ? 1 : from->triangle_count};
+                        .primitive_count = from->shape == SCENE_SPHERE ? 1 : from->triangle_count,
+                        .instance = NO_INSTANCE};
     body.is_medium = scene_is_medium(r->input.scene, from);
     if (body.is_medium)
         body.filling = scene_medium_material(r->input.scene, from);
@@ -40,22 +41,35 @@ static const vec3 *make_normals(struct reference *r, uint32_t number) {
     return mesh_smooth_normals(mesh, &r->arena);
 }
 
-void reference_make_bodies(struct reference *r) {
+// Bodies first, in IR order, then the triangles of instances.
+static bool number_primitives(struct reference *r) {
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < r->input.scene->body_count; i++) {
+        r->bodies[i].first_primitive = (uint32_t)count;
+        count += r->bodies[i].primitive_count;
+    }
+    r->primitive_count = r->first_shared = (uint32_t)count;
+    for (uint32_t i = 0; i < r->instance_count; i++) {
+        r->instances[i].first = (uint32_t)count;
+        count += r->bodies[r->instances[i].body].is->triangle_count;
+    }
+    return count < NO_PRIMITIVE;
+}
+
+bool reference_make_bodies(struct reference *r) {
     const struct scene *scene = r->input.scene;
-    uint32_t count = 0;
     r->bodies = ARENA_ARRAY(&r->arena, struct body, scene->body_count);
     for (uint32_t i = 0; i < scene->body_count; i++) {
         const struct scene_body *from = &scene->bodies[i];
         r->bodies[i] = make_body(r, from);
         if (from->smooth && from->mesh)
             r->bodies[i].normals = make_normals(r, i);
-        r->bodies[i].first_primitive = count;
-        count += r->bodies[i].primitive_count;
     }
-    r->primitive_count = count;
     r->materials = ARENA_ARRAY(&r->arena, struct material, scene->material_count);
     for (uint32_t i = 0; i < scene->material_count; i++)
         r->materials[i] = make_material(&scene->materials[i]);
+    reference_share(r);
+    return number_primitives(r);
 }
 
 // ---- primitives
@@ -82,4 +96,13 @@ bool reference_make_primitive(const struct reference *r, const struct body *body
         put(r, out->v[k], corners[k]);
     vec3 u = vec3_sub(corners[1], corners[0]), v = vec3_sub(corners[2], corners[0]);
     return !vec3_is_zero(vec3_cross(u, v));
+}
+
+const struct primitive *reference_primitive(const struct reference *r, uint32_t index,
+                                            struct primitive *room) {
+    if (index < r->first_shared)
+        return &r->primitives[index];
+    const struct instance *instance = reference_instance(r, index);
+    reference_make_primitive(r, &r->bodies[instance->body], index - instance->first, room);
+    return room;
 }

@@ -67,7 +67,7 @@ void exact_begin(const struct reference *r, const struct ray *ray, const int axe
     out->sy = wide_div(wide_of(d[axes[1]]), wide_of(d[axes[2]]));
     if (ray->start.left == NO_PRIMITIVE)
         return;
-    const struct primitive *left = &r->primitives[ray->start.left];
+    const struct primitive *left = reference_primitive(r, ray->start.left, &out->left_room);
     out->left = left;
     out->left_normal = exact_normal(left);
     // On the side to which the ray leads.

@@ -15,6 +15,7 @@ struct exact_ray {
     struct wide sx, sy;
     double unit;                  // of the scene's numbers
     const struct primitive *left; // NULL: none
+    struct primitive left_room;   // of one that is made
     vec3 left_normal;
 };
 

@@ -151,7 +151,6 @@ struct search {
     struct sheared sheared;
     struct exact_ray exact;
     bool exact_begun;
-    double inverse[3];
     bool any;
     struct intersection nearest;
     double end; // nothing farther away matters any more
@@ -161,8 +160,9 @@ struct search {
 };
 
 static bool is_lower(const struct search *s, uint32_t x, uint32_t y) {
-    const struct primitive *a = &s->r->primitives[x];
-    const struct primitive *b = &s->r->primitives[y];
+    struct primitive rooms[2];
+    const struct primitive *a = reference_primitive(s->r, x, &rooms[0]);
+    const struct primitive *b = reference_primitive(s->r, y, &rooms[1]);
     return a->body != b->body ? a->body < b->body : a->triangle < b->triangle;
 }
 
@@ -210,8 +210,7 @@ static bool intersect_triangle(struct search *s, const struct primitive *p, stru
     return exact_intersect(&s->exact, p, hit);
 }
 
-static void test_primitive(struct search *s, uint32_t index) {
-    const struct primitive *p = &s->r->primitives[index];
+static void test_primitive(struct search *s, uint32_t index, const struct primitive *p) {
     struct intersection hit = {0};
     bool is_hit = p->is_sphere ? intersect_sphere(s->r, s->ray, p, &hit)
                   : s->r->input.test == REFERENCE_MOELLER_TRUMBORE
@@ -227,14 +226,16 @@ static void test_primitive(struct search *s, uint32_t index) {
 }
 
 // Comparisons let NaN pass: 0 times infinity, where the ray lies in a face of the box.
-static bool enters(const struct search *s, const struct tree_node *node, double *near) {
-    const double *o = s->sheared.origin;
+static bool enters(const struct search *s, const struct tree_ray *ray, const struct tree_node *node,
+                   double *near) {
     double first = 0;
     double last = s->end;
     for (int a = 0; a < 3; a++) {
-        bool backwards = s->inverse[a] < 0;
-        double in = ((backwards ? node->upper[a] : node->lower[a]) - o[a]) * s->inverse[a];
-        double out = ((backwards ? node->lower[a] : node->upper[a]) - o[a]) * s->inverse[a];
+        bool backwards = ray->inverse[a] < 0;
+        double lower = (node->lower[a] - ray->at_lower[a]) * ray->inverse[a];
+        double upper = (node->upper[a] - ray->at_upper[a]) * ray->inverse[a];
+        double in = backwards ? upper : lower;
+        double out = backwards ? lower : upper;
         if (in > first)
             first = in;
         if (out < last)
@@ -244,7 +245,33 @@ static bool enters(const struct search *s, const struct tree_node *node, double 
     return first <= last + fabs(last) * BOX_SLACK;
 }
 
-static void search_tree(struct search *s) {
+static void search_tree(struct search *s, const struct tree_ray *ray);
+
+static void search_instance(struct search *s, const struct instance *instance) {
+    struct tree_ray ray;
+    reference_to_mesh(s->r, instance, s->sheared.origin, s->sheared.direction, &ray);
+    search_tree(s, &ray);
+}
+
+static void test_shared(struct search *s, const struct instance *instance, uint32_t triangle) {
+    struct primitive p;
+    if (reference_make_primitive(s->r, &s->r->bodies[instance->body], triangle, &p))
+        test_primitive(s, instance->first + triangle, &p);
+}
+
+static void test_leaf(struct search *s, const struct instance *instance, const struct tree_node *leaf) {
+    for (uint32_t i = leaf->second; i < leaf->second + leaf->count; i++) {
+        if (instance)
+            test_shared(s, instance, s->r->shared_meshes[instance->mesh].order[i]);
+        else if (s->r->primitives[i].is_instance)
+            search_instance(s, &s->r->instances[s->r->primitives[i].triangle]);
+        else
+            test_primitive(s, i, &s->r->primitives[i]);
+    }
+}
+
+// Once deeper: an instance is a leaf of the scene's tree.
+static void search_tree(struct search *s, const struct tree_ray *ray) {
     struct {
         uint32_t node;
         double near;
@@ -252,14 +279,13 @@ static void search_tree(struct search *s) {
     int count = 0;
     uint32_t at = 0;
     double near;
-    if (!enters(s, &s->r->nodes[0], &near))
+    if (!enters(s, ray, &ray->nodes[0], &near))
         return;
     for (;;) {
-        const struct tree_node *node = &s->r->nodes[at];
+        const struct tree_node *node = &ray->nodes[at];
         bool goes_on = false;
         if (node->count) {
-            for (uint32_t i = 0; i < node->count; i++)
-                test_primitive(s, node->second + i);
+            test_leaf(s, ray->instance, node);
             if (s->any && s->tie_count)
                 return;
         } else {
@@ -267,7 +293,7 @@ static void search_tree(struct search *s) {
             double nears[2];
             bool hits[2];
             for (int i = 0; i < 2; i++)
-                hits[i] = enters(s, &s->r->nodes[children[i]], &nears[i]);
+                hits[i] = enters(s, ray, &ray->nodes[children[i]], &nears[i]);
             int nearer = hits[0] && (!hits[1] || nears[0] <= nears[1]) ? 0 : 1;
             goes_on = hits[nearer];
             at = children[nearer];
@@ -286,6 +312,15 @@ static void search_tree(struct search *s) {
     }
 }
 
+static void search_scene(struct search *s) {
+    struct tree_ray ray = {.nodes = s->r->nodes};
+    for (int a = 0; a < 3; a++) {
+        ray.at_lower[a] = ray.at_upper[a] = s->sheared.origin[a];
+        ray.inverse[a] = 1 / s->sheared.direction[a];
+    }
+    search_tree(s, &ray);
+}
+
 // At equal distance the lower (body, triangle): the first of the ties.
 static void search(const struct reference *r, const struct ray *ray, bool any, struct intersection *out) {
     // Not cleared as a whole: ties and digits are large, and most rays need none.
@@ -298,13 +333,11 @@ static void search(const struct reference *r, const struct ray *ray, bool any, s
     s.nearest.primitive = NO_PRIMITIVE;
     s.end = ray->t_max;
     s.tie_count = 0;
-    for (int a = 0; a < 3; a++)
-        s.inverse[a] = 1 / s.sheared.direction[a];
     if (r->input.no_tree)
         for (uint32_t i = 0; i < r->primitive_count && !(any && s.tie_count); i++)
-            test_primitive(&s, i);
+            test_primitive(&s, i, &r->primitives[i]);
     else if (r->primitive_count)
-        search_tree(&s);
+        search_scene(&s);
     *out = s.tie_count ? s.ties[0] : (struct intersection){.t = ray->t_max, .primitive = NO_PRIMITIVE};
 }
 

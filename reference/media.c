@@ -79,7 +79,7 @@ void reference_cross(const struct reference *r, const struct inside *before, str
         return;
     }
     // Of a sphere the side is certain. A mesh may have walls turned either way.
-    const bool leaves = r->primitives[s->primitive].is_sphere ? !s->enters : was_inside;
+    const bool leaves = reference_is_sphere(r, s->primitive) ? !s->enters : was_inside;
     struct inside within = was_inside ? *before : around;
     s->is_over = !was_inside && !enter(&within, s->body);
     s->after = leaves ? around : within;

@@ -27,12 +27,15 @@ static inline double reference_brightest(vec3 color) {
     return fmax(color.x, fmax(color.y, color.z));
 }
 
-// A triangle, or a sphere: then its centre is v[0] and its radius v[1][0].
+// A triangle, or a sphere: then its centre is v[0] and its radius v[1][0]. In a tree also an instance, which
+// is a body: its number is `triangle`.
 struct primitive {
     double v[3][3];
     uint32_t body, triangle;
-    bool is_sphere;
+    bool is_sphere, is_instance;
 };
+
+#define NO_INSTANCE UINT32_MAX
 
 struct body {
     const struct scene_body *is;
@@ -40,7 +43,8 @@ struct body {
     mat3 normal_map;          // of a mesh
     const vec3 *normals;      // mesh_smooth_normals; NULL: flat
     uint32_t first_primitive; // numbered in IR order, before the tree sorts them
-    uint32_t primitive_count;
+    uint32_t primitive_count; // of an instance 1
+    uint32_t instance;        // NO_INSTANCE: its triangles lie in the scene's tree
     bool is_medium;
     uint32_t filling; // of a medium: its material
 };
@@ -74,6 +78,33 @@ enum {
     TREE_STACK = 160
 };
 
+// A mesh that several bodies show, with a tree in its own space.
+struct shared_mesh {
+    const struct mesh *mesh;
+    struct tree_node *nodes;
+    uint32_t *order; // triangles, as leaves name them
+};
+
+// A body that shows a shared mesh. Its triangles are made when a ray comes near them, with the numbers that
+// they would have in the scene's tree.
+struct instance {
+    uint32_t body, mesh; // the latter of shared_meshes
+    uint32_t first;      // its triangles are primitives from this number on
+    mat3 to_mesh;        // of directions
+    vec3 shift;          // by how much to_mesh may be wrong, in mesh space
+    vec3 reach;          // largest numbers from which its vertices are computed
+    double lower[3], upper[3];
+};
+
+// What of a ray the boxes of one tree are tested against.
+struct tree_ray {
+    const struct instance *instance; // whose mesh's tree it is; NULL: the scene's
+    const struct tree_node *nodes;
+    // Its origin, and its origin moved by what rounding may have done to it, as planes see it.
+    double at_lower[3], at_upper[3];
+    double inverse[3]; // 1 / direction
+};
+
 struct reference {
     struct reference_input input;
     vec3 origin;
@@ -87,6 +118,11 @@ struct reference {
     struct primitive *primitives; // in the tree's order
     uint32_t primitive_count;
     struct tree_node *nodes;
+    struct shared_mesh *shared_meshes;
+    uint32_t shared_mesh_count;
+    struct instance *instances; // those of one mesh together
+    uint32_t instance_count;
+    uint32_t first_shared; // primitives from here on are triangles of instances
 };
 
 // That of the numbers that places have.
@@ -109,15 +145,35 @@ vec3 reference_stored3(const struct reference *r, vec3 v);
 
 // ---- bodies.c
 
-// Fills bodies and materials; jumps to the arena's guard where memory ends.
-void reference_make_bodies(struct reference *r);
+// Fills bodies, instances and materials; jumps to the arena's guard where memory ends. false: there are more
+// triangles than numbers.
+bool reference_make_bodies(struct reference *r);
 // The primitive of a number in IR order; false: a triangle without area, which no ray can hit.
 bool reference_make_primitive(const struct reference *r, const struct body *body, uint32_t triangle,
                               struct primitive *out);
+// The primitive that was hit; one of an instance is made in `room`.
+const struct primitive *reference_primitive(const struct reference *r, uint32_t index,
+                                            struct primitive *room);
+static inline bool reference_is_sphere(const struct reference *r, uint32_t index) {
+    return index < r->first_shared && r->primitives[index].is_sphere;
+}
+
+// ---- instances.c
+
+// Chooses which bodies are instances, and fills shared_meshes and instances but for what trees tell. Jumps to
+// the arena's guard.
+void reference_share(struct reference *r);
+// Once the tree of its mesh is there: the box of an instance.
+void reference_place(const struct reference *r, struct instance *instance);
+// The instance that has this triangle.
+const struct instance *reference_instance(const struct reference *r, uint32_t index);
+// A ray in the space of an instance's mesh, with the same t.
+void reference_to_mesh(const struct reference *r, const struct instance *instance, const double origin[3],
+                       const double direction[3], struct tree_ray *out);
 
 // ---- tree.c
 
-// Fills primitives and nodes. false: no memory.
+// Fills primitives and nodes, those of shared meshes too. false: no memory.
 bool reference_make_tree(struct reference *r);
 
 // ---- intersect.c

@@ -14,7 +14,7 @@ struct start reference_leave(const struct reference *r, const struct surface *s,
         at.y = nextafter(at.y, shift.y > 0 ? INFINITY : -INFINITY);
     if (shift.z != 0)
         at.z = nextafter(at.z, shift.z > 0 ? INFINITY : -INFINITY);
-    if (r->primitives[s->primitive].is_sphere)
+    if (reference_is_sphere(r, s->primitive))
         return reference_start(at);
     return (struct start){at, s->primitive, s->b1, s->b2};
 }

@@ -18,7 +18,8 @@ enum {
 
 static void fill(void *context) {
     struct reference *r = context;
-    reference_make_bodies(r);
+    if (!reference_make_bodies(r))
+        arena_raise(&r->arena, ARENA_FAULT_CAP);
     reference_make_background(r);
 }
 
@@ -38,6 +39,10 @@ struct reference *reference_create(const struct reference_input *input) {
 void reference_destroy(struct reference *r) {
     if (!r)
         return;
+    for (uint32_t i = 0; i < r->shared_mesh_count; i++) {
+        free(r->shared_meshes[i].nodes);
+        free(r->shared_meshes[i].order);
+    }
     arena_finish(&r->arena);
     free(r->primitives);
     free(r->nodes);

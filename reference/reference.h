@@ -30,6 +30,14 @@ enum reference_test {
     REFERENCE_MOELLER_TRUMBORE, // 1997; to test the other against
 };
 
+// Whether bodies that show the same mesh share its triangles, which then are made again for each ray: what is
+// hit is the same.
+enum reference_sharing {
+    REFERENCE_CHEAPER, // where that saves much memory
+    REFERENCE_COPIES,  // never
+    REFERENCE_SHARED,  // wherever that is possible; to test it
+};
+
 struct reference_input {
     const struct scene *scene;
     const struct view *view;
@@ -42,6 +50,7 @@ struct reference_input {
     bool few_rays; // the tree is made in less time, and takes more of it for each ray; hits are the same
     bool no_bound; // statistics need not have brightest and bound, for which a background's whole image is
                    // read
+    enum reference_sharing sharing;
     bool gradient; // in place of a background's image, which need not be decoded: a smooth one
 };
 

@@ -138,7 +138,8 @@ static void triangle_surface(const struct reference *r, const struct body *body,
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out) {
-    const struct primitive *p = &r->primitives[hit->primitive];
+    struct primitive room;
+    const struct primitive *p = reference_primitive(r, hit->primitive, &room);
     const struct body *body = &r->bodies[p->body];
     const double b1 = reference_rounded(r, hit->b1, 1), b2 = reference_rounded(r, hit->b2, 1);
     const double b[3] = {fmax(1 - b1 - b2, 0), fmax(b1, 0), fmax(b2, 0)};

@@ -12,6 +12,7 @@
 
 enum {
     PIECE = 4096,
+    PIECE_INSTANCES = 64,
     BINS = 16,
     LEAF_MOST = 4,
     DEPTH_MOST = 64,   // below, ranges are halved: 32 levels more at most
@@ -40,6 +41,7 @@ struct range {
 
 struct building {
     struct reference *r;
+    const struct shared_mesh *shared; // whose tree it is; NULL: the scene's
     struct item *items;
     struct tree_node *nodes;
     struct range *tasks;
@@ -48,15 +50,15 @@ struct building {
 
 // ---- items
 
-static void put_box(struct item *item, const struct primitive *p, bool is_sphere) {
+static void put_box(struct item *item, double v[3][3], bool is_sphere) {
     double most = 0;
     for (int a = 0; a < 3; a++) {
-        double radius = is_sphere ? p->v[1][0] : 0;
-        double least = p->v[0][a];
-        double greatest = p->v[0][a];
+        double radius = is_sphere ? v[1][0] : 0;
+        double least = v[0][a];
+        double greatest = v[0][a];
         for (int k = 1; k < 3 && !is_sphere; k++) {
-            least = fmin(least, p->v[k][a]);
-            greatest = fmax(greatest, p->v[k][a]);
+            least = fmin(least, v[k][a]);
+            greatest = fmax(greatest, v[k][a]);
         }
         item->box.lower[a] = least - radius;
         item->box.upper[a] = greatest + radius;
@@ -82,6 +84,13 @@ static const struct body *body_of(const struct reference *r, uint32_t number) {
     return &r->bodies[low];
 }
 
+static void put_instance(struct item *item, const struct instance *instance) {
+    for (int a = 0; a < 3; a++) {
+        item->box.lower[a] = instance->lower[a];
+        item->box.upper[a] = instance->upper[a];
+    }
+}
+
 static void make_items(void *context, size_t begin, size_t end) {
     struct building *b = context;
     const struct body *body = body_of(b->r, (uint32_t)begin);
@@ -90,8 +99,31 @@ static void make_items(void *context, size_t begin, size_t end) {
         while (i - body->first_primitive >= body->primitive_count)
             body++;
         b->items[i].number = (uint32_t)i;
+        b->items[i].is_empty = false;
+        if (body->instance != NO_INSTANCE) {
+            put_instance(&b->items[i], &b->r->instances[body->instance]);
+            continue;
+        }
         b->items[i].is_empty = !reference_make_primitive(b->r, body, (uint32_t)i - body->first_primitive, &p);
-        put_box(&b->items[i], &p, p.is_sphere);
+        put_box(&b->items[i], p.v, p.is_sphere);
+    }
+}
+
+// Of a mesh, whose triangles are judged where they are shown.
+static void make_mesh_items(void *context, size_t begin, size_t end) {
+    struct building *b = context;
+    const struct mesh *mesh = b->shared->mesh;
+    for (size_t i = begin; i < end; i++) {
+        double v[3][3];
+        for (int k = 0; k < 3; k++) {
+            const vec3 corner = mesh->positions[mesh->triangles[i].corners[k]];
+            v[k][0] = corner.x;
+            v[k][1] = corner.y;
+            v[k][2] = corner.z;
+        }
+        b->items[i].number = (uint32_t)i;
+        b->items[i].is_empty = false;
+        put_box(&b->items[i], v, false);
     }
 }
 
@@ -100,7 +132,11 @@ static void gather(void *context, size_t begin, size_t end) {
     for (size_t i = begin; i < end; i++) {
         uint32_t number = b->items[i].number;
         const struct body *body = body_of(b->r, number);
-        reference_make_primitive(b->r, body, number - body->first_primitive, &b->r->primitives[i]);
+        if (body->instance != NO_INSTANCE)
+            b->r->primitives[i] = (struct primitive){
+                .body = (uint32_t)(body - b->r->bodies), .triangle = body->instance, .is_instance = true};
+        else
+            reference_make_primitive(b->r, body, number - body->first_primitive, &b->r->primitives[i]);
     }
 }
 
@@ -319,33 +355,64 @@ static bool build(struct building *b, size_t count) {
     return true;
 }
 
-static bool make(struct building *b) {
-    struct reference *r = b->r;
-    uint32_t total = r->primitive_count;
+// Makes the tree over items whose number it returns in *count; false: no memory.
+static bool make_nodes(struct building *b, uint32_t total, parallel_body *make, uint32_t *count) {
+    *count = 0;
     b->items = heap_alloc(total * sizeof *b->items);
     if (!b->items)
         return false;
-    parallel_for(total, PIECE, make_items, b);
-    uint32_t count = 0;
+    parallel_for(total, PIECE, make, b);
     for (uint32_t i = 0; i < total; i++)
         if (!b->items[i].is_empty)
-            b->items[count++] = b->items[i];
-    r->primitive_count = count;
-    if (count == 0)
+            b->items[(*count)++] = b->items[i];
+    if (*count == 0)
         return true;
-    r->nodes = b->nodes = heap_alloc(2 * (size_t)count * sizeof *b->nodes);
-    if (!b->nodes || !build(b, count))
-        return false;
-    r->primitives = heap_alloc((size_t)count * sizeof *r->primitives);
-    if (r->primitives)
-        parallel_for(count, PIECE, gather, b);
-    return r->primitives != NULL;
+    b->nodes = heap_alloc(2 * (size_t)*count * sizeof *b->nodes);
+    return b->nodes && build(b, *count);
+}
+
+static void finish(struct building *b) {
+    free(b->items);
+    free(b->tasks);
+}
+
+static bool make_mesh_tree(struct reference *r, struct shared_mesh *shared) {
+    struct building b = {.r = r, .shared = shared};
+    uint32_t count;
+    bool made = make_nodes(&b, shared->mesh->triangle_count, make_mesh_items, &count);
+    shared->nodes = b.nodes;
+    shared->order = made ? heap_alloc(count * sizeof *shared->order) : NULL;
+    for (uint32_t i = 0; shared->order && i < count; i++)
+        shared->order[i] = b.items[i].number;
+    finish(&b);
+    return shared->order != NULL;
+}
+
+static bool make_scene_tree(struct reference *r) {
+    struct building b = {.r = r};
+    bool made =
+        r->primitive_count == 0 || make_nodes(&b, r->primitive_count, make_items, &r->primitive_count);
+    r->nodes = b.nodes;
+    if (made && r->primitive_count) {
+        r->primitives = heap_alloc((size_t)r->primitive_count * sizeof *r->primitives);
+        made = r->primitives != NULL;
+        if (made)
+            parallel_for(r->primitive_count, PIECE, gather, &b);
+    }
+    finish(&b);
+    return made;
+}
+
+static void place_instances(void *context, size_t begin, size_t end) {
+    const struct reference *r = context;
+    for (size_t i = begin; i < end; i++)
+        reference_place(r, &r->instances[i]);
 }
 
 bool reference_make_tree(struct reference *r) {
-    struct building b = {.r = r};
-    bool made = r->primitive_count == 0 || make(&b);
-    free(b.items);
-    free(b.tasks);
-    return made;
+    for (uint32_t i = 0; i < r->shared_mesh_count; i++)
+        if (!make_mesh_tree(r, &r->shared_meshes[i]))
+            return false;
+    parallel_for(r->instance_count, PIECE_INSTANCES, place_instances, r);
+    return make_scene_tree(r);
 }

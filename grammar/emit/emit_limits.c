@@ -24,7 +24,21 @@ static const char closing[] =
     "memory.\n"
     "`glint check --limit help` lists them with their defaults, and `--limit NAME=VALUE` changes one. How "
     "accurate a\n"
-    "picture is, and how far away and how small things can be, is in [accuracy.md](accuracy.md).\n";
+    "picture is, and how far away and how small things can be, is in [accuracy.md](accuracy.md).\n"
+    "\n"
+    "A device holds all triangles in one buffer: 48 bytes each, 96 in double precision and where models "
+    "share a mesh.\n"
+    "How large a buffer may be is the device's own limit: 2 GiB with lavapipe, which is 44 million "
+    "triangles, 22\n"
+    "million of 96 bytes; 4 GiB on many GPUs, twice as many; and no less than 128 MiB, 2.7 million, wherever "
+    "there is\n"
+    "Vulkan. A scene that needs more is an error that says both sizes. The triangles of a mesh that several "
+    "models\n"
+    "show count once where that saves 32 MiB, so that 10 000 models of it need the buffer of one: let models "
+    "share a\n"
+    "mesh, and `glint inspect` says what they share and how large each buffer is. The reference (`--stats`, "
+    "`--audit`,\n"
+    "`--device reference`) shares them too; of what is not shared it takes 280 bytes a triangle.\n";
 
 // The anchor that Markdown makes from a heading.
 static void put_anchor(struct strbuf *out, const char *heading) {

@@ -61,6 +61,17 @@ EXPORTED ssize_t read(int fd, void *bytes, size_t count) {
     return NEXT(read)(fd, bytes, count);
 }
 
+// As programs with large file offsets name it.
+EXPORTED ssize_t pread64(int fd, void *bytes, size_t count, off64_t at) {
+    char text[32];
+    if (strikes(with_descriptor(text, sizeof text, "read", fd), __builtin_return_address(0), count > 1)) {
+        if (faults->error != FAULTS_SHORT)
+            return -1;
+        count = (count + 1) / 2;
+    }
+    return NEXT(pread64)(fd, bytes, count, at);
+}
+
 EXPORTED ssize_t write(int fd, const void *bytes, size_t count) {
     char text[32];
     if (strikes(with_descriptor(text, sizeof text, "write", fd), __builtin_return_address(0), count > 1)) {

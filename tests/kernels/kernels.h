@@ -11,6 +11,9 @@ KERNEL(probe)  // traces single rays
 // In double precision.
 KERNEL(layout64)
 KERNEL(probe64)
+// Of scenes with instances.
+KERNEL(layout_instances)
+KERNEL(layout64_instances)
 // By other ways.
 KERNEL(probe_alternative)
 KERNEL(probe64_whole) // every triangle is tested in double precision

@@ -12,6 +12,7 @@
 
 enum {
     PIECE = 8192,
+    PIECE_CHOSEN = 64, // pieces of PRECISION_PIECE triangles
 };
 
 // ---- triangles
@@ -63,15 +64,30 @@ struct measuring {
     const struct flat_input *input;
     uint32_t number;
     struct triangle_least *pieces;
+    uint32_t *chosen; // numbers of pieces of PRECISION_PIECE triangles; NULL: all triangles
+    uint32_t chosen_count;
 };
 
-static void measure_piece(void *context, size_t begin, size_t end) {
-    const struct measuring *m = context;
-    struct triangle_least *least = &m->pieces[begin / PIECE];
+static void measure_range(const struct measuring *m, size_t begin, size_t end, struct triangle_least *least) {
     for (size_t i = begin; i < end; i++) {
         vec3 corners[3];
         scene_corners(m->body, &m->map, (uint32_t)i, corners);
         measure_triangle(m->input, corners, m->number, (uint32_t)i, least);
+    }
+}
+
+static void measure_piece(void *context, size_t begin, size_t end) {
+    const struct measuring *m = context;
+    measure_range(m, begin, end, &m->pieces[begin / PIECE]);
+}
+
+// Those of the pieces that bounds do not decide.
+static void measure_chosen(void *context, size_t begin, size_t end) {
+    const struct measuring *m = context;
+    for (size_t i = begin; i < end; i++) {
+        const size_t first = (size_t)m->chosen[i] * PRECISION_PIECE, left = m->body->triangle_count - first;
+        measure_range(m, first, first + (left < PRECISION_PIECE ? left : PRECISION_PIECE),
+                      &m->pieces[begin / PIECE_CHOSEN]);
     }
 }
 
@@ -80,17 +96,68 @@ static void keep_triangles(struct precision_report *out, const struct triangle_l
     precision_keep(&out->least[PRECISION_HEIGHT], &least->height);
 }
 
-// false: no memory.
+// Which pieces of a mesh that was seen before may have something that counts. false: no memory.
+static bool choose(struct measuring *m, const struct precision_pieces *known,
+                   const struct precision_report *found) {
+    const struct precision_view view = precision_view_of(m->input, &m->map, m->body->mesh);
+    if (precision_is_beyond(&view, &known->whole, found))
+        return true;
+    m->chosen = heap_alloc((known->count + (size_t)1) * sizeof *m->chosen);
+    for (uint32_t i = 0; m->chosen && i < known->count; i++)
+        if (!precision_is_beyond(&view, &known->items[i], found))
+            m->chosen[m->chosen_count++] = i;
+    return m->chosen != NULL;
+}
+
+// `known`: NULL, or the pieces of the body's mesh. false: no memory.
 static bool measure_triangles(const struct flat_input *input, const struct scene_body *body, uint32_t number,
-                              const affine3 *map, struct precision_report *out) {
-    size_t pieces = ((size_t)body->triangle_count + PIECE - 1) / PIECE;
-    struct measuring m = {body, *map, input, number, heap_zeroed(pieces, sizeof *m.pieces)};
-    if (!m.pieces)
+                              const affine3 *map, const struct precision_pieces *known,
+                              struct precision_report *out) {
+    struct measuring m = {body, *map, input, number, NULL, NULL, 0};
+    if (known && !choose(&m, known, out))
         return false;
-    parallel_for(body->triangle_count, PIECE, measure_piece, &m);
-    for (size_t k = 0; k < pieces; k++)
+    const size_t count = known ? m.chosen_count : body->triangle_count, piece = known ? PIECE_CHOSEN : PIECE;
+    const size_t pieces = (count + piece - 1) / piece;
+    m.pieces = heap_zeroed(pieces + 1, sizeof *m.pieces);
+    const bool done = m.pieces != NULL;
+    if (done)
+        parallel_for(count, piece, known ? measure_chosen : measure_piece, &m);
+    for (size_t k = 0; done && k < pieces; k++)
         keep_triangles(out, &m.pieces[k]);
+    free(m.chosen);
     free(m.pieces);
+    return done;
+}
+
+// ---- meshes that several bodies show
+
+struct seen {
+    struct precision_pieces *items; // without pieces: one body showed the mesh so far
+    uint32_t count, capacity;
+};
+
+static void finish_seen(struct seen *seen) {
+    for (uint32_t i = 0; i < seen->count; i++)
+        precision_pieces_finish(&seen->items[i]);
+    free(seen->items);
+}
+
+// *known: the pieces of the mesh, if another body showed it before; else NULL. Most bodies show the mesh of
+// the one before. false: no memory.
+static bool find_seen(struct seen *seen, const struct mesh *mesh, const struct precision_pieces **known) {
+    *known = NULL;
+    for (uint32_t i = seen->count; i > 0; i--) {
+        struct precision_pieces *at = &seen->items[i - 1];
+        if (at->mesh != mesh)
+            continue;
+        *known = at;
+        return at->items || precision_pieces_make(mesh, at);
+    }
+    struct precision_pieces *grown = heap_grow(seen->items, seen->count, &seen->capacity, sizeof *grown);
+    if (!grown)
+        return false;
+    seen->items = grown;
+    seen->items[seen->count++] = (struct precision_pieces){.mesh = mesh};
     return true;
 }
 
@@ -112,8 +179,9 @@ static void note_size(const struct scene_body *body, const struct precision_body
 }
 
 // false: no memory. *any: there is something of the body.
-static bool measure_body(const struct flat_input *input, uint32_t number, struct precision_report *out,
-                         struct precision_body *measured, bool *any) {
+static bool measure_body(const struct flat_input *input, uint32_t number, struct seen *seen,
+                         struct precision_report *out, struct precision_body *measured, bool *any) {
+    const struct precision_pieces *known = NULL;
     const struct scene_body *body = &input->scene->bodies[number];
     const affine3 map = transform_relative(body->object_to_world, input->origin);
     *any = (body->triangle_count || body->shape == SCENE_SPHERE) &&
@@ -122,7 +190,9 @@ static bool measure_body(const struct flat_input *input, uint32_t number, struct
         return true;
     measured->body = number;
     measured->reach = fmax(vec3_max_abs(measured->lower), vec3_max_abs(measured->upper));
-    if (body->triangle_count && !measure_triangles(input, body, number, &map, out))
+    if (body->mesh && !find_seen(seen, body->mesh, &known))
+        return false;
+    if (body->triangle_count && !measure_triangles(input, body, number, &map, known, out))
         return false;
     note_size(body, measured, out);
     return true;
@@ -135,12 +205,14 @@ bool precision_measure(const struct flat_input *input, struct precision_report *
     if (!bodies)
         return false;
     uint32_t count = 0;
+    struct seen seen = {0};
     bool good = true;
     for (uint32_t i = 0; good && i < all; i++) {
         bool any;
-        good = measure_body(input, i, out, &bodies[count], &any);
+        good = measure_body(input, i, &seen, out, &bodies[count], &any);
         count += any;
     }
+    finish_seen(&seen);
     good = good && precision_gaps(input, bodies, count, out);
     free(bodies);
     for (int kind = 0; kind < PRECISION_FEATURES; kind++) {

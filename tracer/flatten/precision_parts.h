@@ -27,4 +27,42 @@ void precision_note(struct precision_measure *least, struct precision_measure fo
 bool precision_gaps(const struct flat_input *input, const struct precision_body *bodies, uint32_t count,
                     struct precision_report *out);
 
+// ---- precision_pieces.c: a mesh that several bodies show is measured once, roughly, so that most of its
+// triangles need not be looked at again in every body.
+
+enum {
+    PRECISION_PIECE = 64 // triangles
+};
+
+// What some triangles of a mesh have, in its space.
+struct precision_piece {
+    vec3 lower, upper;
+    double shortest, longest; // of their edges; triangles with an edge of length 0 do not count
+};
+
+struct precision_pieces {
+    const struct mesh *mesh;
+    struct precision_piece *items; // of PRECISION_PIECE triangles each, the last of fewer
+    uint32_t count;
+    struct precision_piece whole;
+};
+
+// How a body shows a mesh, with room for rounding.
+struct precision_view {
+    affine3 map;        // relative to the origin
+    double least, most; // what lengths are multiplied by
+    double slack;       // of coordinates
+    vec3 camera;        // relative to the origin
+};
+
+// false: no memory.
+bool precision_pieces_make(const struct mesh *mesh, struct precision_pieces *out);
+void precision_pieces_finish(struct precision_pieces *pieces);
+struct precision_view precision_view_of(const struct flat_input *input, const affine3 *map,
+                                        const struct mesh *mesh);
+// Whether no triangle of the piece can have a shorter edge, or lie lower below the camera, than what was
+// found.
+bool precision_is_beyond(const struct precision_view *view, const struct precision_piece *piece,
+                         const struct precision_report *found);
+
 #endif

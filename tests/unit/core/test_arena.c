@@ -366,6 +366,33 @@ static void arrays_regrow_and_are_given_back(void **state) {
     arena_finish(&arena);
 }
 
+// A large array changes its owner where it is; a small one does not, nor one that its new owner may not have.
+static void arrays_are_handed_over(void **state) {
+    (void)state;
+    struct arena from, to;
+    arena_init(&from, (size_t)1 << 30);
+    arena_init(&to, 2000000);
+    uint64_t *large = arena_alloc_array(&from, 200000, sizeof *large);
+    uint64_t *other = arena_alloc_array(&from, 200000, sizeof *other);
+    uint64_t *small = arena_alloc_array(&from, 10, sizeof *small);
+    large[199999] = 7;
+    other[0] = 8;
+    const size_t used = from.used_bytes;
+    assert_true(arena_hand_over(&from, &to, large, 200000, sizeof *large));
+    assert_true(from.used_bytes <= used - 200000 * sizeof *large);
+    assert_true(to.used_bytes >= 200000 * sizeof *large);
+    assert_false(arena_hand_over(&from, &to, other, 200000, sizeof *other));
+    assert_false(arena_hand_over(&from, &to, NULL, 200000, sizeof *other));
+#ifndef GLINT_ARENA_EXACT
+    assert_false(arena_hand_over(&from, &to, small, 10, sizeof *small));
+#endif
+    assert_int_equal(other[0], 8);
+    arena_finish(&from);
+    assert_int_equal(large[199999], 7);
+    assert_int_equal(*(char *)arena_alloc(&to, 100), 0);
+    arena_finish(&to);
+}
+
 struct regrown {
     struct arena arena;
     uint64_t *items;
@@ -429,6 +456,7 @@ int main(void) {
         cmocka_unit_test(memory_stays_until_the_arena_is_finished),
         cmocka_unit_test(finish_takes_null_and_twice),
         cmocka_unit_test(arrays_regrow_and_are_given_back),
+        cmocka_unit_test(arrays_are_handed_over),
         cmocka_unit_test(regrowing_keeps_to_the_cap),
         cmocka_unit_test(reset_gives_zeroed_memory_again),
     };

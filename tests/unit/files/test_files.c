@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 
@@ -265,6 +266,25 @@ static void reads_whole_files_with_a_nul_behind(void **state) {
     assert_string_equal(contents.ptr, "");
 }
 
+// Larger than what is read in one piece, and not a multiple of it.
+static void reads_large_files_in_pieces(void **state) {
+    struct fixture *f = *state;
+    const size_t size = 9000001;
+    char *text = malloc(size + 1);
+    str contents;
+    assert_non_null(text);
+    for (size_t i = 0; i < size; i++)
+        text[i] = (char)('!' + (i * 7 + i / 4099) % 90);
+    text[size] = '\0';
+    scratch_write(&f->scratch, "large", text);
+    f->into.cap_bytes = 2 * size;
+    assert_int_equal(read_file(f, "large", size - 1, &contents), FILE_TOO_LARGE);
+    assert_int_equal(read_file(f, "large", size, &contents), FILE_OK);
+    assert_int_equal(contents.len, size);
+    assert_memory_equal(contents.ptr, text, size + 1);
+    free(text);
+}
+
 static void refuses_what_is_too_large_before_taking_memory(void **state) {
     struct fixture *f = *state;
     str contents;
@@ -461,6 +481,7 @@ int main(void) {
         T(asset_paths_come_after_the_file_s_own_folder),
         T(relative_scenes_work),
         T(reads_whole_files_with_a_nul_behind),
+        T(reads_large_files_in_pieces),
         T(refuses_what_is_too_large_before_taking_memory),
         T(refuses_what_is_no_regular_file_at_once),
         T(reports_what_cannot_be_read),

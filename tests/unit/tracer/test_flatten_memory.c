@@ -101,12 +101,11 @@ static void test_each_fails(void **state) {
     kit_finish(&kit);
 }
 
-// Items and records of triangles are never in memory together.
-static void test_peak(void **state) {
-    (void)state;
+static void check_peak(bool is_double) {
     struct kit kit;
     struct flat_scene flat;
     kit_init(&kit);
+    kit.is_double = is_double;
     kit_model(&kit, kit_icosphere(&kit, 6, 0));
     kit_resolve(&kit);
     const size_t before = live;
@@ -120,6 +119,13 @@ static void test_peak(void **state) {
                  peak / flat.triangle_count, final / flat.triangle_count);
     flat_finish(&flat);
     kit_finish(&kit);
+}
+
+// Items and records of triangles are never in memory together.
+static void test_peak(void **state) {
+    (void)state;
+    check_peak(false);
+    check_peak(true);
 }
 
 int main(void) {

@@ -305,6 +305,52 @@ static void test_layout64(void **state) {
     expect_layout(state, true);
 }
 
+// ---- records of scenes with instances
+
+#define LIST_DOUBLE(name, ...) gpu_pack_double(l->words, l->place++, 0, record->name);
+
+#define EXACT_RECORD_TEST(name, NAME)                                                                        \
+    static void make_##name(double *last, struct gpu_word *words, struct listing *l) {                       \
+        struct gpu_##name made, *record = &made;                                                             \
+        NAME##_FIELDS(FILL_NUMBER, FILL_UINT) gpu_pack_##name(record, words);                                \
+        NAME##_FIELDS(LIST_DOUBLE, LIST_UINT)                                                                \
+    }
+EXACT_RECORD_TEST(placed, PLACED)
+EXACT_RECORD_TEST(instance, INSTANCE)
+RECORD_TEST(entry, ENTRY)
+
+static void expect_layout_of_instances(void **state, bool is_double) {
+    struct gpu *gpu = device_kit_need(state, true);
+    const bool texels = gpu_fetches_texels(gpu);
+    struct gpu_program_source source = {.kernel = NULL};
+    struct gpu_word placed[PLACED_WORDS], both[ENTRY64_WORDS + INSTANCE_WORDS];
+    struct gpu_entry entry;
+    struct listing listing = {0};
+    double last = 1000;
+    if (is_double)
+        source.kernel = texels ? &kernel_layout64_instances_texels : &kernel_layout64_instances_storage;
+    else
+        source.kernel = texels ? &kernel_layout_instances_texels : &kernel_layout_instances_storage;
+    memset(both, 0, sizeof both);
+    make_placed(&last, placed, &listing);
+    fill_entry(&entry, &last);
+    gpu_pack_entry(&entry, is_double, both);
+    list_entry(&listing, is_double, &entry);
+    make_instance(&last, both + (is_double ? ENTRY64_WORDS : ENTRY_WORDS), &listing);
+    bind(gpu, &source, BINDING_TRIANGLES, placed, sizeof placed);
+    bind(gpu, &source, BINDING_INSTANCES, both, sizeof both);
+    bind(gpu, &source, BINDING_OUTPUT, NULL, sizeof(struct listing));
+    expect_listing(gpu, &source, &listing);
+}
+
+static void test_layout_of_instances(void **state) {
+    expect_layout_of_instances(state, false);
+}
+
+static void test_layout64_of_instances(void **state) {
+    expect_layout_of_instances(state, true);
+}
+
 // ---- kernels that are kept
 
 // One entry, as a store would hold it.
@@ -421,6 +467,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_too_large, device_kit_setup, device_kit_teardown),
         cmocka_unit_test_setup_teardown(test_layout, device_kit_setup, device_kit_teardown),
         cmocka_unit_test_setup_teardown(test_layout64, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_layout_of_instances, device_kit_setup, device_kit_teardown),
+        cmocka_unit_test_setup_teardown(test_layout64_of_instances, device_kit_setup, device_kit_teardown),
     };
     return cmocka_run_group_tests_name("gpu", tests, NULL, NULL);
 }

@@ -1,12 +1,14 @@
 // What of a scene asks for double precision: the features that are measured, and those that are not.
 #include "flat_kit.h"
-#include "tracer/flatten/precision.h"
+#include "random.h"
+#include "tracer/flatten/precision_parts.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -340,12 +342,87 @@ static void test_crowd(void **state) {
     kit_finish(&kit);
 }
 
+// ---- meshes of several models
+
+static struct mesh *ball(struct kit *kit) {
+    struct mesh *mesh = kit_icosphere(kit, 3, 0);
+    mesh->lower = (vec3){-1, -1, -1};
+    mesh->upper = (vec3){1, 1, 1};
+    return mesh;
+}
+
+// So many balls around the camera, each turned, stretched and elsewhere: of one mesh, or each of its own.
+static void measure_balls(bool shared, uint64_t seed, struct precision_report *report) {
+    struct kit kit;
+    uint64_t random = seed;
+    kit_init(&kit);
+    struct mesh *one = ball(&kit);
+    for (int i = 0; i < KIT_MAX; i++) {
+        struct ir_model *model = kit_model(&kit, shared ? one : ball(&kit));
+        const double size = exp2(4 * random_unit(&random) - 2), far = exp2(3 * random_unit(&random));
+        model->scale = (vec3){size, -size, size * (1 + random_unit(&random))};
+        model->rotation = vec3_mul(random_direction(&random), 90);
+        model->translation = vec3_mul(random_direction(&random), 6 * far);
+    }
+    kit.origin = (vec3){0.5, 0, 0};
+    measure(&kit, report);
+    kit_finish(&kit);
+}
+
+// What a mesh was measured at in one body says of another which triangles need no look, and changes nothing.
+static void test_shared_meshes(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        struct precision_report own, shared;
+        memset(&own, 0, sizeof own);
+        memset(&shared, 0, sizeof shared);
+        measure_balls(false, seed, &own);
+        measure_balls(true, seed, &shared);
+        for (int kind = 0; kind < PRECISION_FEATURES; kind++) {
+            const struct precision_measure *a = &own.least[kind], *b = &shared.least[kind];
+            assert_true(a->any == b->any && a->length == b->length && a->steps == b->steps);
+            assert_true(a->body == b->body && a->other == b->other && a->triangle == b->triangle);
+        }
+        assert_true(own.least[PRECISION_EDGE].any && own.least[PRECISION_HEIGHT].any);
+    }
+}
+
+static void test_pieces(void **state) {
+    (void)state;
+    struct kit kit;
+    kit_init(&kit);
+    struct mesh *mesh = ball(&kit);
+    struct precision_pieces pieces;
+    assert_true(precision_pieces_make(mesh, &pieces));
+    assert_int_equal(pieces.count, mesh->triangle_count / PRECISION_PIECE);
+    const struct flat_input input = {.view = &kit.view, .origin = kit.origin};
+    const affine3 map = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {100, 0, 0}};
+    const struct precision_view view = precision_view_of(&input, &map, mesh);
+    struct precision_report found = {0};
+    assert_false(precision_is_beyond(&view, &pieces.whole, &found));
+    precision_note(&found.least[PRECISION_EDGE],
+                   (struct precision_measure){.length = 1e-3, .part = 1, .distance = 100});
+    precision_note(&found.least[PRECISION_HEIGHT],
+                   (struct precision_measure){.length = 1, .part = PRECISION_HEIGHT_PART, .distance = 1});
+    assert_true(precision_is_beyond(&view, &pieces.whole, &found));
+    // An edge as long as the mesh's shortest, no farther away.
+    found.least[PRECISION_EDGE].any = false;
+    precision_note(&found.least[PRECISION_EDGE],
+                   (struct precision_measure){.length = pieces.whole.shortest, .part = 1, .distance = 100});
+    assert_false(precision_is_beyond(&view, &pieces.whole, &found));
+    precision_pieces_finish(&pieces);
+    kit_finish(&kit);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing),    cmocka_unit_test(test_sphere), cmocka_unit_test(test_edge),
-        cmocka_unit_test(test_model_size), cmocka_unit_test(test_gap),    cmocka_unit_test(test_moved_gap),
-        cmocka_unit_test(test_height),     cmocka_unit_test(test_crowd),  cmocka_unit_test(test_slope),
-        cmocka_unit_test(test_box_gap),    cmocka_unit_test(test_above),
+        cmocka_unit_test(test_shared_meshes), cmocka_unit_test(test_pieces),
+        cmocka_unit_test(test_nothing),       cmocka_unit_test(test_sphere),
+        cmocka_unit_test(test_edge),          cmocka_unit_test(test_model_size),
+        cmocka_unit_test(test_gap),           cmocka_unit_test(test_moved_gap),
+        cmocka_unit_test(test_height),        cmocka_unit_test(test_crowd),
+        cmocka_unit_test(test_slope),         cmocka_unit_test(test_box_gap),
+        cmocka_unit_test(test_above),
     };
     return cmocka_run_group_tests_name("precision", tests, NULL, NULL);
 }
