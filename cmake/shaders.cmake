@@ -4,12 +4,15 @@ find_program(SPIRV_VAL spirv-val REQUIRED)
 
 # glint_kernel(OUT NAME SOURCE.comp DEFINE...): compiles SOURCE, which sees shaders/, with the macros given, and appends the C
 # file that defines the struct kernel `kernel_NAME` to the list OUT. If MAY_FUSE is one of the macros, the
-# operations stay undecorated.
+# operations stay undecorated; if FETCH_TEXELS is, functions take by value what they only read.
 function(glint_kernel out name source)
   set(base ${CMAKE_CURRENT_BINARY_DIR}/${name})
-  set(plain)
+  set(wishes)
   if(MAY_FUSE IN_LIST ARGN)
-    set(plain plain)
+    set(wishes plain)
+  endif()
+  if(FETCH_TEXELS IN_LIST ARGN)
+    list(APPEND wishes values)
   endif()
   list(TRANSFORM ARGN PREPEND -D OUTPUT_VARIABLE defines)
   add_custom_command(
@@ -20,7 +23,7 @@ function(glint_kernel out name source)
             --depfile ${base}.d -o ${base}.plain.spv ${CMAKE_CURRENT_SOURCE_DIR}/${source}
     COMMAND ${CMAKE_COMMAND} -DDEPFILE=${base}.d -DTARGET=${base}.c
             -P ${CMAKE_SOURCE_DIR}/cmake/retarget_depfile.cmake
-    COMMAND spirv_exact ${base}.plain.spv ${base}.spv ${base}.c kernel_${name} ${plain}
+    COMMAND spirv_exact ${base}.plain.spv ${base}.spv ${base}.c kernel_${name} ${wishes}
     COMMAND ${SPIRV_VAL} --target-env vulkan1.1 ${base}.spv
     COMMENT "Compiling kernel ${name}"
     VERBATIM)

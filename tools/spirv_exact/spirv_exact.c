@@ -1,13 +1,14 @@
-// spirv_exact IN.spv OUT.spv OUT.c NAME [plain]: decorates every floating-point arithmetic operation of a
-// module with NoContraction, so that no compiler may fuse a multiplication and an addition, and writes the
-// module as SPIR-V and, packed and deflated, as a C file that defines the `struct kernel` NAME
-// (shaders/kernel.h). With `plain` nothing is decorated: for measuring what that saves and costs. A module
-// that computes with doubles and asks for SignedZeroInfNanPreserve of floats asks for it of doubles too: GLSL
-// can say it of one width alone.
+// spirv_exact IN.spv OUT.spv OUT.c NAME [plain] [values]: decorates every floating-point arithmetic operation
+// of a module with NoContraction, so that no compiler may fuse a multiplication and an addition, and writes
+// the module as SPIR-V and, packed and deflated, as a C file that defines the `struct kernel` NAME
+// (shaders/kernel.h). With `plain` nothing is decorated: for measuring what that saves and costs. With
+// `values` functions take by value what they only read (by_value.h). A module that computes with doubles and
+// asks for SignedZeroInfNanPreserve of floats asks for it of doubles too: GLSL can say it of one width alone.
 //
 // GLSL's `precise` stops at function calls and does nothing for dot and cross; watertight intersection
 // and conservative boxes need every operation rounded once. Exit codes: 0, or 1 with a line on stderr.
 // Reference: SPIR-V Specification 1.6, sections 2.3, 2.4 and 3.
+#include "by_value.h"
 #include "shaders/packed.h"
 
 #include <stdbool.h>
@@ -238,10 +239,29 @@ static bool write_kernel(const char *path, const char *name, const uint32_t *mod
     return file && fclose(file) == 0 && ok;
 }
 
+// What the arguments after the fourth ask for; false: something unknown.
+static bool read_wishes(int argc, char **argv, bool *plain, bool *values) {
+    for (int i = 5; i < argc; i++) {
+        const bool is_plain = strcmp(argv[i], "plain") == 0;
+        if (!is_plain && strcmp(argv[i], "values") != 0)
+            return false;
+        *(is_plain ? plain : values) = true;
+    }
+    return true;
+}
+
+// What becomes of a module, on the heap; NULL: no memory.
+static uint32_t *make_exact(const uint32_t *module, size_t *words, bool plain, bool values) {
+    uint32_t *lean = values ? by_value(module, words) : NULL;
+    uint32_t *exact = !values || lean ? decorate(lean ? lean : module, words, plain) : NULL;
+    free(lean);
+    return exact;
+}
+
 int main(int argc, char **argv) {
-    const bool plain = argc == 6 && strcmp(argv[5], "plain") == 0;
-    if (argc != 5 && !plain) {
-        fprintf(stderr, "usage: spirv_exact IN.spv OUT.spv OUT.c NAME [plain]\n");
+    bool plain = false, values = false;
+    if (argc < 5 || !read_wishes(argc, argv, &plain, &values)) {
+        fprintf(stderr, "usage: spirv_exact IN.spv OUT.spv OUT.c NAME [plain] [values]\n");
         return 1;
     }
     size_t words = 0;
@@ -249,7 +269,7 @@ int main(int argc, char **argv) {
     bool ok = false;
     if (!module || !is_sound(module, words))
         fprintf(stderr, "%s:1:1: error: not a SPIR-V module\n", argv[1]);
-    else if (!(exact = decorate(module, &words, plain)))
+    else if (!(exact = make_exact(module, &words, plain, values)))
         fprintf(stderr, "%s:1:1: error: not enough memory\n", argv[1]);
     else if (!write_module(argv[2], exact, words) || !write_kernel(argv[3], argv[4], exact, words))
         fprintf(stderr, "%s:1:1: error: cannot be written\n", argv[2]);

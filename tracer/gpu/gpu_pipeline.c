@@ -55,7 +55,12 @@ static bool create_module(struct gpu *gpu, const struct gpu_program_source *sour
         gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
         return false;
     }
-    const size_t words = drop_unknown(gpu, spirv, source->kernel->words);
+    size_t words = drop_unknown(gpu, spirv, source->kernel->words);
+    if (gpu->texels && !gpu_prune(source, spirv, &words)) {
+        free(spirv);
+        gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
+        return false;
+    }
     VkShaderModuleCreateInfo create = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                        .codeSize = words * sizeof *spirv,
                                        .pCode = spirv};

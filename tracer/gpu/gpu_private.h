@@ -102,6 +102,12 @@ void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...)
 // nothing that the work may use is destroyed from then on; the end of the process frees it.
 void gpu_settle(struct gpu *gpu);
 
+// ---- gpu_prune.c
+
+// Takes out of a module of `*words` words what the source's constants switch off: blocks, and functions that
+// nobody calls then. What it computes stays the same; the constants still have to be given. false: no memory.
+bool gpu_prune(const struct gpu_program_source *source, uint32_t *spirv, size_t *words);
+
 // ---- gpu_pipeline.c
 
 // The kernel compiled for the source, now or before; NULL on failure. Goes back by gpu_pipeline_leave.

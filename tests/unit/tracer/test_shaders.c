@@ -19,8 +19,12 @@ enum {
     OP_EXECUTION_MODE = 16,
     OP_TYPE_FLOAT = 22,
     OP_TYPE_VECTOR = 23,
+    OP_TYPE_POINTER = 32,
+    OP_FUNCTION_PARAMETER = 55,
+    OP_LOAD = 61,
     OP_DECORATE = 71,
     OP_FADD = 129,
+    STORAGE_FUNCTION = 7,
     NO_CONTRACTION = 42,
     SIGNED_ZERO_INF_NAN_PRESERVE = 4461,
 };
@@ -98,6 +102,34 @@ static int count_doubles(const struct module *module) {
     return count;
 }
 
+// How many parameters are pointers that the function only loads from: glslang passes a struct so, and
+// lavapipe's compiler pays for each of its members.
+static int count_read_pointers(const struct module *module) {
+    const uint32_t bound = module->words[3];
+    bool *is_pointer = calloc(bound, sizeof *is_pointer); // types by id
+    bool *is_read = calloc(bound, sizeof *is_read), *is_used = calloc(bound, sizeof *is_used);
+    int count = 0;
+    for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
+        const uint32_t *word = module->words + at, opcode = word[0] & 0xffff, length = word[0] >> 16;
+        if (opcode == OP_TYPE_POINTER)
+            is_pointer[word[1]] = word[2] == STORAGE_FUNCTION;
+        if (opcode == OP_LOAD && word[3] < bound)
+            is_read[word[3]] = true;
+        for (uint32_t i = 1; i < length && opcode > OP_FUNCTION_PARAMETER && opcode != OP_LOAD; i++)
+            if (word[i] < bound)
+                is_used[word[i]] = true;
+    }
+    for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
+        const uint32_t *word = module->words + at;
+        count += (word[0] & 0xffff) == OP_FUNCTION_PARAMETER && is_pointer[word[1]] && is_read[word[2]] &&
+                 !is_used[word[2]];
+    }
+    free(is_pointer);
+    free(is_read);
+    free(is_used);
+    return count;
+}
+
 static void check_module(const struct module *module) {
     const bool is_double = strstr(module->name, "64"), may_fuse = strstr(module->name, "_fused_");
     const bool traces = !strstr(module->name, "layout") && !strstr(module->name, "resolve");
@@ -111,6 +143,8 @@ static void check_module(const struct module *module) {
     assert_int_equal(preserves_nan(module, 64), is_double || has_wide);
     assert_int_equal(doubles > 0, has_wide);
     assert_int_equal(doubles > 100, is_double && traces);
+    if (traces)
+        assert_int_equal(count_read_pointers(module) == 0, strstr(module->name, "_texels") != NULL);
 }
 
 // Each kernel that the build makes: BUILT_KERNELS is KERNEL(name) of all of them. Those whose operations may

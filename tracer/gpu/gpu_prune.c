@@ -1,0 +1,386 @@
+// What a kernel's specialization constants switch off is taken out of its module before a driver reads it.
+// lavapipe's compiler joins all functions into one before it looks at what a condition decides. Reference:
+// SPIR-V Specification 1.6, sections 2.11 and 3.
+#include "core/heap.h"
+#include "tracer/gpu/gpu_private.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    HEADER_WORDS = 5,
+    BOUND = 3, // the header's word
+    DECORATION_SPEC_ID = 1,
+    DECORATION_NO_CONTRACTION = 42,
+    OP_ENTRY_POINT = 15,
+    OP_CONSTANT_TRUE = 41,
+    OP_CONSTANT_FALSE = 42,
+    OP_CONSTANT = 43,
+    OP_SPEC_CONSTANT_TRUE = 48,
+    OP_SPEC_CONSTANT_FALSE = 49,
+    OP_SPEC_CONSTANT = 50,
+    OP_SPEC_CONSTANT_OP = 52,
+    OP_FUNCTION = 54,
+    OP_FUNCTION_END = 56,
+    OP_FUNCTION_CALL = 57,
+    OP_DECORATE = 71,
+    OP_LOGICAL_OR = 166,
+    OP_LOGICAL_AND = 167,
+    OP_LOGICAL_NOT = 168,
+    OP_IEQUAL = 170,
+    OP_INOT_EQUAL = 171,
+    OP_BITWISE_AND = 199,
+    OP_PHI = 245,
+    OP_LOOP_MERGE = 246,
+    OP_SELECTION_MERGE = 247,
+    OP_LABEL = 248,
+    OP_BRANCH = 249,
+    OP_BRANCH_CONDITIONAL = 250,
+    OP_SWITCH = 251,
+    OP_UNREACHABLE = 255,
+};
+
+enum block_state {
+    BLOCK_DEAD,   // nothing leads there
+    BLOCK_MERGE,  // nothing leads there, but a selection or a loop names it as its end
+    BLOCK_REPEAT, // the same as the part of a loop that goes back to `header`
+    BLOCK_LIVE,
+};
+
+// What is known of an id.
+struct prune_id {
+    bool is_known; // a scalar of 32 bits, or a truth value: `value`
+    uint32_t value;
+    size_t function; // where it begins; 0: the id is none
+    bool is_called;
+    bool is_kept;    // a word after the type of an instruction that is left: where a result is
+    uint8_t block;   // enum block_state, of a label
+    uint32_t taken;  // of a label: the only one that it goes on to; 0: all that it names
+    uint32_t header; // of BLOCK_REPEAT
+    uint32_t spec;   // SpecId + 1; 0: none
+    bool is_seen;    // of a label: its block was looked at
+};
+
+struct prune {
+    uint32_t *words;
+    size_t count;
+    struct prune_id *ids;
+    const struct gpu_program_source *source;
+    bool is_odd; // a block comes before one that leads there: all is left as it is
+};
+
+static uint32_t length_of(const uint32_t *i) {
+    return i[0] >> 16;
+}
+
+static uint32_t opcode_of(const uint32_t *i) {
+    return i[0] & 0xffff;
+}
+
+static void know(struct prune *p, uint32_t id, uint32_t value) {
+    p->ids[id].is_known = true;
+    p->ids[id].value = value;
+}
+
+// The result of an operation whose operands are ids, as far as these are known.
+static void compute(struct prune *p, uint32_t result, uint32_t opcode, const uint32_t *operands) {
+    const struct prune_id *a = &p->ids[operands[0]];
+    const struct prune_id *b = opcode == OP_LOGICAL_NOT ? a : &p->ids[operands[1]];
+    const bool both = a->is_known && b->is_known;
+    if (opcode == OP_LOGICAL_AND && ((a->is_known && !a->value) || (b->is_known && !b->value)))
+        know(p, result, 0);
+    else if (opcode == OP_LOGICAL_OR && ((a->is_known && a->value) || (b->is_known && b->value)))
+        know(p, result, 1);
+    else if (both && opcode == OP_LOGICAL_AND)
+        know(p, result, a->value && b->value);
+    else if (both && opcode == OP_LOGICAL_OR)
+        know(p, result, a->value || b->value);
+    else if (both && opcode == OP_LOGICAL_NOT)
+        know(p, result, !a->value);
+    else if (both && opcode == OP_IEQUAL)
+        know(p, result, a->value == b->value);
+    else if (both && opcode == OP_INOT_EQUAL)
+        know(p, result, a->value != b->value);
+    else if (both && opcode == OP_BITWISE_AND)
+        know(p, result, a->value & b->value);
+}
+
+static bool is_computed(uint32_t opcode) {
+    return (opcode >= OP_LOGICAL_OR && opcode <= OP_LOGICAL_NOT) || opcode == OP_IEQUAL ||
+           opcode == OP_INOT_EQUAL || opcode == OP_BITWISE_AND;
+}
+
+static void know_constant(struct prune *p, const uint32_t *i, uint32_t value) {
+    const uint32_t spec = p->ids[i[2]].spec;
+    if (spec && spec <= p->source->constant_count)
+        value = p->source->constants[spec - 1];
+    know(p, i[2], value);
+}
+
+// What comes before the functions.
+static void take_global(struct prune *p, const uint32_t *i) {
+    switch (opcode_of(i)) {
+    case OP_DECORATE:
+        if (i[2] == DECORATION_SPEC_ID)
+            p->ids[i[1]].spec = i[3] + 1;
+        break;
+    case OP_CONSTANT_TRUE:
+    case OP_SPEC_CONSTANT_TRUE:
+        know_constant(p, i, 1);
+        break;
+    case OP_CONSTANT_FALSE:
+    case OP_SPEC_CONSTANT_FALSE:
+        know_constant(p, i, 0);
+        break;
+    case OP_CONSTANT:
+    case OP_SPEC_CONSTANT:
+        if (length_of(i) == 4)
+            know_constant(p, i, i[3]);
+        break;
+    case OP_SPEC_CONSTANT_OP:
+        if (is_computed(i[3]))
+            compute(p, i[2], i[3], i + 4);
+        break;
+    default:
+        break;
+    }
+}
+
+// ---- which blocks of a function are left
+
+static bool is_edge(const struct prune *p, uint32_t from, uint32_t to) {
+    const struct prune_id *block = &p->ids[from];
+    return block->block == BLOCK_LIVE && (block->taken == 0 || block->taken == to);
+}
+
+// Known if it is the same from all blocks that lead there, and each of these was looked at.
+static void compute_phi(struct prune *p, const uint32_t *i, uint32_t label) {
+    bool any = false;
+    uint32_t value = 0;
+    for (uint32_t k = 3; k + 1 < length_of(i); k += 2) {
+        const struct prune_id *from = &p->ids[i[k + 1]], *operand = &p->ids[i[k]];
+        if (!from->is_seen)
+            return;
+        if (!is_edge(p, i[k + 1], label))
+            continue;
+        if (!operand->is_known || (any && operand->value != value))
+            return;
+        any = true;
+        value = operand->value;
+    }
+    if (any)
+        know(p, i[2], value);
+}
+
+static void name_block(struct prune *p, uint32_t label, enum block_state state) {
+    p->is_odd |= state == BLOCK_LIVE && p->ids[label].is_seen && p->ids[label].block != BLOCK_LIVE;
+    if (p->ids[label].block < state)
+        p->ids[label].block = (uint8_t)state;
+}
+
+// Where a block goes on.
+static void lead(struct prune *p, const uint32_t *i, uint32_t label) {
+    switch (opcode_of(i)) {
+    case OP_BRANCH:
+        name_block(p, i[1], BLOCK_LIVE);
+        break;
+    case OP_BRANCH_CONDITIONAL:
+        if (p->ids[i[1]].is_known)
+            p->ids[label].taken = p->ids[i[1]].value ? i[2] : i[3];
+        for (uint32_t k = 2; k <= 3; k++)
+            if (p->ids[label].taken == 0 || p->ids[label].taken == i[k])
+                name_block(p, i[k], BLOCK_LIVE);
+        break;
+    case OP_SWITCH:
+        name_block(p, i[2], BLOCK_LIVE);
+        for (uint32_t k = 4; k < length_of(i); k += 2)
+            name_block(p, i[k], BLOCK_LIVE);
+        break;
+    default:
+        break;
+    }
+}
+
+// Whether a selection's condition is known: `i` is its OpSelectionMerge, the branch comes next.
+static bool is_decided(const struct prune *p, const uint32_t *i) {
+    const uint32_t *branch = i + length_of(i);
+    return opcode_of(branch) == OP_BRANCH_CONDITIONAL && p->ids[branch[1]].is_known;
+}
+
+static void look_at(struct prune *p, const uint32_t *i, uint32_t label) {
+    const uint32_t opcode = opcode_of(i);
+    if (opcode == OP_FUNCTION_CALL)
+        p->ids[i[3]].is_called = true;
+    else if (opcode == OP_PHI)
+        compute_phi(p, i, label);
+    else if (is_computed(opcode))
+        compute(p, i[2], opcode, i + 3);
+    else if (opcode == OP_SELECTION_MERGE && !is_decided(p, i))
+        name_block(p, i[1], BLOCK_MERGE);
+    else if (opcode == OP_LOOP_MERGE) {
+        name_block(p, i[1], BLOCK_MERGE);
+        name_block(p, i[2], BLOCK_REPEAT);
+        p->ids[i[2]].header = label;
+    } else {
+        lead(p, i, label);
+    }
+}
+
+// A block comes after that which dominates it, so one look at each is enough.
+static void look_at_function(struct prune *p, size_t at) {
+    uint32_t label = 0;
+    for (; opcode_of(p->words + at) != OP_FUNCTION_END; at += length_of(p->words + at)) {
+        const uint32_t *i = p->words + at;
+        if (opcode_of(i) == OP_LABEL) {
+            if (label == 0)
+                name_block(p, i[1], BLOCK_LIVE);
+            label = i[1];
+            p->ids[label].is_seen = true;
+        } else if (label && p->ids[label].block == BLOCK_LIVE) {
+            look_at(p, i, label);
+        }
+    }
+}
+
+// glslang writes functions before those that call them, or after: until no more are called.
+static void look_at_functions(struct prune *p) {
+    for (bool more = true; more;) {
+        more = false;
+        for (uint32_t id = 0; id < p->words[BOUND]; id++) {
+            struct prune_id *function = &p->ids[id];
+            if (!function->is_called || function->function == 0)
+                continue;
+            look_at_function(p, function->function);
+            function->function = 0;
+            more = true;
+        }
+    }
+}
+
+// ---- what is left of the module
+
+struct output {
+    uint32_t *words; // those that it is made from: what is left is never longer
+    size_t count;
+};
+
+static void put(struct output *out, uint32_t word) {
+    out->words[out->count++] = word;
+}
+
+static void put_phi(const struct prune *p, struct output *out, const uint32_t *i, uint32_t label) {
+    const uint32_t length = length_of(i);
+    const size_t at = out->count;
+    put(out, 0);
+    put(out, i[1]);
+    put(out, i[2]);
+    for (uint32_t k = 3; k + 1 < length; k += 2) {
+        const uint32_t value = i[k], from = i[k + 1];
+        if (!is_edge(p, from, label) && p->ids[from].block != BLOCK_REPEAT)
+            continue;
+        put(out, value);
+        put(out, from);
+    }
+    out->words[at] = (uint32_t)(out->count - at) << 16 | OP_PHI;
+}
+
+static void put_instruction(struct prune *p, struct output *out, const uint32_t *i, uint32_t label) {
+    const uint32_t opcode = opcode_of(i), length = length_of(i);
+    if (length > 2)
+        p->ids[i[2] < p->words[BOUND] ? i[2] : 0].is_kept = true;
+    if (opcode == OP_SELECTION_MERGE && is_decided(p, i))
+        return;
+    if (opcode == OP_PHI) {
+        put_phi(p, out, i, label);
+    } else if (opcode == OP_BRANCH_CONDITIONAL && p->ids[label].taken) {
+        put(out, 2u << 16 | OP_BRANCH);
+        put(out, p->ids[label].taken);
+    } else {
+        memmove(out->words + out->count, i, length * sizeof *i);
+        out->count += length;
+    }
+}
+
+static size_t block_length(const uint32_t *label) {
+    const uint32_t *end = label + length_of(label);
+    while (opcode_of(end) != OP_LABEL && opcode_of(end) != OP_FUNCTION_END)
+        end += length_of(end);
+    return (size_t)(end - label);
+}
+
+// A block to which nothing leads, but which may have to be there.
+static void put_empty(const struct prune *p, struct output *out, uint32_t label) {
+    const struct prune_id *block = &p->ids[label];
+    if (block->block == BLOCK_DEAD)
+        return;
+    put(out, 2u << 16 | OP_LABEL);
+    put(out, label);
+    if (block->block == BLOCK_MERGE) {
+        put(out, 1u << 16 | OP_UNREACHABLE);
+    } else {
+        put(out, 2u << 16 | OP_BRANCH);
+        put(out, block->header);
+    }
+}
+
+static size_t put_functions(struct prune *p, size_t at) {
+    struct output out = {p->words, at};
+    bool called = false;
+    uint32_t label = 0;
+    for (size_t length; at < p->count; at += length) {
+        const uint32_t *i = p->words + at, opcode = opcode_of(i);
+        length = length_of(i);
+        if (opcode == OP_FUNCTION)
+            called = p->ids[i[2]].is_called;
+        if (opcode == OP_LABEL)
+            label = i[1];
+        if (called && opcode == OP_LABEL && p->ids[label].block != BLOCK_LIVE) {
+            length = block_length(i);
+            put_empty(p, &out, label);
+        } else if (called) {
+            put_instruction(p, &out, i, label);
+        }
+    }
+    return out.count;
+}
+
+// Decorations of results that are gone.
+static size_t drop_decorations(struct prune *p, size_t functions, size_t count) {
+    struct output out = {p->words, HEADER_WORDS};
+    for (size_t at = HEADER_WORDS, length; at < functions; at += length) {
+        const uint32_t *i = p->words + at;
+        length = length_of(i);
+        if (opcode_of(i) == OP_DECORATE && i[2] == DECORATION_NO_CONTRACTION && !p->ids[i[1]].is_kept)
+            continue;
+        memmove(out.words + out.count, i, length * sizeof *i);
+        out.count += length;
+    }
+    memmove(out.words + out.count, p->words + functions, (count - functions) * sizeof *p->words);
+    return out.count + count - functions;
+}
+
+bool gpu_prune(const struct gpu_program_source *source, uint32_t *spirv, size_t *words) {
+    struct prune p = {.words = spirv, .count = *words, .source = source};
+    p.ids = heap_zeroed(spirv[BOUND], sizeof *p.ids);
+    if (!p.ids)
+        return false;
+    size_t functions = *words;
+    for (size_t at = HEADER_WORDS; at < *words; at += length_of(spirv + at)) {
+        const uint32_t *i = spirv + at;
+        if (opcode_of(i) == OP_FUNCTION) {
+            functions = at < functions ? at : functions;
+            p.ids[i[2]].function = at;
+        } else if (functions == *words) {
+            if (opcode_of(i) == OP_ENTRY_POINT)
+                p.ids[i[2]].is_called = true;
+            take_global(&p, i);
+        }
+    }
+    look_at_functions(&p);
+    if (!p.is_odd) {
+        const size_t count = put_functions(&p, functions);
+        *words = drop_decorations(&p, functions, count);
+    }
+    free(p.ids);
+    return true;
+}
