@@ -411,7 +411,9 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     break;
             }
 #else
-            if (HAS_TRIANGLES && traced && open)
+            if (BEGINS && HAS_TRIANGLES && traced && open)
+                state = SUSPENDED;
+            else if (HAS_TRIANGLES && traced && open)
                 state = decide_here(p, own, from, shadow, doubts, sphere, fresh, hit, iterations);
             if (state == SUSPENDED)
                 break;
@@ -437,16 +439,20 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
     uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
+    uint end = dispatch.path_end;
 #ifndef FETCH_TEXELS
-    if (dispatch.spread > OPAQUE_ZERO) {
-        if (index % dispatch.spread != 0u)
+    uint spread = dispatch.spread;
+    if (AT_ONCE && resumes && dispatch.resume == RESUME_COUNTED)
+        end = count_saved(spread);
+    if (spread > OPAQUE_ZERO) {
+        if (index % spread != 0u)
             return;
-        index /= dispatch.spread;
+        index /= spread;
     }
 #endif
     index += dispatch.path_begin;
-    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
-    if (index >= dispatch.path_end)
+    if (index >= end)
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
     uint path = place, slot = place;
