@@ -19,6 +19,14 @@ vec2 sample_offset(uint k) {
     return (k & 1u) == 0u ? both.xy : both.zw;
 }
 
+// Where the saved paths end that go on with RESUME_COUNTED. `spread`: as far apart as there are invocations for it.
+uint count_saved(inout uint spread) {
+    uint saved = counters[COUNTER_PENDING + dispatch.read_list] - dispatch.read_base;
+    while (spread > 1u && saved > dispatch.path_end / spread)
+        spread /= 2u;
+    return min(saved, dispatch.path_end);
+}
+
 // The path that an invocation begins.
 uint path_of(uint index, uint slots) {
     uint samples = max(dispatch.samples, 1u), block = index / TILE_PIXELS;

@@ -66,9 +66,9 @@
     FLOAT(offset_y)                                                                                          \
     UINT(path_begin) /* slots of this dispatch, or places in the list that is read */                        \
     UINT(path_end)                                                                                           \
-    UINT(resume)       /* 0: paths begin; else how many saved ones go on */                                  \
+    UINT(resume)       /* 0: paths begin; else how many saved ones go on, or RESUME_COUNTED */               \
     UINT(read_list)    /* which of the two lists of saved slots is read; the other is written */             \
-    UINT(pending_base) /* value of COUNTER_PENDING when that list was begun */                               \
+    UINT(pending_base) /* of the one written: value of its counter when it was begun */                      \
     UINT(places)       /* for saved paths; one a slot unless samples are traced at once */                   \
     UINT(samples)      /* traced at once: path k * slots + s is sample k of slot s */                        \
     UINT(restarts)     /* 1: paths begin that found no place before, by their list */                        \
@@ -76,8 +76,13 @@
     UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */                              \
     UINT(shows)        /* 1: a path is its pixel's only one, and shows it */                                 \
     UINT(spread)       /* one of so many invocations has a path; 0: each */                                  \
+    UINT(read_base)    /* with RESUME_COUNTED, of the list that is read: as pending_base */                  \
     UINT(first_sample) /* number of the dispatch's first sample */                                           \
     UINT(listed)       /* with CONSTANT_LISTED: how many paths begin, in the list after the two others */
+
+/* Saved paths go on, path_end at most: how many there are only their counter knows, because they were saved
+ * by the dispatch before this one in the same submission. `spread` is then what it is at most. */
+#define RESUME_COUNTED 0xffffffffu
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8
@@ -118,12 +123,13 @@
 /* Counters, 32-bit each: those that all invocations share, then banks of those of FEATURE_COUNTERS, then two
    lists of slots. A workgroup counts in one bank, so that workgroups seldom wait for each other. The host
    reads them after each dispatch, and sums what was added. */
-#define COUNTER_PENDING   0
 #define COUNTER_LONG_RAYS 1 /* samples with FAULT_ITERATIONS */
 /* Of samples traced at once: places that were taken, and paths that found none, in lists after the two
  * others. */
 #define COUNTER_PLACES   2
 #define COUNTER_RESTARTS 3
+/* Entries that each of the two lists of saved paths has had. */
+#define COUNTER_PENDING 16
 /* By kind of fault: its pixels; the complement of the first one's number, which is y * width + x; and its
  * word. */
 #define COUNTER_FAULT_PIXELS 4

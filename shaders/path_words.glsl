@@ -267,8 +267,9 @@ bool save_path(bool resumes, uint place, uint path, path_state p) {
         states[long_word(0u)] = uvec4(long_tree | long_instance << 2u, long_group, states[long_word(0u)].w);
     // Each saved path has an entry in the list that the next dispatch reads. Their order may differ from
     // run to run; the picture does not know it.
-    uint entry = atomicAdd(counters[COUNTER_PENDING], 1u) - dispatch.pending_base;
-    counters[COUNTER_COUNT + (1u - dispatch.read_list) * dispatch.places + entry] = place;
+    uint list = 1u - dispatch.read_list;
+    uint entry = atomicAdd(counters[COUNTER_PENDING + list], 1u) - dispatch.pending_base;
+    counters[COUNTER_COUNT + list * dispatch.places + entry] = place;
     return true;
 }
 

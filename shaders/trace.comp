@@ -418,7 +418,9 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
                     break;
             }
 #else
-            if (HAS_TRIANGLES && traced && open)
+            if (BEGINS && HAS_TRIANGLES && traced && open)
+                state = SUSPENDED;
+            else if (HAS_TRIANGLES && traced && open)
                 state = decide_here(p, own, from, shadow, doubts, sphere, fresh, hit, iterations);
             if (state == SUSPENDED)
                 break;
@@ -459,16 +461,20 @@ vec2 offset_in_pixel(uint sample_number) {
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
     uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
+    uint end = dispatch.path_end;
 #ifndef FETCH_TEXELS
-    if (dispatch.spread > OPAQUE_ZERO) {
-        if (index % dispatch.spread != 0u)
+    uint spread = dispatch.spread;
+    if (AT_ONCE && resumes && dispatch.resume == RESUME_COUNTED)
+        end = count_saved(spread);
+    if (spread > OPAQUE_ZERO) {
+        if (index % spread != 0u)
             return;
-        index /= dispatch.spread;
+        index /= spread;
     }
 #endif
     index += dispatch.path_begin;
-    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
-    if (index >= dispatch.path_end)
+    if (index >= end)
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
     if (LISTED && !resumes)

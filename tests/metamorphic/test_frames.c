@@ -186,6 +186,36 @@ static void test_open_rays(struct frames *f) {
     close_stage(&stage);
 }
 
+// Where paths end at what they hit first, they begin in such a kernel on GPUs too, and those that it saves go
+// on right after it: more of them than that takes at once, each in slices of its own, and with fewer places
+// than there are paths to save.
+static void test_followed(struct frames *f) {
+    static const uint32_t cases[][2] = {
+        {SLICE_ITERATIONS, 0}, {SLICE_ITERATIONS, 50}, {0, 0}}; // slice, places
+    struct stage stage;
+    struct image whole = {0}, image = {0};
+    struct render_statistics statistics;
+    if (!open_stage(f, &stage, 320, 240, 2))
+        return;
+    stage.shot.settings.features &= ~(uint32_t)(FEATURE_REFLECTION | FEATURE_REFRACTION);
+    bool good = apply(&stage) && take(&stage, &whole, &statistics) && statistics.slices == 0;
+    expect(f, good && picture_variety(&whole) > 1000, "a picture without bounces, by one kernel");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases && good; i++) {
+        stage.shot.settings.slice_iterations = cases[i][0];
+        stage.shot.settings.places = cases[i][1];
+        stage.shot.settings.band_tiles = 400 + (uint32_t)i; // with which all is made anew
+        for (int turn = 0; turn < 2 && good; turn++) {
+            good = apply(&stage) && take(&stage, &image, &statistics) &&
+                   (turn == 0 || statistics.slices > 0) &&
+                   picture_differences(&whole, &image, "followed") == 0;
+            image_finish(&image);
+        }
+    }
+    expect(f, good, "what goes on right after a pass does not show");
+    image_finish(&whole);
+    close_stage(&stage);
+}
+
 // Dispatches of few paths at a time, whose numbers are no multiples of anything.
 static void test_pieces(struct frames *f) {
     static const uint32_t sizes[] = {64, 1000, 1937};
@@ -405,6 +435,7 @@ int main(int argc, char **argv) {
         return 77;
     test_slices(&f);
     test_open_rays(&f);
+    test_followed(&f);
     test_pieces(&f);
     test_at_once(&f);
     if (!saved)

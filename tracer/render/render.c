@@ -99,6 +99,12 @@ static uint32_t least_of(uint64_t a, uint64_t b) {
     return (uint32_t)(a < b ? a : b);
 }
 
+// Without shadow rays the lights are scanned in one go, however many there are.
+static bool is_long_path(const struct renderer *renderer) {
+    return (renderer->settings.features & (FEATURE_REFLECTION | FEATURE_REFRACTION)) ||
+           renderer->flat->light_count >= SHORT_PATH_RAYS;
+}
+
 // How many samples of a band, and places for the paths that are saved: seldom more than a few are.
 static void plan_at_once(struct renderer *renderer) {
     const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
@@ -106,7 +112,9 @@ static void plan_at_once(struct renderer *renderer) {
     renderer->samples_at_once = least_of(least_of(fit, renderer->settings.samples), SAMPLES_AT_ONCE);
     const uint64_t paths = slots * renderer->samples_at_once, bytes = slot_state_bytes(renderer);
     const uint64_t most = bytes ? band_bytes(gpu_info(renderer->gpu)) / bytes : 0;
-    renderer->places = has_state(renderer) ? least_of(paths, most) : 0;
+    // Few paths have an open ray; other slices end where paths are long.
+    const bool is_long = is_long_path(renderer);
+    renderer->places = has_state(renderer) ? least_of(is_long ? paths : (paths + 7) / 8, most) : 0;
     if (renderer->settings.places && renderer->settings.places < renderer->places)
         renderer->places = renderer->settings.places;
 }
@@ -115,11 +123,10 @@ static void plan(struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint32_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
     renderer->features = settings->features;
-    // Without shadow rays the lights are scanned in one go, however many there are.
-    if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
+    if (is_long_path(renderer))
         renderer->features |= FEATURE_SLICES;
-    // Paths with a ray that is open go on in another kernel (render_kernel.c).
-    if (gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_TRIANGLES))
+    // Paths with a ray that is open may go on in another kernel (render_kernel.c).
+    if (renderer->features & FEATURE_TRIANGLES)
         renderer->features |= FEATURE_SLICES;
     if (renderer->flat->light_count > MANY_LIGHTS)
         renderer->features |= FEATURE_MANY_LIGHTS;
@@ -264,7 +271,7 @@ static void drop_frame(struct renderer *renderer) {
     free(renderer->estimate.error);
     free(renderer->estimate.samples);
     renderer->estimate = (struct render_estimate){0};
-    renderer->pending = renderer->taken = renderer->restarts = 0;
+    renderer->pending[0] = renderer->pending[1] = renderer->taken = renderer->restarts = 0;
 }
 
 bool renderer_take_long_rays(struct renderer *renderer) {

@@ -148,14 +148,23 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint32_t feat
     return program;
 }
 
-// On lavapipe a kernel costs what all of its code does, wanted or not: paths begin in one that neither takes
-// up saved paths nor searches a second time, and those that need that are saved. Counts would tell of this. A
-// picture that is made once does not pay for making a second kernel, unless it is large.
-static bool begins_apart(const struct renderer *renderer) {
+// Where a path ends soon, what goes on alone after a pass is soon over. In double precision a ray is seldom
+// open, and a second search needs all registers that there are.
+static bool ends_soon(const struct renderer *renderer) {
+    return renderer->samples_at_once && (renderer->features & FEATURE_TRIANGLES) &&
+           (renderer->flat->is_double || !(renderer->features & (FEATURE_REFLECTION | FEATURE_REFRACTION)));
+}
+
+// A kernel costs what all of its code does, wanted or not, on lavapipe, and on a GPU what the most registers
+// are that any of it needs: paths begin in one that neither takes up saved paths nor searches a second time,
+// and those that need that are saved. Counts would tell of this. A picture that is made once does not pay for
+// making a second kernel, unless it is large.
+bool renderer_begins_apart(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const bool pays = renderer->has_drawn ||
                       (uint64_t)settings->width * settings->height * settings->samples >= PATHS_APART;
-    return pays && gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_SLICES) &&
+    const bool helps = gpu_fetches_texels(renderer->gpu) || ends_soon(renderer);
+    return pays && helps && (renderer->features & FEATURE_SLICES) &&
            !(renderer->features & FEATURE_LONG_RAYS) &&
            renderer->settings.alternative == RENDER_ALTERNATIVE_NONE;
 }
@@ -168,7 +177,7 @@ struct gpu_program *renderer_program(struct renderer *renderer, bool counts) {
 }
 
 struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts) {
-    if (counts || !begins_apart(renderer))
+    if (counts || !renderer_begins_apart(renderer))
         return renderer_program(renderer, counts);
     if (!renderer->begins)
         renderer->begins = keep_program(renderer, renderer->features | FEATURE_BEGINS);

@@ -14,7 +14,9 @@ enum {
     SPREAD_MOST = 32,     // lanes of the largest subgroup
     SPREAD_MOST_CPU = 2,  // a processor is not idle; so that tests see it
     SPREAD_PATHS = 32768, // a GPU has room for so many at a time
-    GROWTH_MOST = 4,      // from one dispatch to the next: where few paths were cheap, others may not be
+    FOLLOW_PATHS = 65536, // that go on right after a pass, at most
+    FOLLOW_PATHS_CPU = 64,
+    GROWTH_MOST = 4, // from one dispatch to the next: where few paths were cheap, others may not be
 };
 static const double DISPATCH_SECONDS = 0.05;
 // What is left of a path's cost where the next ones cost less: neighbours are alike, and cheap ones may end
@@ -91,6 +93,26 @@ static bool dispatch_ranks(struct renderer_frame *run, struct gpu_program *progr
     return done;
 }
 
+// Those that a pass has saved, as soon as it has ended. Who records it does not know how many there are.
+static bool dispatch_saved(struct renderer_frame *run, uint32_t workgroup,
+                           const struct dispatch_block *block) {
+    struct gpu *gpu = run->renderer->gpu;
+    const bool is_cpu = gpu_info(gpu)->kind == GPU_CPU;
+    struct dispatch_block saved = *block;
+    run->follow = is_cpu ? FOLLOW_PATHS_CPU : FOLLOW_PATHS;
+    saved.resume = RESUME_COUNTED;
+    saved.read_list = 1 - block->read_list;
+    saved.read_base = block->pending_base;
+    saved.pending_base = run->renderer->pending[block->read_list];
+    saved.path_begin = 0;
+    saved.path_end = run->follow;
+    const uint32_t groups = (run->follow + workgroup - 1) / workgroup;
+    saved.grid_width = grid_width(groups);
+    saved.spread = is_cpu ? SPREAD_MOST_CPU : SPREAD_MOST;
+    return gpu_dispatch(gpu, run->whole, saved.grid_width, (groups + saved.grid_width - 1) / saved.grid_width,
+                        &saved);
+}
+
 static bool dispatch_one(struct renderer_frame *run, struct gpu *gpu, struct gpu_program *program,
                          uint32_t workgroup, struct dispatch_block *block, uint32_t end) {
     block->spread = run ? spread_of(gpu, end - block->path_begin) : 1;
@@ -108,6 +130,7 @@ bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, 
     const double start = clock_seconds();
     if (!(by_rank ? dispatch_ranks(run, program, workgroup, block, to)
                   : dispatch_one(run, renderer->gpu, program, workgroup, block, to)) ||
+        (by_rank && run->whole && to == end && !dispatch_saved(run, workgroup, block)) ||
         (run && !renderer_follow_pass(run, block->path_end == end)) || !gpu_submit(renderer->gpu) ||
         !gpu_wait(renderer->gpu, seconds))
         return false;

@@ -36,7 +36,7 @@ static bool read_counters(struct renderer_frame *run) {
     for (uint32_t at = COUNTER_SHARED; at < COUNTER_COUNT && run->counting; at += COUNTER_BANK)
         add_bank(run, counters + at, run->counters + at);
     memcpy(run->counters, counters, bytes);
-    renderer->pending = counters[COUNTER_PENDING];
+    memcpy(renderer->pending, counters + COUNTER_PENDING, sizeof renderer->pending);
     renderer->taken = counters[COUNTER_PLACES];
     renderer->restarts = counters[COUNTER_RESTARTS];
     run->met_long_ray = counters[COUNTER_LONG_RAYS] != 0;
@@ -62,15 +62,25 @@ static uint32_t paths_of(const struct dispatch_block *block) {
                          : block->tile_count * TILE_PIXELS * (block->samples ? block->samples : 1);
 }
 
+// What a pass has put into its list; and how many of that have gone on right after it.
+static uint32_t saved_by(const struct renderer_frame *run, const struct dispatch_block *block) {
+    return run->renderer->pending[1 - block->read_list] - block->pending_base;
+}
+
+static uint32_t gone_on(const struct renderer_frame *run, uint32_t saved) {
+    return saved < run->follow ? saved : run->follow;
+}
+
 // All paths from the camera, or all that were saved, until they end or are saved again.
 static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_block *block, uint32_t end) {
     const uint32_t all = paths_of(block);
-    block->pending_base = run->renderer->pending;
+    const uint32_t read_base = run->renderer->pending[block->read_list];
     for (; block->path_begin < end; block->path_begin = block->path_end) {
         if (!run_paths(run, block, end))
             return RENDER_FAILED;
-        const uint32_t saved = run->renderer->pending - block->pending_base;
-        const uint32_t open = end - block->path_end + saved;
+        const uint32_t saved = saved_by(run, block),
+                       again = run->renderer->pending[block->read_list] - read_base;
+        const uint32_t open = end - block->path_end + saved - gone_on(run, saved) + again;
         if (run->met_long_ray)
             return RENDER_CANCELLED;
         if (open > 0 && (is_over(run) || !renderer_is_wanted(run, open < all ? 1 - (double)open / all : 0)))
@@ -82,20 +92,26 @@ static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_
 // A pass, and others until none of its paths is left.
 static enum render_result draw_to_end(struct renderer_frame *run, struct dispatch_block *block,
                                       uint32_t begin, uint32_t end) {
-    block->place_base = run->renderer->taken;
+    struct renderer *renderer = run->renderer;
+    uint32_t base = renderer->pending[1 - block->read_list];
+    block->place_base = renderer->taken;
     block->resume = 0;
     for (;;) {
+        // Of the list that is read: what goes on right after this pass writes there what is saved once more.
+        const uint32_t next_base = renderer->pending[block->read_list];
         block->path_begin = begin;
+        block->pending_base = base;
+        run->follow = 0;
         const enum render_result result = draw_pass(run, block, end);
         if (result != RENDER_DONE)
             return result;
-        block->resume = run->renderer->pending - block->pending_base;
-        if (block->resume == 0)
+        end = block->resume = saved_by(run, block);
+        begin = gone_on(run, end);
+        run->statistics->slices += end > 0;
+        if (begin == end && renderer->pending[block->read_list] == next_base)
             return RENDER_DONE;
-        begin = 0;
-        end = block->resume;
+        base = next_base;
         block->read_list = 1 - block->read_list;
-        run->statistics->slices++;
     }
 }
 

@@ -85,14 +85,14 @@ struct renderer {
     struct gpu_buffer *buffers[GPU_BINDINGS];
     struct gpu_program *program;  // of those kept; NULL: none was wanted yet
     struct gpu_program *counting; // the same, with counters
-    struct gpu_program *begins;   // most of it, for paths that begin: on lavapipe alone
+    struct gpu_program *begins;   // most of it, for paths that begin
     bool has_drawn;               // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
     struct renderer_hits *hits; // made by the first renderer_hits
     struct renderer_log *log;   // made by the first renderer_log
-    uint32_t pending;           // value of COUNTER_PENDING after the last dispatch
+    uint32_t pending[2];        // values of COUNTER_PENDING after the last dispatch, by list
     uint32_t taken, restarts;   // and of COUNTER_PLACES and COUNTER_RESTARTS
     struct renderer_pace paces[RENDERER_PASSES];
     struct render_estimate estimate; // of an adaptive frame; its arrays NULL: there was none
@@ -112,6 +112,8 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
+// Whether paths begin in a kernel of their own that has only what most of them need.
+bool renderer_begins_apart(const struct renderer *renderer);
 // The kernel in which the paths of a frame begin; those that it saves go on in the tracing kernel.
 struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts);
 float renderer_float(uint32_t bits);
@@ -122,7 +124,11 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
 // What one frame works on.
 struct renderer_frame {
     struct renderer *renderer;
-    struct gpu_program *program;
+    struct gpu_program *program; // in which paths begin
+    // Where samples are traced at once and `program` has not all: the tracing kernel, in which paths go on
+    // that a pass saves. Else NULL.
+    struct gpu_program *whole;
+    uint32_t follow; // how many of them at most went on right after the last dispatch
     const struct render_progress *progress;
     struct render_statistics *statistics;
     uint64_t steps_done, steps; // a band's sample is a step

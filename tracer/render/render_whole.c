@@ -5,7 +5,7 @@
 
 static bool clear_counters(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
-    renderer->pending = renderer->taken = renderer->restarts = 0;
+    renderer->pending[0] = renderer->pending[1] = renderer->taken = renderer->restarts = 0;
     for (int i = 0; i < COUNTER_COUNT; i++)
         run->counters[i] = 0;
     for (int i = 0; i < COUNTER_KINDS; i++)
@@ -35,7 +35,9 @@ static struct render_rays rays_of(const struct renderer_frame *run) {
 static bool begin(struct renderer_frame *run, bool counts) {
     run->counting = counts;
     run->program = renderer_first_program(run->renderer, counts);
-    return run->program && (!counts || clear_counters(run));
+    const bool apart = !counts && run->renderer->samples_at_once && renderer_begins_apart(run->renderer);
+    run->whole = apart ? renderer_program(run->renderer, false) : NULL;
+    return run->program && (run->whole || !apart) && (!counts || clear_counters(run));
 }
 
 static enum render_result draw(struct renderer_frame *run, const struct view_camera *camera, float *rgb) {
