@@ -18,7 +18,7 @@ bool assets_is_mesh_path(str path) {
 }
 
 // The file that holds a value: paths are relative to it. Values of options belong to the scene's file.
-static str base_of(const struct assets_input *input, span at) {
+str loader_base_of(const struct assets_input *input, span at) {
     uint32_t source = at.source;
     const struct source *s = &input->sources->items[source < input->sources->count ? source : SOURCE_DEFAULT];
     if ((s->kind == SOURCE_KIND_OPTION || s->kind == SOURCE_KIND_DEFAULT) && input->origin->files.count)
@@ -115,7 +115,7 @@ static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const s
     } else {
         report_mesh(file, &entry->mesh);
     }
-    loaded->mesh = entry->is_whole ? &entry->mesh : NULL;
+    loaded->mesh = loaded->own = entry->is_whole ? &entry->mesh : NULL;
 }
 
 // The mesh that a model names, read when the first model names it.
@@ -123,7 +123,7 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     const struct assets_input *input = loader->input;
     struct asset_file file = {.input = input, .what = "mesh", .limit = LIMIT_MESH_BYTES, .named_at = at};
     struct file_read identity;
-    if (!asset_find(&file, base_of(input, at), model->mesh, &identity, NULL))
+    if (!asset_find(&file, loader_base_of(input, at), model->mesh, &identity, NULL))
         return NULL;
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
         if (str_equal(known->canonical, identity.path))
@@ -220,6 +220,7 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
     result->group_material = loader_group_materials(loader, model, loaded);
     result->mesh = loaded->mesh;
     check_refraction(loader, model, result, loaded, at);
+    loader_load_coordinates(loader, result, loaded);
     if (model->smooth && !loaded->normals_told)
         mesh_losses_report_normals(&loaded->file, loaded->mesh);
     loaded->normals_told = loaded->normals_told || model->smooth;
@@ -297,8 +298,7 @@ static struct store_entry *find_image(struct loader *loader, enum assets_pixels 
     return entry ? entry : store_add(loader->hold, kinds[pixels], identity);
 }
 
-// What is known of the picture once its pixels are; NULL: it cannot be used.
-static const struct picture *judge_background(struct asset_file *file, struct store_entry *entry) {
+const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry) {
     if (entry->picture_fault)
         asset_report_line(file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s",
                           entry->picture_fault);
@@ -309,6 +309,24 @@ static const struct picture *judge_background(struct asset_file *file, struct st
     return &entry->picture;
 }
 
+static void complete_image(struct loader *loader, struct asset_file *file, str name,
+                           struct store_entry *entry) {
+    if (!entry->is_whole)
+        read_image(loader, file, name, entry);
+    else
+        fits_memory(file, name, entry);
+}
+
+struct store_entry *loader_read_image(struct loader *loader, struct asset_file *file, str name,
+                                      const struct file_read *identity) {
+    struct store_entry *entry = find_image(loader, loader->pixels, identity);
+    if (entry)
+        complete_image(loader, file, name, entry);
+    else
+        asset_report_memory(file, ARENA_FAULT_SYSTEM);
+    return entry;
+}
+
 static const struct picture *load_background(struct loader *loader, enum assets_pixels pixels,
                                              struct assets *out) {
     const struct assets_input *input = loader->input;
@@ -316,7 +334,7 @@ static const struct picture *load_background(struct loader *loader, enum assets_
     span at = ir_place_value(input->origin, &background->head, &SCHEMA_BACKGROUND, "image");
     struct asset_file file = {.input = input, .what = "image", .limit = LIMIT_IMAGE_BYTES, .named_at = at};
     struct file_read identity;
-    if (!asset_find(&file, base_of(input, at), background->image, &identity, NULL))
+    if (!asset_find(&file, loader_base_of(input, at), background->image, &identity, NULL))
         return NULL;
     struct store_entry *entry = find_image(loader, pixels, &identity);
     if (!entry) {
@@ -326,12 +344,9 @@ static const struct picture *load_background(struct loader *loader, enum assets_
     out->pixels_later = !entry->is_whole && ahead_is_for(out->ahead, &identity, entry, &file);
     if (out->pixels_later)
         return &entry->picture;
-    if (!entry->is_whole)
-        read_image(loader, &file, background->image, entry);
-    else
-        fits_memory(&file, background->image, entry);
-    const struct picture *picture = judge_background(&file, entry);
-    out->pixels_skipped = picture && entry->kind == STORE_PICTURE_SKIPPED;
+    complete_image(loader, &file, background->image, entry);
+    const struct picture *picture = loader_judge_image(&file, entry);
+    out->pixels_skipped |= picture && entry->kind == STORE_PICTURE_SKIPPED;
     return picture;
 }
 
@@ -346,7 +361,7 @@ void assets_settle(struct assets *assets) {
         entry->picture_fault = NULL;
     }
     entry->is_whole = file->errors == 0;
-    assets->background = judge_background(file, entry);
+    assets->background = loader_judge_image(file, entry);
 }
 
 static bool has_background_image(const struct assets_input *input) {
@@ -357,8 +372,8 @@ static bool has_background_image(const struct assets_input *input) {
 
 static struct asset_ahead *decode_ahead(const struct assets_input *input, struct asset_hold *hold) {
     return ahead_begin(input, hold,
-                       base_of(input, ir_place_value(input->origin, &input->scene->background.head,
-                                                     &SCHEMA_BACKGROUND, "image")));
+                       loader_base_of(input, ir_place_value(input->origin, &input->scene->background.head,
+                                                            &SCHEMA_BACKGROUND, "image")));
 }
 
 // ---- all
@@ -366,8 +381,8 @@ static struct asset_ahead *decode_ahead(const struct assets_input *input, struct
 static void add_scene_materials(struct loader *loader) {
     const struct ir_materials *materials = &loader->input->scene->materials;
     for (uint32_t i = 0; i < materials->count; i++)
-        *ARENA_PUSH(loader->input->arena, &loader->materials) = materials->items[i];
-    schema_init(&SCHEMA_MATERIAL, ARENA_PUSH(loader->input->arena, &loader->materials));
+        *loader_add_material(loader, (struct material_source){NULL, 0}) = materials->items[i];
+    schema_init(&SCHEMA_MATERIAL, loader_add_material(loader, (struct material_source){NULL, 0}));
 }
 
 void assets_load(struct asset_store *store, const struct assets_input *given, enum assets_pixels pixels,
@@ -383,7 +398,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
                  "there is not enough memory to load the scene's files");
         return;
     }
-    struct loader loader = {.input = input, .hold = out->hold};
+    struct loader loader = {.input = input, .hold = out->hold, .pixels = pixels};
     add_scene_materials(&loader);
     const bool has_image = has_background_image(input);
     if (has_image && input->pixels_later && pixels == ASSETS_KEEP_PIXELS)
@@ -393,6 +408,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
     for (uint32_t i = 0; i < scene->models.count; i++)
         load_model(&loader, out, i);
     report_unfit(&loader, out);
+    loader_load_textures(&loader, out);
     if (has_image)
         out->background = load_background(&loader, pixels, out);
     out->materials = loader.materials.items;

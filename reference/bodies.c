@@ -9,7 +9,10 @@ static struct material make_material(const struct scene_material *from) {
                          .exponent = from->specular_exponent,
                          .reflection = from->reflection,
                          .refraction = from->refraction,
-                         .index = from->refractive_index};
+                         .index = from->refractive_index,
+                         .is = from,
+                         .has_paint = (from->checker && from->soft) || from->images[ASSETS_DIFFUSE].texture ||
+                                      from->images[ASSETS_SPECULAR].texture};
     for (int i = 0; i < 2; i++)
         m.diffuse[i] = vec3_mul(from->diffuse[i], from->diffuse_weight);
     return m;

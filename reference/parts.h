@@ -48,6 +48,8 @@ struct material {
     double cell;
     vec3 specular;
     double exponent, reflection, refraction, index;
+    const struct scene_material *is;
+    bool has_paint; // an image, or a checker that is filtered
 };
 
 // A node's first child is the next node. `count` is 0 for inner nodes.
@@ -119,10 +121,17 @@ static inline struct start reference_start(vec3 at) {
     return (struct start){.at = at, .left = NO_PRIMITIVE};
 }
 
+// How wide a pixel is along a ray: its width at the start and what it gains for each length. Where it is
+// negative, rays have crossed.
+struct cone {
+    double width, spread;
+};
+
 struct ray {
     struct start start;
     vec3 direction; // any length
     double t_max;
+    struct cone cone;
 };
 
 struct intersection {
@@ -147,6 +156,9 @@ struct surface {
     bool enters, solid;
     vec3 diffuse, specular; // times their weights
     double exponent, reflection, refraction, index;
+    double bend;  // how fast the normal turns along the surface: positive where it bulges to the ray's side
+    double width; // of the ray's cone
+    struct reference_texel texel;
 };
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
@@ -154,6 +166,17 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
 vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction);
 // false: total reflection.
 bool reference_bent(const struct reference *r, const struct surface *s, vec3 direction, vec3 *out);
+
+// ---- paint.c
+
+// Replaces the colours that an image has, and those of a filtered checker; `arm`: from a sphere's centre.
+void reference_paint(const struct reference *r, const struct ray *ray, const double b[3], vec3 arm,
+                     struct surface *s);
+// The cone of the camera's ray, and of rays that leave a surface.
+struct cone reference_camera_cone(const struct reference *r, const struct reference_settings *settings,
+                                  vec3 direction);
+struct cone reference_mirrored_cone(const struct surface *s, struct cone cone);
+struct cone reference_bent_cone(const struct surface *s, struct cone cone, vec3 from, vec3 to);
 
 // ---- ray_offset.c
 
@@ -179,6 +202,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
 struct branch {
     struct start start;
     vec3 direction;
+    struct cone cone;
     double throughput;
     uint32_t depth;
     uint32_t parent; // in a log

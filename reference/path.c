@@ -101,12 +101,14 @@ static double send_rays(struct following *f, const struct branch *from, const st
     double cut = 0;
     if (through.throughput > 0) {
         through.start = reference_leave(f->r, s, vec3_neg(s->geometric));
+        through.cone = reference_bent_cone(s, from->cone, from->direction, through.direction);
         cut += send(f, &through);
     }
     back.throughput = from->throughput * reflection;
     if (back.throughput > 0) {
         back.start = reference_leave(f->r, s, s->geometric);
         back.direction = reference_mirrored(f->r, s, from->direction);
+        back.cone = reference_mirrored_cone(s, from->cone);
         cut += send(f, &back);
     }
     return cut;
@@ -143,10 +145,11 @@ static void log_surface(const struct following *f, struct reference_segment *seg
     segment->considered = lighting->considered;
     segment->lit = lighting->lit;
     segment->radiance = lighting->sum;
+    segment->texel = s->texel;
 }
 
 static void follow_ray(struct following *f, const struct branch *b) {
-    struct ray ray = {b->start, b->direction, INFINITY};
+    struct ray ray = {b->start, b->direction, INFINITY, b->cone};
     struct intersection hit;
     struct reference_segment *segment = log_segment(f, b);
     f->sample->rays[b->kind]++;
@@ -187,6 +190,7 @@ void reference_follow(const struct reference *r, const struct reference_settings
     struct following f = {r, settings, queue, log, out};
     struct branch first = {.start = reference_start((vec3){0, 0, 0}),
                            .direction = direction,
+                           .cone = reference_camera_cone(r, settings, direction),
                            .throughput = 1,
                            .parent = REFERENCE_NO_SEGMENT};
     *out = (struct sample){.body = HIT_NONE};

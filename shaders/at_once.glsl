@@ -19,6 +19,7 @@ vec2 sample_offset(uint k) {
 struct waiting_ray {
     ray_start start;
     REAL3 direction;
+    RAY_CONE cone;
     float throughput;
     uint depth;
 };
@@ -28,6 +29,7 @@ void take_waiting(inout path_state p) {
     waiting_ray ray = waiting[p.stack_size];
     p.start = ray.start;
     p.direction = ray.direction;
+    p.cone = ray.cone;
     p.throughput = ray.throughput;
     p.depth = ray.depth;
 }
@@ -35,14 +37,14 @@ void take_waiting(inout path_state p) {
 void save_waiting(uint place, uint count) {
     for (uint i = 0u; i < count; i++)
         put_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, waiting[i].start, waiting[i].direction,
-                   waiting[i].throughput, waiting[i].depth);
+                   waiting[i].cone, waiting[i].throughput, waiting[i].depth);
 }
 
 void load_waiting(uint place, uint count) {
     for (uint i = 0u; i < count; i++) {
         path_state p;
         get_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, p);
-        waiting[i] = waiting_ray(p.start, p.direction, p.throughput, p.depth);
+        waiting[i] = waiting_ray(p.start, p.direction, p.cone, p.throughput, p.depth);
     }
 }
 

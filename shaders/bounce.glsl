@@ -27,6 +27,16 @@ bool refracted(REAL3 d, surface s, out REAL3 t) {
     return straight || k >= 0.0;
 }
 
+// The cones of rays that a surface sends on: its normal turns the more the wider the cone is there.
+RAY_CONE mirrored_cone(surface s, RAY_CONE cone) { return vec2(s.width, cone.y + 2.0 * s.bend * s.width); }
+
+RAY_CONE bent_cone(surface s, RAY_CONE cone, REAL3 from, REAL3 to) {
+    float eta = float(s.enters ? 1.0 / s.index : s.index);
+    float along = float(dot3(to, s.shading)) - eta * float(dot3(from, s.shading));
+    bool straight = !s.solid || eta == 1.0;
+    return vec2(s.width, straight ? cone.y : eta * cone.y + along * s.bend * s.width);
+}
+
 // What a surface sends on of a ray.
 struct scatter_rays {
     REAL3 bent;                   // direction of the refracted ray

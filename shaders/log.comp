@@ -26,13 +26,14 @@ layout(local_size_x = TILE_PIXELS) in;
 struct log_ray {
     ray_start start;
     REAL3 direction;
+    RAY_CONE cone;
 };
 
 log_ray load_ray(uint at) {
     uvec4 a = states[at], b = states[at + 1u], c = states[at + 2u], d = states[at + 3u], e = states[at + 4u];
     ray_start start = ray_start(REAL3(number_of(a.xy), number_of(a.zw), number_of(b.xy)), number_of(d.zw), b.w,
                                 number_of(e.xy), number_of(e.zw));
-    return log_ray(start, REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)));
+    return log_ray(start, REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)), uintBitsToFloat(states[at + 5u].xy));
 }
 
 void write_camera_ray() {
@@ -42,6 +43,9 @@ void write_camera_ray() {
     states[2] = uvec4(bits_of(d.x), bits_of(d.y));
     states[3] = uvec4(bits_of(d.z), 0u, 0u);
     states[4] = uvec4(0u);
+    states[5] = uvec4(0u);
+    if (HAS_FOOTPRINT)
+        states[5] = uvec4(floatBitsToUint(camera_cone(d)), 0u, 0u);
 }
 
 hit_record load_hit(uint at) {
@@ -64,7 +68,8 @@ uint material_of(hit_record hit) {
     return shade & TRIANGLE_MATERIAL;
 }
 
-void write_ray(uint at, ray_start start, REAL3 direction) {
+void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
+    pixels[at + 5u] = uvec4(floatBitsToUint(cone), 0u, 0u);
     write3(at, start.at, uvec2(0u, start.left));
     write3(at + 2u, direction, bits_of(start.slack));
     pixels[at + 4u] = uvec4(bits_of(start.b1), bits_of(start.b2));
@@ -78,8 +83,13 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     write3(at + 4u, s.point, uvec2(floatBitsToUint(rays.reflection), floatBitsToUint(rays.refraction)));
     write3(at + 6u, s.geometric, uvec2(0u));
     write3(at + 8u, s.shading, uvec2(0u));
-    write_ray(at + 10u, leave(s, hit, s.geometric), reflected(ray.direction, s));
-    write_ray(at + 15u, leave(s, hit, -s.geometric), rays.bent);
+    RAY_CONE mirrored = ray.cone, bent = ray.cone;
+    if (HAS_FOOTPRINT) {
+        mirrored = mirrored_cone(s, ray.cone);
+        bent = bent_cone(s, ray.cone, ray.direction, rays.bent);
+    }
+    write_ray(at + 10u, leave(s, hit, s.geometric), reflected(ray.direction, s), mirrored);
+    write_ray(at + 10u + LOG_RAY_WORDS, leave(s, hit, -s.geometric), rays.bent, bent);
 }
 
 void add_to_log(uint at, vec3 value) {
@@ -107,6 +117,7 @@ void main() {
         return;
     log_ray ray = load_ray(index * LOG_RAY_WORDS);
     bool lights = kind >= LOG_LIGHTS;
+    surface_cone = ray.cone;
     hit_record hit = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     surface s;
     light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY);

@@ -4,8 +4,8 @@
 #define GLINT_SHADERS_LOG_H
 
 /* STATE, a ray: its origin, LOG_BLIND or 0, item of the triangle that it leaves; its direction, unit, bound
-   of the origin's error; b1, b2 of the place on that triangle (ray_start). */
-#define LOG_RAY_WORDS 5
+   of the origin's error; b1, b2 of the place on that triangle (ray_start); its cone, floats. */
+#define LOG_RAY_WORDS 6
 #define LOG_BLIND     1u /* it is not traced, and sees the background */
 
 /* OUTPUT, a ray:
@@ -16,8 +16,8 @@
    4: point; weights of the mirrored and of the refracted ray as bits of floats
    6: geometric normal   8: shading normal; in what they leave of 7 and 9, what rounding dropped of the sum
    10: the mirrored ray as in STATE
-   15: the refracted ray */
-#define LOG_WORDS   20
+   16: the refracted ray */
+#define LOG_WORDS   22
 #define LOG_NOTHING 0xffffffffu
 #define LOG_ENTERS  1u
 #define LOG_TOTAL   2u /* the ray would be refracted, and is turned back */

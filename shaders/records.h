@@ -134,6 +134,7 @@
     UINT(first_triangle, 0, x, 0, x)                                                                         \
     UINT(normal_base, 0, y, 0, y)                                                                            \
     UINT(instance, 0, z, 0, z) /* whose mesh the normals are of; 0: they are the body's own */               \
+    UINT(coordinates, 0, w, 0, w) /* of its mesh in PAINTS (gpu_scene.h) */                                   \
     REAL3(row_x, 1, 1)         /* of a parallelogram: the lengths of its edges */                            \
     REAL(offset_x, 1, w, 2, zw)                                                                              \
     REAL3(row_y, 2, 3)                                                                                       \
@@ -154,6 +155,17 @@
     REAL(index, 2, w, 4, xy)                                                                                 \
     FLOAT3(second, 3, 3)    /* colour of the checker's odd cells */                                          \
     REAL(cell, 3, w, 4, zw) /* 0: no checker */
+
+/* How a material shows an image; the rows take the coordinates of a surface (u, v, 1) to those of the image. */
+#define PAINT_WORDS   3
+#define PAINT64_WORDS 3
+#define PAINT_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                       \
+    UINT(levels, 0, x, 0, x) /* the word of the first; 0: no image */                                        \
+    UINT(level_count, 0, y, 0, y)                                                                            \
+    UINT(flags, 0, z, 0, z)                                                                                  \
+    UINT(table, 0, w, 0, w) /* of decoded values; 0: values are as they are */                               \
+    FLOAT3(row_u, 1, 1)                                                                                      \
+    FLOAT3(row_v, 2, 2)
 
 #define LIGHT_WORDS   2
 #define LIGHT64_WORDS 3

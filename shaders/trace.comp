@@ -30,7 +30,7 @@
 layout(local_size_x = TILE_PIXELS, local_size_x_id = CONSTANT_WORKGROUP) in;
 
 // What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
-const uint SEGMENT_ITERATIONS = 9u;
+const uint SEGMENT_ITERATIONS = 9u + PAINT_ITERATIONS;
 
 const uint PHASE_RAY = 0u;    // the path's ray must be traced
 const uint PHASE_HIT = 1u;    // it was traced before: only the surface must be made again
@@ -120,7 +120,10 @@ bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_st
     bool through = HAS_REFRACTION && is_followed(p, throughput * rays.refraction);
     bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, throughput * rays.reflection);
     if (HAS_BRANCHES && back && through)
-        push_branch(slot, p, start_through, rays.bent, throughput * rays.refraction, p.depth + 1u);
+        push_branch(slot, p, start_through, rays.bent, HAS_FOOTPRINT ? bent_cone(s, p.cone, p.direction, rays.bent) : p.cone,
+                    throughput * rays.refraction, p.depth + 1u);
+    if (HAS_FOOTPRINT)
+        p.cone = back ? mirrored_cone(s, p.cone) : bent_cone(s, p.cone, p.direction, rays.bent);
     p.start = start;
     if (!back)
         p.start = start_through;
@@ -283,6 +286,8 @@ uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, in
     if (phase == PHASE_SHADOW)
         take_light(p, hit, shadow);
     if (state == GOES_ON && phase != PHASE_SHADOW) {
+        if (HAS_FOOTPRINT)
+            surface_cone = p.cone;
         make_surface(p.hit, p.start.at, p.direction, s);
         taint(p, true, s.point + s.shading, 0.0);
         start = leave(s, p.hit, s.geometric);

@@ -126,6 +126,9 @@ static bool change(const struct bench *b, const struct use *use, void *field) {
     case SCHEMA_WORD:
         *(unsigned *)field = (*(unsigned *)field + 1) % word_count(row);
         return true;
+    case SCHEMA_PAIR:
+        ((struct ir_pair *)field)->u = other_number(row, ((struct ir_pair *)field)->u);
+        return true;
     case SCHEMA_VECTOR:
         *(vec3 *)field = other_vector(row, *(vec3 *)field);
         return true;

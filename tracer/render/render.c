@@ -75,7 +75,8 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
                              ? LONG_RAY_WORDS + (renderer_stack_levels(renderer) + 1) / 2
                              : 0;
     const uint64_t low = renderer->features & FEATURE_MANY_LIGHTS ? 1 : 0;
-    return (state + low + ray + renderer->path_stack * entry) * WORD_BYTES;
+    const uint64_t cone = renderer->features & FEATURE_FOOTPRINT ? 1 : 0;
+    return (state + low + cone + ray + renderer->path_stack * (entry + cone)) * WORD_BYTES;
 }
 
 static bool has_state(const struct renderer *renderer) {
@@ -206,10 +207,10 @@ static bool upload_scene(struct renderer *renderer) {
         {BINDING_MATERIALS, &flat->materials},
         {BINDING_LIGHTS, &flat->lights},
         {BINDING_INSTANCES, &flat->instances},
+        {BINDING_PAINTS, &flat->paints},
     };
-    const size_t count = sizeof arrays / sizeof *arrays - (flat->instance_count == 0);
-    for (size_t i = 0; i < count; i++)
-        if (!upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        if (arrays[i].array->words && !upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
                     arrays[i].array->count * sizeof(struct gpu_word)))
             return false;
     return make_background(renderer);

@@ -56,6 +56,7 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .top_nodes = flat->top_nodes,
         .instance_table = flat->instance_table,
         .instance_shift = flat->instance_shift,
+        .footprint = (float)(2 * camera->tan_half_fov / settings->height / sqrt(settings->samples)),
     };
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
     const vec3 right = vec3_mul(camera->right, camera->tan_half_fov * aspect);

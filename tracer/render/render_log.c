@@ -155,7 +155,7 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
     s->geometric = vector_at(renderer, told + 6);
     s->shading = vector_at(renderer, told + 8);
     add_child(walk, index, RENDER_RAY_REFLECTED, renderer_float(told[5].z), told + 10);
-    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + 15);
+    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + 10 + LOG_RAY_WORDS);
 }
 
 static void take(struct walk *walk, uint32_t index, const struct gpu_word *told) {

@@ -40,7 +40,8 @@ static void every_value_has_its_place(void **state) {
     assert_int_equal(m->diffuse_color.kind, IR_PAINT_COLOR);
     assert_true(m->diffuse_color.color.r == .1 && m->diffuse_color.color.g == .2 &&
                 m->diffuse_color.color.b == .3);
-    assert_true(m->specular_color.r == .5 && m->specular_color.g == .25 && m->specular_color.b == .75);
+    assert_true(m->specular_color.color.r == .5 && m->specular_color.color.g == .25 &&
+                m->specular_color.color.b == .75);
     assert_true(m->specular_exponent == 250 && m->refractive_index == 1.45);
     assert_weights(m->albedo, 0.75, 1, 0, 0.25);
     assert_int_equal(m->head.origin, 0);
