@@ -381,8 +381,8 @@ static struct asset_ahead *decode_ahead(const struct assets_input *input, struct
 static void add_scene_materials(struct loader *loader) {
     const struct ir_materials *materials = &loader->input->scene->materials;
     for (uint32_t i = 0; i < materials->count; i++)
-        *loader_add_material(loader, (struct material_source){NULL, 0}) = materials->items[i];
-    schema_init(&SCHEMA_MATERIAL, loader_add_material(loader, (struct material_source){NULL, 0}));
+        *loader_add_material(loader, (struct material_source){0}) = materials->items[i];
+    schema_init(&SCHEMA_MATERIAL, loader_add_material(loader, (struct material_source){0}));
 }
 
 void assets_load(struct asset_store *store, const struct assets_input *given, enum assets_pixels pixels,

@@ -40,6 +40,7 @@ struct loaded_image {
 struct material_source {
     struct asset_file *file; // NULL: the scene
     uint32_t line;           // of its image
+    uint32_t kd_line;        // 0: it has no Kd
 };
 
 enum {
@@ -80,8 +81,9 @@ struct store_entry *loader_read_image(struct loader *loader, struct asset_file *
                                       const struct file_read *identity);
 // What is known of the picture once its pixels are; NULL: it cannot be used.
 const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry);
-// textures.c: the images of all materials, and the coordinates of a model's mesh where one of its materials
-// has one.
+// textures.c: whether the image of a material file's material is used; the images of all materials; and the
+// coordinates of a model's mesh where one of its materials has one.
+void loader_settle_image(struct loader *loader, uint32_t material);
 void loader_load_textures(struct loader *loader, struct assets *out);
 void loader_load_coordinates(struct loader *loader, const struct assets_model *model,
                              struct loaded_mesh *loaded);

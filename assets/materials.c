@@ -136,7 +136,9 @@ static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, 
     const struct ir_material *material = mtl_find(&loaded->materials, g->name);
     if (material) {
         const struct mtl_image *image = &loaded->materials.images.items[material - loaded->materials.items];
-        *loader_add_material(loader, (struct material_source){image->file, image->line}) = *material;
+        *loader_add_material(loader, (struct material_source){image->file, image->line, image->kd_line}) =
+            *material;
+        loader_settle_image(loader, loader->materials.count - 1);
         return loader->materials.count - 1;
     }
     if (loaded->library_missing)

@@ -30,7 +30,7 @@ struct mtl_entry {
     int64_t illum;
     str image; // of map_Kd, in the text; empty: none
     uint32_t image_line;
-    str kd_statement;
+    uint32_t kd_line;
     struct ir_pair repeat, shift; // what coordinates are multiplied by, and what is added
     bool clamps;
 };
@@ -289,7 +289,7 @@ static void take_image(struct mtl_reader *r, struct ir_material *m) {
     *place = (struct mtl_image){0};
     if (e->image.len == 0)
         return;
-    *place = (struct mtl_image){r->file, e->image_line};
+    *place = (struct mtl_image){r->file, e->image_line, e->has_kd ? e->kd_line : 0};
     struct ir_texture *image = &m->diffuse_color.image;
     m->diffuse_color.kind = IR_PAINT_IMAGE;
     image->file = arena_copy(r->out->names.arena, e->image);
@@ -298,9 +298,6 @@ static void take_image(struct mtl_reader *r, struct ir_material *m) {
     image->offset = (struct ir_pair){within(SCHEMA_RANGE_SHIFT, 0 - e->shift.u / image->repeat.u),
                                      within(SCHEMA_RANGE_SHIFT, 0 - e->shift.v / image->repeat.v)};
     image->wrap = e->clamps ? IR_WRAP_CLAMP : IR_WRAP_REPEAT;
-    const bool is_white = e->kd[0] == 1 && e->kd[1] == 1 && e->kd[2] == 1;
-    if (e->has_kd && !is_white)
-        drop(r, e->kd_statement, "'map_Kd' has the colours", false);
 }
 
 // ---- materials
@@ -367,7 +364,7 @@ static void read_illum(struct mtl_reader *r, str keyword) {
 static bool read_attribute(struct mtl_reader *r, str keyword) {
     struct mtl_entry *e = &r->entry;
     if (str_equal_cstr(keyword, "Kd")) {
-        e->kd_statement = keyword;
+        e->kd_line = r->lex.line;
         e->has_kd |= read_color(r, keyword, e->kd);
     } else if (str_equal_cstr(keyword, "map_Kd"))
         read_image(r, keyword);

@@ -3,7 +3,8 @@
 //
 //     diffuse_color Kd; albedo (1-t, 1 if Ks is not 0, max(Ks) if illum is 3..7, t) with t = 1-d
 //     specular_color Ks; specular_exponent Ns; refractive_index Ni
-//     map_Kd: an image in place of Kd, with -s, -o and -clamp; with others of its options a warning
+//     map_Kd: an image times Kd, where that is grey, with -s, -o and -clamp; with others of its options a
+//     warning
 //
 // d wins over Tr if both are given. Of several materials of one name the first counts. What is in the file
 // and has no effect is a warning, one for each kind of statement, unless it would change nothing (Ke 0 0 0).
@@ -19,6 +20,7 @@
 struct mtl_image {
     struct asset_file *file; // NULL: it has none
     uint32_t line;
+    uint32_t kd_line; // 0: it has no Kd
 };
 
 struct mtl_materials {

@@ -6,10 +6,6 @@
 
 // ---- images
 
-static void forget_image(struct ir_paint *paint) {
-    paint->kind = IR_PAINT_COLOR; // Kd
-}
-
 // An image of a material file that cannot be had: its material's own colour counts, as in programs that show
 // none.
 static bool is_found(const struct material_source *source, str name) {
@@ -26,6 +22,25 @@ static bool is_found(const struct material_source *source, str name) {
                   exists ? "convert the image, or give the model a 'material'"
                          : "put the image where the material file says, or give the model a 'material'");
     return false;
+}
+
+// MTL multiplies the image by Kd: a weight, where Kd is grey.
+void loader_settle_image(struct loader *loader, uint32_t material) {
+    struct ir_material *m = &loader->materials.items[material];
+    const struct material_source *source = &loader->sources.items[material];
+    const struct ir_color kd = m->diffuse_color.color;
+    if (m->diffuse_color.kind != IR_PAINT_IMAGE || !source->file)
+        return;
+    if (!is_found(source, m->diffuse_color.image.file)) {
+        m->diffuse_color.kind = IR_PAINT_COLOR;
+        return;
+    }
+    if (source->kd_line && kd.r > 0 && kd.r == kd.g && kd.g == kd.b)
+        m->albedo.diffuse *= kd.r;
+    else if (source->kd_line)
+        asset_report_line(source->file, DIAG_MTL_DROPPED, source->kd_line,
+                          "'Kd' has no effect: it is %s, and 'map_Kd' has the colours",
+                          kd.r + kd.g + kd.b > 0 ? "not grey" : "black");
 }
 
 static const struct picture *known_image(const struct loader *loader, str canonical, bool *is_known) {
@@ -83,9 +98,6 @@ void loader_load_textures(struct loader *loader, struct assets *out) {
     for (uint32_t i = 0; i < loader->materials.count; i++) {
         struct ir_material *m = &loader->materials.items[i];
         const struct material_source *source = &loader->sources.items[i];
-        if (m->diffuse_color.kind == IR_PAINT_IMAGE && source->file &&
-            !is_found(source, m->diffuse_color.image.file))
-            forget_image(&m->diffuse_color);
         if (m->diffuse_color.kind == IR_PAINT_IMAGE && has_file(&m->diffuse_color.image))
             images_of(loader, out, i)[ASSETS_DIFFUSE] =
                 load_image(loader, out, &m->diffuse_color.image, source);

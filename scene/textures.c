@@ -14,6 +14,32 @@ enum {
 
 // ---- pixels
 
+// Both ways between stored bytes and linear values, as srgb_decode and srgb_encode, which would take most of
+// the time.
+struct codes {
+    double decoded[256];
+    double above[255]; // from this value on, the next byte is nearer
+};
+
+static void make_codes(bool is_srgb, struct codes *out) {
+    for (int i = 0; i < 256; i++)
+        out->decoded[i] = is_srgb ? srgb_decode(i / 255.0) : i / 255.0;
+    for (int i = 0; i < 255; i++)
+        out->above[i] = is_srgb ? srgb_decode((i + 0.5) / 255) : (i + 0.5) / 255;
+}
+
+static uint8_t encoded(const struct codes *codes, double value) {
+    int low = 0, high = 255;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        if (value >= codes->above[middle])
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return (uint8_t)low;
+}
+
 static vec3 picture_texel(const struct scene_texture *t, size_t at) {
     const struct picture *picture = t->picture;
     double value[3];
@@ -69,15 +95,25 @@ struct halving {
     const struct scene_texture *texture;
     uint32_t level; // that is made
     void *pixels;
+    struct codes codes;
 };
+
+// scene_texel of the level before.
+static vec3 texel_before(const struct halving *h, uint32_t x, uint32_t y) {
+    const struct scene_level *l = &h->texture->levels[h->level - 1];
+    if (!l->is_bytes)
+        return scene_texel(h->texture, h->level - 1, x, y);
+    const uint8_t *p = (const uint8_t *)(h->level > 1 ? l->pixels : h->texture->picture->pixels) +
+                       3 * ((size_t)y * l->width + x);
+    return (vec3){h->codes.decoded[p[0]], h->codes.decoded[p[1]], h->codes.decoded[p[2]]};
+}
 
 static void put_texel(const struct halving *h, size_t at, vec3 color) {
     const double value[3] = {color.x, color.y, color.z};
     const struct scene_texture *t = h->texture;
     for (size_t k = 0; k < 3; k++) {
-        const double shown = t->is_srgb ? srgb_encode(value[k]) : value[k];
         if (t->levels[h->level].is_bytes)
-            ((uint8_t *)h->pixels)[3 * at + k] = (uint8_t)floor(255 * shown + 0.5);
+            ((uint8_t *)h->pixels)[3 * at + k] = encoded(&h->codes, value[k]);
         else
             ((float *)h->pixels)[3 * at + k] = (float)value[k];
     }
@@ -93,8 +129,7 @@ static void halve_rows(void *context, size_t begin, size_t end) {
             vec3 sum = {0, 0, 0};
             for (uint32_t j = 0; j < rows.count; j++)
                 for (uint32_t i = 0; i < columns.count; i++)
-                    sum = vec3_add(sum, vec3_mul(scene_texel(h->texture, h->level - 1, columns.first + i,
-                                                             rows.first + j),
+                    sum = vec3_add(sum, vec3_mul(texel_before(h, columns.first + i, rows.first + j),
                                                  rows.weight[j] * columns.weight[i]));
             put_texel(h, (size_t)y * to->width + x, sum);
         }
@@ -105,6 +140,8 @@ static void make_levels(struct scene_texture *t, struct arena *arena) {
     t->levels[0] = (struct scene_level){
         .width = t->picture->width, .height = t->picture->height, .is_bytes = t->picture->depth == PICTURE_8};
     t->level_count = 1;
+    struct halving halving = {.texture = t};
+    make_codes(t->is_srgb, &halving.codes);
     while (t->level_count < SCENE_LEVELS_MAX) {
         const struct scene_level *last = &t->levels[t->level_count - 1];
         struct scene_level *next = &t->levels[t->level_count];
@@ -114,7 +151,8 @@ static void make_levels(struct scene_texture *t, struct arena *arena) {
                                      .height = last->height > 1 ? last->height / 2 : 1,
                                      .is_bytes = last->is_bytes};
         const size_t bytes = (size_t)next->width * next->height * 3 * (next->is_bytes ? 1 : sizeof(float));
-        struct halving halving = {t, t->level_count, arena_alloc(arena, bytes)};
+        halving.level = t->level_count;
+        halving.pixels = arena_alloc(arena, bytes);
         next->pixels = halving.pixels;
         parallel_for(next->height, PIECE_ROWS, halve_rows, &halving);
         t->level_count++;

@@ -19,6 +19,8 @@ enum {
     EXIT_USAGE = 2,
     EXIT_WRITE = 3,
     SKY_WIDTH = 4096,
+    PLANKS_SIDE = 1024,
+    GLOBE_WIDTH = 2048,
 };
 
 struct product {
@@ -36,6 +38,20 @@ static bool write_sky(struct strbuf *bytes) {
     return ok;
 }
 
+static bool write_planks(struct strbuf *bytes) {
+    unsigned char *pixels = planks_generate(PLANKS_SIDE);
+    bool ok = pixels && png_encode(pixels, PLANKS_SIDE, PLANKS_SIDE, bytes);
+    free(pixels);
+    return ok;
+}
+
+static bool write_globe(struct strbuf *bytes) {
+    unsigned char *pixels = globe_generate(GLOBE_WIDTH, GLOBE_WIDTH / 2);
+    bool ok = pixels && png_encode(pixels, GLOBE_WIDTH, GLOBE_WIDTH / 2, bytes);
+    free(pixels);
+    return ok;
+}
+
 static bool write_fox_mtl(struct strbuf *bytes) {
     fox_write_mtl(bytes);
     return true;
@@ -49,6 +65,8 @@ static const struct product PRODUCTS[] = {
     {"vase", "a vase", vase_generate, NULL, NULL},
     {"word", "the word glint", word_generate, NULL, NULL},
     {"sky", "sky, mountains and lake", NULL, write_sky, NULL},
+    {"planks", "planks of wood, to be repeated", NULL, write_planks, NULL},
+    {"globe", "land and sea of a globe", NULL, write_globe, NULL},
 };
 
 enum {

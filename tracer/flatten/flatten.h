@@ -62,7 +62,7 @@ struct flat_scene {
         bool is_float;  // four floats a texel, else four bytes of 1/255
         float *decoded; // by stored value, where these are whole numbers that become floats
     } background_texels;
-    struct flat_array paints;                           // without words: there are none
+    struct flat_array paints;                           // one word: there are none
     struct flat_array instances;                        // and their tables; without words: there are none
     uint32_t instance_count;                            // with instance 0, all that is not shared
     uint32_t top_nodes, instance_table, instance_shift; // as in the frame (shaders/frame.h)

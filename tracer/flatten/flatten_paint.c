@@ -205,8 +205,9 @@ enum flatten_fault flatten_paints(struct flattening *f) {
     f->coordinates = heap_zeroed((size_t)f->scene->body_count + 1, sizeof *f->coordinates);
     if (!f->coordinates)
         return FLATTEN_NO_MEMORY;
+    // Kernels have its binding in any case.
     if (!is_any_painted(f))
-        return FLATTEN_DONE;
+        return flat_array_make(&f->out->paints, 0) ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
     struct placed_texture *placed = heap_zeroed((size_t)f->scene->texture_count + 1, sizeof *placed);
     const enum flatten_fault fault = placed ? fill_all(f, placed) : FLATTEN_NO_MEMORY;
     free(placed);

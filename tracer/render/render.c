@@ -206,11 +206,12 @@ static bool upload_scene(struct renderer *renderer) {
         {BINDING_BODIES, &flat->bodies},
         {BINDING_MATERIALS, &flat->materials},
         {BINDING_LIGHTS, &flat->lights},
-        {BINDING_INSTANCES, &flat->instances},
         {BINDING_PAINTS, &flat->paints},
+        {BINDING_INSTANCES, &flat->instances},
     };
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        if (arrays[i].array->words && !upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
+    const size_t count = sizeof arrays / sizeof *arrays - (flat->instance_count == 0);
+    for (size_t i = 0; i < count; i++)
+        if (!upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
                     arrays[i].array->count * sizeof(struct gpu_word)))
             return false;
     return make_background(renderer);
