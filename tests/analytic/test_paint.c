@@ -308,18 +308,19 @@ static void check_floor(struct analytic *a, const char *name, const char *filter
     image_finish(&exact);
 }
 
-// The mean difference of neighbouring frames of a slow dolly over the farther half of the floor.
+// The mean difference of neighbouring frames of a slow dolly over the rows below the horizon, in whose pixels
+// many tiles lie.
 static double shimmer(struct analytic *a, const char *material) {
     enum {
         FRAMES = 6,
-        FAR_ROWS = 18,
-        HORIZON = 57
+        FAR_ROWS = 4,
+        HORIZON = 36
     };
     struct image before = {0}, now;
     double sum = 0;
     size_t count = 0;
     for (int frame = 0; frame < FRAMES; frame++) {
-        if (!take(a, material, 0.02 * frame, 1, &now))
+        if (!take(a, material, 0.05 * frame, 1, &now))
             return INFINITY;
         for (size_t i = 0; before.rgb && i < (size_t)FAR_ROWS * now.width * 3; i++, count++)
             sum += fabs((double)now.rgb[i + (size_t)HORIZON * now.width * 3] -
@@ -336,7 +337,7 @@ static void check_dolly(struct analytic *a, const char *name, const char *filter
     const double still = shimmer(a, filtered), rough = shimmer(a, plain);
     printf("%s: neighbouring frames differ by %.5f, without a filter by %.5f\n", name, still, rough);
     analytic_expect(a, still <= most, name, "it shimmers");
-    analytic_expect(a, rough > 1.5 * most, name, "the test could not tell");
+    analytic_expect(a, rough > 4 * most, name, "the test could not tell");
 }
 
 #define IMAGE(filter)   "{diffuse_color: {image: {file: tiles.png, repeat: 60, filter: " filter "}}}"
@@ -356,8 +357,8 @@ int main(int argc, char **argv) {
         check_ways(&a);
         check_floor(&a, "an image", IMAGE("auto"), IMAGE("bilinear"), 0.35);
         check_floor(&a, "a checker", CHECKER("true"), CHECKER("false"), 0.35);
-        check_dolly(&a, "an image", IMAGE("auto"), IMAGE("bilinear"), 0.008);
-        check_dolly(&a, "a checker", CHECKER("true"), CHECKER("false"), 0.008);
+        check_dolly(&a, "an image", IMAGE("auto"), IMAGE("bilinear"), 0.002);
+        check_dolly(&a, "a checker", CHECKER("true"), CHECKER("false"), 0.002);
     }
     return analytic_close(&a);
 }
