@@ -270,6 +270,21 @@ static void json_target(struct json_writer *w, const struct pick *pick, const st
     }
 }
 
+static void json_texel(struct json_writer *w, const struct reference_texel *t) {
+    if (!t->is_there)
+        return;
+    json_open_object(w, "image");
+    json_write_text(w, "of", t->of_highlight ? STR("specular_color") : STR("diffuse_color"));
+    json_write_real(w, "u", t->u);
+    json_write_real(w, "v", t->v);
+    json_write_integer(w, "x", t->x);
+    json_write_integer(w, "y", t->y);
+    json_write_real(w, "level", t->level);
+    json_write_integer(w, "places", t->taps);
+    json_vector(w, "color", t->color);
+    json_close_object(w);
+}
+
 static void json_segment(struct json_writer *w, const struct pick *pick, const struct reference_segment *s,
                          bool first) {
     json_open_object(w, NULL);
@@ -292,6 +307,7 @@ static void json_segment(struct json_writer *w, const struct pick *pick, const s
         json_vector(w, "normal", s->shading);
         json_write_boolean(w, "enters", s->enters);
         json_write_boolean(w, "total_reflection", s->total_reflection);
+        json_texel(w, &s->texel);
         json_lights(w, "lights_considered", s->considered);
         json_lights(w, "lights_lit", s->lit);
         json_close_object(w);

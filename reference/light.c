@@ -62,8 +62,9 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
         out->considered |= bit;
         vec3 way = vec3_sub(place_of(r, light), start.at);
         way = reference_rounded3(r, way, vec3_max_abs(way));
-        struct ray ray = {start, light->directional ? light->to_light : way,
-                          light->directional ? INFINITY : 1};
+        struct ray ray = {.start = start,
+                          .direction = light->directional ? light->to_light : way,
+                          .t_max = light->directional ? INFINITY : 1};
         out->shadow_rays += shadows;
         if (shadows && reference_blocks(r, &ray))
             continue;

@@ -90,6 +90,12 @@ struct scene_material {
     uint32_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
 };
 
+// Whether its colours need more than two of a checker's cells: for what shows scenes otherwise, and must
+// refuse.
+static inline bool scene_material_is_painted(const struct scene_material *m) {
+    return m->soft || m->images[ASSETS_DIFFUSE].texture || m->images[ASSETS_SPECULAR].texture;
+}
+
 struct scene_background {
     vec3 color;                    // linear, times intensity: without an image
     const struct picture *picture; // NULL: none, or not loaded
