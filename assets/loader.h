@@ -79,6 +79,11 @@ str loader_base_of(const struct assets_input *input, span at);
 // wrong with it is reported, but for faults of the decoder.
 struct store_entry *loader_read_image(struct loader *loader, struct asset_file *file, str name,
                                       const struct file_read *identity);
+// Its two halves: the entry, or a new one, of which at least as much is known as is asked for; and its
+// reading.
+struct store_entry *loader_find_image(struct loader *loader, const struct file_read *identity);
+void loader_complete_image(struct loader *loader, struct asset_file *file, str name,
+                           struct store_entry *entry);
 // What is known of the picture once its pixels are; NULL: it cannot be used.
 const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry);
 // textures.c: whether the image of a material file's material is used; the images of all materials; and the

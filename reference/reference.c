@@ -77,7 +77,8 @@ vec3 reference_camera_ray(const struct reference *r, const struct reference_sett
 
 void reference_closest(const struct reference *r, vec3 origin, vec3 direction, double t_max,
                        struct reference_hit *hit) {
-    struct ray ray = {.start = reference_start(vec3_sub(origin, r->origin)), .direction = direction, .t_max = t_max};
+    struct ray ray = {
+        .start = reference_start(vec3_sub(origin, r->origin)), .direction = direction, .t_max = t_max};
     struct intersection nearest;
     struct surface s;
     *hit = (struct reference_hit){.body = HIT_NONE, .material = IR_NO_INDEX};
@@ -102,7 +103,8 @@ void reference_closest(const struct reference *r, vec3 origin, vec3 direction, d
 }
 
 bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, double t_max) {
-    struct ray ray = {.start = reference_start(vec3_sub(origin, r->origin)), .direction = direction, .t_max = t_max};
+    struct ray ray = {
+        .start = reference_start(vec3_sub(origin, r->origin)), .direction = direction, .t_max = t_max};
     return reference_blocks(r, &ray);
 }
 

@@ -87,9 +87,9 @@
    what the ray leaves: error of its start, b1, b2, item: kept between dispatches; then three words for each
    refracted ray that waits: origin, throughput; direction, depth; what it leaves. Of paths traced at once,
    which take places and not slots, the spare word is the path's number. In double precision places,
-   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. With FEATURE_FOOTPRINT a path
-   and each refracted ray that waits have a word more, of the ray's cone. With FEATURE_LONG_RAYS
-   the words of long_rays.glsl lie between the two. */
+   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. With FEATURE_FOOTPRINT a
+   path and each refracted ray that waits have a word more, of the ray's cone. With FEATURE_LONG_RAYS the
+   words of long_rays.glsl lie between the two. */
 #define STATE_WORDS         7
 #define STACK_ENTRY_WORDS   3
 #define STATE64_WORDS       10

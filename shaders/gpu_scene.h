@@ -80,13 +80,14 @@
 #define INSTANCE_MIRRORED 1u /* the second and third corner are exchanged */
 #define INSTANCE_COPIED   2u /* instance 0: records have bodies and shades of their own */
 
-/* Images: PAINTS begins with two records for each material, of its diffuse and its specular colour. After them lie, in
-   any order, what records and bodies name by the number of its word: for each image a word a level, of its first texel,
-   width and height; its texels, row 0 on top, from the finest level on, of 8-bit images four to a word (r in the lowest
-   byte; the first texel is counted in components), of others one (three floats); for images that are sRGB a word for each
-   of 256 values, decoded; for each mesh with coordinates two words a triangle (u, v of each corner, in the order of the
-   mesh). Word numbers have 32 bits: 64 GiB, of which a quarter can be 8-bit texels. `coordinates` of a body is such a
-   number, which is even, plus 1 where the body's second and third corners are exchanged against the mesh's. */
+/* Images: PAINTS begins with two records for each material, of its diffuse and its specular colour. After
+   them lie, in any order, what records and bodies name by the number of its word: for each image a word a
+   level, of its first texel, width and height; its texels, row 0 on top, from the finest level on, of 8-bit
+   images four to a word (r in the lowest byte; the first texel is counted in components), of others one
+   (three floats); for images that are sRGB a word for each of 256 values, decoded; for each mesh with
+   coordinates two words a triangle (u, v of each corner, in the order of the mesh). Word numbers have 32
+   bits: 64 GiB, of which a quarter can be 8-bit texels. `coordinates` of a body is such a number, which is
+   even, plus 1 where the body's second and third corners are exchanged against the mesh's. */
 #define PAINT_NEAREST 1u
 #define PAINT_AUTO    2u /* neither: bilinear */
 #define PAINT_CLAMP   4u

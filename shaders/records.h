@@ -133,9 +133,9 @@
 #define BODY_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                        \
     UINT(first_triangle, 0, x, 0, x)                                                                         \
     UINT(normal_base, 0, y, 0, y)                                                                            \
-    UINT(instance, 0, z, 0, z) /* whose mesh the normals are of; 0: they are the body's own */               \
-    UINT(coordinates, 0, w, 0, w) /* of its mesh in PAINTS (gpu_scene.h) */                                   \
-    REAL3(row_x, 1, 1)         /* of a parallelogram: the lengths of its edges */                            \
+    UINT(instance, 0, z, 0, z)    /* whose mesh the normals are of; 0: they are the body's own */            \
+    UINT(coordinates, 0, w, 0, w) /* of its mesh in PAINTS (gpu_scene.h) */                                  \
+    REAL3(row_x, 1, 1)            /* of a parallelogram: the lengths of its edges */                         \
     REAL(offset_x, 1, w, 2, zw)                                                                              \
     REAL3(row_y, 2, 3)                                                                                       \
     REAL(offset_y, 2, w, 4, zw)                                                                              \
@@ -156,7 +156,8 @@
     FLOAT3(second, 3, 3)    /* colour of the checker's odd cells */                                          \
     REAL(cell, 3, w, 4, zw) /* 0: no checker */
 
-/* How a material shows an image; the rows take the coordinates of a surface (u, v, 1) to those of the image. */
+/* How a material shows an image; the rows take the coordinates of a surface (u, v, 1) to those of the image.
+ */
 #define PAINT_WORDS   3
 #define PAINT64_WORDS 3
 #define PAINT_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                       \
