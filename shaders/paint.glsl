@@ -169,7 +169,7 @@ float wave(REAL x, float w) {
 
 // The share of odd cells: the footprint is cut into boxes along its longer axis. `is_flat`: there are two coordinates.
 float odd_share(REAL3 at, vec3 along, vec3 across, bool is_flat) {
-    float la = sqrt(dot(along, along)), lb = sqrt(dot(across, across));
+    float la = float(sqrt(dot3(REAL3(along), REAL3(along)))), lb = float(sqrt(dot3(REAL3(across), REAL3(across))));
     bool is_across = lb > la;
     vec3 axis = is_across ? across : along, other = is_across ? along : across;
     uint taps = taps_of(max(la, lb), min(la, lb));

@@ -77,7 +77,8 @@ by_schema render render.json render_off.json render_reference.json
 json pick 0 "$glint" pick scene.yaml 8,8 --format json
 json pick_mesh 0 "$glint" pick scene.yaml 14,8 --format json
 json pick_off 0 "$glint" pick far.yaml 12,8 --format json
-by_schema pick pick.json pick_mesh.json pick_off.json pick_reference.json
+json pick_image 0 "$glint" pick "$source/scenes/language/paint.glint.yaml" 98,90 --device reference --format json
+by_schema pick pick.json pick_image.json pick_mesh.json pick_off.json pick_reference.json
 
 json tradeoff 0 "$glint" tradeoff scene.yaml --format json --budget 5 -q --max-error mae=0.5 --max-time 10000
 json tradeoff_none 1 "$glint" tradeoff scene.yaml --format json --budget 1 -q --max-time 0.000001
