@@ -93,7 +93,7 @@ static void each_kind_of_unused_line_is_a_warning(void **state) {
     from_mtl(s, "Ka 1 1 1\nmap_Kd wood.png\nKa 0 0 1\nKa 0 0 0\nd -halo 0.5\nKs spectral a.rfl 1");
     assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), 4);
     assert_says(s, "own.mtl:2:1: warning: 'Ka' has no effect (2 lines): there is no ambient light [W605]");
-    assert_says(s, "own.mtl:3:1: warning: 'map_Kd' has no effect: the surfaces of bodies have no images");
+    assert_says(s, "own.mtl:3:1: warning: 'map_Kd' has no effect: 'wood.png' cannot be found");
     assert_says(s, "own.mtl:6:3: warning: '-halo' has no effect: transparency does not depend on the angle");
     assert_says(s, "own.mtl:7:1: warning: 'Ks spectral' has no effect: colours are three numbers");
     assert_says(s, "mesh.obj:1:1: note: the material file is named here");
