@@ -79,7 +79,9 @@ enum shot_status exact_take(struct exact *exact, struct image *image, double *rg
     if (result != REFERENCE_DONE)
         return result == REFERENCE_CANCELLED ? SHOT_CANCELLED
                                              : shot_no_memory(exact->session, "the reference");
-    report_fault(exact->session, DIAG_NOT_FINITE, &statistics->not_finite, WHERE_NOT_FINITE);
+    const bool is_nested = statistics->not_finite.is_nested;
+    report_fault(exact->session, is_nested ? DIAG_LIMIT : DIAG_NOT_FINITE, &statistics->not_finite,
+                 is_nested ? WHERE_NESTED : WHERE_NOT_FINITE);
     report_fault(exact->session, DIAG_NOT_FINITE, &too_large, "got a value that is too large for a float");
     report_fault(exact->session, DIAG_PATH_SEGMENTS, &statistics->over_segments, WHERE_OVER_SEGMENTS);
     report_fault(exact->session, DIAG_REFERENCE_CUT, &statistics->cut_short, WHERE_CUT_SHORT);

@@ -23,6 +23,9 @@ static struct reference_segment common_segment(const struct render_segment *s) {
                                       .triangle = s->triangle,
                                       .material = s->material,
                                       .enters = s->enters,
+                                      .passes = s->passes,
+                                      .medium = s->medium,
+                                      .tint = s->tint,
                                       .total_reflection = s->total_reflection,
                                       .distance = s->distance,
                                       .point = s->point,
@@ -116,10 +119,14 @@ static uint32_t child_of(const struct pick_log *log, uint32_t parent, enum refer
     return UINT32_MAX;
 }
 
+static vec3 share_of(const struct reference_segment *s) {
+    return (vec3){s->radiance.x * s->tint.x * s->weight, s->radiance.y * s->tint.y * s->weight,
+                  s->radiance.z * s->tint.z * s->weight};
+}
+
 // In what the pixel gets of it: another cell of a checker, or another place of the background.
 static bool has_other_color(const struct reference_segment *a, const struct reference_segment *b) {
-    const double apart =
-        vec3_max_abs(vec3_sub(vec3_mul(a->radiance, a->weight), vec3_mul(b->radiance, b->weight)));
+    const double apart = vec3_max_abs(vec3_sub(share_of(a), share_of(b)));
     return !(apart <= PICK_COLOR_ERROR * fmax(1, vec3_max_abs(b->radiance) * b->weight));
 }
 

@@ -65,6 +65,17 @@ static void put_target(const struct pick *pick, const struct reference_segment *
         strbuf_cstr(out, ", stopped by max_depth");
 }
 
+// Inside what the ray goes, where rays know it, and what attenuation has left of its light.
+static void put_medium(const struct pick *pick, const struct reference_segment *s, struct strbuf *out) {
+    struct where where;
+    if (s->medium != HIT_NONE && where_find(pick->session, s->medium, 0, &where)) {
+        strbuf_cstr(out, ", inside ");
+        where_body_words(&where, out);
+    }
+    if (s->tint.x < 1 || s->tint.y < 1 || s->tint.z < 1)
+        strbuf_format(out, ", attenuated to %.4g %.4g %.4g", s->tint.x, s->tint.y, s->tint.z);
+}
+
 static void put_segment(const struct pick *pick, const struct pick_log *log, uint32_t index,
                         struct strbuf *out) {
     const struct reference_segment *s = &log->segments[index];
@@ -73,13 +84,18 @@ static void put_segment(const struct pick *pick, const struct pick_log *log, uin
         strbuf_format(out, "%s from %u", kind_words[s->kind], s->parent);
     else
         strbuf_cstr(out, kind_words[s->kind]);
-    strbuf_format(out, ", weight %.6g: ", s->weight);
+    strbuf_format(out, ", weight %.6g", s->weight);
+    put_medium(pick, s, out);
+    strbuf_cstr(out, ": ");
     put_target(pick, s, out);
     put_lights(pick, s, out);
     if (s->total_reflection)
         strbuf_cstr(out, "; total reflection");
+    if (s->passes)
+        strbuf_cstr(out, "; passes unseen: the medium stays the same");
     strbuf_cstr(out, "; adds ");
-    put_vector(out, vec3_mul(s->radiance, s->weight));
+    put_vector(out, (vec3){s->radiance.x * s->tint.x * s->weight, s->radiance.y * s->tint.y * s->weight,
+                           s->radiance.z * s->tint.z * s->weight});
     if (s->cut_weight > 0)
         strbuf_format(out, "; rays of weight %.3g not followed", s->cut_weight);
     strbuf_char(out, '\n');
@@ -296,6 +312,15 @@ static void json_segment(struct json_writer *w, const struct pick *pick, const s
     json_vector(w, "origin", s->origin);
     json_vector(w, "direction", s->direction);
     json_vector(w, "radiance", s->radiance);
+    json_vector(w, "attenuation", s->tint);
+    struct where where;
+    if (s->medium != HIT_NONE && where_find(pick->session, s->medium, 0, &where)) {
+        struct strbuf words;
+        strbuf_init(&words);
+        where_body_words(&where, &words);
+        json_write_text(w, "inside", strbuf_view(&words));
+        strbuf_finish(&words);
+    }
     json_write_boolean(w, "cut_by_depth", s->depth > pick->max_depth);
     json_write_real(w, "weight_not_followed", s->cut_weight);
     if (s->body != HIT_NONE) {
@@ -308,6 +333,7 @@ static void json_segment(struct json_writer *w, const struct pick *pick, const s
         json_write_boolean(w, "enters", s->enters);
         json_write_boolean(w, "total_reflection", s->total_reflection);
         json_texel(w, &s->texel);
+        json_write_boolean(w, "passes", s->passes);
         json_lights(w, "lights_considered", s->considered);
         json_lights(w, "lights_lit", s->lit);
         json_close_object(w);

@@ -134,15 +134,18 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
         [RENDER_SEGMENTS] = WHERE_OVER_SEGMENTS,
     };
     struct session *s = shot->session;
-    where_report_fault(
-        s, &(struct where_fault){.code = kind == RENDER_NOT_FINITE ? DIAG_NOT_FINITE : DIAG_PATH_SEGMENTS,
-                                 .words = words[kind],
-                                 .pixels = fault->pixels,
-                                 .x = fault->x,
-                                 .y = fault->y,
-                                 .body = fault->has_body ? fault->body : HIT_NONE,
-                                 .triangle = fault->triangle});
-    if (kind == RENDER_NOT_FINITE)
+    where_report_fault(s, &(struct where_fault){.code = fault->is_nested            ? DIAG_LIMIT
+                                                        : kind == RENDER_NOT_FINITE ? DIAG_NOT_FINITE
+                                                                                    : DIAG_PATH_SEGMENTS,
+                                                .words = fault->is_nested ? WHERE_NESTED : words[kind],
+                                                .pixels = fault->pixels,
+                                                .x = fault->x,
+                                                .y = fault->y,
+                                                .body = fault->has_body ? fault->body : HIT_NONE,
+                                                .triangle = fault->triangle});
+    if (fault->is_nested)
+        diag_help(&s->sink, "move some of them apart, or join those of one material into one mesh");
+    else if (kind == RENDER_NOT_FINITE)
         diag_help(&s->sink,
                   "they are magenta in PNG and HDR, and NaN in PFM; 'glint pick SCENE %u,%u' shows what "
                   "happens there",

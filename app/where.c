@@ -1,6 +1,7 @@
 #include "app/where.h"
 
 #include "grammar/ir.h"
+#include "grammar/ir_features.h"
 #include "grammar/schema.h"
 #include "scene/hits.h"
 
@@ -76,4 +77,32 @@ void where_report_fault(struct session *session, const struct where_fault *fault
         diag_note(&session->sink, SPAN_NONE, "it has the %.*s", STR_ARG(strbuf_view(&material)));
     strbuf_finish(&material);
     strbuf_finish(&body);
+}
+
+static void media_words(struct session *session, const struct scene_media_reason *reason,
+                        struct strbuf *out) {
+    struct where a, b;
+    if (reason->need == SCENE_MEDIA_MANY || !where_find(session, reason->a, 0, &a) ||
+        !where_find(session, reason->b, 0, &b)) {
+        strbuf_cstr(out, "bodies that refract are too many to be compared\n");
+        return;
+    }
+    const struct source_place place = source_locate(&session->sources, b.at);
+    strbuf_format(out, "%.*s:%u:%u: ", STR_ARG(place.path), place.line, place.column);
+    where_body_words(&b, out);
+    if (reason->need == SCENE_MEDIA_ATTENUATION) {
+        strbuf_cstr(out, " is coloured inside\n");
+        return;
+    }
+    strbuf_cstr(out, " may share a place with ");
+    where_body_words(&a, out);
+    strbuf_char(out, '\n');
+}
+
+void where_feature_words(struct session *session, uint32_t feature, const struct scene_media_reason *reason,
+                         struct strbuf *out) {
+    if (feature == FEATURE_MEDIA)
+        media_words(session, reason, out);
+    else
+        strbuf_cstr(out, "a material from a mesh's material file\n");
 }

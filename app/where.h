@@ -7,6 +7,7 @@
 
 #include "app/session.h"
 #include "core/strbuf.h"
+#include "scene/media.h"
 
 struct where {
     const char *kind;          // as the language calls it: "sphere"
@@ -28,8 +29,14 @@ void where_body_words(const struct where *where, struct strbuf *out);
 // "material 'jade'", "the default material".
 void where_material_words(const struct where *where, struct strbuf *out);
 
+// Why a feature is on that nothing written in the scene asks for: the media that may share a place, or a
+// mesh's materials.
+void where_feature_words(struct session *session, uint32_t feature, const struct scene_media_reason *reason,
+                         struct strbuf *out);
+
 // What either tracer may report about pixels.
 #define WHERE_NOT_FINITE    "got a value that is infinite or not a number"
+#define WHERE_NESTED        "show rays that are inside more than 8 bodies at once that refract"
 #define WHERE_OVER_SEGMENTS "needed more rays than the limit path-segments"
 #define WHERE_CUT_SHORT     "needed more rays than the limit reference-segments"
 

@@ -185,6 +185,20 @@ void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
     }
 }
 
+bool assets_is_mesh_path(str path) {
+    return str_ends_with_nocase(path, ".obj");
+}
+
+str asset_base(const struct assets_input *input, span at) {
+    uint32_t source = at.source;
+    const struct source *s = &input->sources->items[source < input->sources->count ? source : SOURCE_DEFAULT];
+    if ((s->kind == SOURCE_KIND_OPTION || s->kind == SOURCE_KIND_DEFAULT) && input->origin->files.count)
+        s = &input->sources->items[input->origin->files.items[0].source];
+    bool is_file =
+        s->kind == SOURCE_KIND_FILE || s->kind == SOURCE_KIND_OVERLAY || s->kind == SOURCE_KIND_GENERATED;
+    return is_file ? s->path : STR("");
+}
+
 static void report_missing(struct asset_file *file, str path) {
     asset_report_named(file, DIAG_FILE_MISSING, "the %s '%.*s' does not exist", file->what, STR_ARG(path));
     bool is_image = file->limit == LIMIT_IMAGE_BYTES;

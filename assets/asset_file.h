@@ -26,6 +26,8 @@ struct asset_file {
     uint32_t errors;
 };
 
+// The file that holds a value: paths are relative to it. Values of options belong to the scene's file.
+str asset_base(const struct assets_input *input, span at);
 // Finds the file that `base_path` (a file) names `path`. On success file->path is set and *identity filled;
 // else adds a diagnostic where the file is named. `file` has its other members set. If `missing` is not NULL,
 // a missing file only sets *missing, without a diagnostic.

@@ -4,6 +4,7 @@
 #include "assets/loader.h"
 #include "assets/mesh_build.h"
 #include "assets/mesh_losses.h"
+#include "assets/meshes_ahead.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
 #include "core/timeline.h"
@@ -12,10 +13,6 @@
 #include "picture/read/picture_read.h"
 
 #include <assert.h>
-
-bool assets_is_mesh_path(str path) {
-    return str_ends_with_nocase(path, ".obj");
-}
 
 static bool is_poisoned(const struct ir_head *head, const struct schema_element *schema, const char *row) {
     return head->poisoned >> schema_find_row(schema, str_from(row)) & 1;
@@ -52,14 +49,8 @@ struct mesh_reading {
 
 static void read_mesh(void *context) {
     const struct mesh_reading *r = context;
-    struct obj obj;
-    if (!asset_read(r->file, r->scratch))
-        return;
-    read_obj(r->file, r->scratch, &obj);
-    // Together they take no more than the limit.
-    r->mesh->arena.cap_bytes -= r->scratch->used_bytes;
-    if (r->file->errors == 0)
-        mesh_build(&obj, r->file->path, r->scratch, r->mesh);
+    if (asset_read(r->file, r->scratch))
+        mesh_read(r->file, r->scratch, r->mesh);
 }
 
 static void read_mesh_guarded(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
@@ -78,31 +69,41 @@ static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
     mesh_losses_report(file, mesh);
 }
 
+// Reads it now, if it was not read ahead.
+static void fill_mesh(struct loader *loader, struct asset_file *file, const struct file_read *identity,
+                      struct store_entry *entry) {
+    const size_t cap = (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY];
+    struct arena *scratch = &loader->hold->scratch;
+    entry->is_whole = meshes_ahead_take(loader->ahead, identity, &entry->mesh);
+    if (entry->is_whole) {
+        report_mesh(file, &entry->mesh);
+        return;
+    }
+    arena_init(scratch, cap);
+    arena_init(&entry->mesh.arena, cap);
+    const double start = clock_seconds();
+    read_mesh_guarded(file, scratch, &entry->mesh);
+    timeline_add(loader->input->timeline, "mesh", file->path, start);
+    entry->is_whole = file->errors == 0;
+    if (entry->is_whole)
+        report_mesh(file, &entry->mesh);
+    else
+        arena_finish(&entry->mesh.arena);
+    file->text = STR("");
+    arena_finish(scratch);
+}
+
 static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const struct file_read *identity) {
-    struct asset_file *file = &loaded->file;
     struct store_entry *entry = store_find(loader->hold, STORE_MESH, identity);
-    if (!entry) {
-        size_t cap = (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY];
-        struct arena *scratch = &loader->hold->scratch;
+    if (entry) {
+        report_mesh(&loaded->file, &entry->mesh);
+    } else {
         entry = store_add(loader->hold, STORE_MESH, identity);
         if (!entry) {
-            asset_report_memory(file, ARENA_FAULT_SYSTEM);
+            asset_report_memory(&loaded->file, ARENA_FAULT_SYSTEM);
             return;
         }
-        arena_init(scratch, cap);
-        arena_init(&entry->mesh.arena, cap);
-        const double start = clock_seconds();
-        read_mesh_guarded(file, scratch, &entry->mesh);
-        timeline_add(loader->input->timeline, "mesh", file->path, start);
-        entry->is_whole = file->errors == 0;
-        if (entry->is_whole)
-            report_mesh(file, &entry->mesh);
-        else
-            arena_finish(&entry->mesh.arena);
-        file->text = STR("");
-        arena_finish(scratch);
-    } else {
-        report_mesh(file, &entry->mesh);
+        fill_mesh(loader, &loaded->file, identity, entry);
     }
     loaded->mesh = loaded->own = entry->is_whole ? &entry->mesh : NULL;
 }
@@ -112,7 +113,7 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     const struct assets_input *input = loader->input;
     struct asset_file file = {.input = input, .what = "mesh", .limit = LIMIT_MESH_BYTES, .named_at = at};
     struct file_read identity;
-    if (!asset_find(&file, loader_base_of(input, at), model->mesh, &identity, NULL))
+    if (!asset_find(&file, asset_base(input, at), model->mesh, &identity, NULL))
         return NULL;
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
         if (str_equal(known->canonical, identity.path))
@@ -223,7 +224,7 @@ static const struct picture *load_background(struct loader *loader, struct asset
     span at = ir_place_value(input->origin, &background->head, &SCHEMA_BACKGROUND, "image");
     struct asset_file file = {.input = input, .what = "image", .limit = LIMIT_IMAGE_BYTES, .named_at = at};
     struct file_read identity;
-    if (!asset_find(&file, loader_base_of(input, at), background->image, &identity, NULL))
+    if (!asset_find(&file, asset_base(input, at), background->image, &identity, NULL))
         return NULL;
     struct store_entry *entry = loader_find_image(loader, &identity);
     if (!entry) {
@@ -261,8 +262,8 @@ static bool has_background_image(const struct assets_input *input) {
 
 static struct asset_ahead *decode_ahead(const struct assets_input *input, struct asset_hold *hold) {
     return ahead_begin(input, hold,
-                       loader_base_of(input, ir_place_value(input->origin, &input->scene->background.head,
-                                                            &SCHEMA_BACKGROUND, "image")));
+                       asset_base(input, ir_place_value(input->origin, &input->scene->background.head,
+                                                        &SCHEMA_BACKGROUND, "image")));
 }
 
 // ---- all
@@ -294,8 +295,12 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
         out->ahead = decode_ahead(input, out->hold);
     out->models = ARENA_ARRAY(input->arena, struct assets_model, scene->models.count);
     out->model_count = scene->models.count;
+    meshes_ahead_read(&loader, &out->meshes_ahead);
+    loader.ahead = out->meshes_ahead;
     for (uint32_t i = 0; i < scene->models.count; i++)
         load_model(&loader, out, i);
+    meshes_ahead_finish(out->meshes_ahead);
+    out->meshes_ahead = NULL;
     report_unfit(&loader, out);
     loader_load_textures(&loader, out);
     if (has_image)
@@ -309,6 +314,7 @@ void assets_finish(struct assets *assets) {
     if (!assets)
         return;
     ahead_finish(assets->ahead);
+    meshes_ahead_finish(assets->meshes_ahead);
     store_release(assets->hold);
     *assets = (struct assets){0};
 }

@@ -20,6 +20,7 @@ struct ir_material_ref;
 struct ir_scene;
 
 struct asset_ahead;
+struct meshes_ahead;
 struct asset_store;
 struct asset_hold;
 struct timeline;
@@ -71,9 +72,10 @@ struct assets {
     bool pixels_skipped; // it has an image of which only the header was ever read
     bool pixels_later;   // its pixels are still being decoded: assets_settle
     struct asset_ahead *ahead;
-    uint64_t triangle_count; // of all models
-    uint64_t held_triangles; // the same with those of each mesh once
-    struct asset_uses uses;  // in the order of loading; text is in the arena of the scene
+    struct meshes_ahead *meshes_ahead; // while they are loaded
+    uint64_t triangle_count;           // of all models
+    uint64_t held_triangles;           // the same with those of each mesh once
+    struct asset_uses uses;            // in the order of loading; text is in the arena of the scene
 };
 
 struct assets_input {

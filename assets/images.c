@@ -4,17 +4,6 @@
 #include "core/timeline.h"
 #include "picture/read/picture_read.h"
 
-// The file that holds a value: paths are relative to it. Values of options belong to the scene's file.
-str loader_base_of(const struct assets_input *input, span at) {
-    uint32_t source = at.source;
-    const struct source *s = &input->sources->items[source < input->sources->count ? source : SOURCE_DEFAULT];
-    if ((s->kind == SOURCE_KIND_OPTION || s->kind == SOURCE_KIND_DEFAULT) && input->origin->files.count)
-        s = &input->sources->items[input->origin->files.items[0].source];
-    bool is_file =
-        s->kind == SOURCE_KIND_FILE || s->kind == SOURCE_KIND_OVERLAY || s->kind == SOURCE_KIND_GENERATED;
-    return is_file ? s->path : STR("");
-}
-
 static bool fits_memory(struct asset_file *file, str name, const struct store_entry *entry) {
     const struct limit_info *info = limit_info(LIMIT_IMAGE_MEMORY);
     const uint64_t bytes = entry->picture_bytes;

@@ -8,6 +8,7 @@
 #include "core/str_map.h"
 
 struct ir_model;
+struct meshes_ahead;
 
 // A mesh file that models of this scene name.
 struct loaded_mesh {
@@ -51,6 +52,7 @@ enum {
 struct loader {
     const struct assets_input *input;
     struct asset_hold *hold;
+    struct meshes_ahead *ahead; // meshes that were read already; NULL: none
     enum assets_pixels pixels;
     struct loaded_mesh *meshes;
     struct loaded_image *images;
@@ -73,8 +75,6 @@ struct loader {
 
 // A place for one more material.
 struct ir_material *loader_add_material(struct loader *loader, struct material_source source);
-// The file that holds a value of the scene: paths are relative to it.
-str loader_base_of(const struct assets_input *input, span at);
 // The entry of an image that was found under its name, read if it was not before; NULL: no memory. What is
 // wrong with it is reported, but for faults of the decoder.
 struct store_entry *loader_read_image(struct loader *loader, struct asset_file *file, str name,

@@ -1,14 +1,20 @@
 #include "assets/mesh_build.h"
 
 #include "assets/triangulate.h"
+#include "core/parallel.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 // How far a corner must be off its face's plane to be told of: of the face's size, and, for what a file of
 // six digits leaves open, of its coordinates.
 #define BEND_SEEN  0.001
 #define RESOLUTION 0x1p-18
+
+enum {
+    PIECE = 1 << 14, // triangles, in parallel work
+};
 
 static void copy_names(const struct obj *obj, str path, struct mesh *mesh) {
     struct arena *arena = &mesh->arena;
@@ -143,14 +149,28 @@ static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena
     }
 }
 
+struct measuring {
+    const struct mesh *mesh;
+    atomic_uint zero_area;
+};
+
+static void count_zero_area(void *context, size_t begin, size_t end) {
+    const struct mesh *mesh = ((struct measuring *)context)->mesh;
+    uint32_t count = 0;
+    for (size_t i = begin; i < end; i++)
+        count += !mesh_has_area(mesh, (uint32_t)i);
+    atomic_fetch_add(&((struct measuring *)context)->zero_area, count);
+}
+
 static void measure(struct mesh *mesh) {
+    struct measuring measuring = {.mesh = mesh};
     mesh->lower = mesh->upper = mesh->positions[0];
     for (uint32_t i = 1; i < mesh->position_count; i++) {
-        mesh->lower = vec3_min(mesh->lower, mesh->positions[i]);
-        mesh->upper = vec3_max(mesh->upper, mesh->positions[i]);
+        mesh->lower = vec3_least(mesh->lower, mesh->positions[i]);
+        mesh->upper = vec3_greatest(mesh->upper, mesh->positions[i]);
     }
-    for (uint32_t i = 0; i < mesh->triangle_count; i++)
-        mesh->zero_area += !mesh_has_area(mesh, i);
+    parallel_for(mesh->triangle_count, PIECE, count_zero_area, &measuring);
+    mesh->zero_area = measuring.zero_area;
 }
 
 void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct mesh *mesh) {
@@ -162,6 +182,14 @@ void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct m
     mesh_merge_positions(mesh, scratch);
     mesh_find_edges(mesh, scratch);
     mesh_turn_outward(mesh);
+}
+
+void mesh_read(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
+    struct obj obj;
+    read_obj(file, scratch, &obj);
+    mesh->arena.cap_bytes -= scratch->used_bytes;
+    if (file->errors == 0)
+        mesh_build(&obj, file->path, scratch, mesh);
 }
 
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle) {

@@ -7,6 +7,9 @@
 #include "assets/mesh.h"
 #include "assets/read_obj.h"
 
+// The mesh of file->text, as the next function does; faults are reported and counted in file->errors. Its own
+// memory and the scratch arena's together take no more than the cap, which is that of both.
+void mesh_read(struct asset_file *file, struct arena *scratch, struct mesh *mesh);
 // Fills a zeroed mesh whose arena is set up; everything that stays is there, `scratch` may be freed. Both
 // arenas must be guarded.
 void mesh_build(const struct obj *obj, str path, struct arena *scratch, struct mesh *mesh);

@@ -1,11 +1,14 @@
 // What a mesh encloses: equal positions, edges without their opposite, volume.
 #include "assets/mesh_build.h"
 
+#include "core/parallel.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 enum {
     INSERTION_SORT_MAX = 24,
+    PIECE = 1 << 14,     // lower ends of edges, in parallel work
     EXPONENT_MAX = 1000, // of a power of two that is a double
 };
 
@@ -70,24 +73,51 @@ static void sort_edges(struct half_edge *edges, uint32_t n) {
     }
 }
 
-static void note_open(struct mesh *mesh, const struct half_edge *edges, uint32_t n, int64_t surplus) {
-    mesh->open_edges += (uint32_t)(surplus < 0 ? -surplus : surplus);
+// What some of the lower ends have.
+struct open_edges {
+    uint32_t count, line; // line: of the first face, 0: none
+};
+
+static void note_line(struct open_edges *open, uint32_t line) {
+    if (line && (open->line == 0 || line < open->line))
+        open->line = line;
+}
+
+static void note_open(const struct mesh *mesh, struct open_edges *open, const struct half_edge *edges,
+                      uint32_t n, int64_t surplus) {
+    open->count += (uint32_t)(surplus < 0 ? -surplus : surplus);
     for (uint32_t i = 0; i < n; i++) {
         bool leads_down = edges[i].triangle & 1;
-        uint32_t line = mesh->triangles[edges[i].triangle / 2].line;
-        if (leads_down == (surplus < 0) && (mesh->open_line == 0 || line < mesh->open_line))
-            mesh->open_line = line;
+        if (leads_down == (surplus < 0))
+            note_line(open, mesh->triangles[edges[i].triangle / 2].line);
     }
 }
 
 // The edges of one lower end, sorted by the other: an edge is open if the two directions differ in number.
-static void compare_directions(struct mesh *mesh, const struct half_edge *edges, uint32_t n) {
+static void compare_directions(const struct mesh *mesh, struct open_edges *open,
+                               const struct half_edge *edges, uint32_t n) {
     for (uint32_t begin = 0, end; begin < n; begin = end) {
         int64_t surplus = 0;
         for (end = begin; end < n && edges[end].other == edges[begin].other; end++)
             surplus += edges[end].triangle & 1 ? -1 : 1;
         if (surplus != 0)
-            note_open(mesh, edges + begin, end - begin, surplus);
+            note_open(mesh, open, edges + begin, end - begin, surplus);
+    }
+}
+
+struct comparison {
+    const struct mesh *mesh;
+    const uint32_t *first; // edge of each lower end
+    struct half_edge *edges;
+    struct open_edges *found; // for each piece
+};
+
+static void compare_piece(void *context, size_t begin, size_t end) {
+    const struct comparison *c = context;
+    for (size_t i = begin; i < end; i++) {
+        const uint32_t n = c->first[i + 1] - c->first[i];
+        sort_edges(c->edges + c->first[i], n);
+        compare_directions(c->mesh, &c->found[begin / PIECE], c->edges + c->first[i], n);
     }
 }
 
@@ -123,11 +153,16 @@ void mesh_find_edges(struct mesh *mesh, struct arena *scratch) {
         for (int k = 2; k >= 0; k--)
             if (edge_of(mesh, t - 1, k, &edge))
                 edges[--first[edge.low]] = (struct half_edge){edge.high, 2 * (t - 1) + edge.leads_down};
-    for (uint32_t i = 0; i < mesh->position_count; i++) {
-        uint32_t n = first[i + 1] - first[i];
-        sort_edges(edges + first[i], n);
-        compare_directions(mesh, edges + first[i], n);
+    const uint32_t pieces = mesh->position_count / PIECE + 1;
+    struct comparison comparison = {mesh, first, edges, ARENA_ARRAY(scratch, struct open_edges, pieces)};
+    parallel_for(mesh->position_count, PIECE, compare_piece, &comparison);
+    struct open_edges all = {0};
+    for (uint32_t i = 0; i < pieces; i++) {
+        all.count += comparison.found[i].count;
+        note_line(&all, comparison.found[i].line);
     }
+    mesh->open_edges = all.count;
+    mesh->open_line = all.line;
     mesh->closed = mesh->open_edges == 0;
 }
 

@@ -59,7 +59,7 @@ static const struct picture *load_image(struct loader *loader, struct assets *ou
     const struct assets_input *input = loader->input;
     struct loaded_image *image = ARENA_NEW(input->arena, struct loaded_image);
     const span at = ir_place_value(input->origin, &texture->head, &SCHEMA_TEXTURE, "file");
-    const str base = source->file ? source->file->path : loader_base_of(input, at);
+    const str base = source->file ? source->file->path : asset_base(input, at);
     struct file_read identity;
     bool is_known;
     image->file = (struct asset_file){.input = input, .what = "image", .limit = LIMIT_IMAGE_BYTES};

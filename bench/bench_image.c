@@ -40,10 +40,11 @@ struct job {
     unsigned char *stb;
 };
 
-static double user_seconds(void) {
+static double processor_seconds(void) {
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
-    return (double)usage.ru_utime.tv_sec + (double)usage.ru_utime.tv_usec * 1e-6;
+    return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec) * 1e-6;
 }
 
 static bool decode_glint(struct job *job) {
@@ -84,13 +85,13 @@ static bool decode_part(struct job *job) {
 static void time_rounds(const char *name, bool (*decode)(struct job *), struct job *job) {
     printf("  %-28s", name);
     for (int round = -1; round < ROUNDS; round++) {
-        double before = user_seconds();
+        double before = processor_seconds();
         if (!decode(job)) {
             printf(" cannot decode it\n");
             return;
         }
         if (round >= 0)
-            printf(" %7.3f", user_seconds() - before);
+            printf(" %7.3f", processor_seconds() - before);
     }
     printf("\n");
 }
@@ -154,7 +155,7 @@ static bool measure_file(const char *path) {
 int main(int argc, char **argv) {
     char path[PATH_MAX_BYTES];
     const char *folder = getenv("GLINT_ASSETS");
-    printf("user time, seconds\n");
+    printf("processor time, seconds\n");
     for (int i = 1; i < argc; i++)
         if (!measure_file(argv[i])) {
             fprintf(stderr, "bench_image: %s: %s\n", argv[i], strerror(errno));

@@ -32,6 +32,14 @@ static bool report(struct session *session) {
     return false;
 }
 
+bool bench_session_open(struct bench_scene *scene, const struct session_options *options) {
+    struct session *session = &scene->session;
+    session_load(session, options, scene->store);
+    if (session->state != SESSION_LOADED || session->sink.errors || !session_view(session, 0, &scene->view))
+        return report(session);
+    return true;
+}
+
 bool bench_scene_open(struct bench_scene *scene, const char *path, const char *assets) {
     str folder = str_from(assets ? assets : "");
     struct session_options options = {.path = str_from(path),
@@ -44,9 +52,8 @@ bool bench_scene_open(struct bench_scene *scene, const char *path, const char *a
         return false;
     }
     struct session *session = &scene->session;
-    session_load(session, &options, scene->store);
-    if (session->state != SESSION_LOADED || session->sink.errors || !session_view(session, 0, &scene->view))
-        return report(session);
+    if (!bench_session_open(scene, &options))
+        return false;
     struct flat_input input = precision_input(session, &scene->view);
     if (!flatten(&input, &scene->flat))
         return report(session);

@@ -22,6 +22,8 @@ struct bench_scene {
 
 // `assets`: a further folder for the scene's files; may be NULL.
 bool bench_scene_open(struct bench_scene *scene, const char *path, const char *assets);
+// Loads scene->path into its store, which is there, and looks through the first camera; nothing is flattened.
+bool bench_session_open(struct bench_scene *scene, const struct session_options *options);
 void bench_scene_close(struct bench_scene *scene);
 bool bench_is_folder(const char *path);
 // NULL: the environment's GLINT_DEVICE, else the preferred one.

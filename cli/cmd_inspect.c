@@ -1,5 +1,6 @@
 // glint inspect SCENE [--ir]: counts, bounds, features with their reasons, buffers; or the canonical dump.
 #include "app/precision.h"
+#include "app/where.h"
 #include "cli/cli.h"
 #include "grammar/schema.h"
 
@@ -73,20 +74,19 @@ static void meshes(struct strbuf *out, const struct session *s) {
     }
 }
 
-static void features(struct strbuf *out, struct session *s, uint32_t mask) {
+static void features(struct strbuf *out, struct session *s, const struct flat_scene *flat) {
     struct ir_feature_reasons reasons;
     ir_features_explain(s->scene, &s->origin, &reasons);
     strbuf_cstr(out, "features\n");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++) {
-        uint32_t bit = 1u << i;
-        if (!(mask & bit))
+        uint32_t bit = 1u << i, k = 0;
+        if (!(flat->features & bit))
             continue;
         strbuf_format(out, "  %-17s", feature_name(bit));
-        uint32_t k = 0;
         while (k < reasons.count && reasons.items[k].bit != bit)
             k++;
         if (k == reasons.count) {
-            strbuf_cstr(out, "a material from a mesh's material file\n");
+            where_feature_words(s, bit, &flat->media, out);
             continue;
         }
         if (!span_is_none(reasons.items[k].at)) {
@@ -97,7 +97,7 @@ static void features(struct strbuf *out, struct session *s, uint32_t mask) {
     }
     strbuf_cstr(out, "not required:");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++)
-        if ((FEATURE_SCENE_MASK & (1u << i)) && !(mask & (1u << i)))
+        if ((FEATURE_SCENE_MASK & (1u << i)) && !(flat->features & (1u << i)))
             strbuf_format(out, " %s", feature_name(1u << i));
     strbuf_char(out, '\n');
 }
@@ -185,7 +185,7 @@ static bool describe(struct session *session, struct strbuf *out) {
     bounds(out, session);
     meshes(out, session);
     precision_words(session, &precision, out);
-    features(out, session, flat.features);
+    features(out, session, &flat);
     instances(out, &flat);
     buffers(out, &flat);
     flat_finish(&flat);

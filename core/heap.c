@@ -1,7 +1,15 @@
 #include "core/heap.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <sys/mman.h>
+
+enum {
+    HUGE_PAGE_BYTES = 1 << 21,
+    LARGE_BYTES = 2 * HUGE_PAGE_BYTES, // a huge page lies in it, wherever it begins
+};
 
 // Set once, before there are threads.
 static heap_handler *on_exhausted;
@@ -15,10 +23,23 @@ void heap_exhausted(size_t size_bytes) {
         on_exhausted(size_bytes);
 }
 
+// Only whole huge pages are named, so that nothing changes for what lies beside. A system that has none, or
+// does not want them used, gives the memory as it would have: what it answers is of no interest.
+void heap_expect(void *memory, size_t size) {
+    const int error = errno;
+    const uintptr_t begin = ((uintptr_t)memory + HUGE_PAGE_BYTES - 1) & ~(uintptr_t)(HUGE_PAGE_BYTES - 1);
+    const uintptr_t end = ((uintptr_t)memory + size) & ~(uintptr_t)(HUGE_PAGE_BYTES - 1);
+    if (begin < end)
+        madvise((void *)begin, end - begin, MADV_HUGEPAGE);
+    errno = error;
+}
+
 // A request for nothing may be answered by NULL.
 static void *checked(void *memory, size_t size) {
     if (!memory && size)
         heap_exhausted(size);
+    else if (size >= LARGE_BYTES)
+        heap_expect(memory, size);
     return memory;
 }
 

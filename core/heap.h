@@ -21,12 +21,16 @@ void heap_on_exhausted(heap_handler *handler);
 // The system refused memory to a library, or to a system call. Returns only where there is no handler.
 void heap_exhausted(size_t size_bytes);
 
-// As malloc, calloc, realloc, strdup and strndup.
+// As malloc, calloc, realloc, strdup and strndup; what is large gets huge pages, as by heap_expect.
 void *heap_alloc(size_t size);
 void *heap_zeroed(size_t count, size_t size);
 void *heap_resize(void *memory, size_t size);
 char *heap_text(const char *text);
 char *heap_text_of(const char *text, size_t length);
+
+// All of this memory, which a library gave, is about to be filled. Where the system has huge pages, it comes
+// in those: the first touch of each page is a fault, and a huge page has one instead of 512. Changes no byte.
+void heap_expect(void *memory, size_t size);
 
 // As arena_grow: makes room for one more item; `items` (NULL: none yet) holds `count` of `*capacity` items.
 // Returns the array, moved to twice the room if it was full; on NULL the old one is unchanged.

@@ -72,6 +72,7 @@ struct ir_trace {
     unsigned depth_limit; // ir_depth_limit
     unsigned precision;   // ir_precision
     bool shadows;
+    bool transparent_shadows;
 };
 
 struct ir_camera {
@@ -142,6 +143,10 @@ struct ir_material {
     struct ir_highlight specular_color;
     double specular_exponent;
     double refractive_index;
+    bool fresnel;
+    int32_t priority;
+    struct ir_color attenuation_color;
+    double attenuation_distance; // scene units
 };
 
 struct ir_sphere {

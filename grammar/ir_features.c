@@ -92,6 +92,12 @@ static void switch_on(struct feature_walk *w, uint32_t bit, const struct feature
     explain_use(w, use, reason);
 }
 
+static bool is_coloured(const struct ir_color *color) {
+    if (color->is_hex)
+        return color->hex != 0xffffff;
+    return color->r != 1 || color->g != 1 || color->b != 1;
+}
+
 static bool is_on(const struct schema_row *row, const void *element) {
     const void *field = schema_field_const(row, element);
     if (row->choice)
@@ -109,6 +115,8 @@ static bool is_on(const struct schema_row *row, const void *element) {
         return ((const str *)field)->len > 0;
     case SCHEMA_LIST:
         return ir_walk_list(row, element).count > 0;
+    case SCHEMA_COLOR:
+        return is_coloured(field);
     default:
         return true;
     }
@@ -232,6 +240,11 @@ static const struct feature_name {
     {FEATURE_COUNTERS, "counters"},
     {FEATURE_LONG_RAYS, "long_rays"},
     {FEATURE_MANY_LIGHTS, "many_lights"},
+    {FEATURE_MEDIA, "media"},
+    {FEATURE_ATTENUATION, "attenuation"},
+    {FEATURE_FRESNEL, "fresnel"},
+    {FEATURE_CLEAR_SHADOWS, "clear_shadows"},
+    {FEATURE_BEGINS, "begins"},
 };
 static_assert(sizeof feature_names / sizeof feature_names[0] == FEATURE_COUNT, "every feature has a name");
 

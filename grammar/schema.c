@@ -124,6 +124,11 @@ static const struct schema_row trace_rows[] = {
      .doc = "How precisely positions and distances are computed."},
     {.name = "shadows", FIELD(ir_trace, shadows), .standard = "true", .feature = FEATURE_SHADOWS,
      .doc = "Whether bodies cast shadows."},
+    {.name = "transparent_shadows", FIELD(ir_trace, transparent_shadows), .standard = "false",
+     .also = "shadow_transparency colored_shadows translucent_shadows transmissive_shadows",
+     .feature = FEATURE_CLEAR_SHADOWS,
+     .doc = "Whether light shines through bodies that refract, straight and weakened by their weight of refraction; "
+            "else they cast full shadows."},
 };
 const struct schema_element SCHEMA_TRACE = {
     ELEMENT("trace", "Trace", ir_trace, trace_rows, "How far rays are followed.")};
@@ -290,6 +295,23 @@ static const struct schema_row material_rows[] = {
      .also = "ior index index_of_refraction eta ni",
      .range = SCHEMA_RANGE_INDEX, .standard = "1",
      .doc = "Bends refracted rays: 1 air, 1.33 water, 1.5 glass, 2.42 diamond."},
+    {.name = "fresnel", FIELD(ir_material, fresnel), .standard = "false", .example = "true",
+     .also = "fresnel_reflection schlick", .feature = FEATURE_FRESNEL,
+     .doc = "Whether reflection and refraction depend on the angle, by Fresnel's equations: their weights are "
+            "multiplied by the shares of light that the surface reflects and lets through."},
+    {.name = "priority", FIELD(ir_material, priority), .range = SCHEMA_RANGE_PRIORITY, .standard = "0",
+     .also = "dielectric_priority interior_priority nested_priority order",
+     .doc = "Where bodies that refract overlap, the one of the highest priority fills the place; of equal ones "
+            "the one entered last."},
+    {.name = "attenuation_color", .element = "AttenuationColor", FIELD(ir_material, attenuation_color),
+     .also = "transmittance_color absorption_color transmission_color tint interior_color volume_color",
+     .example = "0.5 0.8 0.9", .range = SCHEMA_RANGE_FRACTION, .standard = "1 1 1",
+     .feature = FEATURE_ATTENUATION,
+     .doc = "What is left of white light after 'attenuation_distance' inside a sphere or closed mesh; 1 is clear."},
+    {.name = "attenuation_distance", FIELD(ir_material, attenuation_distance),
+     .also = "transmittance_distance at_distance absorption_distance depth thickness",
+     .example = "2", .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_LENGTH, .standard = "1",
+     .doc = "The way inside after which white light has 'attenuation_color'."},
 };
 const struct schema_element SCHEMA_MATERIAL = {
     ELEMENT("material", "Material", ir_material, material_rows,

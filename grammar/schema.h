@@ -70,6 +70,7 @@ enum schema_range {
     SCHEMA_RANGE_FOV,        // between 0 and 180, both excluded
     SCHEMA_RANGE_EXPONENT,   // 0..1e6
     SCHEMA_RANGE_INDEX,      // 0.1..10
+    SCHEMA_RANGE_PRIORITY,   // -1000..1000
     SCHEMA_RANGE_REPEAT,     // 1e-6..1e6
     SCHEMA_RANGE_SHIFT,      // -1e6..1e6
     SCHEMA_RANGE_COUNT,
@@ -125,9 +126,10 @@ struct schema_row {
     // Rows of one choice exclude each other; taking one stores `alternative` in the element's tag field.
     uint8_t choice; // 0: none; else an index into the element's choices, from 1
     uint8_t alternative;
-    uint32_t feature;            // FEATURE_ bit while the value is not zero, false, the first word, or empty
-    bool feature_of_first;       // SCHEMA_WORD: the bit is the first word's and no other's
-    uint32_t weight_features[4]; // SCHEMA_WEIGHTS: one per component
+    // FEATURE_ bit while the value is not zero, false, the first word, empty, or white
+    uint32_t feature;
+    bool feature_of_first;              // SCHEMA_WORD: the bit is the first word's and no other's
+    uint32_t weight_features[4];        // SCHEMA_WEIGHTS: one per component
     const struct schema_element *child; // SCHEMA_ELEMENT, SCHEMA_REFERENCE, SCHEMA_LIST
     const char *doc;                    // one sentence
 };

@@ -25,6 +25,7 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_FOV] = {"field_of_view", 0, 180, true, false, "greater than 0 and less than 180"},
     [SCHEMA_RANGE_EXPONENT] = {"exponent", 0, 1e6, false, false, "from 0 to 1e6"},
     [SCHEMA_RANGE_INDEX] = {"index", 0.1, 10, false, false, "from 0.1 to 10"},
+    [SCHEMA_RANGE_PRIORITY] = {"priority", -1000, 1000, false, false, "from -1000 to 1000"},
     [SCHEMA_RANGE_REPEAT] = {"repeat", 1e-6, 1e6, false, false, "from 1e-6 to 1e6"},
     [SCHEMA_RANGE_SHIFT] = {"shift", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
 };

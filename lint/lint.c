@@ -2,7 +2,7 @@
 
 // The rules in the order of their codes.
 const struct lint_rule lint_rules[] = {
-    // One test of a box for each pair of camera and solid, rays only where the box holds the camera.
+    // A walk for each solid through a tree of the cameras, rays only where its box holds one.
     {DIAG_CAMERA_INSIDE, lint_camera_inside, LINT_ALL},
     {DIAG_LIGHT_INSIDE, lint_light_inside, LINT_ALL},
     // One pass over the bodies.
@@ -26,8 +26,10 @@ const struct lint_rule lint_rules[] = {
     {DIAG_OPPOSING_NORMALS, lint_opposing_normals, LINT_ALL},
     // The header of one image.
     {DIAG_OVERSIZED_IMAGE, lint_oversized_image, LINT_ALL},
-    // Refracting bodies whose boxes overlap; of meshes the faces that they have in common.
+    // Refracting bodies whose boxes overlap; of meshes the faces that they have in common. W419 too.
     {DIAG_MEDIA_OVERLAP, lint_media, LINT_ALL},
+    // One pass over the bodies.
+    {DIAG_NO_EFFECT, lint_attenuation, LINT_ALL},
     {.run = NULL},
 };
 

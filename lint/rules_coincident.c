@@ -5,6 +5,7 @@
 // only where a camera could see both: the bottom of a box on a floor is hidden by the box.
 #include "lint/body_pairs.h"
 #include "lint/lint_parts.h"
+#include "scene/media.h"
 
 #include "grammar/ir.h"
 
@@ -187,7 +188,12 @@ static void report(struct search *s) {
     if (s->b->mesh)
         lint_note_mesh(lint, s->b->mesh, s->b->mesh->mesh->triangles[s->first_b].line,
                        s->a->mesh ? "with this one" : "the first is this face");
-    diag_help(lint->sink, "move one of the bodies by a visible amount");
+    if (scene_is_medium(lint->scene, first->is) && scene_is_medium(lint->scene, second->is))
+        diag_help(lint->sink,
+                  "let one reach into the other, and give the material of the one that fills that place the "
+                  "higher 'priority'");
+    else
+        diag_help(lint->sink, "move one of the bodies by a visible amount");
 }
 
 static double farthest(const struct lint *lint, const struct lint_box *box) {

@@ -8,6 +8,7 @@
 #include "core/number.h"
 #include "core/parallel.h"
 #include "grammar/ir.h"
+#include "scene/media.h"
 
 #include <stdlib.h>
 
@@ -118,12 +119,62 @@ static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direct
     return hits.tried < RAY_WORK_MAX ? nearest : 0;
 }
 
+// What a ray is inside, that entered first in front.
+struct layers {
+    const struct lint *lint;
+    uint32_t inside[HITS_MAX];
+    uint32_t count;
+};
+
+static const struct scene_material *filling(const struct layers *l) {
+    const struct scene_material *found = NULL;
+    for (uint32_t i = 0; i < l->count; i++) {
+        const struct scene_body *body = l->lint->bodies[l->inside[i]].is;
+        const struct scene_material *m =
+            &l->lint->scene->materials[scene_medium_material(l->lint->scene, body)];
+        found = !found || m->priority >= found->priority ? m : found;
+    }
+    return found;
+}
+
+// Enters the body, or leaves it.
+static void cross(struct layers *l, uint32_t body) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < l->count; i++)
+        if (l->inside[i] != body)
+            l->inside[kept++] = l->inside[i];
+    if (kept == l->count && kept < HITS_MAX)
+        l->inside[kept++] = body;
+    l->count = kept;
+}
+
+// Whether the medium is the same on both sides, so that nobody sees the surface.
+static bool passes(struct layers *l, uint32_t body) {
+    if (!scene_is_medium(l->lint->scene, l->lint->bodies[body].is))
+        return false;
+    const struct scene_material *before = filling(l);
+    cross(l, body);
+    const struct scene_material *after = filling(l);
+    return before && after && scene_compare_media(before, after) == 0;
+}
+
+// The camera's: what the ray crosses an odd number of times.
+static void begin_inside(struct layers *l, const struct ray_hits *hits) {
+    for (uint32_t i = hits->count; i-- > 0;)
+        if (scene_is_medium(l->lint->scene, l->lint->bodies[hits->items[i].body].is))
+            cross(l, hits->items[i].body);
+}
+
 // Surfaces that the ray passes before `end`, while its throughput is enough for it to be traced.
 static uint32_t count_layers(const struct lint *lint, const struct ray_hits *hits, double end) {
+    struct layers l = {.lint = lint};
     double throughput = 1;
     uint32_t layers = 0;
-    while (layers < hits->count && hits->items[layers].t < end) {
-        throughput *= lint->bodies[hits->items[layers].body].refraction;
+    begin_inside(&l, hits);
+    for (uint32_t i = 0; i < hits->count && hits->items[i].t < end; i++) {
+        if (passes(&l, hits->items[i].body))
+            continue;
+        throughput *= lint->bodies[hits->items[i].body].refraction;
         if (throughput < lint->ir->trace.min_weight)
             break;
         layers++;

@@ -5,7 +5,7 @@
 #include "grammar/ir.h"
 
 enum {
-    WORK_MAX = 50000000, // bodies against cameras, or lights: further ones are not looked at
+    WORK_MAX = 50000000, // bodies against trees of cameras, or lights: further ones are not looked at
 };
 
 // ---- cameras
@@ -34,18 +34,43 @@ static void report_camera(struct lint *lint, const struct ir_camera *camera, con
     diag_help(lint->sink, "move the camera out of the body");
 }
 
+struct camera_search {
+    struct lint *lint;
+    const struct lint_body *body;
+    const struct lint_body **found; // for each camera: the first body that it is inside
+};
+
+static bool take_camera(void *context, const void *of) {
+    struct camera_search *s = context;
+    const struct ir_camera *camera = of;
+    const size_t i = (size_t)(camera - s->lint->ir->cameras.items);
+    if (!s->found[i] && lint_is_inside(s->lint, s->body, s->lint->views[i].camera.position) &&
+        !(s->body->is_opaque && holds_light(s->lint, s->body)))
+        s->found[i] = s->body;
+    return true;
+}
+
+// The tree is over the cameras, which are mostly few; bodies come in their order, as for lights.
 void lint_camera_inside(struct lint *lint) {
+    const uint32_t count = lint->ir->cameras.count;
+    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, count);
+    struct camera_search s = {.lint = lint};
+    struct lint_box_tree tree;
     uint64_t work = 0;
-    for (uint32_t i = 0; i < lint->ir->cameras.count && work < WORK_MAX; i++, work += lint->body_count) {
-        vec3 position = lint->views[i].camera.position;
-        for (uint32_t k = 0; k < lint->body_count; k++) {
-            const struct lint_body *body = &lint->bodies[k];
-            if (!lint_is_inside(lint, body, position) || (body->is_opaque && holds_light(lint, body)))
-                continue;
-            report_camera(lint, &lint->ir->cameras.items[i], body);
-            break;
-        }
+    s.found = ARENA_ARRAY(lint->arena, const struct lint_body *, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const vec3 position = lint->views[i].camera.position;
+        items[i] = (struct lint_box_item){{position, position}, &lint->ir->cameras.items[i]};
     }
+    lint_box_tree_build(&tree, lint->arena, items, count);
+    for (uint32_t k = 0; k < lint->body_count && work < WORK_MAX; k++) {
+        s.body = &lint->bodies[k];
+        if (s.body->is->closed && lint_is_there(s.body))
+            work += lint_box_tree_in_box(&tree, &s.body->box, 0, take_camera, &s);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        if (s.found[i])
+            report_camera(lint, &lint->ir->cameras.items[i], s.found[i]);
 }
 
 // ---- lights
@@ -120,8 +145,11 @@ static struct light_finding judge_light(struct lint *lint, const struct ir_light
     struct light_finding found = {.body = NULL};
     if (!lint_box_holds(&reach, light->position))
         return found;
+    // Light shines through what refracts, wherever it comes from.
+    const bool shines = lint->ir->trace.transparent_shadows && !body->is_opaque && body->is->closed;
     found.is_on = is_on(lint, body, light->position, near, &found.triangle);
-    if (found.is_on || (lint_is_inside(lint, body, light->position) && !any_camera_inside(lint, body)))
+    if (found.is_on ||
+        (!shines && lint_is_inside(lint, body, light->position) && !any_camera_inside(lint, body)))
         found.body = body;
     return found;
 }
@@ -133,8 +161,14 @@ static void report_light(struct lint *lint, const struct ir_light *light, const 
         diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
                  "this light is inside %.*s, which blocks its light from everything outside",
                  STR_ARG(lint_words_other(lint, body)));
-        diag_note(lint->sink, lint_place(lint, body), "all bodies, even glass, cast full shadows");
-        diag_help(lint->sink, "move the light out, or set trace.shadows to false");
+        if (body->is_opaque || lint->ir->trace.transparent_shadows) {
+            diag_note(lint->sink, lint_place(lint, body), "this body lets no light through");
+            diag_help(lint->sink, "move the light out, or set trace.shadows to false");
+        } else {
+            diag_note(lint->sink, lint_place(lint, body), "all bodies, even glass, cast full shadows");
+            diag_help(lint->sink,
+                      "move the light out, or let glass shine: trace: {transparent_shadows: true}");
+        }
         return;
     }
     diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,

@@ -3,6 +3,7 @@
 
 #include "core/number.h"
 #include "grammar/ir.h"
+#include "scene/media.h"
 
 // Growth over all bounces below this is only an error in the last digit of each weight.
 static const double GROWTH_MIN = 2;
@@ -39,6 +40,22 @@ static void report_index(struct lint *lint, const struct lint_body *body,
               "write refractive_index: 1.5 for glass, 1.33 for water; for a thin pane use a rectangle");
 }
 
+// Whether a body around it may have another index, as an air bubble in glass, or it is seen by its colour:
+// then 1 is meant.
+static bool is_meant(const struct lint *lint, const struct lint_body *body,
+                     const struct ir_material *material) {
+    const uint32_t index = (uint32_t)(material - lint->scene->assets->materials);
+    if (!vec3_is_zero(lint->scene->materials[index].absorption))
+        return true;
+    for (uint32_t i = 0; i < lint->body_count; i++) {
+        const struct lint_body *other = &lint->bodies[i];
+        if (other != body && lint_is_there(other) && lint_boxes_overlap(&body->box, &other->box) &&
+            scene_is_medium(lint->scene, other->is))
+            return true;
+    }
+    return false;
+}
+
 void lint_index_one(struct lint *lint) {
     bool *told = ARENA_ARRAY(lint->arena, bool, lint->scene->assets->material_count);
     for (uint32_t i = 0; i < lint->body_count; i++) {
@@ -50,6 +67,8 @@ void lint_index_one(struct lint *lint) {
             const struct ir_material *material = lint_material(lint, body, g);
             bool *here = &told[material - lint->scene->assets->materials];
             if (*here || !(material->albedo.refraction > 0) || material->refractive_index != 1)
+                continue;
+            if (is_meant(lint, body, material))
                 continue;
             *here = true;
             report_index(lint, body, material);
@@ -68,8 +87,7 @@ static const struct ir_material *strongest(const struct lint *lint, const struct
     const struct ir_material *found = NULL;
     for (uint32_t g = 0; g < body->is->group_count; g++) {
         const struct ir_material *material = lint_material(lint, body, g);
-        if (!found || material->albedo.reflection + material->albedo.refraction >
-                          found->albedo.reflection + found->albedo.refraction)
+        if (!found || lint_gain(material) > lint_gain(found))
             found = material;
     }
     return found;
@@ -121,4 +139,52 @@ void lint_amplifying(struct lint *lint) {
                   "light can bounce back and forth between %.*s and %.*s",
                   STR_ARG(lint_words_other(lint, worst.a)), STR_ARG(lint_words_other(lint, worst.b)));
     diag_help(lint->sink, "let the weights of reflection and refraction add up to 1 at most");
+}
+
+// ---- attenuation that nothing shows
+
+// Whether light goes through the inside of a body of each material.
+static bool *shown_inside(struct lint *lint) {
+    bool *shown = ARENA_ARRAY(lint->arena, bool, lint->scene->assets->material_count);
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (lint_is_there(&lint->bodies[i]) && scene_is_medium(lint->scene, lint->bodies[i].is))
+            shown[scene_medium_material(lint->scene, lint->bodies[i].is)] = true;
+    return shown;
+}
+
+static bool is_written(const struct ir_material *material, const char *row) {
+    return material->head.written >> schema_find_row(&SCHEMA_MATERIAL, str_from(row)) & 1;
+}
+
+static const char *why_not_shown(const struct ir_material *material, bool colored) {
+    if (!colored)
+        return "its attenuation_color is white";
+    if (!(material->albedo.refraction > 0))
+        return "its weight of refraction is 0";
+    return "no sphere and no closed mesh is filled with it";
+}
+
+void lint_attenuation(struct lint *lint) {
+    const bool *shown = shown_inside(lint);
+    bool *used = ARENA_ARRAY(lint->arena, bool, lint->scene->assets->material_count);
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        for (uint32_t g = 0; lint_is_there(&lint->bodies[i]) && g < lint->bodies[i].is->group_count; g++)
+            used[lint->bodies[i].is->materials[g]] = true;
+    for (uint32_t i = 0; i < lint->scene->assets->material_count; i++) {
+        const struct ir_material *material = &lint->scene->assets->materials[i];
+        const bool colored = !vec3_is_zero(lint->scene->materials[i].absorption);
+        const char *row =
+            is_written(material, "attenuation_color") ? "attenuation_color" : "attenuation_distance";
+        // What no body has is reported as such (W408).
+        if (!used[i] || material->head.origin == 0 || !is_written(material, row) || (colored && shown[i]))
+            continue;
+        diag_add(lint->sink, DIAG_NO_EFFECT,
+                 ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
+                 "'%s' of %.*s has no effect: %s", row, STR_ARG(material_words(lint, material)),
+                 why_not_shown(material, colored));
+        diag_help(lint->sink,
+                  colored ? "light is attenuated on its way inside a body: through a sphere or closed mesh "
+                            "that refracts"
+                          : "write what is left of white light after that distance: attenuation_color");
+    }
 }

@@ -1,5 +1,5 @@
-// Refracting bodies that share a part of space: a ray that enters the second one is bent as if it came from
-// air.
+// Refracting bodies that share a part of space: which of them fills it, and whether their indices are meant
+// as they are written.
 //
 // Pairs whose boxes overlap (body_pairs.c). Spheres are compared by their distance; a sphere and a mesh by
 // the mesh's nearest and farthest points; two meshes by faces that cut each other, and else by points just
@@ -9,6 +9,7 @@
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
+#include "scene/media.h"
 
 #include <stdlib.h>
 
@@ -18,6 +19,13 @@ enum {
     FACES_MAX = 10000000, // of meshes that are looked at
     SAMPLES = 512,        // points of one mesh that are looked for in another
     NOTED = 3,            // other bodies that one finding names
+};
+
+enum finding {
+    FINDING_NONE,
+    FINDING_EQUAL,  // they cross with equal priority: what fills the place depends on where a ray comes from
+    FINDING_HIDDEN, // the inner one's priority is lower: it is never seen
+    FINDING_RELATIVE, // the inner one's index is below 1: it was meant relative to the outer one's
 };
 
 enum relation {
@@ -30,11 +38,14 @@ enum relation {
 struct overlap {
     const struct lint_body *body, *other; // inside it, or before it in the file
     enum relation relation;               // CROSSES or INSIDE
+    enum finding finding;
 };
 
 struct media {
     struct lint *lint;
     uint64_t work_left; // faces
+    uint32_t *around;   // by body: how many others it is inside of
+    int32_t priority;   // the highest one so far, with those that were advised
     struct {
         struct overlap *items;
         uint32_t count, capacity;
@@ -49,23 +60,17 @@ struct pair {
 
 // ---- which bodies
 
-// Whether one of its refracting materials has an index that is not 1, and whether all have one below 1: no
-// material of nature has, so it is meant relative to what is around.
-static bool bends(const struct lint *lint, const struct lint_body *body, bool *is_relative) {
-    bool any = false;
-    *is_relative = true;
-    for (uint32_t i = 0; i < body->is->group_count; i++) {
-        const struct ir_material *material = lint_material(lint, body, i);
-        if (!(material->albedo.refraction > 0))
-            continue;
-        any = any || material->refractive_index != 1;
-        *is_relative = *is_relative && material->refractive_index < 1;
-    }
-    return any;
+// What fills the body.
+static const struct scene_material *filling(const struct lint *lint, const struct lint_body *body) {
+    return &lint->scene->materials[scene_medium_material(lint->scene, body->is)];
 }
 
-static bool is_medium(const struct lint_body *body) {
-    return lint_is_there(body) && body->is->closed && body->refraction > 0;
+static const struct ir_material *filling_in_file(const struct lint *lint, const struct lint_body *body) {
+    return &lint->scene->assets->materials[scene_medium_material(lint->scene, body->is)];
+}
+
+static bool is_medium(const struct lint *lint, const struct lint_body *body) {
+    return lint_is_there(body) && scene_is_medium(lint->scene, body->is);
 }
 
 static double size_of(const struct lint_body *body) {
@@ -212,13 +217,17 @@ static bool is_some_inside(const struct pair *p, const struct lint_body *body, c
 }
 
 static enum relation meshes(const struct pair *p) {
-    bool all;
+    bool all_a, all_b;
     if (cut_each_other(p))
         return CROSSES;
-    if (is_some_inside(p, p->a, p->b, &all))
-        return all ? INSIDE : CROSSES;
-    if (is_some_inside(p, p->b, p->a, &all))
-        return all ? AROUND : CROSSES;
+    const bool a_in_b = is_some_inside(p, p->a, p->b, &all_a), b_in_a = is_some_inside(p, p->b, p->a, &all_b);
+    // Water whose surface lies in the wall of its glass: the other side of the wall is in the water.
+    if (a_in_b && b_in_a)
+        return CROSSES;
+    if (a_in_b)
+        return all_a ? INSIDE : CROSSES;
+    if (b_in_a)
+        return all_b ? AROUND : CROSSES;
     return APART;
 }
 
@@ -249,12 +258,16 @@ static enum relation relation_of(const struct pair *p) {
     return relation == INSIDE ? AROUND : relation == AROUND ? INSIDE : relation;
 }
 
-static bool is_wrong(const struct lint *lint, const struct overlap *overlap) {
-    bool inner_is_relative, outer_is_relative;
-    bool inner_bends = bends(lint, overlap->body, &inner_is_relative);
-    bool outer_bends = bends(lint, overlap->other, &outer_is_relative);
-    // In a medium of index 1 all is as in air.
-    return overlap->relation == INSIDE ? outer_bends && !inner_is_relative : inner_bends && outer_bends;
+// No material of nature has an index below 1: inside another body it is meant as a share of that one's.
+static enum finding judge(const struct lint *lint, const struct overlap *overlap) {
+    const struct scene_material *own = filling(lint, overlap->body), *other = filling(lint, overlap->other);
+    if (scene_compare_media(own, other) == 0)
+        return FINDING_NONE;
+    if (overlap->relation == CROSSES)
+        return own->priority == other->priority ? FINDING_EQUAL : FINDING_NONE;
+    if (own->priority < other->priority)
+        return FINDING_HIDDEN;
+    return own->refractive_index < 1 && other->refractive_index > 1 ? FINDING_RELATIVE : FINDING_NONE;
 }
 
 static bool take_pair(void *context, const struct lint_body *a, const struct lint_body *b) {
@@ -265,10 +278,14 @@ static bool take_pair(void *context, const struct lint_body *a, const struct lin
         a = first;
     }
     const struct pair pair = {media, b, a, tolerance_of(a, b)}; // the later one is the first: it is reported
-    struct overlap overlap = {b, a, relation_of(&pair)};
+    struct overlap overlap = {b, a, relation_of(&pair), FINDING_NONE};
     if (overlap.relation == AROUND)
-        overlap = (struct overlap){a, b, INSIDE};
-    if (overlap.relation != APART && is_wrong(media->lint, &overlap))
+        overlap = (struct overlap){a, b, INSIDE, FINDING_NONE};
+    if (overlap.relation == INSIDE)
+        media->around[overlap.body - media->lint->bodies]++;
+    if (overlap.relation != APART)
+        overlap.finding = judge(media->lint, &overlap);
+    if (overlap.finding != FINDING_NONE)
         *ARENA_PUSH(media->lint->arena, &media->found) = overlap;
     return media->work_left > 0;
 }
@@ -280,79 +297,161 @@ static int compare_overlaps(const void *left, const void *right) {
     const struct overlap *y = right;
     if (x->body != y->body)
         return x->body < y->body ? -1 : 1;
-    if (x->relation != y->relation)
-        return x->relation > y->relation ? -1 : 1;
+    if (x->finding != y->finding)
+        return x->finding < y->finding ? -1 : 1;
     return x->other < y->other ? -1 : x->other > y->other;
 }
 
-// The one index of what refracts in a body; 0: it has several.
-static double index_of(const struct lint *lint, const struct lint_body *body) {
-    double index = 0;
-    for (uint32_t i = 0; i < body->is->group_count; i++) {
-        const struct ir_material *material = lint_material(lint, body, i);
-        if (!(material->albedo.refraction > 0))
-            continue;
-        if (index != 0 && index != material->refractive_index)
-            return 0;
-        index = material->refractive_index;
+// Another value of a row of the material, which the file may not have yet: then after the index, on a line of
+// its own where that has one.
+static void fix_row(struct lint *lint, const struct ir_material *material, const char *row,
+                    const char *value) {
+    const struct source_set *sources = lint->input->files->sources;
+    const int own = schema_find_row(&SCHEMA_MATERIAL, str_from(row));
+    const int index = schema_find_row(&SCHEMA_MATERIAL, STR("refractive_index"));
+    const struct ir_row_origin *at = ir_origin_row(lint->origin, &material->head, (uint32_t)own);
+    if (at) {
+        diag_fix(lint->sink, false, at->value, arena_format(lint->arena, "%s", value));
+        return;
     }
-    return index;
-}
-
-static void help(struct lint *lint, const struct overlap *first, uint32_t count) {
-    double inner = index_of(lint, first->body);
-    double outer = index_of(lint, first->other);
-    if (first->relation == CROSSES || count > 1 || inner == 0 || outer == 0)
-        diag_help(lint->sink, "move them apart, or join them into one mesh");
-    else if (inner == outer)
-        diag_help(lint->sink, "both have the index %g: without the inner one the glass is the same", inner);
-    else if (inner < outer)
-        diag_help(lint->sink, "write the inner index relative to the outer one: refractive_index: %.4g",
-                  inner / outer);
+    at = ir_origin_row(lint->origin, &material->head, (uint32_t)index);
+    if (!at || span_is_none(at->value))
+        return;
+    const str text = sources->items[at->value.source].text;
+    const span end = {at->value.source, at->value.end, at->value.end};
+    uint32_t line = at->key.begin;
+    while (line > 0 && text.ptr[line - 1] != '\n')
+        line--;
+    uint32_t first = line;
+    while (first < at->key.begin && text.ptr[first] == ' ')
+        first++;
+    if (at->key.end < text.len && text.ptr[at->key.end] == '=')
+        diag_fix(lint->sink, false, (span){end.source, end.begin + 1, end.begin + 1},
+                 arena_format(lint->arena, " %s=\"%s\"", row, value));
+    else if (first == at->key.begin)
+        diag_fix(lint->sink, false, end,
+                 arena_format(lint->arena, "\n%.*s%s: %s", (int)(first - line), text.ptr + line, row, value));
     else
-        diag_help(lint->sink,
-                  "write the inner index relative to the outer one (refractive_index: %.4g), and say so: "
-                  "'glint: allow W418'",
-                  inner / outer);
+        diag_fix(lint->sink, false, end, arena_format(lint->arena, ", %s: %s", row, value));
 }
 
-static void report(struct lint *lint, const struct overlap *first, uint32_t count) {
+// Above all others, so that what follows one piece of advice does not need another.
+static void advise_priority(struct media *media, const struct lint_body *body) {
+    struct lint *lint = media->lint;
+    media->priority += media->priority < SCENE_PRIORITY_MAX;
+    diag_help(lint->sink,
+              "give the material of the one that fills that place a higher one, such as priority: %d",
+              media->priority);
+    fix_row(lint, filling_in_file(lint, body), "priority",
+            arena_format(lint->arena, "%d", media->priority).ptr);
+}
+
+static void report_equal(struct media *media, const struct overlap *first, uint32_t count) {
+    struct lint *lint = media->lint;
     const struct lint_body *body = first->body;
+    const int priority = filling(lint, body)->priority;
     str words = lint_words(lint, body);
-    const char *how = first->relation == INSIDE ? "is inside" : "crosses";
     if (count == 1)
         diag_add(lint->sink, DIAG_MEDIA_OVERLAP, lint_place(lint, body),
-                 "%.*s %s %.*s, and both refract: light is bent as if there were air between them",
-                 STR_ARG(words), how, STR_ARG(lint_words_other(lint, first->other)));
+                 "%.*s crosses %.*s, and both refract with priority %d: what fills the place that they share "
+                 "depends on "
+                 "where a ray comes from",
+                 STR_ARG(words), STR_ARG(lint_words_other(lint, first->other)), priority);
     else
         diag_add(lint->sink, DIAG_MEDIA_OVERLAP, lint_place(lint, body),
-                 "%.*s overlaps %u other bodies that refract like itself: light is bent as if there were air "
-                 "between them",
-                 STR_ARG(words), count);
+                 "%.*s crosses %u other bodies that refract with the same priority, %d: what fills the "
+                 "places that they "
+                 "share depends on where a ray comes from",
+                 STR_ARG(words), count, priority);
     for (uint32_t i = 0; i < count && i < NOTED; i++)
-        diag_note(lint->sink, lint_place(lint, first[i].other),
-                  first[i].relation == INSIDE ? "it is inside %.*s" : "it crosses %.*s",
+        diag_note(lint->sink, lint_place(lint, first[i].other), "it crosses %.*s",
                   STR_ARG(lint_words_other(lint, first[i].other)));
     if (count > NOTED)
         diag_note(lint->sink, SPAN_NONE, "and %u more", count - NOTED);
-    help(lint, first, count);
+    advise_priority(media, body);
+}
+
+static void report_hidden(struct lint *lint, const struct overlap *found) {
+    const struct lint_body *body = found->body;
+    const int other = filling(lint, found->other)->priority;
+    diag_add(lint->sink, DIAG_MEDIA_OVERLAP, lint_place(lint, body),
+             "%.*s is inside %.*s, which refracts with a higher priority, %d: it is never seen",
+             STR_ARG(lint_words(lint, body)), STR_ARG(lint_words_other(lint, found->other)), other);
+    diag_note(lint->sink, lint_place(lint, found->other), "it is inside %.*s",
+              STR_ARG(lint_words_other(lint, found->other)));
+    diag_help(lint->sink, "write priority: %d for its material, or leave both out", other);
+    fix_row(lint, filling_in_file(lint, body), "priority", arena_format(lint->arena, "%d", other).ptr);
+}
+
+static void report_relative(struct lint *lint, const struct overlap *found) {
+    const struct lint_body *body = found->body;
+    const double own = filling(lint, body)->refractive_index;
+    const double right = own * filling(lint, found->other)->refractive_index;
+    const struct ir_material *material = filling_in_file(lint, body);
+    const span at = material->head.origin == 0
+                        ? lint_place(lint, body)
+                        : ir_place_value(lint->origin, &material->head, &SCHEMA_MATERIAL, "refractive_index");
+    diag_add(lint->sink, DIAG_RELATIVE_INDEX, at,
+             "the index %.6g looks relative to that of %.*s, which %.*s is inside: rays know that, so light "
+             "is bent twice",
+             own, STR_ARG(lint_words_other(lint, found->other)), STR_ARG(lint_words_other(lint, body)));
+    diag_note(lint->sink, lint_place(lint, body), "%.*s has this material", STR_ARG(lint_words(lint, body)));
+    diag_help(lint->sink, "write its own index: refractive_index: %.3g", right);
+    fix_row(lint, material, "refractive_index", arena_format(lint->arena, "%.3g", right).ptr);
+}
+
+// A ray there would be inside all of them.
+static void report_nested(struct lint *lint, const struct media *media) {
+    for (uint32_t i = 0; i < lint->body_count; i++) {
+        if (media->around[i] < SCENE_MEDIA_MOST)
+            continue;
+        diag_add(lint->sink, DIAG_LIMIT, lint_place(lint, &lint->bodies[i]),
+                 "%.*s is inside %u other bodies that refract; at most %d may surround a ray",
+                 STR_ARG(lint_words(lint, &lint->bodies[i])), media->around[i], SCENE_MEDIA_MOST);
+        diag_help(lint->sink, "leave some of them out, or join those of one material into one mesh");
+        return;
+    }
+}
+
+static void report(struct media *media, const struct overlap *first, uint32_t count) {
+    struct lint *lint = media->lint;
+    switch (first->finding) {
+    case FINDING_EQUAL:
+        report_equal(media, first, count);
+        break;
+    case FINDING_HIDDEN:
+        report_hidden(lint, first);
+        break;
+    case FINDING_RELATIVE:
+        report_relative(lint, first);
+        break;
+    default:
+        break;
+    }
 }
 
 void lint_media(struct lint *lint) {
     struct media media = {.lint = lint, .work_left = FACES_MAX};
+    media.around = ARENA_ARRAY(lint->arena, uint32_t, lint->body_count);
     struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, lint->body_count);
     uint32_t count = 0;
     for (uint32_t i = 0; i < lint->body_count; i++)
-        if (is_medium(&lint->bodies[i]))
+        if (is_medium(lint, &lint->bodies[i])) {
+            media.priority = filling(lint, &lint->bodies[i])->priority > media.priority
+                                 ? filling(lint, &lint->bodies[i])->priority
+                                 : media.priority;
             items[count++] = (struct lint_box_item){lint->bodies[i].box, &lint->bodies[i]};
+        }
     lint_body_pairs(lint->arena, items, count, take_pair, &media);
+    report_nested(lint, &media);
     if (media.found.count == 0)
         return;
     qsort(media.found.items, media.found.count, sizeof *media.found.items, compare_overlaps);
     for (uint32_t i = 0, end; i < media.found.count; i = end) {
-        for (end = i + 1;
-             end < media.found.count && media.found.items[end].body == media.found.items[i].body;)
+        for (end = i + 1; end < media.found.count &&
+                          media.found.items[end].body == media.found.items[i].body &&
+                          media.found.items[end].finding == media.found.items[i].finding;)
             end++;
-        report(lint, &media.found.items[i], end - i);
+        report(&media, &media.found.items[i], end - i);
     }
 }

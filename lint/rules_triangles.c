@@ -67,13 +67,16 @@ static bool is_same(struct corners a, struct corners b) {
     return a.c[0] == b.c[0] && a.c[1] == b.c[1] && a.c[2] == b.c[2];
 }
 
-static struct twins find_twins(struct lint *lint, const struct mesh *mesh) {
+// Of `count` triangles in file order; NULL: the first ones.
+static struct twins find_twins(struct lint *lint, const struct mesh *mesh, const uint32_t *triangles,
+                               uint32_t count) {
     struct twins twins = {0};
     uint64_t slots = 16;
-    while (slots < 2 * (uint64_t)mesh->triangle_count)
+    while (slots < 2 * (uint64_t)count)
         slots *= 2;
     uint32_t *table = ARENA_ARRAY(lint->arena, uint32_t, slots); // triangle plus 1
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t i = triangles ? triangles[k] : k;
         struct corners own = corners_of(mesh, i);
         if (own.c[0] == own.c[1] || own.c[1] == own.c[2])
             continue;
@@ -92,10 +95,18 @@ static struct twins find_twins(struct lint *lint, const struct mesh *mesh) {
     return twins;
 }
 
+// Where a tree was made of all of its triangles, only those at one place on the curve can be twins.
+static struct twins twins_of(struct lint *lint, const struct lint_mesh *mesh) {
+    const uint32_t all = mesh->mesh->triangle_count;
+    if (mesh->tree.crowded && mesh->tree.count == all)
+        return find_twins(lint, mesh->mesh, mesh->tree.crowded, mesh->tree.crowded_count);
+    return find_twins(lint, mesh->mesh, NULL, all);
+}
+
 void lint_duplicates(struct lint *lint) {
     for (uint32_t i = 0; i < lint->meshes.count; i++) {
         struct lint_mesh *mesh = lint->meshes.items[i];
-        struct twins twins = find_twins(lint, mesh->mesh);
+        struct twins twins = twins_of(lint, mesh);
         if (twins.count == 0)
             continue;
         diag_add(lint->sink, DIAG_DUPLICATE_TRIANGLES, lint_place_mesh(lint, mesh->first),

@@ -62,6 +62,12 @@ static double reach(const struct lint_triangle *t, const struct lint_face *plane
     return most < -least ? most : -least;
 }
 
+bool lint_reaches_through(const struct lint_triangle *triangle, const struct lint_face *plane,
+                          double tolerance) {
+    double d[3];
+    return reach(triangle, plane, d) > tolerance;
+}
+
 static double longest_edge(const struct lint_triangle *t) {
     double square = 0;
     for (int k = 0; k < 3; k++) {
@@ -143,6 +149,10 @@ static bool is_parted(const struct lint_triangle *a, const struct lint_triangle 
             return true;
     }
     return false;
+}
+
+bool lint_lies_near(const struct lint_triangle *triangle, const struct lint_face *plane, double near) {
+    return lies_near(triangle, plane->t.p[0], plane->normal, near);
 }
 
 bool lint_faces_coincide(const struct lint_face *a, const struct lint_face *b, double near,

@@ -59,6 +59,11 @@ bool lint_faces_cross(const struct lint_face *a, const struct lint_face *b, doub
 // than the tolerance and a hundredth of the narrower one in every direction (separating axes: Gottschalk, Lin
 // and Manocha 1996). Neighbours along an edge do not.
 bool lint_faces_coincide(const struct lint_face *a, const struct lint_face *b, double near, double tolerance);
+// What must hold of a triangle and another's plane for lint_faces_cross and lint_faces_coincide; cheaper, as
+// it needs one normal.
+bool lint_reaches_through(const struct lint_triangle *triangle, const struct lint_face *plane,
+                          double tolerance);
+bool lint_lies_near(const struct lint_triangle *triangle, const struct lint_face *plane, double near);
 // The point of a triangle that is nearest to `point` (Ericson 2005, section 5.1.5): its distance.
 double lint_triangle_distance(const struct lint_triangle *triangle, vec3 point);
 // Where the line origin + t·direction crosses the triangle: *t, and in *side 1 where it leaves along the

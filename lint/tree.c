@@ -2,12 +2,15 @@
 
 #include "core/parallel.h"
 
+#include <stdlib.h>
+
 enum {
     DEPTH_MAX = 64,
     PIECE = 1 << 14, // triangles or leaves of one piece of parallel work
     DIGIT_BITS = 11, // of the radix sort
     DIGITS = 6,      // enough for 63 bits
     CURVE_CELLS = 1 << 21,
+    CROWDED_PART = 8, // where more of the triangles are crowded, listing them saves nothing
 };
 
 struct curve_entry {
@@ -18,7 +21,6 @@ struct curve_entry {
 struct build {
     struct lint_tree *tree;
     struct curve_entry *entries;
-    struct lint_box *leaves;
     vec3 lower;
     double cells_per_unit;
 };
@@ -78,6 +80,28 @@ static struct curve_entry *sort_entries(struct curve_entry *entries, struct curv
     return entries;
 }
 
+static bool is_crowded(const struct curve_entry *entries, uint32_t count, uint32_t i) {
+    return (i > 0 && entries[i].code == entries[i - 1].code) ||
+           (i + 1 < count && entries[i].code == entries[i + 1].code);
+}
+
+static int compare_triangles(const void *a, const void *b) {
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+static void find_crowded(struct lint_tree *tree, const struct curve_entry *entries, struct arena *arena) {
+    for (uint32_t i = 0; i < tree->count; i++)
+        tree->crowded_count += is_crowded(entries, tree->count, i);
+    if (tree->crowded_count > tree->count / CROWDED_PART)
+        return;
+    tree->crowded = ARENA_ARRAY(arena, uint32_t, tree->crowded_count);
+    for (uint32_t i = 0, at = 0; i < tree->count && at < tree->crowded_count; i++)
+        if (is_crowded(entries, tree->count, i))
+            tree->crowded[at++] = entries[i].triangle;
+    qsort(tree->crowded, tree->crowded_count, sizeof *tree->crowded, compare_triangles);
+}
+
 // ---- boxes
 
 static void leaf_piece(void *context, size_t begin, size_t end) {
@@ -89,14 +113,14 @@ static void leaf_piece(void *context, size_t begin, size_t end) {
             struct lint_triangle t = lint_mesh_triangle(tree->mesh, tree->order[i]);
             box = lint_box_join(box, lint_box_of(&t));
         }
-        build->leaves[leaf] = box;
+        tree->leaves[leaf] = box;
     }
 }
 
 static struct lint_box join_node(const struct build *build, uint32_t node, uint32_t begin, uint32_t end) {
     struct lint_box box;
     if (end - begin == 1) {
-        box = build->leaves[begin];
+        box = build->tree->leaves[begin];
     } else {
         uint32_t middle = begin + (end - begin) / 2;
         box = join_node(build, node + 1, begin, middle);
@@ -115,15 +139,16 @@ void lint_tree_build(struct lint_tree *tree, const struct mesh *mesh, struct are
     if (tree->count == 0)
         return;
     double extent = vec3_max_abs(vec3_sub(mesh->upper, mesh->lower));
-    struct build build = {tree, entries, NULL, mesh->lower, extent > 0 ? CURVE_CELLS / extent : 0};
+    struct build build = {tree, entries, mesh->lower, extent > 0 ? CURVE_CELLS / extent : 0};
     parallel_for(tree->count, PIECE, code_piece, &build);
     entries = sort_entries(entries, ARENA_ARRAY(arena, struct curve_entry, tree->count), tree->count, arena);
     tree->order = ARENA_ARRAY(arena, uint32_t, tree->count);
     for (uint32_t i = 0; i < tree->count; i++)
         tree->order[i] = entries[i].triangle;
+    find_crowded(tree, entries, arena);
     tree->leaf_count = (tree->count + LINT_LEAF - 1) / LINT_LEAF;
     tree->nodes = ARENA_ARRAY(arena, struct lint_box, 2 * (size_t)tree->leaf_count - 1);
-    build.leaves = ARENA_ARRAY(arena, struct lint_box, tree->leaf_count);
+    tree->leaves = ARENA_ARRAY(arena, struct lint_box, tree->leaf_count);
     parallel_for(tree->leaf_count, PIECE, leaf_piece, &build);
     join_node(&build, 0, 0, tree->leaf_count);
 }

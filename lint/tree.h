@@ -2,8 +2,9 @@
 //
 // Triangles are sorted along a Morton curve (Lauterbach and others 2009) and halved by number, so that the
 // tree has no pointers: the node of leaves [begin, end) is followed by that of its first half. Triangles
-// without area are left out. Ownership: the arena given. Thread safety: immutable once built; building uses
-// all processors.
+// without area are left out. Triangles with the same corners have the same place on the curve, so that those
+// that are there twice are among the crowded ones, of which good meshes have few. Ownership: the arena given.
+// Thread safety: immutable once built; building uses all processors.
 #ifndef GLINT_LINT_TREE_H
 #define GLINT_LINT_TREE_H
 
@@ -20,8 +21,16 @@ struct lint_tree {
     uint32_t *order; // of triangles, along the curve
     uint32_t count;
     uint32_t leaf_count;
-    struct lint_box *nodes; // 2 * leaf_count - 1
+    struct lint_box *nodes;  // 2 * leaf_count - 1
+    struct lint_box *leaves; // those of the leaves again, by number
+    uint32_t *crowded;       // triangles that have their place on the curve with others; NULL: too many
+    uint32_t crowded_count;
 };
+
+static inline uint32_t lint_tree_leaf_size(const struct lint_tree *tree, uint32_t leaf) {
+    const uint32_t left = tree->count - leaf * LINT_LEAF;
+    return left < LINT_LEAF ? left : LINT_LEAF;
+}
 
 void lint_tree_build(struct lint_tree *tree, const struct mesh *mesh, struct arena *arena);
 

@@ -197,15 +197,18 @@ static bool make_pictures(struct small *small) {
 }
 
 // Up to where pixels of the background are needed, and until they are there.
-static enum precision_status prepare(struct small *small) {
+static enum precision_status prepare(struct small *small, struct precision_report *report) {
     const struct precision_trial *trial = small->trial;
     small->view = *trial->input->view;
-    small->reference = make_reference(small, false);
-    if (!small->reference)
-        return PRECISION_MEMORY;
+    // First what goes on in the driver's threads.
     const enum precision_status status = trial->gpu ? prepare_device(small) : PRECISION_DONE;
-    if (status != PRECISION_DONE || !trial->ready)
+    if (status != PRECISION_DONE)
         return status;
+    small->reference = make_reference(small, false);
+    if (!small->reference || !precision_measure(trial->input, report))
+        return PRECISION_MEMORY;
+    if (!trial->ready)
+        return PRECISION_DONE;
     if (!trial->ready(trial->ready_context))
         return PRECISION_ENDED;
     return !trial->gpu || renderer_background(small->device.renderer) ? PRECISION_DONE : PRECISION_DEVICE;
@@ -250,7 +253,7 @@ static uint64_t size_of(const struct scene *scene) {
 }
 
 static enum precision_status try_traced(struct small *small, struct precision_choice *out) {
-    enum precision_status status = prepare(small);
+    enum precision_status status = prepare(small, &out->report);
     if (status != PRECISION_DONE)
         return status;
     const double start = clock_seconds();
@@ -265,9 +268,9 @@ enum precision_status precision_try(const struct precision_trial *trial, struct 
     *out = (struct precision_choice){.pixels = 0};
     if (gains)
         *gains = (struct precision_gains){0};
-    if (!precision_measure(trial->input, &out->report))
-        return PRECISION_MEMORY;
     if (size_of(trial->input->scene) > PRECISION_TRACED) {
+        if (!precision_measure(trial->input, &out->report))
+            return PRECISION_MEMORY;
         out->needs_double = !out->report.suffices;
         return PRECISION_DONE;
     }

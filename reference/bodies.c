@@ -12,7 +12,10 @@ static struct material make_material(const struct scene_material *from) {
                          .index = from->refractive_index,
                          .is = from,
                          .has_paint = (from->checker && from->soft) || from->images[ASSETS_DIFFUSE].texture ||
-                                      from->images[ASSETS_SPECULAR].texture};
+                                      from->images[ASSETS_SPECULAR].texture,
+                         .fresnel = from->fresnel,
+                         .priority = from->priority,
+                         .absorption = from->absorption};
     for (int i = 0; i < 2; i++)
         m.diffuse[i] = vec3_mul(from->diffuse[i], from->diffuse_weight);
     return m;
@@ -23,6 +26,9 @@ static struct body make_body(const struct reference *r, const struct scene_body 
     struct body body = {.is = from,
                         .object_to_world = transform_relative(from->object_to_world, r->origin),
                         .primitive_count = from->shape == SCENE_SPHERE ? 1 : from->triangle_count};
+    body.is_medium = scene_is_medium(r->input.scene, from);
+    if (body.is_medium)
+        body.filling = scene_medium_material(r->input.scene, from);
     if (from->mesh)
         body.normal_map = transform_for_normals(from->object_to_world.linear);
     return body;

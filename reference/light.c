@@ -47,10 +47,51 @@ static vec3 unshadowed(const struct reference *r, const struct view_light *light
     return scaled(emission, value);
 }
 
+static struct ray ray_to(const struct reference *r, const struct view_light *light, struct start start) {
+    vec3 way = vec3_sub(place_of(r, light), start.at);
+    way = reference_rounded3(r, way, vec3_max_abs(way));
+    return (struct ray){start, light->directional ? light->to_light : way, light->directional ? INFINITY : 1};
+}
+
+// What bodies that refract let through to the light: a product of what each does, in the order in which the
+// ray meets them. 0: something opaque is between.
+static vec3 shining(const struct reference *r, const struct view_light *light, struct start start,
+                    struct inside inside, uint32_t *rays) {
+    vec3 left = {1, 1, 1};
+    while (vec3_max_abs(left) > 0) {
+        const struct ray ray = ray_to(r, light, start);
+        const double length = vec3_length(ray.direction);
+        struct intersection hit;
+        struct surface s;
+        ++*rays;
+        reference_intersect(r, &ray, &hit);
+        if (hit.primitive == NO_PRIMITIVE)
+            return light->directional ? left : scaled(left, reference_left(r, &inside, length));
+        reference_surface(r, &ray, &hit, &s);
+        reference_cross(r, &inside, &s);
+        left = scaled(left, reference_left(r, &inside, s.distance * length));
+        if (!s.passes)
+            left = vec3_mul(left, reference_shine(&s, vec3_mul(ray.direction, 1 / length)));
+        inside = s.after;
+        start = reference_leave(r, &s, vec3_neg(s.geometric));
+    }
+    return left;
+}
+
+// The share of the light that comes to the surface.
+static vec3 arriving(const struct reference *r, const struct view_light *light, struct start start,
+                     const struct inside *inside, uint32_t *rays) {
+    const struct ir_trace *trace = &r->input.scene->ir->trace;
+    if (trace->shadows && trace->transparent_shadows)
+        return shining(r, light, start, *inside, rays);
+    const struct ray ray = ray_to(r, light, start);
+    *rays += trace->shadows;
+    return trace->shadows && reference_blocks(r, &ray) ? (vec3){0, 0, 0} : (vec3){1, 1, 1};
+}
+
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
-                     struct lighting *out) {
+                     const struct inside *inside, struct lighting *out) {
     const struct view *view = r->input.view;
-    bool shadows = r->input.scene->ir->trace.shadows;
     const struct start start = reference_leave(r, s, s->geometric);
     *out = (struct lighting){0};
     for (uint32_t i = 0; i < view->light_count; i++) {
@@ -60,16 +101,11 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
             continue;
         uint32_t bit = i < 32 ? UINT32_C(1) << i : 0;
         out->considered |= bit;
-        vec3 way = vec3_sub(place_of(r, light), start.at);
-        way = reference_rounded3(r, way, vec3_max_abs(way));
-        struct ray ray = {.start = start,
-                          .direction = light->directional ? light->to_light : way,
-                          .t_max = light->directional ? INFINITY : 1};
-        out->shadow_rays += shadows;
-        if (shadows && reference_blocks(r, &ray))
+        const vec3 share = arriving(r, light, start, inside, &out->shadow_rays);
+        if (!(vec3_max_abs(share) > 0))
             continue;
         out->lit |= bit;
-        out->sum = vec3_add(out->sum, value);
+        out->sum = vec3_add(out->sum, scaled(value, share));
     }
 }
 

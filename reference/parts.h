@@ -6,6 +6,7 @@
 
 #include "core/arena.h"
 #include "reference/reference.h"
+#include "scene/media.h"
 
 // gamma(n) = n u / (1 - n u), u = 2^-53: bounds the relative error of n roundings (Higham 2002, section 3.1).
 #define REFERENCE_UNIT     0x1p-53
@@ -39,6 +40,8 @@ struct body {
     const vec3 *normals;      // mesh_smooth_normals; NULL: flat
     uint32_t first_primitive; // numbered in IR order, before the tree sorts them
     uint32_t primitive_count;
+    bool is_medium;
+    uint32_t filling; // of a medium: its material
 };
 
 // A material whose colours are multiplied by their weights.
@@ -50,6 +53,15 @@ struct material {
     double exponent, reflection, refraction, index;
     const struct scene_material *is;
     bool has_paint; // an image, or a checker that is filtered
+    bool fresnel;
+    int32_t priority;
+    vec3 absorption;
+};
+
+// The media that a ray is inside, those entered first in front.
+struct inside {
+    uint32_t bodies[SCENE_MEDIA_MOST];
+    uint32_t count;
 };
 
 // A node's first child is the next node. `count` is 0 for inner nodes.
@@ -69,6 +81,8 @@ struct reference {
     struct arena arena; // bodies, materials, lights, normals
     struct body *bodies;
     struct material *materials;
+    bool media; // rays know what they are inside
+    struct inside around_camera;
     double *decoded; // a background's channel by stored value; NULL for floats
     double background_brightest;
     struct primitive *primitives; // in the tree's order
@@ -159,13 +173,40 @@ struct surface {
     double bend;  // how fast the normal turns along the surface: positive where it bulges to the ray's side
     double width; // of the ray's cone
     struct reference_texel texel;
+    bool fresnel;
+    // Of a ray that comes from a place inside certain media: reference_cross.
+    double index_before, index_after;
+    struct inside after; // once the ray is through
+    bool passes;         // it goes on unseen: nothing changes here
+    bool is_over;        // it would be inside more media than there may be
 };
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out);
 vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction);
-// false: total reflection.
-bool reference_bent(const struct reference *r, const struct surface *s, vec3 direction, vec3 *out);
+// What becomes of light that meets a surface.
+struct split {
+    vec3 bent;
+    bool through;     // else total reflection
+    double reflected; // with fresnel: the share of the light that the surface reflects
+};
+void reference_split(const struct reference *r, const struct surface *s, vec3 direction, struct split *out);
+// The weights of the rays that leave.
+double reference_reflection(const struct surface *s, const struct split *split);
+double reference_refraction(const struct surface *s, const struct split *split);
+// What shines through a surface straight, as shadow rays go.
+double reference_shine(const struct surface *s, vec3 direction);
+
+// ---- media.c
+
+// What the camera is inside, and whether rays must know such things. Once the tree is made. false: no memory.
+bool reference_make_media(struct reference *r);
+// Which media are on both sides of a surface.
+void reference_cross(const struct reference *r, const struct inside *before, struct surface *s);
+// The body that fills the place; HIT_NONE: air.
+uint32_t reference_filling(const struct reference *r, const struct inside *inside);
+// What is left of light after a way in the medium that fills a place.
+vec3 reference_left(const struct reference *r, const struct inside *inside, double way);
 
 // ---- paint.c
 
@@ -195,7 +236,7 @@ struct lighting {
     uint32_t shadow_rays;
 };
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
-                     struct lighting *out);
+                     const struct inside *inside, struct lighting *out);
 
 // ---- path.c
 
@@ -204,6 +245,8 @@ struct branch {
     vec3 direction;
     struct cone cone;
     double throughput;
+    vec3 tint; // what attenuation has left of each channel
+    struct inside inside;
     uint32_t depth;
     uint32_t parent; // in a log
     enum reference_kind kind;
@@ -230,6 +273,7 @@ struct sample {
     uint32_t deepest;
     double left_weight, brightest;
     bool over_segments;
+    bool is_nested; // a ray would have been inside too many media
     bool cancelled;
     uint32_t body, triangle; // last hit
 };

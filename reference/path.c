@@ -59,8 +59,12 @@ struct following {
     struct sample *sample;
 };
 
-static void add(struct following *f, vec3 value, double throughput) {
-    f->sample->radiance = vec3_add(f->sample->radiance, vec3_mul(value, throughput));
+static vec3 scaled(vec3 a, vec3 b) {
+    return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+static void add(struct following *f, vec3 value, const struct branch *b) {
+    f->sample->radiance = vec3_add(f->sample->radiance, scaled(vec3_mul(value, b->throughput), b->tint));
 }
 
 static void see(struct following *f, vec3 value) {
@@ -70,41 +74,49 @@ static void see(struct following *f, vec3 value) {
 // A ray that leaves a surface: it waits, or is cut. Returns the throughput cut.
 static double send(struct following *f, const struct branch *child) {
     const struct reference_settings *settings = f->settings;
-    if (!(child->throughput > 0))
+    const double weight = child->throughput * reference_brightest(child->tint);
+    if (!(weight > 0))
         return 0;
-    if (child->throughput < settings->min_weight) {
+    if (weight < settings->min_weight) {
         f->sample->cut_by_weight++;
     } else if (child->depth > settings->max_depth) {
         f->sample->cut_by_depth++;
         if (settings->cut_sees_background)
-            add(f, reference_background(f->r, child->direction), child->throughput);
+            add(f, reference_background(f->r, child->direction), child);
     } else {
         push(f->queue, child);
         return 0;
     }
-    f->sample->left_weight += child->throughput;
-    return child->throughput;
+    f->sample->left_weight += weight;
+    return weight;
+}
+
+static struct branch child_of(const struct branch *from, uint32_t segment, enum reference_kind kind) {
+    struct branch child = *from;
+    child.depth++;
+    child.parent = segment;
+    child.kind = kind;
+    return child;
 }
 
 static double send_rays(struct following *f, const struct branch *from, const struct surface *s,
                         uint32_t segment, bool *total) {
-    struct branch back = {.depth = from->depth + 1, .parent = segment, .kind = REFERENCE_REFLECTED};
-    struct branch through = {.depth = from->depth + 1, .parent = segment, .kind = REFERENCE_REFRACTED};
-    double reflection = s->reflection;
-    *total = s->refraction > 0 && !reference_bent(f->r, s, from->direction, &through.direction);
-    if (*total) {
-        reflection += s->refraction;
-        f->sample->total_reflections++;
-    } else {
-        through.throughput = from->throughput * s->refraction;
-    }
+    struct branch back = child_of(from, segment, REFERENCE_REFLECTED);
+    struct branch through = child_of(from, segment, REFERENCE_REFRACTED);
+    struct split split;
+    reference_split(f->r, s, from->direction, &split);
+    *total = s->refraction > 0 && !split.through;
+    f->sample->total_reflections += *total;
     double cut = 0;
+    through.throughput *= reference_refraction(s, &split);
     if (through.throughput > 0) {
+        through.direction = split.bent;
+        through.inside = s->after;
         through.start = reference_leave(f->r, s, vec3_neg(s->geometric));
         through.cone = reference_bent_cone(s, from->cone, from->direction, through.direction);
         cut += send(f, &through);
     }
-    back.throughput = from->throughput * reflection;
+    back.throughput *= reference_reflection(s, &split);
     if (back.throughput > 0) {
         back.start = reference_leave(f->r, s, s->geometric);
         back.direction = reference_mirrored(f->r, s, from->direction);
@@ -126,6 +138,8 @@ static struct reference_segment *log_segment(struct following *f, const struct b
                                           .origin = vec3_add(b->start.at, f->r->origin),
                                           .direction = b->direction,
                                           .body = HIT_NONE,
+                                          .medium = reference_filling(f->r, &b->inside),
+                                          .tint = b->tint,
                                           .material = IR_NO_INDEX};
     return segment;
 }
@@ -138,6 +152,7 @@ static void log_surface(const struct following *f, struct reference_segment *seg
     segment->triangle = s->triangle;
     segment->material = s->material;
     segment->enters = s->enters;
+    segment->passes = s->passes;
     segment->distance = s->distance;
     segment->point = vec3_add(s->point, f->r->origin);
     segment->geometric = s->geometric;
@@ -148,7 +163,32 @@ static void log_surface(const struct following *f, struct reference_segment *seg
     segment->texel = s->texel;
 }
 
-static void follow_ray(struct following *f, const struct branch *b) {
+// A surface between equal media, or of a body of lower priority: straight on, unseen.
+static void pass(struct following *f, struct branch *b, const struct surface *s, uint32_t segment) {
+    b->start = reference_leave(f->r, s, vec3_neg(s->geometric));
+    b->inside = s->after;
+    b->cone.width = s->width;
+    b->parent = segment;
+    push(f->queue, b);
+}
+
+static void show_surface(struct following *f, const struct branch *b, const struct surface *s,
+                         struct reference_segment *segment) {
+    struct lighting lighting;
+    reference_light(f->r, s, b->direction, &b->inside, &lighting);
+    f->sample->shadow += lighting.shadow_rays;
+    see(f, lighting.sum);
+    add(f, lighting.sum, b);
+    log_surface(f, segment, s, &lighting);
+    bool total;
+    double cut = send_rays(f, b, s, f->log ? f->log->count - 1 : 0, &total);
+    if (segment) {
+        segment->total_reflection = total;
+        segment->cut_weight = cut;
+    }
+}
+
+static void follow_ray(struct following *f, struct branch *b) {
     struct ray ray = {b->start, b->direction, INFINITY, b->cone};
     struct intersection hit;
     struct reference_segment *segment = log_segment(f, b);
@@ -158,26 +198,28 @@ static void follow_ray(struct following *f, const struct branch *b) {
     reference_intersect(f->r, &ray, &hit);
     if (hit.primitive == NO_PRIMITIVE) {
         vec3 seen = reference_background(f->r, b->direction);
-        add(f, seen, b->throughput);
+        add(f, seen, b);
         if (segment)
             segment->radiance = seen;
         return;
     }
     struct surface s;
-    struct lighting lighting;
     reference_surface(f->r, &ray, &hit, &s);
-    reference_light(f->r, &s, b->direction, &lighting);
+    reference_cross(f->r, &b->inside, &s);
+    b->tint = scaled(b->tint, reference_left(f->r, &b->inside, s.distance));
     f->sample->body = s.body;
     f->sample->triangle = s.triangle;
-    f->sample->shadow += lighting.shadow_rays;
-    see(f, lighting.sum);
-    add(f, lighting.sum, b->throughput);
-    log_surface(f, segment, &s, &lighting);
-    bool total;
-    double cut = send_rays(f, b, &s, f->log ? f->log->count - 1 : 0, &total);
-    if (segment) {
-        segment->total_reflection = total;
-        segment->cut_weight = cut;
+    if (segment)
+        segment->tint = b->tint;
+    if (s.is_over) {
+        f->sample->is_nested = true;
+        f->sample->radiance = (vec3){NAN, NAN, NAN};
+    } else if (s.passes) {
+        const struct lighting none = {.considered = 0};
+        log_surface(f, segment, &s, &none);
+        pass(f, b, &s, f->log ? f->log->count - 1 : 0);
+    } else {
+        show_surface(f, b, &s, segment);
     }
 }
 
@@ -192,6 +234,8 @@ void reference_follow(const struct reference *r, const struct reference_settings
                            .direction = direction,
                            .cone = reference_camera_cone(r, settings, direction),
                            .throughput = 1,
+                           .tint = {1, 1, 1},
+                           .inside = r->around_camera,
                            .parent = REFERENCE_NO_SEGMENT};
     *out = (struct sample){.body = HIT_NONE};
     queue->count = 0;
@@ -206,7 +250,7 @@ void reference_follow(const struct reference *r, const struct reference_settings
             continue;
         }
         out->cut_by_segments++;
-        out->left_weight += next.throughput;
+        out->left_weight += next.throughput * reference_brightest(next.tint);
     }
     out->over_segments = settings->as_file && (out->cut_by_segments > 0 || rays_of(out) > settings->segments);
     see(&f, out->radiance);

@@ -28,7 +28,8 @@ struct reference *reference_create(const struct reference_input *input) {
         return NULL;
     *r = (struct reference){.input = *input, .origin = input->view->camera.position};
     arena_init(&r->arena, SIZE_MAX);
-    if (arena_guarded(&r->arena, fill, r) == ARENA_FAULT_NONE && reference_make_tree(r))
+    if (arena_guarded(&r->arena, fill, r) == ARENA_FAULT_NONE && reference_make_tree(r) &&
+        reference_make_media(r))
         return r;
     reference_destroy(r);
     return NULL;
@@ -168,7 +169,7 @@ static bool goes_on(void *context) {
 
 static void note_fault(struct reference_fault *fault, uint32_t x, uint32_t y, const struct sample *s) {
     if (fault->pixels++ == 0)
-        *fault = (struct reference_fault){1, x, y, s->body, s->triangle};
+        *fault = (struct reference_fault){1, x, y, s->body, s->triangle, s->is_nested};
 }
 
 static bool is_finite(vec3 v) {
@@ -249,19 +250,24 @@ static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     if (nearest.primitive == NO_PRIMITIVE)
         return hit;
     reference_surface(r, &ray, &nearest, &s);
-    reference_light(r, &s, direction, &lighting);
+    reference_cross(r, &r->around_camera, &s);
     hit.body = s.body;
     hit.triangle = s.triangle;
-    hit.considered = lighting.considered;
-    hit.lit = lighting.lit;
     hit.distance = s.distance;
     hit.normal = s.shading;
-    vec3 bent;
-    bool comes_through = s.refraction > 0 && reference_bent(r, &s, direction, &bent);
-    if (comes_through)
-        hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), bent);
+    if (s.passes) {
+        hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), direction);
+        return hit;
+    }
+    reference_light(r, &s, direction, &r->around_camera, &lighting);
+    hit.considered = lighting.considered;
+    hit.lit = lighting.lit;
+    struct split split;
+    reference_split(r, &s, direction, &split);
+    if (reference_refraction(&s, &split) > 0)
+        hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), split.bent);
     // Under total reflection the mirrored ray has the refracted one's weight too.
-    if (s.reflection > 0 || (s.refraction > 0 && !comes_through))
+    if (reference_reflection(&s, &split) > 0)
         hit.reflected =
             body_ahead(r, reference_leave(r, &s, s.geometric), reference_mirrored(r, &s, direction));
     return hit;

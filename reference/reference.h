@@ -68,6 +68,7 @@ struct reference_fault {
     uint32_t x, y;
     uint32_t body; // last hit, in IR order; HIT_NONE: none
     uint32_t triangle;
+    bool is_nested; // not finite because a ray would have been inside more than SCENE_MEDIA_MOST media
 };
 
 struct reference_statistics {
@@ -175,11 +176,15 @@ struct reference_segment {
     uint32_t body, triangle;        // body HIT_NONE: the background
     uint32_t material;              // in assets.materials; IR_NO_INDEX where nothing was hit
     bool enters;                    // the ray comes from outside the body
+    bool passes;                    // it goes straight on, unseen: the medium is the same on both sides
+    uint32_t medium;                // the body that fills the place that the ray goes through; HIT_NONE: air
+    vec3 tint;                      // what attenuation has left of each channel at its end
     bool total_reflection;          // the refracted ray was turned back
     double distance;                // scene units; 0 where nothing was hit
     vec3 point, geometric, shading; // as in reference_hit; 0 where nothing was hit
     uint32_t considered, lit;       // as in struct hit_pixel
-    vec3 radiance; // direct light of the surface, or the background; times weight it is what the pixel gets
+    vec3 radiance; // direct light of the surface, or the background; times weight and tint it is what the
+                   // pixel gets
     struct reference_texel texel;
     double cut_weight; // of the rays that this surface would have sent and that were not followed
 };

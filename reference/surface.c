@@ -77,6 +77,7 @@ static void take_material(const struct reference *r, const struct scene_body *bo
     s->reflection = m->reflection;
     s->refraction = m->refraction;
     s->index = m->index;
+    s->fresnel = m->fresnel;
     s->solid = body->closed;
 }
 
@@ -194,24 +195,75 @@ vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3
     return reference_rounded3(r, vec3_unit(out), 1);
 }
 
-// k < 0: nothing comes through.
-static double bend(vec3 d, vec3 n, double eta, vec3 *out) {
-    double c = -vec3_dot(d, n);
-    double k = 1 - eta * eta * (1 - c * c);
+// The cosine of a ray to the normal, and the square of that behind the surface: below 0 nothing comes
+// through.
+struct angles {
+    double c, k;
+};
+
+static struct angles bend(vec3 d, vec3 n, double eta, vec3 *out) {
+    const double c = -vec3_dot(d, n);
+    const double k = 1 - eta * eta * (1 - c * c);
     if (k >= 0)
         *out = vec3_add(vec3_mul(d, eta), vec3_mul(n, eta * c - sqrt(k)));
-    return k;
+    return (struct angles){c, k};
 }
 
-bool reference_bent(const struct reference *r, const struct surface *s, vec3 direction, vec3 *out) {
-    double eta = s->enters ? 1 / s->index : s->index;
-    *out = direction;
-    if (!s->solid || eta == 1)
-        return true;
-    bool flat = vec3_dot(direction, s->shading) >= 0;
-    double k = bend(direction, flat ? s->geometric : s->shading, eta, out);
-    if (k >= 0 && vec3_dot(*out, s->geometric) >= 0)
-        k = bend(direction, s->geometric, eta, out);
-    *out = reference_rounded3(r, vec3_unit(*out), 1);
-    return k >= 0;
+static double square(double x) {
+    return x * x;
+}
+
+// A pane has two such faces, between which light goes back and forth.
+static double of_faces(double one, bool pane) {
+    return pane ? 2 * one / (1 + one) : one;
+}
+
+// Of unpolarised light from index n to m (Fresnel 1823; Born and Wolf 1999, section 1.5.2).
+static double fresnel(double n, double m, struct angles at, bool pane) {
+    if (n == m)
+        return 0;
+    if (at.k <= 0)
+        return 1;
+    const double t = sqrt(at.k);
+    const double across = square((n * at.c - m * t) / (n * at.c + m * t));
+    const double along = square((m * at.c - n * t) / (m * at.c + n * t));
+    return (of_faces(across, pane) + of_faces(along, pane)) / 2;
+}
+
+// From the thinner side, whichever the ray comes from: as of light that was bent on its way in.
+double reference_shine(const struct surface *s, vec3 direction) {
+    if (!s->fresnel)
+        return s->refraction;
+    const double low = fmin(s->index_before, s->index_after), high = fmax(s->index_before, s->index_after);
+    double c = -vec3_dot(direction, s->shading);
+    if (c <= 0)
+        c = -vec3_dot(direction, s->geometric);
+    const struct angles at = {c, 1 - square(low / high) * (1 - c * c)};
+    return s->refraction * (1 - fresnel(low, high, at, !s->solid));
+}
+
+void reference_split(const struct reference *r, const struct surface *s, vec3 direction, struct split *out) {
+    const double eta = s->index_before / s->index_after;
+    const bool flat = vec3_dot(direction, s->shading) >= 0;
+    vec3 bent = direction;
+    struct angles at = bend(direction, flat ? s->geometric : s->shading, eta, &bent);
+    if (at.k >= 0 && vec3_dot(bent, s->geometric) >= 0)
+        at = bend(direction, s->geometric, eta, &bent);
+    const bool straight = !s->solid || eta == 1;
+    *out = (struct split){.bent = straight ? direction : reference_rounded3(r, vec3_unit(bent), 1),
+                          .through = straight || at.k >= 0};
+    if (s->fresnel)
+        out->reflected = fresnel(s->index_before, s->index_after, at, !s->solid && s->refraction > 0);
+}
+
+double reference_reflection(const struct surface *s, const struct split *split) {
+    if (s->fresnel)
+        return s->reflection * split->reflected;
+    return s->refraction > 0 && !split->through ? s->reflection + s->refraction : s->reflection;
+}
+
+double reference_refraction(const struct surface *s, const struct split *split) {
+    if (!split->through)
+        return 0;
+    return s->fresnel ? s->refraction * (1 - split->reflected) : s->refraction;
 }

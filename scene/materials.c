@@ -4,6 +4,8 @@
 #include "scene/scene_parts.h"
 #include "scene/transform.h"
 
+#include <math.h>
+
 vec3 scene_linear_color(struct ir_color color, unsigned transfer) {
     if (!color.is_hex)
         return (vec3){color.r, color.g, color.b};
@@ -12,6 +14,17 @@ vec3 scene_linear_color(struct ir_color color, unsigned transfer) {
     if (transfer != IR_TRANSFER_SRGB)
         return shown;
     return (vec3){srgb_decode(shown.x), srgb_decode(shown.y), srgb_decode(shown.z)};
+}
+
+// What of a channel is lost per scene unit, where `left` of it is left after a distance.
+static double absorbed(double left, double distance) {
+    return left < 1 ? fmin(-log(left) / distance, SCENE_ABSORPTION_MAX) : 0;
+}
+
+static vec3 absorption_of(const struct ir_material *ir, unsigned transfer) {
+    const vec3 color = scene_linear_color(ir->attenuation_color, transfer);
+    const double distance = ir->attenuation_distance;
+    return (vec3){absorbed(color.x, distance), absorbed(color.y, distance), absorbed(color.z, distance)};
 }
 
 static struct scene_material material_of(const struct ir_material *ir, unsigned transfer) {
@@ -27,6 +40,9 @@ static struct scene_material material_of(const struct ir_material *ir, unsigned 
                                .specular = scene_linear_color(ir->specular_color.color, transfer),
                                .specular_exponent = ir->specular_exponent,
                                .refractive_index = ir->refractive_index,
+                               .fresnel = ir->fresnel,
+                               .priority = ir->priority,
+                               .absorption = absorption_of(ir, transfer),
                                .features = ir_material_features(ir)};
     for (int i = 0; i < 2; i++)
         m.diffuse[i] = scene_linear_color(checker ? paint->checker.colors[i] : paint->color, transfer);

@@ -52,6 +52,9 @@ struct scene_body {
     vec3 lower, upper; // a box around it: of a mesh, around its transformed box; lower > upper: no mesh
 };
 
+// Black after any way that is not 0, and finite.
+#define SCENE_ABSORPTION_MAX 1e30
+
 // An image on surfaces, with levels of half its size each, down to one pixel. What a pixel is, is the image's
 // file's; levels are made here, once, for all that trace.
 struct scene_texture {
@@ -87,6 +90,9 @@ struct scene_material {
     vec3 specular;
     struct scene_image images[ASSETS_IMAGES]; // of the diffuse and of the specular colour: in place of it
     double specular_exponent, refractive_index;
+    bool fresnel;
+    int32_t priority;
+    vec3 absorption; // per scene unit, at most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light
     uint32_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
 };
 

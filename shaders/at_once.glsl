@@ -1,6 +1,9 @@
 // Many samples of many pixels traced at once, for GPUs: path k * slots + s is sample k of slot s. A path lives in private
 // memory, the refracted rays that wait in it too, and takes a place in the state buffer only when its slice ends. Where
 // all places are taken, the path begins once more in a later dispatch.
+//
+// The samples of a tile follow each other, and tiles come in an order of the host's: the last paths leave a GPU idle, so
+// that long ones are to begin first.
 
 layout(constant_id = CONSTANT_AT_ONCE) const bool AT_ONCE = false;
 layout(constant_id = CONSTANT_BRANCHES) const uint BRANCHES = 1u;
@@ -16,6 +19,12 @@ vec2 sample_offset(uint k) {
     return (k & 1u) == 0u ? both.xy : both.zw;
 }
 
+// The path that an invocation begins.
+uint path_of(uint index, uint slots) {
+    uint samples = max(dispatch.samples, 1u), block = index / TILE_PIXELS;
+    return block % samples * slots + block / samples * TILE_PIXELS + index % TILE_PIXELS;
+}
+
 struct waiting_ray {
     ray_start start;
     REAL3 direction;
@@ -25,6 +34,14 @@ struct waiting_ray {
 };
 waiting_ray waiting[BRANCHES];
 
+// Of each of them.
+struct waiting_medium {
+    media_set inside;
+    vec3 tint;
+};
+const uint MEDIA_BRANCHES = HAS_MEDIA ? BRANCHES : 1u;
+waiting_medium waiting_media[MEDIA_BRANCHES];
+
 void take_waiting(inout path_state p) {
     waiting_ray ray = waiting[p.stack_size];
     p.start = ray.start;
@@ -32,12 +49,20 @@ void take_waiting(inout path_state p) {
     p.cone = ray.cone;
     p.throughput = ray.throughput;
     p.depth = ray.depth;
+    if (HAS_MEDIA) {
+        p.inside = waiting_media[p.stack_size].inside;
+        p.tint = waiting_media[p.stack_size].tint;
+    }
 }
 
 void save_waiting(uint place, uint count) {
-    for (uint i = 0u; i < count; i++)
-        put_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, waiting[i].start, waiting[i].direction,
-                   waiting[i].cone, waiting[i].throughput, waiting[i].depth);
+    for (uint i = 0u; i < count; i++) {
+        uint word = BRANCHES_WORD + BRANCH_WORDS * i;
+        put_branch(place, word, waiting[i].start, waiting[i].direction, waiting[i].cone, waiting[i].throughput,
+                   waiting[i].depth);
+        if (HAS_MEDIA)
+            put_media(place, word + BRANCH_WORDS - MEDIA_BRANCH_WORDS, waiting_media[i].inside, waiting_media[i].tint);
+    }
 }
 
 void load_waiting(uint place, uint count) {
@@ -45,6 +70,10 @@ void load_waiting(uint place, uint count) {
         path_state p;
         get_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, p);
         waiting[i] = waiting_ray(p.start, p.direction, p.cone, p.throughput, p.depth);
+        if (HAS_MEDIA) {
+            get_media(place, BRANCHES_WORD + BRANCH_WORDS * (i + 1u) - MEDIA_BRANCH_WORDS, p);
+            waiting_media[i] = waiting_medium(p.inside, p.tint);
+        }
     }
 }
 

@@ -8,30 +8,53 @@ REAL3 reflected(REAL3 d, surface s) {
     return unit3(r);
 }
 
-// false: total reflection. `d` comes out unchanged, bit for bit, where nothing bends.
-bool refracted(REAL3 d, surface s, out REAL3 t) {
+// Of the side that the ray comes from to the other.
+REAL index_ratio(surface s) {
     REAL eta = s.enters ? 1.0 / s.index : s.index;
-    REAL c = -dot3(d, s.shading), c_flat = -dot3(d, s.geometric);
+    if (HAS_SIDES)
+        eta = s.index_before / s.index_after;
+    return eta;
+}
+
+// false: total reflection. `d` comes out unchanged, bit for bit, where nothing bends. `c`, `k`: cosine to the normal that
+// bends, and the square of that behind it.
+bool refracted(REAL3 d, surface s, out REAL3 t, out REAL c, out REAL k) {
+    REAL eta = index_ratio(s);
+    c = -dot3(d, s.shading);
+    REAL c_flat = -dot3(d, s.geometric);
     bool flat_normal = c <= 0.0;
     REAL3 n = flat_normal ? s.geometric : s.shading;
     c = flat_normal ? c_flat : c;
-    REAL k = 1.0 - eta * eta * (1.0 - c * c);
+    k = 1.0 - eta * eta * (1.0 - c * c);
     REAL3 bent = d * eta + n * (eta * c - sqrt(max(k, 0.0)));
     bool wrong_side = k >= 0.0 && dot3(bent, s.geometric) >= 0.0;
     REAL k_flat = 1.0 - eta * eta * (1.0 - c_flat * c_flat);
     REAL3 bent_flat = d * eta + s.geometric * (eta * c_flat - sqrt(max(k_flat, 0.0)));
     bent = wrong_side ? bent_flat : bent;
     k = wrong_side ? k_flat : k;
+    c = wrong_side ? c_flat : c;
     bool straight = !s.solid || eta == 1.0;
     t = straight ? d : unit3(bent);
     return straight || k >= 0.0;
+}
+
+// A pane has two faces, between which light goes back and forth.
+REAL of_faces(REAL one, bool pane) { return pane ? 2.0 * one / (1.0 + one) : one; }
+
+// The share of unpolarised light that is reflected between the indices n and m (Fresnel 1823; Born and Wolf 1999, section
+// 1.5.2). `c`, `k`: as of refracted().
+float fresnel_share(REAL n, REAL m, REAL c, REAL k, bool pane) {
+    REAL t = sqrt(max(k, 0.0));
+    REAL across = (n * c - m * t) / (n * c + m * t), along = (m * c - n * t) / (m * c + n * t);
+    REAL both = 0.5 * (of_faces(across * across, pane) + of_faces(along * along, pane));
+    return float(n == m ? 0.0 : k <= 0.0 ? 1.0 : both);
 }
 
 // The cones of rays that a surface sends on: its normal turns the more the wider the cone is there.
 RAY_CONE mirrored_cone(surface s, RAY_CONE cone) { return vec2(s.width, cone.y + 2.0 * s.bend * s.width); }
 
 RAY_CONE bent_cone(surface s, RAY_CONE cone, REAL3 from, REAL3 to) {
-    float eta = float(s.enters ? 1.0 / s.index : s.index);
+    float eta = float(index_ratio(s));
     float along = float(dot3(to, s.shading)) - eta * float(dot3(from, s.shading));
     bool straight = !s.solid || eta == 1.0;
     return vec2(s.width, straight ? cone.y : eta * cone.y + along * s.bend * s.width);
@@ -46,12 +69,20 @@ struct scatter_rays {
 
 scatter_rays scatter(REAL3 direction, surface s) {
     scatter_rays rays = scatter_rays(direction, HAS_REFLECTION ? s.reflection : 0.0, 0.0, false);
-    if (HAS_REFRACTION) {
-        bool refracts = s.refraction > 0.0;
-        bool through = refracted(direction, s, rays.bent) && refracts;
+    REAL c, k;
+    bool refracts = HAS_REFRACTION && s.refraction > 0.0;
+    if (HAS_REFRACTION || HAS_FRESNEL) {
+        bool through = refracted(direction, s, rays.bent, c, k) && refracts;
         rays.total = refracts && !through;
         rays.reflection = rays.total ? s.reflection + s.refraction : rays.reflection;
         rays.refraction = through ? s.refraction : 0.0;
     }
+    if (HAS_FRESNEL) {
+        float share = fresnel_share(s.index_before, s.index_after, c, k, !s.solid && refracts);
+        rays.reflection = s.fresnel ? (HAS_REFLECTION ? s.reflection : 0.0) * share : rays.reflection;
+        rays.refraction = s.fresnel ? rays.refraction * (1.0 - share) : rays.refraction;
+    }
+    if (HAS_MEDIA && s.passes)
+        rays = scatter_rays(direction, 0.0, 1.0, false);
     return rays;
 }

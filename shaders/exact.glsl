@@ -262,13 +262,13 @@ bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool a
     uvec2 group = root_group();
     uint turns = 0u;
     bool more = true;
-    INSTANCES_BEGIN(ray, start, aim.direction, root_group())
+    INSTANCES_BEGIN(ray, start, aim.direction, group)
     do {
         INSTANCE_NEXT(ray, start, aim.direction)
         turns += 2u;
         if (HAS_COUNTERS)
             counted_nodes++;
-        node_record node = load_triangle_node(next_node(group, ray.flip));
+        node_record node = load_triangle_node(NODE_AT(group, ray));
         uint hits = node_hits(node, ray, max(hit.t, search.least) + 2.0 * search.blur + margin);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         INSTANCE_FOUND(node, found)
@@ -290,7 +290,7 @@ bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool a
             }
         END_WHILE(items != 0u && turns < EXACT_ITERATIONS)
     } while (more && INSTANCE_SEEN && turns < EXACT_ITERATIONS);
-    INSTANCES_END(more, turns, EXACT_ITERATIONS)
+    INSTANCES_END(group, more, turns, EXACT_ITERATIONS)
     iterations += turns;
     first_numbers(start, aim.direction, hit);
     return turns < EXACT_ITERATIONS;

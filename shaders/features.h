@@ -18,14 +18,21 @@
 #define FEATURE_INVERSE_SQUARE   (1u << 11)
 #define FEATURE_BACKGROUND_IMAGE (1u << 12)
 #define FEATURE_DEPTH_BLACK      (1u << 13) /* rays cut at max_depth see 0, not the background */
-#define FEATURE_TEXTURES         (1u << 14) /* images on surfaces */
-#define FEATURE_FOOTPRINT        (1u << 15) /* paths carry how wide a pixel is where their rays are */
-#define FEATURE_SLICES           (1u << 16) /* paths may be saved and resumed in a later dispatch */
-#define FEATURE_COUNTERS         (1u << 17) /* count rays for --stats */
-#define FEATURE_LONG_RAYS        (1u << 18) /* a ray may be saved and resumed in the middle of a tree */
-#define FEATURE_MANY_LIGHTS      (1u << 19) /* the sum over the lights keeps what rounding drops */
-#define FEATURE_COUNT            20
-/* What only a scene can switch on; the last bits are the renderer's. */
-#define FEATURE_SCENE_MASK ((1u << 16) - 1u)
+#define FEATURE_SLICES           (1u << 14) /* paths may be saved and resumed in a later dispatch */
+#define FEATURE_COUNTERS         (1u << 15) /* count rays for --stats */
+#define FEATURE_LONG_RAYS        (1u << 16) /* a ray may be saved and resumed in the middle of a tree */
+#define FEATURE_MANY_LIGHTS      (1u << 17) /* the sum over the lights keeps what rounding drops */
+#define FEATURE_MEDIA            (1u << 18) /* rays know the bodies that they are inside */
+#define FEATURE_ATTENUATION      (1u << 19) /* of light on its way inside */
+#define FEATURE_FRESNEL          (1u << 20)
+#define FEATURE_CLEAR_SHADOWS    (1u << 21) /* light shines through what refracts */
+#define FEATURE_BEGINS           (1u << 22) /* paths begin; they are saved where a ray is open */
+#define FEATURE_TEXTURES         (1u << 23) /* images on surfaces */
+#define FEATURE_FOOTPRINT        (1u << 24) /* paths carry how wide a pixel is where their rays are */
+#define FEATURE_COUNT            25
+/* What only a scene can switch on; the others are the renderer's. */
+#define FEATURE_SCENE_MASK                                                                                   \
+    (((1u << 14) - 1u) | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_FRESNEL | FEATURE_CLEAR_SHADOWS |     \
+     FEATURE_TEXTURES | FEATURE_FOOTPRINT)
 
 #endif

@@ -31,7 +31,16 @@
     UINT(top_nodes)        /* of instances: gpu_scene.h */                                                   \
     UINT(instance_table)                                                                                     \
     UINT(instance_shift)                                                                                     \
-    FLOAT(footprint) /* how much wider a pixel gets for each length along the camera's view */
+    UINT(inside_0) /* what the camera is inside, that entered last first (media.glsl) */                     \
+    UINT(inside_1)                                                                                           \
+    UINT(inside_2)                                                                                           \
+    UINT(inside_3)                                                                                           \
+    UINT(inside_4)                                                                                           \
+    UINT(inside_5)                                                                                           \
+    UINT(inside_6)                                                                                           \
+    UINT(inside_7)                                                                                           \
+    UINT(coordinates_table) /* gpu_scene.h */                                                                \
+    FLOAT(footprint)        /* how much wider a pixel gets for each length along the camera's view */
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
@@ -66,7 +75,8 @@
     UINT(restarts)     /* 1: paths begin that found no place before, by their list */                        \
     UINT(place_base)   /* value of COUNTER_PLACES when all places were free */                               \
     UINT(restart_base) /* value of COUNTER_RESTARTS when that list was begun */                              \
-    UINT(shows)        /* 1: a path is its pixel's only one, and shows it */
+    UINT(shows)        /* 1: a path is its pixel's only one, and shows it */                                 \
+    UINT(spread)       /* one of so many invocations has a path; 0: each */
 
 /* A tile has 8 x 8 pixels, a workgroup a tile. */
 #define TILE_SIDE   8
@@ -75,7 +85,10 @@
 /* Output: a word a path: sum of the samples' r g b, and a fault. Fault: kind in the two top bits, below it
    the number of what was hit last: spheres by body, then triangles from sphere_count on; all ones where
    nothing was hit. Samples traced at once have a word each; resolve.comp adds them up. */
-#define FAULT_NUMBER     0x3fffffffu
+#define FAULT_NUMBER 0x3fffffffu
+#define FAULT_NESTED                                                                                         \
+    0x3ffffffeu /* with FAULT_NOT_FINITE: a ray would be inside more than MEDIA_MOST media                   \
+                 */
 #define FAULT_KIND_SHIFT 30
 #define FAULT_NONE       0u
 #define FAULT_NOT_FINITE 1u /* a value on the way was infinite or no number; the sample counts as 0 */
@@ -95,6 +108,10 @@
 #define STATE64_WORDS       10
 #define LONG_RAY_WORDS      4 /* and two entries of a tree's stack in each word after them */
 #define STACK64_ENTRY_WORDS 6
+/* With FEATURE_MEDIA, of a path and of each ray that waits: what it is inside, and what attenuation left of
+   its light; with FEATURE_CLEAR_SHADOWS then, of a path, a shadow ray on its way (path_words.glsl). */
+#define MEDIA_WORDS 3
+#define SHINE_WORDS 7
 
 /* Counters, 32-bit each: those that all invocations share, then banks of those of FEATURE_COUNTERS, then two
    lists of slots. A workgroup counts in one bank, so that workgroups seldom wait for each other. The host

@@ -26,7 +26,9 @@
 #define BINDING_SAMPLES 14 /* uniform buffer: their offsets in a pixel */
 #define BINDING_PICTURE 15 /* three floats a pixel, by rows: the sums of its samples, or NaN */
 #define BINDING_SUMS    16 /* as OUTPUT, a word a slot: of the samples before */
-#define BINDING_PAINTS  17 /* where materials have images, or checkers that are filtered */
+#define BINDING_ORDER   17 /* tiles in the order of their slots: x + (y << 16) */
+/* Where materials have images, or checkers that are filtered. */
+#define BINDING_PAINTS 18
 
 /* Node of the 8-wide compressed tree (Ylitie, Karras, Laine 2017, section 4.1):
    word 0: x,y,z the corner p of the node's box (float); w: byte 0..2 exponents ex,ey,ez (biased by 127),
@@ -71,7 +73,9 @@
 /* Where models share a mesh (kernels compiled with INSTANCES), the triangle tree has two levels. Nodes below
    frame.top_nodes are the upper one, in flat space: its leaves are nodes too, of an instance each, in which
    byte 0 of the exponents is 0, which no other node has, the first child is the root of the instance's tree
-   and the first item the instance. Below a root all is in the space of that tree, which keeps its coordinates
+   and the first item the instance; kernels read only these two. In the other nodes of the upper tree, which
+   have no items, the first item is a mask: the slots whose children are leaves. Below a root all is in the
+   space of that tree, which keeps its coordinates
    below 2. TRIANGLES holds PLACED records, NORMALS doubles. All triangles that are not shared are instance 0,
    which changes nothing. An item that is hit is the place of its record plus first_item of its instance: such
    numbers rise with the instances, and each begins a new block of 2^frame.instance_shift of them. INSTANCES
@@ -81,19 +85,28 @@
 #define INSTANCE_COPIED   2u /* instance 0: records have bodies and shades of their own */
 
 /* Images: PAINTS begins with two records for each material, of its diffuse and its specular colour. After
-   them lie, in any order, what records and bodies name by the number of its word: for each image a word a
-   level, of its first texel, width and height; its texels, row 0 on top, from the finest level on, of 8-bit
-   images four to a word (r in the lowest byte; the first texel is counted in components), of others one
-   (three floats); for images that are sRGB a word for each of 256 values, decoded; for each mesh with
-   coordinates two words a triangle (u, v of each corner, in the order of the mesh). Word numbers have 32
-   bits: 64 GiB, of which a quarter can be 8-bit texels. `coordinates` of a body is such a number, which is
-   even, plus 1 where the body's second and third corners are exchanged against the mesh's. */
+   them lie, in any order, what records name by the number of its word: for each image a word a level, of its
+   first texel, width and height; its texels, row 0 on top, from the finest level on, of 8-bit images four to
+   a word (r in the lowest byte; the first texel is counted in components), of others one (three floats); for
+   images that are sRGB a word for each of 256 values, decoded; for each mesh with coordinates two words a
+   triangle (u, v of each corner, in the order of the mesh); and, from frame.coordinates_table on, four to a
+   word, the first of those words for each body: it is even, plus 1 where the body's second and third corners
+   are exchanged against the mesh's; 0: it has none. Word numbers have 32 bits: 64 GiB, of which a quarter can
+   be 8-bit texels. */
 #define PAINT_NEAREST 1u
 #define PAINT_AUTO    2u /* neither: bilinear */
 #define PAINT_CLAMP   4u
 #define PAINT_MIRROR  8u /* neither: repeat */
 #define PAINT_FLOATS  16u
 #define PAINT_SOFT    32u /* the material's checker is filtered */
+
+/* A medium (scene/media.h): its priority, above 0, and below it the number, from 1 on, of a material that
+   fills it; the same one for all that are alike. What a path is inside (media.glsl) is kept with the number
+   of the body, from 1 on, in place of the material's. */
+#define MEDIUM_BITS     21
+#define MEDIUM_MASK     ((1u << MEDIUM_BITS) - 1u)
+#define MEDIUM_PRIORITY 1001 /* what is added to priorities */
+#define MEDIA_MOST      8
 
 /* The place of a light is its position, or a unit vector to it; emission over inverse square is already times
    scale squared. */

@@ -16,9 +16,10 @@
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
-#include "trace_all.glsl"
 #include "lights.glsl"
 #include "bounce.glsl"
+#include "media.glsl"
+#include "trace_all.glsl"
 #include "bits.glsl"
 #include "hits.h"
 
@@ -50,7 +51,14 @@ hits_ray refracted_ray(surface s, hit_record hit, REAL3 direction) {
 hits_ray shadow_ray(surface s, hit_record hit, REAL3 direction, uint light) {
     ray_start start = leave(s, hit, s.geometric);
     light_ray shadow = light_at(light, s, start.at, direction);
-    return hits_ray(start, aim_at(light, shadow), shadow.t_max, true, shadow.value != vec3(0.0));
+    bool sent = shadow.value != vec3(0.0) && !(HAS_MEDIA && s.passes);
+    return hits_ray(start, aim_at(light, shadow), shadow.t_max, true, sent);
+}
+
+// Whether anything of a light comes to a surface through what refracts.
+bool shines_to(hits_ray ray, uint light, media_set inside, inout bool ended) {
+    light_ray shadow = light_ray(vec3(1.0), ray.aim.direction, ray.end);
+    return shine_all(ray.start, light, shadow, inside, ended) != vec3(0.0);
 }
 
 void write_first(uint at, hit_record hit, surface s, bool ended) {
@@ -85,11 +93,13 @@ void main() {
     REAL3 direction = camera_direction(pixel);
     hits_ray ray = hits_ray(exact_start(CAMERA(position)), aim_along(direction), FAR_AWAY, false, true);
     surface s;
+    media_set inside = camera_media();
     if (!first) {
         hit_record before = load_hit(at);
         if (before.item == NO_ITEM)
             return;
         make_surface(before, CAMERA(position), direction, s);
+        cross_surface(inside, before, s);
         if (kind == HITS_MIRRORED)
             ray = mirrored_ray(s, before, direction);
         else if (kind == HITS_REFRACTED)
@@ -101,10 +111,13 @@ void main() {
     }
     hit_record hit = hit_record(ray.end, 0.0, 0.0, NO_ITEM, 0u);
     uint iterations = 0u;
+    bool ended = true;
     // Without shadows the tracer sends no shadow ray, and the light always counts.
-    if (kind < HITS_LIGHTS || (HAS_SHADOWS && wants(FEATURE_SHADOWS)))
+    if (kind >= HITS_LIGHTS && shines())
+        hit.item = shines_to(ray, kind - HITS_LIGHTS, inside, ended) ? NO_ITEM : 0u;
+    else if (kind < HITS_LIGHTS || (HAS_SHADOWS && wants(FEATURE_SHADOWS)))
         trace_all(ray.start, ray.aim, ray.any, hit, iterations);
-    bool ended = iterations < ITERATION_LIMIT;
+    ended = ended && iterations < ITERATION_LIMIT;
     if (!first) {
         write_later(at, kind, hit, ended);
         return;

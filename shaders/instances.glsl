@@ -41,10 +41,8 @@ uint instance_table(uint index) {
     return k == 0u ? word.x : k == 1u ? word.y : k == 2u ? word.z : word.w;
 }
 
-const uint NO_INSTANCE = 0xffffffffu;
-
 // Whose triangles this invocation loads: only what a test needs stays in registers.
-uint seen_instance = NO_INSTANCE;
+uint seen_instance = 0u;
 instance_record seen;
 
 void see_instance(uint instance) {
@@ -152,65 +150,86 @@ tree_ray entered_ray(uint instance, REAL3 origin, REAL3 direction, bool is_open)
     entry_record e = load_entry(instance);
     REAL3 place = REAL3(dot3(e.row_x, origin) + e.offset_x, dot3(e.row_y, origin) + e.offset_y,
                         dot3(e.row_z, origin) + e.offset_z);
-    tree_ray ray =
-        make_tree_ray(place, REAL3(dot3(e.row_x, direction), dot3(e.row_y, direction), dot3(e.row_z, direction)));
+    REAL3 along = REAL3(dot3(e.row_x, direction), dot3(e.row_y, direction), dot3(e.row_z, direction));
+    REAL begin = 0.0;
+#ifndef DOUBLE_PRECISION
+    begin = is_open ? -e.edge / largest3(abs(direction)) : 0.0;
+#endif
+    tree_ray ray = make_tree_ray(place + along * begin, along);
     REAL3 sum = REAL3(dot3(abs(e.row_x), REAL3(1.0)), dot3(abs(e.row_y), REAL3(1.0)), dot3(abs(e.row_z), REAL3(1.0)));
     ray.pad = (sum * (e.reach + e.unit * largest3(abs(origin))) + e.margin) * abs(ray.inverse);
-#ifndef DOUBLE_PRECISION
-    ray.begin = is_open ? -e.edge / largest3(abs(direction)) : 0.0;
-#endif
+    ray.begin = begin;
     return ray;
 }
 
-// A search has two rays: `ray` goes through the nodes, `flat_ray` is it again where an instance is left. An instance
-// that is found is entered before the next node is. lavapipe runs what an `if` holds for all lanes, and would
-// transform a ray at every node: there lanes that found one wait outside of a loop of their own.
+// Takes the next node out of the group, as next_node does. `enters`: it is a leaf of the upper tree.
+uint next_entry(inout uvec2 group, uint flip, out bool enters) {
+    uint slot = ((floatBitsToUint(float(int(group.y >> 24u))) >> 23u) - 127u) ^ flip;
+    enters = has_nodes(group) && (group.y & (0x100u << (slot & 7u))) != 0u;
+    return next_node(group, flip);
+}
+
+// A search has two rays: `ray` goes through the nodes, `flat_ray` is it again where an instance is left. The next node,
+// `node_at`, is known before the turn that opens it: a leaf of the upper tree is not opened but entered. lavapipe runs what
+// an `if` holds for all lanes, and would transform a ray at every node: there lanes that found one wait outside of a
+// loop of their own.
 #ifdef LONG_RAYS_KEPT
-#define INSTANCE_RESUMED(group)                                                                              \
-    (HAS_LONG_RAYS && group.x >= frame.top_nodes ? long_instance : NO_INSTANCE)
-#define INSTANCE_KEPT(more)                                                                                  \
-    if (HAS_LONG_RAYS && more)                                                                               \
-        long_instance = found_instance != NO_INSTANCE ? found_instance : seen_instance;
-#else
-#define INSTANCE_RESUMED(group) NO_INSTANCE
-#define INSTANCE_KEPT(more)
-#endif
-#define INSTANCE_ENTER(ray, start, direction)                                                               \
-    if (found_instance != NO_INSTANCE) {                                                                     \
-        see_instance(found_instance);                                                                        \
-        ray = entered_ray(found_instance, start.at, direction, start.slack > 0.0);                                              \
-        found_instance = NO_INSTANCE;                                                                        \
+#define INSTANCE_RESUME(ray, start, direction, group)                                                       \
+    if (HAS_LONG_RAYS && group.x >= frame.top_nodes) {                                                      \
+        see_instance(long_instance);                                                                         \
+        ray = entered_ray(long_instance, start.at, direction, start.slack > 0.0);                            \
     }
-#ifdef FETCH_TEXELS
-#define INSTANCES_BEGIN(ray, start, direction, group)                                                       \
+#define INSTANCE_KEPT(group, more)                                                                           \
+    if (HAS_LONG_RAYS && more) {                                                                             \
+        group = group_before;                                                                                \
+        long_instance = seen_instance;                                                                       \
+    }
+#else
+#define INSTANCE_RESUME(ray, start, direction, group)
+#define INSTANCE_KEPT(group, more)
+#endif
+#define INSTANCE_ENTER(ray, start, direction)                                                                \
+    if (enters) {                                                                                            \
+        node_record leaf = load_triangle_node(node_at);                                                      \
+        see_instance(leaf.first_item);                                                                       \
+        ray = entered_ray(leaf.first_item, start.at, direction, start.slack > 0.0);                          \
+        node_at = leaf.first_node;                                                                           \
+        enters = false;                                                                                      \
+    }
+#define INSTANCES_FIRST(ray, start, direction, group)                                                        \
     tree_ray flat_ray = ray;                                                                                 \
-    uint found_instance = INSTANCE_RESUMED(group);                                                           \
+    INSTANCE_RESUME(ray, start, direction, group)                                                            \
+    bool enters = false;                                                                                     \
+    uvec2 group_before = group;                                                                              \
+    uint node_at = next_entry(group, ray.flip, enters);
+#ifdef FETCH_TEXELS
+#define INSTANCES_BEGIN(ray, start, direction, group)                                                        \
+    INSTANCES_FIRST(ray, start, direction, group)                                                            \
     do {                                                                                                     \
         iterations++;                                                                                        \
         INSTANCE_ENTER(ray, start, direction)
 #define INSTANCE_NEXT(ray, start, direction)
-#define INSTANCE_SEEN (found_instance == NO_INSTANCE)
-#define INSTANCES_END(more, count, limit)                                                                    \
+#define INSTANCE_SEEN (!enters)
+#define INSTANCES_END(group, more, count, limit)                                                             \
     } while (more && count < limit);                                                                         \
-    INSTANCE_KEPT(more)
+    INSTANCE_KEPT(group, more)
 #else
-#define INSTANCES_BEGIN(ray, start, direction, group)                                                       \
-    tree_ray flat_ray = ray;                                                                                 \
-    uint found_instance = INSTANCE_RESUMED(group);
+#define INSTANCES_BEGIN(ray, start, direction, group) INSTANCES_FIRST(ray, start, direction, group)
 #define INSTANCE_NEXT(ray, start, direction) INSTANCE_ENTER(ray, start, direction)
 #define INSTANCE_SEEN true
-#define INSTANCES_END(more, count, limit) INSTANCE_KEPT(more)
+#define INSTANCES_END(group, more, count, limit) INSTANCE_KEPT(group, more)
 #endif
-// After a node: whether it is an instance's, whose root is next then.
+#define NODE_AT(group, ray) node_at
+// After a node: which of its children are leaves of the upper tree.
 #define INSTANCE_FOUND(node, found)                                                                          \
-    if ((node.exponents & 0xffu) == 0u) {                                                                    \
-        found_instance = node.first_item;                                                                    \
-        found.y = 0x80000000u;                                                                               \
-    }
+    if (node_at < frame.top_nodes)                                                                           \
+        found.y |= node.first_item << 8u;
 // After the next group is chosen.
-#define INSTANCE_LEFT(ray, group)                                                                            \
+#define INSTANCE_LEFT(ray, group)                                                                           \
     if (group.x < frame.top_nodes)                                                                           \
-        ray = flat_ray;
+        ray = flat_ray;                                                                                      \
+    group_before = group;                                                                                    \
+    node_at = next_entry(group, ray.flip, enters);
 // An item of the node that is open.
 #define INSTANCE_ITEM(item) (item + seen.first_item)
 #else
@@ -220,7 +239,8 @@ tree_ray entered_ray(uint instance, REAL3 origin, REAL3 direction, bool is_open)
 #define INSTANCES_BEGIN(ray, start, direction, group)
 #define INSTANCE_NEXT(ray, start, direction)
 #define INSTANCE_SEEN true
-#define INSTANCES_END(more, count, limit)
+#define INSTANCES_END(group, more, count, limit)
+#define NODE_AT(group, ray) next_node(group, ray.flip)
 #define INSTANCE_FOUND(node, found)
 #define INSTANCE_LEFT(ray, group)
 #define INSTANCE_ITEM(item) item

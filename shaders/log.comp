@@ -14,10 +14,11 @@
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
-#include "trace_all.glsl"
 #include "lights.glsl"
 #include "background.glsl"
 #include "bounce.glsl"
+#include "media.glsl"
+#include "trace_all.glsl"
 #include "bits.glsl"
 #include "log.h"
 
@@ -27,13 +28,16 @@ struct log_ray {
     ray_start start;
     REAL3 direction;
     RAY_CONE cone;
+    media_set inside;
 };
 
 log_ray load_ray(uint at) {
     uvec4 a = states[at], b = states[at + 1u], c = states[at + 2u], d = states[at + 3u], e = states[at + 4u];
     ray_start start = ray_start(REAL3(number_of(a.xy), number_of(a.zw), number_of(b.xy)), number_of(d.zw), b.w,
                                 number_of(e.xy), number_of(e.zw));
-    return log_ray(start, REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)), uintBitsToFloat(states[at + 5u].xy));
+    return log_ray(start, REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)),
+                   uintBitsToFloat(states[at + LOG_CONE].xy),
+                   media_set(states[at + LOG_INSIDE], states[at + LOG_INSIDE + 1u]));
 }
 
 void write_camera_ray() {
@@ -43,9 +47,11 @@ void write_camera_ray() {
     states[2] = uvec4(bits_of(d.x), bits_of(d.y));
     states[3] = uvec4(bits_of(d.z), 0u, 0u);
     states[4] = uvec4(0u);
-    states[5] = uvec4(0u);
+    states[LOG_CONE] = uvec4(0u);
     if (HAS_FOOTPRINT)
-        states[5] = uvec4(floatBitsToUint(camera_cone(d)), 0u, 0u);
+        states[LOG_CONE] = uvec4(floatBitsToUint(camera_cone(d)), 0u, 0u);
+    states[LOG_INSIDE] = camera_media().a;
+    states[LOG_INSIDE + 1] = camera_media().b;
 }
 
 hit_record load_hit(uint at) {
@@ -69,7 +75,7 @@ uint material_of(hit_record hit) {
 }
 
 void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
-    pixels[at + 5u] = uvec4(floatBitsToUint(cone), 0u, 0u);
+    pixels[at + LOG_CONE] = uvec4(floatBitsToUint(cone), 0u, 0u);
     write3(at, start.at, uvec2(0u, start.left));
     write3(at + 2u, direction, bits_of(start.slack));
     pixels[at + 4u] = uvec4(bits_of(start.b1), bits_of(start.b2));
@@ -78,6 +84,8 @@ void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
 void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     scatter_rays rays = scatter(ray.direction, s);
     uint flags = (s.enters ? LOG_ENTERS : 0u) | (rays.total ? LOG_TOTAL : 0u);
+    if (HAS_MEDIA)
+        flags |= (s.passes ? LOG_PASSES : 0u) | (s.is_over ? LOG_NESTED : 0u);
     pixels[at + 2u] = uvec4(0u, 0u, flags, pixels[at + 2u].w);
     pixels[at + 3u] = uvec4(0u, 0u, 0u, material_of(hit));
     write3(at + 4u, s.point, uvec2(floatBitsToUint(rays.reflection), floatBitsToUint(rays.refraction)));
@@ -88,8 +96,14 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
         mirrored = mirrored_cone(s, ray.cone);
         bent = bent_cone(s, ray.cone, ray.direction, rays.bent);
     }
-    write_ray(at + 10u, leave(s, hit, s.geometric), reflected(ray.direction, s), mirrored);
-    write_ray(at + 10u + LOG_RAY_WORDS, leave(s, hit, -s.geometric), rays.bent, bent);
+    write_ray(at + LOG_REFLECTED, leave(s, hit, s.geometric), reflected(ray.direction, s), mirrored);
+    write_ray(at + LOG_REFRACTED, leave(s, hit, -s.geometric), rays.bent, bent);
+    vec3 left = vec3(1.0);
+    if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION))
+        left = media_left(ray.inside, hit.t);
+    pixels[at + LOG_LEFT] = uvec4(floatBitsToUint(left), 0u);
+    pixels[at + LOG_AFTER] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.a : uvec4(0u);
+    pixels[at + LOG_AFTER + 1u] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.b : uvec4(0u);
 }
 
 void add_to_log(uint at, vec3 value) {
@@ -128,15 +142,20 @@ void main() {
         if (before.item == NO_ITEM)
             return;
         make_surface(before, ray.start.at, ray.direction, s);
+        cross_surface(ray.inside, before, s);
         start = leave(s, before, s.geometric);
         shadow = light_at(kind - LOG_LIGHTS, s, start.at, ray.direction);
         hit.t = shadow.t_max;
         aim = aim_at(kind - LOG_LIGHTS, shadow);
-        if (shadow.value == vec3(0.0))
+        if (shadow.value == vec3(0.0) || (HAS_MEDIA && s.passes))
             return;
     }
     bool ended = true, blind = states[index * LOG_RAY_WORDS + 1u].z == LOG_BLIND;
-    if (lights ? (HAS_SHADOWS && wants(FEATURE_SHADOWS)) : !blind)
+    vec3 left = vec3(1.0);
+    if (lights && shines()) {
+        left = shine_all(start, kind - LOG_LIGHTS, shadow, ray.inside, ended);
+        hit.item = left != vec3(0.0) ? NO_ITEM : 0u;
+    } else if (lights ? (HAS_SHADOWS && wants(FEATURE_SHADOWS)) : !blind)
         ended = trace(start, aim, lights, hit);
     bool nothing = hit.item == NO_ITEM;
     if (lights) {
@@ -144,7 +163,7 @@ void main() {
         uint light = kind - LOG_LIGHTS, bit = light < 32u ? 1u << light : 0u;
         pixels[at + 2u] = uvec4(found.x | bit, nothing ? found.y | bit : found.y, found.z, found.w + (ended ? 0u : 1u));
         if (nothing)
-            add_to_log(at, shadow.value);
+            add_to_log(at, shines() ? shadow.value * left : shadow.value);
         return;
     }
     pixels[at] = uvec4(bits_of(hit.t), bits_of(hit.b1));
@@ -154,6 +173,7 @@ void main() {
         pixels[at + 3u] = uvec4(floatBitsToUint(background(vec3(ray.direction))), LOG_NOTHING);
     } else {
         make_surface(hit, ray.start.at, ray.direction, s);
+        cross_surface(ray.inside, hit, s);
         write_surface(at, ray, hit, s);
     }
 }

@@ -13,8 +13,9 @@ const uint LOW_WORD = STATE64_WORDS;
 #else
 const uint LOW_WORD = STATE_WORDS;
 #endif
-const uint CONE_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u);
-const uint PATH_WORDS = CONE_WORD + ((FEATURES & FEATURE_FOOTPRINT) != 0u ? 1u : 0u);
+const uint CONE_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u) + (HAS_MEDIA ? MEDIA_WORDS : 0u) +
+                       (HAS_CLEAR_SHADOWS ? SHINE_WORDS : 0u);
+const uint PATH_WORDS = CONE_WORD + (HAS_FOOTPRINT ? 1u : 0u);
 // Words of a slot after those of its path: which tree and instance, group, number of what was hit; t, b1; b2, item, size of
 // the stack; what a search of triangles knows of its errors; then two entries of the stack a word.
 const uint LONG_STACK_WORD = LONG_RAY_WORDS;

@@ -33,6 +33,19 @@ REAL3 cross3(REAL3 a, REAL3 b) {
 
 REAL3 unit3(REAL3 v) { return v * (1.0 / sqrt(dot3(v, v))); }
 
+// The larger and the smaller number, where none may be NaN: lavapipe's own take three instructions, for NaN.
+#ifdef FETCH_TEXELS
+float LARGER(float a, float b) { return a > b ? a : b; }
+float SMALLER(float a, float b) { return a < b ? a : b; }
+#ifdef DOUBLE_PRECISION
+double LARGER(double a, double b) { return a > b ? a : b; }
+double SMALLER(double a, double b) { return a < b ? a : b; }
+#endif
+#else
+#define LARGER(a, b)  max(a, b)
+#define SMALLER(a, b) min(a, b)
+#endif
+
 REAL largest3(REAL3 v) { return max(v.x, max(v.y, v.z)); }
 
 // Bits, because a compiler may take NaN and infinity for absent.

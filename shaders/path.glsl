@@ -18,6 +18,9 @@ struct path_state {
     vec3 light_sum; // over the lights before
     vec3 light_low; // with HAS_MANY_LIGHTS: what rounding dropped of it
     uint stack_size;
+    media_set inside; // with HAS_MEDIA
+    vec3 tint;        // what attenuation has left of each channel
+    shining shine;    // with HAS_CLEAR_SHADOWS: of the light `light`
 };
 
 path_state begin_path(REAL3 direction) {
@@ -37,5 +40,25 @@ path_state begin_path(REAL3 direction) {
     p.light_sum = vec3(0.0);
     p.light_low = vec3(0.0);
     p.stack_size = 0u;
+    if (HAS_MEDIA)
+        p.inside = camera_media();
+    p.tint = vec3(1.0);
+    p.shine.goes_on = false;
     return p;
+}
+
+// What a path adds to its pixel: `value` as attenuation leaves it.
+vec3 tinted(path_state p, vec3 value) {
+    vec3 result = value * p.throughput;
+    if (HAS_ATTENUATION)
+        result = value * p.tint * p.throughput;
+    return result;
+}
+
+// The greatest part that a channel of its light has in the pixel.
+float greatest_part(path_state p, float throughput) {
+    float greatest = throughput;
+    if (HAS_ATTENUATION)
+        greatest = throughput * max(p.tint.x, max(p.tint.y, p.tint.z));
+    return greatest;
 }

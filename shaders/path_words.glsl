@@ -7,6 +7,65 @@ const uint BRANCHES_WORD = PATH_WORDS + LONG_WORDS; // the first of those rays
 // traced at once (at_once.glsl): then only paths that are saved have one.
 uint state_word(uint place, uint word) { return word * dispatch.places + place; }
 
+// ---- what a path is inside, and that of the refracted rays that wait
+
+const uint MEDIA_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u);
+const uint SHINE_WORD = MEDIA_WORD + (HAS_MEDIA ? MEDIA_WORDS : 0u);
+const uint MEDIA_BRANCH_WORDS = HAS_MEDIA ? MEDIA_WORDS : 0u;
+
+void put_media(uint slot, uint word, media_set inside, vec3 tint) {
+    states[state_word(slot, word)] = inside.a;
+    states[state_word(slot, word + 1u)] = inside.b;
+    states[state_word(slot, word + 2u)] = uvec4(floatBitsToUint(tint), 0u);
+}
+
+void get_media(uint slot, uint word, inout path_state p) {
+    p.inside = media_set(states[state_word(slot, word)], states[state_word(slot, word + 1u)]);
+    p.tint = uintBitsToFloat(states[state_word(slot, word + 2u)].xyz);
+}
+
+// Numbers of the kernel's precision, two to a word.
+uvec4 two_reals(REAL a, REAL b) { return uvec4(bits_of(a), bits_of(b)); }
+
+void put_shine(uint slot, shining way) {
+    ray_start start = way.start;
+    states[state_word(slot, SHINE_WORD)] = way.inside.a;
+    states[state_word(slot, SHINE_WORD + 1u)] = way.inside.b;
+    states[state_word(slot, SHINE_WORD + 2u)] = uvec4(floatBitsToUint(way.left), way.goes_on ? 1u : 0u);
+    states[state_word(slot, SHINE_WORD + 3u)] = two_reals(start.at.x, start.at.y);
+    states[state_word(slot, SHINE_WORD + 4u)] = two_reals(start.at.z, start.slack);
+    states[state_word(slot, SHINE_WORD + 5u)] = two_reals(start.b1, start.b2);
+    states[state_word(slot, SHINE_WORD + 6u)] = uvec4(start.left, 0u, 0u, 0u);
+}
+
+shining get_shine(uint slot) {
+    uvec4 left = states[state_word(slot, SHINE_WORD + 2u)];
+    uvec4 c = states[state_word(slot, SHINE_WORD + 3u)], d = states[state_word(slot, SHINE_WORD + 4u)];
+    uvec4 e = states[state_word(slot, SHINE_WORD + 5u)];
+    ray_start start = ray_start(REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)), number_of(d.zw),
+                                states[state_word(slot, SHINE_WORD + 6u)].x, number_of(e.xy), number_of(e.zw));
+    media_set inside = media_set(states[state_word(slot, SHINE_WORD)], states[state_word(slot, SHINE_WORD + 1u)]);
+    return shining(left.w != 0u, start, uintBitsToFloat(left.xyz), inside);
+}
+
+void put_path_media(uint slot, path_state p) {
+    if (HAS_MEDIA)
+        put_media(slot, MEDIA_WORD, p.inside, p.tint);
+    if (HAS_CLEAR_SHADOWS)
+        put_shine(slot, p.shine);
+}
+
+void get_path_media(uint slot, inout path_state p) {
+    p.tint = vec3(1.0);
+    p.shine.goes_on = false;
+    if (HAS_MEDIA)
+        get_media(slot, MEDIA_WORD, p);
+    if (HAS_CLEAR_SHADOWS)
+        p.shine = get_shine(slot);
+}
+
+// ---- the rest of it
+
 vec3 get_low(uint slot) {
     vec3 low = vec3(0.0);
     if (HAS_MANY_LIGHTS)
@@ -27,7 +86,7 @@ RAY_CONE get_cone(uint slot, uint word) {
 }
 
 #ifdef DOUBLE_PRECISION
-const uint BRANCH_WORDS = STACK64_ENTRY_WORDS + (HAS_FOOTPRINT ? 1u : 0u);
+const uint BRANCH_WORDS = STACK64_ENTRY_WORDS + (HAS_FOOTPRINT ? 1u : 0u) + MEDIA_BRANCH_WORDS;
 
 // Two numbers in a word, the third in the next with two more components.
 void put_real3(uint slot, uint word, dvec3 v, uvec2 more) {
@@ -71,6 +130,7 @@ path_state load_path(uint slot) {
     p.cone = get_cone(slot, CONE_WORD);
     p.light = w5.w;
     p.hit = hit_record(hit.x, hit.y, hit.z, c.x, c.y);
+    get_path_media(slot, p);
     return p;
 }
 
@@ -93,7 +153,7 @@ void get_branch(uint slot, uint word, inout path_state p) {
     p.depth = more.y;
 }
 #else
-const uint BRANCH_WORDS = STACK_ENTRY_WORDS + (HAS_FOOTPRINT ? 1u : 0u);
+const uint BRANCH_WORDS = STACK_ENTRY_WORDS + (HAS_FOOTPRINT ? 1u : 0u) + MEDIA_BRANCH_WORDS;
 
 uvec4 left_word(ray_start start) {
     return uvec4(floatBitsToUint(vec3(start.slack, start.b1, start.b2)), start.left);
@@ -134,6 +194,7 @@ path_state load_path(uint slot) {
     p.hit = hit_record(uintBitsToFloat(w4.x), uintBitsToFloat(w4.y), uintBitsToFloat(w4.z), w4.w, w5.x);
     p.stack_size = w5.y;
     p.kind = w5.z;
+    get_path_media(slot, p);
     return p;
 }
 
@@ -199,6 +260,7 @@ bool save_path(bool resumes, uint place, uint path, path_state p) {
     if (AT_ONCE && place == NO_PLACE)
         return false;
     put_path(place, p, AT_ONCE ? path : 0u);
+    put_path_media(place, p);
     if (AT_ONCE)
         save_waiting(place, p.stack_size);
     if (HAS_MANY_LIGHTS)
@@ -223,6 +285,17 @@ void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction
     p.stack_size++;
 }
 
+// The media of the ray that was pushed last.
+void push_media(uint slot, path_state p, media_set inside) {
+    uint word = BRANCHES_WORD + BRANCH_WORDS * p.stack_size - MEDIA_BRANCH_WORDS;
+#ifndef FETCH_TEXELS
+    if (AT_ONCE)
+        waiting_media[p.stack_size - 1u] = waiting_medium(inside, p.tint);
+#endif
+    if (!AT_ONCE)
+        put_media(slot, word, inside, p.tint);
+}
+
 void pop_branch(uint slot, inout path_state p) {
     p.stack_size--;
 #ifndef FETCH_TEXELS
@@ -231,5 +304,7 @@ void pop_branch(uint slot, inout path_state p) {
 #endif
     if (!AT_ONCE)
         get_branch(slot, BRANCHES_WORD + BRANCH_WORDS * p.stack_size, p);
+    if (HAS_MEDIA && !AT_ONCE)
+        get_media(slot, BRANCHES_WORD + BRANCH_WORDS * (p.stack_size + 1u) - MEDIA_BRANCH_WORDS, p);
     p.kind = RAY_REFRACTED;
 }

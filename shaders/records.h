@@ -133,17 +133,17 @@
 #define BODY_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                        \
     UINT(first_triangle, 0, x, 0, x)                                                                         \
     UINT(normal_base, 0, y, 0, y)                                                                            \
-    UINT(instance, 0, z, 0, z)    /* whose mesh the normals are of; 0: they are the body's own */            \
-    UINT(coordinates, 0, w, 0, w) /* of its mesh in PAINTS (gpu_scene.h) */                                  \
-    REAL3(row_x, 1, 1)            /* of a parallelogram: the lengths of its edges */                         \
+    UINT(instance, 0, z, 0, z) /* whose mesh the normals are of; 0: they are the body's own */               \
+    UINT(medium, 0, w, 0, w)   /* as MEDIUM_BITS says; 0: it is none */                                      \
+    REAL3(row_x, 1, 1)         /* of a parallelogram: the lengths of its edges */                            \
     REAL(offset_x, 1, w, 2, zw)                                                                              \
     REAL3(row_y, 2, 3)                                                                                       \
     REAL(offset_y, 2, w, 4, zw)                                                                              \
     REAL3(row_z, 3, 5)                                                                                       \
     REAL(offset_z, 3, w, 6, zw)
 
-#define MATERIAL_WORDS   4
-#define MATERIAL64_WORDS 5
+#define MATERIAL_WORDS   5
+#define MATERIAL64_WORDS 6
 #define MATERIAL_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                    \
     FLOAT(weight_diffuse, 0, x, 0, x)                                                                        \
     FLOAT(weight_specular, 0, y, 0, y)                                                                       \
@@ -153,8 +153,10 @@
     FLOAT(exponent, 1, w, 1, w)                                                                              \
     FLOAT3(specular, 2, 2)                                                                                   \
     REAL(index, 2, w, 4, xy)                                                                                 \
-    FLOAT3(second, 3, 3)    /* colour of the checker's odd cells */                                          \
-    REAL(cell, 3, w, 4, zw) /* 0: no checker */
+    FLOAT3(second, 3, 3)     /* colour of the checker's odd cells */                                         \
+    REAL(cell, 3, w, 4, zw)  /* 0: no checker */                                                             \
+    FLOAT3(absorption, 4, 5) /* per flat unit: exp(-absorption * way) is left of light */                    \
+    UINT(fresnel, 4, w, 5, w)
 
 /* How a material shows an image; the rows take the coordinates of a surface (u, v, 1) to those of the image.
  */

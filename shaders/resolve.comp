@@ -24,7 +24,7 @@ void main() {
     uint slot = group * TILE_PIXELS + gl_LocalInvocationID.x, slots = dispatch.tile_count * TILE_PIXELS;
     if (slot >= slots)
         return;
-    uvec2 pixel = pixel_of_slot(slot);
+    uvec2 pixel = pixel_in_order(slot);
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     uvec4 sum = dispatch.sample_index > OPAQUE_ZERO ? sums[slot] : uvec4(0u);

@@ -34,6 +34,14 @@ const bool HAS_BACKGROUND_IMAGE = (FEATURES & FEATURE_BACKGROUND_IMAGE) != 0u;
 const bool HAS_DEPTH_BLACK = (FEATURES & FEATURE_DEPTH_BLACK) != 0u;
 const bool HAS_SLICES = (FEATURES & FEATURE_SLICES) != 0u;
 const bool HAS_MANY_LIGHTS = (FEATURES & FEATURE_MANY_LIGHTS) != 0u;
+const bool BEGINS = (FEATURES & FEATURE_BEGINS) != 0u;
+const bool HAS_MEDIA = (FEATURES & FEATURE_MEDIA) != 0u;
+const bool HAS_ATTENUATION = (FEATURES & FEATURE_ATTENUATION) != 0u; // only with HAS_MEDIA
+const bool HAS_FRESNEL = (FEATURES & FEATURE_FRESNEL) != 0u;
+const bool HAS_CLEAR_SHADOWS = (FEATURES & FEATURE_CLEAR_SHADOWS) != 0u;
+const bool HAS_TEXTURES = (FEATURES & FEATURE_TEXTURES) != 0u;
+const bool HAS_FOOTPRINT = (FEATURES & FEATURE_FOOTPRINT) != 0u;
+const bool HAS_SIDES = HAS_MEDIA || HAS_FRESNEL; // surfaces know the indices on both sides
 const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 // Of this invocation, with HAS_COUNTERS.
 uint counted_nodes = 0u, counted_items = 0u;

@@ -1,6 +1,11 @@
 // What a hit is made of: point, error, normals, colours (docs/language.md, "Hit" and "Checker").
 
-#include "paint.glsl"
+#include "paint/paint.glsl"
+
+// Which media a ray is inside: media.glsl.
+struct media_set {
+    uvec4 a, b;
+};
 
 struct surface {
     REAL3 point;
@@ -17,6 +22,13 @@ struct surface {
     REAL index;
     float bend;  // with HAS_FOOTPRINT: how fast the normal turns along it, positive where it bulges to the viewer
     float width; // and how wide the ray's cone is
+    bool fresnel;
+    uint body;
+    // Of a ray that comes from a place inside certain media (media.glsl).
+    REAL index_before, index_after;
+    media_set after; // what it is inside once it is through
+    bool passes;     // it goes on unseen: nothing changes here
+    bool is_over;    // it would be inside more than MEDIA_MOST
 };
 
 bool is_odd(REAL cells) { return cells - 2.0 * floor(cells * 0.5) != 0.0; }
@@ -69,6 +81,9 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
     s.exponent = material.exponent;
     s.reflection = material.weight_reflection;
     s.refraction = material.weight_refraction;
+    if (HAS_FRESNEL)
+        s.fresnel = material.fresnel != 0u;
+    s.body = body;
 }
 
 // The cone's width where it meets a surface, and the axes of the footprint there.
@@ -91,7 +106,9 @@ void triangle_spot(triangle_record triangle, hit_record hit, REAL2 along, inout 
         a = weights_along(edge1, edge2, spot.axis_along);
         b = weights_along(edge1, edge2, spot.axis_across);
     }
-    uint coordinates = load_body(triangle.body).coordinates;
+    uint coordinates = 0u;
+    if (HAS_TEXTURES && wants(FEATURE_TEXTURES))
+        coordinates = component_of(FETCH(paints, frame.coordinates_table + triangle.body / 4u), triangle.body);
     if (is_half)
         half_spot((triangle.shade & TRIANGLE_SECOND_HALF) != 0u, along, a, b, spot);
     else if (HAS_TEXTURES && coordinates != 0u)

@@ -24,6 +24,7 @@
 #include "lights.glsl"
 #include "background.glsl"
 #include "bounce.glsl"
+#include "media.glsl"
 #include "path.glsl"
 #include "path_words.glsl"
 
@@ -105,6 +106,7 @@ void taint(inout path_state p, bool exists, REAL3 v, float throughput) {
 
 // Whether a child ray of this throughput is followed; one cut by depth is, to see the background.
 bool is_followed(path_state p, float throughput) {
+    throughput = greatest_part(p, throughput);
     bool heavy = throughput > 0.0 && throughput >= frame.min_weight;
     bool last = p.depth == frame.max_depth;
     count_cut(heavy && last, throughput > 0.0 && !heavy, throughput);
@@ -122,6 +124,10 @@ bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_st
     if (HAS_BRANCHES && back && through)
         push_branch(slot, p, start_through, rays.bent, HAS_FOOTPRINT ? bent_cone(s, p.cone, p.direction, rays.bent) : p.cone,
                     throughput * rays.refraction, p.depth + 1u);
+    if (HAS_MEDIA && HAS_BRANCHES && back && through)
+        push_media(slot, p, s.after);
+    if (HAS_MEDIA && !back)
+        p.inside = s.after;
     if (HAS_FOOTPRINT)
         p.cone = back ? mirrored_cone(s, p.cone) : bent_cone(s, p.cone, p.direction, rays.bent);
     p.start = start;
@@ -148,7 +154,7 @@ void write_sample(uint path, path_state p, uint fault) {
     pixels[path] = after;
 #ifndef FETCH_TEXELS
     if (AT_ONCE && dispatch.shows > OPAQUE_ZERO)
-        show(pixel_of_slot(path), after);
+        show(pixel_in_order(path), after);
 #endif
 }
 
@@ -189,17 +195,28 @@ uint take_hit(inout path_state p, hit_record hit) {
     return hit.item == NO_ITEM ? MISSED : GOES_ON;
 }
 
-// What a shadow ray hit: nothing lets the light through.
-void take_light(inout path_state p, hit_record hit, light_ray shadow) {
-    if (hit.item == NO_ITEM)
-        add_light(shadow.value, p.light_sum, p.light_low);
-    p.light++;
+// What a shadow ray hit. Nothing lets the light through, unless what refracts does.
+void take_light(inout path_state p, ray_start start, hit_record hit, light_ray shadow) {
+    bool arrives = hit.item == NO_ITEM, goes_on = false;
+    vec3 value = shadow.value;
+    if (HAS_CLEAR_SHADOWS && shines()) {
+        shining way = p.shine;
+        if (!p.shine.goes_on)
+            way = shine_from(start, p.inside);
+        goes_on = shine_on(way, hit, shadow);
+        value = shadow.value * way.left;
+        p.shine = way;
+        p.shine.goes_on = goes_on;
+    }
+    if (arrives)
+        add_light(value, p.light_sum, p.light_low);
+    p.light += goes_on ? 0u : 1u;
 }
 
 // All lights of a surface are in: on with the rays that it sends.
 uint leave_surface(uint slot, inout path_state p, surface s, ray_start start) {
     ray_start start_through = leave(s, p.hit, -s.geometric);
-    p.radiance += p.light_sum * p.throughput;
+    p.radiance += tinted(p, p.light_sum);
     p.hit.item = NO_ITEM;
     return send_rays(slot, p, s, start, start_through) ? GOES_ON : ENDED;
 }
@@ -250,7 +267,7 @@ bool decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray sh
         start = p.start;
     else
         aim = aim_at(p.light, shadow);
-    return retrace_triangles(start, aim, doubts, !own, hit, iterations);
+    return retrace_triangles(start, aim, doubts, !own && !shines(), hit, iterations);
 }
 
 // The same at once: GOES_ON with what the ray hits, or SUSPENDED. `sphere`: what it hits without triangles.
@@ -275,7 +292,41 @@ uint go_on(uint slot, inout path_state p, surface s, ray_start start, inout uint
         phase = PHASE_RAY;
         state = leave_surface(slot, p, s, start);
     }
+    if (HAS_CLEAR_SHADOWS && found && p.shine.goes_on)
+        shadow.direction = shine_direction(p.shine, load_light(p.light), shadow);
     return state;
+}
+
+// Where a ray starts: the path's own; a shadow ray at the surface, or behind what its light shines through.
+ray_start ray_from(path_state p, bool own, ray_start start) {
+    if (HAS_CLEAR_SHADOWS && p.shine.goes_on)
+        start = p.shine.start;
+    if (own)
+        start = p.start;
+    return start;
+}
+
+// The media on both sides of a surface that the path's ray came to, and what is left of its light.
+uint come_to_surface(inout path_state p, bool arrives, inout surface s) {
+    REAL way = p.hit.t;
+    if (HAS_MEDIA || HAS_FRESNEL)
+        cross_surface(p.inside, p.hit, s);
+    if (HAS_ATTENUATION && arrives && wants(FEATURE_ATTENUATION))
+        p.tint *= media_left(p.inside, way);
+    if (HAS_MEDIA && s.is_over) {
+        p.radiance = vec3(uintBitsToFloat(0x7fc00000u));
+        p.hit.number = FAULT_NESTED;
+    }
+    return HAS_MEDIA && s.is_over ? STOPPED : GOES_ON;
+}
+
+// Straight on behind a surface that nobody sees.
+void pass_surface(inout path_state p, surface s) {
+    p.start = leave(s, p.hit, -s.geometric);
+    p.inside = s.after;
+    if (HAS_FOOTPRINT)
+        p.cone.x = s.width;
+    p.hit.item = NO_ITEM;
 }
 
 // What the ray of a phase hit; the surface of the path's own one, or of one that was found before.
@@ -284,11 +335,12 @@ uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, in
     if (phase == PHASE_RAY)
         state = take_hit(p, hit);
     if (phase == PHASE_SHADOW)
-        take_light(p, hit, shadow);
+        take_light(p, start, hit, shadow);
     if (state == GOES_ON && phase != PHASE_SHADOW) {
         if (HAS_FOOTPRINT)
             surface_cone = p.cone;
         make_surface(p.hit, p.start.at, p.direction, s);
+        state = come_to_surface(p, phase == PHASE_RAY, s);
         taint(p, true, s.point + s.shading, 0.0);
         start = leave(s, p.hit, s.geometric);
     }
@@ -306,7 +358,12 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
         count_ray(p, phase == PHASE_RAY);
     if (state == GOES_ON)
         state = arrive(p, phase, hit, shadow, s, start);
-    if (state == GOES_ON)
+    bool passes = HAS_MEDIA && state == GOES_ON && s.passes && phase != PHASE_SHADOW;
+    if (passes) {
+        pass_surface(p, s);
+        phase = PHASE_RAY;
+    }
+    if (state == GOES_ON && !passes)
         state = go_on(slot, p, s, start, phase, shadow, iterations, fault);
     return state;
 }
@@ -314,7 +371,7 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
 // A chain of rays that ended: its background, and a refracted ray that waits.
 void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase) {
     if (state == MISSED)
-        p.radiance += background(vec3(p.direction)) * p.throughput;
+        p.radiance += tinted(p, background(vec3(p.direction)));
     if (HAS_BRANCHES && (state == MISSED || state == ENDED) && p.stack_size > 0u) {
         pop_branch(slot, p);
         state = GOES_ON;
@@ -323,10 +380,10 @@ void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase
 }
 
 // Follows a path until it ends, or until its slice does. A ray that is open is decided after the inner loop on lavapipe, which
-// runs every branch for every ray; within it on a GPU, whose lanes would wait for all others.
+// runs every branch for every ray; within it on a GPU, whose lanes would wait for all others. A kernel in which paths begin
+// (BEGINS) saves the path before such a ray.
 uint follow(uint slot, inout path_state p, inout uint fault) {
-    uint iterations = 0u, state = GOES_ON;
-    uint phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
+    uint iterations = 0u, state = GOES_ON, phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
     bool fresh = true, decided = false; // no ray was finished in this slice; the ray is
     surface s;
     ray_start start = exact_start(REAL3(0.0)); // of shadow rays
@@ -338,24 +395,23 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             iterations += SEGMENT_ITERATIONS;
             bool own = phase == PHASE_RAY;
             bool wanted = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
-            bool traced = wanted && !decided;
+            bool traced = wanted && (BEGINS || !decided);
             if (HAS_SLICES && traced && is_late(fresh, iterations)) {
                 state = SUSPENDED;
                 break;
             }
             hit_record hit = hit_record(!traced ? -FAR_AWAY : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
-            ray_start from = start;
-            if (own)
-                from = p.start;
+            ray_start from = ray_from(p, own, start);
             hit_record sphere = hit;
-            bool open = trace_ray(from, own ? p.direction : shadow.direction, traced, !own, hit, sphere, doubts, iterations);
+            REAL3 to = own ? p.direction : shadow.direction;
+            bool open = trace_ray(from, to, traced, !own && !shines(), hit, sphere, doubts, iterations);
             if (HAS_LONG_RAYS && long_stopped != TREE_NONE) {
                 state = SUSPENDED;
                 break;
             }
 #ifdef FETCH_TEXELS
             if (HAS_TRIANGLES && traced && open) {
-                state = room_for_exact(fresh, iterations);
+                state = BEGINS ? SUSPENDED : room_for_exact(fresh, iterations);
                 held = sphere;
                 rough = hit;
                 if (state != GOES_ON)
@@ -363,18 +419,18 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
             }
 #else
             if (HAS_TRIANGLES && traced && open)
-                state = decide_here(p, own, start, shadow, doubts, sphere, fresh, hit, iterations);
+                state = decide_here(p, own, from, shadow, doubts, sphere, fresh, hit, iterations);
             if (state == SUSPENDED)
                 break;
 #endif
-            if (decided)
+            if (!BEGINS && decided)
                 hit = held;
             decided = false;
             state = arrive_and_go_on(slot, p, wanted, hit, s, start, phase, shadow, iterations, fresh, fault);
         } while (state == GOES_ON);
 #ifdef FETCH_TEXELS
-        if (HAS_TRIANGLES && state == UNDECIDED) {
-            if (!decide_exactly(p, phase == PHASE_RAY, start, shadow, doubts, held, iterations))
+        if (HAS_TRIANGLES && !BEGINS && state == UNDECIDED) {
+            if (!decide_exactly(p, phase == PHASE_RAY, ray_from(p, false, start), shadow, doubts, held, iterations))
                 held = rough;
             decided = true;
             state = GOES_ON;
@@ -387,8 +443,16 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
 
 void main() {
     uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
-    uint index = dispatch.path_begin + group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    bool resumes = HAS_SLICES && dispatch.resume > OPAQUE_ZERO;
+    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+#ifndef FETCH_TEXELS
+    if (dispatch.spread > OPAQUE_ZERO) {
+        if (index % dispatch.spread != 0u)
+            return;
+        index /= dispatch.spread;
+    }
+#endif
+    index += dispatch.path_begin;
+    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
     if (index >= dispatch.path_end)
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
@@ -400,11 +464,15 @@ void main() {
             path = saved_number(place);
         else if (dispatch.restarts > OPAQUE_ZERO)
             path = counters[COUNTER_COUNT + 2u * dispatch.places + index];
+        else
+            path = path_of(index, dispatch.tile_count * TILE_PIXELS);
         slot = path % (dispatch.tile_count * TILE_PIXELS);
         sample_number = path / (dispatch.tile_count * TILE_PIXELS);
     }
-#endif
+    uvec2 pixel = AT_ONCE ? pixel_in_order(slot) : pixel_of_slot(slot);
+#else
     uvec2 pixel = pixel_of_slot(slot);
+#endif
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
     path_state p;

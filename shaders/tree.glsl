@@ -12,7 +12,7 @@ struct tree_ray {
     uint flip4;   // in each byte
 #ifdef INSTANCES
     REAL3 pad;    // how much earlier and later than its planes a box begins and ends
-    REAL begin;   // least t of what is of interest
+    REAL begin;   // what its t counts from
 #endif
 };
 
@@ -48,7 +48,6 @@ struct node_frame {
     vec3 base, scale;
 #ifdef INSTANCES
     vec3 far_base;
-    float begin;
 #endif
     float t_max, t_min; // all t less that of entering the node
     float slack;
@@ -60,24 +59,18 @@ struct node_frame {
     vec3 base, scale;
 #ifdef INSTANCES
     vec3 far_base;
-    float begin;
 #endif
     float t_max;
 };
-#ifdef INSTANCES
-#define NODE_BEGIN(f)    f.begin
-#else
 #define NODE_BEGIN(f)    0.0
-#endif
 #define NODE_LEAVE(f, t) (t * BOX_FAR_SCALE)
 #endif
 
 // The larger and the smaller of two floats, by their bits: lavapipe's own take three instructions, for NaN. Of two
-// negative ones they give the wrong one, which no box notices where rays begin at 0; in an instance's tree they may begin
-// before.
-#if defined(DOUBLE_PRECISION) || defined(INSTANCES)
-#define MOST(a, b)  max(a, b)
-#define LEAST(a, b) min(a, b)
+// negative ones they give the wrong one, which no box notices because rays begin at 0.
+#ifdef DOUBLE_PRECISION
+#define MOST(a, b)  LARGER(a, b)
+#define LEAST(a, b) SMALLER(a, b)
 #else
 #define MOST(a, b)  intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)))
 #define LEAST(a, b) intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)))
@@ -108,9 +101,10 @@ node_frame make_node_frame(node_record node, tree_ray ray, bvec3 up, REAL t_max)
 #ifdef INSTANCES
     f.far_base = f.base + ray.pad;
     f.base -= ray.pad;
-    f.begin = ray.begin;
-#endif
+    f.t_max = t_max - ray.begin;
+#else
     f.t_max = t_max;
+#endif
 #endif
     return f;
 }

@@ -94,10 +94,28 @@ ray_doubts no_doubts() { return ray_doubts(false, NO_ITEM, NO_ITEM); }
 
 // Two such triangles are noted: a corner may have more, and then all are looked at once more.
 void note_near(uint item, inout triangle_search search) {
-    bool is_full = HAS_LONG_RAYS || search.near_b != NO_ITEM;
+    bool is_full = HAS_LONG_RAYS || BEGINS || search.near_b != NO_ITEM;
     search.doubt = is_full ? 0.0 : search.doubt;
+    if (BEGINS)
+        return;
     search.near_b = search.near_a != NO_ITEM ? item : search.near_b;
     search.near_a = search.near_a == NO_ITEM ? item : search.near_a;
+}
+
+// Most triangles of a leaf are passed by, and often by all lanes of a GPU's subgroup. lavapipe runs every branch.
+#if defined(FETCH_TEXELS) || defined(DOUBLE_PRECISION) || defined(ALTERNATIVES)
+#define LEAVE_IF(condition)
+#else
+#define LEAVE_IF(condition)                                                                                  \
+    if (condition)                                                                                           \
+        return;
+#endif
+
+// Bound of the error of u, v and w, where no corner is farther than this from the ray.
+REAL edge_error(REAL x_most, REAL y_most, REAL z_most, REAL slack) {
+    REAL delta_x = GAMMA_5 * (x_most + z_most) + 2.0 * slack;
+    REAL delta_y = GAMMA_5 * (y_most + z_most) + 2.0 * slack;
+    return 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
 }
 
 // `there`: whether the item is one.
@@ -114,22 +132,21 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     REAL v = ax * cy - ay * cx;
     REAL w = bx * ay - by * ax;
     REAL det = u + v + w;
-    REAL highest = max(max(u, v), w), lowest = min(min(u, v), w);
+    REAL highest = LARGER(LARGER(u, v), w), lowest = SMALLER(SMALLER(u, v), w);
     bool inside = there && (highest <= 0.0 || lowest >= 0.0) && det != 0.0;
+    REAL x_most = LARGER(LARGER(abs(ax), abs(bx)), abs(cx));
+    REAL y_most = LARGER(LARGER(abs(ay), abs(by)), abs(cy));
+    REAL z_most = LARGER(LARGER(abs(a.z), abs(b.z)), abs(c.z));
+    REAL delta_e = edge_error(x_most, y_most, z_most, search.slack);
+    LEAVE_IF(!(highest <= delta_e || lowest >= -delta_e || inside))
     REAL inverse = 1.0 / det;
     REAL t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
-    REAL x_most = max(max(abs(ax), abs(bx)), abs(cx));
-    REAL y_most = max(max(abs(ay), abs(by)), abs(cy));
-    REAL z_most = max(max(abs(a.z), abs(b.z)), abs(c.z));
-    REAL delta_x = GAMMA_5 * (x_most + z_most) + 2.0 * search.slack;
-    REAL delta_y = GAMMA_5 * (y_most + z_most) + 2.0 * search.slack;
-    REAL delta_e = 2.0 * (GAMMA_2 * x_most * y_most + delta_y * x_most + delta_x * y_most);
     // t is a mean of the vertices' z: an error of its weights moves it by their spread at most. Seen edge-on, it
     // may be anywhere among them.
-    REAL z_low = min(min(a.z, b.z), c.z) * ray.sz, z_high = max(max(a.z, b.z), c.z) * ray.sz;
-    REAL first = min(z_low, z_high), last = max(z_low, z_high);
+    REAL z_low = SMALLER(SMALLER(a.z, b.z), c.z) * ray.sz, z_high = LARGER(LARGER(a.z, b.z), c.z) * ray.sz;
+    REAL first = SMALLER(z_low, z_high), last = LARGER(z_low, z_high);
     bool edge_on = !(abs(det) > 3.0 * delta_e);
-    t = edge_on ? clamp(t, first, last) : t;
+    t = edge_on ? SMALLER(LARGER(t, first), last) : t;
     REAL delta_z = (6.0 * GAMMA_3 * z_most + search.slack) * abs(ray.sz);
     REAL delta_t = delta_z + (edge_on ? last - first : (last - first) * (3.0 * delta_e * abs(inverse)));
     bool starts_before = (edge_on ? first - delta_z : t - delta_t) > 0.0;
@@ -145,8 +162,8 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     bool possible = there && (highest <= delta_e || lowest >= -delta_e);
     bool start_open = possible && !starts_before && !starts_behind && item != search.left && MEETS_BOX(triangle, ray);
     bool order_open = inside && starts_before && abs(t - hit.t) <= delta_t + search.wrong;
-    search.doubt = order_open ? min(search.doubt, min(t, hit.t)) : search.doubt;
-    bool edge_open = possible && starts_before && lowest <= delta_e && highest >= -delta_e;
+    search.doubt = order_open ? SMALLER(search.doubt, SMALLER(t, hit.t)) : search.doubt;
+    bool edge_open = !BEGINS && possible && starts_before && lowest <= delta_e && highest >= -delta_e;
     search.edge = edge_open ? min(search.edge, edge_on ? first - delta_z : t - delta_t) : search.edge;
     if (start_open)
         note_near(item, search);
@@ -163,52 +180,57 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
 }
 
 #if defined(DOUBLE_PRECISION) && !defined(INSTANCES) && !defined(NO_OUTLINES)
+#define HAS_OUTLINES
 #include "misses.glsl"
-#ifdef FETCH_TEXELS
-#define OUTLINES_WAIT
-
-// Items of a node, as bits counted from `first`.
-void test_kept(inout uint kept, uint first, bool any, inout triangle_search search, inout hit_record hit,
-               inout uint iterations) {
-    do {
-        uint bit = kept & (0u - kept);
-        iterations += bit != 0u ? 1u : 0u;
-        kept ^= bit;
-        test_triangle(first + (floatBitsToUint(float(int(bit))) >> 23u) - 127u, bit != 0u, search, hit);
-        if (any && hit.item != NO_ITEM)
-            kept = 0u;
-    } while (kept != 0u);
-}
-#endif
+#define OUTLINES_MAKE(search) outline_ray outline = make_outline_ray(search);
 #define SKIP_MISSED(item)                                                                                    \
     if (misses(item, outline, search.ray))                                                                   \
         continue;
-#define OUTLINES_MAKE(search) outline_ray outline = make_outline_ray(search);
 #else
 #define OUTLINES_MAKE(search)
 #define SKIP_MISSED(item)
 #endif
 
-// With OUTLINES_WAIT nodes are searched until one has triangles that are not rejected, which are tested then. On lavapipe a
-// lane that has left a loop keeps what it had only through a branch: one that is always taken.
-#ifdef OUTLINES_WAIT
-#define OUTLINES_BEGIN(search)                                                                               \
+// On lavapipe nodes are searched until one has items to be tested, and these are tested then, by all lanes that have
+// some at once (docs/decisions/kernel.md). A lane that has left a loop keeps what it had only through a branch: one that
+// is always taken.
+#ifdef FETCH_TEXELS
+#define ITEMS_WAIT
+// Items of a node, as bits counted from `first`.
+void test_kept(inout uint kept, uint first, bool any, inout triangle_search search, inout hit_record hit,
+               inout uint iterations) {
+    do {
+        uint bit = kept & (0u - kept);
+        bool there = bit != 0u;
+        iterations += there ? 1u : 0u;
+#ifndef HAS_OUTLINES
+        if (HAS_COUNTERS)
+            counted_items += there ? 1u : 0u;
+#endif
+        kept ^= bit;
+        uint item = first + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
+        test_triangle(INSTANCE_ITEM(item), there, search, hit);
+        if (any && hit.item != NO_ITEM)
+            kept = 0u;
+    } while (kept != 0u);
+}
+#define KEPT_BEGIN(search)                                                                                   \
     OUTLINES_MAKE(search)                                                                                    \
     uint kept = 0u, kept_first = 0u;                                                                         \
     do {
-#define OUTLINES_NODE if (iterations < ITERATION_LIMIT) {
+#define KEPT_NODE if (iterations < ITERATION_LIMIT) {
 #define TEST_ITEM(item, bit, there) kept |= there && !misses(item, outline, search.ray) ? bit : 0u;
-#define OUTLINES_END(first)                                                                                  \
+#define KEPT_END(first)                                                                                      \
     kept_first = kept != 0u ? first : kept_first;                                                            \
     }                                                                                                        \
     }                                                                                                        \
-    while (more && kept == 0u && iterations < TRAVERSAL_LIMIT)                                               \
+    while (more && kept == 0u && INSTANCE_SEEN && iterations < TRAVERSAL_LIMIT)                              \
         ;                                                                                                    \
     test_kept(kept, kept_first, any, search, hit, iterations);                                               \
-    more = has_nodes(group) && !(any && hit.item != NO_ITEM);
+    more = more && !(any && hit.item != NO_ITEM);
 #else
-#define OUTLINES_BEGIN(search) OUTLINES_MAKE(search)
-#define OUTLINES_NODE
+#define KEPT_BEGIN(search) OUTLINES_MAKE(search)
+#define KEPT_NODE
 #define TEST_ITEM(item, bit, there)                                                                          \
     SKIP_MISSED(item)                                                                                        \
     test_triangle(INSTANCE_ITEM(item), there, search, hit);                                                  \
@@ -216,7 +238,7 @@ void test_kept(inout uint kept, uint first, bool any, inout triangle_search sear
         items = 0u;                                                                                          \
         more = false;                                                                                        \
     }
-#define OUTLINES_END(first)
+#define KEPT_END(first)
 #endif
 
 // What the search leaves open.
@@ -239,20 +261,23 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
     STACK_RESUME(TRIANGLE_STACK, TREE_TRIANGLES, group)
     LONG_TAKE(search.wrong, search.doubt)
     INSTANCES_BEGIN(ray, start, direction, group)
-    OUTLINES_BEGIN(search)
+    KEPT_BEGIN(search)
     do {
         INSTANCE_NEXT(ray, start, direction)
-        OUTLINES_NODE
+        KEPT_NODE
         iterations += 2u; // this loop, and the inner one where no lane enters it
         if (HAS_COUNTERS)
             counted_nodes++;
-        node_record node = load_triangle_node(next_node(group, ray.flip));
+        node_record node = load_triangle_node(NODE_AT(group, ray));
         uint hits = node_hits(node, ray, hit.t + search.wrong);
         uvec2 found = uvec2(node.first_node, (hits & 0xff000000u) | (node.exponents >> 24u)), rest = group;
         INSTANCE_FOUND(node, found)
         STACK_NEXT(TRIANGLE_STACK, group, rest, found, more)
         INSTANCE_LEFT(ray, group)
         uint items = hits & 0x00ffffffu;
+#if defined(ITEMS_WAIT) && !defined(HAS_OUTLINES)
+        kept = items;
+#else
         WHILE(items != 0u && iterations < ITERATION_LIMIT)
             uint bit = items & (0u - items);
             bool there = IS_WANTED(bit != 0u);
@@ -264,9 +289,10 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
             TEST_ITEM(item, bit, there)
         END_WHILE(items != 0u && iterations < ITERATION_LIMIT)
-        OUTLINES_END(node.first_item)
+#endif
+        KEPT_END(node.first_item)
     } while (more && INSTANCE_SEEN && iterations < TRAVERSAL_LIMIT);
-    INSTANCES_END(more, iterations, TRAVERSAL_LIMIT)
+    INSTANCES_END(group, more, iterations, TRAVERSAL_LIMIT)
     STACK_SUSPEND(TRIANGLE_STACK, TREE_TRIANGLES, group, more)
     LONG_KEEP(search.wrong, search.doubt)
     doubts = doubts_of(search, hit);

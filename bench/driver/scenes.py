@@ -1,5 +1,6 @@
 """The scenes of bench/run: what they are made of, in which sizes and settings they are traced, and by whom."""
 
+import math
 import os
 import re
 
@@ -92,17 +93,20 @@ def knot(name, triangles):
     return lambda place: mesh_scene(place, *made(place, name, "knot", str(triangles)))
 
 
-def copies(place):
-    """A thousand models of one mesh, on a grid, each turned."""
+def copies(place, count=1000):
+    """So many models of one mesh, on a grid, each turned."""
     folder = os.path.dirname(place.asset("seed", "venus-mesh.obj"))
-    path = place.file("scenes", "venus-1000.glint.yaml")
+    path = place.file("scenes", f"venus-{count}.glint.yaml")
+    side = math.ceil(count ** (1 / 3) - 1e-9)
+    middle, far = (side - 1) / 2, side / 10
     with open(path, "w", encoding="utf-8") as file:
         file.write(
-            "glint: 1\nimage: {width: 1024, height: 768}\ncamera: {position: [0, 14, 34], look_at: [0, 0, 0], fov: 50}\n"
-            "background: {color: 0.2}\nlights: [{position: [30, 60, 40]}]\nmodels:\n"
+            "glint: 1\nimage: {width: 1024, height: 768}\n"
+            f"camera: {{position: [0, {14 * far:g}, {34 * far:g}], look_at: [0, 0, 0], fov: 50}}\n"
+            f"background: {{color: 0.2}}\nlights: [{{position: [{30 * far:g}, {60 * far:g}, {40 * far:g}]}}]\nmodels:\n"
         )
-        for i in range(1000):
-            x, y, z = i % 10 - 4.5, i // 10 % 10 - 4.5, i // 100 - 4.5
+        for i in range(count):
+            x, y, z = i % side - middle, i // side % side - middle, i // side**2 - middle
             file.write(
                 f"  - {{mesh: venus-mesh.obj, scale: 1.2, rotation: [0, {37 * i % 360}, 0], "
                 f"translation: [{3 * x}, {2.4 * y}, {3 * z}]}}\n"
@@ -157,6 +161,8 @@ SCENES = [
     Scene("knot-10m", "a displaced knot of 10 M triangles", knot("knot-10m", 10000000), mesh_groups(), OWN),
     Scene("venus-1000", "1000 models of one mesh of 31 398 triangles", copies,
           [Group("frame", ["single", "baked", "instances"])], ["warm", "instances"]),
+    Scene("venus-3200", "3200 of them: 100 M triangles", lambda place: copies(place, 3200),
+          [Group("frame", ["single", "instances"])], ["warm", "instances"]),
 ]
 
 

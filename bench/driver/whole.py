@@ -48,26 +48,34 @@ class Glint(Job):
             self.once()  # fills the cache
 
     def command(self, *more):
-        words = [self.program, "render", self.scene, "-o", self.out, "-q", "--stats=json", *self.group.options(), *more]
+        words = [self.program, "render", self.scene, "-o", self.out, "-q", *self.group.options(), *more]
         words += ["--asset-path", self.assets] if self.assets else []
         return words + (["--device", self.place.device] if self.place.device else [])
 
     def measured(self, folder, *more):
-        one = run(self.command(*more), cached(folder))
-        text = one["text"]
+        return run(self.command(*more), cached(folder))
+
+    def parts(self, folder):
+        """Of a run of its own: counting rays and the audit are not what a picture costs."""
+        text = run(self.command("--stats=json"), cached(folder))["text"]
         stats = json.loads(text[text.index("{"):])
-        one["parts"] = {key: stats["times"][key] for key in PARTS}
-        one["facts"] = {key: stats[key] for key in ("scene_bytes", "triangles", "precision", "device")}
+        facts = {key: stats[key] for key in ("scene_bytes", "triangles", "precision", "device")}
+        return {key: stats["times"][key] for key in PARTS}, facts
+
+    def whole(self, folder, other):
+        one = self.measured(folder)
+        one["parts"], one["facts"] = self.parts(other)
         return one
 
     def once(self):
         if self.name != "cold":
-            return self.measured(self.folder)
-        folder = tempfile.mkdtemp(dir=os.path.dirname(self.folder))
+            return self.whole(self.folder, self.folder)
+        folders = [tempfile.mkdtemp(dir=os.path.dirname(self.folder)) for _ in range(2)]
         try:
-            return self.measured(folder)
+            return self.whole(*folders)
         finally:
-            shutil.rmtree(folder)
+            for folder in folders:
+                shutil.rmtree(folder)
 
 
 class Peer(Job):
@@ -201,6 +209,6 @@ def encoding(place, scene, assets, sizes, rounds):
     for size in sizes:
         one = Glint(place, "warm", scene, assets, Group("encoding", [], size))
         one.prepare()
-        runs = [one.once() for _ in range(rounds)]
-        found.append({"size": size, "seconds": spread([r["parts"]["encode_s"] for r in runs])})
+        runs = [one.parts(one.folder)[0] for _ in range(rounds)]
+        found.append({"size": size, "seconds": spread([parts["encode_s"] for parts in runs])})
     return found

@@ -124,6 +124,8 @@ static void change_all(struct variant *v, const struct change *c) {
     }
     for (uint32_t i = 0; i < v->scene.material_count / 2; i++)
         v->scene.materials[i].cell *= c->factor;
+    for (uint32_t i = 0; i < v->scene.material_count; i++)
+        v->scene.materials[i].absorption = vec3_mul(v->scene.materials[i].absorption, 1 / c->factor);
     change_bodies(v, c);
     make_view(v);
 }

@@ -1,15 +1,14 @@
 #include "picture/read/read_jpeg.h"
 
 #include "core/heap.h"
+#include "picture/read/jpeg_blocks.h"
 
 #include <errno.h>
 #include <setjmp.h>
-#include <stdio.h> // which jpeglib.h needs
 #include <stdlib.h>
 #include <string.h>
 
 #include <jerror.h>
-#include <jpeglib.h>
 
 enum marker {
     MARKER_SOF0 = 0xC0,
@@ -173,6 +172,7 @@ const char *picture_jpeg_header(str bytes, struct picture_header *out) {
 // ---- pixels, by libjpeg-turbo
 
 struct job {
+    struct jpeg_blocks blocks; // first: the decoder's client_data points to both
     struct jpeg_decompress_struct decoder;
     struct jpeg_error_mgr errors;
     jmp_buf jump;
@@ -271,6 +271,7 @@ static void read_rows(str bytes, struct job *job) {
     j_decompress_ptr decoder = &job->decoder;
     const struct picture_header *header = job->header;
     jpeg_create_decompress(decoder);
+    jpeg_blocks_use(decoder, &job->blocks);
     jpeg_mem_src(decoder, (const unsigned char *)bytes.ptr, bytes.len);
     // No header can make the library keep more than was counted.
     decoder->mem->max_memory_to_use = (long)header->decoder_bytes;
@@ -313,6 +314,7 @@ const char *picture_jpeg_rows(str bytes, const struct picture_header *header, st
     errno = 0;
     read_guarded(bytes, &job);
     jpeg_destroy_decompress(&job.decoder);
+    jpeg_blocks_finish(&job.blocks);
     free(job.inks);
     return job.fault;
 }

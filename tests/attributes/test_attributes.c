@@ -117,7 +117,9 @@ static bool change(const struct bench *b, const struct use *use, void *field) {
         return true;
     case SCHEMA_INTEGER: {
         int32_t *value = field;
-        *value = row->range == SCHEMA_RANGE_DEPTH ? (*value > 1 ? 1 : 6) : *value + 1;
+        *value = row->range == SCHEMA_RANGE_DEPTH      ? (*value > 1 ? 1 : 6)
+                 : row->range == SCHEMA_RANGE_PRIORITY ? (*value > 0 ? -1000 : 1000)
+                                                       : *value + 1;
         return schema_in_range(row->range, *value);
     }
     case SCHEMA_NUMBER:
@@ -395,6 +397,32 @@ static bool all_proven(const struct bench *b) {
     return true;
 }
 
+static void write_row(const struct schema_element *schema, void *element, const char *row) {
+    ((struct ir_head *)element)->written |= UINT64_C(1) << schema_find_row(schema, str_from(row));
+}
+
+// What few random scenes have: two balls of different glass that overlap where the camera looks.
+static void overlap_glass(struct ir_scene *scene) {
+    const struct ir_camera *camera = scene->cameras.items;
+    if (scene->cameras.count == 0 || camera->view != IR_VIEW_LOOK_AT || scene->spheres.count < 2 ||
+        scene->materials.count < 2 || !scene->materials.items[0].name.len ||
+        !scene->materials.items[1].name.len)
+        return;
+    const double size = 0.3 * vec3_length(vec3_sub(camera->look_at, camera->position));
+    for (uint32_t i = 0; i < 2; i++) {
+        struct ir_sphere *ball = &scene->spheres.items[i];
+        struct ir_material *glass = &scene->materials.items[i];
+        ball->center = vec3_add(camera->look_at, (vec3){i ? 0.5 * size : 0, i ? 0.4 * size : 0, 0});
+        ball->radius = 0.8 * size;
+        ball->material = (struct ir_material_ref){glass->name, i};
+        glass->albedo = (struct ir_weights){.specular = 0.3, .reflection = 0.1, .refraction = 0.9};
+        glass->refractive_index = i ? 1.6 : 1.2;
+        write_row(&SCHEMA_SPHERE, ball, "material");
+        write_row(&SCHEMA_MATERIAL, glass, "albedo");
+        write_row(&SCHEMA_MATERIAL, glass, "refractive_index");
+    }
+}
+
 static void try_seed(struct bench *b, uint64_t seed) {
     static const str meshes[] = {{"octahedron.obj", sizeof "octahedron.obj" - 1}};
     static const str materials[] = {{"Gold", 4}, {"Rest", 4}};
@@ -406,6 +434,8 @@ static void try_seed(struct bench *b, uint64_t seed) {
                                              .mesh_materials = {materials, 2}};
     arena_init(&b->arena, (size_t)1 << 30);
     b->scene = generate_scene(&options, &b->arena);
+    if (seed % 2)
+        overlap_glass(b->scene);
     for (uint32_t i = 0; i < b->count; i++)
         b->uses[i].tries = 0;
     try_rows(b, &SCHEMA_SCENE, b->scene);

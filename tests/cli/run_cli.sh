@@ -95,6 +95,12 @@ printf 'v 0 0 0\nv 1 0\nf 1 2 3\n' >broken.obj
 expect "a broken mesh shows itself alone" 1 - 'broken.obj:2:1: error: .v. needs three numbers' "$glint" check broken.obj
 cp err.txt broken.txt
 expect "and no scene that no one wrote" 1 - - grep -q 'mesh:' broken.txt
+# However many cameras and bodies there are, each camera is looked at.
+awk 'BEGIN { print "glint: 1\nlights: [{position: [0, 99, 0]}]\ncameras:"; for (i = 1; i <= 7100; i++) printf "  c%d: {position: [%d, 0, 0]}\n", i, i
+             print "spheres:"; for (i = 1; i <= 7100; i++) printf "  - {center: [%d, 9, 0], radius: 0.25}\n", i
+             print "  - {center: [7100, 0, 0], radius: 0.25}" }' >cameras.yaml
+expect "the last of many cameras is inside a body" 1 - "camera 'c7100' is inside" "$glint" check cameras.yaml --fail-on warning --only W402
+rm cameras.yaml
 # Glass behind a wall, and before both more needles than a ray may try: what was not tried may hide the glass.
 awk 'BEGIN { print "v -1 -1 0"; for (i = 0; i <= 17000; i++) printf "v 1 %.6f 0\n", 1 + i * 1e-5
              for (i = 2; i <= 17001; i++) print "f 1", i, i + 1 }' >comb.obj

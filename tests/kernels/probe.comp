@@ -19,6 +19,9 @@
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
+#include "lights.glsl"
+#include "bounce.glsl"
+#include "media.glsl"
 #include "trace_all.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;

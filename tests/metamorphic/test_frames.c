@@ -1,8 +1,9 @@
 // How a frame is made does not show in it: bands, slices, a frame cancelled before, and the part of the
 // picture that is asked for.
 //
-// Usage: test_frames SCENE [storage], a scene in which paths branch and none is deeper than 20 levels by
-// weight. With `storage` the device traces as GPUs do: samples at once, which must not show either.
+// Usage: test_frames SCENE [storage] [saved], a scene in which paths branch and none is deeper than 20 levels
+// by weight. With `storage` the device traces as GPUs do: samples at once, which must not show either. With
+// `saved` only what saves paths is tested.
 #include "shaders/features.h"
 #include "shaders/frame.h"
 #include "tests/pictures/picture_kit.h"
@@ -76,15 +77,15 @@ static void test_cancel(struct frames *f) {
     struct stage stage;
     struct image whole, image;
     struct render_statistics statistics;
-    if (!open_stage(f, &stage, 96, 72, 3))
+    if (!open_stage(f, &stage, 64, 48, 3))
         return;
     stage.shot.settings.slice_iterations = 40; // many dispatches, so that many places can be cancelled
-    stage.shot.settings.dispatch_paths = 2000; // the same places each time
+    stage.shot.settings.dispatch_paths = 900;  // the same places each time
     bool good = apply(&stage) && take(&stage, &whole, &statistics) && picture_variety(&whole) > 1000;
     expect(f, good && statistics.slices > 10, "a frame of many slices");
     struct countdown all = {.left = 1 << 30, .ordered = true};
     const struct render_progress watch = {count_down, &all};
-    good = image_init(&image, 96, 72) && shot_take(&stage.shot, &image, &watch, &statistics) == SHOT_OK;
+    good = image_init(&image, 64, 48) && shot_take(&stage.shot, &image, &watch, &statistics) == SHOT_OK;
     expect(f, good && all.ordered && all.last == 1, "progress rises from 0 to 1");
     expect(f, picture_differences(&whole, &image, "watched") == 0, "watching does not change it");
     for (int left = 0; good && left < all.calls; left += 1 + left / 2) {
@@ -109,18 +110,17 @@ static void test_bands(struct frames *f) {
     struct image one = {0}, many = {0}, deep = {0}, counted = {0};
     struct render_statistics of_one = {0}, of_many = {0}, of_deep = {0};
     struct render_rays rays = {0};
-    if (!open_stage(f, &stage, 320, 240, 2))
+    if (!open_stage(f, &stage, 96, 72, 2))
         return;
     stage.shot.settings.min_weight = 0.01;
     stage.shot.settings.max_depth = 20;
     bool good = apply(&stage) && take(&stage, &one, &of_one);
-    stage.shot.settings.band_tiles = 500; // a GPU has room for all of this picture at once
+    stage.shot.settings.band_tiles = 45; // a GPU has room for all of this picture at once
     good = apply(&stage) && take(&stage, &many, &of_many) && good;
     stage.shot.settings.max_depth = 64;
     good = apply(&stage) && take(&stage, &deep, &of_deep) && good;
     good = good && renderer_count(stage.shot.renderer, &stage.shot.view.camera, NULL, &rays) == RENDER_DONE;
-    expect(f, good && rays.deepest < 20 && rays.primary == (uint64_t)320 * 240 * 2,
-           "no path needs more depth");
+    expect(f, good && rays.deepest < 20 && rays.primary == (uint64_t)96 * 72 * 2, "no path needs more depth");
     expect(f, of_one.bands == 1 && of_many.bands > 1 && of_deep.bands > 1, "one band, and several");
     expect(f, good && picture_differences(&one, &many, "bands") == 0, "bands do not show");
     expect(f, good && picture_differences(&one, &deep, "deep") == 0, "room for deeper paths does not show");
@@ -162,6 +162,30 @@ static void test_slices(struct frames *f) {
     close_stage(&stage);
 }
 
+// Where texels are fetched a path begins in a kernel without the second search, and goes on in another one
+// from a ray that is open. A frame that counts has all in one.
+static void test_open_rays(struct frames *f) {
+    struct stage stage;
+    struct image first = {0}, parted = {0}, whole = {0};
+    struct render_statistics of_parted = {0}, of_whole = {0};
+    if (!open_stage(f, &stage, 320, 240, 1))
+        return;
+    bool good = take(&stage, &first, &of_whole);
+    expect(f, of_whole.slices == 0, "a picture that is made once does with one kernel");
+    good = take(&stage, &parted, &of_parted) && good;
+    stage.shot.settings.counts = true;
+    good = apply(&stage) && take(&stage, &whole, &of_whole) && good;
+    expect(f, good && picture_differences(&parted, &whole, "parted") == 0,
+           "where a ray is searched for a second time does not show");
+    expect(f, of_whole.slices == 0, "no path is saved where one kernel has all");
+    expect(f, gpu_fetches_texels(f->kit.gpu) ? of_parted.slices == 1 : of_parted.slices == 0,
+           "paths with an open ray go on in a kernel of their own where code costs time");
+    image_finish(&first);
+    image_finish(&parted);
+    image_finish(&whole);
+    close_stage(&stage);
+}
+
 // Dispatches of few paths at a time, whose numbers are no multiples of anything.
 static void test_pieces(struct frames *f) {
     static const uint32_t sizes[] = {64, 1000, 1937};
@@ -189,13 +213,13 @@ static void test_pieces(struct frames *f) {
 // More samples than are traced at once, and fewer places for saved paths than paths that are saved: those
 // that find none begin once more.
 static void test_at_once(struct frames *f) {
-    static const uint32_t places[] = {1, 100, 3000};
+    static const uint32_t places[] = {1, 4, 75};
     const uint32_t samples = SAMPLES_AT_ONCE + 6;
     struct stage stage;
     struct image whole, image;
     struct render_statistics statistics;
     struct render_rays rays, again;
-    if (!open_stage(f, &stage, 40, 24, 1))
+    if (!open_stage(f, &stage, 6, 4, 1))
         return;
     stage.shot.settings.samples = samples;
     bool good = apply(&stage) && take(&stage, &whole, &statistics) && statistics.samples == samples &&
@@ -223,15 +247,15 @@ static void test_at_once(struct frames *f) {
 // With sizes that are powers of two, half the field is the middle of the whole field without a rounding.
 static void test_crop(struct frames *f) {
     enum {
-        WIDTH = 2048,
-        HEIGHT = 1024
+        WIDTH = 512,
+        HEIGHT = 256
     };
     struct stage large, small;
     struct image whole, middle, cut = {0};
     struct render_statistics statistics;
     if (!open_stage(f, &large, WIDTH, HEIGHT, 1))
         return;
-    large.shot.settings.band_tiles = 16384;
+    large.shot.settings.band_tiles = 1024;
     bool good = apply(&large) && take(&large, &whole, &statistics);
     expect(f, good && statistics.bands > 1, "a picture of several bands");
     good = open_stage(f, &small, WIDTH / 2, HEIGHT / 2, 1) && good;
@@ -274,6 +298,12 @@ static void test_segments(struct frames *f) {
 
 // ---- frames that end early
 
+enum {
+    LIMITED_WIDTH = 64,
+    LIMITED_HEIGHT = 48,
+    LIMITED_MIDDLE = 3 * (LIMITED_HEIGHT / 2 * LIMITED_WIDTH + LIMITED_WIDTH / 2) // of its floats
+};
+
 // Ends the frame after `samples`, or at call number `calls` between dispatches.
 struct limiting {
     uint32_t samples, calls;
@@ -285,7 +315,7 @@ static bool goes_on(void *context, uint32_t samples, const float *rgb) {
     struct limiting *l = context;
     if (samples == 1) {
         l->has_picture = true;
-        memcpy(l->first, rgb + 3 * (36 * 96 + 48), sizeof l->first);
+        memcpy(l->first, rgb + LIMITED_MIDDLE, sizeof l->first);
     }
     return samples < l->samples;
 }
@@ -302,15 +332,15 @@ static void test_limits(struct frames *f, uint32_t band_tiles) {
     struct render_statistics statistics;
     bool good = true;
     uint32_t within = 0;
-    if (!open_stage(f, &stage, 96, 72, 1))
+    if (!open_stage(f, &stage, LIMITED_WIDTH, LIMITED_HEIGHT, 1))
         return;
-    stage.shot.settings.dispatch_paths = 2000;
+    stage.shot.settings.dispatch_paths = 400;
     stage.shot.settings.band_tiles = band_tiles;
     for (uint32_t n = 1; n <= 4; n++) {
         stage.shot.settings.samples = n;
         good = apply(&stage) && take(&stage, &of[n - 1], &statistics) && statistics.samples == n && good;
     }
-    good = image_init(&image, 96, 72) && good;
+    good = image_init(&image, LIMITED_WIDTH, LIMITED_HEIGHT) && good;
     for (uint32_t k = 0; good && k < 20; k++) {
         struct limiting l = {.samples = k < 4 ? k + 1 : 9, .calls = k < 4 ? UINT32_MAX : k - 4};
         const struct render_limit limit = {goes_on, runs_out, &l};
@@ -318,7 +348,7 @@ static void test_limits(struct frames *f, uint32_t band_tiles) {
                statistics.samples >= 1 && statistics.samples <= 4 &&
                (k >= 4 || statistics.samples == k + 1) &&
                picture_differences(&of[statistics.samples - 1], &image, "ended early") == 0 &&
-               (!l.has_picture || memcmp(l.first, of[0].rgb + 3 * (36 * 96 + 48), sizeof l.first) == 0);
+               (!l.has_picture || memcmp(l.first, of[0].rgb + LIMITED_MIDDLE, sizeof l.first) == 0);
         within += k >= 4 && statistics.samples < 4;
     }
     expect(f, good && within > 3, "a frame that ends early is that of fewer samples");
@@ -352,22 +382,33 @@ static void test_first_sample(struct frames *f) {
     close_stage(&stage);
 }
 
+static void test_whole_frames(struct frames *f) {
+    test_cancel(f);
+    test_bands(f);
+    test_crop(f);
+    test_segments(f);
+    test_limits(f, 0);
+    test_limits(f, 20);
+    test_first_sample(f);
+}
+
 int main(int argc, char **argv) {
     struct frames f = {.path = argc > 1 ? argv[1] : NULL};
     if (argc < 2)
         return 2;
-    if (!(argc > 2 ? picture_kit_open_as_gpu(&f.kit) : picture_kit_open(&f.kit)))
+    bool storage = false, saved = false;
+    for (int i = 2; i < argc; i++) {
+        storage = storage || strcmp(argv[i], "storage") == 0;
+        saved = saved || strcmp(argv[i], "saved") == 0;
+    }
+    if (!(storage ? picture_kit_open_as_gpu(&f.kit) : picture_kit_open(&f.kit)))
         return 77;
-    test_cancel(&f);
-    test_bands(&f);
     test_slices(&f);
+    test_open_rays(&f);
     test_pieces(&f);
     test_at_once(&f);
-    test_crop(&f);
-    test_segments(&f);
-    test_limits(&f, 0);
-    test_limits(&f, 48);
-    test_first_sample(&f);
+    if (!saved)
+        test_whole_frames(&f);
     uint32_t messages = picture_kit_close(&f.kit);
     expect(&f, messages == 0, "the validation layer is silent");
     return f.failed != 0;

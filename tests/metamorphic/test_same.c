@@ -1,7 +1,8 @@
 // What makes no difference: frames repeated, trees of other shapes, workgroups of other sizes, models that
 // share a mesh. The picture has the same bytes, in single and in double precision.
 //
-// Usage: test_same REPEATS SCENE...
+// Usage: test_same REPEATS [storage] SCENE... With `storage` the device traces as GPUs do; only instances are
+// then compared with copies.
 #include "app/precision.h"
 #include "tests/pictures/picture_kit.h"
 
@@ -14,7 +15,14 @@ enum {
     HEIGHT = 72,
 };
 
+// Of instances, for one of copies, where there are at least so many instances: among a few, boxes of the
+// meshes count.
+#define NODES_MOST     1.25
+#define INSTANCES_MANY 8
+
 struct bench {
+    bool as_gpu;
+    uint64_t nodes; // that the rays of the same scene opened in copies, with leaves of one
     struct picture_kit kit;
     struct session session;
     struct view view;
@@ -45,6 +53,16 @@ static void expect(struct bench *b, bool good, const char *path, bool is_double,
     b->failed += !good;
 }
 
+// Rays of instances go through the boxes of two trees, but leaves of the upper one are not opened.
+static void check_nodes(struct bench *b, const struct variant *variant, const struct flat_scene *flat,
+                        uint64_t nodes) {
+    if (variant->sharing == FLAT_COPIES)
+        b->nodes = nodes;
+    else if (flat->instance_count >= INSTANCES_MANY)
+        expect(b, nodes > 0 && (double)nodes < NODES_MOST * (double)b->nodes, variant->name, flat->is_double,
+               "opens few more nodes than copies");
+}
+
 static bool shares_mesh(const struct scene *scene) {
     for (uint32_t i = 0; i < scene->body_count; i++)
         for (uint32_t k = 0; k < i; k++)
@@ -72,6 +90,7 @@ static bool render(struct bench *b, const struct variant *variant, bool is_doubl
     settings.height = HEIGHT;
     settings.samples = 1;
     settings.workgroup = variant->workgroup;
+    settings.counts = variant->method == BVH_SAH_SINGLES;
     struct renderer *renderer = renderer_create(b->kit.gpu, &flat, &settings);
     bool good = renderer && image_init(&image, WIDTH, HEIGHT);
     for (int i = 0; good && i < count; i++) {
@@ -79,6 +98,8 @@ static bool render(struct bench *b, const struct variant *variant, bool is_doubl
         if (good && first->rgb)
             good = picture_differences(first, &image, variant->name) == 0;
     }
+    if (good && settings.counts && !b->as_gpu)
+        check_nodes(b, variant, &flat, statistics.rays.nodes);
     if (good && !first->rgb)
         *first = image;
     else if (renderer)
@@ -102,6 +123,8 @@ static void check_scene(struct bench *b, const char *path, int repeats) {
         bool good = render(b, &variants[0], is_double, 1, &first);
         expect(b, good && picture_variety(&first) > 100, path, is_double, "shows something");
         for (size_t i = 0; good && i < sizeof variants / sizeof *variants; i++) {
+            if (b->as_gpu && variants[i].sharing == FLAT_COPIES)
+                continue;
             bool same = render(b, &variants[i], is_double, i == 0 ? repeats : 1, &first);
             expect(b, same, path, is_double, variants[i].name);
         }
@@ -114,9 +137,10 @@ int main(int argc, char **argv) {
     struct bench b = {0};
     if (argc < 3)
         return 2;
-    if (!picture_kit_open(&b.kit) || b.kit.by_reference)
+    b.as_gpu = strcmp(argv[2], "storage") == 0;
+    if (!(b.as_gpu ? picture_kit_open_as_gpu(&b.kit) : picture_kit_open(&b.kit)) || b.kit.by_reference)
         return 77;
-    for (int i = 2; i < argc; i++)
+    for (int i = 2 + b.as_gpu; i < argc; i++)
         check_scene(&b, argv[i], (int)strtol(argv[1], NULL, 10));
     uint32_t messages = picture_kit_close(&b.kit);
     return b.failed || messages;

@@ -72,6 +72,8 @@ static bool take(struct picture_kit *kit, struct session *session, const struct 
                 shot_take(&shot, image, NULL, &statistics) == SHOT_OK && session->sink.errors == 0;
     if (!good)
         fprintf(stderr, "%.*s: %s\n", STR_ARG(session->options.path), gpu_error(kit->gpu));
+    if (options->was_double)
+        *options->was_double = shot.flat.is_double;
     shot_close(&shot);
     return good;
 }

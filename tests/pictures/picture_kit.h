@@ -13,6 +13,7 @@ struct picture_options {
     const char *asset_path;                              // NULL: none
     void (*edit)(struct ir_scene *scene, void *context); // changes the scene after it was loaded; may be NULL
     void *context;
+    bool *was_double; // set to whether the device traced in double precision; may be NULL
 };
 
 struct picture_kit {

@@ -78,7 +78,19 @@ json pick 0 "$glint" pick scene.yaml 8,8 --format json
 json pick_mesh 0 "$glint" pick scene.yaml 14,8 --format json
 json pick_off 0 "$glint" pick far.yaml 12,8 --format json
 json pick_image 0 "$glint" pick "$source/scenes/language/paint.glint.yaml" 98,90 --device reference --format json
-by_schema pick pick.json pick_image.json pick_mesh.json pick_off.json pick_reference.json
+# Inside of two coloured bodies.
+cat >media.yaml <<'S'
+glint: 1
+image: {width: 24, height: 16}
+camera: {position: [0, 0, 6]}
+background: {color: [0.3, 0.5, 0.8]}
+materials:
+  glass: {albedo: [0, 0, 0.1, 0.9], refractive_index: 1.5, priority: 1, attenuation_color: [0.5, 1, 0.5]}
+  water: {albedo: [0, 0, 0.1, 0.9], refractive_index: 1.3, attenuation_color: [0.5, 0.5, 1]}
+spheres: [{center: [0, 0, 0], radius: 1, material: glass}, {center: [0.5, 0, 0], radius: 1, material: water}]
+S
+json pick_media 0 "$glint" pick media.yaml 12,8 --format json
+by_schema pick pick.json pick_mesh.json pick_off.json pick_reference.json pick_media.json pick_image.json
 
 json tradeoff 0 "$glint" tradeoff scene.yaml --format json --budget 5 -q --max-error mae=0.5 --max-time 10000
 json tradeoff_none 1 "$glint" tradeoff scene.yaml --format json --budget 1 -q --max-time 0.000001

@@ -24,6 +24,12 @@ void word_generate(struct mesh *mesh);
 // A vase turned from a profile, 1.35 high, with a wall, standing on y = 0; 16 sides, no normals.
 void vase_generate(struct mesh *mesh);
 
+// A drinking glass, 1 high, with a thick bottom, standing on y = 0; what is in it, whose wall lies in the
+// middle of the glass's own; and a cube of ice around the origin. The first two have 48 sides and no normals.
+void tumbler_generate(struct mesh *mesh);
+void drink_generate(struct mesh *mesh);
+void ice_generate(struct mesh *mesh);
+
 // Equirectangular sky, mountains and lake: width * height RGB bytes (sRGB), width twice the height.
 // The caller frees the result; NULL: out of memory.
 unsigned char *sky_generate(int width, int height);

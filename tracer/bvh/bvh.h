@@ -64,7 +64,8 @@ enum {
 // leaves. Returns how many.
 uint32_t bvh_first_bounds(const struct bvh *bvh, struct bvh_bounds out[BVH_BOUNDS_MOST]);
 // Over a tree whose leaves have one item each (BVH_SAH_SINGLES): the same tree with a node in place of each
-// leaf. What item i becomes is leaves[i], NODE_WORDS each. false: no memory.
+// leaf. What item i becomes is leaves[i], NODE_WORDS each. The first item of a node is then the mask of its
+// slots that had leaves. false: no memory.
 bool bvh_open_leaves(struct bvh *bvh, const struct gpu_word *leaves);
 // Adds to what its nodes call the first child and the first item.
 void bvh_move(struct bvh *bvh, uint32_t nodes, uint32_t items);

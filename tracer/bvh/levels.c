@@ -96,6 +96,8 @@ static void open_node(struct opening *o, uint32_t number) {
         assert(is_inner(old, slot) || before >> 5 == 1);
         o->old[o->count++] =
             is_inner(old, slot) ? inner++ : LEAF | o->from->order[old[1].y + (before & OFFSET_MASK)];
+        if (!is_inner(old, slot))
+            node[1].y |= 1u << slot;
         meta[slot / 4] |= (INNER + (uint32_t)slot) << (slot % 4 * 8);
         node[0].w |= 1u << (24 + slot);
     }

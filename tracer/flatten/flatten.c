@@ -146,9 +146,9 @@ static enum flatten_fault choose_scale(struct flattening *f) {
 static enum flatten_fault run(struct flattening *f) {
     typedef enum flatten_fault step(struct flattening *);
     static step *const steps[] = {
-        flatten_count,        choose_scale,      flatten_share,   make_triangles,
-        flatten_instances,    make_spheres,      flatten_normals, flatten_paints,
-        flatten_body_records, flatten_materials, flatten_lights,  flatten_background,
+        flatten_count,     choose_scale,    flatten_share,      make_triangles,  flatten_instances,
+        make_spheres,      flatten_normals, flatten_paints,     flatten_media,   flatten_body_records,
+        flatten_materials, flatten_lights,  flatten_background, flatten_bounces,
     };
     size_t bodies = f->scene->body_count;
     f->out->body_count = (uint32_t)bodies;
@@ -183,6 +183,7 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
     *out = (struct flat_scene){.is_double = input->is_double,
                                .strides = strides[input->is_double],
                                .origin = origin_of(input),
+                               .scene = input->scene,
                                .background = input->scene->background.picture};
     struct flattening f = {.input = input, .scene = input->scene, .out = out};
     const double start = clock_seconds();
@@ -194,6 +195,7 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
     free(f.coordinates);
     free(f.items);
     free(f.leaf_of);
+    free(f.medium);
     if (fault == FLATTEN_NO_MEMORY)
         diag_add(input->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,
                  "there is not enough memory for the scene's triangles");
@@ -212,6 +214,7 @@ void flat_finish(struct flat_scene *flat) {
         free(arrays[i].words);
     free(flat->first_triangle);
     free(flat->uses);
+    free(flat->bounces);
     free(flat->background_texels.decoded);
     *flat = (struct flat_scene){0};
 }

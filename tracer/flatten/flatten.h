@@ -10,6 +10,7 @@
 #ifndef GLINT_TRACER_FLATTEN_FLATTEN_H
 #define GLINT_TRACER_FLATTEN_FLATTEN_H
 
+#include "scene/media.h"
 #include "scene/view.h"
 #include "tracer/bvh/bvh.h"
 #include "tracer/gpu_word.h"
@@ -50,12 +51,20 @@ struct flat_use {
     int64_t saved_bytes;        // on the device, by sharing all that can be; negative: copies are smaller
 };
 
+// A body whose surfaces send on rays: paths are long where it is seen.
+struct flat_bounce {
+    vec3 lower, upper; // a box around it, scene units
+    bool refracts;     // a path may branch on it
+};
+
 struct flat_scene {
     bool is_double; // for the kernels in double precision
     struct flat_strides strides;
     vec3 origin;
     int scale_exponent; // flat = (scene - origin) * 2^scale_exponent
     struct flat_array triangle_nodes, triangles, normals, sphere_nodes, spheres, bodies, materials, lights;
+    const struct scene *scene;        // not owned: what a camera is inside is asked of it
+    struct scene_media_reason media;  // whether rays must know what they are inside
     const struct picture *background; // not owned
     struct {
         uint64_t bytes; // as texels of the device; 0: there is no image
@@ -66,8 +75,11 @@ struct flat_scene {
     struct flat_array instances;                        // and their tables; without words: there are none
     uint32_t instance_count;                            // with instance 0, all that is not shared
     uint32_t top_nodes, instance_table, instance_shift; // as in the frame (shaders/frame.h)
+    uint32_t coordinates_table;                         // and this
     struct flat_use *uses;                              // in the order of their first models
     uint32_t use_count;
+    struct flat_bounce *bounces; // in IR order
+    uint32_t bounce_count;
     uint32_t body_count, light_count, sphere_count;
     uint32_t triangle_count;               // that the trees hold
     uint64_t shown_triangles;              // of all models: each instance shows those of its mesh

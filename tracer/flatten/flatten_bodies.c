@@ -35,10 +35,10 @@ enum flatten_fault flatten_count(struct flattening *f) {
         total += body->triangle_count;
     }
     // What a fault has room for, and the numbers of items (flatten_instances.c).
-    if (total + f->out->sphere_count >= FAULT_NUMBER) {
+    if (total + f->out->sphere_count >= FAULT_NESTED) {
         diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
                  "all models together show %" PRIu64 " triangles; at most %u can be told apart", total,
-                 FAULT_NUMBER - 1);
+                 FAULT_NESTED - 1);
         return FLATTEN_REPORTED;
     }
     f->triangle_total = (uint32_t)total;

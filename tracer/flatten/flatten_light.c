@@ -33,7 +33,9 @@ enum flatten_fault flatten_materials(struct flattening *f) {
                                       .diffuse = m->diffuse[0],
                                       .exponent = m->specular_exponent,
                                       .specular = m->specular,
-                                      .index = m->refractive_index};
+                                      .index = m->refractive_index,
+                                      .absorption = flatten_absorption(f, m),
+                                      .fresnel = m->fresnel};
         if (m->checker) {
             record.second = m->diffuse[1];
             record.cell = m->cell;
@@ -161,7 +163,9 @@ static uint32_t used_material_features(const struct flattening *f) {
     for (uint32_t i = 0; i < f->scene->material_count; i++) {
         if (!f->material_used[i])
             continue;
-        const uint32_t bits = f->scene->materials[i].features & ~(FEATURE_TEXTURES | FEATURE_FOOTPRINT);
+        uint32_t bits = f->scene->materials[i].features;
+        // Attenuation is where it is inside a body: flatten_media.c.
+        bits &= ~(FEATURE_ATTENUATION | FEATURE_TEXTURES | FEATURE_FOOTPRINT);
         mask |= bits & FEATURE_DIFFUSE ? bits : bits & ~FEATURE_CHECKER;
         mask |= flatten_paint_features(&f->scene->materials[i]);
     }
@@ -173,7 +177,8 @@ void flatten_features(struct flattening *f) {
     const uint32_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
                          FEATURE_REFLECTION | FEATURE_REFRACTION | FEATURE_CHECKER | FEATURE_SMOOTH |
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
-                         FEATURE_BACKGROUND_IMAGE | FEATURE_TEXTURES | FEATURE_FOOTPRINT;
+                         FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
+                         FEATURE_FOOTPRINT;
     struct flat_scene *out = f->out;
     uint32_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
@@ -185,6 +190,9 @@ void flatten_features(struct flattening *f) {
     if (!(mask & (FEATURE_DIFFUSE | FEATURE_SPECULAR)))
         mask &= ~(FEATURE_SHADOWS | FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE);
     if (!(mask & (FEATURE_REFLECTION | FEATURE_REFRACTION)))
-        mask &= ~FEATURE_DEPTH_BLACK;
+        mask &= ~(FEATURE_DEPTH_BLACK | FEATURE_FRESNEL);
+    if (!(mask & FEATURE_REFRACTION) || !(mask & FEATURE_SHADOWS))
+        mask &= ~FEATURE_CLEAR_SHADOWS;
+    mask |= f->media_features;
     out->features = mask;
 }

@@ -13,6 +13,7 @@ enum {
     PIECE_TRIANGLES = 8192,
     TABLE_WORDS = 256,
     BYTES_PER_WORD = 4, // texels of an 8-bit image
+    BODIES_PER_WORD = 4,
 };
 
 // Where an image's parts lie, in words.
@@ -71,6 +72,8 @@ static uint32_t first_with_mesh(const struct flattening *f, uint32_t number) {
 }
 
 static void place_coordinates(const struct flattening *f, uint64_t *end) {
+    f->out->coordinates_table = (uint32_t)*end;
+    *end += ((uint64_t)f->scene->body_count + BODIES_PER_WORD - 1) / BODIES_PER_WORD;
     *end += *end & 1;
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
@@ -192,6 +195,8 @@ static enum flatten_fault fill_all(struct flattening *f, struct placed_texture *
         fill_texture(t, &placed[t->number], f->out->paints.words);
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
+        gpu_pack_uint(f->out->paints.words + f->out->coordinates_table + i / BODIES_PER_WORD, 0,
+                      i % BODIES_PER_WORD, f->coordinates[i]);
         if (!f->coordinates[i] || first_with_mesh(f, i) < i)
             continue;
         struct coordinates coordinates = {body, f->out->paints.words + (f->coordinates[i] & ~UINT32_C(1))};

@@ -62,6 +62,8 @@ struct flattening {
     uint32_t *normal_base;   // by body: its first record of out->normals
     uint32_t *coordinates;   // by body: its word of out->paints; 0: it has none
     uint32_t light_features; // FEATURE_ bits that the lights ask for
+    uint32_t media_features; // and the media
+    uint32_t *medium;        // by body: as in its record; NULL: rays need not know what they are inside
 };
 
 // ---- flatten_bodies.c
@@ -80,6 +82,11 @@ enum flatten_fault flatten_triangles(struct flattening *f);
 // Fills out->triangles, which is there, as leaf_of says.
 enum flatten_fault flatten_records(struct flattening *f);
 
+// ---- flatten_bounces.c
+
+// Fills out->bounces.
+enum flatten_fault flatten_bounces(struct flattening *f);
+
 // ---- flatten_share.c
 
 // Decides which bodies are instances.
@@ -95,6 +102,13 @@ uint64_t flatten_copied(const struct flattening *f);
 // After flatten_triangles and the tree over what is copied: adds the trees of shared meshes to it and one
 // over all instances, and fills out->instances.
 enum flatten_fault flatten_instances(struct flattening *f);
+
+// ---- flatten_media.c
+
+// Which media the scene has, if rays must know them.
+enum flatten_fault flatten_media(struct flattening *f);
+// Per flat unit.
+vec3 flatten_absorption(const struct flattening *f, const struct scene_material *material);
 
 // ---- flatten_shade.c
 

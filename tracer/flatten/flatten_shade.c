@@ -50,8 +50,9 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
         const struct scene_body *body = &f->scene->bodies[i];
         struct gpu_body record = {.first_triangle = f->out->first_triangle[i],
                                   .normal_base = f->normal_base[i],
-                                  .instance = f->sharing.instance[i],
-                                  .coordinates = f->coordinates[i]};
+                                  .instance = f->sharing.instance[i]};
+        if (f->medium)
+            record.medium = f->medium[i];
         if (has_checker(f->scene, body)) {
             if (body->shape == SCENE_PARALLELOGRAM)
                 put_edge_lengths(body, &record);

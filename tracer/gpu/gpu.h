@@ -63,6 +63,7 @@ struct gpu_options {
     // before virtual before CPU, then the lower number.
     const char *device;
     bool storage;  // GPU_WORDS are storage buffers on a CPU device too: what runs on GPUs can be tried there
+    bool tells;    // gpu_program_tell has something to tell, where the driver knows it
     bool validate; // core validation, where the layer is installed; its messages are counted
     // Where validation messages are counted, leaks found by gpu_destroy included; may be NULL. Must
     // outlive the gpu.
@@ -131,10 +132,18 @@ void gpu_program_destroy(struct gpu *gpu, struct gpu_program *program);
 void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
                       struct gpu_buffer *const buffers[GPU_BINDINGS]);
 
+// What the driver says of the compiled kernel, in its own words: registers, private memory, size of the code
+// (VK_KHR_pipeline_executable_properties). Calls `tell` for each figure; false: it says nothing.
+typedef void gpu_tell(void *context, const char *name, double value);
+bool gpu_program_tell(struct gpu *gpu, const struct gpu_program *program, gpu_tell *tell, void *context);
+
 // Records a dispatch of groups_x times groups_y workgroups after those recorded before; each sees what
 // the ones before it wrote. `push` holds the program's push constants.
 bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
                   const void *push);
+// The same for one that may run beside the next one that is recorded: neither sees what the other writes.
+bool gpu_dispatch_beside(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
+                         const void *push);
 // Record a copy between two buffers, and zeros into one, after what was recorded before; the ranges are
 // multiples of four bytes and must lie inside. What is recorded afterwards sees them.
 bool gpu_copy(struct gpu *gpu, struct gpu_buffer *from, struct gpu_buffer *to, uint64_t bytes);

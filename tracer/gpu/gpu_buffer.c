@@ -83,10 +83,15 @@ static bool allocate(struct gpu *gpu, struct gpu_buffer *buffer, VkBufferUsageFl
     const VkMemoryPropertyFlags flags = gpu->memory.memoryTypes[type].propertyFlags;
     const bool direct = host || (flags & (mappable | VK_MEMORY_PROPERTY_HOST_CACHED_BIT)) ==
                                     (mappable | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
-    return !direct ||
-           gpu_check(gpu,
-                     gpu->vk.vkMapMemory(gpu->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->mapped),
-                     "vkMapMemory");
+    if (!direct)
+        return true;
+    if (!gpu_check(gpu,
+                   gpu->vk.vkMapMemory(gpu->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->mapped),
+                   "vkMapMemory"))
+        return false;
+    if (gpu->info.kind == GPU_CPU)
+        heap_expect(buffer->mapped, (size_t)requirements.size);
+    return true;
 }
 
 static bool fits(struct gpu *gpu, const struct gpu_buffer *buffer, enum gpu_use use) {
@@ -99,8 +104,11 @@ static bool fits(struct gpu *gpu, const struct gpu_buffer *buffer, enum gpu_use 
         most = limits->maxUniformBufferRange;
     if (buffer->size <= most)
         return true;
-    gpu_fail(gpu, GPU_NO_MEMORY, "a buffer of %llu MiB exceeds the %llu MiB that %s allows",
-             (unsigned long long)(buffer->size >> 20), (unsigned long long)(most >> 20), gpu->info.name);
+    gpu_fail(gpu, GPU_NO_MEMORY, "a buffer of %llu MiB exceeds the %llu MiB that %s allows%s",
+             (unsigned long long)(buffer->size >> 20), (unsigned long long)(most >> 20), gpu->info.name,
+             use == GPU_WORDS
+                 ? ": use smaller meshes, or models that share one; 'glint inspect' lists the buffers"
+                 : "");
     return false;
 }
 

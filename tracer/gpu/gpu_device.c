@@ -62,6 +62,7 @@ static void read_properties(struct gpu *gpu, const struct gpu_options *options) 
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
     gpu->queue_family = gpu_compute_family(gpu->physical);
     gpu->texels = gpu->info.kind == GPU_CPU && !options->storage;
+    gpu->tells = options->tells && gpu_can_tell(gpu->physical);
     if (gpu->properties.apiVersion >= VK_API_VERSION_1_2) {
         VkPhysicalDeviceFloatControlsProperties controls = {
             .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES};
@@ -74,6 +75,10 @@ static void read_properties(struct gpu *gpu, const struct gpu_options *options) 
 }
 
 static bool create_device(struct gpu *gpu) {
+    static const char *const telling = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR tells = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
+        .pipelineExecutableInfo = VK_TRUE};
     const float priority = 1;
     VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                      .queueFamilyIndex = gpu->queue_family,
@@ -83,8 +88,11 @@ static bool create_device(struct gpu *gpu) {
     const VkPhysicalDeviceFeatures features = {.shaderFloat64 = gpu->info.has_double,
                                                .robustBufferAccess = gpu->texels};
     VkDeviceCreateInfo create = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                 .pNext = gpu->tells ? &tells : NULL,
                                  .queueCreateInfoCount = 1,
                                  .pQueueCreateInfos = &queue,
+                                 .enabledExtensionCount = gpu->tells,
+                                 .ppEnabledExtensionNames = &telling,
                                  .pEnabledFeatures = &features};
     if (!gpu_check(gpu, vkCreateDevice(gpu->physical, &create, NULL, &gpu->device), "vkCreateDevice"))
         return false;

@@ -23,6 +23,7 @@ struct gpu {
     bool texels;          // GPU_WORDS are uniform texel buffers
     bool preserves_nan;   // SignedZeroInfNanPreserve for 32-bit floats
     bool preserves_nan64; // and for 64-bit ones
+    bool tells;           // compiled kernels can be asked about
     uint32_t queue_family;
     VkDevice device;
     struct VolkDeviceTable vk;
@@ -107,6 +108,11 @@ void gpu_settle(struct gpu *gpu);
 struct gpu_pipeline *gpu_pipeline_use(struct gpu *gpu, const struct gpu_program_source *source);
 void gpu_pipeline_leave(struct gpu *gpu, struct gpu_pipeline *pipeline); // NULL does nothing
 void gpu_pipelines_destroy(struct gpu *gpu);                             // no program may be left
+
+// ---- gpu_tell.c
+
+// Whether the device can be asked about its kernels.
+bool gpu_can_tell(VkPhysicalDevice physical);
 
 // ---- gpu_keep.c
 

@@ -27,8 +27,8 @@ static void order(struct gpu *gpu, VkPipelineStageFlags stage, VkAccessFlags wri
                                  0, 1, &barrier, 0, NULL, 0, NULL);
 }
 
-bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
-                  const void *push) {
+bool gpu_dispatch_beside(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
+                         const void *push) {
     if (!gpu_record(gpu))
         return false;
     if (gpu->recorded++ == 0) {
@@ -43,6 +43,13 @@ bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_
         gpu->vk.vkCmdPushConstants(gpu->commands, program->compiled->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                    program->compiled->push_bytes, push);
     gpu->vk.vkCmdDispatch(gpu->commands, groups_x, groups_y, 1);
+    return true;
+}
+
+bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_x, uint32_t groups_y,
+                  const void *push) {
+    if (!gpu_dispatch_beside(gpu, program, groups_x, groups_y, push))
+        return false;
     // Of the last dispatch it stays: copies after it are not the dispatches' time.
     gpu->vk.vkCmdResetQueryPool(gpu->commands, gpu->queries, 1, 1);
     gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, gpu->queries, 1);

@@ -75,8 +75,11 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
                              ? LONG_RAY_WORDS + (renderer_stack_levels(renderer) + 1) / 2
                              : 0;
     const uint64_t low = renderer->features & FEATURE_MANY_LIGHTS ? 1 : 0;
+    const uint64_t media = renderer->features & FEATURE_MEDIA ? MEDIA_WORDS : 0;
+    const uint64_t shine = renderer->features & FEATURE_CLEAR_SHADOWS ? SHINE_WORDS : 0;
     const uint64_t cone = renderer->features & FEATURE_FOOTPRINT ? 1 : 0;
-    return (state + low + cone + ray + renderer->path_stack * (entry + cone)) * WORD_BYTES;
+    return (state + low + media + shine + cone + ray + renderer->path_stack * (entry + media + cone)) *
+           WORD_BYTES;
 }
 
 static bool has_state(const struct renderer *renderer) {
@@ -113,6 +116,9 @@ static void plan(struct renderer *renderer) {
     renderer->features = settings->features;
     // Without shadow rays the lights are scanned in one go, however many there are.
     if ((renderer->features & bounces) || renderer->flat->light_count >= SHORT_PATH_RAYS)
+        renderer->features |= FEATURE_SLICES;
+    // Paths with a ray that is open go on in another kernel (render_kernel.c).
+    if (gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_TRIANGLES))
         renderer->features |= FEATURE_SLICES;
     if (renderer->flat->light_count > MANY_LIGHTS)
         renderer->features |= FEATURE_MANY_LIGHTS;
@@ -237,16 +243,17 @@ static bool make_band(struct renderer *renderer) {
 // What depends on the settings: the band's buffers and the kernel.
 static bool make_frame(struct renderer *renderer) {
     plan(renderer);
-    return make_band(renderer) && renderer_program(renderer, renderer->settings.counts);
+    return make_band(renderer) && renderer_first_program(renderer, renderer->settings.counts);
 }
 
 static void drop_frame(struct renderer *renderer) {
     static const int bindings[] = {BINDING_OUTPUT,  BINDING_STATE,   BINDING_COUNTERS, BINDING_FRAME,
-                                   BINDING_SAMPLES, BINDING_PICTURE, BINDING_SUMS};
+                                   BINDING_SAMPLES, BINDING_PICTURE, BINDING_SUMS,     BINDING_ORDER};
     renderer_drop_at_once(renderer);
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
-    renderer->counting = renderer->program = NULL;
+    renderer->counting = renderer->program = renderer->begins = NULL;
+    renderer->has_drawn = false;
     for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++) {
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[bindings[i]]);
         renderer->buffers[bindings[i]] = NULL;
@@ -277,7 +284,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
         old.features == now->features && old.alternative == now->alternative &&
         old.workgroup == now->workgroup && old.band_tiles == now->band_tiles &&
         (old.samples == now->samples || renderer->samples_at_once == 0))
-        return renderer_program(renderer, now->counts) != NULL;
+        return renderer_first_program(renderer, now->counts) != NULL;
     drop_frame(renderer);
     return make_frame(renderer);
 }
@@ -285,7 +292,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
 // There is time until the background comes.
 static bool compile(struct renderer *renderer) {
     const struct dispatch_block nothing = {0};
-    struct gpu_program *program = renderer_program(renderer, renderer->settings.counts);
+    struct gpu_program *program = renderer_first_program(renderer, renderer->settings.counts);
     const double start = clock_seconds();
     const bool compiled = program && gpu_compile(renderer->gpu, program, &nothing);
     timeline_add(renderer->settings.timeline, "compile", STR(""), start);
@@ -323,7 +330,7 @@ void renderer_destroy(struct renderer *renderer) {
 
 static bool is_of_band(int binding) {
     return binding == BINDING_OUTPUT || binding == BINDING_STATE || binding == BINDING_COUNTERS ||
-           binding == BINDING_PICTURE || binding == BINDING_SUMS;
+           binding == BINDING_PICTURE || binding == BINDING_SUMS || binding == BINDING_ORDER;
 }
 
 static uint64_t sum_bytes(const struct renderer *renderer, bool of_band) {

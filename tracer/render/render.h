@@ -70,6 +70,7 @@ struct render_fault {
     bool has_body;     // something was hit before the fault
     uint32_t body;     // in IR order
     uint32_t triangle; // of the body, in file order; 0 for spheres
+    bool is_nested;    // RENDER_NOT_FINITE: a ray would have been inside more than SCENE_MEDIA_MOST media
 };
 
 struct render_rays {
@@ -165,12 +166,16 @@ struct render_segment {
     uint32_t body, triangle;        // as in struct hit_pixel
     uint32_t material;              // in assets.materials; UINT32_MAX where nothing was hit
     bool enters;                    // the ray comes from outside the body
+    bool passes;                    // it goes straight on, unseen: the medium is the same on both sides
+    uint32_t medium;                // the body that fills the place that the ray goes through; HIT_NONE: air
+    vec3 tint;                      // what attenuation has left of each channel at its end
     bool total_reflection;          // the refracted ray was turned back
     bool unfinished;                // a ray to it or to a light did not end
     double distance;                // scene units; 0 where nothing was hit
     vec3 point, geometric, shading; // scene units; unit, towards the ray; 0 where nothing was hit
     uint32_t considered, lit;       // as in struct hit_pixel
-    vec3 radiance; // direct light of the surface, or the background; times weight it is what the pixel gets
+    vec3 radiance;     // direct light of the surface, or the background; times weight and tint it is what the
+                       // pixel gets
     double cut_weight; // of the rays that this surface would have sent and that were not followed
 };
 

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -18,9 +19,10 @@ static bool create(struct renderer *renderer, uint32_t binding, enum gpu_use use
 }
 
 // A kernel names these buffers even where it does not trace at once.
-static bool make_named(struct renderer *renderer, uint64_t picture) {
+static bool make_named(struct renderer *renderer, uint64_t picture, uint64_t order) {
     return create(renderer, BINDING_SAMPLES, GPU_UNIFORM, sizeof(struct samples_block)) &&
-           create(renderer, BINDING_PICTURE, GPU_STORAGE, picture);
+           create(renderer, BINDING_PICTURE, GPU_STORAGE, picture) &&
+           create(renderer, BINDING_ORDER, GPU_STORAGE, order);
 }
 
 bool renderer_make_at_once(struct renderer *renderer) {
@@ -29,8 +31,8 @@ bool renderer_make_at_once(struct renderer *renderer) {
     const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
     const bool has_sums = settings->samples > renderer->samples_at_once;
     if (renderer->samples_at_once == 0)
-        return gpu_fetches_texels(renderer->gpu) || make_named(renderer, 0);
-    if (!make_named(renderer, picture) ||
+        return gpu_fetches_texels(renderer->gpu) || make_named(renderer, 0, 0);
+    if (!make_named(renderer, picture, (uint64_t)renderer->tiles * sizeof *renderer->order) ||
         !create(renderer, BINDING_SUMS, GPU_STORAGE, has_sums ? slots * sizeof(struct gpu_word) : 0))
         return false;
     renderer->picture = gpu_buffer_create(renderer->gpu, GPU_HOST, picture);
@@ -43,6 +45,8 @@ void renderer_drop_at_once(struct renderer *renderer) {
     gpu_program_destroy(renderer->gpu, renderer->resolve);
     gpu_buffer_destroy(renderer->gpu, renderer->picture);
     gpu_buffer_destroy(renderer->gpu, renderer->counters);
+    free(renderer->order);
+    renderer->order = NULL;
     renderer->resolve = NULL;
     renderer->picture = renderer->counters = NULL;
 }

@@ -28,6 +28,24 @@ static double cos_degrees(double degrees) {
     return cos(turn * RADIANS);
 }
 
+// What the camera is inside, as media.glsl has it: that entered last first.
+static void put_inside(const struct flat_scene *flat, const struct view_camera *camera,
+                       struct frame_block *frame) {
+    uint32_t *entries[MEDIA_MOST] = {&frame->inside_0, &frame->inside_1, &frame->inside_2, &frame->inside_3,
+                                     &frame->inside_4, &frame->inside_5, &frame->inside_6, &frame->inside_7};
+    const struct scene *scene = flat->scene;
+    struct scene_inside inside;
+    if (!(flat->features & FEATURE_MEDIA))
+        return;
+    scene_media_at(scene, camera->position, &inside);
+    for (uint32_t i = 0; i < inside.count; i++) {
+        const uint32_t body = inside.bodies[inside.count - 1 - i];
+        const uint32_t material = scene_medium_material(scene, &scene->bodies[body]);
+        const uint32_t priority = (uint32_t)(scene->materials[material].priority + MEDIUM_PRIORITY);
+        *entries[i] = priority << MEDIUM_BITS | (body + 1);
+    }
+}
+
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera) {
     const struct render_settings *settings = &renderer->settings;
     const struct flat_scene *flat = renderer->flat;
@@ -56,8 +74,10 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .top_nodes = flat->top_nodes,
         .instance_table = flat->instance_table,
         .instance_shift = flat->instance_shift,
+        .coordinates_table = flat->coordinates_table,
         .footprint = (float)(2 * camera->tan_half_fov / settings->height / sqrt(settings->samples)),
     };
+    put_inside(flat, camera, &frame);
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
     const vec3 right = vec3_mul(camera->right, camera->tan_half_fov * aspect);
     const vec3 up = vec3_mul(camera->up, camera->tan_half_fov);
@@ -98,7 +118,7 @@ bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *
     run->statistics->bands = (renderer->tiles + renderer->band_tiles - 1) / renderer->band_tiles;
     run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
     run->statistics->samples = renderer->settings.samples;
-    return renderer_write_frame(run->renderer, camera);
+    return renderer_write_frame(run->renderer, camera) && renderer_order_tiles(run->renderer, camera);
 }
 
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,

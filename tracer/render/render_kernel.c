@@ -9,6 +9,10 @@
 #include <math.h>
 #include <string.h>
 
+enum {
+    PATHS_APART = 8 << 20, // what the second kernel saves in so many is what making it takes
+};
+
 struct kernel_pair {
     const struct kernel *texels, *storage; // by what the device fetches
 };
@@ -113,7 +117,8 @@ static bool is_for(const struct renderer_kept *kept, const struct renderer *rend
 }
 
 static bool is_in_use(const struct renderer *renderer, const struct gpu_program *program) {
-    return program && (program == renderer->program || program == renderer->counting);
+    return program &&
+           (program == renderer->program || program == renderer->counting || program == renderer->begins);
 }
 
 // The tracing kernel with these features, compiled now or before, over the band's buffers.
@@ -141,11 +146,31 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint32_t feat
     return program;
 }
 
+// On lavapipe a kernel costs what all of its code does, wanted or not: paths begin in one that neither takes
+// up saved paths nor searches a second time, and those that need that are saved. Counts would tell of this. A
+// picture that is made once does not pay for making a second kernel, unless it is large.
+static bool begins_apart(const struct renderer *renderer) {
+    const struct render_settings *settings = &renderer->settings;
+    const bool pays = renderer->has_drawn ||
+                      (uint64_t)settings->width * settings->height * settings->samples >= PATHS_APART;
+    return pays && gpu_fetches_texels(renderer->gpu) && (renderer->features & FEATURE_SLICES) &&
+           !(renderer->features & FEATURE_LONG_RAYS) &&
+           renderer->settings.alternative == RENDER_ALTERNATIVE_NONE;
+}
+
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts) {
     struct gpu_program **program = counts ? &renderer->counting : &renderer->program;
     if (!*program)
         *program = keep_program(renderer, renderer->features | (counts ? FEATURE_COUNTERS : 0));
     return *program;
+}
+
+struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts) {
+    if (counts || !begins_apart(renderer))
+        return renderer_program(renderer, counts);
+    if (!renderer->begins)
+        renderer->begins = keep_program(renderer, renderer->features | FEATURE_BEGINS);
+    return renderer->begins;
 }
 
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
@@ -160,7 +185,9 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_FEATURES] = features,
         [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
-        [CONSTANT_PACKED_GROUPS] = flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
+        // A group of the tree over instances says of its children too which are leaves.
+        [CONSTANT_PACKED_GROUPS] =
+            !flat->instance_count && flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,
         [CONSTANT_BRANCHES] = renderer->samples_at_once ? private_branches(renderer) : 1,

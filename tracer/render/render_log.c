@@ -26,6 +26,7 @@ struct node {
     struct render_segment segment;
     struct gpu_word ray[LOG_RAY_WORDS];
     float throughput, radiance[3];
+    float tint[3];        // what attenuation has left of each channel
     uint32_t children[2]; // mirrored, refracted; NO_NODE: none
 };
 
@@ -115,30 +116,55 @@ static vec3 point_at(const struct renderer *renderer, const struct gpu_word *wor
     return vec3_add(scaled, renderer->flat->origin);
 }
 
+// NULL: there is no room.
+static struct node *put_child(struct walk *walk, uint32_t parent, enum render_ray kind,
+                              const struct gpu_word *ray, const struct gpu_word inside[2]) {
+    struct node *from = &walk->nodes[parent];
+    if (walk->count == walk->capacity) {
+        walk->whole = false;
+        return NULL;
+    }
+    struct node *child = &walk->nodes[walk->count];
+    *child = (struct node){.children = {NO_NODE, NO_NODE}};
+    child->segment.kind = kind;
+    child->segment.parent = parent;
+    memcpy(child->tint, from->tint, sizeof child->tint);
+    memcpy(child->ray, ray, LOG_INSIDE * sizeof *ray);
+    memcpy(child->ray + LOG_INSIDE, inside, 2 * sizeof *inside);
+    from->children[kind == RENDER_RAY_REFRACTED] = walk->count++;
+    return child;
+}
+
 // The rays that leave a surface, as is_followed and send_rays of the tracer decide.
 static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, float share,
-                      const struct gpu_word *ray) {
+                      const struct gpu_word *ray, const struct gpu_word inside[2]) {
     const struct render_settings *settings = &walk->renderer->settings;
     const struct node *from = &walk->nodes[parent];
     const float throughput = from->throughput * share;
-    const bool heavy = throughput > 0 && throughput >= (float)settings->min_weight;
+    const float part = throughput * fmaxf(from->tint[0], fmaxf(from->tint[1], from->tint[2]));
+    const bool heavy = part > 0 && part >= (float)settings->min_weight;
     const bool last = from->segment.depth == settings->max_depth;
-    if (throughput > 0 && (!heavy || last))
-        walk->nodes[parent].segment.cut_weight += (double)throughput;
+    if (part > 0 && (!heavy || last))
+        walk->nodes[parent].segment.cut_weight += (double)part;
     if (!heavy || (last && (walk->renderer->flat->features & FEATURE_DEPTH_BLACK)))
         return;
-    if (walk->count == walk->capacity) {
-        walk->whole = false;
+    struct node *child = put_child(walk, parent, kind, ray, inside);
+    if (!child)
         return;
-    }
-    struct node *child = &walk->nodes[walk->count];
-    *child = (struct node){.throughput = throughput, .children = {NO_NODE, NO_NODE}};
-    child->segment.kind = kind;
-    child->segment.parent = parent;
+    child->throughput = throughput;
     child->segment.depth = from->segment.depth + 1;
-    memcpy(child->ray, ray, sizeof child->ray);
     child->ray[1].z = last ? LOG_BLIND : 0;
-    walk->nodes[parent].children[kind == RENDER_RAY_REFRACTED] = walk->count++;
+}
+
+// A surface that nobody sees: straight on, at the same depth and with the same weight.
+static void pass(struct walk *walk, uint32_t parent, const struct gpu_word *told) {
+    const struct node *from = &walk->nodes[parent];
+    struct node *child = put_child(walk, parent, from->segment.kind, told + LOG_REFRACTED, told + LOG_AFTER);
+    if (!child)
+        return;
+    child->throughput = from->throughput;
+    child->segment.depth = from->segment.depth;
+    child->ray[1].z = 0;
 }
 
 static void take_surface(struct walk *walk, uint32_t index, const struct gpu_word *told) {
@@ -150,12 +176,37 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
     s->lit = told[2].y;
     s->enters = told[2].z & LOG_ENTERS;
     s->total_reflection = told[2].z & LOG_TOTAL;
+    s->passes = told[2].z & LOG_PASSES;
+    walk->nodes[index].tint[0] *= renderer_float(told[LOG_LEFT].x);
+    walk->nodes[index].tint[1] *= renderer_float(told[LOG_LEFT].y);
+    walk->nodes[index].tint[2] *= renderer_float(told[LOG_LEFT].z);
     s->material = told[3].w;
     s->point = point_at(renderer, told + 4);
     s->geometric = vector_at(renderer, told + 6);
     s->shading = vector_at(renderer, told + 8);
-    add_child(walk, index, RENDER_RAY_REFLECTED, renderer_float(told[5].z), told + 10);
-    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + 10 + LOG_RAY_WORDS);
+    if (told[2].z & LOG_NESTED) {
+        walk->nodes[index].radiance[0] = walk->nodes[index].radiance[1] = walk->nodes[index].radiance[2] =
+            NAN;
+        return;
+    }
+    if (s->passes) {
+        pass(walk, index, told);
+        return;
+    }
+    add_child(walk, index, RENDER_RAY_REFLECTED, renderer_float(told[5].z), told + LOG_REFLECTED,
+              walk->nodes[index].ray + LOG_INSIDE);
+    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + LOG_REFRACTED,
+              told + LOG_AFTER);
+}
+
+// As filling() of media.glsl.
+static uint32_t filling(const struct gpu_word inside[2]) {
+    const uint32_t entries[MEDIA_MOST] = {inside[0].x, inside[0].y, inside[0].z, inside[0].w,
+                                          inside[1].x, inside[1].y, inside[1].z, inside[1].w};
+    uint32_t best = 0;
+    for (int i = 0; i < MEDIA_MOST; i++)
+        best = entries[i] >> MEDIUM_BITS > best >> MEDIUM_BITS ? entries[i] : best;
+    return best ? (best & MEDIUM_MASK) - 1 : HIT_NONE;
 }
 
 static void take(struct walk *walk, uint32_t index, const struct gpu_word *told) {
@@ -171,9 +222,12 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
     node->radiance[2] = (float)s->radiance.z;
     s->unfinished = told[2].w != 0;
     s->body = HIT_NONE;
+    s->medium = filling(node->ray + LOG_INSIDE);
     s->material = UINT32_MAX;
     if (told[1].z != LOG_NOTHING)
         take_surface(walk, index, told);
+    const float *tint = walk->nodes[index].tint;
+    s->tint = (vec3){(double)tint[0], (double)tint[1], (double)tint[2]};
 }
 
 // Depth-first, mirrored rays before refracted ones: the order in which the tracer adds.
@@ -192,7 +246,7 @@ static bool tell(const struct walk *walk, struct render_log *log) {
         s->parent = index ? place[s->parent] : UINT32_MAX;
         place[index] = log->count++;
         for (int i = 0; i < 3; i++)
-            log->rgb[i] += node->radiance[i] * node->throughput;
+            log->rgb[i] += node->radiance[i] * node->tint[i] * node->throughput;
         for (int i = 1; i >= 0; i--)
             if (node->children[i] != NO_NODE)
                 stack[size++] = node->children[i];
@@ -226,7 +280,7 @@ enum render_result renderer_log(struct renderer *renderer, const struct view_cam
         free(walk.nodes);
         return RENDER_FAILED;
     }
-    walk.nodes[0] = (struct node){.throughput = 1, .children = {NO_NODE, NO_NODE}};
+    walk.nodes[0] = (struct node){.throughput = 1, .tint = {1, 1, 1}, .children = {NO_NODE, NO_NODE}};
     walk.count = 1;
     enum render_result result = RENDER_FAILED;
     if (make_camera_ray(renderer, x, y, sample, walk.nodes[0].ray))

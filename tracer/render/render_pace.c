@@ -10,8 +10,11 @@
 enum {
     GRID_WIDTH_MAX = 65535, // what every device allows; more workgroups go to further rows
     FIRST_PATHS_CPU = 1024,
-    FIRST_PATHS = 65536, // a GPU is not busy with fewer
-    GROWTH_MOST = 4,     // from one dispatch to the next: where few paths were cheap, others may not be
+    FIRST_PATHS = 65536,  // a GPU is not busy with fewer
+    SPREAD_MOST = 32,     // lanes of the largest subgroup
+    SPREAD_MOST_CPU = 2,  // a processor is not idle; so that tests see it
+    SPREAD_PATHS = 32768, // a GPU has room for so many at a time
+    GROWTH_MOST = 4,      // from one dispatch to the next: where few paths were cheap, others may not be
 };
 static const double DISPATCH_SECONDS = 0.05;
 // What is left of a path's cost where the next ones cost less: neighbours are alike, and cheap ones may end
@@ -46,18 +49,65 @@ static void learn(struct renderer_pace *pace, uint32_t ran, uint32_t workgroup, 
     pace->paths = paths < workgroup ? workgroup : paths - paths % workgroup;
 }
 
+// Few long paths leave a GPU idle anyway: then each gets more of it for itself, because the lanes of a
+// subgroup wait for each other wherever their rays differ.
+static uint32_t spread_of(const struct gpu *gpu, uint32_t paths) {
+    const uint32_t most = gpu_info(gpu)->kind == GPU_CPU ? SPREAD_MOST_CPU : SPREAD_MOST;
+    uint32_t spread = 1;
+    while (spread < most && paths <= SPREAD_PATHS / 2 / spread)
+        spread *= 2;
+    return spread;
+}
+
+// Paths [begin, end) by a program, a spread apart, which another dispatch may follow at once.
+static bool dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t workgroup,
+                     struct dispatch_block *block, uint32_t begin, uint32_t end, bool is_last) {
+    const uint32_t groups = ((end - begin) * (block->spread ? block->spread : 1) + workgroup - 1) / workgroup;
+    block->path_begin = begin;
+    block->path_end = end;
+    block->grid_width = grid_width(groups);
+    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
+    return (is_last ? gpu_dispatch : gpu_dispatch_beside)(gpu, program, block->grid_width, height, block);
+}
+
+static uint32_t clamp(uint32_t value, uint32_t least, uint32_t most) {
+    return value < least ? least : value < most ? value : most;
+}
+
+// Paths that begin: the long ones, spread, and beside them the others.
+static bool dispatch_ranks(struct renderer_frame *run, struct gpu_program *program, uint32_t workgroup,
+                           struct dispatch_block *block, uint32_t end) {
+    const uint32_t begin = block->path_begin;
+    const uint32_t middle =
+        clamp(renderer_rank_begin(run->renderer, block, RENDERER_RANK_REFRACTS + 1), begin, end);
+    struct gpu *gpu = run->renderer->gpu;
+    block->spread = spread_of(gpu, middle - begin);
+    // One dispatch, where nothing is to be spread.
+    const uint32_t next = block->spread > 1 ? middle : begin;
+    const bool first = begin == next || dispatch(gpu, program, workgroup, block, begin, next, next == end);
+    block->spread = 1;
+    const bool done = first && (next == end || dispatch(gpu, program, workgroup, block, next, end, true));
+    block->path_begin = begin;
+    return done;
+}
+
+static bool dispatch_one(struct renderer_frame *run, struct gpu *gpu, struct gpu_program *program,
+                         uint32_t workgroup, struct dispatch_block *block, uint32_t end) {
+    block->spread = run ? spread_of(gpu, end - block->path_begin) : 1;
+    return dispatch(gpu, program, workgroup, block, block->path_begin, end, true);
+}
+
 bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
                         uint32_t workgroup, struct dispatch_block *block, uint32_t end,
                         struct renderer_frame *run, double *seconds) {
     struct renderer_pace *pace = &renderer->paces[pass];
     const uint32_t fit = paths_of(renderer, pace, end - block->path_begin);
     const uint32_t paths = program == renderer->counting && fit > COUNTED_PATHS ? COUNTED_PATHS : fit;
-    const uint32_t groups = (paths + workgroup - 1) / workgroup;
-    block->path_end = block->path_begin + paths;
-    block->grid_width = grid_width(groups);
-    const uint32_t height = (groups + block->grid_width - 1) / block->grid_width;
+    const uint32_t to = block->path_begin + paths;
+    const bool by_rank = run && pass == RENDERER_BEGINS && !block->restarts;
     const double start = clock_seconds();
-    if (!gpu_dispatch(renderer->gpu, program, block->grid_width, height, block) ||
+    if (!(by_rank ? dispatch_ranks(run, program, workgroup, block, to)
+                  : dispatch_one(run, renderer->gpu, program, workgroup, block, to)) ||
         (run && !renderer_follow_pass(run, block->path_end == end)) || !gpu_submit(renderer->gpu) ||
         !gpu_wait(renderer->gpu, seconds))
         return false;

@@ -46,9 +46,10 @@ static bool read_counters(struct renderer_frame *run) {
 static bool run_paths(struct renderer_frame *run, struct dispatch_block *block, uint32_t end) {
     struct renderer *renderer = run->renderer;
     double seconds;
-    if (!renderer_run_paths(renderer, run->program, block->resume ? RENDERER_RESUMES : RENDERER_BEGINS,
-                            renderer->settings.workgroup, block, end, renderer->counters ? run : NULL,
-                            &seconds))
+    struct gpu_program *program = block->resume ? renderer_program(renderer, run->counting) : run->program;
+    if (!program || !renderer_run_paths(renderer, program, block->resume ? RENDERER_RESUMES : RENDERER_BEGINS,
+                                        renderer->settings.workgroup, block, end,
+                                        renderer->counters ? run : NULL, &seconds))
         return false;
     run->statistics->device_seconds += seconds;
     run->statistics->dispatches++;

@@ -43,6 +43,14 @@ enum {
     RENDERER_KEPT = 16
 };
 
+// What tiles show, in the order in which their paths begin.
+enum renderer_rank {
+    RENDERER_RANK_REFRACTS,
+    RENDERER_RANK_REFLECTS,
+    RENDERER_RANK_ENDS, // paths end at what they hit first
+    RENDERER_RANKS,
+};
+
 // How many paths a dispatch may take so that it is over soon, and a signal heard (render_pace.c).
 struct renderer_pace {
     uint32_t paths; // of the next one; 0: nothing is known yet
@@ -67,12 +75,17 @@ struct renderer {
     struct gpu_buffer *picture,
         *counters; // where samples are traced at once: what was copied to this process
     struct gpu_program *resolve;
-    uint32_t tiles_x, tiles; // whole runs: some tiles may lie below the picture
+    uint32_t *order; // there too: as in the buffer BINDING_ORDER, for the camera `ordered`; NULL: none yet
+    struct view_camera ordered;
+    uint32_t rank_begins[RENDERER_RANKS + 1]; // of that order: the first tile of each rank, and the end
+    uint32_t tiles_x, tiles;                  // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
     struct gpu_program *program;  // of those kept; NULL: none was wanted yet
     struct gpu_program *counting; // the same, with counters
+    struct gpu_program *begins;   // most of it, for paths that begin: on lavapipe alone
+    bool has_drawn;               // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
@@ -97,6 +110,8 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
+// The kernel in which the paths of a frame begin; those that it saves go on in the tracing kernel.
+struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts);
 float renderer_float(uint32_t bits);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
@@ -139,6 +154,10 @@ bool renderer_clear_faults(struct renderer *renderer);
 bool renderer_copy_counters(struct renderer_frame *run);
 // Records what follows a pass of such a frame, at the end of it.
 bool renderer_follow_pass(struct renderer_frame *run, bool ends);
+// In which order tiles are traced at once, for a camera. false: see gpu_error.
+bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *camera);
+// Fills renderer->order and rank_begins; needs no device. false: no memory.
+bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *camera);
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
@@ -160,6 +179,9 @@ enum render_result renderer_draw_frame(struct renderer_frame *run, const struct 
 uint32_t renderer_stack_levels(const struct renderer *renderer);
 // From now on with kernels that can save a ray in the middle of a tree. false: see gpu_error.
 bool renderer_take_long_rays(struct renderer *renderer);
+// The first path of a rank, of those of a band in the order in which they begin; of RENDERER_RANKS: their
+// end.
+uint32_t renderer_rank_begin(const struct renderer *renderer, const struct dispatch_block *block, int rank);
 // Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
 // than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
 // *seconds is the device's time. `workgroup` is the program's.
@@ -174,7 +196,10 @@ void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made
 // Adds a fault, whose word is as in shaders/frame.h, to those of its kind.
 void renderer_note_fault(const struct renderer *renderer, uint32_t word, uint32_t pixels, uint32_t x,
                          uint32_t y, struct render_fault *fault);
-// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture.
+// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture. Of a band that the
+// tracing kernel has filled, and of others.
+bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+                           uint32_t *y);
 bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y);
 

@@ -10,14 +10,29 @@ enum {
     TILES_A_PIECE = 256,
 };
 
+// The pixel `i` of a tile.
+static bool pixel_of_tile(const struct renderer *renderer, uint32_t tile_x, uint32_t tile_y, uint32_t i,
+                          uint32_t *x, uint32_t *y) {
+    *x = tile_x * TILE_SIDE + ((i & 1) | (i >> 1 & 2) | (i >> 2 & 4));
+    *y = tile_y * TILE_SIDE + ((i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4));
+    return *x < renderer->settings.width && *y < renderer->settings.height;
+}
+
 bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y) {
-    const uint32_t tile = tile_begin + slot / TILE_PIXELS, i = slot % TILE_PIXELS;
+    const uint32_t tile = tile_begin + slot / TILE_PIXELS;
     const uint32_t run = tile / renderer->run_tiles * renderer->run_step % renderer->runs;
     const uint32_t place = run * renderer->run_tiles + tile % renderer->run_tiles;
-    *x = place % renderer->tiles_x * TILE_SIDE + ((i & 1) | (i >> 1 & 2) | (i >> 2 & 4));
-    *y = place / renderer->tiles_x * TILE_SIDE + ((i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4));
-    return *x < renderer->settings.width && *y < renderer->settings.height;
+    return pixel_of_tile(renderer, place % renderer->tiles_x, place / renderer->tiles_x, slot % TILE_PIXELS,
+                         x, y);
+}
+
+bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
+                           uint32_t *y) {
+    if (!renderer->order)
+        return renderer_pixel(renderer, tile_begin, slot, x, y);
+    const uint32_t place = renderer->order[tile_begin + slot / TILE_PIXELS];
+    return pixel_of_tile(renderer, place & 0xffff, place >> 16, slot % TILE_PIXELS, x, y);
 }
 
 struct unpacking {
@@ -33,7 +48,7 @@ static void unpack_tiles(void *context, size_t begin, size_t end) {
     const float samples = (float)u->samples;
     for (size_t slot = begin * TILE_PIXELS; slot < end * TILE_PIXELS; slot++) {
         uint32_t x, y;
-        if (!renderer_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y))
+        if (!renderer_traced_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y))
             continue;
         float sum[3];
         memcpy(sum, u->sums + 4 * slot, sizeof sum);
@@ -79,7 +94,8 @@ void renderer_note_fault(const struct renderer *renderer, uint32_t word, uint32_
     const uint32_t number = word & FAULT_NUMBER;
     fault->x = x;
     fault->y = y;
-    fault->has_body = number != FAULT_NUMBER;
+    fault->is_nested = number == FAULT_NESTED;
+    fault->has_body = number != FAULT_NUMBER && !fault->is_nested;
     fault->body = fault->triangle = 0;
     if (fault->has_body)
         renderer_number(renderer, number, &fault->body, &fault->triangle);
@@ -92,7 +108,7 @@ void renderer_note_faults(const struct renderer *renderer, uint32_t tile_begin, 
         if (word >> FAULT_KIND_SHIFT == FAULT_NONE)
             continue;
         uint32_t x, y;
-        if (renderer_pixel(renderer, tile_begin, slot, &x, &y))
+        if (renderer_traced_pixel(renderer, tile_begin, slot, &x, &y))
             renderer_note_fault(renderer, word, 1, x, y, &statistics->faults[word >> FAULT_KIND_SHIFT]);
     }
 }

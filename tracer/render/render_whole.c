@@ -35,7 +35,7 @@ static struct render_rays rays_of(const struct renderer_frame *run) {
 // The kernel that counts, or the other, with no count from before. false: see gpu_error.
 static bool begin(struct renderer_frame *run, bool counts) {
     run->counting = counts;
-    run->program = renderer_program(run->renderer, counts);
+    run->program = renderer_first_program(run->renderer, counts);
     return run->program && (!counts || clear_counters(run));
 }
 
@@ -53,6 +53,7 @@ static enum render_result draw_frame(struct renderer_frame *run, const struct vi
     if (run->met_long_ray)
         result = renderer_take_long_rays(run->renderer) && begin(run, counts) ? draw(run, camera, rgb)
                                                                               : RENDER_FAILED;
+    run->renderer->has_drawn |= result == RENDER_DONE;
     if (counts)
         run->statistics->rays = rays_of(run);
     run->statistics->wall_seconds = clock_seconds() - start;

@@ -1,6 +1,8 @@
 // Files that a scene names: found, refused, shared, kept over a reload, and given back when memory ends.
 #include "assets_scene.h"
 
+#include "core/parallel.h"
+#include "core/timeline.h"
 #include "scratch.h"
 
 #include <utime.h>
@@ -79,6 +81,40 @@ static void a_file_is_read_beside_what_names_it(void **state) {
     assets_scene_load(s);
     assert_silent(s);
     assert_non_null(s->assets.models[0].mesh);
+    assets_scene_end(s);
+}
+
+// Meshes are read side by side; what is said of them, in which order, and what was read in which order is as
+// if it had been one after the other.
+static void meshes_side_by_side(void **state) {
+    static const char *const names[] = {"dragon.obj", "cut.obj",  "sheet.obj", "gone.obj",
+                                        "other.obj",  "line.obj", "dragon.obj"};
+    struct fixture *f = *state;
+    scratch_write(&f->scratch, "scene/cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
+    scratch_write(&f->scratch, "scene/sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    scratch_write(&f->scratch, "scene/other.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+    scratch_write(&f->scratch, "scene/line.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n");
+    struct assets_scene *s = begin_in(f, NULL);
+    struct timeline timeline = {0};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        add_model(f, s, names[i]);
+    s->timeline = &timeline;
+    assets_scene_load(s);
+    // The faulty one is read again, for what is wrong with it.
+    assert_int_equal(timeline.count, parallel_processors() > 1 ? 6 : 5);
+    const enum diag_code codes[] = {DIAG_FILE_MISSING, DIAG_MESH_INDEX, DIAG_MESH_DROPPED}; // sorted by file
+    assert_int_equal(s->sink.count, 3);
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(s->sink.items[i].code, codes[i]);
+    const uint32_t triangles[] = {1, 0, 2, 0, 1, 1, 1};
+    for (size_t i = 0; i < 7; i++)
+        assert_int_equal(s->assets.models[i].mesh ? s->assets.models[i].mesh->triangle_count : 0,
+                         triangles[i]);
+    assert_ptr_equal(s->assets.models[0].mesh, s->assets.models[6].mesh);
+    assert_int_equal(s->files.log.count, 5);
+    const char *const logged[] = {"dragon.obj", "cut.obj", "sheet.obj", "other.obj", "line.obj"};
+    for (size_t i = 0; i < 5; i++)
+        assert_true(str_equal(path_base(s->files.log.items[i].path), str_from(logged[i])));
     assets_scene_end(s);
 }
 
@@ -333,6 +369,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(a_file_is_read_beside_what_names_it, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_stored_mesh_has_its_materials, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_file_is_read_beside_its_scene, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(meshes_side_by_side, set_up, tear_down),
         cmocka_unit_test_setup_teardown(missing_files_name_the_nearest, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_no_file_is_refused_at_once, set_up, tear_down),
         cmocka_unit_test_setup_teardown(files_outside_are_refused, set_up, tear_down),

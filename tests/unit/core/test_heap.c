@@ -5,8 +5,11 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
+
+#include "tests/unit/huge_pages.h"
 
 static void keeps_items_and_doubles(void **state) {
     (void)state;
@@ -37,10 +40,33 @@ static void leaves_the_array_where_it_cannot_grow(void **state) {
     assert_int_equal(item, 'a');
 }
 
+// Whether huge pages come is the system's decision, so what is looked at is what it was asked for.
+static void what_is_large_asks_for_huge_pages(void **state) {
+    (void)state;
+    enum {
+        BYTES = 16 << 20
+    };
+    if (!huge_pages_exist())
+        skip();
+    unsigned char *made[] = {heap_alloc(BYTES), heap_zeroed(BYTES, 1), heap_resize(NULL, BYTES)};
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
+        assert_non_null(made[i]);
+        assert_true(huge_pages_asked(made[i] + BYTES / 2));
+        memset(made[i], 1, BYTES);
+        free(made[i]);
+    }
+    unsigned char *small = heap_zeroed(1, 1 << 20);
+    assert_non_null(small);
+    heap_expect(small, 1); // holds no page
+    heap_expect(small, 0);
+    free(small);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keeps_items_and_doubles),
         cmocka_unit_test(leaves_the_array_where_it_cannot_grow),
+        cmocka_unit_test(what_is_large_asks_for_huge_pages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,6 +25,7 @@ struct assets_scene {
     struct diag_sink sink;
     struct ir_origin origin;
     struct ir_scene scene;
+    struct timeline *timeline; // NULL: none
     struct asset_store *store;
     bool owns_store;
     struct scene resolved;
@@ -117,7 +118,8 @@ static inline void assets_scene_load(struct assets_scene *s) {
                                  .files = &s->files,
                                  .limits = &s->limits,
                                  .sink = &s->sink,
-                                 .arena = &s->arena};
+                                 .arena = &s->arena,
+                                 .timeline = s->timeline};
     assets_load(s->store, &input, false, &s->assets);
     scene_build(&s->scene, &s->assets, &s->arena, &s->resolved);
     scene_check_reach(&s->resolved, &s->sink);

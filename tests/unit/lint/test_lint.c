@@ -202,6 +202,25 @@ static void the_tree_misses_no_pair(void **state) {
     assert_int_equal(mesh.crossings.first, first);
 }
 
+// Triangles with the same corners are told by their place on the curve, without a look at the others.
+static void twins_are_crowded(void **state) {
+    struct fixture *f = *state;
+    struct lint_tree tree;
+    add_ball(f, (vec3){0, 3, 0}, 1);
+    lint_tree_build(&tree, &f->mesh, &f->arena);
+    assert_non_null(tree.crowded);
+    assert_int_equal(tree.crowded_count, 0);
+    const uint32_t count = f->mesh.triangle_count;
+    const uint32_t *c = f->triangles[7].corners;
+    add_triangle(f, c[0], c[1], c[2]);
+    c = f->triangles[40].corners;
+    add_triangle(f, c[2], c[1], c[0]);
+    lint_tree_build(&tree, &f->mesh, &f->arena);
+    const uint32_t expected[] = {7, 40, count, count + 1};
+    assert_int_equal(tree.crowded_count, 4);
+    assert_memory_equal(tree.crowded, expected, sizeof expected);
+}
+
 static struct lint_face face(vec3 a, vec3 b, vec3 c) {
     return lint_face_of((struct lint_triangle){{a, b, c}});
 }
@@ -287,11 +306,11 @@ static void rules_are_documented(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        GEOMETRY(good_meshes_are_silent),       GEOMETRY(flat_neighbours_are_silent),
-        GEOMETRY(crossing_balls_are_found),     GEOMETRY(the_tree_misses_no_pair),
-        cmocka_unit_test(faces_in_one_plane),   cmocka_unit_test(touching_is_not_crossing),
-        GEOMETRY(inside_is_told_from_outside),  cmocka_unit_test(distance_to_a_triangle),
-        cmocka_unit_test(rules_are_documented),
+        GEOMETRY(good_meshes_are_silent),           GEOMETRY(flat_neighbours_are_silent),
+        GEOMETRY(crossing_balls_are_found),         GEOMETRY(the_tree_misses_no_pair),
+        cmocka_unit_test(faces_in_one_plane),       GEOMETRY(twins_are_crowded),
+        cmocka_unit_test(touching_is_not_crossing), GEOMETRY(inside_is_told_from_outside),
+        cmocka_unit_test(distance_to_a_triangle),   cmocka_unit_test(rules_are_documented),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -138,6 +138,13 @@ static void test_too_large(void **state) {
     assert_non_null(strstr(gpu_error(gpu), "MiB"));
     assert_null(gpu_buffer_create(gpu, GPU_STORAGE, 1ull << 50));
     assert_int_equal(gpu_last_status(gpu), GPU_NO_MEMORY);
+    assert_null(strstr(gpu_error(gpu), "mesh"));
+    // A scene's: its author is told what to do.
+    assert_null(gpu_buffer_create(gpu, GPU_WORDS, 1ull << 45));
+    assert_int_equal(gpu_last_status(gpu), GPU_NO_MEMORY);
+    assert_non_null(strstr(gpu_error(gpu), "a buffer of 33554432 MiB exceeds the "));
+    assert_non_null(strstr(gpu_error(gpu), gpu_info(gpu)->name));
+    assert_non_null(strstr(gpu_error(gpu), "models that share one"));
 }
 
 // ---- records

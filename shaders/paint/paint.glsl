@@ -4,12 +4,10 @@
 // and Wright 2021, "Improved Shader and Texture Level of Detail Using Ray Cones"): on a surface an ellipse, whose longer
 // axis is walked in as many taps as the shorter one fits into it.
 
-const bool HAS_TEXTURES = (FEATURES & FEATURE_TEXTURES) != 0u;
-const bool HAS_FOOTPRINT = (FEATURES & FEATURE_FOOTPRINT) != 0u;
 const bool HAS_PAINT = HAS_TEXTURES || HAS_FOOTPRINT;
 const uint TAPS_MAX = 16u;
-// What a surface's taps may add to an iteration: of two images, or of one and a checker.
-const uint PAINT_ITERATIONS = HAS_FOOTPRINT ? 2u * TAPS_MAX + 4u : 0u;
+// What the taps of surfaces may add to an iteration: of two images, or of one and a checker; of a surface that light shines through too.
+const uint PAINT_ITERATIONS = HAS_FOOTPRINT ? (HAS_CLEAR_SHADOWS ? 2u : 1u) * (2u * TAPS_MAX + 4u) : 0u;
 
 // How wide a pixel is along a ray: at its start, and what it gains for each length. Negative where rays have crossed.
 #define RAY_CONE vec2
