@@ -4,7 +4,10 @@
 
 #include "picture/metrics/metrics.h"
 
-#include <stdio.h>
+#include <png.h>
+#include <stdio.h> // jpeglib.h needs it
+
+#include <jpeglib.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,6 +34,60 @@ static bool write_picture(struct analytic *a, const char *name, int width, int h
     strbuf_finish(&bytes);
     image_finish(&image);
     return good;
+}
+
+static void add_bytes(png_structp png, png_bytep bytes, size_t count) {
+    strbuf_add(png_get_io_ptr(png), bytes, count);
+}
+
+// 16 bits a channel, as they are.
+static void png16_of(const struct image *image, struct strbuf *out) {
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    const uint32_t values = 3 * image->width;
+    uint8_t row[6 * SIDE];
+    png_set_write_fn(png, out, add_bytes, NULL);
+    png_set_IHDR(png, info, image->width, image->height, 16, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png, info);
+    for (uint32_t y = 0; y < image->height; y++) {
+        for (uint32_t i = 0; i < values; i++) {
+            const uint32_t value = (uint32_t)lrintf(image->rgb[values * y + i] * 65535);
+            row[2 * i] = (uint8_t)(value >> 8);
+            row[2 * i + 1] = (uint8_t)value;
+        }
+        png_write_row(png, row);
+    }
+    png_write_end(png, NULL);
+    png_destroy_write_struct(&png, &info);
+}
+
+static void jpeg_of(const struct image *image, struct strbuf *out) {
+    struct jpeg_compress_struct jpeg = {0};
+    struct jpeg_error_mgr errors;
+    unsigned char *bytes = NULL;
+    unsigned long count = 0;
+    JSAMPLE row[3 * SIDE];
+    JSAMPROW rows = row;
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    jpeg_mem_dest(&jpeg, &bytes, &count);
+    jpeg.image_width = image->width;
+    jpeg.image_height = image->height;
+    jpeg.input_components = 3;
+    jpeg.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_quality(&jpeg, 98, TRUE);
+    jpeg_start_compress(&jpeg, TRUE);
+    for (uint32_t y = 0; y < image->height; y++) {
+        for (uint32_t i = 0; i < 3 * image->width; i++)
+            row[i] = (JSAMPLE)lrintf(image->rgb[3 * image->width * y + i] * 255);
+        jpeg_write_scanlines(&jpeg, &rows, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    strbuf_add(out, bytes, count);
+    jpeg_destroy_compress(&jpeg);
+    free(bytes);
 }
 
 static double ramp(int x, int y, int channel) {
@@ -261,6 +318,80 @@ static void check_ways(struct analytic *a) {
     }
 }
 
+// ---- kinds of files: a gradient, stored as each can
+
+struct kind {
+    const char *file;
+    double scale; // of what is stored
+    double tolerance;
+};
+
+static double gradient(double u) {
+    return 1 - fabs(2 * u - 1);
+}
+
+static bool kind_color(const void *context, vec3 origin, vec3 direction, double rgb[3]) {
+    static const struct sheet sheet = {{-2, -1.5, -4}, {4, 0, 0}, {0, 3, 0}, {1, 1}, {0, 0}, 0};
+    double place[2];
+    vec3 normal;
+    (void)context;
+    sheet_place(&sheet, origin, direction, place, &normal);
+    const double outside = fmax(fmax(-place[0], place[0] - 1), fmax(-place[1], place[1] - 1));
+    for (int i = 0; i < 3; i++)
+        rgb[i] = outside > 0 ? 0 : gradient(place[0]) * (1 - 0.25 * i);
+    shade(normal, rgb);
+    const double middle = fabs(place[0] - 0.5);
+    return fabs(outside) > 1e-3 && (outside > 0 || (middle > 0.02 && middle < 0.48));
+}
+
+static bool write_kind(struct analytic *a, const struct kind *kind) {
+    enum {
+        WIDTH = 64,
+        HEIGHT = 4
+    };
+    struct strbuf bytes;
+    struct image image;
+    strbuf_init(&bytes);
+    if (!image_init(&image, WIDTH, HEIGHT))
+        return false;
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
+        image.rgb[i] = (float)(kind->scale * gradient((i / 3 % WIDTH + 0.5) / WIDTH) * (1 - 0.25 * (i % 3)));
+    if (strstr(kind->file, ".jpg"))
+        jpeg_of(&image, &bytes);
+    else if (strstr(kind->file, ".hdr"))
+        image_encode(&image, IMAGE_HDR, (struct image_display){0}, &bytes);
+    else
+        png16_of(&image, &bytes);
+    const bool good = bytes.len > 0 && analytic_write(a, kind->file, bytes.data, bytes.len);
+    strbuf_finish(&bytes);
+    image_finish(&image);
+    return good;
+}
+
+static void check_kinds(struct analytic *a) {
+    // Of 16 bits the lower eight alone; beyond 1; and with what JPEG loses.
+    static const struct kind kinds[] = {
+        {"low.png", 255.0 / 65535, 1.0 / 255}, {"bright.hdr", 40, 1.0 / 255}, {"lossy.jpg", 1, 4.0 / 255}};
+    char scene[1024];
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        analytic_expect(a, write_kind(a, &kinds[i]), kinds[i].file, "it could not be written");
+        snprintf(scene, sizeof scene,
+                 "trace: {shadows: false}\nlights:\n  - {direction: [0.25, -0.5, -1], intensity: %.17g}\n"
+                 "rectangles:\n  - {corner: [-2, -1.5, -4], edge_u: [4, 0, 0], edge_v: [0, 3, 0],\n"
+                 "     material: {diffuse_color: {image: {file: %s, filter: bilinear}}}}\n",
+                 1 / kinds[i].scale, kinds[i].file);
+        const struct analytic_picture picture = {.name = kinds[i].file,
+                                                 .scene = scene,
+                                                 .width = 96,
+                                                 .height = 64,
+                                                 .color = kind_color,
+                                                 .context = &kinds[i],
+                                                 .tolerance = kinds[i].tolerance,
+                                                 .most_beside = 0.1};
+        analytic_check(a, &picture);
+    }
+}
+
 // ---- from afar
 
 static double tiles(int x, int y, int channel) {
@@ -355,6 +486,7 @@ int main(int argc, char **argv) {
         check_sheets(&a);
         check_meshes(&a);
         check_ways(&a);
+        check_kinds(&a);
         check_floor(&a, "an image", IMAGE("auto"), IMAGE("bilinear"), 0.35);
         check_floor(&a, "a checker", CHECKER("true"), CHECKER("false"), 0.35);
         check_dolly(&a, "an image", IMAGE("auto"), IMAGE("bilinear"), 0.002);
