@@ -108,6 +108,32 @@ static void put_path(const struct pick *pick, const struct pick_log *log, struct
         strbuf_format(out, "  and more: the first %u rays were followed\n", log->count);
 }
 
+// Of the image on what is seen, by the reference: the device knows colours alone.
+static const struct reference_texel *texel_of(const struct pick *pick) {
+    const struct reference_segment *seen = &main_log(pick)->segments[0];
+    const struct reference_segment *s = &pick->logs[PICK_REFERENCE].segments[0];
+    const bool is_same = s->body == seen->body && s->triangle == seen->triangle;
+    return is_same && s->texel.is_there ? &s->texel : NULL;
+}
+
+static str texture_path(const struct pick *pick, const struct reference_texel *texel) {
+    const struct ir_material *m =
+        &pick->session->assets.materials[pick->logs[PICK_REFERENCE].segments[0].material];
+    return texel->of_highlight ? m->specular_color.image.file : m->diffuse_color.image.file;
+}
+
+static void put_texel(const struct pick *pick, struct strbuf *out) {
+    const struct reference_texel *t = texel_of(pick);
+    if (!t)
+        return;
+    strbuf_format(out, "\nimage      '%.*s', pixel %u,%u, at u %.6g v %.6g", STR_ARG(texture_path(pick, t)),
+                  t->x, t->y, t->u, t->v);
+    if (t->level > 0 || t->taps > 1)
+        strbuf_format(out, "; level %.3g, %u place%s averaged", t->level, t->taps, t->taps == 1 ? "" : "s");
+    strbuf_cstr(out, "; colour ");
+    put_vector(out, t->color);
+}
+
 static void put_seen(const struct pick *pick, struct strbuf *out) {
     const struct reference_segment *s = &main_log(pick)->segments[0];
     struct where where;
@@ -126,6 +152,7 @@ static void put_seen(const struct pick *pick, struct strbuf *out) {
         put_vector(out, s->point);
         strbuf_cstr(out, "\nnormal     ");
         put_vector(out, s->shading);
+        put_texel(pick, out);
     }
     strbuf_char(out, '\n');
 }
@@ -259,6 +286,21 @@ static void json_target(struct json_writer *w, const struct pick *pick, const st
     }
 }
 
+static void json_texel(struct json_writer *w, const struct reference_texel *t) {
+    if (!t->is_there)
+        return;
+    json_open_object(w, "image");
+    json_write_text(w, "of", t->of_highlight ? STR("specular_color") : STR("diffuse_color"));
+    json_write_real(w, "u", t->u);
+    json_write_real(w, "v", t->v);
+    json_write_integer(w, "x", t->x);
+    json_write_integer(w, "y", t->y);
+    json_write_real(w, "level", t->level);
+    json_write_integer(w, "places", t->taps);
+    json_vector(w, "color", t->color);
+    json_close_object(w);
+}
+
 static void json_segment(struct json_writer *w, const struct pick *pick, const struct reference_segment *s,
                          bool first) {
     json_open_object(w, NULL);
@@ -290,6 +332,7 @@ static void json_segment(struct json_writer *w, const struct pick *pick, const s
         json_vector(w, "normal", s->shading);
         json_write_boolean(w, "enters", s->enters);
         json_write_boolean(w, "total_reflection", s->total_reflection);
+        json_texel(w, &s->texel);
         json_write_boolean(w, "passes", s->passes);
         json_lights(w, "lights_considered", s->considered);
         json_lights(w, "lights_lit", s->lit);

@@ -105,7 +105,7 @@ static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const s
         }
         fill_mesh(loader, &loaded->file, identity, entry);
     }
-    loaded->mesh = entry->is_whole ? &entry->mesh : NULL;
+    loaded->mesh = loaded->own = entry->is_whole ? &entry->mesh : NULL;
 }
 
 // The mesh that a model names, read when the first model names it.
@@ -215,6 +215,7 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
     result->group_material = loader_group_materials(loader, model, loaded);
     result->mesh = loaded->mesh;
     check_refraction(loader, model, result, loaded, at);
+    loader_load_coordinates(loader, result, loaded);
     if (model->smooth && !loaded->normals_told)
         mesh_losses_report_normals(&loaded->file, loaded->mesh);
     loaded->normals_told = loaded->normals_told || model->smooth;
@@ -222,90 +223,7 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
 
 // ---- the background
 
-static bool fits_memory(struct asset_file *file, str name, const struct store_entry *entry) {
-    const struct limit_info *info = limit_info(LIMIT_IMAGE_MEMORY);
-    const uint64_t bytes = entry->picture_bytes;
-    if (bytes <= file->input->limits->value[LIMIT_IMAGE_MEMORY])
-        return true;
-    asset_report_named(
-        file, DIAG_LIMIT,
-        "the image '%.*s' claims %u x %u pixels, which take %llu bytes of memory; the limit %s "
-        "is %llu",
-        STR_ARG(name), entry->picture.width, entry->picture.height, (unsigned long long)bytes, info->name,
-        (unsigned long long)file->input->limits->value[LIMIT_IMAGE_MEMORY]);
-    if (bytes <= info->greatest)
-        diag_help(file->input->sink, "if the file is right, raise the limit: --limit %s=%llu", info->name,
-                  (unsigned long long)bytes);
-    else
-        diag_help(file->input->sink, "no limit allows more than %llu bytes; make the image smaller",
-                  (unsigned long long)info->greatest);
-    return false;
-}
-
-// What the file's bytes say; a fault of the decoder is left in the entry.
-static void decode_image(struct asset_file *file, str name, struct store_entry *entry) {
-    struct picture_header header;
-    const char *fault = picture_read_header(file->text, &header);
-    if (header.kind == PICTURE_KIND_NONE) {
-        asset_report_named(file, DIAG_IMAGE_KIND, "'%.*s' is not a PNG, JPEG or Radiance HDR image",
-                           STR_ARG(name));
-        return;
-    }
-    entry->picture = picture_of_header(&header);
-    entry->picture_bytes = fault ? 0 : picture_memory(&header, ASSET_TEXEL_BYTES);
-    if (!fits_memory(file, name, entry))
-        return;
-    if (!fault && entry->kind == STORE_PICTURE_KEPT)
-        fault = picture_decode(file->text, &header, &entry->picture);
-    else if (!fault && entry->kind == STORE_PICTURE_CHECKED)
-        fault = picture_check(file->text, &header);
-    if (fault == picture_no_memory)
-        asset_report_memory(file, ARENA_FAULT_SYSTEM);
-    else
-        entry->picture_fault = fault;
-}
-
-static void read_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry) {
-    struct arena *scratch = &loader->hold->scratch;
-    arena_init(scratch, (size_t)file->input->limits->value[LIMIT_IMAGE_BYTES] + ASSET_TEXT_ROOM);
-    const double start = clock_seconds();
-    if (asset_read(file, scratch))
-        decode_image(file, name, entry);
-    timeline_add(loader->input->timeline, "image", file->path, start);
-    file->text = STR("");
-    arena_finish(scratch);
-    entry->is_whole = file->errors == 0;
-}
-
-// An image of which at least as much is known as is asked for.
-static struct store_entry *find_image(struct loader *loader, enum assets_pixels pixels,
-                                      const struct file_read *identity) {
-    static const enum store_kind kinds[] = {[ASSETS_KEEP_PIXELS] = STORE_PICTURE_KEPT,
-                                            [ASSETS_CHECK_PIXELS] = STORE_PICTURE_CHECKED,
-                                            [ASSETS_SKIP_PIXELS] = STORE_PICTURE_SKIPPED};
-    for (enum assets_pixels known = ASSETS_KEEP_PIXELS; known < pixels; known++) {
-        struct store_entry *entry = store_find(loader->hold, kinds[known], identity);
-        if (entry)
-            return entry;
-    }
-    struct store_entry *entry = store_find(loader->hold, kinds[pixels], identity);
-    return entry ? entry : store_add(loader->hold, kinds[pixels], identity);
-}
-
-// What is known of the picture once its pixels are; NULL: it cannot be used.
-static const struct picture *judge_background(struct asset_file *file, struct store_entry *entry) {
-    if (entry->picture_fault)
-        asset_report_line(file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s",
-                          entry->picture_fault);
-    if (file->errors)
-        return NULL;
-    if (entry->picture.ignored)
-        asset_report_line(file, DIAG_IMAGE_CHUNKS, 0, "the image's %s ignored", entry->picture.ignored);
-    return &entry->picture;
-}
-
-static const struct picture *load_background(struct loader *loader, enum assets_pixels pixels,
-                                             struct assets *out) {
+static const struct picture *load_background(struct loader *loader, struct assets *out) {
     const struct assets_input *input = loader->input;
     const struct ir_background *background = &input->scene->background;
     span at = ir_place_value(input->origin, &background->head, &SCHEMA_BACKGROUND, "image");
@@ -313,7 +231,7 @@ static const struct picture *load_background(struct loader *loader, enum assets_
     struct file_read identity;
     if (!asset_find(&file, asset_base(input, at), background->image, &identity, NULL))
         return NULL;
-    struct store_entry *entry = find_image(loader, pixels, &identity);
+    struct store_entry *entry = loader_find_image(loader, &identity);
     if (!entry) {
         asset_report_memory(&file, ARENA_FAULT_SYSTEM);
         return NULL;
@@ -321,12 +239,9 @@ static const struct picture *load_background(struct loader *loader, enum assets_
     out->pixels_later = !entry->is_whole && ahead_is_for(out->ahead, &identity, entry, &file);
     if (out->pixels_later)
         return &entry->picture;
-    if (!entry->is_whole)
-        read_image(loader, &file, background->image, entry);
-    else
-        fits_memory(&file, background->image, entry);
-    const struct picture *picture = judge_background(&file, entry);
-    out->pixels_skipped = picture && entry->kind == STORE_PICTURE_SKIPPED;
+    loader_complete_image(loader, &file, background->image, entry);
+    const struct picture *picture = loader_judge_image(&file, entry);
+    out->pixels_skipped |= picture && entry->kind == STORE_PICTURE_SKIPPED;
     return picture;
 }
 
@@ -341,7 +256,7 @@ void assets_settle(struct assets *assets) {
         entry->picture_fault = NULL;
     }
     entry->is_whole = file->errors == 0;
-    assets->background = judge_background(file, entry);
+    assets->background = loader_judge_image(file, entry);
 }
 
 static bool has_background_image(const struct assets_input *input) {
@@ -361,8 +276,8 @@ static struct asset_ahead *decode_ahead(const struct assets_input *input, struct
 static void add_scene_materials(struct loader *loader) {
     const struct ir_materials *materials = &loader->input->scene->materials;
     for (uint32_t i = 0; i < materials->count; i++)
-        *ARENA_PUSH(loader->input->arena, &loader->materials) = materials->items[i];
-    schema_init(&SCHEMA_MATERIAL, ARENA_PUSH(loader->input->arena, &loader->materials));
+        *loader_add_material(loader, (struct material_source){0}) = materials->items[i];
+    schema_init(&SCHEMA_MATERIAL, loader_add_material(loader, (struct material_source){0}));
 }
 
 void assets_load(struct asset_store *store, const struct assets_input *given, enum assets_pixels pixels,
@@ -378,7 +293,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
                  "there is not enough memory to load the scene's files");
         return;
     }
-    struct loader loader = {.input = input, .hold = out->hold};
+    struct loader loader = {.input = input, .hold = out->hold, .pixels = pixels};
     add_scene_materials(&loader);
     const bool has_image = has_background_image(input);
     if (has_image && input->pixels_later && pixels == ASSETS_KEEP_PIXELS)
@@ -392,8 +307,9 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
     meshes_ahead_finish(out->meshes_ahead);
     out->meshes_ahead = NULL;
     report_unfit(&loader, out);
+    loader_load_textures(&loader, out);
     if (has_image)
-        out->background = load_background(&loader, pixels, out);
+        out->background = load_background(&loader, out);
     out->materials = loader.materials.items;
     out->material_count = loader.materials.count;
     store_sweep(store);

@@ -50,6 +50,12 @@ struct assets_model {
     uint32_t *group_material; // per mesh group: index into assets.materials
 };
 
+enum assets_image {
+    ASSETS_DIFFUSE,
+    ASSETS_SPECULAR,
+    ASSETS_IMAGES
+};
+
 struct assets {
     struct asset_hold *hold;        // the references into the store
     const struct ir_origin *origin; // of the scene, for places in later messages
@@ -60,8 +66,11 @@ struct assets {
     struct assets_model *models; // one per scene model
     uint32_t model_count;
     const struct picture *background; // NULL: none, or not loaded; without pixels unless they are kept
-    bool pixels_skipped;              // it has an image of which only the header was ever read
-    bool pixels_later;                // its pixels are still being decoded: assets_settle
+    // By material: the image of its diffuse and of its specular colour, as the background; NULL: no material
+    // has one.
+    const struct picture *(*images)[ASSETS_IMAGES];
+    bool pixels_skipped; // it has an image of which only the header was ever read
+    bool pixels_later;   // its pixels are still being decoded: assets_settle
     struct asset_ahead *ahead;
     struct meshes_ahead *meshes_ahead; // while they are loaded
     uint64_t triangle_count;           // of all models

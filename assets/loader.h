@@ -18,6 +18,8 @@ struct loaded_mesh {
     const struct mesh *mesh; // NULL: it could not be loaded
     struct str_map groups;   // of the mesh: 1 + index; made when first needed
     bool normals_told;       // that some have no direction
+    bool coordinates_read;   // or that they cannot be
+    struct mesh *own;        // the mesh again, to be completed
     bool is_counted;         // its triangles are, among those of the scene
     bool is_unfit;           // they are among those that do not fit
     bool libraries_read;
@@ -26,6 +28,21 @@ struct loaded_mesh {
     struct mtl_materials materials;
     uint32_t *group_material; // from the material files; IR_NO_INDEX: not asked for yet
     struct loaded_mesh *next;
+};
+
+// An image file that materials name.
+struct loaded_image {
+    struct asset_file file;
+    str canonical;
+    const struct picture *picture; // NULL: it could not be loaded
+    struct loaded_image *next;
+};
+
+// Where a material comes from: the scene, or a line of a material file.
+struct material_source {
+    struct asset_file *file; // NULL: the scene
+    uint32_t line;           // of its image
+    uint32_t kd_line;        // 0: it has no Kd
 };
 
 enum {
@@ -37,11 +54,17 @@ struct loader {
     const struct assets_input *input;
     struct asset_hold *hold;
     struct meshes_ahead *ahead; // meshes that were read already; NULL: none
+    enum assets_pixels pixels;
     struct loaded_mesh *meshes;
+    struct loaded_image *images;
     struct {
         struct ir_material *items;
         uint32_t count, capacity;
     } materials;
+    struct {
+        struct material_source *items;
+        uint32_t count, capacity;
+    } sources; // one for each of them
     struct {
         uint32_t models;
         uint64_t triangles; // of all of them
@@ -50,6 +73,26 @@ struct loader {
         uint64_t first_sum;  // triangles of the scene with it
     } unfit;                 // models with which the scene would have more triangles than the limit
 };
+
+// A place for one more material.
+struct ir_material *loader_add_material(struct loader *loader, struct material_source source);
+// The entry of an image that was found under its name, read if it was not before; NULL: no memory. What is
+// wrong with it is reported, but for faults of the decoder.
+struct store_entry *loader_read_image(struct loader *loader, struct asset_file *file, str name,
+                                      const struct file_read *identity);
+// Its two halves: the entry, or a new one, of which at least as much is known as is asked for; and its
+// reading.
+struct store_entry *loader_find_image(struct loader *loader, const struct file_read *identity);
+void loader_complete_image(struct loader *loader, struct asset_file *file, str name,
+                           struct store_entry *entry);
+// What is known of the picture once its pixels are; NULL: it cannot be used.
+const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry);
+// textures.c: whether the image of a material file's material is used; the images of all materials; and the
+// coordinates of a model's mesh where one of its materials has one.
+void loader_settle_image(struct loader *loader, uint32_t material);
+void loader_load_textures(struct loader *loader, struct assets *out);
+void loader_load_coordinates(struct loader *loader, const struct assets_model *model,
+                             struct loaded_mesh *loaded);
 
 // The material of each group of the model's mesh: material_map, else material, else the material file's,
 // else the default.

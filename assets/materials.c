@@ -21,24 +21,31 @@ uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_
     return ref->index == IR_NO_INDEX ? scene->materials.count : ref->index;
 }
 
+struct ir_material *loader_add_material(struct loader *loader, struct material_source source) {
+    *ARENA_PUSH(loader->input->arena, &loader->sources) = source;
+    return ARENA_PUSH(loader->input->arena, &loader->materials);
+}
+
 // ---- material files
 
 // Reads one material file if it can be found. A name with backslashes is tried with slashes too: it was
 // written on another system.
 static bool read_library(struct loader *loader, struct loaded_mesh *loaded, str name, uint32_t line) {
-    struct asset_file file = {.input = loader->input,
-                              .what = "material file",
-                              .limit = LIMIT_MESH_BYTES,
-                              .named_in = &loaded->file,
-                              .named_line = line};
+    struct asset_file *file =
+        ARENA_NEW(loader->input->arena, struct asset_file); // its images are named in it
+    *file = (struct asset_file){.input = loader->input,
+                                .what = "material file",
+                                .limit = LIMIT_MESH_BYTES,
+                                .named_in = &loaded->file,
+                                .named_line = line};
     struct file_read identity;
     bool missing = false;
-    bool found = asset_find(&file, loaded->file.path, name, &identity, &missing);
+    bool found = asset_find(file, loaded->file.path, name, &identity, &missing);
     if (missing && memchr(name.ptr, '\\', name.len)) {
         str slashed = arena_copy(loader->input->arena, name);
         for (char *c = (char *)slashed.ptr; *c; c++)
             *c = *c == '\\' ? '/' : *c;
-        found = asset_find(&file, loaded->file.path, slashed, &identity, &missing);
+        found = asset_find(file, loaded->file.path, slashed, &identity, &missing);
     }
     if (missing)
         return false;
@@ -46,10 +53,11 @@ static bool read_library(struct loader *loader, struct loaded_mesh *loaded, str 
         return true;
     struct arena *scratch = &loader->hold->scratch;
     arena_init(scratch, (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY]);
-    if (found && asset_read(&file, scratch))
-        read_mtl(&file, &loaded->materials);
+    if (found && asset_read(file, scratch))
+        read_mtl(file, &loaded->materials);
+    file->text = STR("");
     arena_finish(scratch);
-    loaded->library_missing |= file.errors > 0;
+    loaded->library_missing |= file->errors > 0;
     return true;
 }
 
@@ -127,7 +135,10 @@ static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, 
         read_libraries(loader, loaded);
     const struct ir_material *material = mtl_find(&loaded->materials, g->name);
     if (material) {
-        *ARENA_PUSH(loader->input->arena, &loader->materials) = *material;
+        const struct mtl_image *image = &loaded->materials.images.items[material - loaded->materials.items];
+        *loader_add_material(loader, (struct material_source){image->file, image->line, image->kd_line}) =
+            *material;
+        loader_settle_image(loader, loader->materials.count - 1);
         return loader->materials.count - 1;
     }
     if (loaded->library_missing)

@@ -52,6 +52,9 @@ struct mesh {
     uint32_t *merged; // per position: the lowest index of a bit-equal position
     vec3 *normals;    // unit, from the file
     uint32_t normal_count;
+    struct ir_pair *coordinates; // of textures; NULL: not read (mesh_coordinates.h)
+    uint32_t coordinate_count;
+    uint32_t (*textured)[3]; // by triangle: into coordinates; IR_NO_INDEX: the file has none for this corner
     struct mesh_triangle *triangles;
     uint32_t triangle_count;
     struct mesh_group *groups; // each has a face

@@ -44,6 +44,11 @@ struct mtl_entry {
     bool has_kd, has_ks, has_tf, has_d, has_tr, has_ns, has_ni;
     double d, tr, ns, ni;
     uint32_t illum;
+    str image; // of map_Kd, in the text; empty: none
+    uint32_t image_line;
+    uint32_t kd_line;
+    struct ir_pair repeat, shift; // what coordinates are multiplied by, and what is added
+    bool clamps;
 };
 
 // Statements that have no effect, for one reason.
@@ -121,7 +126,7 @@ static bool is_zero(struct mtl_reader *r) {
 
 static void drop_statement(struct mtl_reader *r, str keyword) {
     if (is_map(keyword)) {
-        drop(r, keyword, "the surfaces of bodies have no images", true);
+        drop(r, keyword, "only colours of diffuse light (map_Kd) can be images", true);
         return;
     }
     const struct known_statement *known = known_statements;
@@ -232,6 +237,104 @@ static bool read_dissolve(struct mtl_reader *r, str keyword, double *value) {
     return read_range(r, keyword, SCHEMA_RANGE_FRACTION, value);
 }
 
+// ---- images
+
+// The options of a map: how many words follow at most, and how many of them are numbers only if they look
+// like it.
+static const struct map_option {
+    const char *word;
+    uint8_t least, most;
+} map_options[] = {
+    {"-s", 1, 3},      {"-o", 1, 3},       {"-t", 1, 3},      {"-mm", 2, 2},    {"-bm", 1, 1},
+    {"-texres", 1, 1}, {"-blendu", 1, 1},  {"-blendv", 1, 1}, {"-clamp", 1, 1}, {"-cc", 1, 1},
+    {"-boost", 1, 1},  {"-imfchan", 1, 1}, {"-type", 1, 1},
+};
+
+static uint32_t take_words(struct mtl_reader *r, const struct map_option *option, double number[3],
+                           str *word) {
+    uint32_t count = 0;
+    while (count < option->most && obj_lex_more(&r->lex)) {
+        const struct obj_lex before = r->lex;
+        const str text = obj_lex_word(&r->lex);
+        double value = 0;
+        const bool is_number = number_parse(text, &value) == NUMBER_OK;
+        if (!is_number && count >= option->least) {
+            r->lex = before;
+            break;
+        }
+        number[count++] = value;
+        *word = text;
+    }
+    return count;
+}
+
+// -s, -o, -clamp; what else is there has no effect. false: it is not an option, and the file's name begins.
+static bool read_map_option(struct mtl_reader *r) {
+    const struct obj_lex before = r->lex;
+    const str name = obj_lex_word(&r->lex);
+    struct mtl_entry *e = &r->entry;
+    for (size_t i = 0; i < sizeof map_options / sizeof *map_options; i++) {
+        const struct map_option *option = &map_options[i];
+        double number[3] = {0};
+        str word = STR("");
+        if (!str_equal_cstr(name, option->word))
+            continue;
+        const uint32_t count = take_words(r, option, number, &word);
+        const bool scales = str_equal_cstr(name, "-s"), moves = str_equal_cstr(name, "-o");
+        if (scales && number[0] > 0 && (count < 2 || number[1] > 0))
+            e->repeat = (struct ir_pair){number[0], count > 1 ? number[1] : 1};
+        else if (moves)
+            e->shift = (struct ir_pair){number[0], count > 1 ? number[1] : 0};
+        else if (str_equal_cstr(name, "-clamp"))
+            e->clamps = str_equal_cstr(word, "on");
+        else
+            drop(r, name, "images have no such option", true);
+        return true;
+    }
+    r->lex = before;
+    return false;
+}
+
+static void read_image(struct mtl_reader *r, str keyword) {
+    struct mtl_entry *e = &r->entry;
+    e->repeat = (struct ir_pair){1, 1};
+    e->shift = (struct ir_pair){0, 0};
+    e->clamps = false;
+    while (obj_lex_more(&r->lex) && *r->lex.at == '-')
+        if (!read_map_option(r))
+            break;
+    e->image_line = r->lex.line;
+    e->image = obj_lex_more(&r->lex) ? obj_lex_rest(&r->lex) : STR("");
+    if (e->image.len == 0) {
+        const size_t at = (size_t)(keyword.ptr - r->lex.begin);
+        asset_report(r->file, DIAG_MTL_SYNTAX, at, at + keyword.len, "'%.*s' needs the name of a file",
+                     STR_ARG(keyword));
+    }
+}
+
+static double within(enum schema_range range, double value) {
+    const struct schema_range_info *info = schema_range_info(range);
+    return fmin(fmax(value, info->least), info->greatest);
+}
+
+// u of the file becomes repeat * u + shift there, repeat * (u - offset) here.
+static void take_image(struct mtl_reader *r, struct ir_material *m) {
+    const struct mtl_entry *e = &r->entry;
+    struct mtl_image *place = ARENA_PUSH(r->out->names.arena, &r->out->images);
+    *place = (struct mtl_image){0};
+    if (e->image.len == 0)
+        return;
+    *place = (struct mtl_image){r->file, e->image_line, e->has_kd ? e->kd_line : 0};
+    struct ir_texture *image = &m->diffuse_color.image;
+    m->diffuse_color.kind = IR_PAINT_IMAGE;
+    image->file = arena_copy(r->out->names.arena, e->image);
+    image->repeat =
+        (struct ir_pair){within(SCHEMA_RANGE_REPEAT, e->repeat.u), within(SCHEMA_RANGE_REPEAT, e->repeat.v)};
+    image->offset = (struct ir_pair){within(SCHEMA_RANGE_SHIFT, 0 - e->shift.u / image->repeat.u),
+                                     within(SCHEMA_RANGE_SHIFT, 0 - e->shift.v / image->repeat.v)};
+    image->wrap = e->clamps ? IR_WRAP_CLAMP : IR_WRAP_REPEAT;
+}
+
 // ---- materials
 
 // What `illum` and `Tf` say and the others do not.
@@ -275,12 +378,13 @@ static void close_entry(struct mtl_reader *r) {
     if (e->has_kd)
         m->diffuse_color.color = (struct ir_color){.r = e->kd[0], .g = e->kd[1], .b = e->kd[2]};
     if (e->has_ks)
-        m->specular_color = (struct ir_color){.r = e->ks[0], .g = e->ks[1], .b = e->ks[2]};
+        m->specular_color.color = (struct ir_color){.r = e->ks[0], .g = e->ks[1], .b = e->ks[2]};
     if (e->has_ns)
         m->specular_exponent = e->ns;
     if (e->has_ni)
         m->refractive_index = e->ni;
     judge_entry(r, m);
+    take_image(r, m);
     e->open = false;
 }
 
@@ -317,8 +421,11 @@ static void read_filter(struct mtl_reader *r, str keyword) {
 // are read and forgotten.
 static bool read_attribute(struct mtl_reader *r, str keyword) {
     struct mtl_entry *e = &r->entry;
-    if (str_equal_cstr(keyword, "Kd"))
+    if (str_equal_cstr(keyword, "Kd")) {
+        e->kd_line = r->lex.line;
         e->has_kd |= read_color(r, keyword, e->kd);
+    } else if (str_equal_cstr(keyword, "map_Kd"))
+        read_image(r, keyword);
     else if (str_equal_cstr(keyword, "Ks"))
         e->has_ks |= read_color(r, keyword, e->ks);
     else if (str_equal_cstr(keyword, "Ns"))

@@ -43,7 +43,18 @@ enum ir_light_kind {
 };
 enum ir_paint_kind {
     IR_PAINT_COLOR,
-    IR_PAINT_CHECKER
+    IR_PAINT_CHECKER,
+    IR_PAINT_IMAGE
+};
+enum ir_filter {
+    IR_FILTER_AUTO,
+    IR_FILTER_NEAREST,
+    IR_FILTER_BILINEAR
+};
+enum ir_wrap {
+    IR_WRAP_REPEAT,
+    IR_WRAP_CLAMP,
+    IR_WRAP_MIRROR
 };
 
 struct ir_image {
@@ -99,6 +110,16 @@ struct ir_checker {
     struct ir_head head;
     struct ir_color colors[2];
     double size;
+    bool antialias;
+};
+
+struct ir_texture {
+    struct ir_head head;
+    str file; // path as written
+    struct ir_pair repeat, offset;
+    double rotation; // degrees
+    unsigned filter; // ir_filter
+    unsigned wrap;   // ir_wrap
 };
 
 struct ir_paint {
@@ -106,6 +127,14 @@ struct ir_paint {
     unsigned kind; // ir_paint_kind
     struct ir_color color;
     struct ir_checker checker;
+    struct ir_texture image;
+};
+
+struct ir_highlight {
+    struct ir_head head;
+    unsigned kind; // ir_paint_kind, without checkers
+    struct ir_color color;
+    struct ir_texture image;
 };
 
 struct ir_material {
@@ -113,7 +142,7 @@ struct ir_material {
     str name; // empty: anonymous, written inline where it is used
     struct ir_weights albedo;
     struct ir_paint diffuse_color;
-    struct ir_color specular_color;
+    struct ir_highlight specular_color;
     double specular_exponent;
     double refractive_index;
     bool fresnel;

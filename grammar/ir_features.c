@@ -110,7 +110,7 @@ static bool is_on(const struct schema_row *row, const void *element) {
     case SCHEMA_NUMBER:
         return *(const double *)field != 0;
     case SCHEMA_WORD:
-        return *(const unsigned *)field != 0;
+        return (*(const unsigned *)field == 0) == row->feature_of_first;
     case SCHEMA_TEXT:
         return ((const str *)field)->len > 0;
     case SCHEMA_LIST:
@@ -234,6 +234,8 @@ static const struct feature_name {
     {FEATURE_INVERSE_SQUARE, "inverse_square"},
     {FEATURE_BACKGROUND_IMAGE, "background_image"},
     {FEATURE_DEPTH_BLACK, "depth_black"},
+    {FEATURE_TEXTURES, "textures"},
+    {FEATURE_FOOTPRINT, "footprint"},
     {FEATURE_SLICES, "slices"},
     {FEATURE_COUNTERS, "counters"},
     {FEATURE_LONG_RAYS, "long_rays"},

@@ -169,7 +169,8 @@ bool print_is_uniform(const struct schema_row *row, const void *field) {
     double n[4];
     if (row->kind == SCHEMA_COLOR ? ((const struct ir_color *)field)->is_hex : !row->fill)
         return false;
-    return ir_walk_components(row, field, n) == 3 && n[0] == n[1] && n[1] == n[2];
+    uint32_t count = ir_walk_components(row, field, n);
+    return (count == 2 || count == 3) && n[0] == n[1] && n[1] == n[count - 1];
 }
 
 void print_plain_value(struct strbuf *out, const struct schema_row *row, const void *field) {

@@ -26,6 +26,11 @@ struct ir_weights {
     double diffuse, specular, reflection, refraction;
 };
 
+// Along the two coordinates of a surface.
+struct ir_pair {
+    double u, v;
+};
+
 struct ir_material_ref {
     str name;       // as written; empty for an inline material
     uint32_t index; // in scene.materials; IR_NO_INDEX: none written, or not found

@@ -97,6 +97,11 @@ uint32_t ir_walk_components(const struct schema_row *row, const void *field, dou
         out[0] = v->x, out[1] = v->y, out[2] = v->z;
         return 3;
     }
+    if (row->kind == SCHEMA_PAIR) {
+        const struct ir_pair *p = field;
+        out[0] = p->u, out[1] = p->v;
+        return 2;
+    }
     if (row->kind == SCHEMA_COLOR) {
         const struct ir_color *c = field;
         out[0] = c->r, out[1] = c->g, out[2] = c->b;

@@ -15,6 +15,7 @@
         unsigned: SCHEMA_WORD,                                                                               \
         str: SCHEMA_TEXT,                                                                                    \
         vec3: SCHEMA_VECTOR,                                                                                 \
+        struct ir_pair: SCHEMA_PAIR,                                                                         \
         struct ir_color: SCHEMA_COLOR,                                                                       \
         struct ir_weights: SCHEMA_WEIGHTS,                                                                   \
         struct ir_material_ref: SCHEMA_REFERENCE,                                                            \
@@ -23,6 +24,8 @@
         struct ir_background: SCHEMA_ELEMENT,                                                                \
         struct ir_paint: SCHEMA_ELEMENT,                                                                     \
         struct ir_checker: SCHEMA_ELEMENT,                                                                   \
+        struct ir_texture: SCHEMA_ELEMENT,                                                                   \
+        struct ir_highlight: SCHEMA_ELEMENT,                                                                 \
         struct ir_includes: SCHEMA_LIST,                                                                     \
         struct ir_cameras: SCHEMA_LIST,                                                                      \
         struct ir_lights: SCHEMA_LIST,                                                                       \
@@ -64,6 +67,14 @@ static const char *const falloff_words[] = {"none", "inverse_square", NULL};
 static const char *const falloff_docs[] = {"The light is equally strong everywhere.",
                                            "The light's strength is divided by the square of the distance.",
                                            NULL};
+static const char *const filter_words[] = {"auto", "nearest", "bilinear", NULL};
+static const char *const filter_docs[] = {
+    "The mean of what lies in the pixel's footprint: nothing shimmers from afar.",
+    "The pixel of the image at the place: hard edges from near.",
+    "Between the four pixels around the place, however far away they are.", NULL};
+static const char *const wrap_words[] = {"repeat", "clamp", "mirror", NULL};
+static const char *const wrap_docs[] = {"The image begins anew.", "The image's edge goes on.",
+                                        "The image begins anew, every other one mirrored.", NULL};
 
 // A row reads as a unit, its columns in lines of text.
 // clang-format off
@@ -212,9 +223,48 @@ static const struct schema_row checker_rows[] = {
      .also = "scale width cell_size",
      .range = SCHEMA_RANGE_LENGTH, .standard = "1",
      .doc = "Edge length of a cell: on a rectangle along its edges, on other bodies in their own coordinates."},
+    {.name = "antialias", FIELD(ir_checker, antialias), .standard = "false", .feature = FEATURE_FOOTPRINT,
+     .also = "filter smooth antialiasing",
+     .doc = "Whether cells smaller than a pixel's footprint blend into the mean of the two colours."},
 };
 const struct schema_element SCHEMA_CHECKER = {
     ELEMENT("checker", "Checker", ir_checker, checker_rows, "Cells of two alternating colours.")};
+
+static const struct schema_row texture_rows[] = {
+    {.name = "file", FIELD(ir_texture, file), .example = "wood.jpg", .text = SCHEMA_TEXT_PATH,
+     .also = "path src href image texture map filename", .file = SCHEMA_FILE_IMAGE, .required = true,
+     .short_form = true, .feature = FEATURE_TEXTURES,
+     .doc = "Path of an image: PNG, JPEG or Radiance HDR."},
+    {.name = "repeat", .element = "Repeat", FIELD(ir_texture, repeat), .example = "2 2",
+     .also = "scale tiling tile times", .range = SCHEMA_RANGE_REPEAT, .standard = "1 1", .fill = true,
+     .doc = "How often the image lies side by side where the surface's coordinates go from 0 to 1."},
+    {.name = "offset", .element = "Offset", FIELD(ir_texture, offset), .example = "0.5 0",
+     .also = "translation shift position", .range = SCHEMA_RANGE_SHIFT, .standard = "0 0",
+     .doc = "Moves the image, in the surface's coordinates, after it is turned."},
+    {.name = "rotation", FIELD(ir_texture, rotation), .example = "90", .unit = SCHEMA_UNIT_DEGREES,
+     .also = "rotate angle turn", .range = SCHEMA_RANGE_ANGLE, .standard = "0",
+     .doc = "Turns the image counterclockwise about the middle of the surface's coordinates."},
+    {.name = "filter", FIELD(ir_texture, filter), .example = "nearest", .words = filter_words,
+     .also = "interpolation filtering mipmap", .word_docs = filter_docs, .standard = "auto",
+     .feature = FEATURE_FOOTPRINT, .feature_of_first = true,
+     .doc = "How a colour is made of the pixels of the image."},
+    {.name = "wrap", FIELD(ir_texture, wrap), .example = "mirror", .words = wrap_words,
+     .also = "extension wrapping extend", .word_docs = wrap_docs, .standard = "repeat",
+     .doc = "What lies beside the image."},
+};
+const struct schema_element SCHEMA_TEXTURE = {
+    ELEMENT("texture", "Texture", ir_texture, texture_rows, "An image on a surface.")};
+
+static const struct schema_row highlight_rows[] = {
+    {.name = "color", .element = "Color", FIELD(ir_highlight, color), .example = "1 0.9 0.8",
+     .range = SCHEMA_RANGE_WEIGHT, .choice = 1, .alternative = IR_PAINT_COLOR, .standard = "1 1 1",
+     .short_form = true, .doc = "One colour everywhere."},
+    {.name = "image", .element = "Image", FIELD(ir_highlight, image), .child = &SCHEMA_TEXTURE, .choice = 1,
+     .also = "texture map bitmap", .alternative = IR_PAINT_IMAGE, .doc = "The colours of an image file."},
+};
+const struct schema_element SCHEMA_HIGHLIGHT = {
+    ELEMENT("highlight", "Highlight", ir_highlight, highlight_rows, "A colour, or an image."),
+    .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_highlight, kind)}}};
 
 static const struct schema_row paint_rows[] = {
     {.name = "color", .element = "Color", FIELD(ir_paint, color), .example = "0.4 0.4 0.3",
@@ -222,9 +272,11 @@ static const struct schema_row paint_rows[] = {
      .short_form = true, .doc = "One colour everywhere."},
     {.name = "checker", .element = "Checker", FIELD(ir_paint, checker), .child = &SCHEMA_CHECKER, .choice = 1,
      .alternative = IR_PAINT_CHECKER, .feature = FEATURE_CHECKER, .doc = "Cells of two colours."},
+    {.name = "image", .element = "Image", FIELD(ir_paint, image), .child = &SCHEMA_TEXTURE, .choice = 1,
+     .also = "texture map bitmap", .alternative = IR_PAINT_IMAGE, .doc = "The colours of an image file."},
 };
 const struct schema_element SCHEMA_PAINT = {
-    ELEMENT("paint", "Paint", ir_paint, paint_rows, "A colour, or a pattern of colours."),
+    ELEMENT("paint", "Paint", ir_paint, paint_rows, "A colour, a pattern of colours, or an image."),
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_paint, kind)}}};
 
 static const struct schema_row material_rows[] = {
@@ -236,11 +288,12 @@ static const struct schema_row material_rows[] = {
      .weight_features = {FEATURE_DIFFUSE, FEATURE_SPECULAR, FEATURE_REFLECTION, FEATURE_REFRACTION},
      .doc = "Weights of diffuse light, highlights, reflection and refraction; their sum may exceed 1."},
     {.name = "diffuse_color", .element = "DiffuseColor", FIELD(ir_material, diffuse_color),
-     .also = "color base_color albedo_color kd diffuse",
+     .also = "color base_color albedo_color kd diffuse texture texture_map diffuse_map diffuse_texture map_kd "
+             "image_texture albedo_map color_map base_color_texture",
      .child = &SCHEMA_PAINT, .doc = "Colour of the diffuse light."},
     {.name = "specular_color", .element = "SpecularColor", FIELD(ir_material, specular_color),
      .also = "ks highlight_color",
-     .example = "1 0.9 0.8", .range = SCHEMA_RANGE_WEIGHT, .standard = "1 1 1",
+     .child = &SCHEMA_HIGHLIGHT,
      .doc = "Colour of the highlights."},
     {.name = "specular_exponent", FIELD(ir_material, specular_exponent), .example = "125",
      .also = "shininess exponent ns phong_exponent glossiness",
@@ -400,7 +453,9 @@ const struct schema_element SCHEMA_SCENE = {
 // clang-format on
 
 const struct schema_element *const schema_elements[] = {
-    &SCHEMA_SCENE,      &SCHEMA_INCLUDE,   &SCHEMA_IMAGE,    &SCHEMA_TRACE,     &SCHEMA_CAMERA,
-    &SCHEMA_BACKGROUND, &SCHEMA_LIGHT,     &SCHEMA_MATERIAL, &SCHEMA_PAINT,     &SCHEMA_CHECKER,
-    &SCHEMA_SPHERE,     &SCHEMA_RECTANGLE, &SCHEMA_MODEL,    &SCHEMA_MAP_ENTRY, NULL,
+    &SCHEMA_SCENE,  &SCHEMA_INCLUDE,    &SCHEMA_IMAGE,   &SCHEMA_TRACE,
+    &SCHEMA_CAMERA, &SCHEMA_BACKGROUND, &SCHEMA_LIGHT,   &SCHEMA_MATERIAL,
+    &SCHEMA_PAINT,  &SCHEMA_CHECKER,    &SCHEMA_TEXTURE, &SCHEMA_HIGHLIGHT,
+    &SCHEMA_SPHERE, &SCHEMA_RECTANGLE,  &SCHEMA_MODEL,   &SCHEMA_MAP_ENTRY,
+    NULL,
 };

@@ -22,6 +22,7 @@ enum schema_kind {
     SCHEMA_WORD,      // unsigned: one of `words`
     SCHEMA_TEXT,      // str: see schema_text
     SCHEMA_VECTOR,    // vec3: x y z
+    SCHEMA_PAIR,      // struct ir_pair: u v
     SCHEMA_COLOR,     // struct ir_color: r g b, one number, or #rrggbb (an XML element: hex="#rrggbb")
     SCHEMA_WEIGHTS,   // struct ir_weights: diffuse specular reflection refraction
     SCHEMA_ELEMENT,   // a child struct, described by `child`
@@ -70,6 +71,8 @@ enum schema_range {
     SCHEMA_RANGE_EXPONENT,   // 0..1e6
     SCHEMA_RANGE_INDEX,      // 0.1..10
     SCHEMA_RANGE_PRIORITY,   // -1000..1000
+    SCHEMA_RANGE_REPEAT,     // 1e-6..1e6
+    SCHEMA_RANGE_SHIFT,      // -1e6..1e6
     SCHEMA_RANGE_COUNT,
 };
 
@@ -114,7 +117,7 @@ struct schema_row {
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;
     bool required;
-    bool fill;       // SCHEMA_VECTOR: a single number fills all components
+    bool fill;       // SCHEMA_VECTOR, SCHEMA_PAIR: a single number fills all components
     bool short_form; // the element's bare scalar or sequence is this row
     bool key;        // in a named map, the map's key; written as an attribute in XML
     enum schema_many many;
@@ -125,6 +128,7 @@ struct schema_row {
     uint8_t alternative;
     // FEATURE_ bit while the value is not zero, false, the first word, empty, or white
     uint32_t feature;
+    bool feature_of_first;              // SCHEMA_WORD: the bit is the first word's and no other's
     uint32_t weight_features[4];        // SCHEMA_WEIGHTS: one per component
     const struct schema_element *child; // SCHEMA_ELEMENT, SCHEMA_REFERENCE, SCHEMA_LIST
     const char *doc;                    // one sentence
@@ -146,8 +150,8 @@ struct schema_element {
 };
 
 extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_IMAGE, SCHEMA_TRACE, SCHEMA_CAMERA,
-    SCHEMA_BACKGROUND, SCHEMA_LIGHT, SCHEMA_MATERIAL, SCHEMA_PAINT, SCHEMA_CHECKER, SCHEMA_SPHERE,
-    SCHEMA_RECTANGLE, SCHEMA_MODEL, SCHEMA_MAP_ENTRY;
+    SCHEMA_BACKGROUND, SCHEMA_LIGHT, SCHEMA_MATERIAL, SCHEMA_PAINT, SCHEMA_CHECKER, SCHEMA_TEXTURE,
+    SCHEMA_HIGHLIGHT, SCHEMA_SPHERE, SCHEMA_RECTANGLE, SCHEMA_MODEL, SCHEMA_MAP_ENTRY;
 
 // All elements, the scene first; NULL at the end.
 extern const struct schema_element *const schema_elements[];

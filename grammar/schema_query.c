@@ -26,6 +26,8 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_EXPONENT] = {"exponent", 0, 1e6, false, false, "from 0 to 1e6"},
     [SCHEMA_RANGE_INDEX] = {"index", 0.1, 10, false, false, "from 0.1 to 10"},
     [SCHEMA_RANGE_PRIORITY] = {"priority", -1000, 1000, false, false, "from -1000 to 1000"},
+    [SCHEMA_RANGE_REPEAT] = {"repeat", 1e-6, 1e6, false, false, "from 1e-6 to 1e6"},
+    [SCHEMA_RANGE_SHIFT] = {"shift", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
 };
 
 const struct schema_range_info *schema_range_info(enum schema_range range) {
@@ -72,7 +74,7 @@ int schema_find_yaml(const struct schema_element *element, str key, bool *is_sin
 bool schema_is_attribute(const struct schema_row *row) {
     if (row->many != SCHEMA_ONE || row->kind == SCHEMA_LIST || row->kind == SCHEMA_WEIGHTS)
         return false;
-    if (row->kind == SCHEMA_VECTOR)
+    if (row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_PAIR)
         return row->fill;
     if (row->kind == SCHEMA_ELEMENT)
         return schema_short_row(row->child) >= 0;
@@ -116,10 +118,15 @@ int schema_key_row(const struct schema_element *element) {
 
 const char *const *schema_components(enum schema_kind kind) {
     static const char *const xyz[] = {"x", "y", "z", NULL};
+    static const char *const uv[] = {"u", "v", NULL};
     static const char *const rgb[] = {"r", "g", "b", NULL};
     static const char *const weights[] = {"diffuse", "specular", "reflection", "refraction", NULL};
     static const char *const none[] = {NULL};
-    return kind == SCHEMA_VECTOR ? xyz : kind == SCHEMA_COLOR ? rgb : kind == SCHEMA_WEIGHTS ? weights : none;
+    return kind == SCHEMA_VECTOR    ? xyz
+           : kind == SCHEMA_PAIR    ? uv
+           : kind == SCHEMA_COLOR   ? rgb
+           : kind == SCHEMA_WEIGHTS ? weights
+                                    : none;
 }
 
 const char *const *schema_file_endings(enum schema_file kind) {
@@ -181,7 +188,7 @@ static struct ir_color read_color(const char *text) {
 void schema_set_field(const struct schema_row *row, void *field, const char *text) {
     double n[4] = {0};
     if (row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_VECTOR ||
-        row->kind == SCHEMA_WEIGHTS)
+        row->kind == SCHEMA_PAIR || row->kind == SCHEMA_WEIGHTS)
         read_numbers(text, n);
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
@@ -201,6 +208,9 @@ void schema_set_field(const struct schema_row *row, void *field, const char *tex
         break;
     case SCHEMA_VECTOR:
         *(vec3 *)field = (vec3){n[0], n[1], n[2]};
+        break;
+    case SCHEMA_PAIR:
+        *(struct ir_pair *)field = (struct ir_pair){n[0], n[1]};
         break;
     case SCHEMA_COLOR:
         *(struct ir_color *)field = read_color(text);

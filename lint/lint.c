@@ -30,6 +30,9 @@ const struct lint_rule lint_rules[] = {
     {DIAG_MEDIA_OVERLAP, lint_media, LINT_ALL},
     // One pass over the bodies.
     {DIAG_NO_EFFECT, lint_attenuation, LINT_ALL},
+    // A few thousand rays, or triangles, for each camera and body with an image or a checker that nothing
+    // filters.
+    {DIAG_TOO_FINE, lint_too_fine, LINT_ALL},
     {.run = NULL},
 };
 

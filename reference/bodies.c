@@ -10,6 +10,9 @@ static struct material make_material(const struct scene_material *from) {
                          .reflection = from->reflection,
                          .refraction = from->refraction,
                          .index = from->refractive_index,
+                         .is = from,
+                         .has_paint = (from->checker && from->soft) || from->images[ASSETS_DIFFUSE].texture ||
+                                      from->images[ASSETS_SPECULAR].texture,
                          .fresnel = from->fresnel,
                          .priority = from->priority,
                          .absorption = from->absorption};

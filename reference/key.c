@@ -39,6 +39,11 @@ static void add_mesh(struct hash128 *h, const struct mesh *mesh) {
     hash128_array(h, mesh->positions, mesh->position_count, sizeof *mesh->positions);
     hash128_array(h, mesh->normals, mesh->normal_count, sizeof *mesh->normals);
     hash128_array(h, mesh->triangles, mesh->triangle_count, sizeof *mesh->triangles);
+    hash128_whole(h, mesh->textured != NULL);
+    if (!mesh->textured)
+        return;
+    hash128_array(h, mesh->coordinates, mesh->coordinate_count, sizeof *mesh->coordinates);
+    hash128_array(h, mesh->textured, mesh->triangle_count, sizeof *mesh->textured);
 }
 
 // Meshes, and which material each of their groups has. A mesh is read once; bodies that show it again name
@@ -66,6 +71,17 @@ static void add_picture(struct hash128 *h, const struct picture *picture) {
     hash128_array(h, picture->pixels, picture->size_bytes, 1);
 }
 
+// The images of all materials: their levels follow from them. One that was hashed is named by its number.
+static void add_images(struct hash128 *h, const struct scene *scene) {
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        for (int k = 0; k < ASSETS_IMAGES; k++) {
+            const struct scene_texture *texture = scene->materials[i].images[k].texture;
+            hash128_whole(h, texture ? texture->number + UINT64_C(1) : 0);
+        }
+    for (const struct scene_texture *t = scene->textures; t; t = t->next)
+        add_picture(h, t->picture);
+}
+
 void reference_scene_key(const struct reference_input *input, uint64_t key[2]) {
     const struct scene *scene = input->scene;
     struct hash128 h;
@@ -80,6 +96,7 @@ void reference_scene_key(const struct reference_input *input, uint64_t key[2]) {
     add_view(&h, input->view);
     add_bodies(&h, scene);
     add_picture(&h, scene->background.picture);
+    add_images(&h, scene);
     hash128_end(&h, key);
 }
 

@@ -50,7 +50,9 @@ static vec3 unshadowed(const struct reference *r, const struct view_light *light
 static struct ray ray_to(const struct reference *r, const struct view_light *light, struct start start) {
     vec3 way = vec3_sub(place_of(r, light), start.at);
     way = reference_rounded3(r, way, vec3_max_abs(way));
-    return (struct ray){start, light->directional ? light->to_light : way, light->directional ? INFINITY : 1};
+    return (struct ray){.start = start,
+                        .direction = light->directional ? light->to_light : way,
+                        .t_max = light->directional ? INFINITY : 1};
 }
 
 // What bodies that refract let through to the light: a product of what each does, in the order in which the

@@ -128,7 +128,7 @@ static void look_from_above(const struct reference *r, struct approach *on) {
         return;
     struct start start = reference_start(vec3_mul(up, 1.01 * height / up.y));
     for (int i = 0; i < CROSSINGS_MOST; i++) {
-        const struct ray ray = {start, vec3_neg(up), vec3_length(start.at)};
+        const struct ray ray = {.start = start, .direction = vec3_neg(up), .t_max = vec3_length(start.at)};
         struct intersection hit;
         struct surface s;
         reference_intersect(r, &ray, &hit);

@@ -56,6 +56,8 @@ struct material {
     double cell;
     vec3 specular;
     double exponent, reflection, refraction, index;
+    const struct scene_material *is;
+    bool has_paint; // an image, or a checker that is filtered
     bool fresnel;
     int32_t priority;
     vec3 absorption;
@@ -190,10 +192,17 @@ static inline struct start reference_start(vec3 at) {
     return (struct start){.at = at, .left = NO_PRIMITIVE};
 }
 
+// How wide a pixel is along a ray: its width at the start and what it gains for each length. Where it is
+// negative, rays have crossed.
+struct cone {
+    double width, spread;
+};
+
 struct ray {
     struct start start;
     vec3 direction; // any length
     double t_max;
+    struct cone cone;
 };
 
 struct intersection {
@@ -218,6 +227,9 @@ struct surface {
     bool enters, solid;
     vec3 diffuse, specular; // times their weights
     double exponent, reflection, refraction, index;
+    double bend;  // how fast the normal turns along the surface: positive where it bulges to the ray's side
+    double width; // of the ray's cone
+    struct reference_texel texel;
     bool fresnel;
     // Of a ray that comes from a place inside certain media: reference_cross.
     double index_before, index_after;
@@ -253,6 +265,17 @@ uint32_t reference_filling(const struct reference *r, const struct inside *insid
 // What is left of light after a way in the medium that fills a place.
 vec3 reference_left(const struct reference *r, const struct inside *inside, double way);
 
+// ---- paint.c
+
+// Replaces the colours that an image has, and those of a filtered checker; `arm`: from a sphere's centre.
+void reference_paint(const struct reference *r, const struct ray *ray, const double b[3], vec3 arm,
+                     struct surface *s);
+// The cone of the camera's ray, and of rays that leave a surface.
+struct cone reference_camera_cone(const struct reference *r, const struct reference_settings *settings,
+                                  vec3 direction);
+struct cone reference_mirrored_cone(const struct surface *s, struct cone cone);
+struct cone reference_bent_cone(const struct surface *s, struct cone cone, vec3 from, vec3 to);
+
 // ---- ray_offset.c
 
 // The start of rays that leave on the side of `side`, a unit vector along the geometric normal.
@@ -277,6 +300,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
 struct branch {
     struct start start;
     vec3 direction;
+    struct cone cone;
     double throughput;
     vec3 tint; // what attenuation has left of each channel
     struct inside inside;

@@ -115,12 +115,14 @@ static double send_rays(struct following *f, const struct branch *from, const st
         through.direction = split.bent;
         through.inside = s->after;
         through.start = reference_leave(f->r, s, vec3_neg(s->geometric));
+        through.cone = reference_bent_cone(s, from->cone, from->direction, through.direction);
         cut += send(f, &through);
     }
     back.throughput *= reference_reflection(s, &split);
     if (back.throughput > 0) {
         back.start = reference_leave(f->r, s, s->geometric);
         back.direction = reference_mirrored(f->r, s, from->direction);
+        back.cone = reference_mirrored_cone(s, from->cone);
         cut += send(f, &back);
     }
     return cut;
@@ -160,12 +162,14 @@ static void log_surface(const struct following *f, struct reference_segment *seg
     segment->considered = lighting->considered;
     segment->lit = lighting->lit;
     segment->radiance = lighting->sum;
+    segment->texel = s->texel;
 }
 
 // A surface between equal media, or of a body of lower priority: straight on, unseen.
 static void pass(struct following *f, struct branch *b, const struct surface *s, uint32_t segment) {
     b->start = reference_leave(f->r, s, vec3_neg(s->geometric));
     b->inside = s->after;
+    b->cone.width = s->width;
     b->parent = segment;
     f->sample->rays[b->kind]--; // which goes on, and counts there
     f->sample->unseen++;
@@ -190,7 +194,7 @@ static void show_surface(struct following *f, const struct branch *b, const stru
 }
 
 static void follow_ray(struct following *f, struct branch *b) {
-    struct ray ray = {b->start, b->direction, INFINITY};
+    struct ray ray = {b->start, b->direction, INFINITY, b->cone};
     struct intersection hit;
     struct reference_segment *segment = log_segment(f, b);
     f->sample->rays[b->kind]++;
@@ -234,6 +238,7 @@ void reference_follow(const struct reference *r, const struct reference_settings
     struct following f = {r, settings, queue, log, out, *points};
     struct branch first = {.start = reference_start((vec3){0, 0, 0}),
                            .direction = direction,
+                           .cone = reference_camera_cone(r, settings, direction),
                            .throughput = 1,
                            .tint = {1, 1, 1},
                            .inside = r->around_camera,

@@ -95,7 +95,8 @@ vec3 reference_camera_ray(const struct reference *r, const struct reference_sett
 
 void reference_closest(const struct reference *r, vec3 origin, vec3 direction, double t_max,
                        struct reference_hit *hit) {
-    struct ray ray = {reference_start(vec3_sub(origin, r->origin)), direction, t_max};
+    struct ray ray = {
+        .start = reference_start(vec3_sub(origin, r->origin)), .direction = direction, .t_max = t_max};
     struct intersection nearest;
     struct surface s;
     *hit = (struct reference_hit){.body = HIT_NONE, .material = IR_NO_INDEX};
@@ -120,7 +121,8 @@ void reference_closest(const struct reference *r, vec3 origin, vec3 direction, d
 }
 
 bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, double t_max) {
-    struct ray ray = {reference_start(vec3_sub(origin, r->origin)), direction, t_max};
+    struct ray ray = {
+        .start = reference_start(vec3_sub(origin, r->origin)), .direction = direction, .t_max = t_max};
     return reference_blocks(r, &ray);
 }
 
@@ -255,7 +257,7 @@ bool reference_pixel(const struct reference *r, const struct reference_settings 
 
 // The body that a ray from a surface hits.
 static uint32_t body_ahead(const struct reference *r, struct start start, vec3 direction) {
-    struct ray ray = {start, direction, INFINITY};
+    struct ray ray = {.start = start, .direction = direction, .t_max = INFINITY};
     struct intersection hit;
     reference_intersect(r, &ray, &hit);
     return hit.primitive == NO_PRIMITIVE ? HIT_NONE : r->primitives[hit.primitive].body;
@@ -263,7 +265,7 @@ static uint32_t body_ahead(const struct reference *r, struct start start, vec3 d
 
 static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
-    struct ray ray = {reference_start((vec3){0, 0, 0}), direction, INFINITY};
+    struct ray ray = {.start = reference_start((vec3){0, 0, 0}), .direction = direction, .t_max = INFINITY};
     struct intersection nearest;
     struct surface s;
     struct lighting lighting;

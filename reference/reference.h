@@ -169,6 +169,17 @@ enum reference_kind {
     REFERENCE_REFRACTED,
 };
 
+// What a surface shows of its image: the pixel of its nearest level, from the top left.
+struct reference_texel {
+    bool is_there;
+    bool of_highlight; // of the specular colour: the diffuse one has no image
+    double u, v;       // coordinates of the surface
+    double level;      // 0: the image itself; each further one is half the size
+    uint32_t x, y;     // in the image itself
+    uint32_t taps;     // that were averaged
+    vec3 color;        // linear, not yet times the weight
+};
+
 struct reference_segment {
     enum reference_kind kind;
     uint32_t parent; // index in the log; REFERENCE_NO_SEGMENT for the camera's ray
@@ -185,8 +196,9 @@ struct reference_segment {
     double distance;                // scene units; 0 where nothing was hit
     vec3 point, geometric, shading; // as in reference_hit; 0 where nothing was hit
     uint32_t considered, lit;       // as in struct hit_pixel
-    vec3 radiance;     // direct light of the surface, or the background; times weight and tint it is what the
-                       // pixel gets
+    vec3 radiance; // direct light of the surface, or the background; times weight and tint it is what the
+                   // pixel gets
+    struct reference_texel texel;
     double cut_weight; // of the rays that this surface would have sent and that were not followed
 };
 

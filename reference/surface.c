@@ -117,6 +117,27 @@ static void sphere_surface(const struct reference *r, const struct ray *ray, con
     s->error = vec3_add(vec3_mul(absolute(*arm), reference_gamma(r, 5)),
                         vec3_mul(absolute(s->point), reference_gamma(r, 1)));
     turn_to_ray(s, outward, ray->direction);
+    s->bend = (s->enters ? 1 : -1) / p->v[1][0];
+}
+
+// How fast the normals turn from corner to corner, the mean over the edges (Akenine-Moeller et al. 2021,
+// section 3).
+static double bend_of(const struct body *body, const struct surface *s, const vec3 corners[3]) {
+    double sum = 0;
+    vec3 normals[3];
+    for (int k = 0; k < 3; k++) {
+        normals[k] =
+            vec3_unit(mat3_apply(body->normal_map, body->normals[3 * (size_t)s->triangle + (size_t)k]));
+        if (vec3_dot(normals[k], s->geometric) < 0)
+            normals[k] = vec3_neg(normals[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        const vec3 edge = vec3_sub(corners[(k + 1) % 3], corners[k]);
+        const double length2 = vec3_dot(edge, edge);
+        if (length2 > 0)
+            sum += vec3_dot(vec3_sub(normals[(k + 1) % 3], normals[k]), edge) / length2;
+    }
+    return sum / 3;
 }
 
 static void triangle_surface(const struct reference *r, const struct body *body, const struct ray *ray,
@@ -134,6 +155,8 @@ static void triangle_surface(const struct reference *r, const struct body *body,
     turn_to_ray(s, body->is->mirrored ? vec3_neg(outward) : outward, ray->direction);
     if (body->normals)
         s->shading = reference_rounded3(r, smooth_normal(body, s, b), 1);
+    if (body->normals)
+        s->bend = bend_of(body, s, corners);
 }
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
@@ -155,6 +178,9 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
     else
         triangle_surface(r, body, ray, p, b, out);
     take_material(r, body->is, b, arm, out);
+    out->width = ray->cone.width + ray->cone.spread * hit->t;
+    if (r->materials[out->material].has_paint)
+        reference_paint(r, ray, b, arm, out);
 }
 
 // ---- rays that leave

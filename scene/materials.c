@@ -36,7 +36,8 @@ static struct scene_material material_of(const struct ir_material *ir, unsigned 
                                .refraction = ir->albedo.refraction,
                                .checker = checker,
                                .cell = checker ? paint->checker.size : 1,
-                               .specular = scene_linear_color(ir->specular_color, transfer),
+                               .soft = checker && paint->checker.antialias,
+                               .specular = scene_linear_color(ir->specular_color.color, transfer),
                                .specular_exponent = ir->specular_exponent,
                                .refractive_index = ir->refractive_index,
                                .fresnel = ir->fresnel,
@@ -70,5 +71,6 @@ void scene_build(const struct ir_scene *ir, const struct assets *assets, struct 
     out->materials = ARENA_ARRAY(arena, struct scene_material, assets->material_count);
     for (uint32_t i = 0; i < assets->material_count; i++)
         out->materials[i] = material_of(&assets->materials[i], transfer);
+    scene_build_textures(out, arena);
     scene_build_bodies(out, arena);
 }

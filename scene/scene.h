@@ -17,6 +17,10 @@ struct ir_color;
 struct ir_head;
 struct schema_element;
 
+enum {
+    SCENE_LEVELS_MAX = 24
+};
+
 // How a body is intersected.
 enum scene_shape {
     SCENE_SPHERE,
@@ -51,19 +55,52 @@ struct scene_body {
 // Black after any way that is not 0, and finite.
 #define SCENE_ABSORPTION_MAX 1e30
 
+// An image on surfaces, with levels of half its size each, down to one pixel. What a pixel is, is the image's
+// file's; levels are made here, once, for all that trace.
+struct scene_texture {
+    struct scene_texture *next;    // of the scene, in no order that matters
+    uint32_t number;               // among them, from 0
+    const struct picture *picture; // level 0
+    bool is_srgb;                  // stored values are sRGB; else as they are
+    uint32_t level_count;
+    struct scene_level {
+        uint32_t width, height;
+        const void
+            *pixels; // rows from the top; three bytes a pixel, stored as the file's; else three linear floats
+        bool is_bytes; // level 0: NULL, and the picture's
+    } levels[SCENE_LEVELS_MAX];
+};
+
+// How a material shows a texture.
+struct scene_image {
+    const struct scene_texture *texture; // NULL: it shows none, or its pixels are not there
+    // From the coordinates of a surface (u, v) to those of the image (0..1, v upwards): rows u, v of a
+    // matrix, and what is added.
+    double u[3], v[3];
+    unsigned filter, wrap; // ir_filter, ir_wrap
+};
+
 // A material as the tracers see it. Colours are linear and not yet multiplied by their weights.
 struct scene_material {
     double diffuse_weight, specular_weight, reflection, refraction;
     vec3 diffuse[2]; // of the odd cells too, where it is a checker; else equal
     bool checker;
     double cell; // edge of a checker's cells, scene units; 1 without
+    bool soft;   // the checker is filtered
     vec3 specular;
+    struct scene_image images[ASSETS_IMAGES]; // of the diffuse and of the specular colour: in place of it
     double specular_exponent, refractive_index;
     bool fresnel;
     int32_t priority;
     vec3 absorption; // per scene unit, at most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light
     uint32_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
 };
+
+// Whether its colours need more than two of a checker's cells: for what shows scenes otherwise, and must
+// refuse.
+static inline bool scene_material_is_painted(const struct scene_material *m) {
+    return m->soft || m->images[ASSETS_DIFFUSE].texture || m->images[ASSETS_SPECULAR].texture;
+}
 
 struct scene_background {
     vec3 color;                    // linear, times intensity: without an image
@@ -80,6 +117,8 @@ struct scene {
     struct scene_material *materials; // in the order of assets.materials
     uint32_t material_count;
     struct scene_background background;
+    struct scene_texture *textures; // one for each image file that materials show; NULL: none
+    uint32_t texture_count;
 };
 
 void scene_build(const struct ir_scene *ir, const struct assets *assets, struct arena *arena,
@@ -105,6 +144,15 @@ void scene_check_reach(const struct scene *scene, struct diag_sink *sink);
 // Whether all bodies together have no more triangles than the limit, those of a mesh counted once; else adds
 // an error (E501).
 bool scene_check_triangles(const struct scene *scene, const struct limits *limits, struct diag_sink *sink);
+
+// ---- textures
+
+// The linear value of a pixel of a level, its row counted from the top.
+vec3 scene_texel(const struct scene_texture *texture, uint32_t level, uint32_t x, uint32_t y);
+// The texture coordinates of a mesh's triangle at its corners, as the file has them: 0, 0 where it has none.
+void scene_coordinates(const struct scene_body *body, uint32_t triangle, struct ir_pair corners[3]);
+// Whether any material that a body has shows an image.
+bool scene_body_has_image(const struct scene *scene, const struct scene_body *body);
 
 // ---- colours
 

@@ -7,4 +7,7 @@
 // Fills the bodies; the rest of the scene is complete.
 void scene_build_bodies(struct scene *scene, struct arena *arena);
 
+// Fills the images of all materials.
+void scene_build_textures(struct scene *scene, struct arena *arena);
+
 #endif

@@ -36,6 +36,7 @@ uint path_of(uint index, uint slots) {
 struct waiting_ray {
     ray_start start;
     REAL3 direction;
+    RAY_CONE cone;
     float throughput;
     uint depth;
 };
@@ -56,6 +57,7 @@ void take_waiting(inout path_state p) {
     waiting_ray ray = waiting[p.stack_size];
     p.start = ray.start;
     p.direction = ray.direction;
+    p.cone = ray.cone;
     p.throughput = ray.throughput;
     p.depth = ray.depth;
     if (HAS_MEDIA) {
@@ -69,7 +71,8 @@ void take_waiting(inout path_state p) {
 void save_waiting(uint place, uint count) {
     for (uint i = 0u; i < count; i++) {
         uint word = BRANCHES_WORD + BRANCH_WORDS * i;
-        put_branch(place, word, waiting[i].start, waiting[i].direction, waiting[i].throughput, waiting[i].depth);
+        put_branch(place, word, waiting[i].start, waiting[i].direction, waiting[i].cone, waiting[i].throughput,
+                   waiting[i].depth);
         if (HAS_MEDIA)
             put_media(place, word + BRANCH_WORDS - MEDIA_BRANCH_WORDS, waiting_media[i].inside, waiting_media[i].tint);
         if (HAS_POINTS)
@@ -81,7 +84,7 @@ void load_waiting(uint place, uint count) {
     for (uint i = 0u; i < count; i++) {
         path_state p;
         get_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, p);
-        waiting[i] = waiting_ray(p.start, p.direction, p.throughput, p.depth);
+        waiting[i] = waiting_ray(p.start, p.direction, p.cone, p.throughput, p.depth);
         if (HAS_MEDIA) {
             get_media(place, BRANCHES_WORD + BRANCH_WORDS * (i + 1u) - MEDIA_BRANCH_WORDS, p);
             waiting_media[i] = waiting_medium(p.inside, p.tint);

@@ -8,12 +8,18 @@ REAL3 reflected(REAL3 d, surface s) {
     return unit3(r);
 }
 
-// false: total reflection. `d` comes out unchanged, bit for bit, where nothing bends. `c`, `k`: cosine to the normal that
-// bends, and the square of that behind it.
-bool refracted(REAL3 d, surface s, out REAL3 t, out REAL c, out REAL k) {
+// Of the side that the ray comes from to the other.
+REAL index_ratio(surface s) {
     REAL eta = s.enters ? 1.0 / s.index : s.index;
     if (HAS_SIDES)
         eta = s.index_before / s.index_after;
+    return eta;
+}
+
+// false: total reflection. `d` comes out unchanged, bit for bit, where nothing bends. `c`, `k`: cosine to the normal that
+// bends, and the square of that behind it.
+bool refracted(REAL3 d, surface s, out REAL3 t, out REAL c, out REAL k) {
+    REAL eta = index_ratio(s);
     c = -dot3(d, s.shading);
     REAL c_flat = -dot3(d, s.geometric);
     bool flat_normal = c <= 0.0;
@@ -42,6 +48,16 @@ float fresnel_share(REAL n, REAL m, REAL c, REAL k, bool pane) {
     REAL across = (n * c - m * t) / (n * c + m * t), along = (m * c - n * t) / (m * c + n * t);
     REAL both = 0.5 * (of_faces(across * across, pane) + of_faces(along * along, pane));
     return float(n == m ? 0.0 : k <= 0.0 ? 1.0 : both);
+}
+
+// The cones of rays that a surface sends on: its normal turns the more the wider the cone is there.
+RAY_CONE mirrored_cone(surface s, RAY_CONE cone) { return vec2(s.width, cone.y + 2.0 * s.bend * s.width); }
+
+RAY_CONE bent_cone(surface s, RAY_CONE cone, REAL3 from, REAL3 to) {
+    float eta = float(index_ratio(s));
+    float along = float(dot3(to, s.shading)) - eta * float(dot3(from, s.shading));
+    bool straight = !s.solid || eta == 1.0;
+    return vec2(s.width, straight ? cone.y : eta * cone.y + along * s.bend * s.width);
 }
 
 // What a surface sends on of a ray.

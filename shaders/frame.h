@@ -39,7 +39,9 @@
     UINT(inside_4)                                                                                           \
     UINT(inside_5)                                                                                           \
     UINT(inside_6)                                                                                           \
-    UINT(inside_7)
+    UINT(inside_7)                                                                                           \
+    UINT(coordinates_table) /* gpu_scene.h */                                                                \
+    FLOAT(footprint)        /* how much wider a pixel gets for each length along the camera's view */
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
@@ -106,8 +108,9 @@
    what the ray leaves: error of its start, b1, b2, item: kept between dispatches; then three words for each
    refracted ray that waits: origin, throughput; direction, depth; what it leaves. Of paths traced at once,
    which take places and not slots, the spare word is the path's number. In double precision places,
-   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. With FEATURE_LONG_RAYS
-   the words of long_rays.glsl lie between the two. */
+   directions, t, b1 and b2 take two numbers each: path_words.glsl has the order. With FEATURE_FOOTPRINT a
+   path and each refracted ray that waits have a word more, of the ray's cone. With FEATURE_LONG_RAYS the
+   words of long_rays.glsl lie between the two. */
 #define STATE_WORDS         7
 #define STACK_ENTRY_WORDS   3
 #define STATE64_WORDS       10

@@ -27,6 +27,8 @@
 #define BINDING_PICTURE 15 /* three floats a pixel, by rows: the sums of its samples, or NaN */
 #define BINDING_SUMS    16 /* as OUTPUT, a word a slot: of the samples before */
 #define BINDING_ORDER   17 /* tiles in the order of their slots: x + (y << 16) */
+/* Where materials have images, or checkers that are filtered. */
+#define BINDING_PAINTS 18
 
 /* Node of the 8-wide compressed tree (Ylitie, Karras, Laine 2017, section 4.1):
    word 0: x,y,z the corner p of the node's box (float); w: byte 0..2 exponents ex,ey,ez (biased by 127),
@@ -81,6 +83,22 @@
    of each block, four to a word; then the shades (material and flags) of groups. */
 #define INSTANCE_MIRRORED 1u /* the second and third corner are exchanged */
 #define INSTANCE_COPIED   2u /* instance 0: records have bodies and shades of their own */
+
+/* Images: PAINTS begins with two records for each material, of its diffuse and its specular colour. After
+   them lie, in any order, what records name by the number of its word: for each image a word a level, of its
+   first texel, width and height; its texels, row 0 on top, from the finest level on, of 8-bit images four to
+   a word (r in the lowest byte; the first texel is counted in components), of others one (three floats); for
+   images that are sRGB a word for each of 256 values, decoded; for each mesh with coordinates two words a
+   triangle (u, v of each corner, in the order of the mesh); and, from frame.coordinates_table on, four to a
+   word, the first of those words for each body: it is even, plus 1 where the body's second and third corners
+   are exchanged against the mesh's; 0: it has none. Word numbers have 32 bits: 64 GiB, of which a quarter can
+   be 8-bit texels. */
+#define PAINT_NEAREST 1u
+#define PAINT_AUTO    2u /* neither: bilinear */
+#define PAINT_CLAMP   4u
+#define PAINT_MIRROR  8u /* neither: repeat */
+#define PAINT_FLOATS  16u
+#define PAINT_SOFT    32u /* the material's checker is filtered */
 
 /* A medium (scene/media.h): its priority, above 0, and below it the number, from 1 on, of a material that
    fills it; the same one for all that are alike. What a path is inside (media.glsl) is kept with the number

@@ -28,6 +28,7 @@ layout(local_size_x = TILE_PIXELS) in;
 struct log_ray {
     ray_start start;
     REAL3 direction;
+    RAY_CONE cone;
     media_set inside;
     uint key;
 };
@@ -37,7 +38,9 @@ log_ray load_ray(uint at) {
     ray_start start = ray_start(REAL3(number_of(a.xy), number_of(a.zw), number_of(b.xy)), number_of(d.zw), b.w,
                                 number_of(e.xy), number_of(e.zw));
     return log_ray(start, REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)),
-                   media_set(states[at + 5u], states[at + 6u]), point_key(states[at + 7u].x, states[at + 7u].y));
+                   uintBitsToFloat(states[at + LOG_CONE].xy),
+                   media_set(states[at + LOG_INSIDE], states[at + LOG_INSIDE + 1u]),
+                   point_key(states[at + LOG_KEY].x, states[at + LOG_KEY].y));
 }
 
 void write_camera_ray() {
@@ -47,9 +50,12 @@ void write_camera_ray() {
     states[2] = uvec4(bits_of(d.x), bits_of(d.y));
     states[3] = uvec4(bits_of(d.z), 0u, 0u);
     states[4] = uvec4(0u);
-    states[5] = camera_media().a;
-    states[6] = camera_media().b;
-    states[7] = uvec4(point_root(point_pixel.x, point_pixel.y), POINT_SAME, 0u, 0u);
+    states[LOG_CONE] = uvec4(0u);
+    if (HAS_FOOTPRINT)
+        states[LOG_CONE] = uvec4(floatBitsToUint(camera_cone(d)), 0u, 0u);
+    states[LOG_INSIDE] = camera_media().a;
+    states[LOG_INSIDE + 1] = camera_media().b;
+    states[LOG_KEY] = uvec4(point_root(point_pixel.x, point_pixel.y), POINT_SAME, 0u, 0u);
 }
 
 hit_record load_hit(uint at) {
@@ -72,7 +78,8 @@ uint material_of(hit_record hit) {
     return shade & TRIANGLE_MATERIAL;
 }
 
-void write_ray(uint at, ray_start start, REAL3 direction) {
+void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
+    pixels[at + LOG_CONE] = uvec4(floatBitsToUint(cone), 0u, 0u);
     write3(at, start.at, uvec2(0u, start.left));
     write3(at + 2u, direction, bits_of(start.slack));
     pixels[at + 4u] = uvec4(bits_of(start.b1), bits_of(start.b2));
@@ -88,14 +95,19 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     write3(at + 4u, s.point, uvec2(floatBitsToUint(rays.reflection), floatBitsToUint(rays.refraction)));
     write3(at + 6u, s.geometric, uvec2(0u));
     write3(at + 8u, s.shading, uvec2(0u));
-    write_ray(at + 10u, leave(s, hit, s.geometric), reflected(ray.direction, s));
-    write_ray(at + 15u, leave(s, hit, -s.geometric), rays.bent);
+    RAY_CONE mirrored = ray.cone, bent = ray.cone;
+    if (HAS_FOOTPRINT) {
+        mirrored = mirrored_cone(s, ray.cone);
+        bent = bent_cone(s, ray.cone, ray.direction, rays.bent);
+    }
+    write_ray(at + LOG_REFLECTED, leave(s, hit, s.geometric), reflected(ray.direction, s), mirrored);
+    write_ray(at + LOG_REFRACTED, leave(s, hit, -s.geometric), rays.bent, bent);
     vec3 left = vec3(1.0);
     if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION))
         left = media_left(ray.inside, hit.t);
-    pixels[at + 20u] = uvec4(floatBitsToUint(left), ray.key);
-    pixels[at + 21u] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.a : uvec4(0u);
-    pixels[at + 22u] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.b : uvec4(0u);
+    pixels[at + LOG_LEFT] = uvec4(floatBitsToUint(left), ray.key);
+    pixels[at + LOG_AFTER] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.a : uvec4(0u);
+    pixels[at + LOG_AFTER + 1u] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.b : uvec4(0u);
 }
 
 void add_to_log(uint at, vec3 value) {
@@ -125,6 +137,7 @@ void main() {
         return;
     log_ray ray = load_ray(index * LOG_RAY_WORDS);
     bool lights = kind >= LOG_LIGHTS;
+    surface_cone = ray.cone;
     hit_record hit = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     surface s;
     light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY);

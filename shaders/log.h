@@ -4,9 +4,12 @@
 #define GLINT_SHADERS_LOG_H
 
 /* STATE, a ray: its origin, LOG_BLIND or 0, item of the triangle that it leaves; its direction, unit, bound
-   of the origin's error; b1, b2 of the place on that triangle (ray_start); what it is inside (media.glsl);
-   key of the ray from whose hit it leaves, and how (points.h). */
-#define LOG_RAY_WORDS 8
+   of the origin's error; b1, b2 of the place on that triangle (ray_start); its cone, floats; what it is
+   inside (media.glsl); key of the ray from whose hit it leaves, and how (points.h). */
+#define LOG_RAY_WORDS 9
+#define LOG_CONE      5
+#define LOG_INSIDE    6
+#define LOG_KEY       8
 #define LOG_BLIND     1u /* it is not traced, and sees the background */
 
 /* OUTPUT, a ray:
@@ -17,15 +20,19 @@
    4: point; weights of the mirrored and of the refracted ray as bits of floats
    6: geometric normal   8: shading normal; in what they leave of 7 and 9, what rounding dropped of the sum
    10: the mirrored ray as in STATE, without what it is inside
-   15: the refracted ray
-   20: what is left of light on the way to the surface, as bits of floats; key of the ray   21: what the
+   16: the refracted ray
+   22: what is left of light on the way to the surface, as bits of floats; key of the ray   23: what the
    refracted ray is inside */
-#define LOG_WORDS   23
-#define LOG_NOTHING 0xffffffffu
-#define LOG_ENTERS  1u
-#define LOG_TOTAL   2u /* the ray would be refracted, and is turned back */
-#define LOG_PASSES  4u /* it goes straight on, unseen */
-#define LOG_NESTED  8u /* it would be inside too many media */
+#define LOG_REFLECTED 10
+#define LOG_REFRACTED 16
+#define LOG_LEFT      22
+#define LOG_AFTER     23
+#define LOG_WORDS     25
+#define LOG_NOTHING   0xffffffffu
+#define LOG_ENTERS    1u
+#define LOG_TOTAL     2u /* the ray would be refracted, and is turned back */
+#define LOG_PASSES    4u /* it goes straight on, unseen */
+#define LOG_NESTED    8u /* it would be inside too many media */
 
 /* dispatch.first_sample and (read_list, pending_base): the sample, and its pixel. dispatch.resume: make the
    camera's ray the first ray; follow the rays and make their surfaces; send the shadow ray to light i.

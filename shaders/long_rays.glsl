@@ -13,8 +13,10 @@ const uint LOW_WORD = STATE64_WORDS;
 #else
 const uint LOW_WORD = STATE_WORDS;
 #endif
-const uint PATH_WORDS = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u) + (HAS_MEDIA ? MEDIA_WORDS : 0u) +
-                        (HAS_CLEAR_SHADOWS ? SHINE_WORDS : 0u) + (HAS_POINTS ? KEY_WORDS : 0u);
+const uint CONE_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u) + (HAS_MEDIA ? MEDIA_WORDS : 0u) +
+                        (HAS_CLEAR_SHADOWS ? SHINE_WORDS : 0u);
+const uint KEY_WORD = CONE_WORD + (HAS_FOOTPRINT ? 1u : 0u);
+const uint PATH_WORDS = KEY_WORD + (HAS_POINTS ? KEY_WORDS : 0u);
 // Words of a slot after those of its path: which tree and instance, group, number of what was hit; t, b1; b2, item, size of
 // the stack; what a search of triangles knows of its errors; then two entries of the stack a word.
 const uint LONG_STACK_WORD = LONG_RAY_WORDS;

@@ -7,6 +7,7 @@ const uint RAY_REFRACTED = 2u;
 struct path_state {
     ray_start start;
     REAL3 direction;
+    RAY_CONE cone;    // with HAS_FOOTPRINT
     float throughput; // share of what the ray sees that the sample gets
     uint depth; // max_depth + 1: only sees the background
     uint kind;
@@ -27,6 +28,9 @@ path_state begin_path(REAL3 direction) {
     path_state p;
     p.start = exact_start(CAMERA(position));
     p.direction = direction;
+    p.cone = vec2(0.0);
+    if (HAS_FOOTPRINT)
+        p.cone = camera_cone(direction);
     p.throughput = 1.0;
     p.depth = 0u;
     p.kind = RAY_PRIMARY;

@@ -11,7 +11,6 @@ uint state_word(uint place, uint word) { return word * dispatch.places + place; 
 
 const uint MEDIA_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u);
 const uint SHINE_WORD = MEDIA_WORD + (HAS_MEDIA ? MEDIA_WORDS : 0u);
-const uint KEY_WORD = SHINE_WORD + (HAS_CLEAR_SHADOWS ? SHINE_WORDS : 0u);
 const uint MEDIA_BRANCH_WORDS = HAS_MEDIA ? MEDIA_WORDS : 0u;
 const uint KEY_BRANCH_WORDS = HAS_POINTS ? KEY_WORDS : 0u;
 const uint MORE_BRANCH_WORDS = KEY_BRANCH_WORDS + MEDIA_BRANCH_WORDS;
@@ -90,8 +89,20 @@ vec3 get_low(uint slot) {
     return low;
 }
 
+// With HAS_FOOTPRINT, in a word of their own.
+void put_cone(uint slot, uint word, RAY_CONE cone) {
+    if (HAS_FOOTPRINT)
+        states[state_word(slot, word)] = uvec4(floatBitsToUint(cone), 0u, 0u);
+}
+RAY_CONE get_cone(uint slot, uint word) {
+    RAY_CONE cone = vec2(0.0);
+    if (HAS_FOOTPRINT)
+        cone = uintBitsToFloat(states[state_word(slot, word)].xy);
+    return cone;
+}
+
 #ifdef DOUBLE_PRECISION
-const uint BRANCH_WORDS = STACK64_ENTRY_WORDS + MORE_BRANCH_WORDS;
+const uint BRANCH_WORDS = STACK64_ENTRY_WORDS + (HAS_FOOTPRINT ? 1u : 0u) + MORE_BRANCH_WORDS;
 
 // Two numbers in a word, the third in the next with two more components.
 void put_real3(uint slot, uint word, dvec3 v, uvec2 more) {
@@ -105,6 +116,7 @@ dvec3 get_real3(uint slot, uint word, out uvec2 more) {
 }
 
 void put_path(uint slot, path_state p, uint number) {
+    put_cone(slot, CONE_WORD, p.cone);
     put_real3(slot, 0u, p.start.at, uvec2(floatBitsToUint(p.throughput), p.depth));
     put_real3(slot, 2u, p.direction, uvec2(p.stack_size, p.kind));
     states[state_word(slot, 4u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
@@ -131,6 +143,7 @@ path_state load_path(uint slot) {
     p.segments = w4.w;
     p.light_sum = uintBitsToFloat(w5.xyz);
     p.light_low = get_low(slot);
+    p.cone = get_cone(slot, CONE_WORD);
     p.light = w5.w;
     p.hit = hit_record(hit.x, hit.y, hit.z, c.x, c.y);
     get_path_media(slot, p);
@@ -138,13 +151,16 @@ path_state load_path(uint slot) {
     return p;
 }
 
-void put_branch(uint slot, uint word, ray_start start, dvec3 direction, float throughput, uint depth) {
+void put_branch(uint slot, uint word, ray_start start, dvec3 direction, RAY_CONE cone, float throughput,
+                uint depth) {
+    put_cone(slot, word + STACK64_ENTRY_WORDS, cone);
     put_real3(slot, word, start.at, uvec2(floatBitsToUint(throughput), depth));
     put_real3(slot, word + 2u, direction, uvec2(0u));
     put_real3(slot, word + 4u, dvec3(start.slack, start.b1, start.b2), uvec2(start.left, 0u));
 }
 
 void get_branch(uint slot, uint word, inout path_state p) {
+    p.cone = get_cone(slot, word + STACK64_ENTRY_WORDS);
     uvec2 more, none, left;
     dvec3 at = get_real3(slot, word, more);
     p.direction = get_real3(slot, word + 2u, none);
@@ -154,7 +170,7 @@ void get_branch(uint slot, uint word, inout path_state p) {
     p.depth = more.y;
 }
 #else
-const uint BRANCH_WORDS = STACK_ENTRY_WORDS + MORE_BRANCH_WORDS;
+const uint BRANCH_WORDS = STACK_ENTRY_WORDS + (HAS_FOOTPRINT ? 1u : 0u) + MORE_BRANCH_WORDS;
 
 uvec4 left_word(ray_start start) {
     return uvec4(floatBitsToUint(vec3(start.slack, start.b1, start.b2)), start.left);
@@ -165,6 +181,7 @@ ray_start start_of(uvec4 at, uvec4 left) {
 }
 
 void put_path(uint slot, path_state p, uint number) {
+    put_cone(slot, CONE_WORD, p.cone);
     states[state_word(slot, 0u)] = uvec4(floatBitsToUint(p.start.at), floatBitsToUint(p.throughput));
     states[state_word(slot, 1u)] = uvec4(floatBitsToUint(p.direction), p.depth);
     states[state_word(slot, 2u)] = uvec4(floatBitsToUint(p.radiance), p.segments);
@@ -189,6 +206,7 @@ path_state load_path(uint slot) {
     p.segments = w2.w;
     p.light_sum = uintBitsToFloat(w3.xyz);
     p.light_low = get_low(slot);
+    p.cone = get_cone(slot, CONE_WORD);
     p.light = w3.w;
     p.hit = hit_record(uintBitsToFloat(w4.x), uintBitsToFloat(w4.y), uintBitsToFloat(w4.z), w4.w, w5.x);
     p.stack_size = w5.y;
@@ -198,13 +216,16 @@ path_state load_path(uint slot) {
     return p;
 }
 
-void put_branch(uint slot, uint word, ray_start start, vec3 direction, float throughput, uint depth) {
+void put_branch(uint slot, uint word, ray_start start, vec3 direction, RAY_CONE cone, float throughput,
+                uint depth) {
+    put_cone(slot, word + STACK_ENTRY_WORDS, cone);
     states[state_word(slot, word)] = uvec4(floatBitsToUint(start.at), floatBitsToUint(throughput));
     states[state_word(slot, word + 1u)] = uvec4(floatBitsToUint(direction), depth);
     states[state_word(slot, word + 2u)] = left_word(start);
 }
 
 void get_branch(uint slot, uint word, inout path_state p) {
+    p.cone = get_cone(slot, word + STACK_ENTRY_WORDS);
     uvec4 a = states[state_word(slot, word)], b = states[state_word(slot, word + 1u)];
     p.start = start_of(a, states[state_word(slot, word + 2u)]);
     p.throughput = uintBitsToFloat(a.w);
@@ -273,16 +294,17 @@ bool save_path(bool resumes, uint place, uint path, path_state p) {
     return true;
 }
 
-void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction, float throughput, uint depth) {
+void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction, RAY_CONE cone, float throughput,
+                 uint depth) {
 #ifndef FETCH_TEXELS
     if (AT_ONCE)
-        waiting[p.stack_size] = waiting_ray(start, direction, throughput, depth);
+        waiting[p.stack_size] = waiting_ray(start, direction, cone, throughput, depth);
     if (AT_ONCE && HAS_POINTS)
         waiting_keys[p.stack_size] = point_key(p.key, POINT_REFRACTED);
 #endif
     uint word = BRANCHES_WORD + BRANCH_WORDS * p.stack_size;
     if (!AT_ONCE)
-        put_branch(slot, word, start, direction, throughput, depth);
+        put_branch(slot, word, start, direction, cone, throughput, depth);
     if (!AT_ONCE)
         put_key(slot, word + BRANCH_WORDS - MORE_BRANCH_WORDS, point_key(p.key, POINT_REFRACTED));
     p.stack_size++;

@@ -61,6 +61,7 @@ struct sphere_record { MEMBERS(SPHERE_FIELDS) };
 struct body_record { MEMBERS(BODY_FIELDS) };
 struct material_record { MEMBERS(MATERIAL_FIELDS) };
 struct light_record { MEMBERS(LIGHT_FIELDS) };
+struct paint_record { MEMBERS(PAINT_FIELDS) };
 struct normal_record { MEMBERS(NORMAL_FIELDS) };
 #define SOURCE triangle_nodes
 DEFINE_LOADER(node_record, load_triangle_node, NODE_WORDS, NODE_FIELDS)
@@ -85,6 +86,9 @@ DEFINE_LOADER(material_record, load_material, WORDS_OF(MATERIAL), MATERIAL_FIELD
 #undef SOURCE
 #define SOURCE lights
 DEFINE_LOADER(light_record, load_light, WORDS_OF(LIGHT), LIGHT_FIELDS)
+#undef SOURCE
+#define SOURCE paints
+DEFINE_LOADER(paint_record, load_paint, WORDS_OF(PAINT), PAINT_FIELDS)
 #undef SOURCE
 
 #ifndef INSTANCES

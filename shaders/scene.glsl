@@ -39,6 +39,8 @@ const bool HAS_MEDIA = (FEATURES & FEATURE_MEDIA) != 0u;
 const bool HAS_ATTENUATION = (FEATURES & FEATURE_ATTENUATION) != 0u; // only with HAS_MEDIA
 const bool HAS_FRESNEL = (FEATURES & FEATURE_FRESNEL) != 0u;
 const bool HAS_CLEAR_SHADOWS = (FEATURES & FEATURE_CLEAR_SHADOWS) != 0u;
+const bool HAS_TEXTURES = (FEATURES & FEATURE_TEXTURES) != 0u;
+const bool HAS_FOOTPRINT = (FEATURES & FEATURE_FOOTPRINT) != 0u;
 const bool HAS_SIDES = HAS_MEDIA || HAS_FRESNEL; // surfaces know the indices on both sides
 const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 // Of this invocation, with HAS_COUNTERS.
@@ -74,6 +76,7 @@ WORDS(BINDING_SPHERES, spheres)
 WORDS(BINDING_BODIES, bodies)
 WORDS(BINDING_MATERIALS, materials)
 WORDS(BINDING_LIGHTS, lights)
+WORDS(BINDING_PAINTS, paints)
 #ifdef INSTANCES
 WORDS(BINDING_INSTANCES, instances)
 #endif

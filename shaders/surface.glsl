@@ -1,5 +1,7 @@
 // What a hit is made of: point, error, normals, colours (docs/language.md, "Hit" and "Checker").
 
+#include "paint/paint.glsl"
+
 // Which media a ray is inside: media.glsl.
 struct media_set {
     uvec4 a, b;
@@ -18,6 +20,8 @@ struct surface {
     bool has_diffuse, has_specular;
     float reflection, refraction;
     REAL index;
+    float bend;  // with HAS_FOOTPRINT: how fast the normal turns along it, positive where it bulges to the viewer
+    float width; // and how wide the ray's cone is
     bool fresnel;
     uint body;
     // Of a ray that comes from a place inside certain media (media.glsl).
@@ -29,24 +33,49 @@ struct surface {
 
 bool is_odd(REAL cells) { return cells - 2.0 * floor(cells * 0.5) != 0.0; }
 
+// How a checker's coordinates change along an axis of the footprint.
+vec3 cell_change(body_record map, bool is_half, REAL3 axis, vec2 by, REAL cell) {
+    REAL3 change = is_half ? REAL3(REAL2(by) * map.row_x.xy, 0.0)
+                           : REAL3(dot3(map.row_x, axis), dot3(map.row_y, axis), dot3(map.row_z, axis));
+    return vec3(change / cell);
+}
+
 // `shade`: material and flags; `along`: the place on a parallelogram, 0..1 along its edges.
-void read_material(uint shade, uint body, REAL2 along, inout surface s) {
-    material_record material = load_material(shade & TRIANGLE_MATERIAL);
+void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout surface s) {
+    uint number = shade & TRIANGLE_MATERIAL;
+    material_record material = load_material(number);
+    bool painted = HAS_PAINT && wants(FEATURE_TEXTURES | FEATURE_FOOTPRINT);
     if (HAS_DIFFUSE) {
         vec3 color = material.diffuse;
         if (HAS_CHECKER) {
             body_record map = load_body(body);
             REAL3 own = REAL3(dot3(map.row_x, s.point) + map.offset_x, dot3(map.row_y, s.point) + map.offset_y,
                               dot3(map.row_z, s.point) + map.offset_z);
-            bool is_half = (shade & TRIANGLE_HALF) != 0u;
+            bool is_half = (shade & TRIANGLE_HALF) != 0u, is_checker = (shade & TRIANGLE_CHECKER) != 0u;
             own = (is_half ? REAL3(along * map.row_x.xy, 0.0) : own) / material.cell;
             bool odd = is_odd(floor(own.x) + floor(own.y) + floor(own.z));
-            color = (shade & TRIANGLE_CHECKER) != 0u && odd ? material.second : color;
+            color = is_checker && odd ? material.second : color;
+            if (HAS_FOOTPRINT && painted && is_checker && (load_paint(2u * number).flags & PAINT_SOFT) != 0u) {
+                vec3 a = cell_change(map, is_half, spot.axis_along, spot.along, material.cell);
+                vec3 b = cell_change(map, is_half, spot.axis_across, spot.across, material.cell);
+                float share = odd_share(own, a, b, is_half);
+                color = material.diffuse * (1.0 - share) + material.second * share;
+            }
+        }
+        if (HAS_TEXTURES && painted) {
+            paint_record image = load_paint(2u * number);
+            if (image.levels != 0u)
+                color = image_color(image, spot);
         }
         s.diffuse = color * material.weight_diffuse;
         s.has_diffuse = material.weight_diffuse != 0.0;
     }
     s.specular = material.specular * material.weight_specular;
+    if (HAS_SPECULAR && HAS_TEXTURES && painted) {
+        paint_record image = load_paint(2u * number + 1u);
+        if (image.levels != 0u)
+            s.specular = image_color(image, spot) * material.weight_specular;
+    }
     s.has_specular = material.weight_specular != 0.0;
     s.index = material.index;
     s.exponent = material.exponent;
@@ -55,6 +84,42 @@ void read_material(uint shade, uint body, REAL2 along, inout surface s) {
     if (HAS_FRESNEL)
         s.fresnel = material.fresnel != 0u;
     s.body = body;
+}
+
+// The cone's width where it meets a surface, and the axes of the footprint there.
+paint_spot begin_spot(REAL t, REAL3 direction, inout surface s) {
+    paint_spot spot = paint_spot(REAL2(0.0), vec2(0.0), vec2(0.0), REAL3(0.0), REAL3(0.0));
+    s.bend = 0.0;
+    s.width = 0.0;
+    if (HAS_FOOTPRINT) {
+        s.width = surface_cone.x + surface_cone.y * float(t);
+        footprint_axes(s.width, direction, s.geometric, spot.axis_along, spot.axis_across);
+    }
+    return spot;
+}
+
+void triangle_spot(triangle_record triangle, hit_record hit, REAL2 along, inout paint_spot spot) {
+    bool is_half = (triangle.shade & TRIANGLE_HALF) != 0u;
+    vec2 a = vec2(0.0), b = vec2(0.0);
+    if (HAS_FOOTPRINT) {
+        REAL3 edge1 = triangle.v1 - triangle.v0, edge2 = triangle.v2 - triangle.v0;
+        a = weights_along(edge1, edge2, spot.axis_along);
+        b = weights_along(edge1, edge2, spot.axis_across);
+    }
+    uint coordinates = 0u;
+    if (HAS_TEXTURES && wants(FEATURE_TEXTURES))
+        coordinates = component_of(FETCH(paints, frame.coordinates_table + triangle.body / 4u), triangle.body);
+    if (is_half)
+        half_spot((triangle.shade & TRIANGLE_SECOND_HALF) != 0u, along, a, b, spot);
+    else if (HAS_TEXTURES && coordinates != 0u)
+        mesh_spot(coordinates, triangle.number - load_body(triangle.body).first_triangle, hit.b1, hit.b2, a, b, spot);
+}
+
+// How fast the normals turn from corner to corner, the mean over the edges.
+float bend_of(triangle_record triangle, REAL3 n0, REAL3 n1, REAL3 n2) {
+    REAL3 e0 = triangle.v1 - triangle.v0, e1 = triangle.v2 - triangle.v1, e2 = triangle.v0 - triangle.v2;
+    REAL sum = dot3(n1 - n0, e0) / dot3(e0, e0) + dot3(n2 - n1, e1) / dot3(e1, e1) + dot3(n0 - n2, e2) / dot3(e2, e2);
+    return float(sum) / 3.0;
 }
 
 void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
@@ -75,12 +140,17 @@ void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
     s.geometric = s.enters ? outward : -outward;
     s.shading = s.geometric;
     s.solid = (triangle.shade & TRIANGLE_SOLID) != 0u;
+    paint_spot spot = begin_spot(hit.t, direction, s);
     if (HAS_SMOOTH) {
         body_record body = load_body(triangle.body);
         bool smooth_shaded = (triangle.shade & TRIANGLE_SMOOTH) != 0u;
         uint base = smooth_shaded ? 3u * (triangle.number - body.first_triangle) + body.normal_base : 0u;
         REAL3 n = load_normal(body, base) * b0 + load_normal(body, base + 1u) * hit.b1 +
                   load_normal(body, base + 2u) * hit.b2;
+        if (HAS_FOOTPRINT) {
+            float bend = bend_of(triangle, load_normal(body, base), load_normal(body, base + 1u), load_normal(body, base + 2u));
+            s.bend = !smooth_shaded ? 0.0 : dot3(n, s.geometric) < 0.0 ? -bend : bend;
+        }
         REAL length2 = dot3(n, n);
         n = n * (1.0 / sqrt(length2));
         n = dot3(n, s.geometric) < 0.0 ? -n : n;
@@ -88,7 +158,10 @@ void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
     }
     bool second_half = (triangle.shade & TRIANGLE_SECOND_HALF) != 0u;
     REAL sum = hit.b1 + hit.b2;
-    read_material(triangle.shade, triangle.body, second_half ? REAL2(hit.b1, sum) : REAL2(sum, hit.b2), s);
+    REAL2 along = second_half ? REAL2(hit.b1, sum) : REAL2(sum, hit.b2);
+    if (HAS_PAINT && wants(FEATURE_TEXTURES | FEATURE_FOOTPRINT))
+        triangle_spot(triangle, hit, along, spot);
+    read_material(triangle.shade, triangle.body, along, spot, s);
 }
 
 void sphere_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface s) {
@@ -102,7 +175,12 @@ void sphere_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface
     s.geometric = s.enters ? outward : -outward;
     s.shading = s.geometric;
     s.solid = true;
-    read_material(sphere.shade, sphere.body, REAL2(0.0), s);
+    paint_spot spot = begin_spot(hit.t, direction, s);
+    if (HAS_FOOTPRINT)
+        s.bend = (s.enters ? 1.0 : -1.0) / float(sphere.radius);
+    if (HAS_PAINT && wants(FEATURE_TEXTURES | FEATURE_FOOTPRINT))
+        sphere_spot(outward, sphere.radius, spot);
+    read_material(sphere.shade, sphere.body, REAL2(0.0), spot, s);
 }
 
 void make_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface s) {

@@ -32,7 +32,7 @@
 layout(local_size_x = TILE_PIXELS, local_size_x_id = CONSTANT_WORKGROUP) in;
 
 // What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
-const uint SEGMENT_ITERATIONS = 9u;
+const uint SEGMENT_ITERATIONS = 9u + PAINT_ITERATIONS;
 
 const uint PHASE_RAY = 0u;    // the path's ray must be traced
 const uint PHASE_HIT = 1u;    // it was traced before: only the surface must be made again
@@ -124,11 +124,14 @@ bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_st
     bool through = HAS_REFRACTION && is_followed(p, throughput * rays.refraction);
     bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, throughput * rays.reflection);
     if (HAS_BRANCHES && back && through)
-        push_branch(slot, p, start_through, rays.bent, throughput * rays.refraction, p.depth + 1u);
+        push_branch(slot, p, start_through, rays.bent, HAS_FOOTPRINT ? bent_cone(s, p.cone, p.direction, rays.bent) : p.cone,
+                    throughput * rays.refraction, p.depth + 1u);
     if (HAS_MEDIA && HAS_BRANCHES && back && through)
         push_media(slot, p, s.after);
     if (HAS_MEDIA && !back)
         p.inside = s.after;
+    if (HAS_FOOTPRINT)
+        p.cone = back ? mirrored_cone(s, p.cone) : bent_cone(s, p.cone, p.direction, rays.bent);
     p.start = start;
     if (!back)
         p.start = start_through;
@@ -326,6 +329,8 @@ uint come_to_surface(inout path_state p, bool arrives, inout surface s) {
 void pass_surface(inout path_state p, surface s) {
     p.start = leave(s, p.hit, -s.geometric);
     p.inside = s.after;
+    if (HAS_FOOTPRINT)
+        p.cone.x = s.width;
     p.hit.item = NO_ITEM;
 }
 
@@ -337,6 +342,8 @@ uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, in
     if (phase == PHASE_SHADOW)
         take_light(p, start, hit, shadow);
     if (state == GOES_ON && phase != PHASE_SHADOW) {
+        if (HAS_FOOTPRINT)
+            surface_cone = p.cone;
         make_surface(p.hit, p.start.at, p.direction, s);
         state = come_to_surface(p, phase == PHASE_RAY, s);
         taint(p, true, s.point + s.shading, 0.0);

@@ -111,6 +111,47 @@ static bool belongs_to(const struct inventory_use *library, const struct invento
     return library->role == INVENTORY_MATERIALS && str_equal(library->named_in, mesh->path);
 }
 
+static bool is_image_of(const struct inventory_use *image, const struct inventory_use *library) {
+    return image->role == INVENTORY_IMAGE && image->named_in.len && str_equal(image->named_in, library->path);
+}
+
+// The folder of a file of the package, with its '/'.
+static str folder_of(str target) {
+    return str_slice(target, 0, target.len - path_base(target).len);
+}
+
+// Whether the images of a material file fit where it looks for them.
+static bool images_fit(struct planner *p, str library, const struct inventory_use *of) {
+    for (uint32_t i = 0; i < p->plan->inventory->count; i++) {
+        const struct inventory_use *use = &p->plan->inventory->items[i];
+        const str target = is_image_of(use, of) ? library_target(p, folder_of(library), use) : STR("");
+        if (target.len && !is_free(p->plan, target, use->canonical))
+            return false;
+    }
+    return true;
+}
+
+static void add_images(struct planner *p, str library, const struct inventory_use *of) {
+    struct diag_sink *sink = &p->session->sink;
+    for (uint32_t i = 0; i < p->plan->inventory->count; i++) {
+        const struct inventory_use *use = &p->plan->inventory->items[i];
+        if (!is_image_of(use, of))
+            continue;
+        const str target = library_target(p, folder_of(library), use);
+        if (target.len) {
+            add_file(p, target, use);
+            continue;
+        }
+        diag_add(sink, DIAG_PACK_PATH, use->at,
+                 "line %u of the material file '%.*s' names its image '%.*s' by a path that leads out of a "
+                 "package",
+                 use->named_line, STR_ARG(of->path), STR_ARG(use->named));
+        diag_help(
+            sink,
+            "put the image into the folder of the material file, and write only its name after 'map_Kd'");
+    }
+}
+
 // Whether the mesh and its material files fit below `folder`.
 static bool fits(struct planner *p, str folder, const struct inventory_use *mesh, str target) {
     if (!is_free(p->plan, target, mesh->canonical))
@@ -120,7 +161,7 @@ static bool fits(struct planner *p, str folder, const struct inventory_use *mesh
         if (!belongs_to(use, mesh))
             continue;
         str library = library_target(p, folder, use);
-        if (library.len && !is_free(p->plan, library, use->canonical))
+        if (library.len && (!is_free(p->plan, library, use->canonical) || !images_fit(p, library, use)))
             return false;
     }
     return true;
@@ -135,6 +176,7 @@ static void add_libraries(struct planner *p, str folder, const struct inventory_
         str target = library_target(p, folder, use);
         if (target.len) {
             add_file(p, target, use);
+            add_images(p, target, use);
             continue;
         }
         diag_add(
@@ -194,7 +236,7 @@ static void place_all(struct planner *p) {
             place(p, use, "includes");
         else if (use->role == INVENTORY_MESH)
             place(p, use, "meshes");
-        else if (use->role == INVENTORY_IMAGE)
+        else if (use->role == INVENTORY_IMAGE && !use->named_in.len)
             place(p, use, "images");
     }
 }

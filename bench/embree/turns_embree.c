@@ -35,6 +35,9 @@ static enum turns_status open_embree(void *state, const struct turns_options *o,
     flush_denormals();
     if (!session_view(session, 0, &e->view))
         return turns_say(TURNS_FAILED, "not enough memory");
+    for (uint32_t i = 0; i < session->resolved.material_count; i++)
+        if (scene_material_is_painted(&session->resolved.materials[i]))
+            return turns_say(TURNS_FAILED, "images on bodies and filtered checkers are not shown here");
     const struct peer_wish wish = {.scene = &session->resolved,
                                    .view = &e->view,
                                    .origin = session_origin(session, &e->view),

@@ -38,6 +38,7 @@ static void put(float *to, vec3 v, double last) {
 
 static const char *material_needs(const struct scene_material *m) {
     return m->checker                               ? "a checker"
+           : scene_material_is_painted(m)           ? "an image"
            : m->reflection > 0 || m->refraction > 0 ? "reflection or refraction"
            : m->specular_weight > 0                 ? "highlights"
                                                     : NULL;

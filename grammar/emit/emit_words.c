@@ -47,6 +47,9 @@ void emit_type_words(const struct schema_row *row, struct strbuf *out) {
     case SCHEMA_VECTOR:
         strbuf_cstr(out, row->fill ? "vector x y z, or one number" : "vector x y z");
         break;
+    case SCHEMA_PAIR:
+        strbuf_cstr(out, row->fill ? "pair u v, or one number" : "pair u v");
+        break;
     case SCHEMA_COLOR:
         strbuf_cstr(out, "colour r g b, one number, or #rrggbb");
         break;

@@ -58,6 +58,7 @@ static void put_value(struct json_writer *w, const struct schema_row *row, const
         print_json_text(w->out, *(const str *)field);
         break;
     case SCHEMA_VECTOR:
+    case SCHEMA_PAIR:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
         put_numbers(w, row, field);

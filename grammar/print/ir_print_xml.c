@@ -32,6 +32,7 @@ static bool value_is_attribute(const struct xml_writer *w, const struct schema_r
     case SCHEMA_COLOR:
         return ((const struct ir_color *)field)->is_hex || print_is_uniform(row, field);
     case SCHEMA_VECTOR:
+    case SCHEMA_PAIR:
         return print_is_uniform(row, field);
     case SCHEMA_REFERENCE:
         return !ir_walk_is_inline(w->scene, row, field);
@@ -64,6 +65,7 @@ static void put_attribute_value(const struct schema_row *row, const void *field,
         break;
     case SCHEMA_COLOR:
     case SCHEMA_VECTOR:
+    case SCHEMA_PAIR:
         if (row->kind == SCHEMA_COLOR && ((const struct ir_color *)field)->is_hex) {
             print_hex_color(out, ((const struct ir_color *)field)->hex);
         } else {

@@ -83,6 +83,7 @@ static void flow_value(struct yaml_writer *w, const struct schema_row *row, cons
         print_yaml_text(out, *(const str *)field, true);
         break;
     case SCHEMA_VECTOR:
+    case SCHEMA_PAIR:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
         flow_numbers(row, field, out);

@@ -14,7 +14,7 @@ enum {
 };
 
 static uint32_t component_count(enum schema_kind kind) {
-    return kind == SCHEMA_WEIGHTS ? 4 : 3;
+    return kind == SCHEMA_WEIGHTS ? 4 : kind == SCHEMA_PAIR ? 2 : 3;
 }
 
 static struct bind_subject component_of(struct bind_subject subject, uint32_t i) {
@@ -63,10 +63,12 @@ static bool bind_list(struct bind_context *context, struct bind_subject subject,
     if (bind_is_known(context, node) || !counts)
         return false;
     const char *const *names = schema_components(subject.row->kind);
+    str list = STR("");
+    for (i = 0; i < wanted; i++)
+        list = arena_format(context->scratch, "%.*s%s%s", STR_ARG(list), i ? ", " : "", names[i]);
     diag_add(context->sink, DIAG_WRONG_COUNT, tree_span(context->tree, node),
-             "%.*s has %u number%s; it needs %u: %s, %s, %s%s%s",
-             STR_ARG(say_subject(context->scratch, subject)), count, count == 1 ? "" : "s", wanted, names[0],
-             names[1], names[2], wanted == 4 ? ", " : "", wanted == 4 ? names[3] : "");
+             "%.*s has %u number%s; it needs %u: %.*s", STR_ARG(say_subject(context->scratch, subject)),
+             count, count == 1 ? "" : "s", wanted, STR_ARG(list));
     if (subject.row->kind != SCHEMA_COLOR || count != 4 || !good)
         bind_help_example(context, subject);
     else
@@ -191,6 +193,8 @@ static bool bind_named(struct bind_context *context, struct bind_subject subject
 static void store(enum schema_kind kind, const double n[COMPONENTS_MAX], void *out) {
     if (kind == SCHEMA_VECTOR)
         *(vec3 *)out = (vec3){n[0], n[1], n[2]};
+    else if (kind == SCHEMA_PAIR)
+        *(struct ir_pair *)out = (struct ir_pair){n[0], n[1]};
     else if (kind == SCHEMA_COLOR)
         *(struct ir_color *)out = (struct ir_color){.r = n[0], .g = n[1], .b = n[2]};
     else
@@ -246,7 +250,7 @@ static bool bind_composite(struct bind_context *context, struct bind_subject sub
 }
 
 bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out) {
-    enum schema_kind kind = subject.row->kind;
-    bool composite = kind == SCHEMA_VECTOR || kind == SCHEMA_COLOR || kind == SCHEMA_WEIGHTS;
-    return composite ? bind_composite(context, subject, node, out) : bind_scalar(context, subject, node, out);
+    const enum schema_kind kind = subject.row->kind;
+    return schema_components(kind)[0] ? bind_composite(context, subject, node, out)
+                                      : bind_scalar(context, subject, node, out);
 }

@@ -350,8 +350,7 @@ static bool is_component(struct bind_context *context, struct bind_frame *frame,
     str text = tree_text(context->tree, key);
     for (uint32_t i = 0; i < frame->schema->row_count; i++) {
         const struct schema_row *row = &frame->schema->rows[i];
-        const char *const *names =
-            row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR ? schema_components(row->kind) : NULL;
+        const char *const *names = row->kind != SCHEMA_WEIGHTS ? schema_components(row->kind) : NULL;
         while (names && *names && !str_equal_cstr(text, *names))
             names++;
         if (!names || !*names || (frame->seen & bind_bit(i)))

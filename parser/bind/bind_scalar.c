@@ -31,17 +31,20 @@ bool bind_no_value(struct bind_context *context, struct bind_subject subject, tr
     return false;
 }
 
-// One number where three belong: perhaps the same for each.
+// One number where several belong: perhaps the same for each.
 static void fix_scalar(struct bind_context *context, const struct schema_row *row, tree_index node,
                        str text) {
     double ignored;
-    if (row->kind != SCHEMA_VECTOR || context->tree->is_xml || number_parse(text, &ignored) != NUMBER_OK ||
-        tree_node(context->tree, node)->style != TREE_PLAIN)
+    if ((row->kind != SCHEMA_VECTOR && row->kind != SCHEMA_PAIR) || context->tree->is_xml ||
+        number_parse(text, &ignored) != NUMBER_OK || tree_node(context->tree, node)->style != TREE_PLAIN)
         return;
     // A turn by a single angle is about the vertical axis.
-    str all = row->unit == SCHEMA_UNIT_DEGREES ? arena_format(context->scratch, "[0, %.*s, 0]", STR_ARG(text))
-                                               : arena_format(context->scratch, "[%.*s, %.*s, %.*s]",
-                                                              STR_ARG(text), STR_ARG(text), STR_ARG(text));
+    str all = row->kind == SCHEMA_PAIR
+                  ? arena_format(context->scratch, "[%.*s, %.*s]", STR_ARG(text), STR_ARG(text))
+              : row->unit == SCHEMA_UNIT_DEGREES
+                  ? arena_format(context->scratch, "[0, %.*s, 0]", STR_ARG(text))
+                  : arena_format(context->scratch, "[%.*s, %.*s, %.*s]", STR_ARG(text), STR_ARG(text),
+                                 STR_ARG(text));
     diag_fix(context->sink, false, tree_span(context->tree, node), all);
 }
 
@@ -69,9 +72,11 @@ bool bind_help_numbers(struct bind_context *context, struct bind_subject subject
     bool parted = at.end != tree_span(context->tree, node).end;
     str text =
         kind == TREE_SCALAR && !parted ? tree_text(context->tree, node) : source_text(context->sources, at);
-    str list = mend_numbers(context->scratch, text, row->kind == SCHEMA_WEIGHTS ? 4 : 3);
-    bool composite = row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
-    if (list.len == 0 || !composite) {
+    str list = mend_numbers(context->scratch, text,
+                            row->kind == SCHEMA_WEIGHTS ? 4
+                            : row->kind == SCHEMA_PAIR  ? 2
+                                                        : 3);
+    if (list.len == 0 || !schema_components(row->kind)[0]) {
         fix_scalar(context, row, node, text);
         return false;
     }

@@ -20,7 +20,7 @@ static const char *sample(const struct schema_row *row) {
 }
 
 static bool is_composite(enum schema_kind kind) {
-    return kind == SCHEMA_VECTOR || kind == SCHEMA_COLOR || kind == SCHEMA_WEIGHTS;
+    return schema_components(kind)[0] != NULL;
 }
 
 // Whether an example of an element shows this row: those that it must have; of a choice the first.

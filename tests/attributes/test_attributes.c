@@ -128,6 +128,9 @@ static bool change(const struct bench *b, const struct use *use, void *field) {
     case SCHEMA_WORD:
         *(unsigned *)field = (*(unsigned *)field + 1) % word_count(row);
         return true;
+    case SCHEMA_PAIR:
+        ((struct ir_pair *)field)->u = other_number(row, ((struct ir_pair *)field)->u);
+        return true;
     case SCHEMA_VECTOR:
         *(vec3 *)field = other_vector(row, *(vec3 *)field);
         return true;
@@ -379,8 +382,9 @@ static bool write_sky(const struct bench *b) {
 // A mesh of two materials that its file names and does not have.
 static bool write_mesh(const struct bench *b) {
     static const char text[] = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
-                               "usemtl Gold\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
-                               "usemtl Rest\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+                               "vt 0.5 0.5\nvt 1.5 0.75\nvt 0.25 1.25\n"
+                               "usemtl Gold\nf 1/1 3/2 5/3\nf 3/1 2/2 5/3\nf 2/1 4/2 5/3\nf 4/1 1/2 5/3\n"
+                               "usemtl Rest\nf 3/1 1/2 6/3\nf 2/1 3/2 6/3\nf 4/1 2/2 6/3\nf 1/1 4/2 6/3\n";
     char path[PATH_BYTES];
     snprintf(path, sizeof path, "%s/octahedron.obj", b->work);
     return output_whole(path, text, sizeof text - 1) == 0;

@@ -52,6 +52,7 @@ END
             awk '/^f / && !named++ { print "usemtl Gold" } { print }' gem.obj >$mesh.obj
         done
         cp "$source/tests/data/image/progressive.jpg" sky.jpg
+        cp sky.jpg wood.jpg
         cp scene.yaml old.yaml
         sed 's/refractive_index: 1.5/refractive_index: 1.33/' old.yaml >new.yaml
         [ "$what" = scenes ] || ../bin/glint render scene.yaml --quiet --device reference -o reference.png

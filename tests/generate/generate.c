@@ -188,6 +188,11 @@ static bool make_value(struct generator *g, const struct schema_row *row, void *
     case SCHEMA_VECTOR:
         *(vec3 *)field = make_vector(g, row);
         return true;
+    case SCHEMA_PAIR: {
+        const vec3 both = make_vector(g, row);
+        *(struct ir_pair *)field = (struct ir_pair){both.x, both.y};
+        return true;
+    }
     case SCHEMA_COLOR:
         *(struct ir_color *)field = generate_color(g, row->range);
         return true;

@@ -109,6 +109,9 @@ static void try_value(struct table *t, const struct schema_element *schema, cons
     case SCHEMA_VECTOR:
         try_numbers(t, schema, what, field, 3);
         break;
+    case SCHEMA_PAIR:
+        try_numbers(t, schema, what, field, 2);
+        break;
     case SCHEMA_WEIGHTS:
         try_numbers(t, schema, what, field, 4);
         break;

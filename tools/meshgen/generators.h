@@ -37,4 +37,9 @@ void ice_generate(struct mesh *mesh);
 // The caller frees the result; NULL: out of memory.
 unsigned char *sky_generate(int width, int height);
 
+// Planks of wood that repeat without a seam; NULL: no memory. 8-bit sRGB, the caller frees it.
+unsigned char *planks_generate(int side);
+// Land and sea of a globe, by longitude and latitude, as a sphere shows it; the same.
+unsigned char *globe_generate(int width, int height);
+
 #endif

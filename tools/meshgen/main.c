@@ -19,6 +19,8 @@ enum {
     EXIT_USAGE = 2,
     EXIT_WRITE = 3,
     SKY_WIDTH = 4096,
+    PLANKS_SIDE = 1024,
+    GLOBE_WIDTH = 2048,
 };
 
 struct product {
@@ -32,6 +34,20 @@ struct product {
 static bool write_sky(struct strbuf *bytes) {
     unsigned char *pixels = sky_generate(SKY_WIDTH, SKY_WIDTH / 2);
     bool ok = pixels && png_encode(pixels, SKY_WIDTH, SKY_WIDTH / 2, bytes);
+    free(pixels);
+    return ok;
+}
+
+static bool write_planks(struct strbuf *bytes) {
+    unsigned char *pixels = planks_generate(PLANKS_SIDE);
+    bool ok = pixels && png_encode(pixels, PLANKS_SIDE, PLANKS_SIDE, bytes);
+    free(pixels);
+    return ok;
+}
+
+static bool write_globe(struct strbuf *bytes) {
+    unsigned char *pixels = globe_generate(GLOBE_WIDTH, GLOBE_WIDTH / 2);
+    bool ok = pixels && png_encode(pixels, GLOBE_WIDTH, GLOBE_WIDTH / 2, bytes);
     free(pixels);
     return ok;
 }
@@ -54,6 +70,8 @@ static const struct product PRODUCTS[] = {
     {"ice", "a cube of ice", ice_generate, NULL, NULL},
     {"word", "the word glint", word_generate, NULL, NULL},
     {"sky", "sky, mountains and lake", NULL, write_sky, NULL},
+    {"planks", "planks of wood, to be repeated", NULL, write_planks, NULL},
+    {"globe", "land and sea of a globe", NULL, write_globe, NULL},
 };
 
 enum {

@@ -146,9 +146,9 @@ static enum flatten_fault choose_scale(struct flattening *f) {
 static enum flatten_fault run(struct flattening *f) {
     typedef enum flatten_fault step(struct flattening *);
     static step *const steps[] = {
-        flatten_count,  choose_scale,       flatten_share,   make_triangles,       flatten_instances,
-        make_spheres,   flatten_normals,    flatten_media,   flatten_body_records, flatten_materials,
-        flatten_lights, flatten_background, flatten_bounces,
+        flatten_count,     choose_scale,    flatten_share,      make_triangles,  flatten_instances,
+        make_spheres,      flatten_normals, flatten_paints,     flatten_media,   flatten_body_records,
+        flatten_materials, flatten_lights,  flatten_background, flatten_bounces,
     };
     size_t bodies = f->scene->body_count;
     f->out->body_count = (uint32_t)bodies;
@@ -192,6 +192,7 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
     flatten_share_finish(&f.sharing);
     free(f.material_used);
     free(f.normal_base);
+    free(f.coordinates);
     free(f.items);
     free(f.leaf_of);
     free(f.medium);
@@ -206,9 +207,9 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
 void flat_finish(struct flat_scene *flat) {
     if (!flat)
         return;
-    const struct flat_array arrays[] = {flat->triangle_nodes, flat->triangles, flat->normals,
-                                        flat->sphere_nodes,   flat->spheres,   flat->bodies,
-                                        flat->materials,      flat->lights,    flat->instances};
+    const struct flat_array arrays[] = {
+        flat->triangle_nodes, flat->triangles, flat->normals, flat->sphere_nodes, flat->spheres,
+        flat->bodies,         flat->materials, flat->lights,  flat->instances,    flat->paints};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i].words);
     free(flat->first_triangle);

@@ -71,9 +71,11 @@ struct flat_scene {
         bool is_float;  // four floats a texel, else four bytes of 1/255
         float *decoded; // by stored value, where these are whole numbers that become floats
     } background_texels;
+    struct flat_array paints;                           // one word: there are none
     struct flat_array instances;                        // and their tables; without words: there are none
     uint32_t instance_count;                            // with instance 0, all that is not shared
     uint32_t top_nodes, instance_table, instance_shift; // as in the frame (shaders/frame.h)
+    uint32_t coordinates_table;                         // and this
     struct flat_use *uses;                              // in the order of their first models
     uint32_t use_count;
     struct flat_bounce *bounces; // in IR order

@@ -164,8 +164,10 @@ static uint32_t used_material_features(const struct flattening *f) {
         if (!f->material_used[i])
             continue;
         uint32_t bits = f->scene->materials[i].features;
-        bits &= ~FEATURE_ATTENUATION; // where it is inside a body: flatten_media.c
+        // Attenuation is where it is inside a body: flatten_media.c.
+        bits &= ~(FEATURE_ATTENUATION | FEATURE_TEXTURES | FEATURE_FOOTPRINT);
         mask |= bits & FEATURE_DIFFUSE ? bits : bits & ~FEATURE_CHECKER;
+        mask |= flatten_paint_features(&f->scene->materials[i]);
     }
     return mask;
 }
@@ -175,7 +177,8 @@ void flatten_features(struct flattening *f) {
     const uint32_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
                          FEATURE_REFLECTION | FEATURE_REFRACTION | FEATURE_CHECKER | FEATURE_SMOOTH |
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
-                         FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION;
+                         FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
+                         FEATURE_FOOTPRINT;
     struct flat_scene *out = f->out;
     uint32_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;

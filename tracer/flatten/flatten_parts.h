@@ -60,6 +60,7 @@ struct flattening {
     uint32_t *leaf_of;       // by copied triangle: where its record goes; FLATTEN_NO_LEAF: it has no area
     bool *material_used;     // by index in scene->materials
     uint32_t *normal_base;   // by body: its first record of out->normals
+    uint32_t *coordinates;   // by body: its word of out->paints; 0: it has none
     uint32_t light_features; // FEATURE_ bits that the lights ask for
     uint32_t media_features; // and the media
     uint32_t *medium;        // by body: as in its record; NULL: rays need not know what they are inside
@@ -115,6 +116,13 @@ vec3 flatten_absorption(const struct flattening *f, const struct scene_material 
 enum flatten_fault flatten_normals(struct flattening *f);
 // Fills out->bodies.
 enum flatten_fault flatten_body_records(struct flattening *f);
+
+// ---- flatten_paint.c
+
+// Fills out->paints, if a material that is used needs them, and coordinates.
+enum flatten_fault flatten_paints(struct flattening *f);
+// FEATURE_ bits that a material's images and its checker ask for.
+uint32_t flatten_paint_features(const struct scene_material *material);
 
 // ---- flatten_light.c
 

@@ -77,9 +77,10 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
     const uint64_t low = renderer->features & FEATURE_MANY_LIGHTS ? 1 : 0;
     const uint64_t media = renderer->features & FEATURE_MEDIA ? MEDIA_WORDS : 0;
     const uint64_t shine = renderer->features & FEATURE_CLEAR_SHADOWS ? SHINE_WORDS : 0;
+    const uint64_t cone = renderer->features & FEATURE_FOOTPRINT ? 1 : 0;
     const uint64_t key = renderer->features & FEATURE_POINTS ? KEY_WORDS : 0;
-    const uint64_t path = state + low + media + shine + key + ray;
-    return (path + renderer->path_stack * (entry + key + media)) * WORD_BYTES;
+    const uint64_t more = media + cone + key;
+    return (state + low + shine + more + ray + renderer->path_stack * (entry + more)) * WORD_BYTES;
 }
 
 static bool has_state(const struct renderer *renderer) {
@@ -220,6 +221,7 @@ static bool upload_scene(struct renderer *renderer) {
         {BINDING_BODIES, &flat->bodies},
         {BINDING_MATERIALS, &flat->materials},
         {BINDING_LIGHTS, &flat->lights},
+        {BINDING_PAINTS, &flat->paints},
         {BINDING_INSTANCES, &flat->instances},
     };
     const size_t count = sizeof arrays / sizeof *arrays - (flat->instance_count == 0);

@@ -62,8 +62,8 @@ static bool make(struct band *band, uint32_t tiles) {
 
 // ---- rounds
 
-// Samples of a pixel after the round that follows `samples`: twice as many, because parts of the sequence whose lengths are
-// powers of two are the even ones.
+// Samples of a pixel after the round that follows `samples`: twice as many, because parts of the sequence
+// whose lengths are powers of two are the even ones.
 static uint32_t next_samples(const struct render_settings *settings, uint32_t samples) {
     const uint32_t most = settings->samples / GROUPS * GROUPS;
     const uint32_t least = (settings->least_samples + GROUPS - 1) / GROUPS * GROUPS;

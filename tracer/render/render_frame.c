@@ -47,6 +47,12 @@ static void put_inside(const struct flat_scene *flat, const struct view_camera *
     }
 }
 
+// That share what a pixel sees between them: where pixels end by their error, those that each has.
+static double samples_of(const struct renderer *renderer) {
+    const struct render_settings *settings = &renderer->settings;
+    return renderer_is_adaptive(renderer) ? settings->least_samples : settings->samples;
+}
+
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera) {
     const struct render_settings *settings = &renderer->settings;
     const struct flat_scene *flat = renderer->flat;
@@ -76,6 +82,8 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .instance_table = flat->instance_table,
         .instance_shift = flat->instance_shift,
         .point_bits = points_bits(settings->first_sample, settings->samples),
+        .coordinates_table = flat->coordinates_table,
+        .footprint = (float)(2 * camera->tan_half_fov / settings->height / sqrt(samples_of(renderer))),
     };
     put_inside(flat, camera, &frame);
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);

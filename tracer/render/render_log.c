@@ -148,10 +148,10 @@ static struct node *put_child(struct walk *walk, uint32_t parent, enum render_ra
     child->segment.kind = kind;
     child->segment.parent = parent;
     memcpy(child->tint, from->tint, sizeof child->tint);
-    memcpy(child->ray, ray, 5 * sizeof *ray);
-    memcpy(child->ray + 5, inside, 2 * sizeof *inside);
-    child->ray[7] = (struct gpu_word){.x = from->key,
-                                      .y = kind == RENDER_RAY_REFRACTED ? POINT_REFRACTED : POINT_REFLECTED};
+    memcpy(child->ray, ray, LOG_INSIDE * sizeof *ray);
+    memcpy(child->ray + LOG_INSIDE, inside, 2 * sizeof *inside);
+    child->ray[LOG_KEY] = (struct gpu_word){
+        .x = from->key, .y = kind == RENDER_RAY_REFRACTED ? POINT_REFRACTED : POINT_REFLECTED};
     from->children[kind == RENDER_RAY_REFRACTED] = walk->count++;
     return child;
 }
@@ -180,10 +180,10 @@ static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, 
 // A surface that nobody sees: straight on, at the same depth and with the same weight.
 static void pass(struct walk *walk, uint32_t parent, const struct gpu_word *told) {
     const struct node *from = &walk->nodes[parent];
-    struct node *child = put_child(walk, parent, from->segment.kind, told + 15, told + 21);
+    struct node *child = put_child(walk, parent, from->segment.kind, told + LOG_REFRACTED, told + LOG_AFTER);
     if (!child)
         return;
-    child->ray[7].y = POINT_SAME;
+    child->ray[LOG_KEY].y = POINT_SAME;
     child->throughput = from->throughput;
     child->segment.depth = from->segment.depth;
     child->ray[1].z = 0;
@@ -199,10 +199,10 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
     s->enters = told[2].z & LOG_ENTERS;
     s->total_reflection = told[2].z & LOG_TOTAL;
     s->passes = told[2].z & LOG_PASSES;
-    walk->nodes[index].tint[0] *= renderer_float(told[20].x);
-    walk->nodes[index].tint[1] *= renderer_float(told[20].y);
-    walk->nodes[index].tint[2] *= renderer_float(told[20].z);
-    walk->nodes[index].key = told[20].w;
+    walk->nodes[index].tint[0] *= renderer_float(told[LOG_LEFT].x);
+    walk->nodes[index].tint[1] *= renderer_float(told[LOG_LEFT].y);
+    walk->nodes[index].tint[2] *= renderer_float(told[LOG_LEFT].z);
+    walk->nodes[index].key = told[LOG_LEFT].w;
     s->material = told[3].w;
     s->point = point_at(renderer, told + 4);
     s->geometric = vector_at(renderer, told + 6);
@@ -216,9 +216,10 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
         pass(walk, index, told);
         return;
     }
-    add_child(walk, index, RENDER_RAY_REFLECTED, renderer_float(told[5].z), told + 10,
-              walk->nodes[index].ray + 5);
-    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + 15, told + 21);
+    add_child(walk, index, RENDER_RAY_REFLECTED, renderer_float(told[5].z), told + LOG_REFLECTED,
+              walk->nodes[index].ray + LOG_INSIDE);
+    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + LOG_REFRACTED,
+              told + LOG_AFTER);
 }
 
 // As filling() of media.glsl.
@@ -244,7 +245,7 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
     node->radiance[2] = (float)s->radiance.z;
     s->unfinished = told[2].w != 0;
     s->body = HIT_NONE;
-    s->medium = filling(node->ray + 5);
+    s->medium = filling(node->ray + LOG_INSIDE);
     s->material = UINT32_MAX;
     if (told[1].z != LOG_NOTHING)
         take_surface(walk, index, told);

@@ -40,7 +40,8 @@ static void every_value_has_its_place(void **state) {
     assert_int_equal(m->diffuse_color.kind, IR_PAINT_COLOR);
     assert_true(m->diffuse_color.color.r == .1 && m->diffuse_color.color.g == .2 &&
                 m->diffuse_color.color.b == .3);
-    assert_true(m->specular_color.r == .5 && m->specular_color.g == .25 && m->specular_color.b == .75);
+    assert_true(m->specular_color.color.r == .5 && m->specular_color.color.g == .25 &&
+                m->specular_color.color.b == .75);
     assert_true(m->specular_exponent == 250 && m->refractive_index == 1.45);
     assert_weights(m->albedo, 0.75, 1, 0, 0.25);
     assert_int_equal(m->head.origin, 0);
@@ -138,7 +139,7 @@ static void each_kind_of_unused_line_is_a_warning(void **state) {
     from_mtl(s, "Ka 1 1 1\nmap_Kd wood.png\nKa 0 0 1\nKa 0 0 0\nd -halo 0.5\nKs spectral a.rfl 1");
     assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), 4);
     assert_says(s, "own.mtl:2:1: warning: 'Ka' has no effect (2 lines): there is no ambient light [W605]");
-    assert_says(s, "own.mtl:3:1: warning: 'map_Kd' has no effect: the surfaces of bodies have no images");
+    assert_says(s, "own.mtl:3:1: warning: 'map_Kd' has no effect: 'wood.png' cannot be found");
     assert_says(s, "own.mtl:6:3: warning: '-halo' has no effect: transparency does not depend on the angle");
     assert_says(s, "own.mtl:7:1: warning: 'Ks spectral' has no effect: colours are three numbers");
     assert_says(s, "mesh.obj:1:1: note: the material file is named here");

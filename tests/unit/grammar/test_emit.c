@@ -226,7 +226,7 @@ static void test_every_row_is_explained(void **state) {
     assert_explained("paint", "XML: <DiffuseColor>");
     assert_explained("area-light", "a light has no size");
     assert_explained("AreaLights", "place several weak lights");
-    assert_explained("texture", "Images on bodies");
+    assert_explained("bump_map", "Relief");
     assert_explained("variable", "In YAML:\n\n  x-warm: &warm");
     assert_explained("image.tone", "clip: Values above 1 are clipped.");
 }
@@ -255,7 +255,7 @@ static void test_unknown_things(void **state) {
     assert_unknown("eye",
                    "several attributes are like 'eye'; say which: 'scene.camera' or 'camera.position'\n");
     assert_unknown("rotation", "several elements have 'rotation'; say which: 'camera.rotation', "
-                               "'background.rotation' or 'model.rotation'\n");
+                               "'background.rotation', 'texture.rotation' or 'model.rotation'\n");
 }
 
 int main(void) {

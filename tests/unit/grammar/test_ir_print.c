@@ -190,16 +190,17 @@ static void test_one_number_for_equal_components(void **state) {
     struct kit *kit = *state;
     struct ir_material *material = add_material(kit, "m");
     material->diffuse_color.color = (struct ir_color){.r = 0.5, .g = 0.5, .b = 0.5};
-    material->specular_color = (struct ir_color){.r = 0.5, .g = 0.5, .b = 0.25};
+    material->specular_color.color = (struct ir_color){.r = 0.5, .g = 0.5, .b = 0.25};
     wrote(&SCHEMA_MATERIAL, material, "diffuse_color");
     wrote(&SCHEMA_PAINT, &material->diffuse_color, "color");
     wrote(&SCHEMA_MATERIAL, material, "specular_color");
+    wrote(&SCHEMA_HIGHLIGHT, &material->specular_color, "color");
     assert_yaml(kit, "glint: 1\n\nmaterials:\n  m: {diffuse_color: 0.5, specular_color: [0.5, 0.5, 0.25]}\n");
     assert_xml(kit, "<Scene glint=\"1\">\n"
                     "  <Material name=\"m\" diffuse_color=\"0.5\"><SpecularColor r=\"0.5\" g=\"0.5\" "
                     "b=\"0.25\"/></Material>\n"
                     "</Scene>\n");
-    material->specular_color = (struct ir_color){.is_hex = true, .hex = 0x00FFAA};
+    material->specular_color.color = (struct ir_color){.is_hex = true, .hex = 0x00FFAA};
     assert_yaml(kit, "glint: 1\n\nmaterials:\n  m: {diffuse_color: 0.5, specular_color: \"#00ffaa\"}\n");
     assert_xml(
         kit,

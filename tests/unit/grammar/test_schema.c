@@ -21,20 +21,21 @@ static const struct {
     const struct schema_element *schema;
     const char *structure;
 } structures[] = {
-    {&SCHEMA_SCENE, "ir_scene"},   {&SCHEMA_INCLUDE, "ir_include"},
-    {&SCHEMA_IMAGE, "ir_image"},   {&SCHEMA_TRACE, "ir_trace"},
-    {&SCHEMA_CAMERA, "ir_camera"}, {&SCHEMA_BACKGROUND, "ir_background"},
-    {&SCHEMA_LIGHT, "ir_light"},   {&SCHEMA_MATERIAL, "ir_material"},
-    {&SCHEMA_PAINT, "ir_paint"},   {&SCHEMA_CHECKER, "ir_checker"},
-    {&SCHEMA_SPHERE, "ir_sphere"}, {&SCHEMA_RECTANGLE, "ir_rectangle"},
-    {&SCHEMA_MODEL, "ir_model"},   {&SCHEMA_MAP_ENTRY, "ir_map_entry"},
+    {&SCHEMA_SCENE, "ir_scene"},     {&SCHEMA_INCLUDE, "ir_include"},
+    {&SCHEMA_IMAGE, "ir_image"},     {&SCHEMA_TRACE, "ir_trace"},
+    {&SCHEMA_CAMERA, "ir_camera"},   {&SCHEMA_BACKGROUND, "ir_background"},
+    {&SCHEMA_LIGHT, "ir_light"},     {&SCHEMA_MATERIAL, "ir_material"},
+    {&SCHEMA_PAINT, "ir_paint"},     {&SCHEMA_CHECKER, "ir_checker"},
+    {&SCHEMA_TEXTURE, "ir_texture"}, {&SCHEMA_HIGHLIGHT, "ir_highlight"},
+    {&SCHEMA_SPHERE, "ir_sphere"},   {&SCHEMA_RECTANGLE, "ir_rectangle"},
+    {&SCHEMA_MODEL, "ir_model"},     {&SCHEMA_MAP_ENTRY, "ir_map_entry"},
 };
 
 #define EACH_ELEMENT(e) for (const struct schema_element *const *e = schema_elements; *e; e++)
 
 static bool has_numbers(const struct schema_row *row) {
     return row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_VECTOR ||
-           row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
+           row->kind == SCHEMA_PAIR || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
 }
 
 // ---- fields
@@ -353,7 +354,7 @@ static void check_row(const struct schema_element *schema, const struct schema_r
     assert_int_equal(row->kind == SCHEMA_ELEMENT || row->kind == SCHEMA_REFERENCE || row->kind == SCHEMA_LIST,
                      row->child != NULL);
     assert_int_equal(row->many == SCHEMA_FIXED, row->fixed_count > 1);
-    assert_true(!row->fill || row->kind == SCHEMA_VECTOR);
+    assert_true(!row->fill || row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_PAIR);
     assert_true(!row->single || row->many == SCHEMA_NAMED_MAP);
     assert_true(!row->required || !row->standard);
     assert_true((size_t)row->offset + row->size <= schema->size);
@@ -473,6 +474,9 @@ static void check_scene_text(const struct schema_row *row, const char *text) {
     case SCHEMA_INTEGER:
     case SCHEMA_NUMBER:
         check_numbers(row, text, 1);
+        break;
+    case SCHEMA_PAIR:
+        check_numbers(row, text, 2);
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_COLOR:

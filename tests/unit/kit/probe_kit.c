@@ -31,11 +31,13 @@ static bool fill_scene(struct probe *probe, const struct flat_scene *flat) {
                                          [BINDING_SPHERE_NODES] = &flat->sphere_nodes,
                                          [BINDING_SPHERES] = &flat->spheres,
                                          [BINDING_BODIES] = &flat->bodies,
-                                         [BINDING_MATERIALS] = &flat->materials};
+                                         [BINDING_MATERIALS] = &flat->materials,
+                                         [BINDING_PAINTS] = &flat->paints};
     bool good = true;
     for (uint32_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        good =
-            good && fill(probe, i, GPU_WORDS, arrays[i]->words, arrays[i]->count * sizeof(struct gpu_word));
+        good = !arrays[i] ? good
+                          : good && fill(probe, i, GPU_WORDS, arrays[i]->words,
+                                         arrays[i]->count * sizeof(struct gpu_word));
     return good;
 }
 

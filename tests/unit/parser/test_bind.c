@@ -70,7 +70,7 @@ static void the_same_in_xml(void **state) {
     assert_string_equal(l.codes, "");
     const struct ir_material *m = loaded_scene(&l)->materials.items;
     assert_true(same_color(m[0].diffuse_color.color, 1, 0.5, 0));
-    assert_true(m[0].specular_color.is_hex && m[0].specular_color.hex == 0x00ff00);
+    assert_true(m[0].specular_color.color.is_hex && m[0].specular_color.color.hex == 0x00ff00);
     assert_true(m[0].albedo.diffuse == 0 && m[0].albedo.specular == 0.5);
     assert_true(same_color(m[1].diffuse_color.color, 0.25, 0.25, 0.25));
     assert_int_equal(m[2].diffuse_color.kind, IR_PAINT_CHECKER);

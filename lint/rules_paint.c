@@ -1,0 +1,330 @@
+// Images and checkers that are finer than the pixels of the picture, where nothing takes the mean over a
+// pixel.
+//
+// Rays through a grid over the picture find spheres and rectangles, and each triangle of a mesh counts with
+// the pixels that it covers. What lies in front of a body is left out: it covers fine parts and coarse ones
+// alike.
+#include "lint/lint_parts.h"
+
+#include "grammar/ir.h"
+
+enum {
+    COLUMNS = 64,          // of the grid, at most
+    TRIANGLES_MOST = 4096, // of a mesh, evenly picked
+    WORK_MAX = 20000000,   // rays and triangles
+};
+
+// A pixel covers more than this many of an image's pixels, or cells of a checker, in its longer direction.
+static const double IMAGE_FINE = 2, CELL_FINE = 1;
+// An image that is filtered has more than this many for each sample, and so many in all that it matters.
+static const double EXCESS = 8, LARGE = 1 << 20;
+// Such pixels, without a filter, are at least this part of those that show the material, and of the picture.
+static const double SHARE_MIN = 0.3, PICTURE_MIN = 0.02;
+
+// What of a material is shown that is not one colour.
+struct bare {
+    bool filtered;                  // an image whose filter is auto
+    const struct ir_texture *image; // NULL: a checker
+    const struct picture *picture;  // of it
+    vec3 u, v;                      // of an image: its pixels by surface coordinates (two count)
+    double cell;                    // of a checker
+};
+
+// Pixels of the picture that show a material: all, and those for which it is too fine; and what a pixel
+// covers at least, in its shorter direction.
+struct shown {
+    double pixels, fine, least;
+};
+
+struct looking {
+    struct lint *lint;
+    const struct view_camera *camera;
+    const struct lint_body *body;
+    double pixel;        // how wide one is at distance 1 along the view
+    struct bare *bare;   // by material
+    struct shown *shown; // by material
+};
+
+// A place on a body: how its coordinates change with the place in space.
+struct spot {
+    vec3 point, normal; // the normal of any length
+    vec3 change[3];     // of u, v and a third; of checkers in scene units
+    uint32_t material;
+    double pixels; // of the picture that it stands for
+};
+
+// ---- what is too fine
+
+static double length_in(const struct bare *bare, const struct spot *s, vec3 axis) {
+    const double u = vec3_dot(s->change[0], axis), v = vec3_dot(s->change[1], axis),
+                 w = vec3_dot(s->change[2], axis);
+    if (bare->image)
+        return hypot(bare->u.x * u + bare->u.y * v, bare->v.x * u + bare->v.y * v);
+    return fmax(fabs(u), fmax(fabs(v), fabs(w))) / bare->cell;
+}
+
+// The axes of a pixel on the surface are those that a filter would use (reference/paint.c).
+static void add_spot(struct looking *l, const struct spot *s) {
+    const struct bare *bare = &l->bare[s->material];
+    const vec3 way = vec3_sub(s->point, l->camera->position), n = vec3_unit(s->normal), d = vec3_unit(way);
+    const double facing = fmax(fabs(vec3_dot(d, n)), 1e-6);
+    const double width = l->pixel * vec3_dot(way, l->camera->forward);
+    vec3 along = vec3_sub(d, vec3_mul(n, vec3_dot(d, n)));
+    if (!(bare->image || bare->cell > 0) || !(width > 0))
+        return;
+    if (vec3_length(along) < 1e-4)
+        along = vec3_cross(n, fabs(n.x) < 0.5 ? (vec3){1, 0, 0} : (vec3){0, 1, 0});
+    along = vec3_unit(along);
+    const double down = length_in(bare, s, vec3_mul(along, width / facing)),
+                 across = length_in(bare, s, vec3_mul(vec3_cross(n, along), width));
+    const double longer = fmax(down, across), shorter = fmin(down, across);
+    struct shown *shown = &l->shown[s->material];
+    shown->least = shown->pixels > 0 ? fmin(shown->least, shorter) : shorter;
+    shown->pixels += s->pixels;
+    shown->fine += longer > (bare->image ? IMAGE_FINE : CELL_FINE) ? s->pixels : 0;
+}
+
+// ---- bodies
+
+static void own_axes(const struct scene_body *body, struct spot *s) {
+    const affine3 back = transform_inverse(body->object_to_world);
+    for (int k = 0; k < 3; k++)
+        s->change[k] = (vec3){back.linear.m[k][0], back.linear.m[k][1], back.linear.m[k][2]};
+}
+
+// Longitude and latitude, as the sphere's coordinates.
+static void sphere_change(const struct bare *bare, double radius, struct spot *s) {
+    static const double TURN = 6.283185307179586477;
+    const vec3 o = vec3_unit(s->normal);
+    const double around2 = fmax(o.x * o.x + o.z * o.z, 1e-12), around = sqrt(around2);
+    const vec3 up = {-o.x * o.y, around2, -o.z * o.y};
+    if (!bare->image)
+        return;
+    s->change[0] = vec3_mul((vec3){-o.z, 0, o.x}, 1 / (around2 * TURN * radius));
+    s->change[1] = vec3_mul(up, 2 / (around * TURN * radius));
+    s->change[2] = (vec3){0, 0, 0};
+}
+
+static bool meet_sphere(const struct looking *l, vec3 direction, struct spot *s) {
+    const struct scene_body *body = l->body->is;
+    const vec3 from = vec3_sub(l->camera->position, body->object_to_world.offset);
+    const double b = vec3_dot(from, direction), dd = vec3_dot(direction, direction);
+    const double root = b * b - dd * (vec3_dot(from, from) - body->radius * body->radius);
+    if (!(root > 0) || !(-b - sqrt(root) > 0))
+        return false;
+    s->normal = vec3_add(from, vec3_mul(direction, (-b - sqrt(root)) / dd));
+    s->point = vec3_add(s->normal, body->object_to_world.offset);
+    own_axes(body, s);
+    sphere_change(&l->bare[s->material], body->radius, s);
+    return true;
+}
+
+static bool meet_sheet(const struct looking *l, vec3 direction, struct spot *s) {
+    const affine3 map = l->body->is->object_to_world;
+    const vec3 u = mat3_apply(map.linear, (vec3){1, 0, 0}), v = mat3_apply(map.linear, (vec3){0, 1, 0});
+    s->normal = vec3_cross(u, v);
+    const double nn = vec3_dot(s->normal, s->normal), down = vec3_dot(s->normal, direction);
+    const double t = vec3_dot(s->normal, vec3_sub(map.offset, l->camera->position)) / down;
+    const vec3 q = vec3_sub(vec3_add(l->camera->position, vec3_mul(direction, t)), map.offset);
+    s->change[0] = vec3_mul(vec3_cross(v, s->normal), 1 / nn);
+    s->change[1] = vec3_mul(vec3_cross(s->normal, u), 1 / nn);
+    s->change[2] = (vec3){0, 0, 0};
+    const double a = vec3_dot(s->change[0], q), b = vec3_dot(s->change[1], q);
+    s->point = vec3_add(q, map.offset);
+    if (!l->bare[s->material].image) { // a checker counts lengths
+        s->change[0] = vec3_mul(s->change[0], vec3_length(u));
+        s->change[1] = vec3_mul(s->change[1], vec3_length(v));
+    }
+    return down != 0 && t > 0 && a >= 0 && a <= 1 && b >= 0 && b <= 1;
+}
+
+static void look_at_shape(struct looking *l) {
+    const struct ir_image *image = l->lint->input->image;
+    const uint32_t columns = image->width < COLUMNS ? (uint32_t)image->width : COLUMNS;
+    const uint32_t rows =
+        (uint32_t)fmax(1, fmin(image->height, columns * (double)image->height / image->width));
+    const double up = l->camera->tan_half_fov, right = up * image->width / image->height;
+    for (uint32_t i = 0; i < columns * rows; i++) {
+        const double x = (2 * (i % columns + 0.5) / columns - 1) * right;
+        const double y = (1 - 2 * (i / columns + 0.5) / rows) * up;
+        const vec3 direction =
+            vec3_add(l->camera->forward, vec3_add(vec3_mul(l->camera->right, x), vec3_mul(l->camera->up, y)));
+        struct spot s = {.material = l->body->is->materials[0],
+                         .pixels = (double)image->width * image->height / (columns * rows)};
+        if (l->body->is->shape == SCENE_SPHERE ? meet_sphere(l, direction, &s) : meet_sheet(l, direction, &s))
+            add_spot(l, &s);
+    }
+}
+
+static bool is_in_picture(const struct looking *l, vec3 way) {
+    const struct ir_image *image = l->lint->input->image;
+    const double depth = vec3_dot(way, l->camera->forward), up = l->camera->tan_half_fov * depth;
+    return depth > 0 && fabs(vec3_dot(way, l->camera->up)) < up &&
+           fabs(vec3_dot(way, l->camera->right)) < up * image->width / image->height;
+}
+
+static void look_at_triangle(struct looking *l, uint32_t triangle, double stands_for) {
+    const struct scene_body *body = l->body->is;
+    struct spot s = {.material = scene_body_material(body, triangle)};
+    vec3 c[3];
+    struct ir_pair at[3];
+    scene_corners(body, &body->object_to_world, triangle, c);
+    const vec3 e = vec3_sub(c[1], c[0]), f = vec3_sub(c[2], c[0]);
+    s.normal = vec3_cross(e, f);
+    s.point = vec3_mul(vec3_add(c[0], vec3_add(c[1], c[2])), 1.0 / 3);
+    const double nn = vec3_dot(s.normal, s.normal);
+    const vec3 way = vec3_sub(s.point, l->camera->position);
+    if (!(nn > 0) || !is_in_picture(l, way))
+        return;
+    own_axes(body, &s);
+    if (l->bare[s.material].image) {
+        const vec3 b1 = vec3_mul(vec3_cross(f, s.normal), 1 / nn),
+                   b2 = vec3_mul(vec3_cross(s.normal, e), 1 / nn);
+        scene_coordinates(body, triangle, at);
+        s.change[0] = vec3_add(vec3_mul(b1, at[1].u - at[0].u), vec3_mul(b2, at[2].u - at[0].u));
+        s.change[1] = vec3_add(vec3_mul(b1, at[1].v - at[0].v), vec3_mul(b2, at[2].v - at[0].v));
+    }
+    const double depth = vec3_dot(way, l->camera->forward);
+    s.pixels =
+        stands_for * fabs(vec3_dot(s.normal, way)) / (2 * depth * depth * depth) / (l->pixel * l->pixel);
+    add_spot(l, &s);
+}
+
+static void look_at(struct looking *l) {
+    const uint32_t count = l->body->is->triangle_count;
+    if (l->body->is->shape != SCENE_MESH) {
+        look_at_shape(l);
+        return;
+    }
+    const uint32_t step = count / TRIANGLES_MOST + 1;
+    for (uint32_t t = 0; l->body->mesh && t < count; t += step)
+        look_at_triangle(l, t, step);
+}
+
+// ---- materials
+
+// An image without a filter comes before one with. false: one colour.
+static bool make_bare(const struct lint *lint, uint32_t material, struct bare *out) {
+    const struct ir_material *m = &lint->scene->assets->materials[material];
+    const struct scene_material *s = &lint->scene->materials[material];
+    const struct ir_texture *images[ASSETS_IMAGES] = {&m->diffuse_color.image, &m->specular_color.image};
+    *out = (struct bare){.filtered = true};
+    for (int k = 0; lint->scene->assets->images && k < ASSETS_IMAGES && out->filtered; k++) {
+        const struct picture *picture = lint->scene->assets->images[material][k];
+        if (picture)
+            *out = (struct bare){
+                .filtered = s->images[k].filter == IR_FILTER_AUTO,
+                .image = images[k],
+                .picture = picture,
+                .u = vec3_mul((vec3){s->images[k].u[0], s->images[k].u[1], 0}, picture->width),
+                .v = vec3_mul((vec3){s->images[k].v[0], s->images[k].v[1], 0}, picture->height)};
+    }
+    if (out->image)
+        return true;
+    *out = (struct bare){.cell = s->checker && !s->soft ? s->cell : 0};
+    return out->cell > 0;
+}
+
+static bool shows_any(const struct looking *l, const struct lint_body *body) {
+    for (uint32_t g = 0; lint_is_there(body) && g < body->is->group_count; g++) {
+        const struct bare *bare = &l->bare[body->is->materials[g]];
+        if (bare->image || bare->cell > 0)
+            return true;
+    }
+    return false;
+}
+
+static const char *material_words(struct lint *lint, const struct ir_material *m) {
+    return m->name.len ? arena_format(lint->arena, "material '%.*s'", STR_ARG(m->name)).ptr : "this material";
+}
+
+static void report(struct lint *lint, uint32_t material, const struct bare *bare, const struct shown *shown) {
+    const struct ir_material *m = &lint->scene->assets->materials[material];
+    const int percent = (int)(100 * shown->fine / shown->pixels + 0.5);
+    if (bare->image) {
+        const span at = ir_place_value(lint->origin, &bare->image->head, &SCHEMA_TEXTURE, "filter");
+        diag_add(
+            lint->sink, DIAG_TOO_FINE, at,
+            "the image of %s is finer than the picture: in %d %% of its place there, a pixel covers more "
+            "than %g of the image's in a row and shows the colour of one",
+            material_words(lint, m), percent, IMAGE_FINE);
+        diag_help(lint->sink, "write filter: auto, the mean over what a pixel covers");
+        diag_fix(lint->sink, false, at, STR("auto"));
+        return;
+    }
+    diag_add(lint->sink, DIAG_TOO_FINE,
+             ir_place_value(lint->origin, &m->diffuse_color.checker.head, &SCHEMA_CHECKER, "size"),
+             "the checker of %s is finer than the picture: in %d %% of its place there, a pixel covers more "
+             "than a cell and shows the colour of one",
+             material_words(lint, m), percent);
+    diag_help(lint->sink, "write antialias: true in the checker, or larger cells");
+}
+
+// Of an image that is filtered: it is larger than it need be, if this holds everywhere and nothing magnifies
+// it.
+static void report_oversized(struct lint *lint, uint32_t material, const struct bare *bare, double least) {
+    const struct ir_material *m = &lint->scene->assets->materials[material];
+    const struct picture *picture = bare->picture;
+    const double enough = exp2(floor(log2(least)));
+    if (bare->image->head.origin == 0 || (double)picture->width * picture->height < LARGE)
+        return;
+    diag_add(lint->sink, DIAG_OVERSIZED_IMAGE,
+             ir_place_value(lint->origin, &bare->image->head, &SCHEMA_TEXTURE, "file"),
+             "the image of %s has %u x %u pixels, at least %.3g times more in a row than a picture of %d x "
+             "%d shows",
+             material_words(lint, m), picture->width, picture->height, least, lint->input->image->width,
+             lint->input->image->height);
+    diag_help(lint->sink, "an image of %.0f x %.0f pixels is enough for this picture",
+              ceil(picture->width / enough), ceil(picture->height / enough));
+}
+
+static bool is_anything_bent(const struct lint *lint) {
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (lint->bodies[i].gain > 0)
+            return true;
+    return false;
+}
+
+static void report_all(struct lint *lint, const struct bare *bare, const struct shown *worst) {
+    const double all = (double)lint->input->image->width * lint->input->image->height;
+    const bool may_magnify = is_anything_bent(lint);
+    for (uint32_t m = 0; m < lint->scene->assets->material_count; m++) {
+        const struct shown *w = &worst[m];
+        if (bare[m].filtered && !may_magnify && w->pixels > 0 && w->least > EXCESS)
+            report_oversized(lint, m, &bare[m], w->least);
+        else if (!bare[m].filtered && w->fine > PICTURE_MIN * all && w->fine > SHARE_MIN * w->pixels)
+            report(lint, m, &bare[m], w);
+    }
+}
+
+void lint_too_fine(struct lint *lint) {
+    const struct ir_image *image = lint->input->image;
+    const uint32_t materials = lint->scene->assets->material_count;
+    struct looking l = {.lint = lint, .bare = ARENA_ARRAY(lint->arena, struct bare, materials)};
+    bool any = false;
+    for (uint32_t m = 0; m < materials; m++)
+        any |= make_bare(lint, m, &l.bare[m]);
+    struct shown *worst = any ? ARENA_ARRAY(lint->arena, struct shown, materials) : NULL;
+    uint64_t work = 0;
+    for (uint32_t c = 0; any && c < lint->view_count; c++) {
+        l.camera = &lint->views[c].camera;
+        l.shown = ARENA_ARRAY(lint->arena, struct shown, materials);
+        l.pixel = 2 * l.camera->tan_half_fov / (image->height * sqrt(image->samples));
+        for (uint32_t i = 0; i < lint->body_count && work < WORK_MAX; i++) {
+            l.body = &lint->bodies[i];
+            if (!shows_any(&l, l.body))
+                continue;
+            work += TRIANGLES_MOST;
+            look_at(&l);
+        }
+        for (uint32_t m = 0; m < materials; m++) {
+            const struct shown *now = &l.shown[m];
+            const double least = worst[m].pixels > 0 ? fmin(worst[m].least, now->least) : now->least;
+            if (now->pixels > 0 && now->fine >= worst[m].fine)
+                worst[m] = *now;
+            worst[m].least = now->pixels > 0 ? least : worst[m].least;
+        }
+    }
+    if (any)
+        report_all(lint, l.bare, worst);
+}

@@ -1,0 +1,334 @@
+// Colours that differ from place to place: images, and checkers that are filtered (docs/language.md,
+// "Paint").
+//
+// The footprint of a pixel is that of a cone around its ray (Amanatides 1984; Akenine-Moeller, Crassin,
+// Boksansky, Belcour, Panteleev and Wright 2021, "Improved Shader and Texture Level of Detail Using Ray
+// Cones"). How coordinates change across it is found by differences, not by derivatives: so nothing here is
+// what the device does.
+#include "reference/parts.h"
+
+#include "grammar/ir.h"
+
+enum {
+    TAPS_MAX = 16,
+};
+
+#define PI 3.14159265358979323846
+
+// ---- cones
+
+struct cone reference_camera_cone(const struct reference *r, const struct reference_settings *settings,
+                                  vec3 direction) {
+    const struct view_camera *camera = &r->input.view->camera;
+    const double pixel = 2 * camera->tan_half_fov / settings->height;
+    return (struct cone){0, pixel * vec3_dot(direction, camera->forward) / sqrt(settings->samples)};
+}
+
+struct cone reference_mirrored_cone(const struct surface *s, struct cone cone) {
+    return (struct cone){s->width, cone.spread + 2 * s->bend * s->width};
+}
+
+// By what Snell's law makes of a normal that turns: to = eta from + (eta c - c') n.
+struct cone reference_bent_cone(const struct surface *s, struct cone cone, vec3 from, vec3 to) {
+    if (!s->solid || s->index == 1)
+        return (struct cone){s->width, cone.spread};
+    const double eta = s->enters ? 1 / s->index : s->index;
+    const double along = vec3_dot(to, s->shading) - eta * vec3_dot(from, s->shading);
+    return (struct cone){s->width, eta * cone.spread + along * s->bend * s->width};
+}
+
+// ---- the footprint
+
+// Where a footprint lies on a surface, and its two axes: the first along the ray's own direction.
+struct footprint {
+    vec3 axis[2];
+};
+
+static struct footprint footprint_of(const struct ray *ray, const struct surface *s) {
+    const double width = fabs(s->width);
+    const vec3 n = s->geometric, d = vec3_unit(ray->direction);
+    const double facing = fmax(-vec3_dot(d, n), 1e-6);
+    vec3 along = vec3_add(d, vec3_mul(n, -vec3_dot(d, n)));
+    if (vec3_length(along) < 1e-4)
+        along = vec3_cross(n, fabs(n.x) < 0.5 ? (vec3){1, 0, 0} : (vec3){0, 1, 0});
+    along = vec3_unit(along);
+    return (struct footprint){
+        {vec3_mul(along, width / facing), vec3_mul(vec3_unit(vec3_cross(n, along)), width)}};
+}
+
+// ---- coordinates
+
+struct place {
+    double u, v;
+};
+
+static vec3 corner_of(const struct primitive *p, int k) {
+    return (vec3){p->v[k][0], p->v[k][1], p->v[k][2]};
+}
+
+// Weights of a triangle's corners at a point of its plane, by areas.
+static void weights_at(const struct primitive *p, vec3 point, double b[3]) {
+    const vec3 normal =
+        vec3_cross(vec3_sub(corner_of(p, 1), corner_of(p, 0)), vec3_sub(corner_of(p, 2), corner_of(p, 0)));
+    const double area2 = vec3_dot(normal, normal);
+    for (int k = 0; k < 3; k++) {
+        const vec3 x = vec3_sub(corner_of(p, (k + 1) % 3), point),
+                   y = vec3_sub(corner_of(p, (k + 2) % 3), point);
+        b[k] = vec3_dot(vec3_cross(x, y), normal) / area2;
+    }
+}
+
+static struct place sphere_place(vec3 arm) {
+    const double around = hypot(arm.x, arm.z);
+    return (struct place){0.5 + atan2(arm.z, arm.x) / (2 * PI), 1 - atan2(around, arm.y) / PI};
+}
+
+static struct place triangle_place(const struct scene_body *body, const struct surface *s,
+                                   const double b[3]) {
+    if (body->shape == SCENE_PARALLELOGRAM)
+        return (struct place){s->triangle ? b[1] : b[1] + b[2], s->triangle ? b[1] + b[2] : b[2]};
+    struct ir_pair at[3];
+    scene_coordinates(body, s->triangle, at);
+    return (struct place){b[0] * at[0].u + b[1] * at[1].u + b[2] * at[2].u,
+                          b[0] * at[0].v + b[1] * at[1].v + b[2] * at[2].v};
+}
+
+// Where a checker's cells are counted, in cells.
+static vec3 checker_cell(const struct scene_body *body, const struct surface *s, const double b[3], vec3 arm,
+                         double size) {
+    vec3 at = arm;
+    if (body->shape == SCENE_PARALLELOGRAM) {
+        const struct place p = triangle_place(body, s, b);
+        const mat3 edges = body->object_to_world.linear;
+        at = (vec3){p.u * vec3_length(mat3_column(edges, 0)), p.v * vec3_length(mat3_column(edges, 1)), 0};
+    } else if (body->shape == SCENE_MESH) {
+        at = (vec3){0, 0, 0};
+        for (int k = 0; k < 3; k++)
+            at = vec3_add(
+                at, vec3_mul(body->mesh->positions[body->mesh->triangles[s->triangle].corners[k]], b[k]));
+    }
+    return vec3_mul(at, 1 / size);
+}
+
+// ---- differences
+
+// A surface at the hit, and at points beside it.
+struct spot {
+    const struct reference *r;
+    const struct surface *s;
+    const struct scene_body *body;
+    const struct primitive *primitive;
+    vec3 arm;
+    double b[3];
+};
+
+// Moved by a part of an axis so small that what curves does not show.
+#define STEP 0x1p-12
+
+static struct spot moved(const struct spot *spot, vec3 axis, double by) {
+    struct spot to = *spot;
+    if (spot->primitive->is_sphere) {
+        to.arm = vec3_mul(vec3_unit(vec3_add(spot->arm, vec3_mul(axis, by))), vec3_length(spot->arm));
+        return to;
+    }
+    vec3 point = {0, 0, 0};
+    for (int k = 0; k < 3; k++)
+        point = vec3_add(point, vec3_mul(corner_of(spot->primitive, k), spot->b[k]));
+    weights_at(spot->primitive, vec3_add(point, vec3_mul(axis, by)), to.b);
+    return to;
+}
+
+static struct place place_at(const struct spot *spot) {
+    return spot->primitive->is_sphere ? sphere_place(spot->arm)
+                                      : triangle_place(spot->body, spot->s, spot->b);
+}
+
+// How coordinates change along an axis: by the difference of two places, the shorter way around a sphere.
+static struct place change(const struct spot *spot, vec3 axis) {
+    const double size = vec3_length(spot->arm), length = vec3_length(axis);
+    const double step =
+        spot->primitive->is_sphere && length * STEP > size * STEP ? STEP * size / length : STEP;
+    const struct spot before = moved(spot, axis, -step), after = moved(spot, axis, step);
+    const struct place a = place_at(&before), b = place_at(&after);
+    double u = b.u - a.u;
+    if (spot->primitive->is_sphere)
+        u -= floor(u + 0.5);
+    return (struct place){u / (2 * step), (b.v - a.v) / (2 * step)};
+}
+
+// ---- images
+
+static uint32_t wrapped(double coordinate, int64_t step, uint32_t size, unsigned wrap) {
+    if (wrap == IR_WRAP_REPEAT) {
+        const double at = fmod(coordinate + (double)step, size);
+        return (uint32_t)(at < 0 ? at + size : at) % size;
+    }
+    return (uint32_t)fmin(fmax(coordinate + (double)step, 0), size - 1.0);
+}
+
+static double folded(double x, unsigned wrap) {
+    if (wrap == IR_WRAP_REPEAT)
+        return x - floor(x);
+    if (wrap == IR_WRAP_CLAMP)
+        return fmin(fmax(x, 0), 1);
+    const double rest = fabs(fmod(x, 2));
+    return rest > 1 ? 2 - rest : rest;
+}
+
+static vec3 nearest(const struct scene_image *image, struct place at) {
+    const struct scene_level *level = &image->texture->levels[0];
+    const double u = folded(at.u, image->wrap), v = 1 - folded(at.v, image->wrap);
+    return scene_texel(image->texture, 0, (uint32_t)fmin(floor(u * level->width), level->width - 1.0),
+                       (uint32_t)fmin(floor(v * level->height), level->height - 1.0));
+}
+
+static vec3 bilinear(const struct scene_image *image, uint32_t number, struct place at) {
+    const struct scene_level *level = &image->texture->levels[number];
+    const double x = folded(at.u, image->wrap) * level->width - 0.5;
+    const double y = (1 - folded(at.v, image->wrap)) * level->height - 0.5;
+    const double x0 = floor(x), y0 = floor(y);
+    vec3 sum = {0, 0, 0};
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++) {
+            const uint32_t column = wrapped(x0, i, level->width, image->wrap);
+            const uint32_t row = wrapped(y0, j, level->height, image->wrap);
+            const double weight = (i ? x - x0 : 1 - (x - x0)) * (j ? y - y0 : 1 - (y - y0));
+            sum = vec3_add(sum, vec3_mul(scene_texel(image->texture, number, column, row), weight));
+        }
+    return sum;
+}
+
+// Between the levels around it, of which each is half as large as the one before. `size`: the footprint's in
+// pixels of the image; between two powers of two the level grows evenly with it.
+static double level_of(const struct scene_texture *texture, double size) {
+    int exponent;
+    const double part = frexp(size, &exponent); // 0.5..1
+    const double level = size > 1 ? exponent - 1 + (2 * part - 1) : 0;
+    return fmin(level, texture->level_count - 1.0);
+}
+
+static vec3 between(const struct scene_image *image, double level, struct place at) {
+    const uint32_t below = (uint32_t)level;
+    const double share = level - below;
+    vec3 color = bilinear(image, below, at);
+    if (share > 0)
+        color = vec3_add(vec3_mul(color, 1 - share), vec3_mul(bilinear(image, below + 1, at), share));
+    return color;
+}
+
+static struct place in_image(const struct scene_image *image, struct place p) {
+    return (struct place){image->u[0] * p.u + image->u[1] * p.v + image->u[2],
+                          image->v[0] * p.u + image->v[1] * p.v + image->v[2]};
+}
+
+static struct place change_in_image(const struct scene_image *image, struct place p) {
+    return (struct place){image->u[0] * p.u + image->u[1] * p.v, image->v[0] * p.u + image->v[1] * p.v};
+}
+
+// As many taps along the longer axis as the shorter one fits into it.
+static uint32_t taps_of(double longer, double shorter) {
+    return longer >= TAPS_MAX * shorter ? TAPS_MAX : longer <= shorter ? 1 : (uint32_t)ceil(longer / shorter);
+}
+
+static vec3 filtered(const struct spot *spot, const struct footprint *f, const struct scene_image *image,
+                     struct place at, struct reference_texel *texel) {
+    const struct scene_level *whole = &image->texture->levels[0];
+    struct place axis[2];
+    double size[2];
+    for (int k = 0; k < 2; k++) {
+        axis[k] = change_in_image(image, change(spot, f->axis[k]));
+        size[k] = hypot(axis[k].u * whole->width, axis[k].v * whole->height);
+    }
+    const int longer = size[1] > size[0];
+    texel->taps = size[longer] > 1 ? taps_of(size[longer], fmax(size[!longer], 1)) : 1;
+    texel->level = level_of(image->texture, fmax(size[longer] / texel->taps, size[!longer]));
+    vec3 sum = {0, 0, 0};
+    for (uint32_t i = 0; i < texel->taps; i++) {
+        const double along = (i + 0.5) / texel->taps - 0.5;
+        const struct place tap = {at.u + along * axis[longer].u, at.v + along * axis[longer].v};
+        sum = vec3_add(sum, between(image, texel->level, tap));
+    }
+    return vec3_mul(sum, 1.0 / texel->taps);
+}
+
+static vec3 image_color(const struct spot *spot, const struct footprint *f, const struct scene_image *image,
+                        struct reference_texel *texel) {
+    const struct place at = place_at(spot), there = in_image(image, at);
+    const struct scene_level *level = &image->texture->levels[0];
+    *texel = (struct reference_texel){.is_there = true, .u = at.u, .v = at.v, .taps = 1};
+    texel->x = (uint32_t)fmin(floor(folded(there.u, image->wrap) * level->width), level->width - 1.0);
+    texel->y = (uint32_t)fmin(floor((1 - folded(there.v, image->wrap)) * level->height), level->height - 1.0);
+    if (image->filter == IR_FILTER_NEAREST)
+        texel->color = nearest(image, there);
+    else if (image->filter == IR_FILTER_BILINEAR || !(fabs(spot->s->width) > 0))
+        texel->color = bilinear(image, 0, there);
+    else
+        texel->color = filtered(spot, f, image, there, texel);
+    return texel->color;
+}
+
+// ---- checkers
+
+// Mean over [x - w/2, x + w/2] of what is 1 in even cells and -1 in odd ones.
+static double wave(double x, double w) {
+    const double low = x - w / 2, high = x + w / 2;
+    if (floor(low) == floor(high))
+        return fmod(floor(x), 2) == 0 ? 1 : -1;
+    const double a = low - 2 * floor(low / 2), b = high - 2 * floor(high / 2);
+    return ((b < 1 ? b : 2 - b) - (a < 1 ? a : 2 - a)) / w;
+}
+
+static vec3 cell_change(const struct spot *spot, vec3 axis, double size) {
+    const double step = STEP;
+    const struct spot before = moved(spot, axis, -step), after = moved(spot, axis, step);
+    const vec3 a = checker_cell(spot->body, spot->s, before.b, before.arm, size);
+    const vec3 b = checker_cell(spot->body, spot->s, after.b, after.arm, size);
+    return vec3_mul(vec3_sub(b, a), 1 / (2 * step));
+}
+
+// The share of odd cells in the footprint, which is cut into as many boxes along its longer axis as the
+// shorter one fits into it.
+static double odd_share(const struct spot *spot, const struct footprint *f, double size) {
+    const vec3 at = checker_cell(spot->body, spot->s, spot->b, spot->arm, size);
+    const bool is_flat = spot->body->shape == SCENE_PARALLELOGRAM;
+    const vec3 axis[2] = {cell_change(spot, f->axis[0], size), cell_change(spot, f->axis[1], size)};
+    const int longer = vec3_length(axis[1]) > vec3_length(axis[0]);
+    const uint32_t taps = taps_of(vec3_length(axis[longer]), vec3_length(axis[!longer]));
+    double sum = 0;
+    for (uint32_t i = 0; i < taps; i++) {
+        const vec3 x = vec3_add(at, vec3_mul(axis[longer], (i + 0.5) / taps - 0.5));
+        const vec3 w = {fabs(axis[longer].x) / taps + fabs(axis[!longer].x),
+                        fabs(axis[longer].y) / taps + fabs(axis[!longer].y),
+                        fabs(axis[longer].z) / taps + fabs(axis[!longer].z)};
+        sum += wave(x.x, w.x) * wave(x.y, w.y) * (is_flat ? 1 : wave(x.z, w.z));
+    }
+    return 0.5 - 0.5 * sum / taps;
+}
+
+void reference_paint(const struct reference *r, const struct ray *ray, const double b[3], vec3 arm,
+                     struct surface *s) {
+    const struct scene_material *m = r->materials[s->material].is;
+    const struct footprint f = footprint_of(ray, s);
+    const struct spot spot = {.r = r,
+                              .s = s,
+                              .body = r->bodies[s->body].is,
+                              .primitive = &r->primitives[s->primitive],
+                              .arm = arm,
+                              .b = {b[0], b[1], b[2]}};
+    struct reference_texel highlight;
+    if (m->checker && m->soft) {
+        const double odd = odd_share(&spot, &f, m->cell);
+        s->diffuse = vec3_mul(vec3_add(vec3_mul(m->diffuse[0], 1 - odd), vec3_mul(m->diffuse[1], odd)),
+                              m->diffuse_weight);
+    }
+    if (m->images[ASSETS_DIFFUSE].texture)
+        s->diffuse =
+            vec3_mul(image_color(&spot, &f, &m->images[ASSETS_DIFFUSE], &s->texel), m->diffuse_weight);
+    if (!m->images[ASSETS_SPECULAR].texture)
+        return;
+    s->specular =
+        vec3_mul(image_color(&spot, &f, &m->images[ASSETS_SPECULAR], &highlight), m->specular_weight);
+    highlight.of_highlight = true;
+    if (!s->texel.is_there)
+        s->texel = highlight;
+}

@@ -1,0 +1,228 @@
+// Images on surfaces: their levels, and how coordinates become places in them.
+#include "core/parallel.h"
+#include "core/srgb.h"
+#include "grammar/ir.h"
+#include "scene/scene_parts.h"
+#include "scene/transform.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    PIECE_ROWS = 16,
+};
+
+// ---- pixels
+
+// Both ways between stored bytes and linear values, as srgb_decode and srgb_encode, which would take most of
+// the time.
+struct codes {
+    double decoded[256];
+    double above[255]; // from this value on, the next byte is nearer
+};
+
+static void make_codes(bool is_srgb, struct codes *out) {
+    for (int i = 0; i < 256; i++)
+        out->decoded[i] = is_srgb ? srgb_decode(i / 255.0) : i / 255.0;
+    for (int i = 0; i < 255; i++)
+        out->above[i] = is_srgb ? srgb_decode((i + 0.5) / 255) : (i + 0.5) / 255;
+}
+
+static uint8_t encoded(const struct codes *codes, double value) {
+    int low = 0, high = 255;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        if (value >= codes->above[middle])
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return (uint8_t)low;
+}
+
+static vec3 picture_texel(const struct scene_texture *t, size_t at) {
+    const struct picture *picture = t->picture;
+    double value[3];
+    for (size_t k = 0; k < 3; k++) {
+        if (picture->depth == PICTURE_RGBE) {
+            value[k] = (double)picture_linear(picture, at, k);
+            continue;
+        }
+        value[k] = (double)picture_stored(picture, at, k) / picture_greatest(picture->depth);
+        if (t->is_srgb)
+            value[k] = srgb_decode(value[k]);
+    }
+    return (vec3){value[0], value[1], value[2]};
+}
+
+vec3 scene_texel(const struct scene_texture *t, uint32_t level, uint32_t x, uint32_t y) {
+    const struct scene_level *l = &t->levels[level];
+    const size_t at = (size_t)y * l->width + x;
+    if (level == 0)
+        return picture_texel(t, at);
+    if (!l->is_bytes) {
+        const float *p = (const float *)l->pixels + 3 * at;
+        return (vec3){(double)p[0], (double)p[1], (double)p[2]};
+    }
+    const uint8_t *p = (const uint8_t *)l->pixels + 3 * at;
+    double value[3];
+    for (int k = 0; k < 3; k++)
+        value[k] = t->is_srgb ? srgb_decode(p[k] / 255.0) : p[k] / 255.0;
+    return (vec3){value[0], value[1], value[2]};
+}
+
+// ---- levels
+
+// What of a level's row or column a pixel of the next one covers: of `size` pixels made `half`, pixel i
+// covers size / half of them, which need not be whole.
+struct cover {
+    uint32_t first, count; // at most three
+    double weight[4];
+};
+
+static struct cover cover_of(uint32_t i, uint32_t size, uint32_t half) {
+    const double step = (double)size / half;
+    const double begin = i * step, end = fmin((i + 1) * step, size);
+    struct cover c = {.first = (uint32_t)begin};
+    for (uint32_t k = c.first; k < size && k < end && c.count < 4; k++) {
+        const double from = fmax(begin, k), to = fmin(end, k + 1.0);
+        c.weight[c.count++] = (to - from) / step;
+    }
+    return c;
+}
+
+struct halving {
+    const struct scene_texture *texture;
+    uint32_t level; // that is made
+    void *pixels;
+    struct codes codes;
+};
+
+// scene_texel of the level before.
+static vec3 texel_before(const struct halving *h, uint32_t x, uint32_t y) {
+    const struct scene_level *l = &h->texture->levels[h->level - 1];
+    if (!l->is_bytes)
+        return scene_texel(h->texture, h->level - 1, x, y);
+    const uint8_t *p = (const uint8_t *)(h->level > 1 ? l->pixels : h->texture->picture->pixels) +
+                       3 * ((size_t)y * l->width + x);
+    return (vec3){h->codes.decoded[p[0]], h->codes.decoded[p[1]], h->codes.decoded[p[2]]};
+}
+
+static void put_texel(const struct halving *h, size_t at, vec3 color) {
+    const double value[3] = {color.x, color.y, color.z};
+    const struct scene_texture *t = h->texture;
+    for (size_t k = 0; k < 3; k++) {
+        if (t->levels[h->level].is_bytes)
+            ((uint8_t *)h->pixels)[3 * at + k] = encoded(&h->codes, value[k]);
+        else
+            ((float *)h->pixels)[3 * at + k] = (float)value[k];
+    }
+}
+
+static void halve_rows(void *context, size_t begin, size_t end) {
+    const struct halving *h = context;
+    const struct scene_level *to = &h->texture->levels[h->level], *from = to - 1;
+    for (uint32_t y = (uint32_t)begin; y < end; y++) {
+        const struct cover rows = cover_of(y, from->height, to->height);
+        for (uint32_t x = 0; x < to->width; x++) {
+            const struct cover columns = cover_of(x, from->width, to->width);
+            vec3 sum = {0, 0, 0};
+            for (uint32_t j = 0; j < rows.count; j++)
+                for (uint32_t i = 0; i < columns.count; i++)
+                    sum = vec3_add(sum, vec3_mul(texel_before(h, columns.first + i, rows.first + j),
+                                                 rows.weight[j] * columns.weight[i]));
+            put_texel(h, (size_t)y * to->width + x, sum);
+        }
+    }
+}
+
+static void make_levels(struct scene_texture *t, struct arena *arena) {
+    t->levels[0] = (struct scene_level){
+        .width = t->picture->width, .height = t->picture->height, .is_bytes = t->picture->depth == PICTURE_8};
+    t->level_count = 1;
+    struct halving halving = {.texture = t};
+    make_codes(t->is_srgb, &halving.codes);
+    while (t->level_count < SCENE_LEVELS_MAX) {
+        const struct scene_level *last = &t->levels[t->level_count - 1];
+        struct scene_level *next = &t->levels[t->level_count];
+        if (last->width == 1 && last->height == 1)
+            break;
+        *next = (struct scene_level){.width = last->width > 1 ? last->width / 2 : 1,
+                                     .height = last->height > 1 ? last->height / 2 : 1,
+                                     .is_bytes = last->is_bytes};
+        const size_t bytes = (size_t)next->width * next->height * 3 * (next->is_bytes ? 1 : sizeof(float));
+        halving.level = t->level_count;
+        halving.pixels = arena_alloc(arena, bytes);
+        next->pixels = halving.pixels;
+        parallel_for(next->height, PIECE_ROWS, halve_rows, &halving);
+        t->level_count++;
+    }
+}
+
+// ---- materials
+
+static const struct scene_texture *texture_of(struct scene *scene, const struct picture *picture,
+                                              struct arena *arena) {
+    for (const struct scene_texture *t = scene->textures; t; t = t->next)
+        if (t->picture == picture)
+            return t;
+    struct scene_texture *t = ARENA_NEW(arena, struct scene_texture);
+    *t = (struct scene_texture){.next = scene->textures,
+                                .number = scene->texture_count++,
+                                .picture = picture,
+                                .is_srgb = scene->ir->image.transfer == IR_TRANSFER_SRGB &&
+                                           picture->depth != PICTURE_RGBE};
+    make_levels(t, arena);
+    scene->textures = t;
+    return t;
+}
+
+// The image lies between 0 and 1, is made smaller by `repeat`, turned about the middle and moved; here the
+// way back.
+static struct scene_image placed_image(const struct ir_texture *ir) {
+    const mat3 turn = transform_rotation((vec3){0, 0, ir->rotation});
+    const double c = turn.m[0][0], s = turn.m[1][0];
+    const double du = -0.5 - ir->offset.u, dv = -0.5 - ir->offset.v;
+    return (struct scene_image){
+        .u = {ir->repeat.u * c, ir->repeat.u * s, ir->repeat.u * (c * du + s * dv + 0.5)},
+        .v = {-ir->repeat.v * s, ir->repeat.v * c, ir->repeat.v * (c * dv - s * du + 0.5)},
+        .filter = ir->filter,
+        .wrap = ir->wrap};
+}
+
+static struct scene_image image_of(struct scene *scene, uint32_t material, int which, struct arena *arena) {
+    const struct ir_material *ir = &scene->assets->materials[material];
+    const struct picture *picture = scene->assets->images[material][which];
+    struct scene_image image =
+        placed_image(which == ASSETS_DIFFUSE ? &ir->diffuse_color.image : &ir->specular_color.image);
+    if (picture && picture->pixels)
+        image.texture = texture_of(scene, picture, arena);
+    return image;
+}
+
+void scene_build_textures(struct scene *scene, struct arena *arena) {
+    if (!scene->assets->images)
+        return;
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        for (int k = 0; k < ASSETS_IMAGES; k++)
+            if (scene->assets->images[i][k])
+                scene->materials[i].images[k] = image_of(scene, i, k, arena);
+}
+
+// ---- coordinates
+
+void scene_coordinates(const struct scene_body *body, uint32_t triangle, struct ir_pair corners[3]) {
+    const struct mesh *mesh = body->mesh;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t at = mesh->textured ? mesh->textured[triangle][k] : IR_NO_INDEX;
+        corners[k] = at != IR_NO_INDEX ? mesh->coordinates[at] : (struct ir_pair){0, 0};
+    }
+}
+
+bool scene_body_has_image(const struct scene *scene, const struct scene_body *body) {
+    for (uint32_t i = 0; i < body->group_count; i++)
+        for (int k = 0; k < ASSETS_IMAGES; k++)
+            if (scene->materials[body->materials[i]].images[k].texture)
+                return true;
+    return false;
+}

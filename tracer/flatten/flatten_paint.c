@@ -1,0 +1,220 @@
+// Images on surfaces: texels, coordinates of meshes, and how each material shows them (shaders/gpu_scene.h).
+#include "core/heap.h"
+#include "core/parallel.h"
+#include "core/srgb.h"
+#include "shaders/features.h"
+#include "tracer/flatten/flatten_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PIECE_ROWS = 16,
+    PIECE_TRIANGLES = 8192,
+    TABLE_WORDS = 256,
+    BYTES_PER_WORD = 4, // texels of an 8-bit image
+    BODIES_PER_WORD = 4,
+};
+
+// Where an image's parts lie, in words.
+struct placed_texture {
+    uint64_t levels, table;
+    uint64_t texels[SCENE_LEVELS_MAX]; // of 8-bit ones in components
+};
+
+// ---- what a material needs
+
+static bool shows(const struct scene_material *m, int which) {
+    return m->images[which].texture &&
+           (which == ASSETS_DIFFUSE ? m->diffuse_weight : m->specular_weight) != 0;
+}
+
+uint32_t flatten_paint_features(const struct scene_material *m) {
+    uint32_t features = m->checker && m->soft && m->diffuse_weight != 0 ? FEATURE_FOOTPRINT : 0;
+    for (int k = 0; k < ASSETS_IMAGES; k++)
+        if (shows(m, k))
+            features |= FEATURE_TEXTURES | (m->images[k].filter == IR_FILTER_AUTO ? FEATURE_FOOTPRINT : 0);
+    return features;
+}
+
+static bool is_any_painted(const struct flattening *f) {
+    for (uint32_t i = 0; i < f->scene->material_count; i++)
+        if (f->material_used[i] && flatten_paint_features(&f->scene->materials[i]))
+            return true;
+    return false;
+}
+
+// ---- places
+
+static void place_texture(const struct scene_texture *t, uint64_t *end, struct placed_texture *out) {
+    out->table = t->is_srgb && t->levels[0].is_bytes ? *end : 0;
+    *end += out->table ? TABLE_WORDS : 0;
+    out->levels = *end;
+    *end += t->level_count;
+    for (uint32_t i = 0; i < t->level_count; i++) {
+        const struct scene_level *level = &t->levels[i];
+        const uint64_t texels = (uint64_t)level->width * level->height;
+        out->texels[i] = level->is_bytes ? *end * BYTES_PER_WORD : *end;
+        *end += level->is_bytes ? (texels + BYTES_PER_WORD - 1) / BYTES_PER_WORD : texels;
+    }
+}
+
+static bool has_coordinates(const struct flattening *f, const struct scene_body *body) {
+    return body->mesh && body->mesh->textured && scene_body_has_image(f->scene, body);
+}
+
+// Bodies that show one mesh share its coordinates: the first of them; `number` if there is none before.
+static uint32_t first_with_mesh(const struct flattening *f, uint32_t number) {
+    for (uint32_t i = 0; i < number; i++)
+        if (f->scene->bodies[i].mesh == f->scene->bodies[number].mesh && f->coordinates[i])
+            return i;
+    return number;
+}
+
+static void place_coordinates(const struct flattening *f, uint64_t *end) {
+    f->out->coordinates_table = (uint32_t)*end;
+    *end += ((uint64_t)f->scene->body_count + BODIES_PER_WORD - 1) / BODIES_PER_WORD;
+    *end += *end & 1;
+    for (uint32_t i = 0; i < f->scene->body_count; i++) {
+        const struct scene_body *body = &f->scene->bodies[i];
+        if (!has_coordinates(f, body))
+            continue;
+        const uint32_t first = first_with_mesh(f, i);
+        f->coordinates[i] = first < i ? f->coordinates[first] & ~UINT32_C(1) : (uint32_t)*end;
+        f->coordinates[i] |= body->mirrored;
+        *end += first < i ? 0 : 2 * (uint64_t)body->triangle_count;
+    }
+}
+
+// ---- filling
+
+struct filling {
+    const struct scene_texture *texture;
+    uint32_t level;
+    struct gpu_word *words; // of the whole array
+    uint64_t first;         // texel
+};
+
+static void put_part(struct gpu_word *words, uint64_t component, uint32_t value) {
+    gpu_pack_uint(words + component / BYTES_PER_WORD, 0, (uint32_t)(component % BYTES_PER_WORD), value);
+}
+
+static uint32_t stored_bytes(const struct scene_texture *t, uint32_t level, uint64_t at) {
+    const uint8_t *p =
+        (level ? (const uint8_t *)t->levels[level].pixels : (const uint8_t *)t->picture->pixels) + 3 * at;
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16;
+}
+
+static void fill_rows(void *context, size_t begin, size_t end) {
+    const struct filling *fill = context;
+    const struct scene_level *level = &fill->texture->levels[fill->level];
+    for (size_t y = begin; y < end; y++)
+        for (uint32_t x = 0; x < level->width; x++) {
+            const uint64_t at = (uint64_t)y * level->width + x;
+            if (level->is_bytes)
+                put_part(fill->words, fill->first + at, stored_bytes(fill->texture, fill->level, at));
+            else
+                gpu_pack_float3(fill->words + fill->first + at, 0,
+                                scene_texel(fill->texture, fill->level, x, (uint32_t)y));
+        }
+}
+
+static void fill_texture(const struct scene_texture *t, const struct placed_texture *placed,
+                         struct gpu_word *words) {
+    for (uint32_t i = 0; placed->table && i < TABLE_WORDS; i++)
+        gpu_pack_float(words + placed->table + i, 0, 0, srgb_decode(i / 255.0));
+    for (uint32_t i = 0; i < t->level_count; i++) {
+        const struct scene_level *level = &t->levels[i];
+        struct gpu_word *word = words + placed->levels + i;
+        *word = (struct gpu_word){(uint32_t)placed->texels[i], level->width, level->height, 0};
+        struct filling fill = {t, i, words, placed->texels[i]};
+        parallel_for(level->height, level->is_bytes ? level->height : PIECE_ROWS, fill_rows, &fill);
+    }
+}
+
+struct coordinates {
+    const struct scene_body *body;
+    struct gpu_word *words;
+};
+
+static void fill_coordinates(void *context, size_t begin, size_t end) {
+    const struct coordinates *c = context;
+    for (size_t i = begin; i < end; i++) {
+        struct ir_pair at[3];
+        scene_coordinates(c->body, (uint32_t)i, at);
+        for (uint32_t k = 0; k < 3; k++) {
+            gpu_pack_float(c->words + 2 * i, k / 2, 2 * (k % 2), at[k].u);
+            gpu_pack_float(c->words + 2 * i, k / 2, 2 * (k % 2) + 1, at[k].v);
+        }
+    }
+}
+
+static struct gpu_paint record_of(const struct scene_material *m, int which,
+                                  const struct placed_texture *placed) {
+    const struct scene_image *image = &m->images[which];
+    struct gpu_paint record = {.flags = m->checker && m->soft ? PAINT_SOFT : 0};
+    if (!shows(m, which))
+        return record;
+    const struct placed_texture *at = &placed[image->texture->number];
+    record.levels = (uint32_t)at->levels;
+    record.level_count = image->texture->level_count;
+    record.table = (uint32_t)at->table;
+    record.flags |= (image->filter == IR_FILTER_NEAREST ? PAINT_NEAREST : 0) |
+                    (image->filter == IR_FILTER_AUTO ? PAINT_AUTO : 0) |
+                    (image->wrap == IR_WRAP_CLAMP ? PAINT_CLAMP : 0) |
+                    (image->wrap == IR_WRAP_MIRROR ? PAINT_MIRROR : 0) |
+                    (image->texture->levels[0].is_bytes ? 0 : PAINT_FLOATS);
+    record.row_u = (vec3){image->u[0], image->u[1], image->u[2]};
+    record.row_v = (vec3){image->v[0], image->v[1], image->v[2]};
+    return record;
+}
+
+static void fill_records(const struct flattening *f, const struct placed_texture *placed) {
+    for (uint32_t i = 0; i < f->scene->material_count; i++)
+        for (uint32_t k = 0; k < ASSETS_IMAGES; k++) {
+            const struct gpu_paint record = record_of(&f->scene->materials[i], (int)k, placed);
+            gpu_pack_paint(&record, f->out->is_double,
+                           f->out->paints.words + ((size_t)ASSETS_IMAGES * i + k) * PAINT_WORDS);
+        }
+}
+
+static enum flatten_fault fill_all(struct flattening *f, struct placed_texture *placed) {
+    uint64_t end = (uint64_t)f->scene->material_count * ASSETS_IMAGES * PAINT_WORDS;
+    for (const struct scene_texture *t = f->scene->textures; t; t = t->next)
+        place_texture(t, &end, &placed[t->number]);
+    place_coordinates(f, &end);
+    // Components of 8-bit texels have 32-bit numbers.
+    if (end > UINT32_MAX / BYTES_PER_WORD) {
+        diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
+                 "all images together have more than 16 GiB of texels");
+        return FLATTEN_REPORTED;
+    }
+    if (!flat_array_make(&f->out->paints, end))
+        return FLATTEN_NO_MEMORY;
+    for (const struct scene_texture *t = f->scene->textures; t; t = t->next)
+        fill_texture(t, &placed[t->number], f->out->paints.words);
+    for (uint32_t i = 0; i < f->scene->body_count; i++) {
+        const struct scene_body *body = &f->scene->bodies[i];
+        gpu_pack_uint(f->out->paints.words + f->out->coordinates_table + i / BODIES_PER_WORD, 0,
+                      i % BODIES_PER_WORD, f->coordinates[i]);
+        if (!f->coordinates[i] || first_with_mesh(f, i) < i)
+            continue;
+        struct coordinates coordinates = {body, f->out->paints.words + (f->coordinates[i] & ~UINT32_C(1))};
+        parallel_for(body->triangle_count, PIECE_TRIANGLES, fill_coordinates, &coordinates);
+    }
+    fill_records(f, placed);
+    return FLATTEN_DONE;
+}
+
+enum flatten_fault flatten_paints(struct flattening *f) {
+    f->coordinates = heap_zeroed((size_t)f->scene->body_count + 1, sizeof *f->coordinates);
+    if (!f->coordinates)
+        return FLATTEN_NO_MEMORY;
+    // Kernels have its binding in any case.
+    if (!is_any_painted(f))
+        return flat_array_make(&f->out->paints, 0) ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
+    struct placed_texture *placed = heap_zeroed((size_t)f->scene->texture_count + 1, sizeof *placed);
+    const enum flatten_fault fault = placed ? fill_all(f, placed) : FLATTEN_NO_MEMORY;
+    free(placed);
+    return fault;
+}
