@@ -10,6 +10,7 @@ mkdir -p "$work/shaders/light"
 cd "$work"
 ln -s "$root/cmake" "$root/tools" .
 cp "$root"/shaders/*.h shaders
+cp -r "$root/shaders/packed" shaders
 
 cat >CMakeLists.txt <<'EOF'
 cmake_minimum_required(VERSION 3.25)
@@ -21,7 +22,8 @@ cat >shaders/CMakeLists.txt <<'EOF'
 include(${CMAKE_SOURCE_DIR}/cmake/shaders.cmake)
 glint_kernel(KERNELS made made.comp)
 glint_kernel(KERNELS light light/light.comp)
-add_custom_target(kernels ALL DEPENDS ${KERNELS})
+glint_pack_kernels(KERNELS)
+add_custom_target(kernels ALL DEPENDS ${KERNELS_SOURCES})
 EOF
 kernel() { # INCLUDED
     printf '#version 450\n#extension GL_GOOGLE_include_directive : require\n#include "%s"\n' "$1"
@@ -50,10 +52,10 @@ change() { sed -i 's/1\.0/2.0/' "$1"; } # FILE: another number
 "$cmake" -S . -B build -G Ninja -DCMAKE_C_COMPILER="$cc" >configure.log 2>&1 || { cat configure.log && exit 1; }
 expect 'the first build' light made
 expect 'no change'
-before=$(cksum <build/shaders/made.c)
+before=$(cksum <build/shaders/kernels.c)
 change shaders/light/number.h
 expect 'a header in a folder inside' made
-[ "$before" != "$(cksum <build/shaders/made.c)" ] || { echo 'the kernel is as before' && failures=$((failures + 1)); }
+[ "$before" != "$(cksum <build/shaders/kernels.c)" ] || { echo 'the kernel is as before' && failures=$((failures + 1)); }
 change shaders/light/alone.glsl
 expect 'GLSL beside its kernel' light
 touch shaders/made.comp
