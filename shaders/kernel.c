@@ -1,90 +1,119 @@
 #include "shaders/kernel.h"
 
 #include "core/heap.h"
-#include "shaders/packed.h"
+#include "shaders/packed/exact.h"
+#include "shaders/packed/unpack.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 
 #include <zlib.h>
 
-// A part of the packed bytes; reading beyond its end gives zeros, and is noted.
-struct part {
-    const unsigned char *bytes;
-    size_t count, at;
-    bool ended;
-};
+_Static_assert(sizeof((struct kernel_bytes *)0)->part_bytes / sizeof(uint32_t) == PACKED_PARTS,
+               "a length for each part");
 
-static uint32_t read_number(struct part *part) {
-    uint32_t value = 0;
-    for (int shift = 0; shift < 35; shift += 7) {
-        if (part->at == part->count) {
-            part->ended = true;
-            return 0;
-        }
-        const unsigned char byte = part->bytes[part->at++];
-        value |= shift < 32 ? (uint32_t)(byte & 0x7f) << shift : 0;
-        if (byte < 0x80)
-            break;
-    }
-    return value;
-}
-
-static uint32_t read_distance(struct part *part) {
-    const uint32_t value = read_number(part);
-    return value & 1 ? ~(value >> 1) : value >> 1;
-}
-
-// false: the parts do not hold so many words.
-static bool unpack(struct part parts[PACKED_PARTS], uint32_t *words, size_t count) {
-    struct part *heads = &parts[0], *plain = &parts[1], *distances = &parts[2];
-    uint32_t last = 0;
-    for (size_t i = 0; i < PACKED_HEADER_WORDS && i < count; i++)
-        words[i] = read_number(plain);
-    for (size_t at = PACKED_HEADER_WORDS; at < count;) {
-        const uint32_t opcode = read_number(heads), length = read_number(heads);
-        const enum packed_kind kind = packed_kind_of(opcode);
-        if (length == 0 || length > count - at)
-            return false;
-        words[at] = length << 16 | opcode;
-        for (uint32_t i = 1; i < length; i++) {
-            const bool is_plain = kind == PACKED_PLAIN || (kind == PACKED_RESULT && i == 1);
-            words[at + i] = is_plain ? read_number(plain) : last - read_distance(distances);
-            if (i == packed_result(kind, opcode))
-                last = words[at + i];
-        }
-        at += length;
-    }
-    bool whole = true;
+static size_t size_of(const struct kernel_bytes *bytes) {
+    size_t size = 0;
     for (int i = 0; i < PACKED_PARTS; i++)
-        whole = whole && !parts[i].ended && parts[i].at == parts[i].count;
+        size += bytes->part_bytes[i];
+    return size;
+}
+
+static const struct kernel_bytes *group_of(const struct kernel *kernel, size_t index) {
+    return &kernel->groups[kernel->group[index]];
+}
+
+// Inflates to `*at`, and moves that to the end.
+static bool inflate_parts(const struct kernel_bytes *bytes, unsigned char **at,
+                          struct packed_bytes parts[PACKED_PARTS]) {
+    uLongf size = size_of(bytes);
+    const size_t wanted = size;
+    const int result = uncompress(*at, &size, bytes->deflated, bytes->deflated_bytes);
+    if (result == Z_MEM_ERROR)
+        heap_exhausted(0);
+    for (int i = 0; i < PACKED_PARTS; i++) {
+        parts[i] = (struct packed_bytes){.bytes = *at, .count = bytes->part_bytes[i]};
+        *at += bytes->part_bytes[i];
+    }
+    return result == Z_OK && size == wanted;
+}
+
+// The functions of a group, after those that are there.
+static bool add_functions(struct packed_bytes parts[PACKED_PARTS], struct packed_function **functions,
+                          size_t *count, uint32_t *capacity) {
+    struct packed_bytes *sizes = &parts[PACKED_SIZES];
+    while (sizes->at < sizes->count) {
+        struct packed_function *grown = heap_grow(*functions, *count, capacity, sizeof **functions);
+        if (!grown)
+            return false;
+        *functions = grown;
+        for (int i = 0; i < PACKED_CODE_PARTS; i++)
+            grown[*count].parts[i] = packed_piece(&parts[i], packed_number(sizes));
+        ++*count;
+    }
+    return true;
+}
+
+static bool unpack_functions(struct unpacking *to, const struct packed_function *functions, size_t count) {
+    struct packed_bytes *order = &to->own[PACKED_ORDER];
+    while (order->at < order->count) {
+        const uint32_t number = packed_number(order);
+        if (number >= count || !unpack_function(to, &functions[number]))
+            return false;
+    }
+    bool whole = to->at == to->count;
+    for (int i = 0; i < PACKED_PARTS; i++)
+        whole = whole && packed_all_read(&to->own[i]);
     return whole;
 }
 
-static uint32_t *unpacked(const struct kernel *kernel, const unsigned char *packed) {
-    struct part parts[PACKED_PARTS];
-    for (int i = 0; i < PACKED_PARTS; i++) {
-        parts[i] = (struct part){.bytes = packed, .count = kernel->part_bytes[i]};
-        packed += kernel->part_bytes[i];
+// Into `words`, from the bytes inflated into `bytes`.
+static bool unpack(const struct kernel *kernel, unsigned char *bytes, uint32_t *words, uint32_t *ids) {
+    struct unpacking to = {
+        .words = words, .count = kernel->packed_words, .local = ids, .outer = ids + kernel->packed_words};
+    struct packed_function *functions = NULL;
+    size_t count = 0;
+    uint32_t capacity = 0;
+    bool ok = inflate_parts(&kernel->own, &bytes, to.own) && unpack_head(&to);
+    for (size_t i = 0; ok && i < kernel->group_count; i++) {
+        struct packed_bytes parts[PACKED_PARTS];
+        ok = inflate_parts(group_of(kernel, i), &bytes, parts) &&
+             add_functions(parts, &functions, &count, &capacity);
     }
-    uint32_t *words = heap_alloc((kernel->words + 1) * sizeof *words);
-    if (!words || unpack(parts, words, kernel->words))
+    ok = ok && unpack_functions(&to, functions, count);
+    free(functions);
+    return ok;
+}
+
+static uint32_t *unpacked(const struct kernel *kernel) {
+    size_t size = size_of(&kernel->own);
+    for (size_t i = 0; i < kernel->group_count; i++)
+        size += size_of(group_of(kernel, i));
+    unsigned char *bytes = heap_alloc(size + 1);
+    uint32_t *words = heap_alloc((kernel->packed_words + 1) * sizeof *words);
+    uint32_t *ids = heap_alloc((2 * kernel->packed_words + 1) * sizeof *ids);
+    const bool ok = bytes && words && ids && unpack(kernel, bytes, words, ids);
+    free(bytes);
+    free(ids);
+    if (ok)
         return words;
     free(words);
     return NULL;
 }
 
 uint32_t *kernel_inflate(const struct kernel *kernel) {
-    uLongf bytes = 0;
-    for (int i = 0; i < PACKED_PARTS; i++)
-        bytes += kernel->part_bytes[i];
-    const size_t wanted = bytes;
-    unsigned char *packed = heap_alloc(bytes + 1);
-    const int result =
-        packed ? uncompress(packed, &bytes, kernel->deflated, kernel->deflated_bytes) : Z_MEM_ERROR;
-    if (result == Z_MEM_ERROR)
-        heap_exhausted(0);
-    uint32_t *words = result == Z_OK && bytes == wanted ? unpacked(kernel, packed) : NULL;
-    free(packed);
-    return words;
+    uint32_t *module = unpacked(kernel), *out = NULL;
+    bool *done = NULL;
+    if (module && exact_is_sound(module, kernel->packed_words)) {
+        out = heap_alloc(EXACT_ROOM(kernel->packed_words) * sizeof *out);
+        done = heap_zeroed(module[3], sizeof *done);
+    }
+    const bool ok =
+        out && done &&
+        exact_decorate(module, kernel->packed_words, kernel->may_fuse, done, out) == kernel->words;
+    free(module);
+    free(done);
+    if (ok)
+        return out;
+    free(out);
+    return NULL;
 }

@@ -79,6 +79,12 @@ refuses includes app/b.c '#include "cli/cli.h"'
 refuses includes cli/b.c '#include "viewer/window.h"'
 refuses includes cli/b.c '#include "../core/a.h"'
 refuses includes cli/b.c '#include <core/a.h>'
+plant shaders/paint/a.h ''
+plant shaders/paint/a.glsl '#include "paint/a.h"'
+plant shaders/a.comp '#include "paint/a.glsl"'
+passes includes
+refuses includes shaders/paint/b.glsl '#include "a.h"'
+refuses includes shaders/b.comp '' '#include "paint/../paint/a.h"'
 
 fresh
 plant core/a.h '// A type.' '#ifndef A' '#define A' '#include <stdint.h>' 'struct a {' '    uint32_t b;' '};' '#endif'
@@ -119,6 +125,9 @@ rm core/a.c
 echo 'int x;' >core/in/40.c
 finds rooms 'core/in:1: 41 source files'
 rm core/in/40.c
+plant core/out/a.glsl 'int x;'
+finds rooms 'core/out:1: is not a room'
+rm -r core/out
 rm core/in/in.h
 finds rooms 'core/in:1: neither'
 refuses rooms core/in/README.md 1 2 3 4 5 6 7 8 9 10 11
@@ -229,6 +238,13 @@ passes sources
 plant core/aa.c ''
 finds sources 'core/aa.c:1:'
 rm core/aa.c
+plant shaders/CMakeLists.txt 'glint_kernel(KERNELS trace trace.comp)'
+plant shaders/trace.comp '#include "light/a.glsl"'
+plant shaders/light/a.glsl ''
+passes sources
+plant shaders/light/b.glsl ''
+finds sources 'shaders/light/b.glsl:1:'
+rm -r shaders
 plant tests/unit/test_buf.c ''
 finds sources 'tests/unit/test_buf.c:1:'
 

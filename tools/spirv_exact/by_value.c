@@ -1,5 +1,5 @@
 // Reference: SPIR-V Specification 1.6, section 3.
-#include "by_value.h"
+#include "tools/spirv_exact/by_value.h"
 
 #include <stdbool.h>
 #include <stdlib.h>

@@ -147,17 +147,19 @@ static void check_module(const struct module *module) {
         assert_int_equal(count_read_pointers(module) == 0, strstr(module->name, "_texels") != NULL);
 }
 
-// Each kernel that the build makes: BUILT_KERNELS is KERNEL(name) of all of them. Those whose operations may
+// Each kernel that the build makes: BUILT_KERNELS is KERNEL(name) of all of them.
+#define KERNEL(name) {#name, &kernel_##name},
+static const struct {
+    const char *name;
+    const struct kernel *kernel;
+} kernels[] = {BUILT_KERNELS};
+#undef KERNEL
+
+// Those whose operations may
 // be fused carry no decoration, those for the layout of records compute nothing, and resolving only adds
 // floats.
 static void test_kernels(void **state) {
     (void)state;
-#define KERNEL(name) {#name, &kernel_##name},
-    static const struct {
-        const char *name;
-        const struct kernel *kernel;
-    } kernels[] = {BUILT_KERNELS};
-#undef KERNEL
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++) {
         uint32_t *words = kernel_inflate(kernels[i].kernel);
         assert_non_null(words);
@@ -167,11 +169,49 @@ static void test_kernels(void **state) {
     }
 }
 
+// The module that the build made of this name; NULL: none.
+static FILE *open_module(const char *name) {
+    static const char *const folders[] = {KERNEL_FOLDERS};
+    FILE *file = NULL;
+    for (size_t i = 0; !file && i < sizeof folders / sizeof *folders; i++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s/%s.spv", folders[i], name);
+        file = fopen(path, "rb");
+    }
+    return file;
+}
+
+// Packing loses no word: each kernel is what was compiled, decorated and validated.
+static void test_nothing_is_lost(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++) {
+        const size_t count = kernels[i].kernel->words;
+        uint32_t *words = kernel_inflate(kernels[i].kernel),
+                 *compiled = malloc((count + 1) * sizeof *compiled);
+        FILE *file = open_module(kernels[i].name);
+        assert_non_null(words);
+        assert_non_null(file);
+        assert_int_equal(fread(compiled, sizeof *compiled, count + 1, file), count);
+        assert_memory_equal(words, compiled, count * sizeof *compiled);
+        fclose(file);
+        free(words);
+        free(compiled);
+    }
+}
+
 // A module that is not whole is none.
 static void test_broken_kernel(void **state) {
     (void)state;
     struct kernel kernel = kernel_trace_texels;
-    kernel.deflated_bytes--;
+    kernel.own.deflated_bytes--;
+    assert_null(kernel_inflate(&kernel));
+    kernel = kernel_trace_texels;
+    kernel.packed_words++;
+    assert_null(kernel_inflate(&kernel));
+    kernel.packed_words -= 2;
+    assert_null(kernel_inflate(&kernel));
+    kernel = kernel_trace_texels;
+    kernel.group_count--;
     assert_null(kernel_inflate(&kernel));
     kernel = kernel_trace_texels;
     kernel.words++;
@@ -204,7 +244,8 @@ static void test_faults_are_found(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kernels), cmocka_unit_test(test_broken_kernel),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kernels), cmocka_unit_test(test_nothing_is_lost),
+                                       cmocka_unit_test(test_broken_kernel),
                                        cmocka_unit_test(test_faults_are_found)};
     return cmocka_run_group_tests_name("shaders", tests, NULL, NULL);
 }
