@@ -465,23 +465,28 @@ vec2 offset_in_pixel(uint sample_number) {
     return offset;
 }
 
-void main() {
-    uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
-    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
+// Whether an invocation has a path, and its index: of those that begin, or in the list of saved ones.
+bool has_path(bool resumes, inout uint index) {
     uint end = dispatch.path_end;
+    bool chosen = true;
 #ifndef FETCH_TEXELS
     uint spread = dispatch.spread;
     if (AT_ONCE && resumes && dispatch.resume == RESUME_COUNTED)
         end = count_saved(spread);
     if (spread > OPAQUE_ZERO) {
-        if (index % spread != 0u)
-            return;
+        chosen = index % spread == 0u;
         index /= spread;
     }
 #endif
     index += dispatch.path_begin;
-    if (index >= end)
+    return chosen && index < end;
+}
+
+void main() {
+    uint group = gl_WorkGroupID.y * dispatch.grid_width + gl_WorkGroupID.x;
+    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    bool resumes = HAS_SLICES && !BEGINS && dispatch.resume > OPAQUE_ZERO;
+    if (!has_path(resumes, index))
         return;
     uint place = resumes ? counters[COUNTER_COUNT + dispatch.read_list * dispatch.places + index] : index;
     if (LISTED && !resumes)

@@ -192,6 +192,8 @@ static void test_open_rays(struct frames *f) {
 static void test_followed(struct frames *f) {
     static const uint32_t cases[][2] = {
         {SLICE_ITERATIONS, 0}, {SLICE_ITERATIONS, 50}, {0, 0}}; // slice, places
+    // Other GPUs have that for pictures of more paths.
+    const bool apart = gpu_info(f->kit.gpu)->kind == GPU_CPU;
     struct stage stage;
     struct image whole = {0}, image = {0};
     struct render_statistics statistics;
@@ -206,7 +208,7 @@ static void test_followed(struct frames *f) {
         stage.shot.settings.band_tiles = 400 + (uint32_t)i; // with which all is made anew
         for (int turn = 0; turn < 2 && good; turn++) {
             good = apply(&stage) && take(&stage, &image, &statistics) &&
-                   (turn == 0 || statistics.slices > 0) &&
+                   (!apart || turn == 0 || statistics.slices > 0) &&
                    picture_differences(&whole, &image, "followed") == 0;
             image_finish(&image);
         }

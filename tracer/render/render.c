@@ -127,7 +127,7 @@ static void plan(struct renderer *renderer) {
     if (is_long_path(renderer))
         renderer->features |= FEATURE_SLICES;
     // Paths with a ray that is open may go on in another kernel (render_kernel.c).
-    if (renderer->features & FEATURE_TRIANGLES)
+    if (renderer_pays_apart(renderer))
         renderer->features |= FEATURE_SLICES;
     if (renderer->flat->light_count > MANY_LIGHTS)
         renderer->features |= FEATURE_MANY_LIGHTS;

@@ -10,7 +10,8 @@
 #include <string.h>
 
 enum {
-    PATHS_APART = 8 << 20, // what the second kernel saves in so many is what making it takes
+    PATHS_APART = 8 << 20,    // what the second kernel saves in so many is what making it takes
+    PATHS_FOLLOWED = 3 << 19, // on a GPU it saves in so many what paths take that go on alone
 };
 
 struct kernel_pair {
@@ -148,11 +149,16 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint32_t feat
     return program;
 }
 
-// Where a path ends soon, what goes on alone after a pass is soon over. In double precision a ray is seldom
-// open, and a second search needs all registers that there are.
-static bool ends_soon(const struct renderer *renderer) {
-    return renderer->samples_at_once && (renderer->features & FEATURE_TRIANGLES) &&
-           (renderer->flat->is_double || !(renderer->features & (FEATURE_REFLECTION | FEATURE_REFRACTION)));
+// On a GPU the paths that go on alone, after a pass, take as long however few they are. That pays where no
+// chain of rays is among them and the pass is long. In double precision a ray is seldom open, and a second
+// search needs all registers that there are.
+bool renderer_pays_apart(const struct renderer *renderer) {
+    const struct render_settings *settings = &renderer->settings;
+    const uint64_t paths = (uint64_t)settings->width * settings->height * settings->samples;
+    const bool bounces = renderer->features & (FEATURE_REFLECTION | FEATURE_REFRACTION);
+    const bool is_long = gpu_info(renderer->gpu)->kind == GPU_CPU || paths >= PATHS_FOLLOWED;
+    return (renderer->features & FEATURE_TRIANGLES) &&
+           (gpu_fetches_texels(renderer->gpu) || renderer->flat->is_double || (!bounces && is_long));
 }
 
 // A kernel costs what all of its code does, wanted or not, on lavapipe, and on a GPU what the most registers
@@ -163,8 +169,8 @@ bool renderer_begins_apart(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const bool pays = renderer->has_drawn ||
                       (uint64_t)settings->width * settings->height * settings->samples >= PATHS_APART;
-    const bool helps = gpu_fetches_texels(renderer->gpu) || ends_soon(renderer);
-    return pays && helps && (renderer->features & FEATURE_SLICES) &&
+    const bool fits = gpu_fetches_texels(renderer->gpu) || renderer->samples_at_once;
+    return pays && fits && renderer_pays_apart(renderer) && (renderer->features & FEATURE_SLICES) &&
            !(renderer->features & FEATURE_LONG_RAYS) &&
            renderer->settings.alternative == RENDER_ALTERNATIVE_NONE;
 }

@@ -112,7 +112,8 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
-// Whether paths begin in a kernel of their own that has only what most of them need.
+// Whether a kernel pays for paths to begin in that has only what most of them need; and whether they do.
+bool renderer_pays_apart(const struct renderer *renderer);
 bool renderer_begins_apart(const struct renderer *renderer);
 // The kernel in which the paths of a frame begin; those that it saves go on in the tracing kernel.
 struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts);
