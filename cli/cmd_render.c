@@ -118,7 +118,7 @@ static int report_stats(struct render_job *job) {
     struct strbuf text;
     strbuf_init(&text);
     (job->cli->options.stats == CLI_STATS_JSON ? stats_json : stats_text)(s, &text);
-    int status = stats_tell(job->cli, job->output, strbuf_view(&text));
+    const int status = render_tell_stats(job, strbuf_view(&text));
     strbuf_finish(&text);
     return status;
 }

@@ -63,6 +63,13 @@ int render_scale_up(struct render_job *job) {
     return CLI_OK;
 }
 
+int render_tell_stats(const struct render_job *job, str text) {
+    if (job->cli->options.stats == CLI_STATS_JSON && strcmp(job->output, "-") != 0)
+        return cli_print(job->cli, text);
+    cli_write_error(text);
+    return CLI_OK;
+}
+
 int render_write_picture(struct render_job *job, const char *path) {
     struct strbuf file;
     struct image_display display = {job->session.image->tone, job->session.image->transfer};

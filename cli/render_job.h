@@ -5,9 +5,9 @@
 #include "app/audit.h"
 #include "app/deadline.h"
 #include "app/shot.h"
+#include "app/stats/stats.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
-#include "cli/stats.h"
 #include "grammar/ir.h"
 
 struct cli_opening;
@@ -45,6 +45,8 @@ int render_interrupted(struct render_job *job);
 // A smaller picture that was chosen, to the size asked for.
 int render_scale_up(struct render_job *job);
 int render_write_picture(struct render_job *job, const char *path);
+// What --stats reports: JSON to standard output, unless the picture goes there; text to standard error.
+int render_tell_stats(const struct render_job *job, str text);
 // Ends the progress and reports why there is no picture.
 int render_failed(struct render_job *job, enum shot_status status);
 

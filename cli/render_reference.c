@@ -74,7 +74,7 @@ static int tell_statistics(struct render_job *job, const struct exact *exact,
     struct strbuf text;
     strbuf_init(&text);
     (job->cli->options.stats == CLI_STATS_JSON ? json_of : text_of)(exact, statistics, &text);
-    int status = stats_tell(job->cli, job->output, strbuf_view(&text));
+    int status = render_tell_stats(job, strbuf_view(&text));
     strbuf_finish(&text);
     return status;
 }

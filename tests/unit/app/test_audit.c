@@ -245,10 +245,12 @@ static void test_given_reference(void **state) {
     struct reference *reference = reference_create(&input);
     assert_non_null(reference);
     const struct audit own = take(&f);
-    const struct audit turned = take_for(&f, (struct audit_wish){.reference = reference, .share = AUDIT_SHARE});
+    const struct audit turned =
+        take_for(&f, (struct audit_wish){.reference = reference, .share = AUDIT_SHARE});
     assert_true(turned.off > own.off); // it looks elsewhere
     reference_look(reference, &f.view);
-    const struct audit given = take_for(&f, (struct audit_wish){.reference = reference, .share = AUDIT_SHARE});
+    const struct audit given =
+        take_for(&f, (struct audit_wish){.reference = reference, .share = AUDIT_SHARE});
     assert_int_equal(own.off, given.off);
     assert_int_equal(own.pixels, given.pixels);
     assert_true(own.bound == given.bound && own.x == given.x && own.y == given.y);

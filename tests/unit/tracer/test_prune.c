@@ -84,7 +84,8 @@ static void test_each_feature(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++)
         for (uint32_t bit = 0; bit < FEATURE_COUNT; bit++) {
-            const struct module without = pruned(kernels[k], (UINT32_MAX >> (32 - FEATURE_COUNT)) & ~(1u << bit));
+            const struct module without =
+                pruned(kernels[k], (UINT32_MAX >> (32 - FEATURE_COUNT)) & ~(1u << bit));
             const struct module alone = pruned(kernels[k], 1u << bit);
             check(&without);
             check(&alone);

@@ -1,6 +1,7 @@
-#include "cli/stats.h"
+#include "app/stats/stats.h"
 
 #include "core/json_write.h"
+#include "core/strbuf.h"
 #include "core/timeline.h"
 #include "grammar/ir_features.h"
 
@@ -234,11 +235,4 @@ void stats_json(const struct stats *s, struct strbuf *out) {
     put_trace(&w, s);
     json_close_object(&w);
     json_end(&w);
-}
-
-int stats_tell(struct cli *cli, const char *output, str text) {
-    if (cli->options.stats == CLI_STATS_JSON && strcmp(output, "-") != 0)
-        return cli_print(cli, text);
-    cli_write_error(text);
-    return CLI_OK;
 }

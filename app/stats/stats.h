@@ -1,10 +1,11 @@
-// What --stats reports: times by stage, rays by kind, triangles, memory, device.
-#ifndef GLINT_CLI_STATS_H
-#define GLINT_CLI_STATS_H
+// What a rendering reports of itself: times by stage, rays by kind, triangles, memory, device, its own error.
+//
+// Ownership: nothing is owned. Errors: the buffer's (`failed`). Thread safety: pure.
+#ifndef GLINT_APP_STATS_H
+#define GLINT_APP_STATS_H
 
 #include "app/audit.h"
 #include "app/shot.h"
-#include "cli/cli.h"
 
 struct timeline;
 
@@ -32,8 +33,5 @@ struct stats {
 
 void stats_text(const struct stats *stats, struct strbuf *out);
 void stats_json(const struct stats *stats, struct strbuf *out);
-// JSON to standard output, unless the picture (`output` is "-") goes there; text to standard error. Returns
-// an exit code.
-int stats_tell(struct cli *cli, const char *output, str text);
 
 #endif
