@@ -39,7 +39,8 @@ enum ir_backdrop {
 };
 enum ir_light_kind {
     IR_LIGHT_POSITION,
-    IR_LIGHT_DIRECTION
+    IR_LIGHT_DIRECTION,
+    IR_LIGHT_RECTANGLE
 };
 enum ir_paint_kind {
     IR_PAINT_COLOR,
@@ -83,11 +84,20 @@ struct ir_background {
     double rotation; // degrees about +y
 };
 
+// A light that is a rectangle.
+struct ir_panel {
+    struct ir_head head;
+    vec3 corner, edge_u, edge_v;
+};
+
 struct ir_light {
     struct ir_head head;
     str name;
     unsigned kind; // ir_light_kind
     vec3 position, direction;
+    struct ir_panel rectangle;
+    double radius; // of one with a position; 0: a point
+    double angle;  // of one with a direction: degrees that its disc measures across; 0: a point
     double intensity;
     struct ir_color color;
     unsigned falloff; // ir_falloff

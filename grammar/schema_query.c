@@ -26,6 +26,8 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_EXPONENT] = {"exponent", 0, 1e6, false, false, "from 0 to 1e6"},
     [SCHEMA_RANGE_INDEX] = {"index", 0.1, 10, false, false, "from 0.1 to 10"},
     [SCHEMA_RANGE_PRIORITY] = {"priority", -1000, 1000, false, false, "from -1000 to 1000"},
+    [SCHEMA_RANGE_SIZE] = {"size", 0, 1e18, false, false, "from 0 to 1e18"},
+    [SCHEMA_RANGE_OPENING] = {"opening", 0, 180, false, false, "from 0 to 180"},
 };
 
 const struct schema_range_info *schema_range_info(enum schema_range range) {

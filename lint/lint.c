@@ -30,6 +30,9 @@ const struct lint_rule lint_rules[] = {
     {DIAG_MEDIA_OVERLAP, lint_media, LINT_ALL},
     // One pass over the bodies.
     {DIAG_NO_EFFECT, lint_attenuation, LINT_ALL},
+    // One pass over the lights; then the bodies for each of them that is a sphere.
+    {DIAG_FEW_SAMPLES, lint_few_samples, LINT_CHEAP},
+    {DIAG_LIGHT_AROUND, lint_light_around, LINT_ALL},
     {.run = NULL},
 };
 

@@ -125,5 +125,7 @@ void lint_inside_out(struct lint *lint);
 void lint_oversized_image(struct lint *lint); // rules_image.c
 void lint_media(struct lint *lint);           // rules_media.c
 void lint_attenuation(struct lint *lint);     // rules_material.c
+void lint_few_samples(struct lint *lint);     // rules_light.c
+void lint_light_around(struct lint *lint);
 
 #endif

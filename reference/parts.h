@@ -214,7 +214,8 @@ struct lighting {
     uint32_t shadow_rays;
 };
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
-                     const struct inside *inside, struct lighting *out);
+                     const struct inside *inside, const struct points *points, uint32_t key,
+                     struct lighting *out);
 
 // ---- path.c
 

@@ -59,6 +59,23 @@ static struct view_camera automatic_camera(const struct scene *scene, int32_t wi
 
 // ---- lights
 
+static void put_extent(struct view_light *light, const struct ir_light *ir) {
+    const struct ir_panel *panel = &ir->rectangle;
+    if (ir->kind == IR_LIGHT_RECTANGLE) {
+        light->extent = VIEW_PANEL;
+        light->edge_u = panel->edge_u;
+        light->edge_v = panel->edge_v;
+        light->outward = vec3_unit(vec3_cross(vec3_unit(panel->edge_u), vec3_unit(panel->edge_v)));
+        light->position = vec3_add(panel->corner, vec3_mul(vec3_add(panel->edge_u, panel->edge_v), 0.5));
+    } else if (ir->kind == IR_LIGHT_POSITION && ir->radius > 0) {
+        light->extent = VIEW_SPHERE;
+        light->radius = ir->radius;
+    } else if (ir->kind == IR_LIGHT_DIRECTION && ir->angle > 0) {
+        light->extent = VIEW_DISC;
+        light->half_angle = ir->angle / 2 * DEGREE;
+    }
+}
+
 static struct view_light written_light(const struct ir_light *ir, uint32_t index, unsigned transfer) {
     struct view_light light = {.index = index,
                                .emission = vec3_mul(scene_linear_color(ir->color, transfer), ir->intensity)};
@@ -68,6 +85,7 @@ static struct view_light written_light(const struct ir_light *ir, uint32_t index
     else
         light.position = ir->position;
     light.inverse_square = !light.directional && ir->falloff == IR_FALLOFF_INVERSE_SQUARE;
+    put_extent(&light, ir);
     return light;
 }
 

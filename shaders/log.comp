@@ -127,7 +127,7 @@ void main() {
     bool lights = kind >= LOG_LIGHTS;
     hit_record hit = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     surface s;
-    light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY);
+    light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY, ray.direction);
     ray_start start = ray.start;
     exact_aim aim = aim_along(ray.direction);
     if (lights) {
@@ -137,7 +137,7 @@ void main() {
         make_surface(before, ray.start.at, ray.direction, s);
         cross_surface(ray.inside, before, s);
         start = leave(s, before, s.geometric);
-        shadow = light_at(kind - LOG_LIGHTS, s, start.at, ray.direction);
+        shadow = light_at(kind - LOG_LIGHTS, s, start.at, ray.direction, ray.key);
         hit.t = shadow.t_max;
         aim = aim_at(kind - LOG_LIGHTS, shadow);
         if (shadow.value == vec3(0.0) || (HAS_MEDIA && s.passes))

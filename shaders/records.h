@@ -165,4 +165,15 @@
     UINT(flags, 0, w, 1, z)                                                                                  \
     FLOAT3(emission, 1, 2)
 
+/* Of a light with extent, each light having one after all the words of LIGHT; in scenes that have such a
+ * light. */
+#define EXTENT_WORDS   3
+#define EXTENT64_WORDS 6
+#define EXTENT_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                      \
+    REAL3(edge_u, 0, 0)       /* of a panel, whose middle is the light's place */                            \
+    REAL(radius, 0, w, 1, zw) /* of a sphere */                                                              \
+    REAL3(edge_v, 1, 2)                                                                                      \
+    REAL(gap, 1, w, 3, zw) /* of a disc: 1 - cosine of its half angle */                                     \
+    REAL3(outward, 2, 4)   /* of a panel: unit */
+
 #endif

@@ -176,7 +176,7 @@ bool find_light(inout path_state p, surface s, ray_start start, inout light_ray 
     bool found = false;
     while (p.light < count && !found && iterations < ITERATION_LIMIT) {
         iterations++;
-        shadow = light_at(p.light, s, start.at, p.direction);
+        shadow = light_at(p.light, s, start.at, p.direction, p.key);
         found = HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
         if (!(HAS_SHADOWS && wants(FEATURE_SHADOWS)))
             add_light(shadow.value, p.light_sum, p.light_low);
@@ -383,7 +383,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     bool fresh = true, decided = false; // no ray was finished in this slice; the ray is
     surface s;
     ray_start start = exact_start(REAL3(0.0)); // of shadow rays
-    light_ray shadow = light_ray(vec3(0.0), start.at, 0.0);
+    light_ray shadow = light_ray(vec3(0.0), start.at, 0.0, start.at);
     hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; decided: the ray's
     do {
         ray_doubts doubts = no_doubts();
