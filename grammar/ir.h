@@ -84,6 +84,14 @@ struct ir_background {
     double rotation; // degrees about +y
 };
 
+// Light from everywhere.
+struct ir_ambient {
+    struct ir_head head;
+    struct ir_color color;
+    double intensity;
+    double occlusion; // scene units; 0: bodies do not block it
+};
+
 // A light that is a rectangle.
 struct ir_panel {
     struct ir_head head;
@@ -122,6 +130,7 @@ struct ir_material {
     struct ir_weights albedo;
     struct ir_paint diffuse_color;
     struct ir_color specular_color;
+    struct ir_color emission;
     double specular_exponent;
     double refractive_index;
     bool fresnel;
@@ -208,6 +217,7 @@ struct ir_scene {
     struct ir_image image;
     struct ir_trace trace;
     struct ir_background background;
+    struct ir_ambient ambient;
     struct ir_cameras cameras;
     struct ir_lights lights;
     struct ir_materials materials; // named and anonymous ones

@@ -21,6 +21,7 @@
         struct ir_image: SCHEMA_ELEMENT,                                                                     \
         struct ir_trace: SCHEMA_ELEMENT,                                                                     \
         struct ir_background: SCHEMA_ELEMENT,                                                                \
+        struct ir_ambient: SCHEMA_ELEMENT,                                                                   \
         struct ir_panel: SCHEMA_ELEMENT,                                                                     \
         struct ir_paint: SCHEMA_ELEMENT,                                                                     \
         struct ir_checker: SCHEMA_ELEMENT,                                                                   \
@@ -172,6 +173,21 @@ const struct schema_element SCHEMA_BACKGROUND = {
     ELEMENT("background", "Background", ir_background, background_rows, "What rays that hit no body see."),
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_background, kind)}}};
 
+static const struct schema_row ambient_rows[] = {
+    {.name = "color", .element = "Color", FIELD(ir_ambient, color), .example = "0.2 0.22 0.25",
+     .range = SCHEMA_RANGE_WEIGHT, .standard = "0 0 0", .short_form = true, .feature = FEATURE_AMBIENT,
+     .doc = "Colour of the light that comes from everywhere."},
+    {.name = "intensity", FIELD(ir_ambient, intensity), .example = "0.5", .range = SCHEMA_RANGE_WEIGHT,
+     .also = "strength brightness",
+     .standard = "1", .doc = "Multiplies the colour."},
+    {.name = "occlusion", FIELD(ir_ambient, occlusion), .example = "2", .unit = SCHEMA_UNIT_SCENE,
+     .also = "ao distance ambient_occlusion occlusion_distance max_distance",
+     .range = SCHEMA_RANGE_SIZE, .standard = "0", .feature = FEATURE_OCCLUSION,
+     .doc = "How near a body must be to keep ambient light off a surface: corners get darker; 0: none does."},
+};
+const struct schema_element SCHEMA_AMBIENT = {
+    ELEMENT("ambient", "Ambient", ir_ambient, ambient_rows, "Light that comes from everywhere alike, on diffuse colours.")};
+
 static const struct schema_row panel_rows[] = {
     {.name = "corner", .element = "Corner", FIELD(ir_panel, corner), .example = "-1 4 -1",
      .also = "pos position origin location center",
@@ -261,6 +277,10 @@ static const struct schema_row material_rows[] = {
      .also = "ks highlight_color",
      .example = "1 0.9 0.8", .range = SCHEMA_RANGE_WEIGHT, .standard = "1 1 1",
      .doc = "Colour of the highlights."},
+    {.name = "emission", .element = "Emission", FIELD(ir_material, emission), .example = "1 0.8 0.5",
+     .also = "emissive emission_color emissive_color ke glow",
+     .range = SCHEMA_RANGE_WEIGHT, .standard = "0 0 0", .feature = FEATURE_EMISSION,
+     .doc = "Colour that is added to what is seen of the surface, by the camera and in mirrors. It lights nothing: put a light there too."},
     {.name = "specular_exponent", FIELD(ir_material, specular_exponent), .example = "125",
      .also = "shininess exponent ns phong_exponent glossiness",
      .range = SCHEMA_RANGE_EXPONENT, .standard = "32",
@@ -394,6 +414,9 @@ static const struct schema_row scene_rows[] = {
     {.name = "background", .element = "Background", FIELD(ir_scene, background), .child = &SCHEMA_BACKGROUND,
      .also = "sky environment env world skybox",
      .doc = "What rays that hit no body see."},
+    {.name = "ambient", .element = "Ambient", FIELD(ir_scene, ambient), .child = &SCHEMA_AMBIENT,
+     .also = "ambient_light ambient_color",
+     .doc = "Light that comes from everywhere."},
     {.name = "camera", .element = "Camera", .plural = "cameras", FIELD(ir_scene, cameras),
      .also = "eye viewpoint view",
      .many = SCHEMA_NAMED_MAP, .single = "main", .child = &SCHEMA_CAMERA, .doc = "Points of view."},
@@ -420,6 +443,6 @@ const struct schema_element SCHEMA_SCENE = {
 
 const struct schema_element *const schema_elements[] = {
     &SCHEMA_SCENE,      &SCHEMA_INCLUDE,   &SCHEMA_IMAGE,    &SCHEMA_TRACE,     &SCHEMA_CAMERA,
-    &SCHEMA_BACKGROUND, &SCHEMA_LIGHT,     &SCHEMA_PANEL,      &SCHEMA_MATERIAL, &SCHEMA_PAINT,     &SCHEMA_CHECKER,
+    &SCHEMA_BACKGROUND, &SCHEMA_AMBIENT, &SCHEMA_LIGHT,     &SCHEMA_PANEL,      &SCHEMA_MATERIAL, &SCHEMA_PAINT,     &SCHEMA_CHECKER,
     &SCHEMA_SPHERE,     &SCHEMA_RECTANGLE, &SCHEMA_MODEL,    &SCHEMA_MAP_ENTRY, NULL,
 };

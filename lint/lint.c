@@ -33,6 +33,9 @@ const struct lint_rule lint_rules[] = {
     // One pass over the lights; then the bodies for each of them that is a sphere.
     {DIAG_FEW_SAMPLES, lint_few_samples, LINT_CHEAP},
     {DIAG_LIGHT_AROUND, lint_light_around, LINT_ALL},
+    // One value; one pass over the bodies.
+    {DIAG_AMBIENT, lint_ambient, LINT_ALL},
+    {DIAG_EMISSION_ALONE, lint_emission, LINT_ALL},
     {.run = NULL},
 };
 

@@ -78,3 +78,41 @@ void lint_light_around(struct lint *lint) {
         }
     }
 }
+
+void lint_ambient(struct lint *lint) {
+    const struct ir_ambient *ambient = &lint->ir->ambient;
+    const vec3 color = lint->scene->ambient;
+    const bool black = vec3_is_zero(color);
+    if (ambient->head.written == 0 || (!black && (vec3_max_abs(color) < 1 || ambient->occlusion > 0)))
+        return;
+    if (black && ambient->head.written >> schema_find_row(&SCHEMA_AMBIENT, STR("color")) & 1)
+        return; // switched off
+    const span at = ir_place_label(lint->origin, &ambient->head);
+    if (black) {
+        diag_add(lint->sink, DIAG_AMBIENT, at,
+                 "this ambient light has no color: it is black and adds nothing");
+        diag_help(lint->sink, "write its color, such as color: 0.2");
+    } else if (lint->ir->lights.count) {
+        diag_add(lint->sink, DIAG_AMBIENT, at,
+                 "ambient light of %.6g shows every diffuse colour as if fully lit, in shadows too",
+                 vec3_max_abs(color));
+        diag_help(lint->sink, "write a weaker color, or an occlusion");
+    }
+}
+
+void lint_emission(struct lint *lint) {
+    if (lint->ir->lights.count || !vec3_is_zero(lint->scene->ambient))
+        return;
+    for (uint32_t i = 0; i < lint->body_count; i++) {
+        const struct lint_body *body = &lint->bodies[i];
+        for (uint32_t g = 0; lint_is_there(body) && g < body->is->group_count; g++) {
+            if (vec3_is_zero(lint->scene->materials[body->is->materials[g]].emission))
+                continue;
+            diag_add(lint->sink, DIAG_EMISSION_ALONE, lint_place(lint, body),
+                     "%.*s glows but lights nothing, and the scene has no light",
+                     STR_ARG(lint_words(lint, body)));
+            diag_help(lint->sink, "put a light there too: lights: - {position: ..., radius: ...}");
+            return;
+        }
+    }
+}

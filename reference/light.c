@@ -173,6 +173,28 @@ static vec3 arriving(const struct reference *r, const struct view_light *light, 
     return trace->shadows && reference_blocks(r, &ray) ? (vec3){0, 0, 0} : (vec3){1, 1, 1};
 }
 
+// Ambient light that nothing near keeps off: a ray into the hemisphere, by its cosine (Malley's method).
+static vec3 ambient(const struct reference *r, const struct surface *s, const struct inside *inside,
+                    const struct points *points, uint32_t key, uint32_t *rays) {
+    const struct scene *scene = r->input.scene;
+    const vec3 value = scaled(s->diffuse, scene->ambient);
+    if (scene->occlusion == 0 || !scene->ir->trace.shadows || vec3_max_abs(value) < LEAST_LIGHT)
+        return value;
+    double a, b, x, y;
+    vec3 first, second;
+    points_at(points, point_key(key, POINT_AMBIENT), &a, &b);
+    in_disc(a, b, &x, &y);
+    basis(s->shading, &first, &second);
+    vec3 l = vec3_mul(s->shading, sqrt(fmax(0, 1 - x * x - y * y)));
+    l = vec3_add(l, vec3_add(vec3_mul(first, x), vec3_mul(second, y)));
+    if (!(vec3_dot(l, s->geometric) > 0))
+        return (vec3){0, 0, 0};
+    const struct view_light nowhere = {.extent = VIEW_POINT};
+    const struct spot spot = {.place = vec3_add(s->point, vec3_mul(l, scene->occlusion)), .l = l};
+    const struct start start = reference_leave(r, s, s->geometric);
+    return scaled(value, arriving(r, &nowhere, &spot, start, inside, rays));
+}
+
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
                      const struct inside *inside, const struct points *points, uint32_t key,
                      struct lighting *out) {
@@ -193,6 +215,8 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
         out->lit |= bit;
         out->sum = vec3_add(out->sum, scaled(value, share));
     }
+    const vec3 around = ambient(r, s, inside, points, key, &out->shadow_rays);
+    out->sum = vec3_add(out->sum, vec3_add(s->emission, around));
 }
 
 // ---- background

@@ -50,7 +50,7 @@ struct material {
     vec3 diffuse[2];
     bool checker;
     double cell;
-    vec3 specular;
+    vec3 specular, emission;
     double exponent, reflection, refraction, index;
     bool fresnel;
     int32_t priority;
@@ -161,6 +161,7 @@ struct surface {
     vec3 geometric, shading;
     bool enters, solid;
     vec3 diffuse, specular; // times their weights
+    vec3 emission;
     double exponent, reflection, refraction, index;
     bool fresnel;
     // Of a ray that comes from a place inside certain media: reference_cross.

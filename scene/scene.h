@@ -57,7 +57,7 @@ struct scene_material {
     vec3 diffuse[2]; // of the odd cells too, where it is a checker; else equal
     bool checker;
     double cell; // edge of a checker's cells, scene units; 1 without
-    vec3 specular;
+    vec3 specular, emission;
     double specular_exponent, refractive_index;
     bool fresnel;
     int32_t priority;
@@ -80,6 +80,8 @@ struct scene {
     struct scene_material *materials; // in the order of assets.materials
     uint32_t material_count;
     struct scene_background background;
+    vec3 ambient;     // linear, times intensity
+    double occlusion; // scene units; 0: bodies do not block it
 };
 
 void scene_build(const struct ir_scene *ir, const struct assets *assets, struct arena *arena,

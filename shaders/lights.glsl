@@ -8,16 +8,17 @@ struct light_ray {
 };
 
 #include "light/extent.glsl"
+#include "light/ambient.glsl"
 
 exact_aim aim_at(uint index, light_ray ray) {
-    if (HAS_SOFT_LIGHT)
+    if (HAS_PLACES)
         return exact_aim(ray.direction, ray.t_max < FAR_AWAY, ray.place);
     light_record light = load_light(index);
     bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
     return exact_aim(ray.direction, !directional, light.place);
 }
 
-light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction, uint key) {
+light_ray lamp_at(uint index, surface s, REAL3 start, REAL3 direction, uint key) {
     light_record light = load_light(index);
     vec3 emission = light.emission;
     bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
@@ -49,10 +50,20 @@ light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction, uint key
     ray.value = lit ? emission * sum : vec3(0.0);
     ray.direction = directional ? light.place : light.place - start;
     ray.t_max = directional ? FAR_AWAY : 1.0;
-    if (HAS_SOFT_LIGHT) {
+    if (HAS_PLACES)
         ray.place = spot.place;
+    if (HAS_SOFT_LIGHT)
         ray.direction = directional ? spot.l : spot.place - start;
-    }
+    return ray;
+}
+
+// `key`: of the ray that hit the surface; `index`: below light_end().
+light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction, uint key) {
+    light_ray ray;
+    if (HAS_OCCLUSION && index >= frame.light_count)
+        ray = ambient_ray(s, start, key);
+    else
+        ray = lamp_at(index, s, start, direction, key);
     return ray;
 }
 

@@ -157,7 +157,7 @@ float shine_share(surface s, REAL3 direction) {
 
 REAL3 shine_direction(shining way, light_record light, light_ray ray) {
     REAL3 place = light.place;
-    if (HAS_SOFT_LIGHT)
+    if (HAS_PLACES)
         place = ray.place;
     return ray.t_max < FAR_AWAY ? place - way.start.at : ray.direction;
 }

@@ -172,7 +172,7 @@ uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint
 
 // From light `p.light` on, the next one that would add something; adds those that need no shadow ray.
 bool find_light(inout path_state p, surface s, ray_start start, inout light_ray shadow, inout uint iterations) {
-    uint count = frame.light_count + OPAQUE_ZERO;
+    uint count = light_end() + OPAQUE_ZERO;
     bool found = false;
     while (p.light < count && !found && iterations < ITERATION_LIMIT) {
         iterations++;
@@ -285,7 +285,7 @@ uint go_on(uint slot, inout path_state p, surface s, ray_start start, inout uint
     uint state = GOES_ON;
     phase = PHASE_SHADOW;
     bool found = find_light(p, s, start, shadow, iterations);
-    if (!found && p.light < frame.light_count) {
+    if (!found && p.light < light_end()) {
         fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
         state = HAS_SLICES ? SUSPENDED : STOPPED;
     } else if (!found) {
@@ -338,6 +338,8 @@ uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, in
         make_surface(p.hit, p.start.at, p.direction, s);
         state = come_to_surface(p, phase == PHASE_RAY, s);
         taint(p, true, s.point + s.shading, 0.0);
+        if ((HAS_AMBIENT || HAS_EMISSION) && phase == PHASE_RAY)
+            p.light_sum = own_light(s);
         start = leave(s, p.hit, s.geometric);
     }
     return state;

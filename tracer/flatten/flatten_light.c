@@ -33,6 +33,7 @@ enum flatten_fault flatten_materials(struct flattening *f) {
                                       .diffuse = m->diffuse[0],
                                       .exponent = m->specular_exponent,
                                       .specular = m->specular,
+                                      .emission = m->emission,
                                       .index = m->refractive_index,
                                       .absorption = flatten_absorption(f, m),
                                       .fresnel = m->fresnel};
@@ -201,12 +202,21 @@ static uint32_t used_material_features(const struct flattening *f) {
     return mask;
 }
 
+static uint32_t ambient_features(struct flattening *f) {
+    const struct scene *scene = f->scene;
+    if (vec3_is_zero(scene->ambient))
+        return 0;
+    f->out->occlusion = length_bound(scene->occlusion * f->factor);
+    return FEATURE_AMBIENT | (f->out->occlusion > 0 ? FEATURE_OCCLUSION : 0);
+}
+
 // What the scene's rows ask for, materials, lights, bodies and background as they turned out.
 void flatten_features(struct flattening *f) {
     const uint32_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
                          FEATURE_REFLECTION | FEATURE_REFRACTION | FEATURE_CHECKER | FEATURE_SMOOTH |
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
-                         FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_SOFT_LIGHT;
+                         FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_SOFT_LIGHT |
+                         FEATURE_AMBIENT | FEATURE_OCCLUSION | FEATURE_EMISSION;
     struct flat_scene *out = f->out;
     uint32_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
@@ -215,6 +225,11 @@ void flatten_features(struct flattening *f) {
     mask |= out->background ? FEATURE_BACKGROUND_IMAGE : 0;
     mask |= used_material_features(f);
     mask |= f->light_features;
+    mask |= ambient_features(f);
+    if (!(mask & FEATURE_DIFFUSE))
+        mask &= ~(FEATURE_AMBIENT | FEATURE_OCCLUSION);
+    if (!(mask & FEATURE_SHADOWS))
+        mask &= ~FEATURE_OCCLUSION;
     if (!(mask & (FEATURE_DIFFUSE | FEATURE_SPECULAR)))
         mask &= ~(FEATURE_SHADOWS | FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
                   FEATURE_SOFT_LIGHT);

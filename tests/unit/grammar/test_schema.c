@@ -21,14 +21,14 @@ static const struct {
     const struct schema_element *schema;
     const char *structure;
 } structures[] = {
-    {&SCHEMA_SCENE, "ir_scene"},         {&SCHEMA_INCLUDE, "ir_include"},
-    {&SCHEMA_IMAGE, "ir_image"},         {&SCHEMA_TRACE, "ir_trace"},
-    {&SCHEMA_CAMERA, "ir_camera"},       {&SCHEMA_BACKGROUND, "ir_background"},
-    {&SCHEMA_LIGHT, "ir_light"},         {&SCHEMA_PANEL, "ir_panel"},
-    {&SCHEMA_MATERIAL, "ir_material"},   {&SCHEMA_PAINT, "ir_paint"},
-    {&SCHEMA_CHECKER, "ir_checker"},     {&SCHEMA_SPHERE, "ir_sphere"},
-    {&SCHEMA_RECTANGLE, "ir_rectangle"}, {&SCHEMA_MODEL, "ir_model"},
-    {&SCHEMA_MAP_ENTRY, "ir_map_entry"},
+    {&SCHEMA_SCENE, "ir_scene"},     {&SCHEMA_INCLUDE, "ir_include"},
+    {&SCHEMA_IMAGE, "ir_image"},     {&SCHEMA_TRACE, "ir_trace"},
+    {&SCHEMA_CAMERA, "ir_camera"},   {&SCHEMA_BACKGROUND, "ir_background"},
+    {&SCHEMA_LIGHT, "ir_light"},     {&SCHEMA_PANEL, "ir_panel"},
+    {&SCHEMA_AMBIENT, "ir_ambient"}, {&SCHEMA_MATERIAL, "ir_material"},
+    {&SCHEMA_PAINT, "ir_paint"},     {&SCHEMA_CHECKER, "ir_checker"},
+    {&SCHEMA_SPHERE, "ir_sphere"},   {&SCHEMA_RECTANGLE, "ir_rectangle"},
+    {&SCHEMA_MODEL, "ir_model"},     {&SCHEMA_MAP_ENTRY, "ir_map_entry"},
 };
 
 #define EACH_ELEMENT(e) for (const struct schema_element *const *e = schema_elements; *e; e++)
