@@ -225,7 +225,7 @@ static void test_every_row_is_explained(void **state) {
     assert_explained("ior", "material.refractive_index");
     assert_explained("paint", "XML: <DiffuseColor>");
     assert_explained("area-light", "has soft shadows");
-    assert_explained("AreaLights", "write one of them, and more samples");
+    assert_explained("AreaLights", "one of them, and more samples");
     assert_explained("texture", "Images on bodies");
     assert_explained("variable", "In YAML:\n\n  x-warm: &warm");
     assert_explained("image.tone", "clip: Values above 1 are clipped.");
