@@ -222,7 +222,7 @@ static const struct schema_row light_rows[] = {
     {.name = "radius", FIELD(ir_light, radius), .example = "0.5", .unit = SCHEMA_UNIT_SCENE,
      .range = SCHEMA_RANGE_SIZE, .standard = "0", .feature = FEATURE_SOFT_LIGHT,
      .doc = "Radius of a light with a position: a sphere around it, with soft shadows; 0 is a point."},
-    {.name = "angle", FIELD(ir_light, angle), .example = "0.53", .unit = SCHEMA_UNIT_DEGREES,
+    {.name = "angle", FIELD(ir_light, angle), .example = "0", .unit = SCHEMA_UNIT_DEGREES,
      .also = "angular_diameter sun_size",
      .range = SCHEMA_RANGE_OPENING, .standard = "0", .feature = FEATURE_SOFT_LIGHT,
      .doc = "Angle that a light with a direction measures across: a disc in the sky, with soft shadows; 0 is a point, the sun has 0.53."},

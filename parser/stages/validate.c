@@ -169,8 +169,9 @@ static void check_extent(const struct rules *rules, const struct ir_light *light
                    {"angle", "what a light with a direction measures across", IR_LIGHT_DIRECTION}};
     static const char *const kinds[] = {"position", "direction", "rectangle"};
     const struct schema_element *schema = &SCHEMA_LIGHT;
+    const double sizes[] = {light->radius, light->angle};
     for (size_t i = 0; i < sizeof extents / sizeof *extents; i++) {
-        if (light->kind == extents[i].kind || !is_written(schema, light, extents[i].row) ||
+        if (sizes[i] == 0 || light->kind == extents[i].kind || !is_written(schema, light, extents[i].row) ||
             is_poisoned(schema, light, extents[i].row))
             continue;
         diag_add(rules->sink, DIAG_EXTENT_KIND,
