@@ -39,7 +39,8 @@ enum ir_backdrop {
 };
 enum ir_light_kind {
     IR_LIGHT_POSITION,
-    IR_LIGHT_DIRECTION
+    IR_LIGHT_DIRECTION,
+    IR_LIGHT_RECTANGLE
 };
 enum ir_paint_kind {
     IR_PAINT_COLOR,
@@ -96,11 +97,28 @@ struct ir_background {
     double rotation; // degrees about +y
 };
 
+// Light from everywhere.
+struct ir_ambient {
+    struct ir_head head;
+    struct ir_color color;
+    double intensity;
+    double occlusion; // scene units; 0: bodies do not block it
+};
+
+// A light that is a rectangle.
+struct ir_panel {
+    struct ir_head head;
+    vec3 corner, edge_u, edge_v;
+};
+
 struct ir_light {
     struct ir_head head;
     str name;
     unsigned kind; // ir_light_kind
     vec3 position, direction;
+    struct ir_panel rectangle;
+    double radius; // of one with a position; 0: a point
+    double angle;  // of one with a direction: degrees that its disc measures across; 0: a point
     double intensity;
     struct ir_color color;
     unsigned falloff; // ir_falloff
@@ -143,6 +161,7 @@ struct ir_material {
     struct ir_weights albedo;
     struct ir_paint diffuse_color;
     struct ir_highlight specular_color;
+    struct ir_color emission;
     double specular_exponent;
     double refractive_index;
     bool fresnel;
@@ -229,6 +248,7 @@ struct ir_scene {
     struct ir_image image;
     struct ir_trace trace;
     struct ir_background background;
+    struct ir_ambient ambient;
     struct ir_cameras cameras;
     struct ir_lights lights;
     struct ir_materials materials; // named and anonymous ones

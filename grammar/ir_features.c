@@ -92,10 +92,13 @@ static void switch_on(struct feature_walk *w, uint32_t bit, const struct feature
     explain_use(w, use, reason);
 }
 
-static bool is_coloured(const struct ir_color *color) {
+// Another grey than that which it has by default: white or black.
+static bool is_coloured(const struct schema_row *row, const struct ir_color *color) {
+    const bool black = row->standard && row->standard[0] == '0';
+    const double grey = black ? 0 : 1;
     if (color->is_hex)
-        return color->hex != 0xffffff;
-    return color->r != 1 || color->g != 1 || color->b != 1;
+        return color->hex != (black ? 0 : 0xffffff);
+    return color->r != grey || color->g != grey || color->b != grey;
 }
 
 static bool is_on(const struct schema_row *row, const void *element) {
@@ -116,7 +119,7 @@ static bool is_on(const struct schema_row *row, const void *element) {
     case SCHEMA_LIST:
         return ir_walk_list(row, element).count > 0;
     case SCHEMA_COLOR:
-        return is_coloured(field);
+        return is_coloured(row, field);
     default:
         return true;
     }

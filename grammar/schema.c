@@ -22,6 +22,8 @@
         struct ir_image: SCHEMA_ELEMENT,                                                                     \
         struct ir_trace: SCHEMA_ELEMENT,                                                                     \
         struct ir_background: SCHEMA_ELEMENT,                                                                \
+        struct ir_ambient: SCHEMA_ELEMENT,                                                                   \
+        struct ir_panel: SCHEMA_ELEMENT,                                                                     \
         struct ir_paint: SCHEMA_ELEMENT,                                                                     \
         struct ir_checker: SCHEMA_ELEMENT,                                                                   \
         struct ir_texture: SCHEMA_ELEMENT,                                                                   \
@@ -190,6 +192,36 @@ const struct schema_element SCHEMA_BACKGROUND = {
     ELEMENT("background", "Background", ir_background, background_rows, "What rays that hit no body see."),
     .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_background, kind)}}};
 
+static const struct schema_row ambient_rows[] = {
+    {.name = "color", .element = "Color", FIELD(ir_ambient, color), .example = "0.2 0.22 0.25",
+     .range = SCHEMA_RANGE_WEIGHT, .standard = "0 0 0", .short_form = true, .feature = FEATURE_AMBIENT,
+     .doc = "Colour of the light that comes from everywhere."},
+    {.name = "intensity", FIELD(ir_ambient, intensity), .example = "0.5", .range = SCHEMA_RANGE_WEIGHT,
+     .also = "strength brightness",
+     .standard = "1", .doc = "Multiplies the colour."},
+    {.name = "occlusion", FIELD(ir_ambient, occlusion), .example = "2", .unit = SCHEMA_UNIT_SCENE,
+     .also = "ao distance ambient_occlusion occlusion_distance max_distance",
+     .range = SCHEMA_RANGE_SIZE, .standard = "0", .feature = FEATURE_OCCLUSION,
+     .doc = "How near a body must be to keep ambient light off a surface: corners get darker; 0: none does."},
+};
+const struct schema_element SCHEMA_AMBIENT = {
+    ELEMENT("ambient", "Ambient", ir_ambient, ambient_rows, "Light that comes from everywhere alike, on diffuse colours.")};
+
+static const struct schema_row panel_rows[] = {
+    {.name = "corner", .element = "Corner", FIELD(ir_panel, corner), .example = "-1 4 -1",
+     .also = "pos position origin location center",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "One of the four corners."},
+    {.name = "edge_u", .element = "EdgeU", FIELD(ir_panel, edge_u), .example = "2 0 0",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "From the corner to one next to it."},
+    {.name = "edge_v", .element = "EdgeV", FIELD(ir_panel, edge_v), .example = "0 0 2",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "From the corner to the other one next to it; light leaves on the side that edge_u x edge_v points to."},
+};
+const struct schema_element SCHEMA_PANEL = {
+    ELEMENT("panel", "Panel", ir_panel, panel_rows, "The rectangle of a light, which shines on one side.")};
+
 static const struct schema_row light_rows[] = {
     {.name = "name", FIELD(ir_light, name), .example = "sun",
      .also = "id", .text = SCHEMA_TEXT_NAME,
@@ -202,6 +234,17 @@ static const struct schema_row light_rows[] = {
      .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_LIGHT_DIRECTION,
      .feature = FEATURE_DIRECTION_LIGHT,
      .doc = "A light infinitely far away: the direction in which its light travels; any length except 0."},
+    {.name = "rectangle", .element = "Rectangle", FIELD(ir_light, rectangle), .child = &SCHEMA_PANEL,
+     .also = "panel area quad", .choice = 1, .alternative = IR_LIGHT_RECTANGLE,
+     .feature = FEATURE_SOFT_LIGHT,
+     .doc = "A panel: a rectangle that shines on one side, with soft shadows."},
+    {.name = "radius", FIELD(ir_light, radius), .example = "0.5", .unit = SCHEMA_UNIT_SCENE,
+     .range = SCHEMA_RANGE_SIZE, .standard = "0", .feature = FEATURE_SOFT_LIGHT,
+     .doc = "Radius of a light with a position: a sphere around it, with soft shadows; 0 is a point."},
+    {.name = "angle", FIELD(ir_light, angle), .example = "0", .unit = SCHEMA_UNIT_DEGREES,
+     .also = "angular_diameter sun_size",
+     .range = SCHEMA_RANGE_OPENING, .standard = "0", .feature = FEATURE_SOFT_LIGHT,
+     .doc = "Angle that a light with a direction measures across: a disc in the sky, with soft shadows; 0 is a point, the sun has 0.53."},
     {.name = "intensity", FIELD(ir_light, intensity), .example = "1.5", .range = SCHEMA_RANGE_WEIGHT,
      .also = "power strength brightness energy",
      .standard = "1", .doc = "Multiplies the colour."},
@@ -212,7 +255,7 @@ static const struct schema_row light_rows[] = {
      .standard = "none", .feature = FEATURE_INVERSE_SQUARE, .doc = "How the light weakens with distance."},
 };
 const struct schema_element SCHEMA_LIGHT = {
-    ELEMENT("light", "Light", ir_light, light_rows, "A light without size: its shadows have hard edges."),
+    ELEMENT("light", "Light", ir_light, light_rows, "A light: at a point or infinitely far away, with hard shadows, or with an extent, and soft ones."),
     .choices = {{SCHEMA_CHOICE_EXACTLY_ONE, offsetof(struct ir_light, kind)}}};
 
 static const struct schema_row checker_rows[] = {
@@ -295,6 +338,10 @@ static const struct schema_row material_rows[] = {
      .also = "ks highlight_color",
      .child = &SCHEMA_HIGHLIGHT,
      .doc = "Colour of the highlights."},
+    {.name = "emission", .element = "Emission", FIELD(ir_material, emission), .example = "1 0.8 0.5",
+     .also = "emissive emission_color emissive_color ke glow",
+     .range = SCHEMA_RANGE_WEIGHT, .standard = "0 0 0", .feature = FEATURE_EMISSION,
+     .doc = "Colour that is added to what is seen of the surface, by the camera and in mirrors. It lights nothing: put a light there too."},
     {.name = "specular_exponent", FIELD(ir_material, specular_exponent), .example = "125",
      .also = "shininess exponent ns phong_exponent glossiness",
      .range = SCHEMA_RANGE_EXPONENT, .standard = "32",
@@ -428,6 +475,9 @@ static const struct schema_row scene_rows[] = {
     {.name = "background", .element = "Background", FIELD(ir_scene, background), .child = &SCHEMA_BACKGROUND,
      .also = "sky environment env world skybox",
      .doc = "What rays that hit no body see."},
+    {.name = "ambient", .element = "Ambient", FIELD(ir_scene, ambient), .child = &SCHEMA_AMBIENT,
+     .also = "ambient_light ambient_color",
+     .doc = "Light that comes from everywhere."},
     {.name = "camera", .element = "Camera", .plural = "cameras", FIELD(ir_scene, cameras),
      .also = "eye viewpoint view",
      .many = SCHEMA_NAMED_MAP, .single = "main", .child = &SCHEMA_CAMERA, .doc = "Points of view."},
@@ -453,9 +503,23 @@ const struct schema_element SCHEMA_SCENE = {
 // clang-format on
 
 const struct schema_element *const schema_elements[] = {
-    &SCHEMA_SCENE,  &SCHEMA_INCLUDE,    &SCHEMA_IMAGE,   &SCHEMA_TRACE,
-    &SCHEMA_CAMERA, &SCHEMA_BACKGROUND, &SCHEMA_LIGHT,   &SCHEMA_MATERIAL,
-    &SCHEMA_PAINT,  &SCHEMA_CHECKER,    &SCHEMA_TEXTURE, &SCHEMA_HIGHLIGHT,
-    &SCHEMA_SPHERE, &SCHEMA_RECTANGLE,  &SCHEMA_MODEL,   &SCHEMA_MAP_ENTRY,
+    &SCHEMA_SCENE,
+    &SCHEMA_INCLUDE,
+    &SCHEMA_IMAGE,
+    &SCHEMA_TRACE,
+    &SCHEMA_CAMERA,
+    &SCHEMA_BACKGROUND,
+    &SCHEMA_AMBIENT,
+    &SCHEMA_LIGHT,
+    &SCHEMA_PANEL,
+    &SCHEMA_MATERIAL,
+    &SCHEMA_PAINT,
+    &SCHEMA_CHECKER,
+    &SCHEMA_TEXTURE,
+    &SCHEMA_HIGHLIGHT,
+    &SCHEMA_SPHERE,
+    &SCHEMA_RECTANGLE,
+    &SCHEMA_MODEL,
+    &SCHEMA_MAP_ENTRY,
     NULL,
 };

@@ -28,6 +28,8 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_PRIORITY] = {"priority", -1000, 1000, false, false, "from -1000 to 1000"},
     [SCHEMA_RANGE_REPEAT] = {"repeat", 1e-6, 1e6, false, false, "from 1e-6 to 1e6"},
     [SCHEMA_RANGE_SHIFT] = {"shift", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
+    [SCHEMA_RANGE_SIZE] = {"size", 0, 1e18, false, false, "from 0 to 1e18"},
+    [SCHEMA_RANGE_OPENING] = {"opening", 0, 180, false, false, "from 0 to 180"},
 };
 
 const struct schema_range_info *schema_range_info(enum schema_range range) {

@@ -33,6 +33,12 @@ const struct lint_rule lint_rules[] = {
     // A few thousand rays, or triangles, for each camera and body with an image or a checker that nothing
     // filters.
     {DIAG_TOO_FINE, lint_too_fine, LINT_ALL},
+    // One pass over the lights; then the bodies for each of them that is a sphere.
+    {DIAG_FEW_SAMPLES, lint_few_samples, LINT_CHEAP},
+    {DIAG_LIGHT_AROUND, lint_light_around, LINT_ALL},
+    // One value; one pass over the bodies.
+    {DIAG_AMBIENT, lint_ambient, LINT_ALL},
+    {DIAG_EMISSION_ALONE, lint_emission, LINT_ALL},
     {.run = NULL},
 };
 

@@ -126,5 +126,9 @@ void lint_oversized_image(struct lint *lint); // rules_image.c
 void lint_media(struct lint *lint);           // rules_media.c
 void lint_attenuation(struct lint *lint);     // rules_material.c
 void lint_too_fine(struct lint *lint);        // rules_paint.c
+void lint_few_samples(struct lint *lint);     // rules_light.c
+void lint_light_around(struct lint *lint);
+void lint_ambient(struct lint *lint);
+void lint_emission(struct lint *lint);
 
 #endif

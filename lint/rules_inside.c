@@ -13,6 +13,8 @@ enum {
 // A room: what is inside an opaque body is lit there, and the camera inside sees it.
 static bool holds_light(struct lint *lint, const struct lint_body *body) {
     const struct view *view = &lint->views[0];
+    if (!vec3_is_zero(lint->scene->ambient) && lint->scene->occlusion == 0)
+        return true;
     for (uint32_t i = 0; i < view->light_count; i++) {
         const struct view_light *light = &view->lights[i];
         if (!light->directional && (light->automatic || lint_is_inside(lint, body, light->position)))

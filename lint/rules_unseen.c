@@ -39,9 +39,12 @@ static double greatest(const struct lint_box *box, vec3 normal, vec3 from) {
 // Whether the shadow of the box stays on the outer side of a plane that the box is outside of: each ray of
 // light through it leads on, away from the plane or along it.
 static bool shadow_stays(const struct lint_box *box, vec3 normal, const struct view_light *light) {
+    const double size = vec3_length(normal);
     if (light->directional)
-        return vec3_dot(normal, light->to_light) >= 0;
-    return greatest(box, normal, light->position) <= 0;
+        return vec3_dot(normal, light->to_light) >= size * sin(light->half_angle);
+    const double nearer = size * light->radius + 0.5 * (fabs(vec3_dot(normal, light->edge_u)) +
+                                                        fabs(vec3_dot(normal, light->edge_v)));
+    return greatest(box, normal, light->position) + nearer <= 0;
 }
 
 static bool is_outside(const struct lint *lint, const struct lint_box *box, const struct field *field,

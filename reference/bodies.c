@@ -6,6 +6,7 @@ static struct material make_material(const struct scene_material *from) {
     struct material m = {.checker = from->checker,
                          .cell = from->cell,
                          .specular = vec3_mul(from->specular, from->specular_weight),
+                         .emission = from->emission,
                          .exponent = from->specular_exponent,
                          .reflection = from->reflection,
                          .refraction = from->refraction,

@@ -11,7 +11,7 @@
 // afterwards, meshes and images. A field that one of these gains changes its size: hash the field, then count
 // it.
 static_assert(sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 8 + 8, "hash the new field of a camera");
-static_assert(sizeof(struct view_light) == 8 + 3 * sizeof(vec3) + 8, "hash the new field of a light");
+static_assert(sizeof(struct view_light) == 4 * 8 + 6 * sizeof(vec3) + 8, "hash the new field of a light");
 static_assert(sizeof(struct mesh_triangle) == 8 * sizeof(uint32_t), "triangles are hashed as bytes");
 
 static void add_view(struct hash128 *h, const struct view *view) {
@@ -30,6 +30,12 @@ static void add_view(struct hash128 *h, const struct view *view) {
         hash128_vector(h, light->position);
         hash128_vector(h, light->to_light);
         hash128_vector(h, light->emission);
+        hash128_whole(h, light->extent);
+        hash128_number(h, light->radius);
+        hash128_number(h, light->half_angle);
+        hash128_vector(h, light->edge_u);
+        hash128_vector(h, light->edge_v);
+        hash128_vector(h, light->outward);
     }
 }
 

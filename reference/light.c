@@ -22,16 +22,96 @@ static vec3 scaled(vec3 a, vec3 b) {
     return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-static vec3 place_of(const struct reference *r, const struct view_light *light) {
-    return reference_stored3(r, vec3_sub(light->position, r->origin));
+// Where a sample takes a light.
+struct spot {
+    vec3 place;   // less the origin; of a light that is not infinitely far away
+    vec3 l;       // unit, towards it from the surface
+    double share; // of what a point there would add
+};
+
+// The unit disc, area by area, from the unit square (Shirley and Chiu 1997, "A Low Distortion Map Between
+// Disk and Square").
+static void in_disc(double a, double b, double *x, double *y) {
+    const double u = 2 * a - 1, v = 2 * b - 1;
+    const bool wide = fabs(u) > fabs(v);
+    const double radius = wide ? u : v;
+    const double angle = radius == 0 ? 0 : PI / 4 * (wide ? v : u) / radius;
+    *x = radius * (wide ? cos(angle) : sin(angle));
+    *y = radius * (wide ? sin(angle) : cos(angle));
+}
+
+// Two unit vectors at right angles to a third, which vary smoothly but at z = 0 (Duff et al. 2017, "Building
+// an Orthonormal Basis, Revisited").
+static void basis(vec3 n, vec3 *first, vec3 *second) {
+    const double side = n.z < 0 ? -1 : 1, a = -1 / (side + n.z);
+    *first = (vec3){1 + side * a * n.x * n.x, side * a * n.x * n.y, -side * n.x};
+    *second = (vec3){a * n.x * n.y, side + a * n.y * n.y, -n.y};
+}
+
+// A direction of a cap around the axis: (a, b) of the unit square, all directions alike.
+static vec3 in_cap(vec3 axis, double gap, double a, double b) {
+    double x, y;
+    vec3 first, second;
+    in_disc(a, b, &x, &y);
+    basis(axis, &first, &second);
+    const double below = gap * (x * x + y * y), wide = sqrt(gap * (2 - below));
+    const vec3 across = vec3_add(vec3_mul(first, x * wide), vec3_mul(second, y * wide));
+    return vec3_add(vec3_mul(axis, 1 - below), across);
+}
+
+// Half of a sphere, from inside it; else its cap in view.
+static void on_sphere(struct spot *spot, vec3 point, double radius, double a, double b) {
+    const vec3 way = vec3_sub(spot->place, point);
+    const double distance = vec3_length(way);
+    const bool inside = distance <= radius;
+    const double sine = inside ? 1 : radius / distance;
+    const double gap = sine * sine / (1 + sqrt(1 - sine * sine));
+    spot->l = in_cap(spot->l, gap, a, b);
+    spot->share = 2 / (2 - gap);
+    const double middle = vec3_dot(spot->l, way);
+    const double beside = vec3_length(vec3_sub(way, vec3_mul(spot->l, middle)));
+    const double deep = beside < radius ? sqrt((radius - beside) * (radius + beside)) : 0;
+    spot->place = vec3_add(point, vec3_mul(spot->l, inside ? middle + deep : middle - deep));
+}
+
+static void on_panel(struct spot *spot, const struct view_light *light, vec3 point, double a, double b) {
+    const double before = vec3_length(vec3_sub(spot->place, point));
+    spot->place =
+        vec3_add(spot->place, vec3_add(vec3_mul(light->edge_u, a - 0.5), vec3_mul(light->edge_v, b - 0.5)));
+    const vec3 way = vec3_sub(spot->place, point);
+    const double distance = vec3_length(way);
+    spot->l = vec3_unit(way);
+    spot->share = fmax(0, -vec3_dot(spot->l, light->outward));
+    if (light->inverse_square)
+        spot->share *= before / distance * (before / distance);
+    if (!(distance > 0))
+        spot->share = 0;
+}
+
+static struct spot spot_of(const struct reference *r, const struct view_light *light, vec3 point,
+                           const struct points *points, uint32_t key) {
+    struct spot spot = {.place = reference_stored3(r, vec3_sub(light->position, r->origin)), .share = 1};
+    double a, b;
+    spot.l = light->directional ? light->to_light : vec3_unit(vec3_sub(spot.place, point));
+    if (light->extent == VIEW_POINT)
+        return spot;
+    points_at(points, key, &a, &b);
+    if (light->extent == VIEW_PANEL) {
+        on_panel(&spot, light, point, a, b);
+    } else if (light->extent == VIEW_SPHERE) {
+        on_sphere(&spot, point, light->radius, a, b);
+    } else {
+        const double gap = 2 * sin(light->half_angle / 2) * sin(light->half_angle / 2);
+        spot.l = in_cap(spot.l, gap, a, b);
+        spot.share = 2 / (2 - gap);
+    }
+    return spot;
 }
 
 // What the light adds where nothing blocks it.
-static vec3 unshadowed(const struct reference *r, const struct view_light *light, const struct surface *s,
-                       vec3 direction) {
-    vec3 way = vec3_sub(place_of(r, light), s->point);
-    double distance = vec3_length(way);
-    vec3 l = light->directional ? light->to_light : vec3_unit(way);
+static vec3 unshadowed(const struct reference *r, const struct view_light *light, const struct spot *spot,
+                       const struct surface *s, vec3 direction) {
+    const vec3 l = spot->l;
     double facing = vec3_dot(s->shading, l);
     if (!(facing > 0) || !(vec3_dot(s->geometric, l) > 0))
         return (vec3){0, 0, 0};
@@ -41,27 +121,31 @@ static vec3 unshadowed(const struct reference *r, const struct view_light *light
         vec3 gap = vec3_add(vec3_sub(vec3_mul(s->shading, 2 * facing), l), direction);
         value = vec3_add(value, vec3_mul(s->specular, highlight(0.5 * vec3_dot(gap, gap), s->exponent)));
     }
-    vec3 emission = light->emission;
-    if (light->inverse_square)
+    vec3 emission = vec3_mul(light->emission, spot->share);
+    if (light->inverse_square) {
+        const vec3 middle = reference_stored3(r, vec3_sub(light->position, r->origin));
+        double distance = vec3_length(vec3_sub(middle, s->point));
         emission = vec3_mul(emission, 1 / (distance * distance));
+    }
     return scaled(emission, value);
 }
 
-static struct ray ray_to(const struct reference *r, const struct view_light *light, struct start start) {
-    vec3 way = vec3_sub(place_of(r, light), start.at);
+static struct ray ray_to(const struct reference *r, const struct view_light *light, const struct spot *spot,
+                         struct start start) {
+    vec3 way = vec3_sub(spot->place, start.at);
     way = reference_rounded3(r, way, vec3_max_abs(way));
     return (struct ray){.start = start,
-                        .direction = light->directional ? light->to_light : way,
+                        .direction = light->directional ? spot->l : way,
                         .t_max = light->directional ? INFINITY : 1};
 }
 
 // What bodies that refract let through to the light: a product of what each does, in the order in which the
 // ray meets them. 0: something opaque is between.
-static vec3 shining(const struct reference *r, const struct view_light *light, struct start start,
-                    struct inside inside, struct lighting *out) {
+static vec3 shining(const struct reference *r, const struct view_light *light, const struct spot *spot,
+                    struct start start, struct inside inside, struct lighting *out) {
     vec3 left = {1, 1, 1};
     while (vec3_max_abs(left) > 0) {
-        const struct ray ray = ray_to(r, light, start);
+        const struct ray ray = ray_to(r, light, spot, start);
         const double length = vec3_length(ray.direction);
         struct intersection hit;
         struct surface s;
@@ -83,34 +167,60 @@ static vec3 shining(const struct reference *r, const struct view_light *light, s
 }
 
 // The share of the light that comes to the surface.
-static vec3 arriving(const struct reference *r, const struct view_light *light, struct start start,
-                     const struct inside *inside, struct lighting *out) {
+static vec3 arriving(const struct reference *r, const struct view_light *light, const struct spot *spot,
+                     struct start start, const struct inside *inside, struct lighting *out) {
     const struct ir_trace *trace = &r->input.scene->ir->trace;
     if (trace->shadows && trace->transparent_shadows)
-        return shining(r, light, start, *inside, out);
-    const struct ray ray = ray_to(r, light, start);
+        return shining(r, light, spot, start, *inside, out);
+    const struct ray ray = ray_to(r, light, spot, start);
     out->shadow_rays += trace->shadows;
     return trace->shadows && reference_blocks(r, &ray) ? (vec3){0, 0, 0} : (vec3){1, 1, 1};
 }
 
+// Ambient light that nothing near keeps off: a ray into the hemisphere, by its cosine (Malley's method).
+static vec3 ambient(const struct reference *r, const struct surface *s, const struct inside *inside,
+                    const struct points *points, uint32_t key, uint32_t *rays) {
+    const struct scene *scene = r->input.scene;
+    const vec3 value = scaled(s->diffuse, scene->ambient);
+    if (scene->occlusion == 0 || !scene->ir->trace.shadows || vec3_max_abs(value) < LEAST_LIGHT)
+        return value;
+    double a, b, x, y;
+    vec3 first, second;
+    points_at(points, point_key(key, POINT_AMBIENT), &a, &b);
+    in_disc(a, b, &x, &y);
+    basis(s->shading, &first, &second);
+    vec3 l = vec3_mul(s->shading, sqrt(fmax(0, 1 - x * x - y * y)));
+    l = vec3_add(l, vec3_add(vec3_mul(first, x), vec3_mul(second, y)));
+    if (!(vec3_dot(l, s->geometric) > 0))
+        return (vec3){0, 0, 0};
+    const struct view_light nowhere = {.extent = VIEW_POINT};
+    const struct spot spot = {.place = vec3_add(s->point, vec3_mul(l, scene->occlusion)), .l = l};
+    const struct start start = reference_leave(r, s, s->geometric);
+    return scaled(value, arriving(r, &nowhere, &spot, start, inside, rays));
+}
+
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
-                     const struct inside *inside, struct lighting *out) {
+                     const struct inside *inside, const struct points *points, uint32_t key,
+                     struct lighting *out) {
     const struct view *view = r->input.view;
     const struct start start = reference_leave(r, s, s->geometric);
     *out = (struct lighting){0};
     for (uint32_t i = 0; i < view->light_count; i++) {
         const struct view_light *light = &view->lights[i];
-        vec3 value = unshadowed(r, light, s, direction);
+        const struct spot spot = spot_of(r, light, s->point, points, point_key(key, POINT_LIGHT + i));
+        vec3 value = unshadowed(r, light, &spot, s, direction);
         if (vec3_max_abs(value) < LEAST_LIGHT)
             continue;
         uint32_t bit = i < 32 ? UINT32_C(1) << i : 0;
         out->considered |= bit;
-        const vec3 share = arriving(r, light, start, inside, out);
+        const vec3 share = arriving(r, light, &spot, start, inside, out);
         if (!(vec3_max_abs(share) > 0))
             continue;
         out->lit |= bit;
         out->sum = vec3_add(out->sum, scaled(value, share));
     }
+    const vec3 around = ambient(r, s, inside, points, key, &out->shadow_rays);
+    out->sum = vec3_add(out->sum, vec3_add(s->emission, around));
 }
 
 // ---- background

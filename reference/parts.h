@@ -54,7 +54,7 @@ struct material {
     vec3 diffuse[2];
     bool checker;
     double cell;
-    vec3 specular;
+    vec3 specular, emission;
     double exponent, reflection, refraction, index;
     const struct scene_material *is;
     bool has_paint; // an image, or a checker that is filtered
@@ -226,6 +226,7 @@ struct surface {
     vec3 geometric, shading;
     bool enters, solid;
     vec3 diffuse, specular; // times their weights
+    vec3 emission;
     double exponent, reflection, refraction, index;
     double bend;  // how fast the normal turns along the surface: positive where it bulges to the ray's side
     double width; // of the ray's cone
@@ -293,7 +294,8 @@ struct lighting {
     uint32_t shadow_rays, unseen; // the latter on their way
 };
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
-                     const struct inside *inside, struct lighting *out);
+                     const struct inside *inside, const struct points *points, uint32_t key,
+                     struct lighting *out);
 
 // ---- path.c
 

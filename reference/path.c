@@ -179,7 +179,7 @@ static void pass(struct following *f, struct branch *b, const struct surface *s,
 static void show_surface(struct following *f, const struct branch *b, const struct surface *s,
                          struct reference_segment *segment) {
     struct lighting lighting;
-    reference_light(f->r, s, b->direction, &b->inside, &lighting);
+    reference_light(f->r, s, b->direction, &b->inside, &f->points, b->key, &lighting);
     f->sample->shadow += lighting.shadow_rays;
     f->sample->unseen += lighting.unseen;
     see(f, lighting.sum);

@@ -263,7 +263,7 @@ static uint32_t body_ahead(const struct reference *r, struct start start, vec3 d
     return hit.primitive == NO_PRIMITIVE ? HIT_NONE : r->primitives[hit.primitive].body;
 }
 
-static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
+static struct hit_pixel first_hit(const struct reference *r, vec3 direction, const struct points *points) {
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
     struct ray ray = {.start = reference_start((vec3){0, 0, 0}), .direction = direction, .t_max = INFINITY};
     struct intersection nearest;
@@ -282,7 +282,7 @@ static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
         hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), direction);
         return hit;
     }
-    reference_light(r, &s, direction, &r->around_camera, &lighting);
+    reference_light(r, &s, direction, &r->around_camera, points, point_root(points->x, points->y), &lighting);
     hit.considered = lighting.considered;
     hit.lit = lighting.lit;
     struct split split;
@@ -314,9 +314,10 @@ static void do_tile(struct work *w, size_t index) {
             }
             if (atomic_load_explicit(&w->cancelled, memory_order_relaxed) || queue.failed)
                 break;
+            const struct points middle = {x, y, 0, 0};
             if (w->hits)
                 w->hits[(size_t)y * width + x] =
-                    first_hit(w->r, reference_camera_ray(w->r, w->settings, x, y, 0));
+                    first_hit(w->r, reference_camera_ray(w->r, w->settings, x, y, 0), &middle);
             else
                 draw_pixel(w->r, w->settings, x, y, &queue, &w->tiles[index],
                            w->rgb + 3 * ((size_t)y * width + x));

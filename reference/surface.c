@@ -73,6 +73,7 @@ static void take_material(const struct reference *r, const struct scene_body *bo
     }
     s->diffuse = m->diffuse[odd];
     s->specular = m->specular;
+    s->emission = m->emission;
     s->exponent = m->exponent;
     s->reflection = m->reflection;
     s->refraction = m->refraction;

@@ -38,6 +38,7 @@ static struct scene_material material_of(const struct ir_material *ir, unsigned 
                                .cell = checker ? paint->checker.size : 1,
                                .soft = checker && paint->checker.antialias,
                                .specular = scene_linear_color(ir->specular_color.color, transfer),
+                               .emission = scene_linear_color(ir->emission, transfer),
                                .specular_exponent = ir->specular_exponent,
                                .refractive_index = ir->refractive_index,
                                .fresnel = ir->fresnel,
@@ -64,10 +65,13 @@ static struct scene_background background_of(const struct ir_background *ir, con
 void scene_build(const struct ir_scene *ir, const struct assets *assets, struct arena *arena,
                  struct scene *out) {
     const unsigned transfer = ir->image.transfer;
-    *out = (struct scene){.ir = ir,
-                          .assets = assets,
-                          .material_count = assets->material_count,
-                          .background = background_of(&ir->background, assets, transfer)};
+    *out = (struct scene){
+        .ir = ir,
+        .assets = assets,
+        .material_count = assets->material_count,
+        .background = background_of(&ir->background, assets, transfer),
+        .ambient = vec3_mul(scene_linear_color(ir->ambient.color, transfer), ir->ambient.intensity),
+        .occlusion = ir->ambient.occlusion};
     out->materials = ARENA_ARRAY(arena, struct scene_material, assets->material_count);
     for (uint32_t i = 0; i < assets->material_count; i++)
         out->materials[i] = material_of(&assets->materials[i], transfer);

@@ -48,6 +48,7 @@ static void key_of(const struct scene_material *m, double key[KEY_NUMBERS]) {
     to = put_vector(to, m->diffuse[1]);
     to = put_vector(to, m->specular);
     to = put_vector(to, m->absorption);
+    to = put_vector(to, m->emission);
     while (to < key + KEY_NUMBERS)
         *to++ = 0;
 }

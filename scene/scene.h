@@ -87,7 +87,7 @@ struct scene_material {
     bool checker;
     double cell; // edge of a checker's cells, scene units; 1 without
     bool soft;   // the checker is filtered
-    vec3 specular;
+    vec3 specular, emission;
     struct scene_image images[ASSETS_IMAGES]; // of the diffuse and of the specular colour: in place of it
     double specular_exponent, refractive_index;
     bool fresnel;
@@ -119,6 +119,8 @@ struct scene {
     struct scene_background background;
     struct scene_texture *textures; // one for each image file that materials show; NULL: none
     uint32_t texture_count;
+    vec3 ambient;     // linear, times intensity
+    double occlusion; // scene units; 0: bodies do not block it
 };
 
 void scene_build(const struct ir_scene *ir, const struct assets *assets, struct arena *arena,

@@ -59,6 +59,23 @@ static struct view_camera automatic_camera(const struct scene *scene, int32_t wi
 
 // ---- lights
 
+static void put_extent(struct view_light *light, const struct ir_light *ir) {
+    const struct ir_panel *panel = &ir->rectangle;
+    if (ir->kind == IR_LIGHT_RECTANGLE) {
+        light->extent = VIEW_PANEL;
+        light->edge_u = panel->edge_u;
+        light->edge_v = panel->edge_v;
+        light->outward = vec3_unit(vec3_cross(vec3_unit(panel->edge_u), vec3_unit(panel->edge_v)));
+        light->position = vec3_add(panel->corner, vec3_mul(vec3_add(panel->edge_u, panel->edge_v), 0.5));
+    } else if (ir->kind == IR_LIGHT_POSITION && ir->radius > 0) {
+        light->extent = VIEW_SPHERE;
+        light->radius = ir->radius;
+    } else if (ir->kind == IR_LIGHT_DIRECTION && ir->angle > 0) {
+        light->extent = VIEW_DISC;
+        light->half_angle = ir->angle / 2 * DEGREE;
+    }
+}
+
 static struct view_light written_light(const struct ir_light *ir, uint32_t index, unsigned transfer) {
     struct view_light light = {.index = index,
                                .emission = vec3_mul(scene_linear_color(ir->color, transfer), ir->intensity)};
@@ -68,6 +85,7 @@ static struct view_light written_light(const struct ir_light *ir, uint32_t index
     else
         light.position = ir->position;
     light.inverse_square = !light.directional && ir->falloff == IR_FALLOFF_INVERSE_SQUARE;
+    put_extent(&light, ir);
     return light;
 }
 
@@ -76,13 +94,16 @@ static span scene_place(const struct scene *scene) {
     return origin ? ir_place_label(origin, &scene->ir->head) : SPAN_NONE;
 }
 
-static void build_lights(const struct ir_scene *ir, struct arena *arena, struct view *out) {
-    uint32_t count = ir->lights.count;
-    out->light_count = count ? count : 1;
+// A scene without lights has one at the camera, unless there is ambient light.
+static void build_lights(const struct scene *scene, struct arena *arena, struct view *out) {
+    const struct ir_scene *ir = scene->ir;
+    const uint32_t count = ir->lights.count;
+    const bool automatic = count == 0 && vec3_is_zero(scene->ambient);
+    out->light_count = automatic ? 1 : count;
     out->lights = ARENA_ARRAY(arena, struct view_light, out->light_count);
     for (uint32_t i = 0; i < count; i++)
         out->lights[i] = written_light(&ir->lights.items[i], i, ir->image.transfer);
-    if (count == 0)
+    if (automatic)
         out->lights[0] = (struct view_light){
             .position = out->camera.position, .emission = {1, 1, 1}, .automatic = true, .index = IR_NO_INDEX};
 }
@@ -93,12 +114,12 @@ void view_build(const struct scene *scene, uint32_t camera_index, int32_t width,
     *out = (struct view){0};
     out->camera = cameras->count ? written_camera(&cameras->items[camera_index])
                                  : automatic_camera(scene, width, height);
-    build_lights(scene->ir, arena, out);
+    build_lights(scene, arena, out);
     vec3 p = out->camera.position;
     if (sink && out->camera.automatic)
         diag_add(sink, DIAG_DEFAULT_CAMERA, scene_place(scene),
                  "the scene has no camera; one at %.6g %.6g %.6g looks along -z", p.x, p.y, p.z);
-    if (sink && out->lights[0].automatic)
+    if (sink && out->light_count && out->lights[0].automatic)
         diag_add(sink, DIAG_DEFAULT_LIGHT, scene_place(scene),
                  "the scene has no light; one shines from the camera");
 }

@@ -15,7 +15,18 @@ struct view_camera {
     bool automatic;
 };
 
+enum view_extent {
+    VIEW_POINT,
+    VIEW_SPHERE, // around `position`
+    VIEW_DISC,   // in the sky, around `to_light`
+    VIEW_PANEL   // around `position`
+};
+
 struct view_light {
+    enum view_extent extent;
+    double radius;                // of the sphere; scene units
+    double half_angle;            // of the disc, radians
+    vec3 edge_u, edge_v, outward; // of the panel: scene units; unit, on the side that it shines on
     bool directional;
     vec3 position; // scene units; zero where directional
     vec3 to_light; // unit; zero where positional

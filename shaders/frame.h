@@ -15,6 +15,8 @@
     UINT(path_segments)         /* most rays of a sample */                                                  \
     VECTOR(background)          /* colour times intensity */                                                 \
     FLOAT(background_intensity) /* of the image */                                                           \
+    VECTOR(ambient)             /* colour times intensity */                                                 \
+    FLOAT(occlusion)            /* of ambient light: how near what blocks it is; flat */                     \
     UINT(background_width)                                                                                   \
     UINT(background_height)                                                                                  \
     FLOAT(background_cos) /* of its rotation */                                                              \

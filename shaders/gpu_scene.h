@@ -112,6 +112,8 @@
    scale squared. */
 #define LIGHT_DIRECTIONAL    1u
 #define LIGHT_INVERSE_SQUARE 2u
+#define LIGHT_EXTENT         4u /* a sphere; with LIGHT_DIRECTIONAL a disc, with LIGHT_PANEL a panel */
+#define LIGHT_PANEL          8u
 
 /* A scene in double precision: nodes as above; the other records lie as records.h says. Boxes hold the
    doubles, rounded outward. A kernel subtracts in double precision the t at which a ray enters a node from

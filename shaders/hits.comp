@@ -8,6 +8,7 @@
 #include "scene.glsl"
 #include "records.glsl"
 #include "math.glsl"
+#define POINT_BITS 0u // the middle of each light
 #include "light/points.glsl"
 #include "camera.glsl"
 #include "tree.glsl"
@@ -51,14 +52,14 @@ hits_ray refracted_ray(surface s, hit_record hit, REAL3 direction) {
 
 hits_ray shadow_ray(surface s, hit_record hit, REAL3 direction, uint light) {
     ray_start start = leave(s, hit, s.geometric);
-    light_ray shadow = light_at(light, s, start.at, direction);
+    light_ray shadow = light_at(light, s, start.at, direction, point_root(point_pixel.x, point_pixel.y));
     bool sent = shadow.value != vec3(0.0) && !(HAS_MEDIA && s.passes);
     return hits_ray(start, aim_at(light, shadow), shadow.t_max, true, sent);
 }
 
 // Whether anything of a light comes to a surface through what refracts.
 bool shines_to(hits_ray ray, uint light, media_set inside, inout bool ended) {
-    light_ray shadow = light_ray(vec3(1.0), ray.aim.direction, ray.end);
+    light_ray shadow = light_ray(vec3(1.0), ray.aim.direction, ray.end, ray.aim.target);
     return shine_all(ray.start, light, shadow, inside, ended) != vec3(0.0);
 }
 

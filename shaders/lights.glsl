@@ -4,15 +4,21 @@ struct light_ray {
     vec3 value;     // what the light adds where nothing blocks it
     REAL3 direction; // from `start`; the light is at t = 1, or at infinity
     REAL t_max;
+    REAL3 place; // of a light with extent: where it is sampled, with t_max 1
 };
 
+#include "light/extent.glsl"
+#include "light/ambient.glsl"
+
 exact_aim aim_at(uint index, light_ray ray) {
+    if (HAS_PLACES)
+        return exact_aim(ray.direction, ray.t_max < FAR_AWAY, ray.place);
     light_record light = load_light(index);
     bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
     return exact_aim(ray.direction, !directional, light.place);
 }
 
-light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction) {
+light_ray lamp_at(uint index, surface s, REAL3 start, REAL3 direction, uint key) {
     light_record light = load_light(index);
     vec3 emission = light.emission;
     bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
@@ -21,6 +27,12 @@ light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction) {
     REAL3 l = directional ? light.place : way * (1.0 / sqrt(distance2));
     if (HAS_INVERSE_SQUARE)
         emission = (light.flags & LIGHT_INVERSE_SQUARE) != 0u ? emission / float(distance2) : emission;
+    light_spot spot = light_spot(light.place, l, 1.0);
+    if (HAS_SOFT_LIGHT && (light.flags & LIGHT_EXTENT) != 0u) {
+        spot = spot_of(index, light, s.point, l, distance2, key);
+        l = spot.l;
+        emission *= float(spot.share);
+    }
     REAL facing = dot3(s.shading, l);
     bool lit = facing > 0.0 && dot3(s.geometric, l) > 0.0 && (directional || distance2 > 0.0);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
@@ -38,6 +50,20 @@ light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction) {
     ray.value = lit ? emission * sum : vec3(0.0);
     ray.direction = directional ? light.place : light.place - start;
     ray.t_max = directional ? FAR_AWAY : 1.0;
+    if (HAS_PLACES)
+        ray.place = spot.place;
+    if (HAS_SOFT_LIGHT)
+        ray.direction = directional ? spot.l : spot.place - start;
+    return ray;
+}
+
+// `key`: of the ray that hit the surface; `index`: below light_end().
+light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction, uint key) {
+    light_ray ray;
+    if (HAS_OCCLUSION && index >= frame.light_count)
+        ray = ambient_ray(s, start, key);
+    else
+        ray = lamp_at(index, s, start, direction, key);
     return ray;
 }
 

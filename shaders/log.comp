@@ -91,7 +91,8 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     if (HAS_MEDIA)
         flags |= (s.passes ? LOG_PASSES : 0u) | (s.is_over ? LOG_NESTED : 0u);
     pixels[at + 2u] = uvec4(0u, 0u, flags, pixels[at + 2u].w);
-    pixels[at + 3u] = uvec4(0u, 0u, 0u, material_of(hit));
+    vec3 own = HAS_MEDIA && s.passes ? vec3(0.0) : own_light(s);
+    pixels[at + 3u] = uvec4(floatBitsToUint(own), material_of(hit));
     write3(at + 4u, s.point, uvec2(floatBitsToUint(rays.reflection), floatBitsToUint(rays.refraction)));
     write3(at + 6u, s.geometric, uvec2(0u));
     write3(at + 8u, s.shading, uvec2(0u));
@@ -140,7 +141,7 @@ void main() {
     surface_cone = ray.cone;
     hit_record hit = hit_record(FAR_AWAY, 0.0, 0.0, NO_ITEM, 0u);
     surface s;
-    light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY);
+    light_ray shadow = light_ray(vec3(0.0), ray.direction, FAR_AWAY, ray.direction);
     ray_start start = ray.start;
     exact_aim aim = aim_along(ray.direction);
     if (lights) {
@@ -150,7 +151,7 @@ void main() {
         make_surface(before, ray.start.at, ray.direction, s);
         cross_surface(ray.inside, before, s);
         start = leave(s, before, s.geometric);
-        shadow = light_at(kind - LOG_LIGHTS, s, start.at, ray.direction);
+        shadow = light_at(kind - LOG_LIGHTS, s, start.at, ray.direction, ray.key);
         hit.t = shadow.t_max;
         aim = aim_at(kind - LOG_LIGHTS, shadow);
         if (shadow.value == vec3(0.0) || (HAS_MEDIA && s.passes))
@@ -166,7 +167,7 @@ void main() {
     bool nothing = hit.item == NO_ITEM;
     if (lights) {
         uvec4 found = pixels[at + 2u];
-        uint light = kind - LOG_LIGHTS, bit = light < 32u ? 1u << light : 0u;
+        uint light = kind - LOG_LIGHTS, bit = light < min(frame.light_count, 32u) ? 1u << light : 0u;
         pixels[at + 2u] = uvec4(found.x | bit, nothing ? found.y | bit : found.y, found.z, found.w + (ended ? 0u : 1u));
         if (nothing)
             add_to_log(at, shines() ? shadow.value * left : shadow.value);

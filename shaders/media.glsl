@@ -162,7 +162,10 @@ float shine_share(surface s, REAL3 direction) {
 }
 
 REAL3 shine_direction(shining way, light_record light, light_ray ray) {
-    return ray.t_max < FAR_AWAY ? light.place - way.start.at : ray.direction;
+    REAL3 place = light.place;
+    if (HAS_PLACES)
+        place = ray.place;
+    return ray.t_max < FAR_AWAY ? place - way.start.at : ray.direction;
 }
 
 // A shadow ray met a surface, or came to the light. true: it goes on behind the surface.

@@ -142,8 +142,8 @@
     REAL3(row_z, 3, 5)                                                                                       \
     REAL(offset_z, 3, w, 6, zw)
 
-#define MATERIAL_WORDS   5
-#define MATERIAL64_WORDS 6
+#define MATERIAL_WORDS   6
+#define MATERIAL64_WORDS 7
 #define MATERIAL_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                    \
     FLOAT(weight_diffuse, 0, x, 0, x)                                                                        \
     FLOAT(weight_specular, 0, y, 0, y)                                                                       \
@@ -156,7 +156,8 @@
     FLOAT3(second, 3, 3)     /* colour of the checker's odd cells */                                         \
     REAL(cell, 3, w, 4, zw)  /* 0: no checker */                                                             \
     FLOAT3(absorption, 4, 5) /* per flat unit: exp(-absorption * way) is left of light */                    \
-    UINT(fresnel, 4, w, 5, w)
+    UINT(fresnel, 4, w, 5, w)                                                                                \
+    FLOAT3(emission, 5, 6)
 
 /* How a material shows an image; the rows take the coordinates of a surface (u, v, 1) to those of the image.
  */
@@ -176,5 +177,16 @@
     REAL3(place, 0, 0)                                                                                       \
     UINT(flags, 0, w, 1, z)                                                                                  \
     FLOAT3(emission, 1, 2)
+
+/* Of a light with extent, each light having one after all the words of LIGHT; in scenes that have such a
+ * light. */
+#define EXTENT_WORDS   3
+#define EXTENT64_WORDS 6
+#define EXTENT_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                      \
+    REAL3(edge_u, 0, 0)       /* of a panel, whose middle is the light's place */                            \
+    REAL(radius, 0, w, 1, zw) /* of a sphere */                                                              \
+    REAL3(edge_v, 1, 2)                                                                                      \
+    REAL(gap, 1, w, 3, zw) /* of a disc: 1 - cosine of its half angle */                                     \
+    REAL3(outward, 2, 4)   /* of a panel: unit */
 
 #endif

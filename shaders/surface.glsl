@@ -16,6 +16,7 @@ struct surface {
     bool solid;      // refraction bends; else a thin pane
     vec3 diffuse;    // weight times colour
     vec3 specular;   // weight times colour
+    vec3 emission;
     float exponent;
     bool has_diffuse, has_specular;
     float reflection, refraction;
@@ -77,6 +78,8 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
             s.specular = image_color(image, spot) * material.weight_specular;
     }
     s.has_specular = material.weight_specular != 0.0;
+    if (HAS_EMISSION)
+        s.emission = material.emission;
     s.index = material.index;
     s.exponent = material.exponent;
     s.reflection = material.weight_reflection;

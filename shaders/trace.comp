@@ -176,11 +176,11 @@ uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint
 
 // From light `p.light` on, the next one that would add something; adds those that need no shadow ray.
 bool find_light(inout path_state p, surface s, ray_start start, inout light_ray shadow, inout uint iterations) {
-    uint count = frame.light_count + OPAQUE_ZERO;
+    uint count = light_end() + OPAQUE_ZERO;
     bool found = false;
     while (p.light < count && !found && iterations < ITERATION_LIMIT) {
         iterations++;
-        shadow = light_at(p.light, s, start.at, p.direction);
+        shadow = light_at(p.light, s, start.at, p.direction, p.key);
         found = HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
         if (!(HAS_SHADOWS && wants(FEATURE_SHADOWS)))
             add_light(shadow.value, p.light_sum, p.light_low);
@@ -289,7 +289,7 @@ uint go_on(uint slot, inout path_state p, surface s, ray_start start, inout uint
     uint state = GOES_ON;
     phase = PHASE_SHADOW;
     bool found = find_light(p, s, start, shadow, iterations);
-    if (!found && p.light < frame.light_count) {
+    if (!found && p.light < light_end()) {
         fault = FAULT_ITERATIONS << FAULT_KIND_SHIFT;
         state = HAS_SLICES ? SUSPENDED : STOPPED;
     } else if (!found) {
@@ -347,6 +347,8 @@ uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, in
         make_surface(p.hit, p.start.at, p.direction, s);
         state = come_to_surface(p, phase == PHASE_RAY, s);
         taint(p, true, s.point + s.shading, 0.0);
+        if ((HAS_AMBIENT || HAS_EMISSION) && phase == PHASE_RAY)
+            p.light_sum = own_light(s);
         start = leave(s, p.hit, s.geometric);
     }
     return state;
@@ -394,7 +396,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     bool fresh = true, decided = false; // no ray was finished in this slice; the ray is
     surface s;
     ray_start start = exact_start(REAL3(0.0)); // of shadow rays
-    light_ray shadow = light_ray(vec3(0.0), start.at, 0.0);
+    light_ray shadow = light_ray(vec3(0.0), start.at, 0.0, start.at);
     hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; decided: the ray's
     do {
         ray_doubts doubts = no_doubts();

@@ -119,6 +119,7 @@ GPU_RECORD(body, BODY)
 GPU_RECORD(material, MATERIAL)
 GPU_RECORD(light, LIGHT)
 GPU_RECORD(paint, PAINT)
+GPU_RECORD(extent, EXTENT)
 
 // The same of records that hold doubles in both precisions.
 #define GPU_MEMBER_DOUBLE(name, word, half)     double name;

@@ -119,6 +119,10 @@ static void change_all(struct variant *v, const struct change *c) {
     for (uint32_t i = 0; i < v->ir.lights.count; i++) {
         struct ir_light *light = &v->ir.lights.items[i];
         light->position = changed(c, light->position);
+        light->radius *= c->factor;
+        light->rectangle.corner = changed(c, light->rectangle.corner);
+        light->rectangle.edge_u = vec3_mul(light->rectangle.edge_u, c->factor);
+        light->rectangle.edge_v = vec3_mul(light->rectangle.edge_v, c->factor);
         if (light->falloff == IR_FALLOFF_INVERSE_SQUARE)
             light->intensity *= c->factor * c->factor;
     }

@@ -118,8 +118,80 @@ static void check_camera(const struct rules *rules, const struct ir_camera *came
 
 // Lights.
 
+static bool leaves_world(vec3 v) {
+    return !(vec3_max_abs(v) <= COORDINATE_MAX);
+}
+
+// Whether two edges span an area; `words` name what they belong to.
+static bool check_edges(const struct rules *rules, const struct schema_element *schema, const void *memory,
+                        str words, vec3 edge_u, vec3 edge_v) {
+    const char *const rows[2] = {"edge_u", "edge_v"};
+    const vec3 edges[2] = {edge_u, edge_v};
+    bool known[2] = {false, false};
+    for (int i = 0; i < 2; i++) {
+        if (is_poisoned(schema, memory, rows[i]))
+            continue;
+        known[i] = !vec3_is_zero(edges[i]);
+        if (!known[i])
+            diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, schema, memory, rows[i]),
+                     "'%s' of %.*s is 0 0 0, which leaves no area", rows[i], STR_ARG(words));
+    }
+    if (!known[0] || !known[1] || !is_parallel(edge_u, edge_v))
+        return known[0] && known[1];
+    diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, schema, memory, "edge_v"),
+             "the edges of %.*s are parallel, which leaves no area", STR_ARG(words));
+    diag_note(rules->sink, value_place(rules, schema, memory, "edge_u"), "'edge_u' is here");
+    return false;
+}
+
+static void check_panel(const struct rules *rules, const struct ir_light *light) {
+    const struct schema_element *schema = &SCHEMA_PANEL;
+    const struct ir_panel *panel = &light->rectangle;
+    if (is_poisoned(&SCHEMA_LIGHT, light, "rectangle"))
+        return;
+    const str words = light->name.len ? owner(rules, &SCHEMA_LIGHT, light->name) : STR("this light");
+    if (!check_edges(rules, schema, panel, words, panel->edge_u, panel->edge_v) ||
+        is_poisoned(schema, panel, "corner"))
+        return;
+    const vec3 u = vec3_add(panel->corner, panel->edge_u);
+    if (leaves_world(u) || leaves_world(vec3_add(panel->corner, panel->edge_v)) ||
+        leaves_world(vec3_add(u, panel->edge_v)))
+        diag_add(rules->sink, DIAG_TRANSFORM_OVERFLOW, value_place(rules, schema, panel, "edge_u"),
+                 "%.*s has a coordinate beyond 1e18", STR_ARG(words));
+}
+
+// What gives an extent to another kind of light than the one it is written for.
+static void check_extent(const struct rules *rules, const struct ir_light *light) {
+    static const struct {
+        const char *row, *means;
+        enum ir_light_kind kind;
+    } extents[] = {{"radius", "the radius of a light with a position", IR_LIGHT_POSITION},
+                   {"angle", "what a light with a direction measures across", IR_LIGHT_DIRECTION}};
+    static const char *const kinds[] = {"position", "direction", "rectangle"};
+    const struct schema_element *schema = &SCHEMA_LIGHT;
+    const double sizes[] = {light->radius, light->angle};
+    for (size_t i = 0; i < sizeof extents / sizeof *extents; i++) {
+        if (sizes[i] == 0 || light->kind == extents[i].kind || !is_written(schema, light, extents[i].row) ||
+            is_poisoned(schema, light, extents[i].row))
+            continue;
+        diag_add(rules->sink, DIAG_EXTENT_KIND,
+                 ir_place_key(rules->origin, &light->head, schema, extents[i].row),
+                 "'%s' is %s; %.*s has a '%s'", extents[i].row, extents[i].means,
+                 STR_ARG(owner(rules, schema, light->name)), kinds[light->kind]);
+        diag_note(rules->sink, ir_place_key(rules->origin, &light->head, schema, kinds[light->kind]),
+                  "'%s' is here", kinds[light->kind]);
+        if (light->kind == IR_LIGHT_RECTANGLE)
+            diag_help(rules->sink, "remove '%s': the edges say how large the light is", extents[i].row);
+        else
+            diag_help(rules->sink, "write '%s', or remove '%s'", extents[1 - i].row, extents[i].row);
+    }
+}
+
 static void check_light(const struct rules *rules, const struct ir_light *light) {
     const struct schema_element *schema = &SCHEMA_LIGHT;
+    check_extent(rules, light);
+    if (light->kind == IR_LIGHT_RECTANGLE)
+        check_panel(rules, light);
     if (light->kind != IR_LIGHT_DIRECTION)
         return;
     check_direction(rules, schema, light, light->name, "direction", light->direction);
@@ -135,10 +207,6 @@ static void check_light(const struct rules *rules, const struct ir_light *light)
 
 // Bodies.
 
-static bool leaves_world(vec3 v) {
-    return !(vec3_max_abs(v) <= COORDINATE_MAX);
-}
-
 static void report_leaving(const struct rules *rules, const struct schema_element *schema, const void *memory,
                            str name, const char *row) {
     diag_add(rules->sink, DIAG_TRANSFORM_OVERFLOW, value_place(rules, schema, memory, row),
@@ -153,30 +221,11 @@ static void check_sphere(const struct rules *rules, const struct ir_sphere *sphe
         report_leaving(rules, schema, sphere, sphere->name, "radius");
 }
 
-static bool check_edge(const struct rules *rules, const struct ir_rectangle *rectangle, const char *row,
-                       vec3 edge) {
-    if (is_poisoned(&SCHEMA_RECTANGLE, rectangle, row))
-        return false;
-    if (!vec3_is_zero(edge))
-        return true;
-    diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, &SCHEMA_RECTANGLE, rectangle, row),
-             "'%s' of %.*s is 0 0 0, which leaves no area", row,
-             STR_ARG(owner(rules, &SCHEMA_RECTANGLE, rectangle->name)));
-    return false;
-}
-
 static void check_rectangle(const struct rules *rules, const struct ir_rectangle *rectangle) {
     const struct schema_element *schema = &SCHEMA_RECTANGLE;
-    bool has_u = check_edge(rules, rectangle, "edge_u", rectangle->edge_u);
-    bool has_v = check_edge(rules, rectangle, "edge_v", rectangle->edge_v);
-    if (has_u && has_v && is_parallel(rectangle->edge_u, rectangle->edge_v)) {
-        diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, schema, rectangle, "edge_v"),
-                 "the edges of %.*s are parallel, which leaves no area",
-                 STR_ARG(owner(rules, schema, rectangle->name)));
-        diag_note(rules->sink, value_place(rules, schema, rectangle, "edge_u"), "'edge_u' is here");
-        return;
-    }
-    if (!has_u || !has_v || is_poisoned(schema, rectangle, "corner"))
+    if (!check_edges(rules, schema, rectangle, owner(rules, schema, rectangle->name), rectangle->edge_u,
+                     rectangle->edge_v) ||
+        is_poisoned(schema, rectangle, "corner"))
         return;
     vec3 u = vec3_add(rectangle->corner, rectangle->edge_u);
     vec3 v = vec3_add(rectangle->corner, rectangle->edge_v);

@@ -3,12 +3,16 @@
 
 const bool HAS_POINTS = (FEATURES & FEATURE_POINTS) != 0u;
 
+#ifndef POINT_BITS
+#define POINT_BITS frame.point_bits
+#endif
+
 uvec2 point_pixel = uvec2(0u);
 uint point_sample = 0u;
 
 // Where what has the key is sampled. Both in 0..1; the middle where the picture has one sample a pixel.
 vec2 point_at(uint key) {
-    uint bits = frame.point_bits;
+    uint bits = POINT_BITS;
     uint seed = point_seed(key, point_sample, bits);
     uint order = point_order(point_place(point_pixel.x, point_pixel.y, point_sample, bits), seed);
     uvec2 both = uvec2(point_first(order, seed), point_second(order, seed)) >> 8u;

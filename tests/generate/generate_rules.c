@@ -58,7 +58,29 @@ static void mend_camera(struct ir_camera *camera) {
         camera->up = across(forward);
 }
 
+static void mend_extent(struct ir_light *light) {
+    struct ir_panel *panel = &light->rectangle;
+    if (light->kind != IR_LIGHT_POSITION) {
+        light->radius = 0;
+        forget_row(&SCHEMA_LIGHT, light, "radius");
+    }
+    if (light->kind != IR_LIGHT_DIRECTION) {
+        light->angle = 0;
+        forget_row(&SCHEMA_LIGHT, light, "angle");
+    }
+    if (light->kind != IR_LIGHT_RECTANGLE)
+        return;
+    panel->corner = shrink(panel->corner);
+    panel->edge_u = shrink(panel->edge_u);
+    panel->edge_v = shrink(panel->edge_v);
+    if (vec3_is_zero(panel->edge_u))
+        panel->edge_u = (vec3){1, 0, 0};
+    if (vec3_is_zero(panel->edge_v) || is_parallel(panel->edge_u, panel->edge_v))
+        panel->edge_v = across(panel->edge_u);
+}
+
 static void mend_light(struct ir_light *light) {
+    mend_extent(light);
     if (light->kind != IR_LIGHT_DIRECTION)
         return;
     if (vec3_is_zero(light->direction))
@@ -123,6 +145,12 @@ static void frame_light(struct ir_light *light) {
     if (light->kind == IR_LIGHT_POSITION)
         light->position = vec3_add(vec3_mul(light->position, 4), (vec3){0, 12, 8});
     light->position = rounded(light->position);
+    // A panel above the bodies, which shines down.
+    if (light->kind == IR_LIGHT_RECTANGLE)
+        light->rectangle = (struct ir_panel){.head = light->rectangle.head,
+                                             .corner = {-4, 8, 4},
+                                             .edge_u = {3, 0.5, 0},
+                                             .edge_v = {0, 0.25, 4}};
     if (light->kind == IR_LIGHT_DIRECTION)
         light->direction.y = -fabs(light->direction.y) - 1;
     if (light->falloff == IR_FALLOFF_INVERSE_SQUARE) {

@@ -38,6 +38,7 @@ static double moderate(struct generator *g, enum schema_range range) {
         [SCHEMA_RANGE_FOV] = {40, 75},       [SCHEMA_RANGE_EXPONENT] = {1, 120},
         [SCHEMA_RANGE_INDEX] = {1, 2},       [SCHEMA_RANGE_PRIORITY] = {-3, 3},
         [SCHEMA_RANGE_REPEAT] = {0.5, 4},    [SCHEMA_RANGE_SHIFT] = {-1, 1},
+        [SCHEMA_RANGE_SIZE] = {0.2, 2},      [SCHEMA_RANGE_OPENING] = {1, 20},
     };
     double value = round(generate_between(g, bounds[range][0], bounds[range][1]) * 100) / 100;
     return range == SCHEMA_RANGE_SCALE && generate_chance(g, 20) ? -value : value;

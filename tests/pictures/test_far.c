@@ -48,9 +48,12 @@ static void change_scene(struct ir_scene *scene, void *context) {
         move_point(&scene->cameras.items[i].position, c);
         move_point(&scene->cameras.items[i].look_at, c);
     }
-    for (uint32_t i = 0; i < scene->lights.count; i++)
+    for (uint32_t i = 0; i < scene->lights.count; i++) {
         if (scene->lights.items[i].kind == IR_LIGHT_POSITION)
             move_point(&scene->lights.items[i].position, c);
+        if (scene->lights.items[i].kind == IR_LIGHT_RECTANGLE)
+            move_point(&scene->lights.items[i].rectangle.corner, c);
+    }
     for (uint32_t i = 0; i < scene->spheres.count; i++)
         move_point(&scene->spheres.items[i].center, c);
     for (uint32_t i = 0; i < scene->rectangles.count; i++)

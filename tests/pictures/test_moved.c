@@ -35,6 +35,12 @@ static void change_lights(struct ir_scene *scene, const struct change *c) {
         struct ir_light *light = &scene->lights.items[i];
         if (light->kind == IR_LIGHT_POSITION)
             change_point(&light->position, c);
+        change_length(&light->radius, c);
+        if (light->kind == IR_LIGHT_RECTANGLE) {
+            change_point(&light->rectangle.corner, c);
+            change_vector(&light->rectangle.edge_u, c);
+            change_vector(&light->rectangle.edge_v, c);
+        }
         if (light->falloff == IR_FALLOFF_INVERSE_SQUARE)
             light->intensity = scalbn(light->intensity, 2 * c->scale_exponent);
     }

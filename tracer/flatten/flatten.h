@@ -85,6 +85,7 @@ struct flat_scene {
     uint64_t shown_triangles;              // of all models: each instance shows those of its mesh
     uint32_t *first_triangle;              // by body: the number of its first triangle
     uint32_t dropped_triangles;            // without area after rounding
+    double occlusion;                      // of ambient light: flat
     uint32_t features;                     // FEATURE_ bits that the scene needs
     uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
     double build_seconds;                  // tree building

@@ -33,6 +33,7 @@ enum flatten_fault flatten_materials(struct flattening *f) {
                                       .diffuse = m->diffuse[0],
                                       .exponent = m->specular_exponent,
                                       .specular = m->specular,
+                                      .emission = m->emission,
                                       .index = m->refractive_index,
                                       .absorption = flatten_absorption(f, m),
                                       .fresnel = m->fresnel};
@@ -68,21 +69,52 @@ static struct gpu_light light_record(const struct flattening *f, const struct vi
         if (light->inverse_square)
             record.emission = vec3_mul(record.emission, f->factor * f->factor);
     }
+    if (light->extent != VIEW_POINT && !(record.flags & LIGHT_DIRECTIONAL && !light->directional))
+        record.flags |= LIGHT_EXTENT | (light->extent == VIEW_PANEL ? LIGHT_PANEL : 0);
     record.emission = (vec3){emission_bound(record.emission.x), emission_bound(record.emission.y),
                              emission_bound(record.emission.z)};
     return record;
 }
 
+// Sizes as large as the distance from which lights count as infinitely far away are as good as any larger.
+static double length_bound(double value) {
+    return fmin(value, LIGHT_DISTANCE_MAX);
+}
+
+static struct gpu_extent extent_record(const struct flattening *f, const struct view_light *light) {
+    const double sine = sin(light->half_angle / 2);
+    return (struct gpu_extent){.edge_u = vec3_mul(light->edge_u, f->factor),
+                               .edge_v = vec3_mul(light->edge_v, f->factor),
+                               .outward = light->outward,
+                               .radius = length_bound(light->radius * f->factor),
+                               .gap = 2 * sine * sine};
+}
+
+static bool any_extent(const struct view *view) {
+    bool any = false;
+    for (uint32_t i = 0; i < view->light_count; i++)
+        any = any || view->lights[i].extent != VIEW_POINT;
+    return any;
+}
+
 enum flatten_fault flatten_lights(struct flattening *f) {
     const struct view *view = f->input->view;
+    const uint32_t extent_words = !any_extent(view) ? 0 : f->out->is_double ? EXTENT64_WORDS : EXTENT_WORDS;
     f->out->light_count = view->light_count;
-    if (!flat_array_make(&f->out->lights, (uint64_t)view->light_count * f->out->strides.light))
+    if (!flat_array_make(&f->out->lights,
+                         (uint64_t)view->light_count * (f->out->strides.light + extent_words)))
         return FLATTEN_NO_MEMORY;
+    struct gpu_word *extents = f->out->lights.words + (size_t)view->light_count * f->out->strides.light;
     for (uint32_t i = 0; i < view->light_count; i++) {
         struct gpu_light record = light_record(f, &view->lights[i]);
         f->light_features |= record.flags & LIGHT_DIRECTIONAL ? FEATURE_DIRECTION_LIGHT : FEATURE_POINT_LIGHT;
         f->light_features |= record.flags & LIGHT_INVERSE_SQUARE ? FEATURE_INVERSE_SQUARE : 0;
+        f->light_features |= record.flags & LIGHT_EXTENT ? FEATURE_SOFT_LIGHT : 0;
         gpu_pack_light(&record, f->out->is_double, f->out->lights.words + (size_t)f->out->strides.light * i);
+        if (!extent_words)
+            continue;
+        const struct gpu_extent extent = extent_record(f, &view->lights[i]);
+        gpu_pack_extent(&extent, f->out->is_double, extents + (size_t)extent_words * i);
     }
     return FLATTEN_DONE;
 }
@@ -172,13 +204,22 @@ static uint32_t used_material_features(const struct flattening *f) {
     return mask;
 }
 
+static uint32_t ambient_features(struct flattening *f) {
+    const struct scene *scene = f->scene;
+    if (vec3_is_zero(scene->ambient))
+        return 0;
+    f->out->occlusion = length_bound(scene->occlusion * f->factor);
+    return FEATURE_AMBIENT | (f->out->occlusion > 0 ? FEATURE_OCCLUSION : 0);
+}
+
 // What the scene's rows ask for, materials, lights, bodies and background as they turned out.
 void flatten_features(struct flattening *f) {
     const uint32_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
                          FEATURE_REFLECTION | FEATURE_REFRACTION | FEATURE_CHECKER | FEATURE_SMOOTH |
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
-                         FEATURE_FOOTPRINT;
+                         FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
+                         FEATURE_EMISSION;
     struct flat_scene *out = f->out;
     uint32_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
@@ -187,8 +228,14 @@ void flatten_features(struct flattening *f) {
     mask |= out->background ? FEATURE_BACKGROUND_IMAGE : 0;
     mask |= used_material_features(f);
     mask |= f->light_features;
+    mask |= ambient_features(f);
+    if (!(mask & FEATURE_DIFFUSE))
+        mask &= ~(FEATURE_AMBIENT | FEATURE_OCCLUSION);
+    if (!(mask & FEATURE_SHADOWS))
+        mask &= ~FEATURE_OCCLUSION;
     if (!(mask & (FEATURE_DIFFUSE | FEATURE_SPECULAR)))
-        mask &= ~(FEATURE_SHADOWS | FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE);
+        mask &= ~(FEATURE_SHADOWS | FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
+                  FEATURE_SOFT_LIGHT);
     if (!(mask & (FEATURE_REFLECTION | FEATURE_REFRACTION)))
         mask &= ~(FEATURE_DEPTH_BLACK | FEATURE_FRESNEL);
     if (!(mask & FEATURE_REFRACTION) || !(mask & FEATURE_SHADOWS))

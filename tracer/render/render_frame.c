@@ -65,6 +65,7 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .path_segments =
             settings->path_segments < UINT32_MAX ? (uint32_t)settings->path_segments : UINT32_MAX,
         .background_intensity = (float)settings->background_intensity,
+        .occlusion = (float)flat->occlusion,
         .background_width = flat->background ? flat->background->width : 1,
         .background_height = flat->background ? flat->background->height : 1,
         .background_cos = (float)cos_degrees(settings->background_rotation),
@@ -94,6 +95,7 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
     put(frame.camera_right, right);
     put(frame.camera_up, up);
     put(frame.background, settings->background);
+    put(frame.ambient, flat->scene->ambient);
     PUT_DOUBLES(frame, position, position);
     PUT_DOUBLES(frame, forward, camera->forward);
     PUT_DOUBLES(frame, right, right);

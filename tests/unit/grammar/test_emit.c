@@ -224,8 +224,8 @@ static void test_every_row_is_explained(void **state) {
     assert_explained("lookat", "camera.look_at");
     assert_explained("ior", "material.refractive_index");
     assert_explained("paint", "XML: <DiffuseColor>");
-    assert_explained("area-light", "a light has no size");
-    assert_explained("AreaLights", "place several weak lights");
+    assert_explained("area-light", "has soft shadows");
+    assert_explained("AreaLights", "one of them, and more samples");
     assert_explained("bump_map", "Relief");
     assert_explained("variable", "In YAML:\n\n  x-warm: &warm");
     assert_explained("image.tone", "clip: Values above 1 are clipped.");

@@ -1,0 +1,118 @@
+// Lights with extent: at too few samples, around bodies and cameras.
+#include "lint/lint_parts.h"
+
+#include "grammar/ir.h"
+
+// The row of a light that gives it its extent; NULL: it is a point.
+static const char *extent_row(const struct ir_light *light) {
+    if (light->kind == IR_LIGHT_RECTANGLE)
+        return "rectangle";
+    if (light->kind == IR_LIGHT_POSITION)
+        return light->radius > 0 ? "radius" : NULL;
+    return light->angle > 0 ? "angle" : NULL;
+}
+
+void lint_few_samples(struct lint *lint) {
+    const struct ir_image *image = &lint->ir->image;
+    const struct ir_light *first = NULL;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->ir->lights.count; i++)
+        if (extent_row(&lint->ir->lights.items[i]) && !count++)
+            first = &lint->ir->lights.items[i];
+    if (image->samples > 1 || count == 0 || !lint->ir->trace.shadows)
+        return;
+    span at = ir_place_key(lint->origin, &first->head, &SCHEMA_LIGHT, extent_row(first));
+    const char *others = count > 1 ? ", as those of others" : "";
+    diag_add(lint->sink, DIAG_FEW_SAMPLES, at,
+             "the shadows of this light have hard edges%s: the image has 1 sample per pixel", others);
+    span samples = ir_place_value(lint->origin, &image->head, &SCHEMA_IMAGE, "samples");
+    diag_help(lint->sink, "write image: {samples: 16}, or more");
+    if (image->head.written >> schema_find_row(&SCHEMA_IMAGE, STR("samples")) & 1)
+        diag_fix(lint->sink, false, samples, STR("16"));
+}
+
+// Whether all of the box is within the sphere.
+static bool is_around(const struct ir_light *light, const struct lint_box *box) {
+    const vec3 a = vec3_sub(box->lower, light->position), b = vec3_sub(light->position, box->upper);
+    const vec3 far = {fmax(fabs(a.x), fabs(b.x)), fmax(fabs(a.y), fabs(b.y)), fmax(fabs(a.z), fabs(b.z))};
+    return vec3_length(far) < light->radius;
+}
+
+static void report_around(struct lint *lint, const struct ir_light *light, str what, span where) {
+    diag_add(lint->sink, DIAG_LIGHT_AROUND,
+             ir_place_value(lint->origin, &light->head, &SCHEMA_LIGHT, "radius"),
+             "this light is a sphere around %.*s", STR_ARG(what));
+    diag_note(lint->sink, where, "here");
+    diag_help(lint->sink, "choose a smaller radius, or move the light");
+}
+
+static bool find_camera(struct lint *lint, const struct ir_light *light) {
+    for (uint32_t k = 0; k < lint->ir->cameras.count; k++) {
+        const struct ir_camera *camera = &lint->ir->cameras.items[k];
+        if (vec3_length(vec3_sub(camera->position, light->position)) >= light->radius)
+            continue;
+        report_around(lint, light, arena_format(lint->arena, "camera '%.*s'", STR_ARG(camera->name)),
+                      ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position"));
+        return true;
+    }
+    return false;
+}
+
+enum {
+    WORK_MAX = 50000000, // lights times bodies: further ones are not looked at
+};
+
+void lint_light_around(struct lint *lint) {
+    uint64_t work = 0;
+    for (uint32_t i = 0; i < lint->ir->lights.count && work < WORK_MAX; i++) {
+        const struct ir_light *light = &lint->ir->lights.items[i];
+        if (light->kind != IR_LIGHT_POSITION || !(light->radius > 0) || find_camera(lint, light))
+            continue;
+        work += lint->body_count;
+        for (uint32_t k = 0; k < lint->body_count; k++) {
+            const struct lint_body *body = &lint->bodies[k];
+            if (!lint_is_there(body) || !is_around(light, &body->box))
+                continue;
+            report_around(lint, light, lint_words_other(lint, body), lint_place(lint, body));
+            break;
+        }
+    }
+}
+
+void lint_ambient(struct lint *lint) {
+    const struct ir_ambient *ambient = &lint->ir->ambient;
+    const vec3 color = lint->scene->ambient;
+    const bool black = vec3_is_zero(color);
+    if (ambient->head.written == 0 || (!black && (vec3_max_abs(color) < 1 || ambient->occlusion > 0)))
+        return;
+    if (black && ambient->head.written >> schema_find_row(&SCHEMA_AMBIENT, STR("color")) & 1)
+        return; // switched off
+    const span at = ir_place_label(lint->origin, &ambient->head);
+    if (black) {
+        diag_add(lint->sink, DIAG_AMBIENT, at,
+                 "this ambient light has no color: it is black and adds nothing");
+        diag_help(lint->sink, "write its color, such as color: 0.2");
+    } else if (lint->ir->lights.count) {
+        diag_add(lint->sink, DIAG_AMBIENT, at,
+                 "ambient light of %.6g shows every diffuse colour as if fully lit, in shadows too",
+                 vec3_max_abs(color));
+        diag_help(lint->sink, "write a weaker color, or an occlusion");
+    }
+}
+
+void lint_emission(struct lint *lint) {
+    if (lint->ir->lights.count || !vec3_is_zero(lint->scene->ambient))
+        return;
+    for (uint32_t i = 0; i < lint->body_count; i++) {
+        const struct lint_body *body = &lint->bodies[i];
+        for (uint32_t g = 0; lint_is_there(body) && g < body->is->group_count; g++) {
+            if (vec3_is_zero(lint->scene->materials[body->is->materials[g]].emission))
+                continue;
+            diag_add(lint->sink, DIAG_EMISSION_ALONE, lint_place(lint, body),
+                     "%.*s glows but lights nothing, and the scene has no light",
+                     STR_ARG(lint_words(lint, body)));
+            diag_help(lint->sink, "put a light there too: lights: - {position: ..., radius: ...}");
+            return;
+        }
+    }
+}

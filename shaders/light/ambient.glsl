@@ -1,0 +1,30 @@
+// What a surface shows without any light, and ambient light with what is in its way (docs/language.md, "Ambient light").
+
+bool is_occluded() { return HAS_OCCLUSION && wants(FEATURE_OCCLUSION); }
+
+// What nothing can block.
+vec3 own_light(surface s) {
+    vec3 sum = vec3(0.0);
+    if (HAS_EMISSION)
+        sum = s.emission;
+    if (HAS_AMBIENT && HAS_DIFFUSE)
+        sum += is_occluded() ? vec3(0.0) : s.diffuse * frame.ambient;
+    return sum;
+}
+
+// Numbers of the lights, and past them that of ambient light: what a surface sends shadow rays to.
+uint light_end() { return frame.light_count + (is_occluded() ? 1u : 0u); }
+
+// A direction of the hemisphere, by its cosine (Malley's method; Pharr et al. 2016, section 13.6.3), as far as `occlusion`.
+light_ray ambient_ray(surface s, REAL3 start, uint ray_key) {
+    REAL2 at = disc_of(point_at(point_key(ray_key, POINT_AMBIENT)));
+    REAL3 l = turned_to(s.shading, at, sqrt(max(1.0 - dot3(REAL3(at, 0.0), REAL3(at, 0.0)), 0.0)));
+    light_ray ray;
+    ray.place = s.point + l * frame.occlusion;
+    ray.direction = ray.place - start;
+    ray.t_max = 1.0;
+    ray.value = vec3(0.0);
+    if (HAS_DIFFUSE)
+        ray.value = dot3(s.geometric, l) > 0.0 ? s.diffuse * frame.ambient : vec3(0.0);
+    return ray;
+}
