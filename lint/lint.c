@@ -30,6 +30,10 @@ const struct lint_rule lint_rules[] = {
     {DIAG_MEDIA_OVERLAP, lint_media, LINT_ALL},
     // One pass over the bodies.
     {DIAG_NO_EFFECT, lint_attenuation, LINT_ALL},
+    {DIAG_ONE_SAMPLE, lint_one_sample, LINT_ALL},
+    {DIAG_NOTHING_SHARP, lint_nothing_sharp, LINT_ALL},
+    // A few places for each refracting body and camera.
+    {DIAG_LENS_INSIDE, lint_lens_inside, LINT_ALL},
     {.run = NULL},
 };
 

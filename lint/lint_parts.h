@@ -125,5 +125,8 @@ void lint_inside_out(struct lint *lint);
 void lint_oversized_image(struct lint *lint); // rules_image.c
 void lint_media(struct lint *lint);           // rules_media.c
 void lint_attenuation(struct lint *lint);     // rules_material.c
+void lint_one_sample(struct lint *lint);      // rules_lens.c
+void lint_nothing_sharp(struct lint *lint);
+void lint_lens_inside(struct lint *lint);
 
 #endif

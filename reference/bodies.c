@@ -11,6 +11,7 @@ static struct material make_material(const struct scene_material *from) {
                          .refraction = from->refraction,
                          .index = from->refractive_index,
                          .fresnel = from->fresnel,
+                         .alpha = from->alpha,
                          .priority = from->priority,
                          .absorption = from->absorption};
     for (int i = 0; i < 2; i++)

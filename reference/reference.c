@@ -65,15 +65,12 @@ struct reference_settings reference_settings_of(const struct ir_scene *ir, const
 // ---- single rays
 
 vec3 reference_camera_ray(const struct reference *r, const struct reference_settings *settings, uint32_t x,
-                          uint32_t y, uint32_t sample) {
-    const struct view_camera *camera = &r->input.view->camera;
-    double a, b;
-    view_sample_offset(sample, &a, &b);
-    double right = (2 * (x + a) / settings->width - 1) * ((double)settings->width / settings->height);
-    double up = 1 - 2 * (y + b) / settings->height;
-    vec3 across = vec3_add(vec3_mul(camera->right, right), vec3_mul(camera->up, up));
-    return reference_rounded3(r, vec3_unit(vec3_add(camera->forward, vec3_mul(across, camera->tan_half_fov))),
-                              1);
+                          uint32_t y, uint32_t sample, vec3 *origin) {
+    const struct points points = {x, y, sample, points_bits(settings->first_sample, settings->samples)};
+    const struct camera_ray ray = reference_lens_ray(r, settings, &points);
+    if (origin)
+        *origin = vec3_add(ray.start, r->origin);
+    return ray.direction;
 }
 
 void reference_closest(const struct reference *r, vec3 origin, vec3 direction, double t_max,
@@ -110,7 +107,7 @@ bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, 
 static void follow(const struct reference *r, const struct reference_settings *settings, uint32_t x,
                    uint32_t y, uint32_t number, struct queue *queue, struct log *log, struct sample *out) {
     const struct points points = {x, y, number, points_bits(settings->first_sample, settings->samples)};
-    reference_follow(r, settings, &points, reference_camera_ray(r, settings, x, y, number), queue, log, out);
+    reference_follow(r, settings, &points, queue, log, out);
 }
 
 uint32_t reference_log(const struct reference *r, const struct reference_settings *settings, uint32_t x,
@@ -243,9 +240,13 @@ static uint32_t body_ahead(const struct reference *r, struct start start, vec3 d
     return hit.primitive == NO_PRIMITIVE ? HIT_NONE : r->primitives[hit.primitive].body;
 }
 
-static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
+static struct hit_pixel first_hit(const struct reference *r, const struct reference_settings *settings,
+                                  uint32_t x, uint32_t y) {
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
-    struct ray ray = {reference_start((vec3){0, 0, 0}), direction, INFINITY};
+    const struct points middle = {x, y, 0, 0};
+    const struct camera_ray seen = reference_lens_ray(r, settings, &middle);
+    const vec3 direction = seen.direction;
+    struct ray ray = {reference_start(seen.start), direction, INFINITY};
     struct intersection nearest;
     struct surface s;
     struct lighting lighting;
@@ -266,6 +267,7 @@ static struct hit_pixel first_hit(const struct reference *r, vec3 direction) {
     hit.considered = lighting.considered;
     hit.lit = lighting.lit;
     struct split split;
+    reference_roughen(r, &s, direction, &middle, 0);
     reference_split(r, &s, direction, &split);
     if (reference_refraction(&s, &split) > 0)
         hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), split.bent);
@@ -296,7 +298,7 @@ static void do_tile(struct work *w, size_t index) {
                 break;
             if (w->hits)
                 w->hits[(size_t)y * width + x] =
-                    first_hit(w->r, reference_camera_ray(w->r, w->settings, x, y, 0));
+                    first_hit(w->r, w->settings, x, y);
             else
                 draw_pixel(w->r, w->settings, x, y, &queue, &w->tiles[index],
                            w->rgb + 3 * ((size_t)y * width + x));

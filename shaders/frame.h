@@ -39,7 +39,10 @@
     UINT(inside_4)                                                                                           \
     UINT(inside_5)                                                                                           \
     UINT(inside_6)                                                                                           \
-    UINT(inside_7)
+    UINT(inside_7)                                                                                           \
+    UINT(projection)   /* PROJECTION_: what camera_right and camera_up are multiplied by */                  \
+    FLOAT(lens_radius) /* 0: a pinhole */                                                                    \
+    FLOAT(focus)
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
@@ -55,6 +58,12 @@
     DOUBLE(double_up_x)                                                                                      \
     DOUBLE(double_up_y)                                                                                      \
     DOUBLE(double_up_z)
+
+/* camera_right and camera_up times, besides W/H in right: */
+#define PROJECTION_PERSPECTIVE  0u /* tan(fov/2) */
+#define PROJECTION_ORTHOGRAPHIC 1u /* half the height of the view */
+#define PROJECTION_FISHEYE      2u /* quarter turns of the vertical field's half */
+#define PROJECTION_PANORAMA     3u /* nothing, and without W/H */
 
 /* Push constants. */
 #define DISPATCH_FIELDS(FLOAT, UINT)                                                                         \

@@ -142,8 +142,8 @@
     REAL3(row_z, 3, 5)                                                                                       \
     REAL(offset_z, 3, w, 6, zw)
 
-#define MATERIAL_WORDS   5
-#define MATERIAL64_WORDS 6
+#define MATERIAL_WORDS   6
+#define MATERIAL64_WORDS 7
 #define MATERIAL_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                    \
     FLOAT(weight_diffuse, 0, x, 0, x)                                                                        \
     FLOAT(weight_specular, 0, y, 0, y)                                                                       \
@@ -156,7 +156,8 @@
     FLOAT3(second, 3, 3)     /* colour of the checker's odd cells */                                         \
     REAL(cell, 3, w, 4, zw)  /* 0: no checker */                                                             \
     FLOAT3(absorption, 4, 5) /* per flat unit: exp(-absorption * way) is left of light */                    \
-    UINT(fresnel, 4, w, 5, w)
+    UINT(fresnel, 4, w, 5, w)                                                                                \
+    FLOAT(alpha, 5, x, 6, x) /* of a rough surface */
 
 #define LIGHT_WORDS   2
 #define LIGHT64_WORDS 3

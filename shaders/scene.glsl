@@ -38,6 +38,7 @@ const bool BEGINS = (FEATURES & FEATURE_BEGINS) != 0u;
 const bool HAS_MEDIA = (FEATURES & FEATURE_MEDIA) != 0u;
 const bool HAS_ATTENUATION = (FEATURES & FEATURE_ATTENUATION) != 0u; // only with HAS_MEDIA
 const bool HAS_FRESNEL = (FEATURES & FEATURE_FRESNEL) != 0u;
+const bool HAS_ROUGHNESS = (FEATURES & FEATURE_ROUGHNESS) != 0u;
 const bool HAS_CLEAR_SHADOWS = (FEATURES & FEATURE_CLEAR_SHADOWS) != 0u;
 const bool HAS_SIDES = HAS_MEDIA || HAS_FRESNEL; // surfaces know the indices on both sides
 const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;

@@ -19,6 +19,8 @@ struct surface {
     float reflection, refraction;
     REAL index;
     bool fresnel;
+    float alpha; // with HAS_ROUGHNESS; 0: smooth
+    REAL3 micro; // the normal that reflects and refracts then (light/rough.glsl)
     uint body;
     // Of a ray that comes from a place inside certain media (media.glsl).
     REAL index_before, index_after;
@@ -54,6 +56,8 @@ void read_material(uint shade, uint body, REAL2 along, inout surface s) {
     s.refraction = material.weight_refraction;
     if (HAS_FRESNEL)
         s.fresnel = material.fresnel != 0u;
+    if (HAS_ROUGHNESS)
+        s.alpha = material.alpha;
     s.body = body;
 }
 
