@@ -37,7 +37,33 @@ static void mend_image(struct ir_image *image) {
     }
 }
 
+static void mend_projection(struct ir_camera *camera) {
+    const bool perspective = camera->projection == IR_PROJECTION_PERSPECTIVE;
+    if (camera->projection != IR_PROJECTION_ORTHOGRAPHIC)
+        forget_row(&SCHEMA_CAMERA, camera, "size");
+    if (!perspective && camera->projection != IR_PROJECTION_FISHEYE)
+        forget_row(&SCHEMA_CAMERA, camera, "fov");
+    if (camera->projection != IR_PROJECTION_ORTHOGRAPHIC)
+        camera->size = 10;
+    if (perspective ? camera->fov >= 180 : camera->projection != IR_PROJECTION_FISHEYE)
+        camera->fov = 60;
+}
+
+// A distance is right wherever the camera looks.
+static void mend_focus(struct ir_camera *camera) {
+    if (camera->focusing == IR_FOCUS_POINT)
+        forget_row(&SCHEMA_CAMERA, camera, "focus_at");
+    camera->focusing = IR_FOCUS_DISTANCE;
+    camera->focus_at = (vec3){0, 0, 0};
+    if (!(camera->aperture > 0) || camera->focus > 0)
+        return;
+    camera->focus = 5;
+    camera->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_CAMERA, STR("focus"));
+}
+
 static void mend_camera(struct ir_camera *camera) {
+    mend_projection(camera);
+    mend_focus(camera);
     vec3 forward = camera->direction;
     if (camera->view == IR_VIEW_DIRECTION && vec3_is_zero(forward))
         forward = camera->direction = (vec3){0, 0, -1};
