@@ -80,8 +80,8 @@ struct ir_camera {
     vec3 position;
     unsigned view; // ir_view
     vec3 look_at, direction, rotation;
-    vec3 up;    // written or the default 0 1 0
-    double fov; // vertical, degrees
+    vec3 up;             // written or the default 0 1 0
+    double fov;          // vertical, degrees
     unsigned projection; // ir_projection
     double size;         // of the orthographic view: its height in scene units
     double aperture;     // diameter of the lens; 0: a pinhole

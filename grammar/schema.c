@@ -168,7 +168,7 @@ static const struct schema_row camera_rows[] = {
      .also = "focal_distance focus_distance",
      .range = SCHEMA_RANGE_LENGTH, .choice = 2, .alternative = IR_FOCUS_DISTANCE,
      .doc = "How far away things are sharp, along the view; if left out, where 'look_at' is."},
-    {.name = "focus_at", .element = "FocusAt", FIELD(ir_camera, focus_at),
+    {.name = "focus_at", .element = "FocusAt", FIELD(ir_camera, focus_at), .example = "0 1 0",
      .also = "focus_point focus_object",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 2, .alternative = IR_FOCUS_POINT,
      .doc = "A point that is sharp, and all that is as far away along the view."},
@@ -273,7 +273,7 @@ static const struct schema_row material_rows[] = {
      .doc = "Whether reflection and refraction depend on the angle, by Fresnel's equations: their weights are "
             "multiplied by the shares of light that the surface reflects and lets through."},
     {.name = "roughness", FIELD(ir_material, roughness), .example = "0.3", .range = SCHEMA_RANGE_FRACTION,
-     .also = "rough glossy gloss microfacet alpha specular_roughness", .standard = "0",
+     .also = "rough glossy gloss microfacet specular_roughness", .standard = "0",
      .feature = FEATURE_ROUGHNESS,
      .doc = "How much reflected and refracted rays are spread: 0 is a clear mirror or clear glass, 0.3 brushed metal "
             "or frosted glass."},

@@ -42,7 +42,7 @@ void lint_one_sample(struct lint *lint) {
         if (!(camera->aperture > 0))
             continue;
         diag_add(lint->sink, DIAG_ONE_SAMPLE, camera_place(lint, camera, "aperture"),
-                 "camera '%.*s' has a lens, but the picture has one sample a pixel: nothing is blurred",
+                 "camera '%.*s' has a lens, but the picture has one sample per pixel: nothing is blurred",
                  STR_ARG(camera->name));
         diag_help(lint->sink, "%s", help);
         return;
@@ -55,14 +55,15 @@ void lint_one_sample(struct lint *lint) {
              rough->head.origin == 0
                  ? lint_place(lint, user)
                  : ir_place_value(lint->origin, &rough->head, &SCHEMA_MATERIAL, "roughness"),
-             "%.*s is rough, but the picture has one sample a pixel: it mirrors as if it were smooth",
+             "%.*s is rough, but the picture has one sample per pixel: it mirrors as if it were smooth",
              STR_ARG(lint_words(lint, user)));
     diag_help(lint->sink, "%s", help);
 }
 
 // ---- focus
 
-// How near and how far bodies are along the view, or from the camera where it looks all round; by their boxes.
+// How near and how far bodies are along the view, or from the camera where it looks all round; by their
+// boxes.
 static bool reach_of_bodies(const struct lint *lint, const struct view_camera *camera, double *near,
                             double *far) {
     const bool ahead = camera->projection <= IR_PROJECTION_ORTHOGRAPHIC;

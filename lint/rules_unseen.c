@@ -25,7 +25,8 @@ static void put_plane(struct field *field, vec3 at, vec3 normal) {
 
 // Of rays through a lens: all that start beside the position by `reach` to the right and up, and leave by the
 // slopes.
-static struct field field_with(const struct view_camera *camera, double right, double up, const double reach[2]) {
+static struct field field_with(const struct view_camera *camera, double right, double up,
+                               const double reach[2]) {
     const vec3 p = camera->position, f = camera->forward, s = camera->right, u = camera->up;
     struct field field = {0};
     put_plane(&field, p, f);

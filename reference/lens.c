@@ -77,8 +77,7 @@ struct camera_ray reference_lens_ray(const struct reference *r, const struct ref
             reference_frame(ray.direction, &right, &up);
         points_at(points, point_key(point_root(points->x, points->y), POINT_LENS), &u, &v);
         disc_point(u, v, &u, &v);
-        const vec3 aside =
-            vec3_add(vec3_mul(right, u * c->lens_radius), vec3_mul(up, v * c->lens_radius));
+        const vec3 aside = vec3_add(vec3_mul(right, u * c->lens_radius), vec3_mul(up, v * c->lens_radius));
         ray.start = vec3_add(ray.start, aside);
         ray.direction = vec3_unit(vec3_sub(vec3_mul(direction, c->focus), aside));
     }

@@ -1,6 +1,7 @@
 // The parts of the reference. Private to reference/.
 //
-// All positions here are relative to the reference's origin (the position of the camera that it was made with), in scene units.
+// All positions here are relative to the reference's origin (the position of the camera that it was made
+// with), in scene units.
 #ifndef GLINT_REFERENCE_PARTS_H
 #define GLINT_REFERENCE_PARTS_H
 
@@ -281,7 +282,6 @@ struct log {
 
 // Follows a sample's paths to their ends, from the camera's ray on. `log` may be NULL.
 void reference_follow(const struct reference *r, const struct reference_settings *settings,
-                      const struct points *points, struct queue *queue, struct log *log,
-                      struct sample *out);
+                      const struct points *points, struct queue *queue, struct log *log, struct sample *out);
 
 #endif

@@ -228,8 +228,7 @@ static uint64_t rays_of(const struct sample *s) {
 }
 
 void reference_follow(const struct reference *r, const struct reference_settings *settings,
-                      const struct points *points, struct queue *queue, struct log *log,
-                      struct sample *out) {
+                      const struct points *points, struct queue *queue, struct log *log, struct sample *out) {
     struct following f = {r, settings, queue, log, out, *points};
     const struct camera_ray ray = reference_lens_ray(r, settings, points);
     struct branch first = {.start = reference_start(ray.start),

@@ -297,8 +297,7 @@ static void do_tile(struct work *w, size_t index) {
             if (atomic_load_explicit(&w->cancelled, memory_order_relaxed) || queue.failed)
                 break;
             if (w->hits)
-                w->hits[(size_t)y * width + x] =
-                    first_hit(w->r, w->settings, x, y);
+                w->hits[(size_t)y * width + x] = first_hit(w->r, w->settings, x, y);
             else
                 draw_pixel(w->r, w->settings, x, y, &queue, &w->tiles[index],
                            w->rgb + 3 * ((size_t)y * width + x));

@@ -164,7 +164,8 @@ static vec3 mirror(vec3 d, vec3 n) {
     return vec3_sub(d, vec3_mul(n, 2 * vec3_dot(d, n)));
 }
 
-// Between the heights of a unit sphere's cap that the stretched ray sees (Dupuy and Benyoub 2023): its facets are GGX's.
+// Between the heights of a unit sphere's cap that the stretched ray sees (Dupuy and Benyoub 2023): its facets
+// are GGX's.
 void reference_roughen(const struct reference *r, struct surface *s, vec3 direction,
                        const struct points *points, uint32_t key) {
     if (points->bits == 0)

@@ -7,8 +7,8 @@
 
 static const double RADIANS = 3.14159265358979323846 / 180;
 
-static struct analytic_picture picture_of(const char *name, const char *scene, const char *camera, int32_t width,
-                                          int32_t height, int32_t samples) {
+static struct analytic_picture picture_of(const char *name, const char *scene, const char *camera,
+                                          int32_t width, int32_t height, int32_t samples) {
     return (struct analytic_picture){.name = name,
                                      .scene = scene,
                                      .camera_text = camera,
@@ -61,13 +61,13 @@ static void check_directions(struct analytic *a, const char *precision, const ch
 // Discs of known places, wherever they are along the view.
 static void check_orthographic(struct analytic *a) {
     static const double discs[3][4] = {{-1, 0.5, 0, 0.8}, {1.25, -0.25, -40, 0.5}, {0.5, 1.25, 3, 0.25}};
-    const struct analytic_picture picture = picture_of(
-        "orthographic",
-        "background: {color: 1}\nmaterials: {black: {albedo: [0, 0, 0, 0]}}\nspheres:\n"
-        "  - {center: [-1, 0.5, 0], radius: 0.8, material: black}\n"
-        "  - {center: [1.25, -0.25, -40], radius: 0.5, material: black}\n"
-        "  - {center: [0.5, 1.25, 3], radius: 0.25, material: black}\n",
-        "camera: {position: [0, 0, 9], projection: orthographic, size: 4}", 96, 64, 1);
+    const struct analytic_picture picture =
+        picture_of("orthographic",
+                   "background: {color: 1}\nmaterials: {black: {albedo: [0, 0, 0, 0]}}\nspheres:\n"
+                   "  - {center: [-1, 0.5, 0], radius: 0.8, material: black}\n"
+                   "  - {center: [1.25, -0.25, -40], radius: 0.5, material: black}\n"
+                   "  - {center: [0.5, 1.25, 3], radius: 0.25, material: black}\n",
+                   "camera: {position: [0, 0, 9], projection: orthographic, size: 4}", 96, 64, 1);
     struct image image;
     int wrong = 0;
     if (!analytic_take(a, &picture, &image))
@@ -86,18 +86,19 @@ static void check_orthographic(struct analytic *a) {
 
 // ---- lens
 
-// A square far away is a disc: its second moment about its middle, less that of the square, is half of the squared
-// radius (of a uniform disc), and so is that of each pixel.
+// A square far away is a disc: its second moment about its middle, less that of the square, is half of the
+// squared radius (of a uniform disc), and so is that of each pixel.
 static void check_confusion(struct analytic *a, const char *camera, double aperture, double focus) {
     enum {
         SIDE = 64
     };
     const double z = 40, half = 0.4, tangent = tan(15 * RADIANS), pixels = SIDE / 2 / tangent;
-    const struct analytic_picture picture = picture_of(
-        "circle of confusion",
-        "trace: {shadows: false}\nlights:\n  - {direction: [0, 0, -1]}\nrectangles:\n"
-        "  - {corner: [-0.4, -0.4, -40], edge_u: [0.8, 0, 0], edge_v: [0, 0.8, 0], material: {diffuse_color: 1}}\n",
-        camera, SIDE, SIDE, 256);
+    const struct analytic_picture picture =
+        picture_of("circle of confusion",
+                   "trace: {shadows: false}\nlights:\n  - {direction: [0, 0, -1]}\nrectangles:\n"
+                   "  - {corner: [-0.4, -0.4, -40], edge_u: [0.8, 0, 0], edge_v: [0, 0.8, 0], material: "
+                   "{diffuse_color: 1}}\n",
+                   camera, SIDE, SIDE, 256);
     struct image image;
     double sum = 0, squares = 0;
     if (!analytic_take(a, &picture, &image))
@@ -113,10 +114,12 @@ static void check_confusion(struct analytic *a, const char *camera, double apert
     const double diameter = 2 * sqrt(2 * (squares / sum - 2 * dot * dot / 3 - 1 / 6.0));
     const double expected = aperture * fabs(1 / focus - 1 / z) * pixels;
     fprintf(stderr, "circle of confusion: %.4f pixels, expected %.4f\n", diameter, expected);
-    analytic_expect(a, fabs(diameter - expected) < 0.01 * expected, camera, "the blur disc has another diameter");
+    analytic_expect(a, fabs(diameter - expected) < 0.01 * expected, camera,
+                    "the blur disc has another diameter");
 }
 
-static bool same_bytes(struct analytic *a, const struct analytic_picture *one, const struct analytic_picture *other) {
+static bool same_bytes(struct analytic *a, const struct analytic_picture *one,
+                       const struct analytic_picture *other) {
     struct image first, second;
     bool same = false;
     if (!analytic_take(a, one, &first))
@@ -132,8 +135,8 @@ static bool same_bytes(struct analytic *a, const struct analytic_picture *one, c
 // Another camera and another material make the kernel one that knows lenses and rough surfaces.
 static void check_nothing_changes(struct analytic *a) {
 #define BODIES                                                                                               \
-    "background: {color: [0.3, 0.5, 0.9]}\nlights:\n  - {position: [3, 5, 6]}\nspheres:\n"                    \
-    "  - {center: [-1, 0, 0], radius: 1, material: {albedo: [0.5, 0.5, 0.4, 0]}}\n"                           \
+    "background: {color: [0.3, 0.5, 0.9]}\nlights:\n  - {position: [3, 5, 6]}\nspheres:\n"                   \
+    "  - {center: [-1, 0, 0], radius: 1, material: {albedo: [0.5, 0.5, 0.4, 0]}}\n"                          \
     "  - {center: [1, 0, 0], radius: 1, material: {albedo: [0, 0.5, 0.1, 0.8], refractive_index: 1.5}}\n"
     const char *const plain = "cameras: {main: {position: [0, 1, 6], look_at: [0, 0, 0]}}\n";
     const char *const lens = "cameras: {main: {position: [0, 1, 6], look_at: [0, 0, 0], aperture: 0},"
@@ -141,8 +144,9 @@ static void check_nothing_changes(struct analytic *a) {
     const struct analytic_picture before = picture_of("a pinhole", BODIES, plain, 48, 32, 4);
     const struct analytic_picture after = picture_of("a pinhole", BODIES, lens, 48, 32, 4);
     const struct analytic_picture rough =
-        picture_of("smooth", BODIES "  - {center: [0, -900, 0], radius: 1, material: {albedo: [0, 0, 1, 0],"
-                                    " roughness: 0.5}}\n",
+        picture_of("smooth",
+                   BODIES "  - {center: [0, -900, 0], radius: 1, material: {albedo: [0, 0, 1, 0],"
+                          " roughness: 0.5}}\n",
                    plain, 48, 32, 4);
     analytic_expect(a, same_bytes(a, &before, &after), "aperture 0", "the picture is not the pinhole's");
     analytic_expect(a, same_bytes(a, &before, &rough), "roughness 0", "the picture is not the smooth one");
@@ -180,13 +184,15 @@ static void check_lobe(struct analytic *a, const char *precision, double roughne
     const double alpha = roughness * roughness, half = cone / 2 * RADIANS;
     const double turned_back = 1 - tilted_less(90 * RADIANS - half, alpha);
     const double expected = 1 - tilted_less(half, alpha) - turned_back;
-    const double got = mean_of(a, "lobe", scene, "camera: {position: [0, 0, 1], projection: orthographic, size: 0.01}");
-    fprintf(stderr, "roughness %g, cone of %g degrees: %.5f, expected %.5f\n", roughness, cone, got, expected);
+    const double got =
+        mean_of(a, "lobe", scene, "camera: {position: [0, 0, 1], projection: orthographic, size: 0.01}");
+    fprintf(stderr, "roughness %g, cone of %g degrees: %.5f, expected %.5f\n", roughness, cone, got,
+            expected);
     analytic_expect(a, fabs(got - expected) < 2e-3, scene, "the lobe is another one");
 }
 
-// The lobe of a ray at an angle, by facets: how much of it goes to the right of the plane x = 0 (to which all is
-// symmetric but the ray).
+// The lobe of a ray at an angle, by facets: how much of it goes to the right of the plane x = 0 (to which all
+// is symmetric but the ray).
 static double to_the_right(double angle, double alpha) {
     enum {
         STEPS = 1200
@@ -217,7 +223,8 @@ static void check_slanted(struct analytic *a, double roughness, double angle) {
              roughness);
     // Rays come from the right, and hit a little to the right of the wall's foot.
     snprintf(camera, sizeof camera,
-             "camera: {position: [%.17g, %.17g, 0], direction: [%.17g, %.17g, 0], projection: orthographic, size: 1e-6}",
+             "camera: {position: [%.17g, %.17g, 0], direction: [%.17g, %.17g, 0], projection: orthographic, "
+             "size: 1e-6}",
              0.02 + 0.5 * sin(angle * RADIANS), 0.5 * cos(angle * RADIANS), -sin(angle * RADIANS),
              -cos(angle * RADIANS));
     const double expected = to_the_right(angle * RADIANS, roughness * roughness);

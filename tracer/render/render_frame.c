@@ -49,7 +49,8 @@ static void put_inside(const struct flat_scene *flat, const struct view_camera *
 }
 
 static_assert(IR_PROJECTION_ORTHOGRAPHIC == PROJECTION_ORTHOGRAPHIC &&
-                  IR_PROJECTION_FISHEYE == PROJECTION_FISHEYE && IR_PROJECTION_PANORAMA == PROJECTION_PANORAMA,
+                  IR_PROJECTION_FISHEYE == PROJECTION_FISHEYE &&
+                  IR_PROJECTION_PANORAMA == PROJECTION_PANORAMA,
               "kernels know projections by the same numbers");
 
 // What camera_right and camera_up are multiplied by (PROJECTION_).

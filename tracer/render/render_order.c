@@ -31,8 +31,8 @@ static uint32_t clamp_tile(double tile, uint32_t count) {
     return tile > 0 ? tile < count ? (uint32_t)tile : count : 0;
 }
 
-// Where a point is seen, in half heights of the picture to the right and down, and half as wide as the lens blurs it.
-// false: it is not before the camera.
+// Where a point is seen, in half heights of the picture to the right and down, and half as wide as the lens
+// blurs it. false: it is not before the camera.
 static bool see(const struct view_camera *camera, vec3 point, double at[2], double *blur) {
     const vec3 way = vec3_sub(point, camera->position);
     const double along = vec3_dot(way, camera->forward);
