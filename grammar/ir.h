@@ -27,11 +27,21 @@ enum ir_falloff {
     IR_FALLOFF_NONE,
     IR_FALLOFF_INVERSE_SQUARE
 };
+enum ir_projection {
+    IR_PROJECTION_PERSPECTIVE,
+    IR_PROJECTION_ORTHOGRAPHIC,
+    IR_PROJECTION_FISHEYE,
+    IR_PROJECTION_PANORAMA
+};
 // Tags set by a choice between rows.
 enum ir_view {
     IR_VIEW_DIRECTION,
     IR_VIEW_LOOK_AT,
     IR_VIEW_ROTATION
+};
+enum ir_focus {
+    IR_FOCUS_DISTANCE,
+    IR_FOCUS_POINT
 };
 enum ir_backdrop {
     IR_BACKDROP_COLOR,
@@ -84,8 +94,14 @@ struct ir_camera {
     vec3 position;
     unsigned view; // ir_view
     vec3 look_at, direction, rotation;
-    vec3 up;    // written or the default 0 1 0
-    double fov; // vertical, degrees
+    vec3 up;             // written or the default 0 1 0
+    double fov;          // vertical, degrees
+    unsigned projection; // ir_projection
+    double size;         // of the orthographic view: its height in scene units
+    double aperture;     // diameter of the lens; 0: a pinhole
+    unsigned focusing;   // ir_focus
+    double focus;        // 0: not written
+    vec3 focus_at;
 };
 
 struct ir_background {
@@ -165,6 +181,7 @@ struct ir_material {
     double specular_exponent;
     double refractive_index;
     bool fresnel;
+    double roughness;
     int32_t priority;
     struct ir_color attenuation_color;
     double attenuation_distance; // scene units

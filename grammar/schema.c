@@ -65,6 +65,12 @@ static const char *const precision_words[] = {"auto", "single", "double", NULL};
 static const char *const precision_docs[] = {
     "Double where the picture needs it, else single: a small picture tells. `glint inspect` forecasts which.",
     "Always single precision.", "Always double precision: slower.", NULL};
+static const char *const projection_words[] = {"perspective", "orthographic", "fisheye", "panorama", NULL};
+static const char *const projection_docs[] = {
+    "Straight lines stay straight; what is farther away is smaller.",
+    "All rays are parallel: what is farther away is as large. Its height is 'size'.",
+    "Equal angles from the view are equal distances in the picture; 'fov' may reach 360.",
+    "All directions: 360 degrees of longitude across, 180 of latitude down.", NULL};
 static const char *const falloff_words[] = {"none", "inverse_square", NULL};
 static const char *const falloff_docs[] = {"The light is equally strong everywhere.",
                                            "The light's strength is divided by the square of the distance.",
@@ -152,7 +158,7 @@ static const struct schema_row camera_rows[] = {
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .standard = "0 0 0",
      .doc = "The camera's position."},
     {.name = "look_at", .element = "LookAt", FIELD(ir_camera, look_at), .example = "0 1 0",
-     .also = "target at to focus looking_at interest point_of_interest",
+     .also = "target at to looking_at interest point_of_interest",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_VIEW_LOOK_AT,
      .doc = "The point shown in the middle of the picture."},
     {.name = "direction", .element = "Direction", FIELD(ir_camera, direction), .example = "0 -0.2 -1",
@@ -167,11 +173,31 @@ static const struct schema_row camera_rows[] = {
      .standard = "0 1 0", .doc = "The direction that points up in the picture."},
     {.name = "fov", FIELD(ir_camera, fov), .example = "45", .unit = SCHEMA_UNIT_DEGREES,
      .also = "angle field_of_view vfov fovy fov_y",
-     .range = SCHEMA_RANGE_FOV, .standard = "60", .doc = "Vertical field of view."},
+     .range = SCHEMA_RANGE_FOV, .standard = "60",
+     .doc = "Vertical field of view; less than 180 but in a fisheye's picture."},
+    {.name = "projection", FIELD(ir_camera, projection), .example = "fisheye", .words = projection_words,
+     .also = "type camera_type", .word_docs = projection_docs, .standard = "perspective",
+     .feature = FEATURE_CAMERA, .doc = "How directions become places in the picture."},
+    {.name = "size", FIELD(ir_camera, size), .unit = SCHEMA_UNIT_SCENE,
+     .also = "ortho_scale orthographic_scale view_height",
+     .range = SCHEMA_RANGE_LENGTH, .standard = "10", .doc = "Height of what an orthographic camera sees."},
+    {.name = "aperture", FIELD(ir_camera, aperture), .example = "0.1", .unit = SCHEMA_UNIT_SCENE,
+     .also = "lens_diameter aperture_size aperture_diameter",
+     .range = SCHEMA_RANGE_DISTANCE, .standard = "0", .feature = FEATURE_CAMERA,
+     .doc = "Diameter of the lens: the larger, the less is sharp; 0 is a pinhole, which shows all sharp."},
+    {.name = "focus", FIELD(ir_camera, focus), .example = "4", .unit = SCHEMA_UNIT_SCENE,
+     .also = "focal_distance focus_distance",
+     .range = SCHEMA_RANGE_LENGTH, .choice = 2, .alternative = IR_FOCUS_DISTANCE,
+     .doc = "How far away things are sharp, along the view; if left out, where 'look_at' is."},
+    {.name = "focus_at", .element = "FocusAt", FIELD(ir_camera, focus_at), .example = "0 1 0",
+     .also = "focus_point focus_object",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 2, .alternative = IR_FOCUS_POINT,
+     .doc = "A point that is sharp, and all that is as far away along the view."},
 };
 const struct schema_element SCHEMA_CAMERA = {
     ELEMENT("camera", "Camera", ir_camera, camera_rows, "A point of view; the first is the default."),
-    .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_camera, view)}}};
+    .choices = {{SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_camera, view)},
+                {SCHEMA_CHOICE_AT_MOST_ONE, offsetof(struct ir_camera, focusing)}}};
 
 static const struct schema_row background_rows[] = {
     {.name = "color", .element = "Color", FIELD(ir_background, color), .example = "0.2 0.7 0.8",
@@ -354,6 +380,11 @@ static const struct schema_row material_rows[] = {
      .also = "fresnel_reflection schlick", .feature = FEATURE_FRESNEL,
      .doc = "Whether reflection and refraction depend on the angle, by Fresnel's equations: their weights are "
             "multiplied by the shares of light that the surface reflects and lets through."},
+    {.name = "roughness", FIELD(ir_material, roughness), .example = "0.3", .range = SCHEMA_RANGE_FRACTION,
+     .also = "rough glossy gloss microfacet specular_roughness", .standard = "0",
+     .feature = FEATURE_ROUGHNESS,
+     .doc = "How much reflected and refracted rays are spread: 0 is a clear mirror or clear glass, 0.3 brushed metal "
+            "or frosted glass."},
     {.name = "priority", FIELD(ir_material, priority), .range = SCHEMA_RANGE_PRIORITY, .standard = "0",
      .also = "dielectric_priority interior_priority nested_priority order",
      .doc = "Where bodies that refract overlap, the one of the highest priority fills the place; of equal ones "

@@ -64,10 +64,11 @@ enum schema_range {
     SCHEMA_RANGE_FRACTION,   // 0..1
     SCHEMA_RANGE_COORDINATE, // -1e18..1e18
     SCHEMA_RANGE_LENGTH,     // 1e-18..1e18
+    SCHEMA_RANGE_DISTANCE,   // 0..1e18
     SCHEMA_RANGE_SCALE,      // magnitude 1e-18..1e18 (0 has its own diagnostic)
     SCHEMA_RANGE_WEIGHT,     // 0..1e6
     SCHEMA_RANGE_ANGLE,      // -1e6..1e6
-    SCHEMA_RANGE_FOV,        // between 0 and 180, both excluded
+    SCHEMA_RANGE_FOV,        // above 0, up to 360
     SCHEMA_RANGE_EXPONENT,   // 0..1e6
     SCHEMA_RANGE_INDEX,      // 0.1..10
     SCHEMA_RANGE_PRIORITY,   // -1000..1000
@@ -81,7 +82,7 @@ enum schema_range {
 struct schema_range_info {
     const char *name; // "coordinate", "field_of_view": as schemas define it
     double least, greatest;
-    bool open;        // the ends are excluded
+    bool open;        // the least value is excluded
     bool magnitude;   // the ends apply to the absolute value; 0 is accepted by the range itself
     const char *text; // "from 0 to 1"
 };

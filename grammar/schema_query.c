@@ -19,10 +19,11 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_FRACTION] = {"fraction", 0, 1, false, false, "from 0 to 1"},
     [SCHEMA_RANGE_COORDINATE] = {"coordinate", -1e18, 1e18, false, false, "from -1e18 to 1e18"},
     [SCHEMA_RANGE_LENGTH] = {"length", 1e-18, 1e18, false, false, "from 1e-18 to 1e18"},
+    [SCHEMA_RANGE_DISTANCE] = {"distance", 0, 1e18, false, false, "from 0 to 1e18"},
     [SCHEMA_RANGE_SCALE] = {"scale", 1e-18, 1e18, false, true, "of magnitude 1e-18 to 1e18"},
     [SCHEMA_RANGE_WEIGHT] = {"weight", 0, 1e6, false, false, "from 0 to 1e6"},
     [SCHEMA_RANGE_ANGLE] = {"angle", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
-    [SCHEMA_RANGE_FOV] = {"field_of_view", 0, 180, true, false, "greater than 0 and less than 180"},
+    [SCHEMA_RANGE_FOV] = {"field_of_view", 0, 360, true, false, "greater than 0 and at most 360"},
     [SCHEMA_RANGE_EXPONENT] = {"exponent", 0, 1e6, false, false, "from 0 to 1e6"},
     [SCHEMA_RANGE_INDEX] = {"index", 0.1, 10, false, false, "from 0.1 to 10"},
     [SCHEMA_RANGE_PRIORITY] = {"priority", -1000, 1000, false, false, "from -1000 to 1000"},
@@ -43,7 +44,7 @@ bool schema_in_range(enum schema_range range, double value) {
     if (info->magnitude && value == 0)
         return true;
     double v = info->magnitude ? fabs(value) : value;
-    return info->open ? v > info->least && v < info->greatest : v >= info->least && v <= info->greatest;
+    return (info->open ? v > info->least : v >= info->least) && v <= info->greatest;
 }
 
 int schema_find_row(const struct schema_element *element, str name) {

@@ -39,6 +39,10 @@ const struct lint_rule lint_rules[] = {
     // One value; one pass over the bodies.
     {DIAG_AMBIENT, lint_ambient, LINT_ALL},
     {DIAG_EMISSION_ALONE, lint_emission, LINT_ALL},
+    {DIAG_ONE_SAMPLE, lint_one_sample, LINT_ALL},
+    {DIAG_NOTHING_SHARP, lint_nothing_sharp, LINT_ALL},
+    // A few places for each refracting body and camera.
+    {DIAG_LENS_INSIDE, lint_lens_inside, LINT_ALL},
     {.run = NULL},
 };
 

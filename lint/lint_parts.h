@@ -130,5 +130,8 @@ void lint_few_samples(struct lint *lint);     // rules_light.c
 void lint_light_around(struct lint *lint);
 void lint_ambient(struct lint *lint);
 void lint_emission(struct lint *lint);
+void lint_one_sample(struct lint *lint); // rules_lens.c
+void lint_nothing_sharp(struct lint *lint);
+void lint_lens_inside(struct lint *lint);
 
 #endif

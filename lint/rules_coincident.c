@@ -111,17 +111,20 @@ struct search {
     uint32_t first_a, first_b; // triangles of the first pair
 };
 
-static bool shows(const struct lint_body *body, const struct lint_face *face, vec3 eye) {
+static bool shows(const struct lint_body *body, const struct lint_face *face,
+                  const struct view_camera *camera) {
     if (!body->is->closed || !body->is_opaque)
         return true;
-    double facing = vec3_dot(face->normal, vec3_sub(eye, face->t.p[0]));
+    const bool is_parallel = camera->projection == IR_PROJECTION_ORTHOGRAPHIC;
+    const vec3 way = vec3_sub(camera->position, face->t.p[0]);
+    double facing = vec3_dot(face->normal, is_parallel ? vec3_neg(camera->forward) : way);
     return body->is->mirrored ? facing < 0 : facing > 0;
 }
 
 static bool both_show(const struct search *s, const struct lint_face *other) {
     for (uint32_t i = 0; i < s->lint->view_count; i++) {
-        vec3 eye = s->lint->views[i].camera.position;
-        if (shows(s->a, &s->face, eye) && shows(s->b, other, eye))
+        const struct view_camera *camera = &s->lint->views[i].camera;
+        if (shows(s->a, &s->face, camera) && shows(s->b, other, camera))
             return true;
     }
     return false;

@@ -188,19 +188,18 @@ static void trace_ray(const struct glass *glass, uint32_t index) {
     double aspect = (double)lint->input->image->width / lint->input->image->height;
     double x = 2 * (index % glass->columns + 0.5) / glass->columns - 1;
     double y = 1 - 2 * (index / glass->columns + 0.5) / glass->rows;
-    vec3 direction = vec3_add(camera->forward, vec3_mul(camera->right, x * aspect * camera->tan_half_fov));
-    direction = vec3_unit(vec3_add(direction, vec3_mul(camera->up, y * camera->tan_half_fov)));
+    const struct view_ray ray = view_ray_at(camera, aspect, x, y);
     struct ray_hits hits = {.count = 0};
     for (uint32_t i = 0; i < glass->refracting_count; i++)
-        if (lint_box_on_ray(&lint->bodies[glass->refracting[i]].box, camera->position, direction))
-            intersect_body(lint, glass->refracting[i], camera->position, direction, &hits);
+        if (lint_box_on_ray(&lint->bodies[glass->refracting[i]].box, ray.start, ray.direction))
+            intersect_body(lint, glass->refracting[i], ray.start, ray.direction, &hits);
     uint32_t most = (uint32_t)lint->ir->trace.max_depth;
     if (hits.count <= most || hits.tried >= RAY_WORK_MAX)
         return;
     qsort(hits.items, hits.count, sizeof *hits.items, compare_crossings);
     if (count_layers(lint, &hits, INFINITY) <= most)
         return;
-    glass->layers[index] = count_layers(lint, &hits, nearest_opaque(glass, camera->position, direction));
+    glass->layers[index] = count_layers(lint, &hits, nearest_opaque(glass, ray.start, ray.direction));
     glass->first[index] = hits.items[0].body;
 }
 

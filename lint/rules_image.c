@@ -11,6 +11,16 @@ static const double TURN = 6.283185307179586477;
 // direction turns least from pixel to pixel.
 static double samples_per_radian(const struct lint *lint, const struct view_camera *camera) {
     const struct ir_image *image = lint->input->image;
+    const double per_sample = sqrt(image->samples) * image->height;
+    // All rays of a pinhole see one place of the image; a lens spreads them by about its part of the focus.
+    if (camera->projection == IR_PROJECTION_ORTHOGRAPHIC)
+        return camera->lens_radius > 0 ? per_sample * camera->focus / camera->lens_radius : INFINITY;
+    // Near its poles a panorama has more samples than anybody needs, as the image has texels.
+    if (camera->projection == IR_PROJECTION_PANORAMA)
+        return fmax(per_sample, sqrt(image->samples) * image->width / 2) / (TURN / 2);
+    // Away from the middle a fisheye's circles have more samples than their angle has places.
+    if (camera->projection == IR_PROJECTION_FISHEYE)
+        return per_sample / (2 * camera->half_field) * (TURN / 2);
     double up = camera->tan_half_fov;
     double right = up * image->width / image->height;
     double corner = 1 + up * up + right * right;

@@ -13,21 +13,43 @@ enum {
 
 // Inside: dot(normal, p - at) >= 0. The plane of the camera and the four sides of its field.
 struct field {
-    vec3 at;
+    int planes; // 0: everything may be in view
+    vec3 at[PLANES];
     vec3 normals[PLANES];
 };
 
+static void put_plane(struct field *field, vec3 at, vec3 normal) {
+    field->at[field->planes] = at;
+    field->normals[field->planes++] = normal;
+}
+
+// Of rays through a lens: all that start beside the position by `reach` to the right and up, and leave by the
+// slopes.
+static struct field field_with(const struct view_camera *camera, double right, double up,
+                               const double reach[2]) {
+    const vec3 p = camera->position, f = camera->forward, s = camera->right, u = camera->up;
+    struct field field = {0};
+    put_plane(&field, p, f);
+    put_plane(&field, vec3_sub(p, vec3_mul(s, reach[0])), vec3_add(vec3_mul(f, right), s));
+    put_plane(&field, vec3_add(p, vec3_mul(s, reach[0])), vec3_sub(vec3_mul(f, right), s));
+    put_plane(&field, vec3_sub(p, vec3_mul(u, reach[1])), vec3_add(vec3_mul(f, up), u));
+    put_plane(&field, vec3_add(p, vec3_mul(u, reach[1])), vec3_sub(vec3_mul(f, up), u));
+    return field;
+}
+
 static struct field field_of(const struct lint *lint, const struct view_camera *camera) {
     const struct ir_image *image = lint->input->image;
-    double up = camera->tan_half_fov;
-    double right = up * image->width / image->height;
-    struct field field = {.at = camera->position};
-    field.normals[0] = camera->forward;
-    field.normals[1] = vec3_add(vec3_mul(camera->forward, right), camera->right);
-    field.normals[2] = vec3_sub(vec3_mul(camera->forward, right), camera->right);
-    field.normals[3] = vec3_add(vec3_mul(camera->forward, up), camera->up);
-    field.normals[4] = vec3_sub(vec3_mul(camera->forward, up), camera->up);
-    return field;
+    const double aspect = (double)image->width / image->height;
+    const double lens = camera->lens_radius, wider = lens > 0 ? lens / camera->focus : 0;
+    const double height = camera->half_height, slope = camera->tan_half_fov;
+    switch (camera->projection) {
+    case IR_PROJECTION_PERSPECTIVE:
+        return field_with(camera, slope * aspect + wider, slope + wider, (double[2]){lens, lens});
+    case IR_PROJECTION_ORTHOGRAPHIC:
+        return field_with(camera, wider, wider, (double[2]){height * aspect + lens, height + lens});
+    default:
+        return (struct field){0};
+    }
 }
 
 static double greatest(const struct lint_box *box, vec3 normal, vec3 from) {
@@ -49,9 +71,9 @@ static bool shadow_stays(const struct lint_box *box, vec3 normal, const struct v
 
 static bool is_outside(const struct lint *lint, const struct lint_box *box, const struct field *field,
                        const struct view *view) {
-    for (int k = 0; k < PLANES; k++) {
+    for (int k = 0; k < field->planes; k++) {
         vec3 normal = field->normals[k];
-        if (!(greatest(box, normal, field->at) < 0))
+        if (!(greatest(box, normal, field->at[k]) < 0))
             continue;
         bool stays = true;
         for (uint32_t i = 0; lint->ir->trace.shadows && stays && i < view->light_count; i++)

@@ -34,9 +34,14 @@ struct small {
 // whole columns of pixels would else lie on edges and on the lines of checkers.
 static void turn_camera(struct small *small) {
     struct view_camera *camera = &small->view.camera;
-    const double pixel = 2 * camera->tan_half_fov / small->height, part = 0.381966;
+    const bool is_parallel = camera->projection == IR_PROJECTION_ORTHOGRAPHIC;
+    const double height = is_parallel ? camera->half_height : camera->tan_half_fov;
+    const double pixel = 2 * height / small->height, part = 0.381966;
     const vec3 aside = vec3_add(vec3_mul(camera->right, pixel * part), vec3_mul(camera->up, -pixel * part));
-    camera->forward = vec3_unit(vec3_add(camera->forward, aside));
+    if (is_parallel)
+        camera->position = vec3_add(camera->position, aside);
+    else
+        camera->forward = vec3_unit(vec3_add(camera->forward, aside));
     const vec3 askew = vec3_add(camera->right, vec3_mul(camera->up, 1.0 / small->width));
     const double along = vec3_dot(askew, camera->forward);
     camera->right = vec3_unit(vec3_sub(askew, vec3_mul(camera->forward, along)));

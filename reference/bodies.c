@@ -15,6 +15,7 @@ static struct material make_material(const struct scene_material *from) {
                          .has_paint = (from->checker && from->soft) || from->images[ASSETS_DIFFUSE].texture ||
                                       from->images[ASSETS_SPECULAR].texture,
                          .fresnel = from->fresnel,
+                         .alpha = from->alpha,
                          .priority = from->priority,
                          .absorption = from->absorption};
     for (int i = 0; i < 2; i++)

@@ -10,7 +10,7 @@
 // What is hashed by name here is not in the table: the view, which is made from the scene and may be moved
 // afterwards, meshes and images. A field that one of these gains changes its size: hash the field, then count
 // it.
-static_assert(sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 8 + 8, "hash the new field of a camera");
+static_assert(sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 6 * 8, "hash the new field of a camera");
 static_assert(sizeof(struct view_light) == 4 * 8 + 6 * sizeof(vec3) + 8, "hash the new field of a light");
 static_assert(sizeof(struct mesh_triangle) == 8 * sizeof(uint32_t), "triangles are hashed as bytes");
 
@@ -22,6 +22,11 @@ static void add_view(struct hash128 *h, const struct view *view) {
     hash128_vector(h, c->up);
     hash128_vector(h, c->forward);
     hash128_number(h, c->tan_half_fov);
+    hash128_whole(h, c->projection);
+    hash128_number(h, c->half_height);
+    hash128_number(h, c->half_field);
+    hash128_number(h, c->lens_radius);
+    hash128_number(h, c->focus);
     hash128_whole(h, view->light_count);
     for (uint32_t i = 0; i < view->light_count; i++) {
         const struct view_light *light = &view->lights[i];

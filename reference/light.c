@@ -179,7 +179,7 @@ static vec3 arriving(const struct reference *r, const struct view_light *light, 
 
 // Ambient light that nothing near keeps off: a ray into the hemisphere, by its cosine (Malley's method).
 static vec3 ambient(const struct reference *r, const struct surface *s, const struct inside *inside,
-                    const struct points *points, uint32_t key, uint32_t *rays) {
+                    const struct points *points, uint32_t key, struct lighting *out) {
     const struct scene *scene = r->input.scene;
     const vec3 value = scaled(s->diffuse, scene->ambient);
     if (scene->occlusion == 0 || !scene->ir->trace.shadows || vec3_max_abs(value) < LEAST_LIGHT)
@@ -196,7 +196,7 @@ static vec3 ambient(const struct reference *r, const struct surface *s, const st
     const struct view_light nowhere = {.extent = VIEW_POINT};
     const struct spot spot = {.place = vec3_add(s->point, vec3_mul(l, scene->occlusion)), .l = l};
     const struct start start = reference_leave(r, s, s->geometric);
-    return scaled(value, arriving(r, &nowhere, &spot, start, inside, rays));
+    return scaled(value, arriving(r, &nowhere, &spot, start, inside, out));
 }
 
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,

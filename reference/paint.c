@@ -20,8 +20,17 @@ enum {
 struct cone reference_camera_cone(const struct reference *r, const struct reference_settings *settings,
                                   vec3 direction) {
     const struct view_camera *camera = &r->input.view->camera;
-    const double pixel = 2 * camera->tan_half_fov / settings->height;
-    return (struct cone){0, pixel * vec3_dot(direction, camera->forward) / sqrt(settings->samples)};
+    const double part = 1 / (settings->height * sqrt(settings->samples));
+    switch (camera->projection) {
+    case IR_PROJECTION_ORTHOGRAPHIC:
+        return (struct cone){2 * camera->half_height * part, 0};
+    case IR_PROJECTION_FISHEYE:
+        return (struct cone){0, 2 * camera->half_field * part};
+    case IR_PROJECTION_PANORAMA:
+        return (struct cone){0, PI * part};
+    default:
+        return (struct cone){0, 2 * camera->tan_half_fov * vec3_dot(direction, camera->forward) * part};
+    }
 }
 
 struct cone reference_mirrored_cone(const struct surface *s, struct cone cone) {

@@ -1,6 +1,7 @@
 // The parts of the reference. Private to reference/.
 //
-// All positions here are relative to the reference's origin (the camera's position), in scene units.
+// All positions here are relative to the reference's origin (the position of the camera that it was made
+// with), in scene units.
 #ifndef GLINT_REFERENCE_PARTS_H
 #define GLINT_REFERENCE_PARTS_H
 
@@ -59,6 +60,7 @@ struct material {
     const struct scene_material *is;
     bool has_paint; // an image, or a checker that is filtered
     bool fresnel;
+    double alpha;
     int32_t priority;
     vec3 absorption;
 };
@@ -232,6 +234,8 @@ struct surface {
     double width; // of the ray's cone
     struct reference_texel texel;
     bool fresnel;
+    double alpha; // of its facets; 0: smooth
+    vec3 facet;   // the normal that reflects and refracts: the shading normal, or that of reference_roughen
     // Of a ray that comes from a place inside certain media: reference_cross.
     double index_before, index_after;
     struct inside after; // once the ray is through
@@ -241,6 +245,9 @@ struct surface {
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out);
+// Of a rough surface the facet that a ray meets, whose key is `key`.
+void reference_roughen(const struct reference *r, struct surface *s, vec3 direction,
+                       const struct points *points, uint32_t key);
 vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction);
 // What becomes of light that meets a surface.
 struct split {
@@ -297,6 +304,18 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
                      const struct inside *inside, const struct points *points, uint32_t key,
                      struct lighting *out);
 
+// ---- lens.c
+
+struct camera_ray {
+    vec3 start, direction; // unit
+};
+
+// Unit vectors across `n` and each other.
+void reference_frame(vec3 n, vec3 *a, vec3 *b);
+// The ray of a sample.
+struct camera_ray reference_lens_ray(const struct reference *r, const struct reference_settings *settings,
+                                     const struct points *points);
+
 // ---- path.c
 
 struct branch {
@@ -345,7 +364,6 @@ struct log {
 
 // Follows a sample's paths to their ends, from the camera's ray on. `log` may be NULL.
 void reference_follow(const struct reference *r, const struct reference_settings *settings,
-                      const struct points *points, vec3 direction, struct queue *queue, struct log *log,
-                      struct sample *out);
+                      const struct points *points, struct queue *queue, struct log *log, struct sample *out);
 
 #endif

@@ -186,7 +186,9 @@ static void show_surface(struct following *f, const struct branch *b, const stru
     add(f, lighting.sum, b);
     log_surface(f, segment, s, &lighting);
     bool total;
-    double cut = send_rays(f, b, s, f->log ? f->log->count - 1 : 0, &total);
+    struct surface facet = *s;
+    reference_roughen(f->r, &facet, b->direction, &f->points, b->key);
+    double cut = send_rays(f, b, &facet, f->log ? f->log->count - 1 : 0, &total);
     if (segment) {
         segment->total_reflection = total;
         segment->cut_weight = cut;
@@ -233,12 +235,12 @@ static uint64_t rays_of(const struct sample *s) {
 }
 
 void reference_follow(const struct reference *r, const struct reference_settings *settings,
-                      const struct points *points, vec3 direction, struct queue *queue, struct log *log,
-                      struct sample *out) {
+                      const struct points *points, struct queue *queue, struct log *log, struct sample *out) {
     struct following f = {r, settings, queue, log, out, *points};
-    struct branch first = {.start = reference_start((vec3){0, 0, 0}),
-                           .direction = direction,
-                           .cone = reference_camera_cone(r, settings, direction),
+    const struct camera_ray ray = reference_lens_ray(r, settings, points);
+    struct branch first = {.start = reference_start(ray.start),
+                           .direction = ray.direction,
+                           .cone = reference_camera_cone(r, settings, ray.direction),
                            .throughput = 1,
                            .tint = {1, 1, 1},
                            .inside = r->around_camera,

@@ -77,20 +77,12 @@ static struct points points_of(const struct reference_settings *settings, uint32
 }
 
 vec3 reference_camera_ray(const struct reference *r, const struct reference_settings *settings, uint32_t x,
-                          uint32_t y, uint32_t sample) {
-    const struct view_camera *camera = &r->input.view->camera;
-    double a, b;
-    if (settings->points_of) {
-        const struct points points = points_of(settings, x, y, sample);
-        points_at(&points, point_key(point_root(x, y), POINT_PIXEL), &a, &b);
-    } else {
-        view_sample_offset(sample, &a, &b);
-    }
-    double right = (2 * (x + a) / settings->width - 1) * ((double)settings->width / settings->height);
-    double up = 1 - 2 * (y + b) / settings->height;
-    vec3 across = vec3_add(vec3_mul(camera->right, right), vec3_mul(camera->up, up));
-    return reference_rounded3(r, vec3_unit(vec3_add(camera->forward, vec3_mul(across, camera->tan_half_fov))),
-                              1);
+                          uint32_t y, uint32_t sample, vec3 *origin) {
+    const struct points points = points_of(settings, x, y, sample);
+    const struct camera_ray ray = reference_lens_ray(r, settings, &points);
+    if (origin)
+        *origin = vec3_add(ray.start, r->origin);
+    return ray.direction;
 }
 
 void reference_closest(const struct reference *r, vec3 origin, vec3 direction, double t_max,
@@ -129,7 +121,7 @@ bool reference_occluded(const struct reference *r, vec3 origin, vec3 direction, 
 static void follow(const struct reference *r, const struct reference_settings *settings, uint32_t x,
                    uint32_t y, uint32_t number, struct queue *queue, struct log *log, struct sample *out) {
     const struct points points = points_of(settings, x, y, number);
-    reference_follow(r, settings, &points, reference_camera_ray(r, settings, x, y, number), queue, log, out);
+    reference_follow(r, settings, &points, queue, log, out);
 }
 
 uint32_t reference_log(const struct reference *r, const struct reference_settings *settings, uint32_t x,
@@ -263,9 +255,12 @@ static uint32_t body_ahead(const struct reference *r, struct start start, vec3 d
     return hit.primitive == NO_PRIMITIVE ? HIT_NONE : r->primitives[hit.primitive].body;
 }
 
-static struct hit_pixel first_hit(const struct reference *r, vec3 direction, const struct points *points) {
+static struct hit_pixel first_hit(const struct reference *r, const struct reference_settings *settings,
+                                  const struct points *points) {
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
-    struct ray ray = {.start = reference_start((vec3){0, 0, 0}), .direction = direction, .t_max = INFINITY};
+    const struct camera_ray seen = reference_lens_ray(r, settings, points);
+    const vec3 direction = seen.direction;
+    struct ray ray = {.start = reference_start(seen.start), .direction = direction, .t_max = INFINITY};
     struct intersection nearest;
     struct surface s;
     struct lighting lighting;
@@ -286,6 +281,7 @@ static struct hit_pixel first_hit(const struct reference *r, vec3 direction, con
     hit.considered = lighting.considered;
     hit.lit = lighting.lit;
     struct split split;
+    reference_roughen(r, &s, direction, points, 0);
     reference_split(r, &s, direction, &split);
     if (reference_refraction(&s, &split) > 0)
         hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), split.bent);
@@ -316,8 +312,7 @@ static void do_tile(struct work *w, size_t index) {
                 break;
             const struct points middle = {x, y, 0, 0};
             if (w->hits)
-                w->hits[(size_t)y * width + x] =
-                    first_hit(w->r, reference_camera_ray(w->r, w->settings, x, y, 0), &middle);
+                w->hits[(size_t)y * width + x] = first_hit(w->r, w->settings, &middle);
             else
                 draw_pixel(w->r, w->settings, x, y, &queue, &w->tiles[index],
                            w->rgb + 3 * ((size_t)y * width + x));

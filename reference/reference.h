@@ -130,7 +130,7 @@ enum reference_result reference_render(const struct reference *reference,
                                        const struct reference_settings *settings, double *rgb,
                                        const struct reference_progress *progress,
                                        struct reference_statistics *statistics);
-// width * height records: what sample 0 of each pixel hits.
+// width * height records: what sample 0 of each pixel hits, as if it were the only one.
 enum reference_result reference_hits(const struct reference *reference,
                                      const struct reference_settings *settings, struct hit_pixel *hits,
                                      const struct reference_progress *progress);
@@ -157,9 +157,9 @@ struct reference_hit {
 void reference_closest(const struct reference *reference, vec3 origin, vec3 direction, double t_max,
                        struct reference_hit *hit);
 bool reference_occluded(const struct reference *reference, vec3 origin, vec3 direction, double t_max);
-// The ray of a pixel's sample, unit.
+// The direction of the ray of a pixel's sample, unit; and where it begins, if `origin` is not NULL.
 vec3 reference_camera_ray(const struct reference *reference, const struct reference_settings *settings,
-                          uint32_t x, uint32_t y, uint32_t sample);
+                          uint32_t x, uint32_t y, uint32_t sample, vec3 *origin);
 
 // ---- one sample, ray by ray
 

@@ -79,6 +79,7 @@ static void take_material(const struct reference *r, const struct scene_body *bo
     s->refraction = m->refraction;
     s->index = m->index;
     s->fresnel = m->fresnel;
+    s->alpha = m->alpha;
     s->solid = body->closed;
 }
 
@@ -179,6 +180,7 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
     else
         triangle_surface(r, body, ray, p, b, out);
     take_material(r, body->is, b, arm, out);
+    out->facet = out->shading;
     out->width = ray->cone.width + ray->cone.spread * hit->t;
     if (r->materials[out->material].has_paint)
         reference_paint(r, ray, b, arm, out);
@@ -190,8 +192,36 @@ static vec3 mirror(vec3 d, vec3 n) {
     return vec3_sub(d, vec3_mul(n, 2 * vec3_dot(d, n)));
 }
 
+// Between the heights of a unit sphere's cap that the stretched ray sees (Dupuy and Benyoub 2023): its facets
+// are GGX's.
+void reference_roughen(const struct reference *r, struct surface *s, vec3 direction,
+                       const struct points *points, uint32_t key) {
+    if (points->bits == 0)
+        s->alpha = 0;
+    if (s->alpha == 0)
+        return;
+    const vec3 n = vec3_dot(direction, s->shading) < 0 ? s->shading : s->geometric;
+    vec3 a, b;
+    double u, v;
+    reference_frame(n, &a, &b);
+    points_at(points, point_key(key, POINT_ROUGH), &u, &v);
+    const vec3 ray = vec3_neg(direction);
+    const vec3 seen =
+        vec3_unit((vec3){s->alpha * vec3_dot(ray, a), s->alpha * vec3_dot(ray, b), vec3_dot(ray, n)});
+    const double height = (1 - v) * (1 + seen.z) - seen.z, angle = 2 * 3.14159265358979323846 * u;
+    const double ring = sqrt(fmax(1 - height * height, 0));
+    const vec3 half_way = vec3_add(seen, (vec3){ring * cos(angle), ring * sin(angle), height});
+    const vec3 facet =
+        vec3_unit((vec3){s->alpha * half_way.x, s->alpha * half_way.y, fmax(half_way.z, 1e-12)});
+    const vec3 across = vec3_add(vec3_mul(a, facet.x), vec3_mul(b, facet.y));
+    s->facet = reference_rounded3(r, vec3_unit(vec3_add(across, vec3_mul(n, facet.z))), 1);
+}
+
 vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction) {
-    vec3 out = mirror(direction, s->shading);
+    vec3 out = mirror(direction, s->facet);
+    // Another facet turns back what would go through the surface.
+    if (s->alpha > 0 && vec3_dot(out, s->geometric) < 0)
+        out = mirror(out, s->geometric);
     if (vec3_dot(out, s->geometric) <= 0)
         out = mirror(direction, s->geometric);
     return reference_rounded3(r, vec3_unit(out), 1);
@@ -246,14 +276,18 @@ double reference_shine(const struct surface *s, vec3 direction) {
 
 void reference_split(const struct reference *r, const struct surface *s, vec3 direction, struct split *out) {
     const double eta = s->index_before / s->index_after;
-    const bool flat = vec3_dot(direction, s->shading) >= 0;
+    const bool flat = vec3_dot(direction, s->facet) >= 0;
     vec3 bent = direction;
-    struct angles at = bend(direction, flat ? s->geometric : s->shading, eta, &bent);
+    struct angles at = bend(direction, flat ? s->geometric : s->facet, eta, &bent);
+    if (s->alpha > 0 && at.k >= 0 && vec3_dot(bent, s->geometric) > 0)
+        bent = mirror(bent, s->geometric);
     if (at.k >= 0 && vec3_dot(bent, s->geometric) >= 0)
         at = bend(direction, s->geometric, eta, &bent);
     const bool straight = !s->solid || eta == 1;
     *out = (struct split){.bent = straight ? direction : reference_rounded3(r, vec3_unit(bent), 1),
                           .through = straight || at.k >= 0};
+    if (s->alpha > 0 && !s->solid)
+        out->bent = mirror(reference_mirrored(r, s, direction), s->geometric);
     if (s->fresnel)
         out->reflected = fresnel(s->index_before, s->index_after, at, !s->solid && s->refraction > 0);
 }

@@ -42,6 +42,7 @@ static struct scene_material material_of(const struct ir_material *ir, unsigned 
                                .specular_exponent = ir->specular_exponent,
                                .refractive_index = ir->refractive_index,
                                .fresnel = ir->fresnel,
+                               .alpha = ir->roughness * ir->roughness,
                                .priority = ir->priority,
                                .absorption = absorption_of(ir, transfer),
                                .features = ir_material_features(ir)};

@@ -39,8 +39,9 @@ static double *put_vector(double *to, vec3 v) {
 // All that light knows of a material but the size of a checker's cells, which each body counts in its own
 // coordinates.
 static void key_of(const struct scene_material *m, double key[KEY_NUMBERS]) {
-    const double single[] = {m->diffuse_weight, m->specular_weight,   m->reflection,       m->refraction,
-                             m->checker,        m->specular_exponent, m->refractive_index, m->fresnel};
+    const double single[] = {m->diffuse_weight,   m->specular_weight, m->reflection,
+                             m->refraction,       m->checker,         m->specular_exponent,
+                             m->refractive_index, m->fresnel,         m->alpha};
     double *to = key;
     for (size_t i = 0; i < sizeof single / sizeof *single; i++)
         *to++ = single[i];

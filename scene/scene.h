@@ -91,6 +91,7 @@ struct scene_material {
     struct scene_image images[ASSETS_IMAGES]; // of the diffuse and of the specular colour: in place of it
     double specular_exponent, refractive_index;
     bool fresnel;
+    double alpha; // of the distribution of micro normals: roughness squared; 0: smooth
     int32_t priority;
     vec3 absorption; // per scene unit, at most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light
     uint32_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)

@@ -26,9 +26,20 @@ static double tan_half(double degrees) {
     return degrees == 90 ? 1 : tan(degrees / 2 * DEGREE);
 }
 
-static struct view_camera written_camera(const struct ir_camera *ir) {
-    struct view_camera camera = {
-        .name = ir->name, .position = ir->position, .tan_half_fov = tan_half(ir->fov)};
+// Of a field that a perspective view can have: what is about as large as the view of another projection.
+static double alike_tan(const struct ir_camera *ir) {
+    if (ir->projection == IR_PROJECTION_PERSPECTIVE)
+        return tan_half(ir->fov);
+    return ir->projection == IR_PROJECTION_FISHEYE ? tan_half(fmin(ir->fov, 90)) : 1;
+}
+
+static struct view_camera turned_camera(const struct ir_camera *ir) {
+    struct view_camera camera = {.name = ir->name,
+                                 .position = ir->position,
+                                 .tan_half_fov = alike_tan(ir),
+                                 .projection = ir->projection,
+                                 .half_height = ir->size / 2,
+                                 .half_field = ir->fov / 2 * DEGREE};
     if (ir->view == IR_VIEW_ROTATION) {
         mat3 turn = transform_rotation(ir->rotation);
         camera.right = mat3_column(turn, 0);
@@ -39,6 +50,29 @@ static struct view_camera written_camera(const struct ir_camera *ir) {
     vec3 along = ir->view == IR_VIEW_LOOK_AT ? vec3_sub(ir->look_at, ir->position) : ir->direction;
     // A view of no direction has its diagnostic; the picture looks along -z.
     orient(&camera, vec3_is_zero(along) ? (vec3){0, 0, -1} : vec3_unit(along), ir->up);
+    return camera;
+}
+
+static bool looks_all_round(const struct view_camera *camera) {
+    return camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
+}
+
+// 1 where a diagnostic has refused what is written.
+static double focus_of(const struct ir_camera *ir, const struct view_camera *camera) {
+    double focus = ir->focus;
+    if (ir->focusing == IR_FOCUS_POINT || !(focus > 0)) {
+        const vec3 point = ir->focusing == IR_FOCUS_POINT ? ir->focus_at : ir->look_at;
+        const vec3 way = vec3_sub(point, ir->position);
+        focus = looks_all_round(camera) ? vec3_length(way) : vec3_dot(way, camera->forward);
+    }
+    return focus > 0 ? focus : 1;
+}
+
+static struct view_camera written_camera(const struct ir_camera *ir) {
+    struct view_camera camera = turned_camera(ir);
+    camera.lens_radius = ir->aperture / 2;
+    if (camera.lens_radius > 0)
+        camera.focus = focus_of(ir, &camera);
     return camera;
 }
 
@@ -130,6 +164,31 @@ void view_sample_offset(uint32_t n, double *a, double *b) {
     double y = 0.5 + n / (ratio * ratio);
     *a = x - floor(x);
     *b = y - floor(y);
+}
+
+struct view_ray view_ray_at(const struct view_camera *camera, double aspect, double x, double y) {
+    const vec3 f = camera->forward, s = camera->right, u = camera->up;
+    struct view_ray ray = {camera->position, f};
+    const vec3 across = vec3_add(vec3_mul(s, x * aspect), vec3_mul(u, y));
+    const double angle = camera->half_field * vec3_length(across);
+    switch (camera->projection) {
+    case IR_PROJECTION_ORTHOGRAPHIC:
+        ray.start = vec3_add(ray.start, vec3_mul(across, camera->half_height));
+        break;
+    case IR_PROJECTION_FISHEYE:
+        if (angle > 0)
+            ray.direction =
+                vec3_add(vec3_mul(f, cos(angle)), vec3_mul(across, camera->half_field * sin(angle) / angle));
+        break;
+    case IR_PROJECTION_PANORAMA: {
+        const vec3 level = vec3_add(vec3_mul(f, cos(x * 180 * DEGREE)), vec3_mul(s, sin(x * 180 * DEGREE)));
+        ray.direction = vec3_add(vec3_mul(level, cos(y * 90 * DEGREE)), vec3_mul(u, sin(y * 90 * DEGREE)));
+        break;
+    }
+    default:
+        ray.direction = vec3_unit(vec3_add(f, vec3_mul(across, camera->tan_half_fov)));
+    }
+    return ray;
 }
 
 static void turn(vec3 *a, vec3 *b, double angle) {

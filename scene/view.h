@@ -5,14 +5,21 @@
 #ifndef GLINT_SCENE_VIEW_H
 #define GLINT_SCENE_VIEW_H
 
+#include "grammar/ir.h"
 #include "scene/scene.h"
 
 struct view_camera {
     str name;
     vec3 position;           // scene units
     vec3 right, up, forward; // orthonormal
-    double tan_half_fov;     // of the vertical field
+    double tan_half_fov;     // of the vertical field; of other projections: of a field about as wide
     bool automatic;
+    unsigned projection; // ir_projection
+    double half_height;  // orthographic: of what is seen, scene units
+    double half_field;   // fisheye: from the middle to the upper edge, radians
+    double lens_radius;  // scene units; 0: a pinhole
+    double focus;        // of a lens: where things are sharp, scene units along the view, or from the
+                         // position where a fisheye or a panorama looks all round
 };
 
 enum view_extent {
@@ -46,6 +53,16 @@ struct view {
 // image of width x height pixels). Notes N401 and N402 report automatic ones where `sink` is not NULL.
 void view_build(const struct scene *scene, uint32_t camera_index, int32_t width, int32_t height,
                 struct arena *arena, struct diag_sink *sink, struct view *out);
+
+// The ray of a place in the picture, from -1, -1 at the lower left to 1, 1, through the middle of the lens.
+struct view_ray {
+    vec3 start, direction; // scene units; unit
+};
+struct view_ray view_ray_at(const struct view_camera *camera, double aspect, double x, double y);
+// Whether every ray begins at the camera's position.
+static inline bool view_from_one_place(const struct view_camera *camera) {
+    return camera->projection != IR_PROJECTION_ORTHOGRAPHIC && !(camera->lens_radius > 0);
+}
 
 // Turns a camera, and rolls it, by a part of a pixel of a picture of some hundred lines: in a symmetric view,
 // pixels lie exactly on edges and lines of a checker, where any rounding is right.

@@ -2,8 +2,14 @@
 
 REAL3 mirrored(REAL3 d, REAL3 n) { return d - n * (2.0 * dot3(d, n)); }
 
+// What a rough surface sends to its wrong side meets another facet: that turns it back.
 REAL3 reflected(REAL3 d, surface s) {
-    REAL3 r = mirrored(d, s.shading);
+    REAL3 n = s.shading;
+    if (HAS_ROUGHNESS)
+        n = s.micro;
+    REAL3 r = mirrored(d, n);
+    if (HAS_ROUGHNESS && s.alpha > 0.0 && dot3(r, s.geometric) < 0.0)
+        r = mirrored(r, s.geometric);
     r = dot3(r, s.geometric) > 0.0 ? r : mirrored(d, s.geometric);
     return unit3(r);
 }
@@ -20,13 +26,18 @@ REAL index_ratio(surface s) {
 // bends, and the square of that behind it.
 bool refracted(REAL3 d, surface s, out REAL3 t, out REAL c, out REAL k) {
     REAL eta = index_ratio(s);
-    c = -dot3(d, s.shading);
+    REAL3 n = s.shading;
+    if (HAS_ROUGHNESS)
+        n = s.micro;
+    c = -dot3(d, n);
     REAL c_flat = -dot3(d, s.geometric);
     bool flat_normal = c <= 0.0;
-    REAL3 n = flat_normal ? s.geometric : s.shading;
+    n = flat_normal ? s.geometric : n;
     c = flat_normal ? c_flat : c;
     k = 1.0 - eta * eta * (1.0 - c * c);
     REAL3 bent = d * eta + n * (eta * c - sqrt(max(k, 0.0)));
+    if (HAS_ROUGHNESS && s.alpha > 0.0 && dot3(bent, s.geometric) > 0.0)
+        bent = mirrored(bent, s.geometric);
     bool wrong_side = k >= 0.0 && dot3(bent, s.geometric) >= 0.0;
     REAL k_flat = 1.0 - eta * eta * (1.0 - c_flat * c_flat);
     REAL3 bent_flat = d * eta + s.geometric * (eta * c_flat - sqrt(max(k_flat, 0.0)));
@@ -35,6 +46,8 @@ bool refracted(REAL3 d, surface s, out REAL3 t, out REAL c, out REAL k) {
     c = wrong_side ? c_flat : c;
     bool straight = !s.solid || eta == 1.0;
     t = straight ? d : unit3(bent);
+    if (HAS_ROUGHNESS && s.alpha > 0.0 && !s.solid)
+        t = unit3(mirrored(reflected(d, s), s.geometric));
     return straight || k >= 0.0;
 }
 

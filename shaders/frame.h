@@ -43,7 +43,11 @@
     UINT(inside_6)                                                                                           \
     UINT(inside_7)                                                                                           \
     UINT(coordinates_table) /* gpu_scene.h */                                                                \
-    FLOAT(footprint)        /* how much wider a pixel gets for each length along the camera's view */
+    FLOAT(footprint)        /* how much wider a pixel gets for each length along the camera's view; of       \
+                               parallel rays its width, of other projections its angle */                    \
+    UINT(projection)        /* PROJECTION_: what camera_right and camera_up are multiplied by */             \
+    FLOAT(lens_radius)      /* 0: a pinhole */                                                               \
+    FLOAT(focus)
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
@@ -59,6 +63,12 @@
     DOUBLE(double_up_x)                                                                                      \
     DOUBLE(double_up_y)                                                                                      \
     DOUBLE(double_up_z)
+
+/* camera_right and camera_up times, besides W/H in right: */
+#define PROJECTION_PERSPECTIVE  0u /* tan(fov/2) */
+#define PROJECTION_ORTHOGRAPHIC 1u /* half the height of the view */
+#define PROJECTION_FISHEYE      2u /* quarter turns of the vertical field's half */
+#define PROJECTION_PANORAMA     3u /* nothing, and without W/H */
 
 /* Push constants. */
 #define DISPATCH_FIELDS(FLOAT, UINT)                                                                         \

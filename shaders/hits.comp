@@ -10,7 +10,9 @@
 #include "math.glsl"
 #define POINT_BITS 0u // the middle of each light
 #include "light/points.glsl"
+#include "light/round.glsl"
 #include "camera.glsl"
+#include "light/lens.glsl"
 #include "tree.glsl"
 #include "wide.glsl"
 #include "triangles.glsl"
@@ -20,6 +22,7 @@
 #include "ray_offset.glsl"
 #include "lights.glsl"
 #include "bounce.glsl"
+#include "light/rough.glsl"
 #include "media.glsl"
 #include "trace_all.glsl"
 #include "bits.glsl"
@@ -93,16 +96,19 @@ void main() {
     point_pixel = pixel;
     uint kind = dispatch.resume + OPAQUE_ZERO, at = slot * HITS_WORDS;
     bool first = kind == HITS_FIRST;
-    REAL3 direction = camera_direction(pixel);
-    hits_ray ray = hits_ray(exact_start(CAMERA(position)), aim_along(direction), FAR_AWAY, false, true);
+    camera_ray seen = camera_ray_of(pixel);
+    REAL3 direction = seen.direction;
+    hits_ray ray = hits_ray(exact_start(seen.at), aim_along(direction), FAR_AWAY, false, true);
     surface s;
     media_set inside = camera_media();
     if (!first) {
         hit_record before = load_hit(at);
         if (before.item == NO_ITEM)
             return;
-        make_surface(before, CAMERA(position), direction, s);
+        make_surface(before, seen.at, direction, s);
         cross_surface(inside, before, s);
+        if (HAS_ROUGHNESS)
+            roughen(direction, 0u, s);
         if (kind == HITS_MIRRORED)
             ray = mirrored_ray(s, before, direction);
         else if (kind == HITS_REFRACTED)

@@ -7,7 +7,9 @@
 #include "records.glsl"
 #include "math.glsl"
 #include "light/points.glsl"
+#include "light/round.glsl"
 #include "camera.glsl"
+#include "light/lens.glsl"
 #include "tree.glsl"
 #include "wide.glsl"
 #include "triangles.glsl"
@@ -18,6 +20,7 @@
 #include "lights.glsl"
 #include "background.glsl"
 #include "bounce.glsl"
+#include "light/rough.glsl"
 #include "media.glsl"
 #include "trace_all.glsl"
 #include "bits.glsl"
@@ -44,7 +47,8 @@ log_ray load_ray(uint at) {
 }
 
 void write_camera_ray() {
-    REAL3 o = CAMERA(position), d = camera_direction(point_pixel);
+    camera_ray ray = camera_ray_of(point_pixel);
+    REAL3 o = ray.at, d = ray.direction;
     states[0] = uvec4(bits_of(o.x), bits_of(o.y));
     states[1] = uvec4(bits_of(o.z), 0u, NO_ITEM);
     states[2] = uvec4(bits_of(d.x), bits_of(d.y));
@@ -86,6 +90,8 @@ void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
 }
 
 void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
+    if (HAS_ROUGHNESS)
+        roughen(ray.direction, ray.key, s);
     scatter_rays rays = scatter(ray.direction, s);
     uint flags = (s.enters ? LOG_ENTERS : 0u) | (rays.total ? LOG_TOTAL : 0u);
     if (HAS_MEDIA)

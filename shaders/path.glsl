@@ -24,13 +24,13 @@ struct path_state {
     uint key;         // with HAS_POINTS: of its ray (points.h)
 };
 
-path_state begin_path(REAL3 direction) {
+path_state begin_path(camera_ray ray) {
     path_state p;
-    p.start = exact_start(CAMERA(position));
-    p.direction = direction;
+    p.start = exact_start(ray.at);
+    p.direction = ray.direction;
     p.cone = vec2(0.0);
     if (HAS_FOOTPRINT)
-        p.cone = camera_cone(direction);
+        p.cone = camera_cone(ray.direction);
     p.throughput = 1.0;
     p.depth = 0u;
     p.kind = RAY_PRIMARY;

@@ -157,7 +157,8 @@
     REAL(cell, 3, w, 4, zw)  /* 0: no checker */                                                             \
     FLOAT3(absorption, 4, 5) /* per flat unit: exp(-absorption * way) is left of light */                    \
     UINT(fresnel, 4, w, 5, w)                                                                                \
-    FLOAT3(emission, 5, 6)
+    FLOAT3(emission, 5, 6)                                                                                   \
+    FLOAT(alpha, 5, w, 6, w) /* of a rough surface */
 
 /* How a material shows an image; the rows take the coordinates of a surface (u, v, 1) to those of the image.
  */

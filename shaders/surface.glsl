@@ -24,6 +24,8 @@ struct surface {
     float bend;  // with HAS_FOOTPRINT: how fast the normal turns along it, positive where it bulges to the viewer
     float width; // and how wide the ray's cone is
     bool fresnel;
+    float alpha; // with HAS_ROUGHNESS; 0: smooth
+    REAL3 micro; // the normal that reflects and refracts then (light/rough.glsl)
     uint body;
     // Of a ray that comes from a place inside certain media (media.glsl).
     REAL index_before, index_after;
@@ -86,6 +88,8 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
     s.refraction = material.weight_refraction;
     if (HAS_FRESNEL)
         s.fresnel = material.fresnel != 0u;
+    if (HAS_ROUGHNESS)
+        s.alpha = material.alpha;
     s.body = body;
 }
 

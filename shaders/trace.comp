@@ -12,7 +12,9 @@
 #include "records.glsl"
 #include "math.glsl"
 #include "light/points.glsl"
+#include "light/round.glsl"
 #include "camera.glsl"
+#include "light/lens.glsl"
 #include "bits.glsl"
 #include "long_rays.glsl"
 #include "tree.glsl"
@@ -25,6 +27,7 @@
 #include "lights.glsl"
 #include "background.glsl"
 #include "bounce.glsl"
+#include "light/rough.glsl"
 #include "media.glsl"
 #include "path.glsl"
 #include "path_words.glsl"
@@ -117,6 +120,8 @@ bool is_followed(path_state p, float throughput) {
 
 // Sends the rays that leave the surface: the path goes on with one, the other waits. false: none.
 bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_start start_through) {
+    if (HAS_ROUGHNESS)
+        roughen(p.direction, p.key, s);
     scatter_rays rays = scatter(p.direction, s);
     if (HAS_COUNTERS && HAS_REFRACTION)
         counted.total_reflections += rays.total ? 1u : 0u;
@@ -523,7 +528,7 @@ void main() {
         if (AT_ONCE)
             load_waiting(place, p.stack_size);
     } else {
-        p = begin_path(camera_direction_at(pixel, offset_in_pixel(sample_number)));
+        p = begin_path(camera_ray_at(pixel, offset_in_pixel(sample_number)));
     }
     uint fault = FAULT_NONE;
     uint state = follow(slot, p, fault);

@@ -39,8 +39,7 @@ static json_t *number_schema(const struct schema_row *row) {
                          json_double(range->least), "maximum", json_double(range->greatest), "minimum",
                          json_double(-range->greatest), "maximum", json_double(-range->least));
     return json_pack("{s:s, s:o, s:o}", "type", type, range->open ? "exclusiveMinimum" : "minimum",
-                     json_double(range->least), range->open ? "exclusiveMaximum" : "maximum",
-                     json_double(range->greatest));
+                     json_double(range->least), "maximum", json_double(range->greatest));
 }
 
 static json_t *components_schema(const struct schema_row *row) {

@@ -18,8 +18,7 @@ static void number_data(struct emit_lines *w, bool integer, double least, double
     if (!integer)
         emit_line(w, "<param name=\"pattern\">" EMIT_NUMBER_PATTERN "</param>");
     for (int end = 0; end < 2; end++) {
-        const char *name =
-            end ? (open ? "maxExclusive" : "maxInclusive") : (open ? "minExclusive" : "minInclusive");
+        const char *name = end ? "maxInclusive" : open ? "minExclusive" : "minInclusive";
         emit_indent(w);
         strbuf_format(w->out, "<param name=\"%s\">", name);
         print_number(w->out, end ? greatest : least);

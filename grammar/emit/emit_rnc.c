@@ -31,7 +31,7 @@ static void number_data(struct emit_lines *w, bool integer, double least, double
         strbuf_cstr(w->out, " pattern = \"" EMIT_NUMBER_PATTERN "\"");
     strbuf_format(w->out, " %s = \"", open ? "minExclusive" : "minInclusive");
     print_number(w->out, least);
-    strbuf_format(w->out, "\" %s = \"", open ? "maxExclusive" : "maxInclusive");
+    strbuf_cstr(w->out, "\" maxInclusive = \"");
     print_number(w->out, greatest);
     strbuf_cstr(w->out, "\" }");
 }

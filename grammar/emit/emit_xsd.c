@@ -33,7 +33,7 @@ static void number_types(struct emit_lines *w) {
         emit_open(w, "<xs:simpleType name=\"number_%s\">", info->name);
         emit_open(w, "<xs:restriction base=\"xs:%s\">", emit_is_integer(range) ? "integer" : "double");
         facet(w, info->open ? "minExclusive" : "minInclusive", least);
-        facet(w, info->open ? "maxExclusive" : "maxInclusive", info->greatest);
+        facet(w, "maxInclusive", info->greatest);
         emit_close(w, "xs:restriction");
         emit_close(w, "xs:simpleType");
         // A colour in one attribute: one number for all three, or #rrggbb.

@@ -6,6 +6,7 @@
 #include "core/number.h"
 #include "grammar/ir.h"
 
+#include <math.h>
 #include <string.h>
 
 // Below this sine two directions count as parallel (docs/language.md, "Camera").
@@ -86,17 +87,93 @@ static bool view_direction(const struct rules *rules, const struct ir_camera *ca
     return false;
 }
 
+static void report_projection(const struct rules *rules, const struct ir_camera *camera, const char *row,
+                              const char *help) {
+    const struct schema_element *schema = &SCHEMA_CAMERA;
+    const struct schema_row *projection = &schema->rows[schema_find_row(schema, STR("projection"))];
+    diag_add(rules->sink, DIAG_OTHER_PROJECTION, ir_place_key(rules->origin, &camera->head, schema, row),
+             "%.*s has '%s', which its projection '%s' does not use",
+             STR_ARG(owner(rules, schema, camera->name)), row, projection->words[camera->projection]);
+    if (is_written(schema, camera, "projection"))
+        diag_note(rules->sink, value_place(rules, schema, camera, "projection"), "'projection' is here");
+    diag_help(rules->sink, "%s", help);
+}
+
+static void check_projection(const struct rules *rules, const struct ir_camera *camera) {
+    const struct schema_element *schema = &SCHEMA_CAMERA;
+    const bool perspective = camera->projection == IR_PROJECTION_PERSPECTIVE;
+    if (is_poisoned(schema, camera, "projection"))
+        return;
+    if (is_written(schema, camera, "size") && camera->projection != IR_PROJECTION_ORTHOGRAPHIC)
+        report_projection(rules, camera, "size",
+                          perspective || camera->projection == IR_PROJECTION_FISHEYE
+                              ? "remove 'size', or write projection: orthographic; 'fov' is how much is seen"
+                              : "remove 'size': a panorama shows all directions");
+    if (is_written(schema, camera, "fov") && !perspective && camera->projection != IR_PROJECTION_FISHEYE)
+        report_projection(rules, camera, "fov",
+                          camera->projection == IR_PROJECTION_ORTHOGRAPHIC
+                              ? "remove 'fov'; 'size' is the height of what is seen"
+                              : "remove 'fov': a panorama shows all directions");
+    if (!perspective || camera->fov < 180 || is_poisoned(schema, camera, "fov"))
+        return;
+    diag_add(rules->sink, DIAG_OUT_OF_RANGE, value_place(rules, schema, camera, "fov"),
+             "'fov' of %.*s is %.6g; in perspective it must be less than 180 degrees",
+             STR_ARG(owner(rules, schema, camera->name)), camera->fov);
+    diag_help(rules->sink, "write a smaller 'fov', or projection: fisheye, which shows up to 360 degrees");
+}
+
+// What a lens is focused on, once the view is known.
+static void check_focus(const struct rules *rules, const struct ir_camera *camera, vec3 view) {
+    const struct schema_element *schema = &SCHEMA_CAMERA;
+    const bool by_point = camera->focusing == IR_FOCUS_POINT;
+    const bool looks = camera->view == IR_VIEW_LOOK_AT;
+    const bool all_round =
+        camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
+    if (!(camera->aperture > 0) || is_poisoned(schema, camera, "focus") ||
+        is_poisoned(schema, camera, "focus_at") || is_poisoned(schema, camera, "position"))
+        return;
+    const vec3 way = vec3_sub(camera->focus_at, camera->position);
+    if (by_point && (all_round ? !vec3_is_zero(way) : vec3_dot(way, view) > 0))
+        return;
+    if (by_point) {
+        diag_add(rules->sink, DIAG_NO_FOCUS, value_place(rules, schema, camera, "focus_at"),
+                 "'focus_at' of %.*s is not before the camera", STR_ARG(owner(rules, schema, camera->name)));
+        diag_help(rules->sink, "choose a point in view, or write 'focus', a distance");
+    } else if (!(camera->focus > 0) && !looks) {
+        diag_add(rules->sink, DIAG_NO_FOCUS, ir_place_key(rules->origin, &camera->head, schema, "aperture"),
+                 "%.*s has an aperture, but nothing says what it is focused on",
+                 STR_ARG(owner(rules, schema, camera->name)));
+        diag_help(rules->sink, "write 'focus', a distance along the view, or 'focus_at', a point");
+    }
+}
+
+// -z turned about x, then y, then z.
+static vec3 turned_view(vec3 degrees) {
+    const double degree = 0.017453292519943295769;
+    const double x = degrees.x * degree, y = degrees.y * degree, z = degrees.z * degree;
+    const vec3 tilted = {-cos(x) * sin(y), sin(x), -cos(x) * cos(y)};
+    return (vec3){tilted.x * cos(z) - tilted.y * sin(z), tilted.x * sin(z) + tilted.y * cos(z), tilted.z};
+}
+
+static void check_rotated(const struct rules *rules, const struct ir_camera *camera) {
+    const struct schema_element *schema = &SCHEMA_CAMERA;
+    check_focus(rules, camera, turned_view(camera->rotation));
+    if (!is_written(schema, camera, "up"))
+        return;
+    diag_add(rules->sink, DIAG_UP_WITH_ROTATION, ir_place_key(rules->origin, &camera->head, schema, "up"),
+             "%.*s has both 'up' and 'rotation', which turns the up direction too",
+             STR_ARG(owner(rules, schema, camera->name)));
+    diag_note(rules->sink, ir_place_key(rules->origin, &camera->head, schema, "rotation"),
+              "'rotation' is here");
+    diag_help(rules->sink, "remove 'up'; a rotation about z tilts the camera");
+}
+
 static void check_camera(const struct rules *rules, const struct ir_camera *camera) {
     const struct schema_element *schema = &SCHEMA_CAMERA;
     str name = owner(rules, schema, camera->name);
+    check_projection(rules, camera);
     if (camera->view == IR_VIEW_ROTATION) {
-        if (!is_written(schema, camera, "up"))
-            return;
-        diag_add(rules->sink, DIAG_UP_WITH_ROTATION, ir_place_key(rules->origin, &camera->head, schema, "up"),
-                 "%.*s has both 'up' and 'rotation', which turns the up direction too", STR_ARG(name));
-        diag_note(rules->sink, ir_place_key(rules->origin, &camera->head, schema, "rotation"),
-                  "'rotation' is here");
-        diag_help(rules->sink, "remove 'up'; a rotation about z tilts the camera");
+        check_rotated(rules, camera);
         return;
     }
     vec3 view;
@@ -104,6 +181,8 @@ static void check_camera(const struct rules *rules, const struct ir_camera *came
     bool has_view = view_direction(rules, camera, &view, &row);
     bool has_up = is_written(schema, camera, "up") &&
                   check_direction(rules, schema, camera, camera->name, "up", camera->up);
+    if (has_view)
+        check_focus(rules, camera, view);
     if (!has_view || !has_up || !is_parallel(view, camera->up))
         return;
     diag_add(rules->sink, DIAG_UP_PARALLEL, value_place(rules, schema, camera, "up"),

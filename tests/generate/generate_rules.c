@@ -37,7 +37,38 @@ static void mend_image(struct ir_image *image) {
     }
 }
 
+static void mend_projection(struct ir_camera *camera) {
+    const bool perspective = camera->projection == IR_PROJECTION_PERSPECTIVE;
+    if (camera->projection != IR_PROJECTION_ORTHOGRAPHIC)
+        forget_row(&SCHEMA_CAMERA, camera, "size");
+    if (!perspective && camera->projection != IR_PROJECTION_FISHEYE)
+        forget_row(&SCHEMA_CAMERA, camera, "fov");
+    if (camera->projection != IR_PROJECTION_ORTHOGRAPHIC)
+        camera->size = 10;
+    if (perspective ? camera->fov >= 180 : camera->projection != IR_PROJECTION_FISHEYE)
+        camera->fov = 60;
+}
+
+static void focus_by_distance(struct ir_camera *camera) {
+    if (camera->focusing == IR_FOCUS_POINT)
+        forget_row(&SCHEMA_CAMERA, camera, "focus_at");
+    camera->focusing = IR_FOCUS_DISTANCE;
+    camera->focus_at = (vec3){0, 0, 0};
+    if (!(camera->aperture > 0) || camera->focus > 0)
+        return;
+    camera->focus = 5;
+    camera->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_CAMERA, STR("focus"));
+}
+
+static void mend_focus(struct ir_camera *camera, vec3 forward) {
+    if (camera->focusing != IR_FOCUS_POINT)
+        focus_by_distance(camera);
+    else if (!(vec3_dot(vec3_sub(camera->focus_at, camera->position), vec3_unit(forward)) > 0))
+        camera->focus_at = vec3_add(camera->position, vec3_mul(vec3_unit(forward), 5));
+}
+
 static void mend_camera(struct ir_camera *camera) {
+    mend_projection(camera);
     vec3 forward = camera->direction;
     if (camera->view == IR_VIEW_DIRECTION && vec3_is_zero(forward))
         forward = camera->direction = (vec3){0, 0, -1};
@@ -49,10 +80,12 @@ static void mend_camera(struct ir_camera *camera) {
         }
     }
     if (camera->view == IR_VIEW_ROTATION) {
+        focus_by_distance(camera);
         camera->up = (vec3){0, 1, 0};
         forget_row(&SCHEMA_CAMERA, camera, "up");
         return;
     }
+    mend_focus(camera, forward);
     bool is_written = camera->head.written >> schema_find_row(&SCHEMA_CAMERA, STR("up")) & 1;
     if (is_written && (vec3_is_zero(camera->up) || is_parallel(camera->up, forward)))
         camera->up = across(forward);

@@ -33,12 +33,13 @@ static double moderate(struct generator *g, enum schema_range range) {
         [SCHEMA_RANGE_VERSION] = {1, 1},     [SCHEMA_RANGE_EXTENT] = {24, 64},
         [SCHEMA_RANGE_SAMPLES] = {1, 4},     [SCHEMA_RANGE_DEPTH] = {1, 6},
         [SCHEMA_RANGE_FRACTION] = {0, 0.05}, [SCHEMA_RANGE_COORDINATE] = {-3, 3},
-        [SCHEMA_RANGE_LENGTH] = {0.3, 1.3},  [SCHEMA_RANGE_SCALE] = {0.4, 1.4},
-        [SCHEMA_RANGE_WEIGHT] = {0, 1},      [SCHEMA_RANGE_ANGLE] = {-180, 180},
-        [SCHEMA_RANGE_FOV] = {40, 75},       [SCHEMA_RANGE_EXPONENT] = {1, 120},
-        [SCHEMA_RANGE_INDEX] = {1, 2},       [SCHEMA_RANGE_PRIORITY] = {-3, 3},
-        [SCHEMA_RANGE_REPEAT] = {0.5, 4},    [SCHEMA_RANGE_SHIFT] = {-1, 1},
-        [SCHEMA_RANGE_SIZE] = {0.2, 2},      [SCHEMA_RANGE_OPENING] = {1, 20},
+        [SCHEMA_RANGE_DISTANCE] = {0, 0.5},  [SCHEMA_RANGE_LENGTH] = {0.3, 1.3},
+        [SCHEMA_RANGE_SCALE] = {0.4, 1.4},   [SCHEMA_RANGE_WEIGHT] = {0, 1},
+        [SCHEMA_RANGE_ANGLE] = {-180, 180},  [SCHEMA_RANGE_FOV] = {40, 75},
+        [SCHEMA_RANGE_EXPONENT] = {1, 120},  [SCHEMA_RANGE_INDEX] = {1, 2},
+        [SCHEMA_RANGE_PRIORITY] = {-3, 3},   [SCHEMA_RANGE_REPEAT] = {0.5, 4},
+        [SCHEMA_RANGE_SHIFT] = {-1, 1},      [SCHEMA_RANGE_SIZE] = {0.2, 2},
+        [SCHEMA_RANGE_OPENING] = {1, 20},
     };
     double value = round(generate_between(g, bounds[range][0], bounds[range][1]) * 100) / 100;
     return range == SCHEMA_RANGE_SCALE && generate_chance(g, 20) ? -value : value;
@@ -51,7 +52,7 @@ static double extreme(struct generator *g, const struct schema_range_info *info)
     case 0:
         return info->open ? nextafter(least, greatest) : least;
     case 1:
-        return info->open ? nextafter(greatest, least) : greatest;
+        return greatest;
     case 2:
         return nextafter(least, greatest);
     case 3:

@@ -329,7 +329,7 @@ static void test_faults_of_one_pixel_keep_apart(void **state) {
     struct reference *r = reference_kit_make(&kit, REFERENCE_WATERTIGHT, false);
     double slopes[2];
     for (uint32_t i = 0; i < 2; i++) {
-        vec3 direction = reference_camera_ray(r, &settings, 0, 0, i);
+        vec3 direction = reference_camera_ray(r, &settings, 0, 0, i, NULL);
         slopes[i] = direction.x / -direction.z;
     }
     double middle = (slopes[0] + slopes[1]) / 2;

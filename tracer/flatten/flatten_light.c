@@ -36,7 +36,8 @@ enum flatten_fault flatten_materials(struct flattening *f) {
                                       .emission = m->emission,
                                       .index = m->refractive_index,
                                       .absorption = flatten_absorption(f, m),
-                                      .fresnel = m->fresnel};
+                                      .fresnel = m->fresnel,
+                                      .alpha = m->alpha};
         if (m->checker) {
             record.second = m->diffuse[1];
             record.cell = m->cell;

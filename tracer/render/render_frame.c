@@ -2,6 +2,7 @@
 #include "scene/points.h"
 #include "tracer/render/render_private.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -53,6 +54,37 @@ static double samples_of(const struct renderer *renderer) {
     return renderer_is_adaptive(renderer) ? settings->least_samples : settings->samples;
 }
 
+static_assert(IR_PROJECTION_ORTHOGRAPHIC == PROJECTION_ORTHOGRAPHIC &&
+                  IR_PROJECTION_FISHEYE == PROJECTION_FISHEYE &&
+                  IR_PROJECTION_PANORAMA == PROJECTION_PANORAMA,
+              "kernels know projections by the same numbers");
+
+// What camera_right and camera_up are multiplied by (PROJECTION_).
+static void reach_of(const struct view_camera *camera, double aspect, double scale, double *right,
+                     double *up) {
+    *up = 1;
+    *right = 1;
+    if (camera->projection == IR_PROJECTION_PANORAMA)
+        return;
+    if (camera->projection == IR_PROJECTION_ORTHOGRAPHIC)
+        *up = camera->half_height * scale;
+    else if (camera->projection == IR_PROJECTION_FISHEYE)
+        *up = camera->half_field / (90 * RADIANS);
+    else
+        *up = camera->tan_half_fov;
+    *right = *up * aspect;
+}
+
+// How much wider a pixel gets for each length along the view; of parallel rays its width, of fisheye and
+// panorama its angle.
+static double footprint_of(const struct view_camera *camera, double scale) {
+    if (camera->projection == IR_PROJECTION_ORTHOGRAPHIC)
+        return 2 * camera->half_height * scale;
+    if (camera->projection == IR_PROJECTION_FISHEYE)
+        return 2 * camera->half_field;
+    return camera->projection == IR_PROJECTION_PANORAMA ? 180 * RADIANS : 2 * camera->tan_half_fov;
+}
+
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera) {
     const struct render_settings *settings = &renderer->settings;
     const struct flat_scene *flat = renderer->flat;
@@ -84,12 +116,17 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .instance_shift = flat->instance_shift,
         .point_bits = points_bits(settings->first_sample, settings->samples),
         .coordinates_table = flat->coordinates_table,
-        .footprint = (float)(2 * camera->tan_half_fov / settings->height / sqrt(samples_of(renderer))),
+        .footprint = (float)(footprint_of(camera, scale) / settings->height / sqrt(samples_of(renderer))),
+        .projection = camera->projection,
+        .lens_radius = (float)(camera->lens_radius * scale),
+        .focus = (float)(camera->focus * scale),
     };
     put_inside(flat, camera, &frame);
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
-    const vec3 right = vec3_mul(camera->right, camera->tan_half_fov * aspect);
-    const vec3 up = vec3_mul(camera->up, camera->tan_half_fov);
+    double reach_right, reach_up;
+    reach_of(camera, aspect, scale, &reach_right, &reach_up);
+    const vec3 right = vec3_mul(camera->right, reach_right);
+    const vec3 up = vec3_mul(camera->up, reach_up);
     put(frame.camera_position, position);
     put(frame.camera_forward, camera->forward);
     put(frame.camera_right, right);

@@ -145,9 +145,20 @@ static void count_unfinished(struct renderer *renderer, uint32_t tile_begin, uin
     }
 }
 
+// As of a picture of one sample: through the middle of the lens.
+static bool write_frame(struct renderer *renderer, const struct view_camera *camera) {
+    const uint32_t samples = renderer->settings.samples, first = renderer->settings.first_sample;
+    renderer->settings.samples = 1;
+    renderer->settings.first_sample = 0;
+    const bool written = renderer_write_frame(renderer, camera);
+    renderer->settings.samples = samples;
+    renderer->settings.first_sample = first;
+    return written;
+}
+
 enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
                                  struct hit_pixel *out, const struct render_progress *progress) {
-    if ((!renderer->hits && !make(renderer)) || !renderer_write_frame(renderer, camera))
+    if ((!renderer->hits && !make(renderer)) || !write_frame(renderer, camera))
         return RENDER_FAILED;
     struct renderer_hits *hits = renderer->hits;
     hits->unfinished = 0;

@@ -31,6 +31,19 @@ static uint32_t clamp_tile(double tile, uint32_t count) {
     return tile > 0 ? tile < count ? (uint32_t)tile : count : 0;
 }
 
+// Where a point is seen, in half heights of the picture to the right and down, and half as wide as the lens
+// blurs it. false: it is not before the camera.
+static bool see(const struct view_camera *camera, vec3 point, double at[2], double *blur) {
+    const vec3 way = vec3_sub(point, camera->position);
+    const double along = vec3_dot(way, camera->forward);
+    const bool is_parallel = camera->projection == IR_PROJECTION_ORTHOGRAPHIC;
+    const double height = is_parallel ? camera->half_height : along * camera->tan_half_fov;
+    at[0] = vec3_dot(way, camera->right) / height;
+    at[1] = -vec3_dot(way, camera->up) / height;
+    *blur = camera->lens_radius > 0 ? camera->lens_radius * fabs(1 - along / camera->focus) / height : 0;
+    return along > 0;
+}
+
 // What the picture shows of a box at most: all of it, if the box reaches behind the camera.
 static struct area area_of(const struct renderer *renderer, const struct view_camera *camera,
                            const struct flat_bounce *body, const struct grid *grid) {
@@ -38,18 +51,19 @@ static struct area area_of(const struct renderer *renderer, const struct view_ca
     const double aspect = (double)settings->width / settings->height;
     double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     uint32_t before = 0;
+    if (camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA)
+        return (struct area){0, 0, grid->width, grid->height};
     for (int i = 0; i < 8; i++) {
         const vec3 corner = {i & 1 ? body->upper.x : body->lower.x, i & 2 ? body->upper.y : body->lower.y,
                              i & 4 ? body->upper.z : body->lower.z};
-        const vec3 way = vec3_sub(corner, camera->position);
-        const double depth = vec3_dot(way, camera->forward) * camera->tan_half_fov;
-        if (!(depth > 0))
+        double at[2], blur;
+        if (!see(camera, corner, at, &blur))
             continue;
         before++;
-        const double x = tile_at(vec3_dot(way, camera->right) / (depth * aspect), settings->width);
-        const double y = tile_at(-vec3_dot(way, camera->up) / depth, settings->height);
-        x0 = fmin(x0, x), x1 = fmax(x1, x);
-        y0 = fmin(y0, y), y1 = fmax(y1, y);
+        x0 = fmin(x0, tile_at((at[0] - blur) / aspect, settings->width));
+        x1 = fmax(x1, tile_at((at[0] + blur) / aspect, settings->width));
+        y0 = fmin(y0, tile_at(at[1] - blur, settings->height));
+        y1 = fmax(y1, tile_at(at[1] + blur, settings->height));
     }
     if (before == 0)
         return (struct area){0};
@@ -122,7 +136,9 @@ bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *ca
 static bool same_view(const struct view_camera *a, const struct view_camera *b) {
     return memcmp(&a->position, &b->position, sizeof a->position) == 0 &&
            memcmp(&a->right, &b->right, sizeof a->right) == 0 && memcmp(&a->up, &b->up, sizeof a->up) == 0 &&
-           memcmp(&a->forward, &b->forward, sizeof a->forward) == 0 && a->tan_half_fov == b->tan_half_fov;
+           memcmp(&a->forward, &b->forward, sizeof a->forward) == 0 && a->tan_half_fov == b->tan_half_fov &&
+           a->projection == b->projection && a->half_height == b->half_height &&
+           a->lens_radius == b->lens_radius && a->focus == b->focus;
 }
 
 bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *camera) {

@@ -212,7 +212,7 @@ static void test_every_row_is_explained(void **state) {
             assert_explained((*e)->name, (*e)->rows[i].name);
         }
     }
-    assert_explained("camera.fov", "greater than 0 and less than 180, degrees; default 60");
+    assert_explained("camera.fov", "greater than 0 and at most 360, degrees; default 60");
     assert_explained("fov", "camera.fov");
     assert_explained("Light.Position", "not together with 'direction'");
     assert_explained("materials.diffuse_color.checker.colors", "checker.color");

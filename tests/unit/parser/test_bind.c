@@ -188,7 +188,7 @@ static void mistakes_in_numbers(void **state) {
     loaded_check_twins(HEAD_YAML "camera: {fov: .nan}\n", HEAD_XML "<Camera fov=\".nan\"/>" END_XML, "E205",
                        "'fov' of camera 'main': '.nan' is not a finite number");
     loaded_check_twins(HEAD_YAML "camera: {fov: 180}\n", HEAD_XML "<Camera fov=\"180\"/>" END_XML, "E206",
-                       "'fov' of camera 'main' is 180; it must be greater than 0 and less than 180 degrees");
+                       "'fov' of camera 'main' is 180; in perspective it must be less than 180 degrees");
     loaded_check_twins(
         HEAD_YAML "spheres: [{name: ball, center: [0, 0, 0], radius: -2}]\n",
         HEAD_XML "<Sphere name=\"ball\" radius=\"-2\"><Center x=\"0\" y=\"0\" z=\"0\"/></Sphere>" END_XML,
@@ -332,7 +332,7 @@ static void names_of_other_tools(void **state) {
         loaded_check(xml, "E202", c->lacks);
     }
     loaded_check(HEAD_YAML "lights: [{position: [0, 0, 0], radius: 1}]\n", "E202", "a light has no size");
-    loaded_check(HEAD_YAML "materials: {m: {roughness: 1}}\n", "E202", "only highlights have a size");
+    loaded_check(HEAD_YAML "materials: {m: {anisotropy: 1}}\n", "E202", "as much along as across");
     loaded_check(HEAD_XML "<AreaLights><Position/></AreaLights>" END_XML, "E202", "a light has no size");
     loaded_check(HEAD_XML "<Plane/>" END_XML, "E202",
                  "use a large rectangle, for example <Rectangle><Corner");

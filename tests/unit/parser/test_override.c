@@ -158,6 +158,7 @@ static void expect(const char *option, const char *codes, const char *part) {
 static void mistakes_in_the_value(void **state) {
     (void)state;
     expect("image.width=0x5", "E205", "--set:1:13: error: 'image.width': '0x5' is hexadecimal");
+    expect("camera.fov=400", "E206", "--set:1:12: error: 'fov' of camera 'main' is 400");
     expect("camera.fov=200", "E206", "--set:1:12: error: 'fov' of camera 'main' is 200");
     expect("camera.fov=~", "E121", "has no value");
     expect("camera.look_at=[0, 0, 5]", "E401", "--set:1:16: error: camera 'main' looks at its own position");
