@@ -251,6 +251,18 @@ static void refuse(struct asset_file *file, str path, enum file_status status, u
     }
 }
 
+void asset_note_again(const struct asset_file *file, span at, str named, str canonical, uint64_t size_bytes) {
+    const struct assets_input *input = file->input;
+    if (input->uses)
+        *ARENA_PUSH(input->arena, input->uses) = (struct asset_use){.what = file->what,
+                                                                    .named = named,
+                                                                    .path = file->path,
+                                                                    .canonical = canonical,
+                                                                    .size_bytes = size_bytes,
+                                                                    .at = at,
+                                                                    .named_in = STR("")};
+}
+
 static void note_use(const struct asset_file *file, str named, const struct file_read *identity) {
     const struct assets_input *input = file->input;
     if (!input->uses)

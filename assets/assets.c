@@ -115,8 +115,10 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     struct file_read identity;
     // Thousands of models may name one mesh: that its file is there was seen when the first of them did.
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
-        if (known->file.named_at.source == at.source && str_equal(known->name, model->mesh))
+        if (known->file.named_at.source == at.source && str_equal(known->name, model->mesh)) {
+            asset_note_again(&known->file, at, known->name, known->canonical, known->size_bytes);
             return known;
+        }
     if (!asset_find(&file, asset_base(input, at), model->mesh, &identity, NULL))
         return NULL;
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
@@ -129,6 +131,7 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     struct loaded_mesh *loaded = ARENA_NEW(input->arena, struct loaded_mesh);
     loaded->file = file;
     loaded->name = model->mesh;
+    loaded->size_bytes = identity.size_bytes;
     loaded->canonical = arena_copy(input->arena, identity.path);
     loaded->next = loader->meshes;
     loader->meshes = loaded;

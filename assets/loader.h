@@ -13,7 +13,8 @@ struct meshes_ahead;
 // A mesh file that models of this scene name.
 struct loaded_mesh {
     struct asset_file file;
-    str name; // as the first model that names it does
+    str name;            // as the first model that names it does
+    uint64_t size_bytes; // of the file
     str canonical;
     const struct mesh *mesh; // NULL: it could not be loaded
     struct str_map groups;   // of the mesh: 1 + index; made when first needed

@@ -251,7 +251,6 @@ static const struct feature_name {
     {FEATURE_SOFT_LIGHT, "soft_light"},
     {FEATURE_AMBIENT, "ambient"},
     {FEATURE_OCCLUSION, "occlusion"},
-    {FEATURE_SKY_LIGHT, "sky_light"},
     {FEATURE_EMISSION, "emission"},
     {FEATURE_ROUGHNESS, "roughness"},
     {FEATURE_CAMERA, "camera"},

@@ -219,7 +219,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
         out->lit |= bit;
         out->sum = vec3_add(out->sum, scaled(value, share));
     }
-    const vec3 around = ambient(r, s, inside, points, key, &out->shadow_rays);
+    const vec3 around = ambient(r, s, inside, points, key, out);
     out->sum = vec3_add(out->sum, vec3_add(s->emission, around));
 }
 

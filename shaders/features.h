@@ -30,16 +30,14 @@
 #define FEATURE_SOFT_LIGHT       (1u << 23) /* a light with extent */
 #define FEATURE_AMBIENT          (1u << 24)
 #define FEATURE_OCCLUSION        (1u << 25) /* of ambient light */
-#define FEATURE_SKY_LIGHT        (1u << 26) /* the background's image lights */
+#define FEATURE_FOOTPRINT        (1u << 26) /* paths carry how wide a pixel is where their rays are */
 #define FEATURE_EMISSION         (1u << 27)
 #define FEATURE_ROUGHNESS        (1u << 28)
 #define FEATURE_CAMERA           (1u << 29) /* other than a pinhole in perspective */
 #define FEATURE_TEXTURES         (1u << 30) /* images on surfaces */
-#define FEATURE_FOOTPRINT        (1u << 31) /* paths carry how wide a pixel is where their rays are */
-#define FEATURE_COUNT            32
+#define FEATURE_COUNT            31
 /* With any of them something is sampled that has extent: rays have keys (light/points.h). */
-#define FEATURE_POINTS                                                                                       \
-    (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_SKY_LIGHT | FEATURE_ROUGHNESS | FEATURE_CAMERA)
+#define FEATURE_POINTS (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA)
 /* What only a scene can switch on; the others are the renderer's. */
 #define FEATURE_SCENE_MASK                                                                                   \
     (((1u << 14) - 1u) | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_FRESNEL | FEATURE_CLEAR_SHADOWS |     \

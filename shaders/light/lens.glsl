@@ -1,7 +1,5 @@
 // Cameras other than a pinhole in perspective (docs/language.md, "Projections" and "Lens").
 
-const bool HAS_CAMERA = (FEATURES & FEATURE_CAMERA) != 0u;
-
 struct camera_ray {
     REAL3 at;
     REAL3 direction; // unit

@@ -12,6 +12,9 @@
 #include "scene.glsl"
 #include "records.glsl"
 #include "math.glsl"
+#define POINT_BITS 0u // the middle of each light
+#include "light/points.glsl"
+#include "light/round.glsl"
 #include "tree.glsl"
 #include "wide.glsl"
 #include "triangles.glsl"

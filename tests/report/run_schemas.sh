@@ -72,7 +72,8 @@ lights: [{position: [3, 4, 5]}]
 spheres: [{center: [0.1, 0, -123456789.3], radius: 0.8}]
 S
 json render_off 0 "$glint" render far.yaml -o far.png --stats=json -q
-by_schema render render.json render_off.json render_reference.json
+json render_noise 0 "$glint" render scene.yaml --noise 0.05 -o noise.png --stats=json -q
+by_schema render render.json render_off.json render_noise.json render_reference.json
 
 json pick 0 "$glint" pick scene.yaml 8,8 --format json
 json pick_mesh 0 "$glint" pick scene.yaml 14,8 --format json

@@ -178,9 +178,7 @@ static void test_every_feature_has_a_row(void **state) {
                 mask |= (*e)->rows[i].weight_features[k];
         }
     // Whether rays must know what they are inside follows from where bodies are.
-    // These bits are kept for what the language does not have yet.
-    const uint32_t kept = FEATURE_SKY_LIGHT | FEATURE_ROUGHNESS | FEATURE_CAMERA;
-    assert_int_equal(mask, FEATURE_SCENE_MASK & ~(FEATURE_MEDIA | kept));
+    assert_int_equal(mask, FEATURE_SCENE_MASK & ~FEATURE_MEDIA);
 }
 
 int main(void) {

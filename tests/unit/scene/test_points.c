@@ -71,7 +71,7 @@ static void pixels_and_their_squares_are_covered_evenly(void **state) {
     (void)state;
     for (uint32_t key = 0; key < 20; key++) {
         assert_true(square_is_net(3 * key, 700 + key, 0, point_key(key, POINT_LENS)));
-        assert_true(square_is_net(2 * key, 254, 1, point_key(key, POINT_SKY)));
+        assert_true(square_is_net(2 * key, 254, 1, point_key(key, POINT_PIXEL)));
         assert_true(square_is_net(8 * key, 1024, 3, point_key(key, POINT_LIGHT + key)));
     }
 }

@@ -86,6 +86,18 @@ static int preserves_nan(const struct module *module, uint32_t bits) {
     return count;
 }
 
+// Whether it may compute with doubles.
+static bool has_doubles(const struct module *module) {
+    enum {
+        OP_CAPABILITY = 17,
+        FLOAT64 = 10
+    };
+    for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16)
+        if ((module->words[at] & 0xffff) == OP_CAPABILITY && module->words[at + 1] == FLOAT64)
+            return true;
+    return false;
+}
+
 // How many values of a type of doubles are computed: that the module traces in double precision at all.
 static int count_doubles(const struct module *module) {
     bool *is_double = calloc(module->words[3], sizeof *is_double); // types by id
@@ -140,7 +152,9 @@ static void check_module(const struct module *module) {
     assert_int_equal(module->words[0], 0x07230203);
     assert_int_equal(faults_of(module, !may_fuse) > 0, may_fuse);
     assert_int_equal(preserves_nan(module, 32), 1);
-    assert_int_equal(preserves_nan(module, 64), is_double || has_wide);
+    assert_int_equal(preserves_nan(module, 64), has_doubles(module));
+    assert_true(has_doubles(module) || !(is_double || has_wide));
+    assert_true(!traces || !has_doubles(module) || is_double || has_wide);
     assert_int_equal(doubles > 0, has_wide);
     assert_int_equal(doubles > 100, is_double && traces);
     if (traces)
