@@ -35,8 +35,8 @@ str asset_base(const struct assets_input *input, span at);
 // are the caller's, and live as long as the arena.
 void asset_note_again(const struct asset_file *file, span at, str named, str canonical, uint64_t size_bytes);
 bool asset_find(struct asset_file *file, str base_path, str path, struct file_read *identity, bool *missing);
-// A file that was found before is named once more, at another place of the scene: among the uses. The strings are the
-// caller's, and live as long as the arena.
+// A file that was found before is named once more, at another place of the scene: among the uses. The strings
+// are the caller's, and live as long as the arena.
 void asset_note_again(const struct asset_file *file, span at, str named, str canonical, uint64_t size_bytes);
 // Reads the found file into `arena`; if that fails, adds a diagnostic where it is named.
 bool asset_read(struct asset_file *file, struct arena *arena);

@@ -95,7 +95,7 @@ static void test_mistakes(void **state) {
         "{glint: 1, image: {tone: Clip}}",
         "{glint: 1, trace: {shadows: yes}}",
         "{glint: 1, trace: {min_weight: 1.1}}",
-        "{glint: 1, camera: {fov: 180}}",
+        "{glint: 1, camera: {fov: 361}}",
         "{glint: 1, camera: {name: main}}",
         "{glint: 1, camera: {position: [0, 0]}}",
         "{glint: 1, camera: {position: {x: 0, y: 0}}}",

@@ -265,7 +265,7 @@ static void what_is_missing(void **state) {
                        HEAD_XML "<Sphere><Center x=\"0\" y=\"0\" z=\"0\"/></Sphere>" END_XML, "E204",
                        "this sphere lacks 'radius'");
     loaded_check_twins(HEAD_YAML "lights: [{intensity: 2}]\n", HEAD_XML "<Light intensity=\"2\"/>" END_XML,
-                       "E215", "this light needs 'position' or 'direction'");
+                       "E215", "this light needs 'position' or 'direction' or 'rectangle'");
     loaded_check_twins("image: {}\n", "<Scene/>", "E204", "the scene lacks 'glint'");
     loaded_check(HEAD_XML "<Material/>" END_XML, "E204", "this material lacks 'name'");
     // What is missing because it was misspelt is said once.
@@ -331,9 +331,9 @@ static void names_of_other_tools(void **state) {
         loaded_check(yaml, "E202", c->lacks);
         loaded_check(xml, "E202", c->lacks);
     }
-    loaded_check(HEAD_YAML "lights: [{position: [0, 0, 0], radius: 1}]\n", "E202", "a light has no size");
+
     loaded_check(HEAD_YAML "materials: {m: {anisotropy: 1}}\n", "E202", "as much along as across");
-    loaded_check(HEAD_XML "<AreaLights><Position/></AreaLights>" END_XML, "E202", "a light has no size");
+    loaded_check(HEAD_XML "<AreaLights><Position/></AreaLights>" END_XML, "E202", "has soft shadows");
     loaded_check(HEAD_XML "<Plane/>" END_XML, "E202",
                  "use a large rectangle, for example <Rectangle><Corner");
     loaded_check(HEAD_YAML "Plane: {}\n", "E202", "use a large rectangle, for example rectangles: [{corner");
@@ -347,7 +347,7 @@ static void names_of_other_tools(void **state) {
     loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, ior: 2}]\n", "E202",
                  "did you mean 'refractive_index' of a material? For example refractive_index: 1.5");
     loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, strength: 2}]\n", "E202",
-                 "did you mean 'intensity' of a background or 'intensity' of a light?");
+                 "did you mean 'intensity' of a background or 'intensity' of an ambient or others?");
 }
 
 static void what_is_no_scene(void **state) {

@@ -159,12 +159,12 @@ static void mistakes_in_the_value(void **state) {
     (void)state;
     expect("image.width=0x5", "E205", "--set:1:13: error: 'image.width': '0x5' is hexadecimal");
     expect("camera.fov=400", "E206", "--set:1:12: error: 'fov' of camera 'main' is 400");
-    expect("camera.fov=200", "E206", "--set:1:12: error: 'fov' of camera 'main' is 200");
+    expect("camera.fov=200", "E206", "in perspective");
     expect("camera.fov=~", "E121", "has no value");
     expect("camera.look_at=[0, 0, 5]", "E401", "--set:1:16: error: camera 'main' looks at its own position");
     expect("spheres[0].material=glas", "E301", "did you mean 'glass'?");
     expect("materials.glass.ior=1", "E220", "did you mean 'refractive_index'?");
-    expect("lights[0].radius=1", "E220", "a light has no size");
+    expect("lights[0].type=1", "E220", "a light has no type");
     expect("materials.glass={albdo: 1}", "E202", "--set:1:18: error: a material has no 'albdo'");
     expect("image.width=[1", "E219", "--set:1:");
     expect("image.width=#ffffff", "E205", "'#ffffff' is not a number");
