@@ -346,8 +346,9 @@ static void names_of_other_tools(void **state) {
                  "did you mean 'refractive_index'? For example refractive_index: 1.5");
     loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, ior: 2}]\n", "E202",
                  "did you mean 'refractive_index' of a material? For example refractive_index: 1.5");
+    // Of three elements none is surely meant.
     loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, strength: 2}]\n", "E202",
-                 "did you mean 'intensity' of a background or 'intensity' of an ambient or others?");
+                 "it can have: name, center");
 }
 
 static void what_is_no_scene(void **state) {
