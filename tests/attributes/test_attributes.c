@@ -402,8 +402,12 @@ static bool all_proven(const struct bench *b) {
     return true;
 }
 
+static uint64_t row_bit(const struct schema_element *schema, const char *row) {
+    return UINT64_C(1) << schema_find_row(schema, str_from(row));
+}
+
 static void write_row(const struct schema_element *schema, void *element, const char *row) {
-    ((struct ir_head *)element)->written |= UINT64_C(1) << schema_find_row(schema, str_from(row));
+    ((struct ir_head *)element)->written |= row_bit(schema, row);
 }
 
 // What few random scenes have: two balls of different glass that overlap where the camera looks.
@@ -451,6 +455,7 @@ static void change_camera(struct ir_scene *scene, uint64_t seed) {
     camera->focusing = has_distance ? IR_FOCUS_DISTANCE : IR_FOCUS_POINT;
     camera->focus = has_distance ? distance : 0;
     camera->focus_at = has_distance ? (vec3){0, 0, 0} : camera->look_at;
+    camera->head.written &= ~(row_bit(&SCHEMA_CAMERA, "focus") | row_bit(&SCHEMA_CAMERA, "focus_at"));
     write_row(&SCHEMA_CAMERA, camera, has_distance ? "focus" : "focus_at");
     for (uint32_t i = 0; i < scene->materials.count; i++) {
         struct ir_material *material = &scene->materials.items[i];
