@@ -435,9 +435,12 @@ static void overlap_glass(struct ir_scene *scene) {
 // Nor this: a lens, rough surfaces and samples enough to see them; or parallel rays.
 static void change_camera(struct ir_scene *scene, uint64_t seed) {
     struct ir_camera *camera = scene->cameras.items;
-    if (scene->cameras.count == 0 || camera->view != IR_VIEW_LOOK_AT || seed % 3 == 0)
+    if (scene->cameras.count == 0 || camera->view == IR_VIEW_ROTATION || seed % 3 == 0)
         return;
-    const double distance = vec3_length(vec3_sub(camera->look_at, camera->position));
+    const bool looks = camera->view == IR_VIEW_LOOK_AT;
+    const vec3 way =
+        looks ? vec3_sub(camera->look_at, camera->position) : vec3_mul(vec3_unit(camera->direction), 5);
+    const double distance = vec3_length(way);
     write_row(&SCHEMA_CAMERA, camera, "projection");
     camera->projection = seed % 3 == 1 ? IR_PROJECTION_PERSPECTIVE : IR_PROJECTION_ORTHOGRAPHIC;
     if (seed % 3 == 2) {
@@ -445,7 +448,7 @@ static void change_camera(struct ir_scene *scene, uint64_t seed) {
         write_row(&SCHEMA_CAMERA, camera, "size");
         return;
     }
-    const bool has_distance = seed / 6 % 2;
+    const bool has_distance = seed % 2;
     scene->image.samples = 4;
     write_row(&SCHEMA_IMAGE, &scene->image, "samples");
     camera->fov = 50;
@@ -454,7 +457,7 @@ static void change_camera(struct ir_scene *scene, uint64_t seed) {
     write_row(&SCHEMA_CAMERA, camera, "aperture");
     camera->focusing = has_distance ? IR_FOCUS_DISTANCE : IR_FOCUS_POINT;
     camera->focus = has_distance ? distance : 0;
-    camera->focus_at = has_distance ? (vec3){0, 0, 0} : camera->look_at;
+    camera->focus_at = has_distance ? (vec3){0, 0, 0} : vec3_add(camera->position, way);
     camera->head.written &= ~(row_bit(&SCHEMA_CAMERA, "focus") | row_bit(&SCHEMA_CAMERA, "focus_at"));
     write_row(&SCHEMA_CAMERA, camera, has_distance ? "focus" : "focus_at");
     for (uint32_t i = 0; i < scene->materials.count; i++) {
