@@ -52,7 +52,7 @@ void through_lens(uvec2 pixel, REAL x, REAL y, inout camera_ray ray) {
         ray.direction = panorama_direction(x, y);
     bool ahead = projection <= PROJECTION_ORTHOGRAPHIC;
     // The middle of the lens is where the pinhole is, and its ray is the same, bit for bit.
-    if (frame.lens_radius > 0.0 && frame.point_bits > OPAQUE_ZERO)
+    if (frame.lens_radius > float(OPAQUE_ZERO) && frame.point_bits > OPAQUE_ZERO)
         focus_ray(pixel, ahead ? middle : ray.direction, ahead, ray);
 }
 

@@ -223,9 +223,10 @@ void sphere_spot(REAL3 outward, REAL radius, inout paint_spot spot) {
 
 RAY_CONE camera_cone(REAL3 direction) {
     vec2 cone = vec2(0.0, frame.footprint * float(dot3(direction, CAMERA(forward))));
-    if (HAS_CAMERA && frame.projection == PROJECTION_ORTHOGRAPHIC)
+    uint projection = frame.projection + OPAQUE_ZERO;
+    if (HAS_CAMERA && projection == PROJECTION_ORTHOGRAPHIC)
         cone = vec2(frame.footprint, 0.0);
-    else if (HAS_CAMERA && frame.projection != PROJECTION_PERSPECTIVE)
+    else if (HAS_CAMERA && projection != PROJECTION_PERSPECTIVE)
         cone = vec2(0.0, frame.footprint);
     return cone;
 }
