@@ -186,7 +186,9 @@ static bool check_scene(struct picture_kit *kit, const char *path, struct size s
                                       .asset_path_count = meshes ? 1 : 0,
                                       .limits = limits_default(),
                                       .width = size.width,
-                                      .height = size.height};
+                                      .height = size.height,
+                                      // The reference takes all samples of each pixel.
+                                      .error = -1};
     session_load(&session, &options, kit->store);
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0 && check_session(kit, &session);
     if (!good)
