@@ -9,7 +9,7 @@ set(GLINT_ZSH_DIR ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Wher
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/${GLINT_PACKAGE})
 
 install(TARGETS glint RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES README.md CONTRIBUTING.md DESTINATION ${documents})
+install(FILES README.md CONTRIBUTING.md CHANGELOG.md DESTINATION ${documents})
 install(DIRECTORY docs/ DESTINATION ${documents}/docs PATTERN "schema" EXCLUDE)
 install(DIRECTORY scenes/tutorial DESTINATION ${documents}/examples)
 install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/glint)

@@ -44,6 +44,17 @@ License: Expat
 License: Expat
  ${terms}
 ")
-file(COPY ${SOURCE}/CHANGELOG.md DESTINATION ${PREFIX}/${DOCUMENTS})
-file(RENAME ${PREFIX}/${DOCUMENTS}/CHANGELOG.md ${PREFIX}/${DOCUMENTS}/changelog)
-compress(${DOCUMENTS}/changelog)
+# What a Debian package says of itself, where one is made; ours is CHANGELOG.md.
+if(NOT "$ENV{SOURCE_DATE_EPOCH}" STREQUAL "")
+  file(STRINGS ${SOURCE}/VERSION version LIMIT_COUNT 1)
+  string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+  get_filename_component(package ${DOCUMENTS} NAME)
+  file(WRITE ${PREFIX}/${DOCUMENTS}/changelog
+"${package} (${version}) unstable; urgency=medium
+
+  * CHANGELOG.md says what is new.
+
+ -- the glint authors <glint@example.com>  ${date}
+")
+  compress(${DOCUMENTS}/changelog)
+endif()

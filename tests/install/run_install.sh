@@ -40,7 +40,7 @@ expect "a picture" 0 '' '' run bin/glint render share/doc/glint/examples/tutoria
 expect "a schema for a scene" 0 '' '' run bin/glint schema install --schema ../schema.json \
     share/doc/glint/examples/tutorial/step-1.glint.yaml
 "$glint" schema json | cmp -s - "$share/glint/schema/glint.schema.json" && pass "schema" || fail "schema is stale"
-for file in doc/glint/copyright doc/glint/changelog.gz doc/glint/docs/language.md glint/hooks/pre-commit-hooks.yaml \
+for file in doc/glint/copyright doc/glint/CHANGELOG.md doc/glint/docs/language.md glint/hooks/pre-commit-hooks.yaml \
     glint/ci/gitlab.yml; do
     [ -s "$share/$file" ] || fail "share/$file is missing"
 done
