@@ -145,7 +145,7 @@ static double choose_models(struct judging *j) {
 static bool list_copied(struct judging *j, double most) {
     struct shared_mesh *shared = j->shared;
     const uint32_t count = shared->mesh->triangle_count;
-    shared->copied = heap_alloc(((size_t)count_lower(j->sorted, count, most) + 1) * sizeof *shared->copied);
+    shared->copied = heap_array((size_t)count_lower(j->sorted, count, most) + 1, sizeof *shared->copied);
     if (!shared->copied)
         return false;
     for (uint32_t i = 0; i < count; i++)
@@ -171,7 +171,7 @@ static bool judge_models(struct judging *j) {
 static enum flatten_fault judge_mesh(struct flattening *f, struct shared_mesh *shared) {
     const size_t count = shared->mesh->triangle_count;
     struct judging j = {.f = f, .shared = shared};
-    j.height = heap_alloc(2 * (count + 1) * sizeof *j.height);
+    j.height = heap_array(heap_times(2, count + 1), sizeof *j.height);
     if (!j.height)
         return FLATTEN_NO_MEMORY;
     j.sorted = j.height + count;
@@ -272,7 +272,7 @@ static int compare_meshes(const void *a, const void *b) {
 static bool list_meshes(struct flattening *f, const struct mesh_use *uses, uint32_t count) {
     struct sharing *sharing = &f->sharing;
     sharing->meshes = heap_zeroed((size_t)count / 2 + 1, sizeof *sharing->meshes);
-    sharing->uses = heap_alloc(((size_t)count + 1) * sizeof *sharing->uses);
+    sharing->uses = heap_array((size_t)count + 1, sizeof *sharing->uses);
     sharing->instance = heap_zeroed((size_t)f->scene->body_count + 1, sizeof *sharing->instance);
     if (!sharing->meshes || !sharing->uses || !sharing->instance)
         return false;
@@ -300,7 +300,7 @@ static void order_meshes(struct sharing *sharing) {
 }
 
 static enum flatten_fault find_meshes(struct flattening *f) {
-    struct mesh_use *uses = heap_alloc(((size_t)f->scene->body_count + 1) * sizeof *uses);
+    struct mesh_use *uses = heap_array((size_t)f->scene->body_count + 1, sizeof *uses);
     if (!uses)
         return FLATTEN_NO_MEMORY;
     const uint32_t count = mesh_uses(f->scene, 1, uses);
@@ -315,7 +315,7 @@ static enum flatten_fault find_meshes(struct flattening *f) {
 
 static enum flatten_fault report_uses(struct flattening *f) {
     struct flat_scene *out = f->out;
-    out->uses = heap_alloc(((size_t)f->sharing.mesh_count + 1) * sizeof *out->uses);
+    out->uses = heap_array((size_t)f->sharing.mesh_count + 1, sizeof *out->uses);
     if (!out->uses)
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < f->sharing.mesh_count; i++) {
@@ -333,7 +333,7 @@ static enum flatten_fault report_uses(struct flattening *f) {
 // Numbers the instances, from 1 on in IR order.
 static bool number_instances(struct flattening *f) {
     struct sharing *sharing = &f->sharing;
-    sharing->mesh_of = heap_alloc(((size_t)f->scene->body_count + 1) * sizeof *sharing->mesh_of);
+    sharing->mesh_of = heap_array((size_t)f->scene->body_count + 1, sizeof *sharing->mesh_of);
     if (!sharing->mesh_of)
         return false;
     for (uint32_t i = 0; i < f->scene->body_count; i++)
