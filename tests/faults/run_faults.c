@@ -3,7 +3,8 @@
 // half-written.
 //
 // Usage: run_faults GLINT SHIM SOURCES WORK memory|files|vulkan [spread|whole] [TASK]...
-//   spread   (what the suite runs) each place that calls, a spread where one run takes long; `whole`: every call
+//   spread   (what the suite runs) each place that calls, a spread where one run takes long; `whole`: every
+//   call
 #define _POSIX_C_SOURCE 200809L
 
 #include "judge.h"
