@@ -180,8 +180,10 @@ static struct gpu_pipeline *make(struct gpu *gpu, const struct gpu_program_sourc
         return NULL;
     }
     *made = *wanted;
-    if (create_layout(gpu, made, source) && create_pipeline(gpu, made, source))
+    if (create_layout(gpu, made, source) && create_pipeline(gpu, made, source)) {
+        gpu->pipelines_made++;
         return made;
+    }
     destroy(gpu, made);
     return NULL;
 }
@@ -209,6 +211,10 @@ void gpu_pipeline_leave(struct gpu *gpu, struct gpu_pipeline *pipeline) {
         return;
     pipeline->users--;
     drop_idle(gpu);
+}
+
+uint32_t gpu_pipelines_made(const struct gpu *gpu) {
+    return gpu->pipelines_made;
 }
 
 void gpu_pipelines_destroy(struct gpu *gpu) {
