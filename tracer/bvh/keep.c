@@ -48,7 +48,7 @@ static void key_of(const struct bvh_item *items, uint32_t count, enum bvh_method
 }
 
 static bool copy(const struct bvh *from, struct bvh *to) {
-    const size_t node_bytes = heap_times(from->node_count, sizeof(uint32_t[NODE_WORDS]));
+    const size_t node_bytes = heap_times(heap_times(from->node_count, NODE_WORDS), sizeof *from->nodes);
     const size_t order_bytes = heap_times(from->item_count, sizeof *from->order);
     *to = *from;
     to->nodes = heap_alloc(node_bytes);
