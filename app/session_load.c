@@ -164,6 +164,7 @@ static void take_image_options(struct session *session) {
     // With fewer samples no pixel could end before the others.
     if (image->samples <= image->min_samples)
         image->error = 0;
+    session->unused_error = image->error > 0 ? 0 : session->scene->image.error;
     session->image = image;
 }
 

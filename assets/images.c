@@ -56,7 +56,8 @@ static void read_image(struct loader *loader, struct asset_file *file, str name,
     timeline_add(loader->input->timeline, "image", file->path, start);
     file->text = STR("");
     arena_finish(scratch);
-    entry->is_whole = file->errors == 0;
+    if (file->errors == 0)
+        store_complete(loader->hold, entry);
 }
 
 // An image of which at least as much is known as is asked for.

@@ -1,7 +1,6 @@
 // glint: the command line. Finds the command, parses its options, runs it.
 #include "cli/cli.h"
 
-#include "cli/about/about.h"
 #include "cli/memory.h"
 #include "core/clock.h"
 #include "core/nearest.h"
@@ -198,15 +197,6 @@ static int show_help(struct cli *cli, const struct cli_command *command) {
     return status;
 }
 
-static int show_version(struct cli *cli) {
-    struct strbuf text;
-    strbuf_init(&text);
-    about_program(GLINT_VERSION, GLINT_DEVICE, &text);
-    int status = cli_print(cli, strbuf_view(&text));
-    strbuf_finish(&text);
-    return status;
-}
-
 static int show_limits(struct cli *cli) {
     struct strbuf text;
     strbuf_init(&text);
@@ -275,7 +265,7 @@ static int run(struct cli *cli) {
     if (cli->argv[1][0] == '-') {
         bool good = cli_parse_options(cli, NULL, 1);
         if (good && cli->options.version)
-            return show_version(cli);
+            return cmd_version(cli);
         if (good && cli->options.help)
             return show_help(cli, NULL);
         return good ? cli_usage(cli, 1, "a command is needed before its options") : CLI_USAGE;

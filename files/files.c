@@ -18,6 +18,7 @@ enum {
     SUGGEST_ENTRIES_MAX = 10000,
     PIECE_BYTES = 4 << 20, // of a large file
     PIECES_MAX = 1024,
+    MISSES_MAX = 256,
 };
 
 void files_init(struct files *files, struct arena *arena) {
@@ -152,6 +153,15 @@ static bool below_a_root(const struct files *files, str canonical) {
     return false;
 }
 
+static void log_miss(struct files *files, str canonical) {
+    if (files->missed.count == MISSES_MAX)
+        return;
+    for (uint32_t i = 0; i < files->missed.count; i++)
+        if (str_equal(files->missed.items[i], canonical))
+            return;
+    *ARENA_PUSH(files->arena, &files->missed) = canonical;
+}
+
 static enum file_status try_path(struct files *files, str path, str *out) {
     *out = path;
     str canonical;
@@ -162,8 +172,10 @@ static enum file_status try_path(struct files *files, str path, str *out) {
     bool allowed = below_a_root(files, canonical);
     if (find_overlay(files, canonical) && (allowed || files->roots.count == 0))
         return FILE_OK;
-    if (!exists)
+    if (!exists) {
+        log_miss(files, canonical);
         return status_of_errno(files, error);
+    }
     if (allowed)
         return FILE_OK;
     *out = canonical;

@@ -43,6 +43,8 @@ const struct lint_rule lint_rules[] = {
     {DIAG_NOTHING_SHARP, lint_nothing_sharp, LINT_ALL},
     // A few places for each refracting body and camera.
     {DIAG_LENS_INSIDE, lint_lens_inside, LINT_ALL},
+    // Three values.
+    {DIAG_NEVER_ENDS, lint_never_ends, LINT_CHEAP},
     {.run = NULL},
 };
 

@@ -32,11 +32,11 @@ static void gather_items(void *context, size_t begin, size_t end) {
 }
 
 // Builds a tree over `items` and takes the `records` that they name into the order of its leaves.
-static bool make_tree(enum bvh_method method, struct bvh_item *items, uint32_t count,
+static bool make_tree(const struct flat_input *input, struct bvh_item *items, uint32_t count,
                       const struct gpu_word *records, uint32_t words, struct flat_array *nodes,
                       struct flat_array *leaves, uint32_t *depth) {
     struct bvh bvh;
-    if (!bvh_build(items, count, method, &bvh))
+    if (!bvh_build_kept(input->keep, items, count, input->method, &bvh))
         return false;
     *nodes = (struct flat_array){bvh.nodes, (uint64_t)bvh.node_count * NODE_WORDS};
     *depth = bvh.depth;
@@ -65,7 +65,7 @@ static void place_leaves(void *context, size_t begin, size_t end) {
 static bool make_triangle_tree(struct flattening *f) {
     struct flat_scene *out = f->out;
     struct bvh bvh;
-    if (!bvh_build(f->items, f->item_count, f->input->method, &bvh))
+    if (!bvh_build_kept(f->input->keep, f->items, f->item_count, f->input->method, &bvh))
         return false;
     free(f->items);
     f->items = NULL;
@@ -121,7 +121,7 @@ static enum flatten_fault make_spheres(struct flattening *f) {
     if (done) {
         flatten_spheres(f, words, items);
         double start = clock_seconds();
-        done = make_tree(f->input->method, items, count, words, out->strides.sphere, &out->sphere_nodes,
+        done = make_tree(f->input, items, count, words, out->strides.sphere, &out->sphere_nodes,
                          &out->spheres, &out->sphere_depth);
         end_tree(f, start);
     }

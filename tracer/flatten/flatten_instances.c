@@ -177,7 +177,7 @@ static bool build_mesh(struct flattening *f, struct shared_mesh *shared, const s
         if (!filling->items[i].spare)
             filling->items[count++] = filling->items[i];
     const double start = clock_seconds();
-    if (!bvh_build(filling->items, count, f->input->method, &bvh))
+    if (!bvh_build_kept(f->input->keep, filling->items, count, f->input->method, &bvh))
         return false;
     f->out->build_seconds += clock_seconds() - start;
     const bool done = keep_tree(f, shared, &bvh, filling->records);
@@ -449,7 +449,8 @@ static bool make_top(struct placing *p) {
     struct flat_scene *out = f->out;
     const uint32_t first = f->item_count ? 0 : 1;
     struct bvh top;
-    if (!bvh_build(p->items + first, f->sharing.instance_count - first, BVH_SAH_SINGLES, &top))
+    if (!bvh_build_kept(f->input->keep, p->items + first, f->sharing.instance_count - first, BVH_SAH_SINGLES,
+                        &top))
         return false;
     bool done = bvh_open_leaves(&top, p->leaves);
     struct bvh below = {.nodes = out->triangle_nodes.words,

@@ -6,6 +6,7 @@
 // more than |M^-1|, for which the Frobenius norm is a bound.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "scene/mesh_use.h"
 #include "tracer/flatten/flatten_parts.h"
 
 #include <inttypes.h>
@@ -261,18 +262,6 @@ static bool is_decided(struct flattening *f) {
 
 // ---- which models share a mesh
 
-struct use {
-    const struct mesh *mesh;
-    uint32_t body;
-};
-
-static int compare_uses(const void *a, const void *b) {
-    const struct use *x = a, *y = b;
-    if (x->mesh != y->mesh)
-        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
-    return x->body < y->body ? -1 : x->body > y->body;
-}
-
 static int compare_meshes(const void *a, const void *b) {
     const struct shared_mesh *x = a, *y = b;
     return x->first_use < y->first_use ? -1 : x->first_use > y->first_use;
@@ -280,7 +269,7 @@ static int compare_meshes(const void *a, const void *b) {
 
 // Meshes of two models at least, in the order of their first models: while they are sorted `first_use` is
 // that body, after it a place in `uses`.
-static bool list_meshes(struct flattening *f, const struct use *uses, uint32_t count) {
+static bool list_meshes(struct flattening *f, const struct mesh_use *uses, uint32_t count) {
     struct sharing *sharing = &f->sharing;
     sharing->meshes = heap_zeroed((size_t)count / 2 + 1, sizeof *sharing->meshes);
     sharing->uses = heap_array((size_t)count + 1, sizeof *sharing->uses);
@@ -311,14 +300,10 @@ static void order_meshes(struct sharing *sharing) {
 }
 
 static enum flatten_fault find_meshes(struct flattening *f) {
-    struct use *uses = heap_array((size_t)f->scene->body_count + 1, sizeof *uses);
-    uint32_t count = 0;
+    struct mesh_use *uses = heap_array((size_t)f->scene->body_count + 1, sizeof *uses);
     if (!uses)
         return FLATTEN_NO_MEMORY;
-    for (uint32_t i = 0; i < f->scene->body_count; i++)
-        if (f->scene->bodies[i].mesh && f->scene->bodies[i].triangle_count)
-            uses[count++] = (struct use){f->scene->bodies[i].mesh, i};
-    qsort(uses, count, sizeof *uses, compare_uses);
+    const uint32_t count = mesh_uses(f->scene, 1, uses);
     const bool done = list_meshes(f, uses, count);
     free(uses);
     if (done)

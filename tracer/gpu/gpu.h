@@ -133,6 +133,9 @@ void gpu_program_destroy(struct gpu *gpu, struct gpu_program *program);
 void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
                       struct gpu_buffer *const buffers[GPU_BINDINGS]);
 
+// How many pipelines were made for it so far: programs share those of the same kernel and constants.
+uint32_t gpu_pipelines_made(const struct gpu *gpu);
+
 // What the driver says of the compiled kernel, in its own words: registers, private memory, size of the code
 // (VK_KHR_pipeline_executable_properties). Calls `tell` for each figure; false: it says nothing.
 typedef void gpu_tell(void *context, const char *name, double value);

@@ -50,8 +50,8 @@ static enum render_result draw_samples(struct renderer_frame *run, struct sums *
     const struct render_limit *limit = run->limit;
     enum render_result result = RENDER_DONE;
     while (result == RENDER_DONE && run->samples_done < renderer->settings.samples) {
-        if (run->samples_done == 1)
-            renderer_unpack(renderer, 0, renderer->tiles, sums->whole, 1, rgb);
+        if (run->samples_done == 1 || (run->samples_done && limit->shows_each))
+            renderer_unpack(renderer, 0, renderer->tiles, sums->whole, run->samples_done, rgb);
         if (run->samples_done && !limit->goes_on(limit->context, run->samples_done, rgb))
             break;
         result = draw_all(run, sums);
