@@ -1,5 +1,6 @@
 #include "assets/asset_file.h"
 
+#include "grammar/mesh_format.h"
 #include "grammar/schema.h"
 
 #include <stdarg.h>
@@ -186,7 +187,7 @@ void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
 }
 
 bool assets_is_mesh_path(str path) {
-    return str_ends_with_nocase(path, ".obj");
+    return mesh_format_of_path(path) != MESH_FORMAT_COUNT;
 }
 
 str asset_base(const struct assets_input *input, span at) {

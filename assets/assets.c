@@ -9,6 +9,7 @@
 #include "core/strbuf.h"
 #include "core/timeline.h"
 #include "grammar/ir.h"
+#include "grammar/mesh_format.h"
 #include "grammar/schema.h"
 #include "picture/read/picture_read.h"
 
@@ -21,24 +22,18 @@ static bool is_poisoned(const struct ir_head *head, const struct schema_element 
 // ---- meshes
 
 static void report_mesh_kind(struct asset_file *file) {
-    static const char *const known[] = {".ply", ".stl", ".gltf",  ".glb", ".fbx",
-                                        ".dae", ".3ds", ".blend", ".off", NULL};
     str base = path_base(file->path);
     size_t dot = base.len;
     while (dot > 0 && base.ptr[dot - 1] != '.')
         dot--;
-    bool is_known = false;
-    for (const char *const *ending = known; *ending; ending++)
-        is_known |= str_ends_with_nocase(base, *ending);
     if (dot == 0)
         asset_report_named(file, DIAG_FILE_KIND, "'%.*s' has no extension that shows its kind",
                            STR_ARG(base));
     else
         asset_report_named(file, DIAG_FILE_KIND, "meshes of the kind '.%.*s' are not supported",
                            STR_ARG(str_slice(base, dot, base.len)));
-    diag_help(file->input->sink,
-              is_known ? "this version reads Wavefront OBJ (.obj); a 3D program can convert the file"
-                       : "this version reads Wavefront OBJ (.obj)");
+    diag_help(file->input->sink, "glint reads %.*s; a 3D program can convert other meshes",
+              STR_ARG(mesh_format_words(file->input->arena)));
 }
 
 struct mesh_reading {

@@ -110,7 +110,7 @@ void assets_settle(struct assets *assets);
 void assets_finish(struct assets *assets);
 // The index in assets.materials of a body's reference.
 uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_ref *ref);
-// Whether `path` has the ending of a supported mesh (.obj).
+// Whether `path` has the ending of a mesh file that is read (grammar/mesh_format.h).
 bool assets_is_mesh_path(str path);
 
 #endif

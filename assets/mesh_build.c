@@ -1,5 +1,6 @@
 #include "assets/mesh_build.h"
 
+#include "assets/mesh_reader.h"
 #include "assets/triangulate.h"
 #include "core/parallel.h"
 
@@ -228,7 +229,7 @@ void mesh_build(struct obj *obj, str path, struct arena *scratch, struct mesh *m
 
 void mesh_read(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
     struct obj obj;
-    read_obj(file, scratch, &obj);
+    mesh_reader_of(file->path)->polygons(file, scratch, &obj);
     mesh->arena.cap_bytes -= scratch->used_bytes;
     if (file->errors == 0)
         mesh_build(&obj, file->path, scratch, mesh);

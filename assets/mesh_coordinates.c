@@ -172,7 +172,7 @@ static void check_forward(struct reading *r) {
             wrong == 1 ? "" : "s", largest + 1, r->coordinates.count);
 }
 
-void mesh_read_coordinates(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
+void read_obj_coordinates(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
     struct reading r = {.file = file, .scratch = scratch, .mesh = mesh};
     const uint32_t before = file->errors;
     obj_lex_init(&r.lex, file->text);

@@ -12,6 +12,6 @@
 #include "assets/mesh.h"
 
 // Reads file->text. Both arenas must be guarded.
-void mesh_read_coordinates(struct asset_file *file, struct arena *scratch, struct mesh *mesh);
+void read_obj_coordinates(struct asset_file *file, struct arena *scratch, struct mesh *mesh);
 
 #endif

@@ -464,7 +464,7 @@ static const struct schema_row model_rows[] = {
     BODY_NAME(ir_model, "dragon"),
     {.name = "mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .text = SCHEMA_TEXT_PATH,
      .also = "file path filename src geometry obj shape",
-     .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file (Wavefront OBJ)."},
+     .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file."},
     BODY_MATERIAL(ir_model),
     {.name = "material_map", .element = "MaterialMap", FIELD(ir_model, material_map),
      .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MAP_ENTRY,

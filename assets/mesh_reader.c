@@ -1,0 +1,18 @@
+#include "assets/mesh_reader.h"
+
+#include "assets/mesh_coordinates.h"
+#include "grammar/mesh_format.h"
+
+#include <assert.h>
+
+static const struct mesh_reader readers[MESH_FORMAT_COUNT] = {
+#define MESH_FORMAT(id, reader, ...) [MESH_FORMAT_##id] = {read_##reader, read_##reader##_coordinates},
+#include "grammar/mesh_formats.def"
+#undef MESH_FORMAT
+};
+
+const struct mesh_reader *mesh_reader_of(str path) {
+    const enum mesh_format_id id = mesh_format_of_path(path);
+    assert(id != MESH_FORMAT_COUNT);
+    return &readers[id];
+}
