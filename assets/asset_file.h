@@ -11,6 +11,8 @@
 
 #include "assets/assets.h"
 
+struct gltf_document;
+
 struct asset_file {
     const struct assets_input *input;
     str path;                             // to open, and as shown
@@ -24,6 +26,8 @@ struct asset_file {
     uint32_t named_line;                  // in named_in
     uint32_t counted_line, counted_bytes; // where lines of a text that is not kept were last counted to
     uint32_t errors;
+    struct gltf_document *document; // of a glTF mesh, which all models of the file share; NULL: of another format
+    str part;                       // of the mesh, as the model names it; empty: all
 };
 
 // The file that holds a value: paths are relative to it. Values of options belong to the scene's file.

@@ -1,5 +1,6 @@
 #include "assets/store.h"
 
+#include "assets/gltf_document.h"
 #include "core/heap.h"
 
 #include <stdlib.h>
@@ -54,6 +55,7 @@ void store_release(struct asset_hold *hold) {
         at = &(*at)->next;
     *at = hold->next;
     arena_finish(&hold->scratch);
+    gltf_documents_finish(hold->documents);
     free(hold->items);
     free(hold);
 }

@@ -36,6 +36,7 @@ struct asset_hold {
     struct store_entry **items;
     uint32_t count, capacity;
     struct arena scratch; // of the file being read
+    struct gltf_document *documents; // of this loading
 };
 
 // NULL: no memory.

@@ -1,4 +1,5 @@
-// Buffers, views of them and accessors: what the bytes of a file are, checked by their counts before any is read.
+// Buffers, views of them and accessors: what the bytes of a file are, checked by their counts before any is
+// read.
 #include "assets/gltf/parts.h"
 
 #include <string.h>
@@ -43,15 +44,18 @@ static void read_view(struct gltf *gltf, json_index node) {
         !json_get(&gltf->json, node, "byteLength"))
         gltf_missing(gltf, node, "byteLength");
     gltf_get_whole(gltf, node, "byteOffset", (uint64_t)BYTES_MOST, &view->offset);
-    if (gltf_get_whole(gltf, node, "byteStride", STRIDE_MOST, &stride) && (stride < STRIDE_LEAST || stride % 4))
+    if (gltf_get_whole(gltf, node, "byteStride", STRIDE_MOST, &stride) &&
+        (stride < STRIDE_LEAST || stride % 4))
         gltf_add(gltf, DIAG_GLTF_VALUE, json_get(&gltf->json, node, "byteStride"),
-                 "'%s' must be a multiple of 4 from 4 to 252", gltf_where(gltf, json_get(&gltf->json, node, "byteStride")));
+                 "'%s' must be a multiple of 4 from 4 to 252",
+                 gltf_where(gltf, json_get(&gltf->json, node, "byteStride")));
     else
         view->stride = (uint32_t)stride;
     const struct gltf_buffer *buffer = &gltf->buffers.items[view->buffer];
     if (view->offset + view->length > buffer->length)
-        gltf_add(gltf, DIAG_GLTF_DATA, node, "'%s' ends at byte %llu of a buffer of %llu", gltf_where(gltf, node),
-                 (unsigned long long)(view->offset + view->length), (unsigned long long)buffer->length);
+        gltf_add(gltf, DIAG_GLTF_DATA, node, "'%s' ends at byte %llu of a buffer of %llu",
+                 gltf_where(gltf, node), (unsigned long long)(view->offset + view->length),
+                 (unsigned long long)buffer->length);
 }
 
 // ---- accessors
@@ -96,7 +100,8 @@ static bool read_type(struct gltf *gltf, json_index node, struct gltf_accessor *
             return true;
         }
     const json_index at = json_get(&gltf->json, node, "type");
-    gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must be SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4", gltf_where(gltf, at));
+    gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must be SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4",
+             gltf_where(gltf, at));
     return false;
 }
 
@@ -111,7 +116,8 @@ static bool read_component(struct gltf *gltf, json_index node, unsigned *out) {
     if (value >= GLTF_INT8 && value <= GLTF_FLOAT && value != GLTF_UINT32 - 1)
         return true;
     const json_index at = json_get(&gltf->json, node, "componentType");
-    gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must be 5120, 5121, 5122, 5123, 5125 or 5126", gltf_where(gltf, at));
+    gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must be 5120, 5121, 5122, 5123, 5125 or 5126",
+             gltf_where(gltf, at));
     return false;
 }
 
@@ -121,13 +127,15 @@ static void check_range(struct gltf *gltf, json_index node, uint32_t view, uint6
     const struct gltf_view *v = &gltf->views.items[view];
     const uint64_t end = count ? offset + (count - 1) * stride + size : offset;
     if (stride < size)
-        gltf_add(gltf, DIAG_GLTF_DATA, node, "'%s' has elements of %u bytes, and its view only %u from one to the next",
+        gltf_add(gltf, DIAG_GLTF_DATA, node,
+                 "'%s' has elements of %u bytes, and its view only %u from one to the next",
                  gltf_where(gltf, node), size, stride);
     else if (end > v->length)
-        gltf_add(gltf, DIAG_GLTF_DATA, node, "'%s' ends at byte %llu of a view of %llu", gltf_where(gltf, node),
-                 (unsigned long long)end, (unsigned long long)v->length);
+        gltf_add(gltf, DIAG_GLTF_DATA, node, "'%s' ends at byte %llu of a view of %llu",
+                 gltf_where(gltf, node), (unsigned long long)end, (unsigned long long)v->length);
     else if ((v->offset + offset) % align)
-        gltf_add(gltf, DIAG_GLTF_RULE, node, "'%s' begins at byte %llu of its buffer, which is not a multiple of %u",
+        gltf_add(gltf, DIAG_GLTF_RULE, node,
+                 "'%s' begins at byte %llu of its buffer, which is not a multiple of %u",
                  gltf_where(gltf, node), (unsigned long long)(v->offset + offset), align);
 }
 
@@ -135,10 +143,12 @@ static void read_sparse(struct gltf *gltf, json_index node, struct gltf_accessor
     struct gltf_sparse *sparse = &accessor->sparse;
     uint64_t count = 0;
     sparse->node = node;
-    const json_index indices = gltf_get_object(gltf, node, "indices"), values = gltf_get_object(gltf, node, "values");
+    const json_index indices = gltf_get_object(gltf, node, "indices"),
+                     values = gltf_get_object(gltf, node, "values");
     if (!indices || !values || !gltf_get_whole(gltf, node, "count", accessor->count, &count)) {
         if (!indices || !values || !json_get(&gltf->json, node, "count"))
-            gltf_add(gltf, DIAG_GLTF_VALUE, node, "'%s' must have 'count', 'indices' and 'values'", gltf_where(gltf, node));
+            gltf_add(gltf, DIAG_GLTF_VALUE, node, "'%s' must have 'count', 'indices' and 'values'",
+                     gltf_where(gltf, node));
         return;
     }
     const uint32_t errors = gltf->errors;
@@ -156,7 +166,8 @@ static void read_sparse(struct gltf *gltf, json_index node, struct gltf_accessor
     check_range(gltf, indices, sparse->index_view, sparse->index_offset, count, size, size, size);
     check_range(gltf, values, sparse->value_view, sparse->value_offset, count, element, element,
                 gltf_component_bytes(accessor->component));
-    if (sparse->index_type != GLTF_UINT8 && sparse->index_type != GLTF_UINT16 && sparse->index_type != GLTF_UINT32)
+    if (sparse->index_type != GLTF_UINT8 && sparse->index_type != GLTF_UINT16 &&
+        sparse->index_type != GLTF_UINT32)
         gltf_add(gltf, DIAG_GLTF_VALUE, indices, "'%s' must have a 'componentType' of 5121, 5123 or 5125",
                  gltf_where(gltf, indices));
     sparse->count = (uint32_t)count;

@@ -20,7 +20,8 @@ bool gltf_is_binary(str bytes) {
 // The chunk at *at, which moves past it; false: it is told.
 static bool take_chunk(struct gltf *gltf, str bytes, size_t *at, uint32_t *kind, str *chunk) {
     if (bytes.len - *at < CHUNK_HEADER_BYTES) {
-        gltf_add(gltf, DIAG_GLTF_SYNTAX, 0, "the file ends at byte %zu, inside the header of a chunk", bytes.len);
+        gltf_add(gltf, DIAG_GLTF_SYNTAX, 0, "the file ends at byte %zu, inside the header of a chunk",
+                 bytes.len);
         return false;
     }
     const uint32_t length = word(bytes, *at);
@@ -50,12 +51,13 @@ static bool check_header(struct gltf *gltf, str *bytes) {
         return false;
     }
     if (length > bytes->len) {
-        gltf_add(gltf, DIAG_GLTF_SYNTAX, 0, "the header says %u bytes, and the file has %zu", length, bytes->len);
+        gltf_add(gltf, DIAG_GLTF_SYNTAX, 0, "the header says %u bytes, and the file has %zu", length,
+                 bytes->len);
         return false;
     }
     if (length < bytes->len)
-        gltf_add(gltf, DIAG_GLTF_RULE, 0, "the header says %u bytes, and the file has %zu: the rest is ignored", length,
-                 bytes->len);
+        gltf_add(gltf, DIAG_GLTF_RULE, 0,
+                 "the header says %u bytes, and the file has %zu: the rest is ignored", length, bytes->len);
     *bytes = str_slice(*bytes, 0, length);
     return true;
 }
@@ -78,7 +80,8 @@ bool gltf_take_chunks(struct gltf *gltf, str bytes, str *text) {
             gltf->chunk = chunk;
             gltf->has_chunk = true;
         } else if (kind == CHUNK_BIN) {
-            gltf_add(gltf, DIAG_GLTF_RULE, 0, "the binary chunk at byte %zu is not the second one, and is ignored", begin);
+            gltf_add(gltf, DIAG_GLTF_RULE, 0,
+                     "the binary chunk at byte %zu is not the second one, and is ignored", begin);
         }
     }
     return true;

@@ -2,19 +2,16 @@
 
 // What is read and shown, or changes nothing that is shown.
 static const char *const known[] = {
-    "KHR_materials_ior",          "KHR_materials_volume",  "KHR_materials_transmission",
-    "KHR_materials_unlit",        "KHR_lights_punctual",   "KHR_texture_transform",
-    "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
-    "KHR_xmp_json_ld",            "KHR_xmp",
-};
-
-// What is lost with an extension that is known by name.
-static const struct {
-    const char *name;
-    enum gltf_loss loss;
-} lossy[] = {
-    {"KHR_materials_variants", GLTF_LOSS_VARIANTS},
-    {"EXT_mesh_gpu_instancing", GLTF_LOSS_INSTANCING},
+    "KHR_materials_ior",
+    "KHR_materials_volume",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_lights_punctual",
+    "KHR_texture_transform",
+    "KHR_mesh_quantization",
+    "KHR_materials_emissive_strength",
+    "KHR_xmp_json_ld",
+    "KHR_xmp",
 };
 
 static bool is_known(str name) {
@@ -22,15 +19,6 @@ static bool is_known(str name) {
         if (str_equal_cstr(name, known[i]))
             return true;
     return false;
-}
-
-static void lose_extension(struct gltf *gltf, json_index at, str name) {
-    for (size_t i = 0; i < sizeof lossy / sizeof *lossy; i++)
-        if (str_equal_cstr(name, lossy[i].name)) {
-            gltf_lose(gltf, lossy[i].loss, at);
-            return;
-        }
-    gltf_lose(gltf, GLTF_LOSS_EXTENSION, at);
 }
 
 static void read_names(struct gltf *gltf, const char *key, bool is_required) {
@@ -41,13 +29,15 @@ static void read_names(struct gltf *gltf, const char *key, bool is_required) {
             continue;
         }
         const str name = json_text(&gltf->json, at);
+        const int shown = name.len < 80 ? (int)name.len : 80;
         if (is_known(name))
             continue;
         if (is_required)
-            gltf_add(gltf, DIAG_GLTF_EXTENSION, at, "the file requires the extension '%.*s', which glint does not read",
-                     name.len < 80 ? (int)name.len : 80, name.ptr);
+            gltf_add(gltf, DIAG_GLTF_EXTENSION, at,
+                     "the file requires the extension '%.*s', which glint does not read", shown, name.ptr);
         else
-            lose_extension(gltf, at, name);
+            gltf_add(gltf, DIAG_GLTF_DROPPED, at, "what the extension '%.*s' says is not drawn", shown,
+                     name.ptr);
     }
 }
 
@@ -92,16 +82,33 @@ static void read_losses(struct gltf *gltf) {
         gltf_lose(gltf, GLTF_LOSS_ANIMATION, animations);
 }
 
+void gltf_report_losses(struct gltf *gltf) {
+    static const char *const words[GLTF_LOSSES] = {
+#define X(NAME, sentence) [GLTF_LOSS_##NAME] = sentence,
+#include "assets/gltf/losses.def"
+#undef X
+    };
+    for (int i = 0; i < GLTF_LOSSES; i++) {
+        struct gltf_loss_count *loss = &gltf->losses[i];
+        if (loss->count == 1)
+            gltf_add(gltf, DIAG_GLTF_DROPPED, loss->first, "%s", words[i]);
+        else if (loss->count)
+            gltf_add(gltf, DIAG_GLTF_DROPPED, loss->first, "%s (the first of %u)", words[i], loss->count);
+        *loss = (struct gltf_loss_count){0};
+    }
+}
+
 static void report_syntax(struct gltf *gltf) {
     gltf->errors++;
     if (gltf->report)
-        gltf->report->add(gltf->report->context, DIAG_GLTF_SYNTAX, gltf->json.fault_begin, gltf->json.fault_end,
-                          gltf->json.fault);
+        gltf->report->add(gltf->report->context, DIAG_GLTF_SYNTAX, gltf->json.fault_begin,
+                          gltf->json.fault_end, gltf->json.fault);
 }
 
 static bool read_json(struct gltf *gltf, str bytes, struct arena *arena) {
     str text = bytes;
-    json_read(&gltf->json, STR("0"), arena); // what is wrong before there is JSON has its first byte as a place
+    json_read(&gltf->json, STR("0"),
+              arena); // what is wrong before there is JSON has its first byte as a place
     if (gltf_is_binary(bytes) && !gltf_take_chunks(gltf, bytes, &text))
         return false;
     if (!json_read(&gltf->json, text, arena)) {

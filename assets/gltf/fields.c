@@ -26,8 +26,10 @@ void gltf_add(struct gltf *gltf, enum diag_code code, json_index at, const char 
     va_end(args);
     const struct json_node *node = json_at(&gltf->json, at);
     // Of what is long only its first character is shown.
-    const bool is_long = node->kind == JSON_OBJECT || node->kind == JSON_LIST || node->end - node->begin > SHOWN_MAX;
-    gltf->report->add(gltf->report->context, code, node->begin, is_long ? node->begin + 1 : node->end, message);
+    const bool is_long =
+        node->kind == JSON_OBJECT || node->kind == JSON_LIST || node->end - node->begin > SHOWN_MAX;
+    gltf->report->add(gltf->report->context, code, node->begin, is_long ? node->begin + 1 : node->end,
+                      message);
 }
 
 void gltf_lose(struct gltf *gltf, enum gltf_loss what, json_index at) {
@@ -58,7 +60,8 @@ static bool take_number(struct gltf *gltf, json_index value, double least, doubl
     return number >= least && number <= most;
 }
 
-bool gltf_get_number(struct gltf *gltf, json_index object, const char *key, double least, double most, double *out) {
+bool gltf_get_number(struct gltf *gltf, json_index object, const char *key, double least, double most,
+                     double *out) {
     return take_number(gltf, json_get(&gltf->json, object, key), least, most, out);
 }
 
@@ -104,8 +107,8 @@ bool gltf_get_numbers(struct gltf *gltf, json_index object, const char *key, dou
     if (!list)
         return false;
     if (json_at(&gltf->json, list)->count != count) {
-        gltf_add(gltf, DIAG_GLTF_VALUE, list, "'%s' must have %u numbers, not %u", gltf_where(gltf, list), count,
-                 json_at(&gltf->json, list)->count);
+        gltf_add(gltf, DIAG_GLTF_VALUE, list, "'%s' must have %u numbers, not %u", gltf_where(gltf, list),
+                 count, json_at(&gltf->json, list)->count);
         return false;
     }
     for (json_index at = json_at(&gltf->json, list)->first; at; at = json_at(&gltf->json, at)->next)

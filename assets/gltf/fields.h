@@ -6,8 +6,10 @@
 
 #include "assets/gltf/gltf.h"
 
-// Each returns false where the property is missing or wrong, and then *out is unchanged; only what is wrong is told.
-bool gltf_get_number(struct gltf *gltf, json_index object, const char *key, double least, double most, double *out);
+// Each returns false where the property is missing or wrong, and then *out is unchanged; only what is wrong
+// is told.
+bool gltf_get_number(struct gltf *gltf, json_index object, const char *key, double least, double most,
+                     double *out);
 bool gltf_get_whole(struct gltf *gltf, json_index object, const char *key, uint64_t most, uint64_t *out);
 bool gltf_get_bool(struct gltf *gltf, json_index object, const char *key, bool *out);
 bool gltf_get_text(struct gltf *gltf, json_index object, const char *key, str *out);

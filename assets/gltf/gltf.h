@@ -1,11 +1,12 @@
 // glTF 2.0 (ISO/IEC 12113:2022) as the file has it: JSON or GLB to arrays whose references are right.
 //
-// gltf_open reads the JSON and checks it; gltf_load_buffers brings the bytes; gltf_check_data looks at every number
-// that a picture needs. All that a later step relies on holds after it: indices are below their counts, ranges are
-// inside their buffers, nodes are trees. What glint cannot show is counted (enum gltf_loss), and told by the caller.
-// Errors: told by the report at the place in the JSON and counted in gltf->errors; after one the next step must not be
-// taken. Ownership: everything is in the arena, which must be guarded, and points into the text.
-// Units: metres and radians, as the file has them; numbers are doubles. Thread safety: one thread.
+// gltf_open reads the JSON and checks it; gltf_load_buffers brings the bytes; gltf_read_primitive looks at
+// every number of what is drawn. All that a later step relies on holds after it: indices are below their
+// counts, ranges are inside their buffers, nodes are trees. What glint cannot show is counted (enum
+// gltf_loss), and told by the caller. Errors: told by the report at the place in the JSON and counted in
+// gltf->errors; after one the next step must not be taken. Ownership: everything is in the arena, which must
+// be guarded, and points into the text. Units: metres and radians, as the file has them; numbers are doubles.
+// Thread safety: one thread.
 #ifndef GLINT_ASSETS_GLTF_GLTF_H
 #define GLINT_ASSETS_GLTF_GLTF_H
 
@@ -21,16 +22,11 @@ struct gltf_report {
     void (*add)(void *context, enum diag_code code, size_t begin, size_t end, const char *message);
 };
 
+// What is in a file and not in the picture: how often, and where first.
 enum gltf_loss {
-    GLTF_LOSS_ANIMATION,
-    GLTF_LOSS_SKIN,
-    GLTF_LOSS_MORPH,
-    GLTF_LOSS_COLORS,    // of vertices
-    GLTF_LOSS_TEXCOORD,  // a second set of texture coordinates
-    GLTF_LOSS_NOT_FACES, // points and lines
-    GLTF_LOSS_EXTENSION, // one that glint does not know
-    GLTF_LOSS_VARIANTS,
-    GLTF_LOSS_INSTANCING,
+#define X(NAME, sentence) GLTF_LOSS_##NAME,
+#include "assets/gltf/losses.def"
+#undef X
     GLTF_LOSSES
 };
 
@@ -41,8 +37,8 @@ struct gltf_loss_count {
 
 struct gltf_buffer {
     json_index node;
-    str uri;    // decoded from JSON; empty: the binary chunk of a GLB file
-    str bytes;  // after gltf_load_buffers
+    str uri;   // decoded from JSON; empty: the binary chunk of a GLB file
+    str bytes; // after gltf_load_buffers
     uint64_t length;
 };
 
@@ -75,10 +71,11 @@ struct gltf_accessor {
     uint32_t view; // GLTF_NONE: zeros
     uint64_t offset;
     uint32_t count;
-    unsigned component; // gltf_component
+    unsigned component;  // gltf_component
     uint32_t components; // 1 to 4, 9, 16
     bool is_matrix;
     bool normalized;
+    const double *elements; // all of them, once they were read; normalized integers from 0, or -1, to 1
     struct gltf_sparse sparse;
 };
 
@@ -170,9 +167,9 @@ struct gltf_texture {
 
 // Where a material names a texture.
 struct gltf_texture_use {
-    json_index node;  // 0: it does not
+    json_index node; // 0: it does not
     uint32_t texture;
-    uint32_t set; // of coordinates
+    uint32_t set;       // of coordinates
     bool has_transform; // KHR_texture_transform
     double offset[2], rotation, scale[2];
 };
@@ -186,6 +183,7 @@ enum gltf_alpha {
 struct gltf_material {
     json_index node;
     str name;
+    bool is_named; // with a name that no other has
     double base[4];
     double metallic, roughness;
     double emission[3]; // times its strength
@@ -210,8 +208,9 @@ struct gltf {
     const struct gltf_report *report; // NULL: findings are only counted
     uint32_t errors, warnings;
     struct json json;
-    bool is_binary; // GLB
-    str chunk;      // its BIN chunk; empty: none
+    uint64_t most_elements; // of an accessor without bytes, which costs a file nothing; set by the caller
+    bool is_binary;         // GLB
+    str chunk;              // its BIN chunk; empty: none
     bool has_chunk;
     str generator;
     GLTF_LIST(struct gltf_buffer) buffers;
@@ -238,27 +237,30 @@ bool gltf_open(struct gltf *gltf, str bytes, const struct gltf_report *report, s
 // Brings the bytes of a file that the glTF file names; false: it has been reported.
 struct gltf_files {
     void *context;
-    bool (*read)(void *context, str uri, size_t begin, size_t end, str *bytes);
+    bool (*read)(void *context, str uri, json_index at, str *bytes);
 };
 // The bytes of all buffers. false: there were errors.
 bool gltf_load_buffers(struct gltf *gltf, const struct gltf_files *files);
-// Every accessor that a picture needs: numbers are finite, indices name vertices. false: there were errors.
-bool gltf_check_data(struct gltf *gltf);
 
-// The bytes of a view; the empty string for none.
-str gltf_view_bytes(const struct gltf *gltf, uint32_t view);
-// Element `at` of an accessor, without its sparse values; `out` takes its components. Normalized integers become
-// numbers from 0, or -1, to 1.
-void gltf_element(const struct gltf *gltf, const struct gltf_accessor *accessor, uint32_t at, double *out);
-// All elements, with their sparse values: count * components, in the arena.
-double *gltf_elements(const struct gltf *gltf, const struct gltf_accessor *accessor, struct arena *arena);
-// The vertices that a primitive draws, one after the other, as triangles: 3 * *triangles of them, in the arena; a strip
-// or a fan is taken apart. NULL: it has none (points, lines). `most` triangles at most: more is told in *triangles, and
-// NULL.
-uint32_t *gltf_corners(const struct gltf *gltf, const struct gltf_primitive *primitive, uint64_t most,
-                       struct arena *arena, uint64_t *triangles);
-// How many triangles that are.
+// What a primitive draws.
+struct gltf_geometry {
+    const double *positions;                         // three a vertex
+    const double *normals;                           // three a vertex; NULL: none
+    const double *coordinates[GLTF_COORDINATE_SETS]; // two a vertex; NULL: none
+    uint32_t vertices;
+    const uint32_t *corners; // three a triangle; strips and fans are taken apart
+    uint32_t triangles;
+};
+// Reads it once there are buffers, and checks that it can be drawn: numbers are finite, and indices name
+// vertices. What was read of accessors stays in the arena of the document, the corners are in the given one.
+// Points and lines have no triangles. false: there were errors.
+bool gltf_read_primitive(struct gltf *gltf, const struct gltf_primitive *primitive, struct arena *arena,
+                         struct gltf_geometry *out);
+// How many triangles it has: 0 for points and lines.
 uint64_t gltf_triangle_count(const struct gltf *gltf, const struct gltf_primitive *primitive);
+
+// The bytes of a view; the empty string for none, or before there are buffers.
+str gltf_view_bytes(const struct gltf *gltf, uint32_t view);
 
 // What `data:` says after its comma, decoded, in the arena; false: it is not base64.
 bool gltf_decode_data(str uri, struct arena *arena, str *bytes, str *mime);
@@ -271,6 +273,8 @@ str gltf_decode_uri(str uri, struct arena *arena);
 void gltf_add(struct gltf *gltf, enum diag_code code, json_index at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void gltf_lose(struct gltf *gltf, enum gltf_loss what, json_index at);
+// Tells the losses that were counted, each once, and forgets them.
+void gltf_report_losses(struct gltf *gltf);
 // The place of a value as words: "accessors[3].max".
 const char *gltf_where(const struct gltf *gltf, json_index at);
 

@@ -1,8 +1,8 @@
 #include "assets/gltf/json.h"
 
 #include "core/number.h"
-#include "core/strbuf.h"
 #include "core/str_map.h"
+#include "core/strbuf.h"
 
 #include <math.h>
 #include <string.h>
@@ -199,7 +199,8 @@ static bool check_keys(struct reading *r, json_index object) {
     const bool is_small = json_at(json, object)->count <= SMALL;
     if (!is_small)
         str_map_clear(&r->keys);
-    for (json_index key = json_at(json, object)->first; key; key = json_at(json, json_at(json, key)->next)->next) {
+    for (json_index key = json_at(json, object)->first; key;
+         key = json_at(json, json_at(json, key)->next)->next) {
         const str name = json_raw(json, key);
         bool known = false;
         if (!is_small)
@@ -273,7 +274,8 @@ static bool after_value(struct reading *r, bool *more) {
             continue;
         }
         if (peek(r) != ',')
-            return fail_here(r, is_in_object(r) ? "a ',' or '}' is expected here" : "a ',' or ']' is expected here");
+            return fail_here(r, is_in_object(r) ? "a ',' or '}' is expected here"
+                                                : "a ',' or ']' is expected here");
         r->at++;
         skip_space(r);
         *more = true;
@@ -300,7 +302,8 @@ static bool read_values(struct reading *r) {
             return false;
     }
     skip_space(r);
-    return r->at == r->text.len || fail(r, r->at, r->text.len, "there is more text after the end of the JSON");
+    return r->at == r->text.len ||
+           fail(r, r->at, r->text.len, "there is more text after the end of the JSON");
 }
 
 bool json_read(struct json *json, str text, struct arena *arena) {
@@ -449,8 +452,9 @@ str json_path(const struct json *json, json_index node) {
         if (!at)
             break;
         const str name = key ? json_text(json, key) : STR("");
-        path = key ? arena_format(json->arena, "%.*s%s%.*s", STR_ARG(path), path.len ? "." : "", STR_ARG(name))
-                   : arena_format(json->arena, "%.*s[%u]", STR_ARG(path), index);
+        path =
+            key ? arena_format(json->arena, "%.*s%s%.*s", STR_ARG(path), path.len ? "." : "", STR_ARG(name))
+                : arena_format(json->arena, "%.*s[%u]", STR_ARG(path), index);
     }
     return path.len ? path : STR("the file");
 }

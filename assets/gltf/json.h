@@ -1,10 +1,11 @@
-// JSON (RFC 8259) as a tree that knows where each value is: for files whose mistakes are reported by their place.
+// JSON (RFC 8259) as a tree that knows where each value is: for files whose mistakes are reported by their
+// place.
 //
-// Read strictly: what the standard does not allow is a fault, and so is a key that an object has twice, nesting
-// deeper than JSON_DEPTH, and text that is not UTF-8. Numbers and texts are left as they are written until they are
-// asked for, so that a text of many megabytes (a `data:` address) costs one walk over it.
-// Errors: the first fault ends the reading; its place and what is wrong are in the tree. Ownership: nodes are in the
-// arena, which must be guarded; they point into the text. Thread safety: immutable once read.
+// Read strictly: what the standard does not allow is a fault, and so is a key that an object has twice,
+// nesting deeper than JSON_DEPTH, and text that is not UTF-8. Numbers and texts are left as they are written
+// until they are asked for, so that a text of many megabytes (a `data:` address) costs one walk over it.
+// Errors: the first fault ends the reading; its place and what is wrong are in the tree. Ownership: nodes are
+// in the arena, which must be guarded; they point into the text. Thread safety: immutable once read.
 #ifndef GLINT_ASSETS_GLTF_JSON_H
 #define GLINT_ASSETS_GLTF_JSON_H
 
@@ -64,8 +65,8 @@ const char *json_kind_words(enum json_kind kind);
 json_index json_get(const struct json *json, json_index object, const char *key);
 // A text without its quotes, as it is written; only for is_plain what it means.
 str json_raw(const struct json *json, json_index text);
-// A text decoded: in the arena where it has escapes, else in the text of the file. U+0000 and unpaired surrogates
-// become U+FFFD.
+// A text decoded: in the arena where it has escapes, else in the text of the file. U+0000 and unpaired
+// surrogates become U+FFFD.
 str json_text(const struct json *json, json_index text);
 // A number; numbers beyond the range of a double are infinite.
 double json_number(const struct json *json, json_index number);

@@ -1,5 +1,6 @@
 // Images, textures and materials.
 #include "assets/gltf/parts.h"
+#include "core/str_map.h"
 
 #include <math.h>
 
@@ -146,8 +147,8 @@ static void read_material(struct gltf *gltf, json_index node) {
     if (metal)
         read_metal(gltf, metal, m);
     gltf_get_numbers(gltf, node, "emissiveFactor", 0, 1, 3, m->emission);
-    gltf_get_number(gltf, gltf_extension(gltf, node, "KHR_materials_emissive_strength"), "emissiveStrength", 0, 1e12,
-                    &strength);
+    gltf_get_number(gltf, gltf_extension(gltf, node, "KHR_materials_emissive_strength"), "emissiveStrength",
+                    0, 1e12, &strength);
     for (int k = 0; k < 3; k++)
         m->emission[k] *= strength;
     m->emission_texture = read_use(gltf, node, "emissiveTexture");
@@ -158,8 +159,20 @@ static void read_material(struct gltf *gltf, json_index node) {
     read_glass(gltf, node, m);
 }
 
+// Which names say which material they mean: those of one, and of none that is called by its number.
+static void find_names(struct gltf *gltf) {
+    struct str_map map;
+    str_map_init(&map, gltf->arena);
+    for (uint32_t i = 0; i < gltf->materials.count; i++) {
+        struct gltf_material *m = &gltf->materials.items[i];
+        m->is_named =
+            m->name.len && !str_starts_with(m->name, STR("material ")) && (*str_map_at(&map, m->name))++ == 0;
+    }
+}
+
 void gltf_read_materials(struct gltf *gltf) {
     const json_index list = gltf_get_list(gltf, gltf->json.root, "materials");
     for (json_index at = 0; list && (at = gltf_next_object(gltf, list, at));)
         read_material(gltf, at);
+    find_names(gltf);
 }

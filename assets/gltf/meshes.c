@@ -10,12 +10,13 @@ static uint32_t read_attribute(struct gltf *gltf, json_index attributes, const c
     const struct gltf_accessor *accessor = &gltf->accessors.items[index];
     const json_index at = json_get(&gltf->json, attributes, key);
     if (accessor->components != components || accessor->is_matrix) {
-        gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must name an accessor of type VEC%u", gltf_where(gltf, at), components);
+        gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must name an accessor of type VEC%u", gltf_where(gltf, at),
+                 components);
         return GLTF_NONE;
     }
     if (count != GLTF_NONE && accessor->count != count) {
-        gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' has %u elements, and POSITION %u", gltf_where(gltf, at), accessor->count,
-                 count);
+        gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' has %u elements, and POSITION %u", gltf_where(gltf, at),
+                 accessor->count, count);
         return GLTF_NONE;
     }
     return index;
@@ -28,7 +29,8 @@ static void read_indices(struct gltf *gltf, json_index node, struct gltf_primiti
     const json_index at = json_get(&gltf->json, node, "indices");
     const unsigned type = accessor->component;
     if (accessor->components != 1 || (type != GLTF_UINT8 && type != GLTF_UINT16 && type != GLTF_UINT32))
-        gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must name an accessor of type SCALAR and componentType 5121, 5123 or 5125",
+        gltf_add(gltf, DIAG_GLTF_VALUE, at,
+                 "'%s' must name an accessor of type SCALAR and componentType 5121, 5123 or 5125",
                  gltf_where(gltf, at));
     else if (accessor->normalized)
         gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must not name a normalized accessor", gltf_where(gltf, at));

@@ -13,7 +13,8 @@ static void read_perspective(struct gltf *gltf, json_index camera, struct gltf_c
         gltf_missing(gltf, camera, "perspective");
         return;
     }
-    if (!gltf_get_number(gltf, node, "yfov", 1e-9, 3.14159265358979, &out->yfov) && !json_get(&gltf->json, node, "yfov"))
+    if (!gltf_get_number(gltf, node, "yfov", 1e-9, 3.14159265358979, &out->yfov) &&
+        !json_get(&gltf->json, node, "yfov"))
         gltf_missing(gltf, node, "yfov");
     gltf_get_number(gltf, node, "aspectRatio", 1e-6, 1e6, &out->aspect);
 }
@@ -26,7 +27,8 @@ static void read_orthographic(struct gltf *gltf, json_index camera, struct gltf_
         gltf_missing(gltf, camera, "orthographic");
         return;
     }
-    if (!gltf_get_number(gltf, node, "ymag", -SIZE_MOST, SIZE_MOST, &out->ymag) && !json_get(&gltf->json, node, "ymag"))
+    if (!gltf_get_number(gltf, node, "ymag", -SIZE_MOST, SIZE_MOST, &out->ymag) &&
+        !json_get(&gltf->json, node, "ymag"))
         gltf_missing(gltf, node, "ymag");
     if (gltf_get_number(gltf, node, "xmag", -SIZE_MOST, SIZE_MOST, &xmag) && out->ymag != 0)
         out->aspect = fabs(xmag / out->ymag);
@@ -46,14 +48,16 @@ static void read_camera(struct gltf *gltf, json_index node) {
     else if (str_equal_cstr(type, "orthographic"))
         read_orthographic(gltf, node, camera);
     else if (type.len)
-        gltf_add(gltf, DIAG_GLTF_VALUE, json_get(&gltf->json, node, "type"), "'%s' must be perspective or orthographic",
+        gltf_add(gltf, DIAG_GLTF_VALUE, json_get(&gltf->json, node, "type"),
+                 "'%s' must be perspective or orthographic",
                  gltf_where(gltf, json_get(&gltf->json, node, "type")));
 }
 
 static void read_light(struct gltf *gltf, json_index node) {
     struct gltf_light *light = ARENA_PUSH(gltf->arena, &gltf->lights);
     str type = STR("");
-    *light = (struct gltf_light){.node = node, .name = gltf_name(gltf, node), .color = {1, 1, 1}, .intensity = 1};
+    *light =
+        (struct gltf_light){.node = node, .name = gltf_name(gltf, node), .color = {1, 1, 1}, .intensity = 1};
     gltf_get_numbers(gltf, node, "color", 0, HUGE_VAL, 3, light->color);
     gltf_get_number(gltf, node, "intensity", 0, 1e30, &light->intensity);
     light->has_range = json_get(&gltf->json, node, "range") != 0;
@@ -64,7 +68,8 @@ static void read_light(struct gltf *gltf, json_index node) {
     if (!has_type && !json_get(&gltf->json, node, "type"))
         gltf_missing(gltf, node, "type");
     else if (has_type && light->kind == GLTF_LIGHT_SPOT && !str_equal_cstr(type, "spot"))
-        gltf_add(gltf, DIAG_GLTF_VALUE, json_get(&gltf->json, node, "type"), "'%s' must be point, directional or spot",
+        gltf_add(gltf, DIAG_GLTF_VALUE, json_get(&gltf->json, node, "type"),
+                 "'%s' must be point, directional or spot",
                  gltf_where(gltf, json_get(&gltf->json, node, "type")));
 }
 
@@ -126,7 +131,8 @@ static affine3 after(affine3 outer, affine3 inner) {
 
 static void read_node(struct gltf *gltf, json_index node) {
     struct gltf_node *n = ARENA_PUSH(gltf->arena, &gltf->nodes);
-    *n = (struct gltf_node){.node = node, .name = gltf_name(gltf, node), .light = GLTF_NONE, .parent = GLTF_NONE};
+    *n = (struct gltf_node){
+        .node = node, .name = gltf_name(gltf, node), .light = GLTF_NONE, .parent = GLTF_NONE};
     gltf_get_index(gltf, node, "mesh", gltf->meshes.count, &n->mesh);
     gltf_get_index(gltf, node, "camera", gltf->cameras.count, &n->camera);
     const json_index light = gltf_extension(gltf, node, "KHR_lights_punctual");
@@ -140,10 +146,11 @@ static void read_node(struct gltf *gltf, json_index node) {
 // The nodes that a list names get this parent; a node that has one is told, and keeps it.
 static void adopt(struct gltf *gltf, json_index list, uint32_t parent) {
     for (json_index at = json_at(&gltf->json, list)->first; at; at = json_at(&gltf->json, at)->next) {
-        const double number = json_kind_of(&gltf->json, at) == JSON_NUMBER ? json_number(&gltf->json, at) : -1;
+        const double number =
+            json_kind_of(&gltf->json, at) == JSON_NUMBER ? json_number(&gltf->json, at) : -1;
         if (!(number >= 0 && number < gltf->nodes.count && number == floor(number))) {
-            gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must be the number of a node, from 0 to %u", gltf_where(gltf, at),
-                     gltf->nodes.count - 1);
+            gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must be the number of a node, from 0 to %u",
+                     gltf_where(gltf, at), gltf->nodes.count - 1);
             continue;
         }
         struct gltf_node *child = &gltf->nodes.items[(uint32_t)number];
@@ -164,8 +171,8 @@ static void check_circles(struct gltf *gltf) {
             mark[at] = i + 1;
         if (at == GLTF_NONE || mark[at] != i + 1)
             continue;
-        gltf_add(gltf, DIAG_GLTF_VALUE, gltf->nodes.items[at].node, "nodes[%u] is a child of itself, by way of its children",
-                 at);
+        gltf_add(gltf, DIAG_GLTF_VALUE, gltf->nodes.items[at].node,
+                 "nodes[%u] is a child of itself, by way of its children", at);
         return;
     }
 }
@@ -211,10 +218,11 @@ static void show(struct gltf *gltf, const struct walk *walk, uint32_t root) {
 
 static void show_list(struct gltf *gltf, const struct walk *walk, json_index list) {
     for (json_index at = json_at(&gltf->json, list)->first; at; at = json_at(&gltf->json, at)->next) {
-        const double number = json_kind_of(&gltf->json, at) == JSON_NUMBER ? json_number(&gltf->json, at) : -1;
+        const double number =
+            json_kind_of(&gltf->json, at) == JSON_NUMBER ? json_number(&gltf->json, at) : -1;
         if (!(number >= 0 && number < gltf->nodes.count && number == floor(number)))
-            gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must be the number of a node; the file has %u", gltf_where(gltf, at),
-                     gltf->nodes.count);
+            gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' must be the number of a node; the file has %u",
+                     gltf_where(gltf, at), gltf->nodes.count);
         else if (gltf->nodes.items[(uint32_t)number].parent != GLTF_NONE)
             gltf_add(gltf, DIAG_GLTF_VALUE, at, "'%s' names nodes[%u], which is a child of another node",
                      gltf_where(gltf, at), (uint32_t)number);
