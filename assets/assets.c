@@ -21,6 +21,10 @@ static bool is_poisoned(const struct ir_head *head, const struct schema_element 
 
 // ---- meshes
 
+bool assets_is_mesh_path(str path) {
+    return mesh_format_of_path(path) != MESH_FORMAT_COUNT;
+}
+
 static void report_mesh_kind(struct asset_file *file) {
     str base = path_base(file->path);
     size_t dot = base.len;

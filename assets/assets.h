@@ -8,6 +8,7 @@
 #ifndef GLINT_ASSETS_ASSETS_H
 #define GLINT_ASSETS_ASSETS_H
 
+#include "assets/file/asset_input.h"
 #include "assets/mesh.h"
 #include "core/limits.h"
 #include "diag/diag.h"
@@ -28,22 +29,6 @@ struct timeline;
 struct asset_store *asset_store_create(void); // NULL: no memory
 // All assets that were loaded with the store must be finished before.
 void asset_store_destroy(struct asset_store *store);
-
-// A file that was found under a name, one for each place that names it: what `deps` and `pack` list.
-struct asset_use {
-    const char *what; // "mesh", "material file", "image"
-    str named;        // as it is written there
-    str path;         // to open
-    str canonical;    // absolute, links resolved
-    uint64_t size_bytes;
-    span at;      // where the scene names it, or the mesh that names it
-    str named_in; // the mesh that names it, to open; empty: the scene
-    uint32_t named_line;
-};
-struct asset_uses {
-    struct asset_use *items;
-    uint32_t count, capacity;
-};
 
 struct assets_model {
     const struct mesh *mesh;  // NULL if it could not be loaded (a diagnostic says why)
@@ -76,19 +61,6 @@ struct assets {
     uint64_t triangle_count;           // of all models
     uint64_t held_triangles;           // the same with those of each mesh once
     struct asset_uses uses;            // in the order of loading; text is in the arena of the scene
-};
-
-struct assets_input {
-    const struct ir_scene *scene;
-    const struct ir_origin *origin;
-    struct source_set *sources;
-    struct files *files;
-    const struct limits *limits;
-    struct diag_sink *sink;
-    struct arena *arena;       // for what belongs to this scene; guarded by the caller
-    struct asset_uses *uses;   // of the assets being loaded: set by assets_load
-    bool pixels_later;         // pixels that are kept may still be decoded when assets_load returns
-    struct timeline *timeline; // may be NULL
 };
 
 // What is done with the pixels of an image.

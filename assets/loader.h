@@ -2,7 +2,7 @@
 #ifndef GLINT_ASSETS_LOADER_H
 #define GLINT_ASSETS_LOADER_H
 
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 #include "assets/read_mtl.h"
 #include "assets/store.h"
 #include "core/str_map.h"

@@ -5,6 +5,7 @@
 #ifndef GLINT_ASSETS_MESH_H
 #define GLINT_ASSETS_MESH_H
 
+#include "assets/file/polygons.h"
 #include "core/arena.h"
 #include "core/vec3.h"
 #include "grammar/ir_value.h"
@@ -14,34 +15,6 @@ struct mesh_triangle {
     uint32_t normals[3]; // into normals; IR_NO_INDEX: the file has none for this corner
     uint32_t group;      // into groups
     uint32_t line;       // of the face in the file, from 1
-};
-
-// The faces of one `usemtl` name (or of none: an empty name), in the order of their first face. Their
-// material depends on the model: struct assets_model.
-struct mesh_group {
-    str name;
-    uint32_t line; // of the first `usemtl` of this name; 0 for the empty name
-};
-
-// A `mtllib` line: one name, or several.
-struct mesh_library {
-    str names; // the text after the word, trimmed
-    uint32_t line;
-};
-
-// What a mesh file says and no picture shows as it is said.
-enum mesh_loss {
-    MESH_LOSS_NOT_FACES, // points, lines, curves and surfaces
-    MESH_LOSS_COLORS,    // of vertices
-    MESH_LOSS_IMAGES,    // of faces
-    MESH_LOSS_BENT,      // faces that are not flat
-    MESH_LOSS_NORMALS,   // corners of faces whose normal has length 0
-    MESH_LOSS_COUNT
-};
-
-struct mesh_loss_count {
-    uint32_t count;
-    uint32_t line; // of the first
 };
 
 struct mesh {
@@ -72,11 +45,6 @@ struct mesh {
     double bent_most;  // how far a corner is off its face's plane at most, as a share of the face's size
     vec3 lower, upper; // bounds of the positions
 };
-
-static inline void mesh_lose(struct mesh_loss_count *losses, enum mesh_loss what, uint32_t line) {
-    if (losses[what].count++ == 0)
-        losses[what].line = line;
-}
 
 // Whether the triangle's area is not 0 (in double, without underflow).
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle);

@@ -1,6 +1,6 @@
 #include "assets/mesh_reader.h"
 
-#include "assets/mesh_coordinates.h"
+#include "assets/read_obj.h"
 #include "grammar/mesh_format.h"
 
 #include <assert.h>

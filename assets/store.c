@@ -1,6 +1,6 @@
 #include "assets/store.h"
 
-#include "assets/gltf_document.h"
+#include "assets/gltf/asset_gltf.h"
 #include "core/heap.h"
 
 #include <stdlib.h>

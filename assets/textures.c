@@ -1,6 +1,6 @@
 // The images that materials name, and the coordinates of meshes that show them.
 #include "assets/loader.h"
-#include "assets/mesh_reader.h"
+#include "assets/mesh_coordinates.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
 
@@ -123,7 +123,7 @@ struct coordinates_reading {
 static void read_coordinates(void *context) {
     const struct coordinates_reading *r = context;
     if (asset_read(r->file, r->scratch))
-        mesh_reader_of(r->file->path)->coordinates(r->file, r->scratch, r->mesh);
+        mesh_read_coordinates(r->file, r->scratch, r->mesh);
 }
 
 static void read_guarded(struct loader *loader, struct loaded_mesh *loaded) {

@@ -1,7 +1,7 @@
 // Where findings are reported and what they call things.
 #include "lint/lint_parts.h"
 
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 #include "grammar/ir.h"
 
 #include <stdarg.h>

@@ -1,7 +1,7 @@
-// A glTF file, or a part of it, as polygons: what its nodes show, where they place it.
+#include "assets/gltf/read_gltf.h"
+
+#include "assets/gltf/asset_gltf.h"
 #include "assets/gltf/material.h"
-#include "assets/gltf_document.h"
-#include "assets/mesh_reader.h"
 #include "core/nearest.h"
 #include "core/number.h"
 
@@ -20,7 +20,7 @@ struct reading {
     struct gltf *gltf;
     struct asset_file *file;
     struct arena *scratch;
-    struct obj *out;
+    struct polygons *out;
     struct {
         struct shown *items;
         uint32_t count, capacity;
@@ -44,8 +44,7 @@ static uint32_t group_of(struct reading *r, const struct gltf_primitive *p) {
     uint32_t *group = &r->group_of[has ? p->material : r->gltf->materials.count];
     if (*group == 0) {
         *ARENA_PUSH(r->scratch, &r->out->groups) = (struct mesh_group){
-            .name = has ? gltf_material_name(r->gltf, p->material) : STR(""),
-            .line = gltf_document_line(r->document, p->node)};
+            .name = has ? gltf_material_name(r->gltf, p->material) : STR("")};
         *group = r->out->groups.count;
     }
     return *group - 1;
@@ -156,10 +155,9 @@ static void put_flat(struct reading *r, const uint32_t corners[3]) {
     r->out->normals.items[r->out->normals.count++] = vec3_unit(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
 }
 
-static void put_face(const struct placing *p, uint32_t triangle, uint32_t first_normal, bool is_mirrored, bool shared,
-                     uint32_t line) {
+static void put_face(const struct placing *p, uint32_t triangle, uint32_t first_normal, bool is_mirrored, bool shared) {
     struct reading *r = p->r;
-    struct obj *out = r->out;
+    struct polygons *out = r->out;
     uint32_t corners[3];
     for (uint32_t k = 0; k < 3; k++) {
         const uint32_t from = is_mirrored ? 2 - k : k;
@@ -169,12 +167,12 @@ static void put_face(const struct placing *p, uint32_t triangle, uint32_t first_
     if (flat)
         put_flat(r, corners);
     out->faces.items[out->faces.count++] =
-        (struct obj_face){.first = out->corners.count, .line = line, .group = p->shown->group};
+        (struct polygon_face){.first = out->corners.count, .line = out->faces.count, .group = p->shown->group};
     for (int k = 0; k < 3; k++) {
         const uint32_t normal = !r->has_normals ? IR_NO_INDEX
                                 : flat          ? out->normals.count - 1
                                                 : first_normal + (corners[k] - p->first);
-        out->corners.items[out->corners.count++] = (struct obj_corner){corners[k], normal};
+        out->corners.items[out->corners.count++] = (struct polygon_corner){corners[k], normal};
     }
 }
 
@@ -197,13 +195,12 @@ static bool put_shown(struct reading *r, const struct shown *shown) {
                               .coordinates = coordinates_of(r, shown->primitive, &geometry),
                               .first = r->out->vertices.count};
     const uint32_t first_normal = r->out->normals.count;
-    const uint32_t line = gltf_document_line(r->document, shown->primitive->node);
     const bool shared = shares(r->gltf, shown->primitive), is_mirrored = mat3_determinant(shown->place.linear) < 0;
     const uint32_t vertices = shared ? geometry.vertices : 3 * geometry.triangles;
     for (uint32_t i = 0; i < vertices; i++)
         put_vertex(&p, shared ? i : geometry.corners[i]);
     for (uint32_t t = 0; t < geometry.triangles; t++)
-        put_face(&p, t, first_normal, is_mirrored, shared, line);
+        put_face(&p, t, first_normal, is_mirrored, shared);
     return true;
 }
 
@@ -269,38 +266,40 @@ static bool read_all(struct reading *r) {
     return good;
 }
 
-void read_gltf(struct asset_file *file, struct arena *scratch, struct obj *out) {
+void read_gltf(struct asset_file *file, struct arena *scratch, struct polygons *out) {
     struct gltf_document *document = file->document;
     struct reading r = {.document = document, .gltf = &document->gltf, .file = file, .scratch = scratch, .out = out};
-    *out = (struct obj){0};
+    *out = (struct polygons){0};
     if (!read_all(&r))
         file->errors += file->errors == 0;
 }
 
-void read_gltf_coordinates(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
+void read_gltf_coordinates(struct asset_file *file, struct arena *scratch, struct textured_faces *out) {
     struct gltf_document *document = file->document;
-    struct obj obj = {0};
-    struct reading r = {.document = document, .gltf = &document->gltf, .file = file, .scratch = scratch, .out = &obj};
-    r.wants_coordinates = true;
-    if (!read_all(&r) || obj.triangle_count != mesh->triangle_count) {
-        asset_report_named(file, DIAG_FILE_UNREADABLE, "the mesh has changed while it was read");
+    struct polygons polygons = {0};
+    struct reading r = {.document = document,
+                        .gltf = &document->gltf,
+                        .file = file,
+                        .scratch = scratch,
+                        .out = &polygons,
+                        .wants_coordinates = true};
+    if (!read_all(&r)) {
+        file->errors += file->errors == 0;
         return;
     }
-    // A mesh has the vertices that faces use, in their order.
-    uint32_t *place = ARENA_ARRAY(scratch, uint32_t, obj.vertices.count);
-    for (uint32_t i = 0; i < obj.corners.count; i++)
-        place[obj.corners.items[i].vertex] = 1;
-    mesh->coordinates = ARENA_ARRAY(&mesh->arena, struct ir_pair, mesh->position_count);
-    for (uint32_t i = 0; i < obj.vertices.count && mesh->coordinate_count < mesh->position_count; i++)
-        if (place[i])
-            mesh->coordinates[mesh->coordinate_count++] = r.coordinates.items[i];
-    mesh->textured = arena_alloc(&mesh->arena, (size_t)mesh->triangle_count * sizeof *mesh->textured);
-    for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        for (int k = 0; k < 3; k++) {
-            const uint32_t at = mesh->triangles[t].corners[k];
-            mesh->textured[t][k] = isnan(mesh->coordinates[at].u) ? IR_NO_INDEX : at;
-        }
-    for (uint32_t i = 0; i < mesh->coordinate_count; i++)
-        if (isnan(mesh->coordinates[i].u))
-            mesh->coordinates[i] = (struct ir_pair){0, 0};
+    out->vertex_count = polygons.vertices.count;
+    out->coordinates.items = r.coordinates.items;
+    out->coordinates.count = r.coordinates.count;
+    out->corners.items = ARENA_ARRAY(scratch, struct textured_corner, polygons.corners.count);
+    out->faces.items = ARENA_ARRAY(scratch, uint32_t, polygons.faces.count);
+    for (uint32_t i = 0; i < polygons.corners.count; i++) {
+        const uint32_t vertex = polygons.corners.items[i].vertex;
+        const bool has = !isnan(r.coordinates.items[vertex].u);
+        out->corners.items[out->corners.count++] = (struct textured_corner){vertex, has ? vertex : IR_NO_INDEX};
+    }
+    for (uint32_t i = 0; i < polygons.faces.count; i++)
+        out->faces.items[out->faces.count++] = polygons.faces.items[i].first;
+    for (uint32_t i = 0; i < out->coordinates.count; i++)
+        if (isnan(out->coordinates.items[i].u))
+            out->coordinates.items[i] = (struct ir_pair){0, 0};
 }

@@ -1,7 +1,6 @@
-#include "assets/gltf_document.h"
+#include "assets/gltf/asset_gltf.h"
 
 #include "assets/gltf/material.h"
-#include "assets/loader.h"
 #include "core/heap.h"
 #include "picture/read/picture_read.h"
 

@@ -1,6 +1,5 @@
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 
-#include "grammar/mesh_format.h"
 #include "grammar/schema.h"
 
 #include <stdarg.h>
@@ -184,10 +183,6 @@ void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
         asset_report_named(file, DIAG_OUT_OF_MEMORY, "there is not enough memory for the %s '%.*s'",
                            file->what, STR_ARG(file->path));
     }
-}
-
-bool assets_is_mesh_path(str path) {
-    return mesh_format_of_path(path) != MESH_FORMAT_COUNT;
 }
 
 str asset_base(const struct assets_input *input, span at) {

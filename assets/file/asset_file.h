@@ -6,10 +6,10 @@
 // Ownership: text that becomes a source is copied into the arena of the source set, which the
 // caller of assets_load has guarded; other functions' results say so.
 // Thread safety: one thread loads.
-#ifndef GLINT_ASSETS_ASSET_FILE_H
-#define GLINT_ASSETS_ASSET_FILE_H
+#ifndef GLINT_ASSETS_FILE_ASSET_FILE_H
+#define GLINT_ASSETS_FILE_ASSET_FILE_H
 
-#include "assets/assets.h"
+#include "assets/file/asset_input.h"
 
 struct gltf_document;
 
@@ -35,9 +35,6 @@ str asset_base(const struct assets_input *input, span at);
 // Finds the file that `base_path` (a file) names `path`. On success file->path is set and *identity filled;
 // else adds a diagnostic where the file is named. `file` has its other members set. If `missing` is not NULL,
 // a missing file only sets *missing, without a diagnostic.
-// A file that was found before is named once more, at another place of the scene: among the uses. The strings
-// are the caller's, and live as long as the arena.
-void asset_note_again(const struct asset_file *file, span at, str named, str canonical, uint64_t size_bytes);
 bool asset_find(struct asset_file *file, str base_path, str path, struct file_read *identity, bool *missing);
 // A file that was found before is named once more, at another place of the scene: among the uses. The strings
 // are the caller's, and live as long as the arena.

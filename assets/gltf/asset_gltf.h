@@ -4,11 +4,13 @@
 // One document serves all models that show parts of the file. Errors: diagnostics, and document->file.errors; a
 // document with errors shows nothing. Ownership: on the heap, freed by gltf_documents_finish; what its functions
 // return lives as long. Thread safety: one thread.
-#ifndef GLINT_ASSETS_GLTF_DOCUMENT_H
-#define GLINT_ASSETS_GLTF_DOCUMENT_H
+#ifndef GLINT_ASSETS_GLTF_ASSET_GLTF_H
+#define GLINT_ASSETS_GLTF_ASSET_GLTF_H
 
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 #include "assets/gltf/gltf.h"
+
+struct ir_material;
 
 struct gltf_means {
     bool is_known;
