@@ -131,13 +131,18 @@ static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, 
     uint32_t standard = loader->input->scene->materials.count;
     if (g->name.len == 0)
         return standard;
+    if (loaded->file.document) {
+        const uint32_t own = loader_document_material(loader, loaded, g->name);
+        return own == IR_NO_INDEX ? standard : own;
+    }
     if (!loaded->libraries_read)
         read_libraries(loader, loaded);
     const struct ir_material *material = mtl_find(&loaded->materials, g->name);
     if (material) {
         const struct mtl_image *image = &loaded->materials.images.items[material - loaded->materials.items];
-        *loader_add_material(loader, (struct material_source){image->file, image->line, image->kd_line}) =
-            *material;
+        *loader_add_material(loader, (struct material_source){.file = image->file,
+                                                              .line = image->line,
+                                                              .kd_line = image->kd_line}) = *material;
         loader_settle_image(loader, loader->materials.count - 1);
         return loader->materials.count - 1;
     }

@@ -18,7 +18,8 @@ static void add_finding(void *context, enum diag_code code, size_t begin, size_t
     else
         asset_report(file, code, begin, end, "%s", message);
     if (code == DIAG_GLTF_EXTENSION && file->errors > errors)
-        diag_help(file->input->sink, "export the file without it, or decompress it with gltf-transform or gltfpack");
+        diag_help(file->input->sink,
+                  "export the file without it, or decompress it with gltf-transform or gltfpack");
 }
 
 // ---- opening
@@ -40,7 +41,8 @@ static void open_document(void *context) {
     gltf_open(&document->gltf, bytes, &document->report, &document->arena);
     document->gltf.most_elements = 3 * document->file.input->limits->value[LIMIT_MESH_TRIANGLES];
     document->file.text = document->gltf.json.text;
-    document->means = ARENA_ARRAY(&document->arena, struct gltf_means, (size_t)document->gltf.images.count + 1);
+    document->means =
+        ARENA_ARRAY(&document->arena, struct gltf_means, (size_t)document->gltf.images.count + 1);
 }
 
 void gltf_document_guarded(struct gltf_document *document, struct arena *const *others, arena_work *work,
@@ -59,6 +61,7 @@ struct gltf_document *gltf_document_open(const struct asset_file *file, const st
     if (!document)
         return NULL;
     document->file = *file;
+    document->file.is_binary = false; // its JSON has lines
     document->report = (struct gltf_report){document, add_finding};
     arena_init(&document->arena, (size_t)file->input->limits->value[LIMIT_MESH_MEMORY]);
     gltf_document_guarded(document, NULL, open_document, &opening);
@@ -139,7 +142,8 @@ static bool take_bytes(struct gltf_document *document, uint32_t image, struct as
             return false;
         file->text = gltf_view_bytes(gltf, i->view);
     } else if (!gltf_decode_data(i->uri, gltf->arena, &file->text, &mime)) {
-        gltf_add(gltf, DIAG_GLTF_DATA, i->node, "'%s' has a 'uri' that is not base64", gltf_where(gltf, i->node));
+        gltf_add(gltf, DIAG_GLTF_DATA, i->node, "'%s' has a 'uri' that is not base64",
+                 gltf_where(gltf, i->node));
         return false;
     }
     if (file->text.len == 0)
@@ -152,10 +156,12 @@ bool gltf_document_image(struct gltf_document *document, uint32_t image, struct 
     const struct gltf_image *i = &document->gltf.images.items[image];
     *file = *file_beside(document, i->node, "image", LIMIT_IMAGE_BYTES);
     if (!gltf_document_holds(document, image))
-        return asset_find(file, document->file.path, gltf_decode_uri(i->uri, &document->arena), identity, NULL);
+        return asset_find(file, document->file.path, gltf_decode_uri(i->uri, &document->arena), identity,
+                          NULL);
     file->path = arena_format(&document->arena, "%.*s: images[%u]", STR_ARG(document->file.path), image);
     *identity = document->identity;
-    identity->path = arena_format(&document->arena, "%.*s\nimages[%u]", STR_ARG(document->identity.path), image);
+    identity->path =
+        arena_format(&document->arena, "%.*s\nimages[%u]", STR_ARG(document->identity.path), image);
     return take_bytes(document, image, file);
 }
 

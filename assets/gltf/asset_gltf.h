@@ -1,9 +1,9 @@
-// A glTF file that is open, as an asset: its buffers and images are found beside it, and what is wrong with it is told
-// at its place, with notes up to the scene that names it.
+// A glTF file that is open, as an asset: its buffers and images are found beside it, and what is wrong with
+// it is told at its place, with notes up to the scene that names it.
 //
-// One document serves all models that show parts of the file. Errors: diagnostics, and document->file.errors; a
-// document with errors shows nothing. Ownership: on the heap, freed by gltf_documents_finish; what its functions
-// return lives as long. Thread safety: one thread.
+// One document serves all models that show parts of the file. Errors: diagnostics, and document->file.errors;
+// a document with errors shows nothing. Ownership: on the heap, freed by gltf_documents_finish; what its
+// functions return lives as long. Thread safety: one thread.
 #ifndef GLINT_ASSETS_GLTF_ASSET_GLTF_H
 #define GLINT_ASSETS_GLTF_ASSET_GLTF_H
 
@@ -33,12 +33,13 @@ struct gltf_document *gltf_document_open(const struct asset_file *file, const st
 void gltf_documents_finish(struct gltf_document *first);
 // Brings the buffers, once; false: the document has errors.
 bool gltf_document_buffers(struct gltf_document *document);
-// Runs work that allocates from the document's arena, and from `others` (NULL at the end, two at most); what it lacks is
-// told.
+// Runs work that allocates from the document's arena, and from `others` (NULL at the end, two at most); what
+// it lacks is told.
 void gltf_document_guarded(struct gltf_document *document, struct arena *const *others, arena_work *work,
                            void *context);
 
-// The line of a value, for messages about what it says; 0 in a GLB file, whose JSON has no lines that people see.
+// The line of a value, for messages about what it says; 0 in a GLB file, whose JSON has no lines that people
+// see.
 uint32_t gltf_document_line(const struct gltf_document *document, json_index at);
 
 // The bytes of an image that the file holds, or that is beside it. `file` takes its path and identity.
@@ -46,7 +47,8 @@ bool gltf_document_image(struct gltf_document *document, uint32_t image, struct 
                          struct file_read *identity);
 // Whether an image is inside of the file, or in its buffers.
 bool gltf_document_holds(const struct gltf_document *document, uint32_t image);
-// The material, with the means of its textures; is_linear: as struct gltf_wording. false: the document has errors.
+// The material, with the means of its textures; is_linear: as struct gltf_wording. false: the document has
+// errors.
 bool gltf_document_material(struct gltf_document *document, uint32_t material, bool is_linear,
                             struct ir_material *out);
 

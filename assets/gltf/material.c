@@ -231,6 +231,7 @@ void gltf_to_material(struct gltf *gltf, uint32_t material, struct gltf_wording 
                       struct ir_material *out) {
     const struct gltf_material *m = &gltf->materials.items[material];
     const struct surface surface = surface_of(m, wording);
+    *out = (struct ir_material){0};
     schema_init(&SCHEMA_MATERIAL, out);
     put_base(gltf, m, wording.is_linear, out);
     const double factor = out->diffuse_color.kind == IR_PAINT_IMAGE ? weight_of_factor(gltf, m) : 1;

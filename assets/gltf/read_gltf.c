@@ -43,8 +43,8 @@ static uint32_t group_of(struct reading *r, const struct gltf_primitive *p) {
     const bool has = p->material != GLTF_NONE;
     uint32_t *group = &r->group_of[has ? p->material : r->gltf->materials.count];
     if (*group == 0) {
-        *ARENA_PUSH(r->scratch, &r->out->groups) = (struct mesh_group){
-            .name = has ? gltf_material_name(r->gltf, p->material) : STR("")};
+        *ARENA_PUSH(r->scratch, &r->out->groups) =
+            (struct mesh_group){.name = has ? gltf_material_name(r->gltf, p->material) : STR("")};
         *group = r->out->groups.count;
     }
     return *group - 1;
@@ -122,7 +122,8 @@ static mat3 for_normals(mat3 a) {
 }
 
 static vec3 vector_at(const double *numbers, uint32_t at) {
-    return (vec3){numbers[3 * (size_t)at] + 0, numbers[3 * (size_t)at + 1] + 0, numbers[3 * (size_t)at + 2] + 0};
+    return (vec3){numbers[3 * (size_t)at] + 0, numbers[3 * (size_t)at + 1] + 0,
+                  numbers[3 * (size_t)at + 2] + 0};
 }
 
 struct placing {
@@ -140,7 +141,8 @@ static void put_vertex(const struct placing *p, uint32_t at) {
     // No coordinate is -0.
     r->out->vertices.items[r->out->vertices.count++] = (vec3){place.x + 0, place.y + 0, place.z + 0};
     if (r->has_normals && p->geometry->normals)
-        r->out->normals.items[r->out->normals.count++] = mat3_apply(p->turn, vector_at(p->geometry->normals, at));
+        r->out->normals.items[r->out->normals.count++] =
+            mat3_apply(p->turn, vector_at(p->geometry->normals, at));
     if (!r->wants_coordinates)
         return;
     const double *c = p->coordinates ? &p->coordinates[2 * (size_t)at] : NULL;
@@ -155,19 +157,22 @@ static void put_flat(struct reading *r, const uint32_t corners[3]) {
     r->out->normals.items[r->out->normals.count++] = vec3_unit(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
 }
 
-static void put_face(const struct placing *p, uint32_t triangle, uint32_t first_normal, bool is_mirrored, bool shared) {
+static void put_face(const struct placing *p, uint32_t triangle, uint32_t first_normal, bool is_mirrored,
+                     bool shared) {
     struct reading *r = p->r;
     struct polygons *out = r->out;
     uint32_t corners[3];
     for (uint32_t k = 0; k < 3; k++) {
         const uint32_t from = is_mirrored ? 2 - k : k;
-        corners[k] = p->first + (shared ? p->geometry->corners[3 * (size_t)triangle + from] : 3 * triangle + from);
+        corners[k] =
+            p->first + (shared ? p->geometry->corners[3 * (size_t)triangle + from] : 3 * triangle + from);
     }
     const bool flat = r->has_normals && !p->geometry->normals;
     if (flat)
         put_flat(r, corners);
-    out->faces.items[out->faces.count++] =
-        (struct polygon_face){.first = out->corners.count, .line = out->faces.count, .group = p->shown->group};
+    const uint32_t number = out->faces.count++;
+    out->faces.items[number] =
+        (struct polygon_face){.first = out->corners.count, .line = number + 1, .group = p->shown->group};
     for (int k = 0; k < 3; k++) {
         const uint32_t normal = !r->has_normals ? IR_NO_INDEX
                                 : flat          ? out->normals.count - 1
@@ -195,7 +200,8 @@ static bool put_shown(struct reading *r, const struct shown *shown) {
                               .coordinates = coordinates_of(r, shown->primitive, &geometry),
                               .first = r->out->vertices.count};
     const uint32_t first_normal = r->out->normals.count;
-    const bool shared = shares(r->gltf, shown->primitive), is_mirrored = mat3_determinant(shown->place.linear) < 0;
+    const bool shared = shares(r->gltf, shown->primitive),
+               is_mirrored = mat3_determinant(shown->place.linear) < 0;
     const uint32_t vertices = shared ? geometry.vertices : 3 * geometry.triangles;
     for (uint32_t i = 0; i < vertices; i++)
         put_vertex(&p, shared ? i : geometry.corners[i]);
@@ -235,8 +241,8 @@ static void make_room(struct reading *r) {
 
 static void report_part(struct reading *r) {
     const str part = r->file->part;
-    asset_report_named(r->file, DIAG_UNKNOWN_PART, "the mesh '%.*s' has no part '%.*s'", STR_ARG(r->file->path),
-                       part.len < 80 ? (int)part.len : 80, part.ptr);
+    asset_report_named(r->file, DIAG_UNKNOWN_PART, "the mesh '%.*s' has no part '%.*s'",
+                       STR_ARG(r->file->path), part.len < 80 ? (int)part.len : 80, part.ptr);
     struct nearest search = nearest_begin(part);
     for (uint32_t i = 0; i < r->gltf->meshes.count; i++)
         nearest_offer(&search, r->gltf->meshes.items[i].name);
@@ -244,7 +250,8 @@ static void report_part(struct reading *r) {
     if (best.len)
         diag_help(r->file->input->sink, "did you mean '%.*s'?", STR_ARG(best));
     else
-        diag_help(r->file->input->sink, "it has %u mesh%s and %u node%s: write the name of a mesh, 'mesh 0' or 'node 0'",
+        diag_help(r->file->input->sink,
+                  "it has %u mesh%s and %u node%s: write the name of a mesh, 'mesh 0' or 'node 0'",
                   r->gltf->meshes.count, r->gltf->meshes.count == 1 ? "" : "es", r->gltf->nodes.count,
                   r->gltf->nodes.count == 1 ? "" : "s");
 }
@@ -268,7 +275,8 @@ static bool read_all(struct reading *r) {
 
 void read_gltf(struct asset_file *file, struct arena *scratch, struct polygons *out) {
     struct gltf_document *document = file->document;
-    struct reading r = {.document = document, .gltf = &document->gltf, .file = file, .scratch = scratch, .out = out};
+    struct reading r = {
+        .document = document, .gltf = &document->gltf, .file = file, .scratch = scratch, .out = out};
     *out = (struct polygons){0};
     if (!read_all(&r))
         file->errors += file->errors == 0;
@@ -295,7 +303,8 @@ void read_gltf_coordinates(struct asset_file *file, struct arena *scratch, struc
     for (uint32_t i = 0; i < polygons.corners.count; i++) {
         const uint32_t vertex = polygons.corners.items[i].vertex;
         const bool has = !isnan(r.coordinates.items[vertex].u);
-        out->corners.items[out->corners.count++] = (struct textured_corner){vertex, has ? vertex : IR_NO_INDEX};
+        out->corners.items[out->corners.count++] =
+            (struct textured_corner){vertex, has ? vertex : IR_NO_INDEX};
     }
     for (uint32_t i = 0; i < polygons.faces.count; i++)
         out->faces.items[out->faces.count++] = polygons.faces.items[i].first;
