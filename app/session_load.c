@@ -1,11 +1,13 @@
 // From path and options to a loaded session: the stages one after the other.
 #include "app/check_allow.h"
+#include "app/import/scene_text.h"
 #include "app/what_file.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
 #include "core/timeline.h"
 #include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
+#include "grammar/mesh_format.h"
 #include "parser/parser.h"
 
 #include <stdlib.h>
@@ -52,20 +54,29 @@ static bool is_another_kind(struct session *session, str path, str text) {
     return true;
 }
 
+static str finished_text(struct session *session, struct strbuf *text) {
+    str copy = arena_copy(&session->arena, strbuf_view(text));
+    strbuf_finish(text);
+    return copy;
+}
+
 // A mesh becomes a scene with only that model, which nobody wrote.
 static str scene_around_mesh(struct session *session, str path) {
     struct strbuf text;
     str name = path_base(path);
     strbuf_init(&text);
+    if (mesh_format_of_path(path) == MESH_FORMAT_GLTF) {
+        const struct assets_input input = session_assets_input(session);
+        if (import_scene_text(&input, path, &text))
+            return finished_text(session, &text);
+    }
     strbuf_cstr(&text, "glint: 1\nmodels:\n  - mesh: ");
     if (utf8_first_error(name) == name.len)
         print_yaml_text(&text, name, false);
     else
         strbuf_str(&text, name); // the reader says what is wrong with it
     strbuf_char(&text, '\n');
-    str copy = arena_copy(&session->arena, strbuf_view(&text));
-    strbuf_finish(&text);
-    return copy;
+    return finished_text(session, &text);
 }
 
 static struct config_input config_input(struct session *session) {

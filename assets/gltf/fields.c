@@ -148,6 +148,16 @@ void gltf_missing(struct gltf *gltf, json_index object, const char *key) {
     gltf_add(gltf, DIAG_GLTF_VALUE, object, "'%s' must have '%s'", gltf_where(gltf, object), key);
 }
 
+bool gltf_is_clean(str text) {
+    bool is = true;
+    for (size_t i = 0; i < text.len; i++) {
+        const unsigned char c = (unsigned char)text.ptr[i],
+                            next = i + 1 < text.len ? (unsigned char)text.ptr[i + 1] : 0;
+        is = is && c >= 0x20 && c != 0x7F && !(c == 0xC2 && next < 0xA0);
+    }
+    return is;
+}
+
 json_index gltf_extension(struct gltf *gltf, json_index object, const char *name) {
     const json_index extensions = json_get(&gltf->json, object, "extensions");
     return extensions ? gltf_get_object(gltf, extensions, name) : 0;

@@ -165,8 +165,8 @@ static void find_names(struct gltf *gltf) {
     str_map_init(&map, gltf->arena);
     for (uint32_t i = 0; i < gltf->materials.count; i++) {
         struct gltf_material *m = &gltf->materials.items[i];
-        m->is_named =
-            m->name.len && !str_starts_with(m->name, STR("material ")) && (*str_map_at(&map, m->name))++ == 0;
+        m->is_named = m->name.len && gltf_is_clean(m->name) && !str_starts_with(m->name, STR("material ")) &&
+                      (*str_map_at(&map, m->name))++ == 0;
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#define SIZE_MOST 1e30 // beyond it a product of two matrices may have no number
+#define SIZE_MOST 1e18 // that a scene may have
 
 // ---- cameras and lights
 
@@ -58,7 +58,7 @@ static void read_light(struct gltf *gltf, json_index node) {
     str type = STR("");
     *light =
         (struct gltf_light){.node = node, .name = gltf_name(gltf, node), .color = {1, 1, 1}, .intensity = 1};
-    gltf_get_numbers(gltf, node, "color", 0, HUGE_VAL, 3, light->color);
+    gltf_get_numbers(gltf, node, "color", 0, 1e6, 3, light->color);
     gltf_get_number(gltf, node, "intensity", 0, 1e30, &light->intensity);
     light->has_range = json_get(&gltf->json, node, "range") != 0;
     const bool has_type = gltf_get_text(gltf, node, "type", &type);
@@ -256,7 +256,7 @@ static void check_sizes(struct gltf *gltf) {
             largest = vec3_larger(largest, vec3_max_abs(mat3_column(node->world.linear, k)));
         if (largest <= SIZE_MOST)
             continue;
-        gltf_add(gltf, DIAG_GLTF_VALUE, node->node, "'%s' is placed further away or scaled more than 1e30",
+        gltf_add(gltf, DIAG_GLTF_VALUE, node->node, "'%s' is placed further away or scaled more than 1e18",
                  gltf_where(gltf, node->node));
         return;
     }
