@@ -81,6 +81,7 @@ struct cli_options {
     int audit_arg;             // the place of either
     bool check, diff, upgrade; // of what changes files
     bool list;
+    bool force; // overwrite
     bool changed;
     int changed_arg;            // as output_arg
     const char *baseline;       // NULL: not given
@@ -219,6 +220,7 @@ int cmd_render(struct cli *cli);
 int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);
 int cmd_convert(struct cli *cli);
+int cmd_import(struct cli *cli);
 int cmd_format(struct cli *cli);
 int cmd_diff(struct cli *cli);
 int cmd_schema(struct cli *cli);

@@ -299,6 +299,15 @@ static void put_head(struct importing *im) {
     write(&out->background.head, &SCHEMA_BACKGROUND, "color");
 }
 
+struct gltf_document *import_open(const struct assets_input *input, str path) {
+    const struct asset_file file = {.input = input, .path = path, .what = "mesh", .limit = LIMIT_MESH_BYTES};
+    struct file_read identity;
+    if (files_identify(input->files, path, &identity) != FILE_OK ||
+        identity.size_bytes > input->limits->value[LIMIT_MESH_BYTES])
+        return NULL;
+    return gltf_document_open(&file, &identity);
+}
+
 void import_gltf(struct gltf_document *document, const struct import_options *options, struct arena *arena,
                  struct ir_scene *out) {
     struct importing im = {

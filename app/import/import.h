@@ -22,6 +22,9 @@ struct import_options {
         *images; // by image of the file, as the scene is to name it; NULL: materials are left in the file
 };
 
+// Opens the file at a path; what is wrong is told where the input's sink is. NULL: it cannot be read, or no
+// memory.
+struct gltf_document *import_open(const struct assets_input *input, str path);
 void import_gltf(struct gltf_document *document, const struct import_options *options, struct arena *arena,
                  struct ir_scene *out);
 // Which images the materials of the scene show: a flag for each image of the file.

@@ -1,6 +1,7 @@
 #include "app/import/place.h"
 
-#define DEGREES (180 / 3.14159265358979323846)
+#define PI      3.14159265358979323846
+#define DEGREES (180 / PI)
 #define SHEAR   1e-6 // cosine between two axes that still counts as a right angle
 #define LEAST   1e-18
 
@@ -27,7 +28,13 @@ static vec3 angles_of(mat3 r) {
     } else {
         x = atan2(-r.m[1][2], r.m[1][1]);
     }
-    const double y = atan2(-r.m[2][0], across);
+    double y = atan2(-r.m[2][0], across);
+    // The same turn has two sets of angles: the one that is easier to read.
+    if (fabs(x) > PI / 2 && fabs(z) > PI / 2) {
+        x -= copysign(PI, x);
+        z -= copysign(PI, z);
+        y = copysign(PI, y) - y;
+    }
     return (vec3){tidy_angle(x * DEGREES), tidy_angle(y * DEGREES), tidy_angle(z * DEGREES)};
 }
 

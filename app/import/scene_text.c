@@ -30,12 +30,7 @@ static void make(void *context) {
 
 static bool write_scene(const struct assets_input *quiet, const struct assets_input *input, str path,
                         struct strbuf *text) {
-    const struct asset_file file = {.input = quiet, .path = path, .what = "mesh", .limit = LIMIT_MESH_BYTES};
-    struct file_read identity;
-    if (files_identify(input->files, path, &identity) != FILE_OK ||
-        identity.size_bytes > input->limits->value[LIMIT_MESH_BYTES])
-        return false;
-    struct making making = {.document = gltf_document_open(&file, &identity), .input = input, .text = text};
+    struct making making = {.document = import_open(quiet, path), .input = input, .text = text};
     if (!making.document)
         return false;
     if (making.document->file.errors == 0)

@@ -76,10 +76,15 @@ static void put_image(struct gltf *gltf, const struct gltf_texture_use *use, str
 
 // ---- colours
 
+// To four decimals, which no picture shows: these numbers are there to be read.
+static double tidy(double value) {
+    return round(value * 1e4) / 1e4;
+}
+
 static struct ir_color color_of(const double *rgb, bool is_linear) {
     double out[3];
     for (int k = 0; k < 3; k++)
-        out[k] = is_linear || rgb[k] > 1 ? rgb[k] : srgb_encode(rgb[k]);
+        out[k] = tidy(is_linear || rgb[k] > 1 ? rgb[k] : srgb_encode(rgb[k]));
     return (struct ir_color){.r = out[0], .g = out[1], .b = out[2]};
 }
 
@@ -131,14 +136,22 @@ static bool mirrors(const struct surface *s) {
     return s->metal < 0.5 && s->roughness <= MIRRORS_UNTIL && s->mirror > 0;
 }
 
+// Of a metal: 0 for grey, 1 for a pure colour. Mirrors have no colour: what is matt shows it.
+static double colorfulness(const struct gltf_material *m) {
+    const double most = fmax(m->base[0], fmax(m->base[1], m->base[2]));
+    const double least = fmin(m->base[0], fmin(m->base[1], m->base[2]));
+    return m->base_texture.node ? 1 : most > 0 ? (most - least) / most : 0;
+}
+
 static void put_albedo(const struct gltf_material *m, const struct surface *s, double factor,
                        struct ir_material *out) {
     struct ir_weights *w = &out->albedo;
     const double shine = s->metal + (1 - s->metal) * s->mirror,
                  alpha = fmax(s->roughness * s->roughness, 0.01);
     // A rough metal scatters nearly as a matt surface of its colour does.
-    w->diffuse = factor * ((1 - s->metal) * (1 - s->clear) + s->metal * s->roughness);
-    w->reflection = s->metal * (1 - s->roughness) * (m->base_texture.node ? 1 : luminance(m->base));
+    const double matt = s->roughness + (1 - s->roughness) * colorfulness(m) / 2;
+    w->diffuse = factor * ((1 - s->metal) * (1 - s->clear) + s->metal * matt);
+    w->reflection = s->metal * (1 - matt) * (m->base_texture.node ? 1 : luminance(m->base));
     w->refraction = s->clear;
     // The peak of the microfacets' distribution (Walter et al. 2007), and the lobe of Phong that is as wide.
     w->specular = s->roughness < 0.9 ? fmin(1, shine / (4 * alpha * alpha)) : 0;
@@ -148,9 +161,10 @@ static void put_albedo(const struct gltf_material *m, const struct surface *s, d
     } else if (s->clear > 0 || mirrors(s)) {
         w->reflection = fmax(w->reflection, 1 - s->metal);
     }
+    *w = (struct ir_weights){tidy(w->diffuse), tidy(w->specular), tidy(w->reflection), tidy(w->refraction)};
     write(&out->head, &SCHEMA_MATERIAL, "albedo");
     if (w->specular > 0) {
-        out->specular_exponent = fmin(fmax((2 / (alpha * alpha) - 2) / 4, 1), EXPONENT_MOST);
+        out->specular_exponent = tidy(fmin(fmax((2 / (alpha * alpha) - 2) / 4, 1), EXPONENT_MOST));
         write(&out->head, &SCHEMA_MATERIAL, "specular_exponent");
     }
 }
@@ -168,7 +182,7 @@ static void put_roughness(const struct surface *s, struct ir_material *out) {
     const bool is_seen = out->albedo.reflection > 0 || (out->albedo.refraction > 0 && !s->is_thin);
     if (!is_seen || s->roughness < 0.01)
         return;
-    out->roughness = s->roughness;
+    out->roughness = tidy(s->roughness);
     write(&out->head, &SCHEMA_MATERIAL, "roughness");
 }
 
@@ -221,6 +235,9 @@ static void count_losses(struct gltf *gltf, const struct gltf_material *m) {
         gltf_lose(gltf, GLTF_LOSS_OCCLUSION_TEXTURE, m->occlusion_texture.node);
     if (m->transmission_texture)
         gltf_lose(gltf, GLTF_LOSS_TRANSMISSION_TEXTURE, m->transmission_texture);
+    if (m->metallic > 0.5 && m->roughness < 0.9 && colorfulness(m) > 0.05 && !m->metal_texture.node &&
+        !m->is_unlit)
+        gltf_lose(gltf, GLTF_LOSS_METAL_COLOR, m->node);
     if (image_of(gltf, &m->metal_texture) != GLTF_NONE && !m->is_unlit)
         gltf_lose(gltf, GLTF_LOSS_METAL_TEXTURE, m->metal_texture.node);
     if (m->alpha == GLTF_ALPHA_MASK || (m->alpha == GLTF_ALPHA_BLEND && m->base_texture.node))
