@@ -24,6 +24,8 @@ struct asset_file {
     uint32_t named_line;                  // in named_in
     uint32_t counted_line, counted_bytes; // where lines of a text that is not kept were last counted to
     uint32_t errors;
+    bool is_binary;      // it has no lines: a "line" is the number of a face, from 1
+    uint32_t head_bytes; // of a binary file: lines at its beginning, which can be shown
 };
 
 // The file that holds a value: paths are relative to it. Values of options belong to the scene's file.
@@ -44,6 +46,9 @@ bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, si
                   ...) __attribute__((format(printf, 5, 6)));
 // The same for a whole line (from 1; 0 means the whole file).
 bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+// The same at a byte of a binary file, from 0.
+bool asset_report_byte(struct asset_file *file, enum diag_code code, uint64_t byte, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 // Whether a further fault of this code is only counted; if so, counts it. For callers that need time to find
 // the place.
