@@ -131,7 +131,7 @@ static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, 
     const struct mesh_group *g = &loaded->mesh->groups[group];
     uint32_t standard = loader->input->scene->materials.count;
     if (g->name.len == 0 ||
-        !(mesh_formats[mesh_format_of_path(loaded->mesh->path)].holds & MESH_HOLDS_MATERIALS))
+        !(mesh_formats[mesh_format_of_path(loaded->mesh->path)].traits & MESH_HOLDS_MATERIALS))
         return standard;
     if (!loaded->libraries_read)
         read_libraries(loader, loaded);
