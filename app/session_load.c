@@ -1,4 +1,5 @@
 // From path and options to a loaded session: the stages one after the other.
+#include "app/around/around.h"
 #include "app/check_allow.h"
 #include "app/import/scene_text.h"
 #include "app/what_file.h"
@@ -60,16 +61,24 @@ static str finished_text(struct session *session, struct strbuf *text) {
     return copy;
 }
 
-// A mesh becomes a scene with only that model, which nobody wrote.
-static str scene_around_mesh(struct session *session, str path) {
+// A mesh becomes a scene around it, which nobody wrote.
+static str scene_around_mesh(struct session *session, struct asset_store *store, str path) {
+    const struct assets_input input = session_assets_input(session);
     struct strbuf text;
-    str name = path_base(path);
+    str name = path_base(path), around = STR("");
+    const struct import_source source = {&input, store, &session->assets, session->options.width,
+                                         session->options.height};
     strbuf_init(&text);
-    if (mesh_format_of_path(path) == MESH_FORMAT_GLTF) {
-        const struct assets_input input = session_assets_input(session);
-        if (import_scene_text(&input, path, &text))
-            return finished_text(session, &text);
-    }
+    const bool is_scene =
+        mesh_format_of_path(path) == MESH_FORMAT_GLTF && import_scene_text(&source, path, &text);
+    if (!is_scene && store)
+        around = around_text(store, &input, path, session->options.width, session->options.height,
+                             &session->assets);
+    assets_finish(&session->assets);
+    if (is_scene)
+        return finished_text(session, &text);
+    if (around.len)
+        return around;
     strbuf_cstr(&text, "glint: 1\nmodels:\n  - mesh: ");
     if (utf8_first_error(name) == name.len)
         print_yaml_text(&text, name, false);
@@ -99,7 +108,7 @@ static void load_config(struct session *session) {
         diag_policy_overlay(&session->policy, &session->arena, session->options.policy);
 }
 
-static enum session_state open_source(struct session *session, uint32_t *source) {
+static enum session_state open_source(struct session *session, struct asset_store *store, uint32_t *source) {
     str path = session->options.path;
     str text = STR("");
     load_config(session);
@@ -127,7 +136,7 @@ static enum session_state open_source(struct session *session, uint32_t *source)
         status = files_identify(&session->files, path, &identity);
         if (status != FILE_OK)
             return unreadable(session, path, status);
-        text = scene_around_mesh(session, path);
+        text = scene_around_mesh(session, store, path);
         *source = source_add(&session->sources, SOURCE_KIND_GENERATED, path, text);
         return SESSION_LOADED;
     }
@@ -196,7 +205,7 @@ static enum session_state load_stages(struct session *session, struct asset_stor
         config_read_file(&settings, session->options.path, session->options.path, &session->config);
         return SESSION_NO_SCENE;
     }
-    enum session_state state = open_source(session, &source);
+    enum session_state state = open_source(session, store, &source);
     timeline_add(session->options.timeline, "read", session->options.path, start);
     if (state != SESSION_LOADED)
         return state;

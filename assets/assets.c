@@ -68,6 +68,7 @@ static void read_mesh_guarded(struct asset_file *file, struct arena *scratch, st
 
 // What is worth reporting about a mesh, whether it was read now or for an earlier scene.
 static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
+    file->is_binary = mesh->is_binary;
     if (mesh->turned)
         asset_report_line(file, DIAG_MESH_TURNED, 0,
                           "the faces of this closed mesh point inwards and were turned outwards");

@@ -4,6 +4,7 @@
 #include "core/nearest.h"
 #include "core/strbuf.h"
 #include "grammar/ir.h"
+#include "grammar/mesh_format.h"
 #include "grammar/schema.h"
 
 #include <string.h>
@@ -129,7 +130,8 @@ static void read_libraries(struct loader *loader, struct loaded_mesh *loaded) {
 static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, uint32_t group) {
     const struct mesh_group *g = &loaded->mesh->groups[group];
     uint32_t standard = loader->input->scene->materials.count;
-    if (g->name.len == 0)
+    if (g->name.len == 0 ||
+        !(mesh_formats[mesh_format_of_path(loaded->mesh->path)].traits & MESH_HOLDS_MATERIALS))
         return standard;
     if (loaded->file.document) {
         const uint32_t own = loader_document_material(loader, loaded, g->name);

@@ -33,6 +33,7 @@ static void copy_names(const struct polygons *polygons, str path, struct mesh *m
         mesh->libraries[i].names = arena_copy(arena, mesh->libraries[i].names);
     }
     memcpy(mesh->losses, polygons->losses, sizeof mesh->losses);
+    mesh->is_binary = polygons->is_binary;
     mesh->face_count = polygons->faces.count;
 }
 

@@ -1,13 +1,16 @@
 #include "assets/mesh_reader.h"
 
 #include "assets/gltf/read_gltf.h"
+#include "assets/ply/read_ply.h"
 #include "assets/read_obj.h"
+#include "assets/stl/read_stl.h"
 #include "grammar/mesh_format.h"
 
 #include <assert.h>
 
 static const struct mesh_reader readers[MESH_FORMAT_COUNT] = {
-#define MESH_FORMAT(id, reader, ...) [MESH_FORMAT_##id] = {read_##reader, read_##reader##_coordinates},
+#define ITEMS(...)                    __VA_ARGS__
+#define MESH_FORMAT(id, readers, ...) [MESH_FORMAT_##id] = {ITEMS readers},
 #include "grammar/mesh_formats.def"
 #undef MESH_FORMAT
 };

@@ -1,6 +1,7 @@
 // glint import MESH -o SCENE: a scene to go on with, and the images that it needs beside it.
 #include "app/convert.h"
 #include "app/import/plan.h"
+#include "app/import/scene_text.h"
 #include "cli/cli.h"
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"
@@ -12,6 +13,8 @@
 struct import_job {
     struct cli *cli;
     struct session *session;
+    struct asset_store *store;
+    struct assets around; // what was loaded to look around it
     const char *out;
     enum import_spelling spelling;
     struct gltf_document *document;
@@ -77,9 +80,11 @@ static void make(void *context) {
     struct diag_sink quiet = {0};
     struct assets_input input = session_assets_input(job->session);
     input.sink = &quiet;
+    const struct import_source source = {&input, job->store, &job->around, 0, 0};
+    const struct ir_scene *around = import_around(&source, job->session->options.path);
     job->document = import_open(&input, job->session->options.path);
     const str out = strcmp(job->out, "-") == 0 ? STR("") : str_from(job->out);
-    job->good = job->document && import_plan_make(job->document, out, &job->plan);
+    job->good = job->document && import_plan_make(job->document, around, out, &job->plan);
     if (job->good)
         import_plan_write(&job->plan, job->spelling, &job->text);
     job->good = job->good && !job->text.failed;
@@ -133,6 +138,7 @@ static int import(struct import_job *job) {
     if (status == CLI_OK)
         status = write_all(job);
     gltf_documents_finish(job->document);
+    assets_finish(&job->around);
     strbuf_finish(&job->text);
     return status;
 }
@@ -153,6 +159,7 @@ int cmd_import(struct cli *cli) {
     struct asset_store *store = asset_store_create();
     session_load(&session, &options, store);
     const bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
+    job.store = store;
     const int status = good ? import(&job) : cli_report(cli, &session, false);
     session_finish(&session);
     asset_store_destroy(store);

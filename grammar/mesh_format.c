@@ -7,14 +7,14 @@
     }
 
 const struct mesh_format mesh_formats[MESH_FORMAT_COUNT] = {
-#define MESH_FORMAT(id, reader, name, called, endings, magic, holds)                                         \
-    [MESH_FORMAT_##id] = {name, called, LIST(endings), LIST(magic), holds},
+#define MESH_FORMAT(id, readers, name, called, endings, magic, traits)                                       \
+    [MESH_FORMAT_##id] = {name, called, LIST(endings), LIST(magic), traits},
 #include "grammar/mesh_formats.def"
 #undef MESH_FORMAT
 };
 
 const char *const mesh_format_endings[] = {
-#define MESH_FORMAT(id, reader, name, called, endings, magic, holds) ITEMS endings
+#define MESH_FORMAT(id, readers, name, called, endings, magic, traits) ITEMS endings
 #include "grammar/mesh_formats.def"
 #undef MESH_FORMAT
     NULL};

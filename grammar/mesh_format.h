@@ -15,12 +15,13 @@ enum mesh_format_id {
     MESH_FORMAT_COUNT // also: none of them
 };
 
-// What a file of the format can say besides positions and faces.
-enum mesh_holds {
+// What a file of the format can say besides positions and faces, and how its programs put bodies.
+enum mesh_traits {
     MESH_HOLDS_NORMALS = 1,     // of corners
     MESH_HOLDS_COORDINATES = 2, // of textures
     MESH_HOLDS_MATERIALS = 4,   // by itself, or in files that it names
     MESH_HOLDS_PARTS = 8,       // with names, so that 'material_map' can give each its material
+    MESH_Z_UP = 16,             // the third axis points upwards; else the second
 };
 
 struct mesh_format {
@@ -28,7 +29,7 @@ struct mesh_format {
     const char *called;         // "a Wavefront OBJ mesh"
     const char *const *endings; // of file names, with their dots, the usual one first; NULL at the end
     const char *const *magic;   // what a file begins with; NULL at the end
-    unsigned holds;             // of enum mesh_holds
+    unsigned traits;            // of enum mesh_traits
 };
 
 extern const struct mesh_format mesh_formats[MESH_FORMAT_COUNT];

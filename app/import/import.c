@@ -29,6 +29,7 @@ struct importing {
     str *material_names;  // by material of the file; empty: not used so far
     struct str_map parts; // names of meshes: how many have them
     double dimming;
+    struct ir_material_ref clay; // of a file without materials
 };
 
 static void write(struct ir_head *head, const struct schema_element *schema, const char *row) {
@@ -150,8 +151,12 @@ static void put_model(struct importing *im, uint32_t index) {
     write_vector(model, "scale", &model->scale, place.scale, (vec3){1, 1, 1});
     write_vector(model, "rotation", &model->rotation, place.rotation, (vec3){0, 0, 0});
     write_vector(model, "translation", &model->translation, place.translation, (vec3){0, 0, 0});
-    if (im->options->images)
+    if (im->clay.name.len) {
+        model->material = im->clay;
+        write(&model->head, &SCHEMA_MODEL, "material");
+    } else if (im->options->images) {
         put_materials(im, mesh, model);
+    }
     write(&im->out->head, &SCHEMA_SCENE, "model");
 }
 
@@ -299,6 +304,59 @@ static void put_head(struct importing *im) {
     write(&out->background.head, &SCHEMA_BACKGROUND, "color");
 }
 
+unsigned import_lacks(const struct gltf_document *document) {
+    const struct gltf *gltf = &document->gltf;
+    unsigned lacks = IMPORT_LACKS_CAMERA | IMPORT_LACKS_LIGHT;
+    for (uint32_t i = 0; i < gltf->order_count; i++) {
+        const struct gltf_node *node = &gltf->nodes.items[gltf->order[i]];
+        lacks &= node->camera != GLTF_NONE ? ~(unsigned)IMPORT_LACKS_CAMERA : lacks;
+        lacks &= node->light != GLTF_NONE ? ~(unsigned)IMPORT_LACKS_LIGHT : lacks;
+    }
+    return lacks;
+}
+
+// Names that are taken by what was taken.
+static void keep_names(struct importing *im) {
+    const struct ir_scene *out = im->out;
+    for (uint32_t i = 0; i < out->cameras.count; i++)
+        import_name(&im->cameras, out->cameras.items[i].name, "camera");
+    for (uint32_t i = 0; i < out->lights.count; i++)
+        import_name(&im->bodies, out->lights.items[i].name, "light");
+    for (uint32_t i = 0; i < out->rectangles.count; i++)
+        import_name(&im->bodies, out->rectangles.items[i].name, "body");
+    for (uint32_t i = 0; i < out->materials.count; i++)
+        import_name(&im->materials, out->materials.items[i].name, "material");
+}
+
+// A floor and a backdrop only where neither camera nor lights say that there is a scene already.
+static void put_around(struct importing *im, unsigned lacks) {
+    const struct ir_scene *around = im->options->around;
+    struct ir_scene *out = im->out;
+    if (lacks & IMPORT_LACKS_CAMERA) {
+        out->cameras = around->cameras;
+        write(&out->head, &SCHEMA_SCENE, "camera");
+    }
+    if (lacks & IMPORT_LACKS_LIGHT) {
+        out->lights = around->lights;
+        out->ambient = around->ambient;
+        out->image.samples = around->image.samples;
+        write(&out->head, &SCHEMA_SCENE, "light");
+        write(&out->head, &SCHEMA_SCENE, "ambient");
+        write(&out->image.head, &SCHEMA_IMAGE, "samples");
+    }
+    if (lacks == (IMPORT_LACKS_CAMERA | IMPORT_LACKS_LIGHT)) {
+        out->rectangles = around->rectangles;
+        out->background = around->background;
+        write(&out->head, &SCHEMA_SCENE, "rectangle");
+    }
+    if (out->rectangles.count || around->models.items[0].material.name.len) {
+        out->materials = around->materials;
+        write(&out->head, &SCHEMA_SCENE, "material");
+    }
+    im->clay = around->models.items[0].material;
+    keep_names(im);
+}
+
 struct gltf_document *import_open(const struct assets_input *input, str path) {
     const struct asset_file file = {.input = input, .path = path, .what = "mesh", .limit = LIMIT_MESH_BYTES};
     struct file_read identity;
@@ -323,6 +381,8 @@ void import_gltf(struct gltf_document *document, const struct import_options *op
     for (uint32_t i = 0; i < im.gltf->meshes.count; i++)
         (*str_map_at(&im.parts, im.gltf->meshes.items[i].name))++;
     put_head(&im);
+    if (options->around)
+        put_around(&im, import_lacks(document));
     for (uint32_t i = 0; i < im.gltf->order_count; i++) {
         const struct gltf_node *node = &im.gltf->nodes.items[im.gltf->order[i]];
         if (node->mesh != GLTF_NONE)

@@ -16,8 +16,15 @@
 
 struct ir_scene;
 
+// What a file has no counterpart of is taken from the scene that a mesh by itself is shown in (app/around/).
+enum import_lack {
+    IMPORT_LACKS_CAMERA = 1,
+    IMPORT_LACKS_LIGHT = 2,
+};
+
 struct import_options {
-    str mesh; // the file, as the scene is to name it
+    const struct ir_scene *around; // NULL: nothing is taken
+    str mesh;                      // the file, as the scene is to name it
     const str
         *images; // by image of the file, as the scene is to name it; NULL: materials are left in the file
 };
@@ -25,6 +32,7 @@ struct import_options {
 // Opens the file at a path; what is wrong is told where the input's sink is. NULL: it cannot be read, or no
 // memory.
 struct gltf_document *import_open(const struct assets_input *input, str path);
+unsigned import_lacks(const struct gltf_document *document);
 void import_gltf(struct gltf_document *document, const struct import_options *options, struct arena *arena,
                  struct ir_scene *out);
 // Which images the materials of the scene show: a flag for each image of the file.

@@ -7,6 +7,7 @@
 
 struct planning {
     struct gltf_document *document;
+    const struct ir_scene *around;
     str out;
     struct import_plan *plan;
     struct str_map names; // of images that are written
@@ -73,7 +74,7 @@ static void make(void *context) {
     struct planning *p = context;
     struct arena *arena = &p->document->arena;
     const str base = path_base(p->document->file.path);
-    struct import_options options = {.mesh = p->out.len ? beside(p, base) : base};
+    struct import_options options = {.around = p->around, .mesh = p->out.len ? beside(p, base) : base};
     str_map_init(&p->names, arena);
     if (p->out.len)
         options.images = name_images(p);
@@ -82,8 +83,10 @@ static void make(void *context) {
     import_gltf(p->document, &options, arena, p->plan->scene);
 }
 
-bool import_plan_make(struct gltf_document *document, str out, struct import_plan *plan) {
-    struct planning planning = {.document = document, .out = out, .plan = plan, .good = true};
+bool import_plan_make(struct gltf_document *document, const struct ir_scene *around, str out,
+                      struct import_plan *plan) {
+    struct planning planning = {
+        .document = document, .around = around, .out = out, .plan = plan, .good = true};
     *plan = (struct import_plan){0};
     if (document->file.errors == 0)
         gltf_document_guarded(document, NULL, make, &planning);

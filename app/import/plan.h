@@ -29,7 +29,9 @@ struct import_plan {
 };
 
 // `out`: where the scene will be; empty: nowhere, its materials are left in the file.
-bool import_plan_make(struct gltf_document *document, str out, struct import_plan *plan);
+// `around`: import_around.
+bool import_plan_make(struct gltf_document *document, const struct ir_scene *around, str out,
+                      struct import_plan *plan);
 void import_plan_write(const struct import_plan *plan, enum import_spelling spelling, struct strbuf *text);
 
 #endif

@@ -55,9 +55,10 @@ static bool is_line_end(str text, size_t at) {
 }
 
 static span whole_file(struct asset_file *file) {
-    if (file->source == SOURCE_DEFAULT && file->bare_source == SOURCE_DEFAULT)
+    const bool is_shown = file->source != SOURCE_DEFAULT && !file->is_binary;
+    if (!is_shown && file->bare_source == SOURCE_DEFAULT)
         file->bare_source = source_add(file->input->sources, SOURCE_KIND_FILE, file->path, STR(""));
-    return (span){file->source != SOURCE_DEFAULT ? file->source : file->bare_source, 0, 0};
+    return (span){is_shown ? file->source : file->bare_source, 0, 0};
 }
 
 span asset_line(struct asset_file *file, uint32_t line) {
@@ -126,7 +127,7 @@ __attribute__((format(printf, 5, 0))) static void report(struct asset_file *file
 // The line of a place in a text that is not kept as a source; 0 for others, which know their lines. Places
 // come mostly in their order, so that lines are counted from the last one.
 static uint32_t line_if_not_kept(struct asset_file *file, size_t offset) {
-    if (file->input->sources->items[source_of(file)].text.len)
+    if (file->is_binary || file->input->sources->items[source_of(file)].text.len)
         return 0;
     if (offset < file->counted_bytes || file->counted_line == 0) {
         file->counted_bytes = 0;

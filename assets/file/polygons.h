@@ -28,6 +28,8 @@ enum mesh_loss {
     MESH_LOSS_NOT_FACES, // points, lines, curves and surfaces
     MESH_LOSS_COLORS,    // of vertices
     MESH_LOSS_IMAGES,    // of faces
+    MESH_LOSS_SCANNED,   // colours of vertices or faces, in formats whose programs write them unasked
+    MESH_LOSS_REST,      // bytes after the last face
     MESH_LOSS_BENT,      // faces that are not flat
     MESH_LOSS_NORMALS,   // corners of faces whose normal has length 0
     MESH_LOSS_COUNT
@@ -35,7 +37,7 @@ enum mesh_loss {
 
 struct mesh_loss_count {
     uint32_t count;
-    uint32_t line; // of the first
+    uint32_t line; // of the first; 0: of the whole file
 };
 
 static inline void mesh_lose(struct mesh_loss_count *losses, enum mesh_loss what, uint32_t line) {
@@ -79,6 +81,7 @@ struct polygons {
         struct mesh_library *items;
         uint32_t count, capacity;
     } libraries;
+    bool is_binary;                                 // a line is the number of a face, from 1
     uint64_t triangle_count;                        // that the faces will give
     struct mesh_loss_count losses[MESH_LOSS_COUNT]; // of what is in lines of their own
 };
