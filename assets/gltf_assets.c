@@ -51,21 +51,17 @@ static void find_material(void *context) {
             return;
 }
 
-uint32_t loader_document_material(struct loader *loader, struct loaded_mesh *loaded, str group) {
+bool loader_document_material(const struct loader *loader, struct loaded_mesh *loaded, str group,
+                              struct ir_material *material, struct material_source *source) {
     struct gltf_document *document = loaded->file.document;
     struct finding finding = {document, group, 0};
-    struct ir_material material;
-    if (group.len == 0)
-        return IR_NO_INDEX;
     gltf_document_guarded(document, NULL, find_material, &finding);
     const bool is_linear = loader->input->scene->image.transfer == IR_TRANSFER_SRGB;
     if (finding.found >= document->gltf.materials.count ||
-        !gltf_document_material(document, finding.found, is_linear, &material))
-        return IR_NO_INDEX;
-    material.name = arena_copy(loader->input->arena, group);
-    *loader_add_material(loader,
-                         (struct material_source){
-                             .document = document,
-                             .image = gltf_material_images(&document->gltf, finding.found).base}) = material;
-    return loader->materials.count - 1;
+        !gltf_document_material(document, finding.found, is_linear, material))
+        return false;
+    material->name = arena_copy(loader->input->arena, group);
+    *source = (struct material_source){.document = document,
+                                       .image = gltf_material_images(&document->gltf, finding.found).base};
+    return true;
 }

@@ -134,8 +134,12 @@ static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, 
         !(mesh_formats[mesh_format_of_path(loaded->mesh->path)].traits & MESH_HOLDS_MATERIALS))
         return standard;
     if (loaded->file.document) {
-        const uint32_t own = loader_document_material(loader, loaded, g->name);
-        return own == IR_NO_INDEX ? standard : own;
+        struct ir_material own;
+        struct material_source source;
+        if (!loader_document_material(loader, loaded, g->name, &own, &source))
+            return standard;
+        *loader_add_material(loader, source) = own;
+        return loader->materials.count - 1;
     }
     if (!loaded->libraries_read)
         read_libraries(loader, loaded);

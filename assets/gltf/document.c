@@ -47,12 +47,6 @@ void gltf_read_extensions(struct gltf *gltf) {
         read_names(gltf, "extensionsUsed", false);
 }
 
-str gltf_name(struct gltf *gltf, json_index object) {
-    str name = STR("");
-    gltf_get_text(gltf, object, "name", &name);
-    return name;
-}
-
 static void check_version(struct gltf *gltf) {
     const json_index asset = gltf_get_object(gltf, gltf->json.root, "asset");
     str version = STR(""), least;

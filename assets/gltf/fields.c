@@ -163,6 +163,12 @@ json_index gltf_extension(struct gltf *gltf, json_index object, const char *name
     return extensions ? gltf_get_object(gltf, extensions, name) : 0;
 }
 
+str gltf_name(struct gltf *gltf, json_index object) {
+    str name = STR("");
+    gltf_get_text(gltf, object, "name", &name);
+    return name;
+}
+
 json_index gltf_next_object(struct gltf *gltf, json_index list, json_index before) {
     json_index at = before ? json_at(&gltf->json, before)->next : json_at(&gltf->json, list)->first;
     while (at && !is_kind(gltf, at, JSON_OBJECT))

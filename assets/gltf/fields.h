@@ -22,6 +22,8 @@ json_index gltf_get_object(struct gltf *gltf, json_index object, const char *key
 json_index gltf_get_list(struct gltf *gltf, json_index object, const char *key);
 // Says that a property that there must be is missing.
 void gltf_missing(struct gltf *gltf, json_index object, const char *key);
+// The name of an object; empty: none.
+str gltf_name(struct gltf *gltf, json_index object);
 // Whether a text has no control characters, which no scene may have.
 bool gltf_is_clean(str text);
 // object.extensions.name; 0: none.

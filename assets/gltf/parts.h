@@ -17,8 +17,6 @@ void gltf_read_materials(struct gltf *gltf);
 void gltf_read_meshes(struct gltf *gltf);
 void gltf_read_cameras(struct gltf *gltf); // and lights
 void gltf_read_nodes(struct gltf *gltf);   // and the default scene
-// The name of an object; empty: none.
-str gltf_name(struct gltf *gltf, json_index object);
 // Bytes of a component.
 uint32_t gltf_component_bytes(unsigned component);
 // Bytes of an element, with what the columns of matrices are padded with.
