@@ -57,7 +57,7 @@ static bool is_another_kind(struct session *session, str path, str text) {
 static str scene_around_mesh(struct session *session, struct asset_store *store, str path) {
     const struct assets_input input = session_assets_input(session);
     str around = STR("");
-    if (store)
+    if (store && !session->options.text_only)
         around = around_text(store, &input, path, session->options.width, session->options.height,
                              &session->assets);
     assets_finish(&session->assets);
@@ -286,7 +286,12 @@ enum session_state session_load(struct session *session, const struct session_op
 }
 
 enum session_state session_load_text(struct session *session, const struct session_options *options) {
-    return guarded_load(session, options, NULL, EXTENT_FILE);
+    // The text around a mesh depends on it.
+    struct asset_store *store = assets_is_mesh_path(options->path) ? asset_store_create() : NULL;
+    const enum session_state state = guarded_load(session, options, store, EXTENT_FILE);
+    assets_finish(&session->assets);
+    asset_store_destroy(store);
+    return state;
 }
 
 enum session_state session_load_settings(struct session *session, const struct session_options *options) {
