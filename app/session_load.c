@@ -69,9 +69,10 @@ static str scene_around_mesh(struct session *session, struct asset_store *store,
     const struct import_source source = {&input, store, &session->assets, session->options.width,
                                          session->options.height};
     strbuf_init(&text);
+    const bool may_read = store && !session->options.text_only;
     const bool is_scene =
-        mesh_format_of_path(path) == MESH_FORMAT_GLTF && import_scene_text(&source, path, &text);
-    if (!is_scene && store)
+        may_read && mesh_format_of_path(path) == MESH_FORMAT_GLTF && import_scene_text(&source, path, &text);
+    if (!is_scene && may_read)
         around = around_text(store, &input, path, session->options.width, session->options.height,
                              &session->assets);
     assets_finish(&session->assets);
@@ -297,7 +298,12 @@ enum session_state session_load(struct session *session, const struct session_op
 }
 
 enum session_state session_load_text(struct session *session, const struct session_options *options) {
-    return guarded_load(session, options, NULL, EXTENT_FILE);
+    // The text around a mesh depends on it.
+    struct asset_store *store = assets_is_mesh_path(options->path) ? asset_store_create() : NULL;
+    const enum session_state state = guarded_load(session, options, store, EXTENT_FILE);
+    assets_finish(&session->assets);
+    asset_store_destroy(store);
+    return state;
 }
 
 enum session_state session_load_settings(struct session *session, const struct session_options *options) {

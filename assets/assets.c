@@ -214,8 +214,12 @@ static void check_refraction(struct loader *loader, const struct ir_model *model
     diag_add(sink, DIAG_OPEN_DIELECTRIC, place,
              "the mesh '%.*s' is open and its material refracts: it will look like a thin pane",
              STR_ARG(model->mesh));
-    diag_note(sink, line, "%u edge%s to only one face, the first to this face", mesh->open_edges,
-              mesh->open_edges == 1 ? " belongs" : "s belong");
+    const char *belong = mesh->open_edges == 1 ? " belongs" : "s belong";
+    if (mesh->is_binary)
+        diag_note(sink, line, "%u edge%s to only one face, the first to face %u", mesh->open_edges, belong,
+                  mesh->open_line);
+    else
+        diag_note(sink, line, "%u edge%s to only one face, the first to this face", mesh->open_edges, belong);
     diag_help(sink, "close the mesh, or set the material's refraction to 0");
 }
 

@@ -14,7 +14,7 @@ struct mesh_triangle {
     uint32_t corners[3]; // into positions
     uint32_t normals[3]; // into normals; IR_NO_INDEX: the file has none for this corner
     uint32_t group;      // into groups
-    uint32_t line;       // of the face in the file, from 1
+    uint32_t line;       // of the face in the file, from 1; of a binary file, which face it is
 };
 
 struct mesh {
@@ -47,6 +47,10 @@ struct mesh {
     vec3 lower, upper; // bounds of the positions
 };
 
+// What the numbers in mesh_triangle.line count.
+static inline const char *mesh_place_word(const struct mesh *mesh) {
+    return mesh->is_binary ? "face" : "line";
+}
 // Whether the triangle's area is not 0 (in double, without underflow).
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle);
 

@@ -191,7 +191,7 @@ static bool read_index(struct ply_reading *r, struct ply_cursor *c, enum ply_typ
     const char *begin = c->at;
     double value = 0;
     enum number_status why = NUMBER_OK;
-    char what[SHOWN_MOST];
+    char what[128];
     const enum ply_status status = ply_number(c, type, &value, &why);
     *index = 0;
     if (status != PLY_OK) {

@@ -143,7 +143,7 @@ static void read_line(struct text_reader *r) {
     static const char *const expected[] = {"'solid'", "'facet' or 'endsolid'", "'outer loop'",
                                            "'vertex' or 'endloop'", "'endfacet'"};
     const str word = next_word(r);
-    char what[SHOWN_MOST];
+    char what[128];
     if (word.len == 0)
         return;
     if (!take_line(r, word)) {
