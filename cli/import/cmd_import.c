@@ -6,7 +6,6 @@
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -106,7 +105,7 @@ static bool is_there(struct cli *cli, const char *path) {
 
 static void tell(struct cli *cli, const char *path) {
     if (!cli->options.quiet)
-        fprintf(stderr, "glint: wrote %s\n", path);
+        cli_write_error(arena_format(&cli->arena, "glint: wrote %s\n", path));
 }
 
 // Nothing, where one of the files is there already.
