@@ -51,7 +51,7 @@ static void read_image(struct loader *loader, struct asset_file *file, str name,
     struct arena *scratch = &loader->hold->scratch;
     arena_init(scratch, limits_size(file->input->limits, LIMIT_IMAGE_BYTES) + ASSET_TEXT_ROOM);
     const double start = clock_seconds();
-    if (asset_read(file, scratch))
+    if (file->text.len || asset_read(file, scratch))
         decode_image(file, name, entry);
     timeline_add(loader->input->timeline, "image", file->path, start);
     file->text = STR("");

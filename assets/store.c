@@ -1,5 +1,6 @@
 #include "assets/store.h"
 
+#include "assets/gltf/asset_gltf.h"
 #include "core/heap.h"
 
 #include <stdlib.h>
@@ -55,6 +56,7 @@ void store_release(struct asset_hold *hold) {
         at = &(*at)->next;
     *at = hold->next;
     arena_finish(&hold->scratch);
+    gltf_documents_finish(hold->documents);
     free(hold->items);
     free(hold);
 }

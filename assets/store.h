@@ -35,7 +35,8 @@ struct asset_hold {
     struct asset_hold *next;
     struct store_entry **items;
     uint32_t count, capacity;
-    struct arena scratch; // of the file being read
+    struct arena scratch;            // of the file being read
+    struct gltf_document *documents; // of the scene that is being loaded
 };
 
 // NULL: no memory.

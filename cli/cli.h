@@ -82,6 +82,7 @@ struct cli_options {
     bool check, diff, upgrade; // of what changes files
     bool list;
     bool watch;
+    bool force; // overwrite
     bool changed;
     int changed_arg;            // as output_arg
     const char *baseline;       // NULL: not given
@@ -231,6 +232,7 @@ int cmd_watch(struct cli *cli); // render where --watch was given
 int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);
 int cmd_convert(struct cli *cli);
+int cmd_import(struct cli *cli);
 int cmd_format(struct cli *cli);
 int cmd_diff(struct cli *cli);
 int cmd_schema(struct cli *cli);

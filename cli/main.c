@@ -47,6 +47,13 @@ static const struct cli_command commands[] = {
      "comments). If OUT is in another folder, paths are changed to name the same files.\n\n  glint convert "
      "scene.xml scene.yaml\n",
      2, 2, cmd_convert},
+    {"import", "FILE", "make a scene of a glTF file (.glb, .gltf)",
+     "Writes a scene with a model for each thing that the file shows, its cameras, its lights and its\n"
+     "materials, and beside it the images that the file holds; meshes stay in the file. The scene renders\n"
+     "as 'glint render FILE' does, and is there to be changed. Without -o it is written to the current\n"
+     "folder and named after the file. Files that exist are kept. docs/gltf.md says what becomes of what.\n\n"
+     "  glint import car.glb -o scene.yaml\n",
+     1, 1, cmd_import},
     {"deps", "SCENE...", "list every file that scenes read",
      "One path per line, each once: scene files, includes, meshes, their material files, the background.\n"
      "--format is one of text; json, with the role of each file and the places that name it; and make,\n"

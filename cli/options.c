@@ -51,6 +51,7 @@ enum option_id {
     OPTION_BASE,
     OPTION_COLOR,
     OPTION_ALLOW_RESOLUTION,
+    OPTION_FORCE,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -89,6 +90,9 @@ static const struct option_row rows[] = {
      "fail if single precision is chosen for more random scenes where it is wrong, instead of 0"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_NEEDLESS, "max-needless", 0, "X", "extremes",
      "fail if a larger share of the double precision chosen is not needed, instead of 0.05"},
+    {OPTION_OUTPUT, "output", 'o', "FILE", "import",
+     "write the scene to FILE (.yaml .yml .json .xml); '-' writes YAML to standard output, and no images"},
+    {OPTION_FORCE, "force", 0, NULL, "import", "overwrite files that exist"},
     {OPTION_SIZE, "size", 0, "WxH", "render inspect pick tradeoff extremes",
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render inspect tradeoff",
@@ -116,13 +120,13 @@ static const struct option_row rows[] = {
     {OPTION_SKIP_PIXELS, "skip-pixels", 0, NULL, "check inspect",
      "read only the headers of images, which is faster; damaged pixels are not found"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR ...",
-     "render pick check inspect convert deps pack tradeoff extremes",
+     "render pick check inspect convert deps pack tradeoff extremes import",
      "another folder in which to look for files of the scene"},
     {OPTION_LIMIT, "limit", 0, "NAME=VALUE ...",
-     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp",
+     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp import",
      "change a limit on the size of inputs; '--limit help' lists them"},
     {OPTION_CONFIG, "config", 0, "FILE",
-     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp",
+     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp import",
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
@@ -135,7 +139,7 @@ static const struct option_row rows[] = {
      "say at most what share of the picture's pixels is off, in the file too; --stats does so as well"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_OFF, "max-off", 0, "X", "render",
      "fail if more than this share of the pixels is off; the audit goes on until it is sure"},
-    {OPTION_QUIET, "quiet", 'q', NULL, "render extremes check tradeoff",
+    {OPTION_QUIET, "quiet", 'q', NULL, "render extremes check tradeoff import",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
@@ -297,6 +301,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->ir;
     case OPTION_LIST:
         return &options->list;
+    case OPTION_FORCE:
+        return &options->force;
     case OPTION_CHANGED:
         return &options->changed;
     case OPTION_AS_FILE:

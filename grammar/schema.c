@@ -464,7 +464,11 @@ static const struct schema_row model_rows[] = {
     BODY_NAME(ir_model, "dragon"),
     {.name = "mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .text = SCHEMA_TEXT_PATH,
      .also = "file path filename src geometry obj shape",
-     .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file (Wavefront OBJ)."},
+     .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file."},
+    {.name = "part", FIELD(ir_model, part), .example = "wheel", .text = SCHEMA_TEXT_FOREIGN_NAME,
+     .also = "submesh sub_mesh object_name mesh_name",
+     .doc = "What to show of a glTF file: the name of one of its meshes, 'mesh 3' or 'node 7' by number; if left out, "
+            "its whole scene."},
     BODY_MATERIAL(ir_model),
     {.name = "material_map", .element = "MaterialMap", FIELD(ir_model, material_map),
      .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MAP_ENTRY,

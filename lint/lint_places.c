@@ -1,7 +1,7 @@
 // Where findings are reported and what they call things.
 #include "lint/lint_parts.h"
 
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 #include "grammar/ir.h"
 
 #include <stdarg.h>
@@ -54,11 +54,12 @@ void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, co
                               .path = mesh->mesh->path,
                               .what = "mesh",
                               .limit = LIMIT_MESH_BYTES,
-                              .source = mesh->source};
+                              .source = mesh->source,
+                              .is_binary = mesh->mesh->is_binary};
     span at = asset_line(&file, line);
     mesh->source = file.source;
-    if (input->sources->items[at.source].text.len == 0)
-        diag_note(lint->sink, at, "line %u: %s", line, text);
+    if (file.is_binary || input->sources->items[at.source].text.len == 0)
+        diag_note(lint->sink, at, "%s %u: %s", mesh_place_word(mesh->mesh), line, text);
     else
         diag_note(lint->sink, at, "%s", text);
 }

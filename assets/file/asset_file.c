@@ -1,4 +1,4 @@
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 
 #include "grammar/schema.h"
 
@@ -29,8 +29,8 @@ __attribute__((format(printf, 2, 0))) static void format_message(char message[ME
 static str keep_text(const struct asset_file *file) {
     const struct assets_input *input = file->input;
     struct arena *arena = input->sources->arena;
-    str text = file->text;
-    if (text.len > KEPT_TEXT_MAX)
+    str text = file->is_binary ? str_slice(file->text, 0, file->head_bytes) : file->text;
+    if (text.len > KEPT_TEXT_MAX || (file->is_binary && text.len == 0))
         return STR("");
     if (text.len == 0) {
         uint64_t most = input->limits->value[file->limit];
@@ -55,13 +55,14 @@ static bool is_line_end(str text, size_t at) {
 }
 
 static span whole_file(struct asset_file *file) {
-    if (file->source == SOURCE_DEFAULT && file->bare_source == SOURCE_DEFAULT)
+    const bool is_shown = file->source != SOURCE_DEFAULT && !file->is_binary;
+    if (!is_shown && file->bare_source == SOURCE_DEFAULT)
         file->bare_source = source_add(file->input->sources, SOURCE_KIND_FILE, file->path, STR(""));
-    return (span){file->source != SOURCE_DEFAULT ? file->source : file->bare_source, 0, 0};
+    return (span){is_shown ? file->source : file->bare_source, 0, 0};
 }
 
 span asset_line(struct asset_file *file, uint32_t line) {
-    if (line == 0)
+    if (line == 0 || file->is_binary)
         return whole_file(file);
     struct source_set *sources = file->input->sources;
     span at = source_line_span(sources, source_of(file), line);
@@ -79,7 +80,8 @@ static span named_place(struct asset_file *file) {
 
 static void add_named_notes(struct asset_file *file) {
     for (struct asset_file *f = file; f; f = f->named_in)
-        if (f->named_in || f->input->sources->items[f->named_at.source].kind != SOURCE_KIND_GENERATED)
+        if (f->named_in || (f->named_at.source != SOURCE_DEFAULT &&
+                            f->input->sources->items[f->named_at.source].kind != SOURCE_KIND_GENERATED))
             diag_note(f->input->sink, named_place(f), "the %s is named here", f->what);
 }
 
@@ -115,8 +117,8 @@ __attribute__((format(printf, 5, 0))) static void report(struct asset_file *file
     const struct assets_input *input = file->input;
     char message[MESSAGE_MAX];
     format_message(message, format, args);
-    if (line > 0 && input->sources->items[at.source].text.len == 0)
-        diag_add(input->sink, code, at, "line %u: %s", line, message);
+    if (line > 0 && (file->is_binary || input->sources->items[at.source].text.len == 0))
+        diag_add(input->sink, code, at, "%s %u: %s", file->is_binary ? "face" : "line", line, message);
     else
         diag_add(input->sink, code, at, "%s", message);
     file->errors += diag_info(code)->severity == DIAG_ERROR;
@@ -126,7 +128,7 @@ __attribute__((format(printf, 5, 0))) static void report(struct asset_file *file
 // The line of a place in a text that is not kept as a source; 0 for others, which know their lines. Places
 // come mostly in their order, so that lines are counted from the last one.
 static uint32_t line_if_not_kept(struct asset_file *file, size_t offset) {
-    if (file->input->sources->items[source_of(file)].text.len)
+    if (file->is_binary || file->input->sources->items[source_of(file)].text.len)
         return 0;
     if (offset < file->counted_bytes || file->counted_line == 0) {
         file->counted_bytes = 0;
@@ -159,6 +161,20 @@ bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t li
     return true;
 }
 
+bool asset_report_byte(struct asset_file *file, enum diag_code code, uint64_t byte, const char *format, ...) {
+    if (asset_only_counts(file, code))
+        return false;
+    char message[MESSAGE_MAX];
+    va_list args;
+    va_start(args, format);
+    format_message(message, format, args);
+    va_end(args);
+    diag_add(file->input->sink, code, whole_file(file), "byte %llu: %s", (unsigned long long)byte, message);
+    file->errors += diag_info(code)->severity == DIAG_ERROR;
+    add_named_notes(file);
+    return true;
+}
+
 void asset_report_limit(struct asset_file *file, enum limit limit, size_t begin, size_t end,
                         uint64_t needed) {
     const struct limit_info *info = limit_info(limit);
@@ -183,10 +199,6 @@ void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
         asset_report_named(file, DIAG_OUT_OF_MEMORY, "there is not enough memory for the %s '%.*s'",
                            file->what, STR_ARG(file->path));
     }
-}
-
-bool assets_is_mesh_path(str path) {
-    return str_ends_with_nocase(path, ".obj");
 }
 
 str asset_base(const struct assets_input *input, span at) {

@@ -6,10 +6,12 @@
 // Ownership: text that becomes a source is copied into the arena of the source set, which the
 // caller of assets_load has guarded; other functions' results say so.
 // Thread safety: one thread loads.
-#ifndef GLINT_ASSETS_ASSET_FILE_H
-#define GLINT_ASSETS_ASSET_FILE_H
+#ifndef GLINT_ASSETS_FILE_ASSET_FILE_H
+#define GLINT_ASSETS_FILE_ASSET_FILE_H
 
-#include "assets/assets.h"
+#include "assets/file/asset_input.h"
+
+struct gltf_document;
 
 struct asset_file {
     const struct assets_input *input;
@@ -24,6 +26,11 @@ struct asset_file {
     uint32_t named_line;                  // in named_in
     uint32_t counted_line, counted_bytes; // where lines of a text that is not kept were last counted to
     uint32_t errors;
+    bool is_binary;      // it has no lines: a "line" is the number of a face, from 1
+    uint32_t head_bytes; // of a binary file: lines at its beginning, which can be shown
+    struct gltf_document
+        *document; // of a glTF mesh, which all models of the file share; NULL: of another format
+    str part;      // of the mesh, as the model names it; empty: all
 };
 
 // The file that holds a value: paths are relative to it. Values of options belong to the scene's file.
@@ -31,9 +38,6 @@ str asset_base(const struct assets_input *input, span at);
 // Finds the file that `base_path` (a file) names `path`. On success file->path is set and *identity filled;
 // else adds a diagnostic where the file is named. `file` has its other members set. If `missing` is not NULL,
 // a missing file only sets *missing, without a diagnostic.
-// A file that was found before is named once more, at another place of the scene: among the uses. The strings
-// are the caller's, and live as long as the arena.
-void asset_note_again(const struct asset_file *file, span at, str named, str canonical, uint64_t size_bytes);
 bool asset_find(struct asset_file *file, str base_path, str path, struct file_read *identity, bool *missing);
 // A file that was found before is named once more, at another place of the scene: among the uses. The strings
 // are the caller's, and live as long as the arena.
@@ -47,6 +51,9 @@ bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, si
                   ...) __attribute__((format(printf, 5, 6)));
 // The same for a whole line (from 1; 0 means the whole file).
 bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+// The same at a byte of a binary file, from 0.
+bool asset_report_byte(struct asset_file *file, enum diag_code code, uint64_t byte, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 // Whether a further fault of this code is only counted; if so, counts it. For callers that need time to find
 // the place.
