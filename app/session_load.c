@@ -42,12 +42,12 @@ static enum session_state unreadable(struct session *session, str path, enum fil
 
 // Its contents would only give mistakes of a language that it is not written in.
 static bool is_another_kind(struct session *session, str path, str text) {
-    const struct what_file *what = what_file(path, text);
-    if (!what)
+    struct what_file what;
+    if (!what_file(path, text, &what))
         return false;
     uint32_t source = source_add(&session->sources, SOURCE_KIND_FILE, path, STR(""));
-    diag_add(&session->sink, DIAG_FILE_KIND, (span){source, 0, 0}, "this is %s, not a scene", what->what);
-    diag_help(&session->sink, "%s", what->advice);
+    diag_add(&session->sink, DIAG_FILE_KIND, (span){source, 0, 0}, "this is %s, not a scene", what.what);
+    diag_help(&session->sink, "%s", what.advice);
     return true;
 }
 

@@ -1,7 +1,7 @@
 // What a file is that is named as a scene and is none: by its first bytes, else by its ending.
 //
-// Input: its path and its text. Output: what it is and what to do with it, in words; NULL where it may be a
-// scene. Thread safety: constant data.
+// Input: its path and its text. Output: what it is and what to do with it, in words. Thread safety: constant
+// data.
 #ifndef GLINT_APP_WHAT_FILE_H
 #define GLINT_APP_WHAT_FILE_H
 
@@ -14,6 +14,7 @@ struct what_file {
     const char *advice; // what to do
 };
 
-const struct what_file *what_file(str path, str text);
+// false: it may be a scene.
+bool what_file(str path, str text, struct what_file *out);
 
 #endif

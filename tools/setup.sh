@@ -4,7 +4,7 @@
 set -eu
 
 build="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libpng-dev zlib1g-dev
-libjpeg62-turbo-dev libstb-dev libminizip-dev libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers
+libjpeg62-turbo-dev libopenexr-dev libwebp-dev libstb-dev libminizip-dev libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers
 glslang-tools spirv-tools"
 test="libcmocka-dev vulkan-validationlayers valgrind libxml2-utils clang-format git"
 

@@ -332,25 +332,12 @@ static void test_hdr(void **state) {
     }
 }
 
-static void test_formats(void **state) {
-    (void)state;
-    enum image_format format;
-    assert_true(image_format_of_path(STR("a/b.PNG"), &format));
-    assert_int_equal(format, IMAGE_PNG);
-    assert_true(image_format_of_path(STR("x.pfm"), &format));
-    assert_int_equal(format, IMAGE_PFM);
-    assert_true(image_format_of_path(STR("x.y.hdr"), &format));
-    assert_int_equal(format, IMAGE_HDR);
-    assert_false(image_format_of_path(STR("x.jpg"), &format));
-    assert_false(image_format_of_path(STR("png"), &format));
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_marked),      cmocka_unit_test(test_rounding), cmocka_unit_test(test_note),
         cmocka_unit_test(test_normalize),   cmocka_unit_test(test_srgb),     cmocka_unit_test(test_png),
         cmocka_unit_test(test_png_repeats), cmocka_unit_test(test_png_size), cmocka_unit_test(test_pfm),
-        cmocka_unit_test(test_hdr),         cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_hdr),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
