@@ -45,6 +45,8 @@ int render_take_outputs(struct render_job *job);
 // Whether the formats of the outputs hold pictures of this size: CLI_OK, or CLI_USAGE with the mistake in the
 // command line's sink.
 int render_judge_size(struct render_job *job);
+// How the options have a format coded; what they ask of others is left out.
+struct image_coding render_coding(const struct cli_options *options, enum image_format format);
 // The picture as a file of a format, appended to `out`.
 void render_encode(struct render_job *job, enum image_format format, struct strbuf *out);
 // Whether one of them is standard output.
@@ -75,6 +77,8 @@ const struct render_estimate *render_estimate_of(const struct render_job *job);
 // --aov asks for beside the first output that is a file. An exit code.
 int render_note_estimate(struct render_job *job);
 int render_write_aovs(struct render_job *job, uint32_t camera);
+// Says that the scene's image.error ended no pixel, and why; nothing where a finding says so.
+void render_tell_unused_error(const struct render_job *job);
 
 // One frame, that ends in time if the command line says when. `cameras` is how many pictures
 // are still to be made, this one included.

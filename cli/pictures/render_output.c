@@ -106,7 +106,10 @@ static int judge_coding(struct render_job *job) {
 
 // Once the scene has said how large it is.
 int render_judge_size(struct render_job *job) {
-    const uint32_t width = (uint32_t)job->session.image->width, height = (uint32_t)job->session.image->height;
+    const struct cli_measure *m = &job->cli->options.measure;
+    const bool scaled = m->scale_width != 0;
+    const uint32_t width = scaled ? m->scale_width : (uint32_t)job->session.image->width;
+    const uint32_t height = scaled ? m->scale_height : (uint32_t)job->session.image->height;
     for (uint32_t i = 0; i < job->output_count; i++) {
         const struct image_format_info *info = image_format_info(job->outputs[i].format);
         if (info->side_max && (width > info->side_max || height > info->side_max)) {
@@ -120,8 +123,7 @@ int render_judge_size(struct render_job *job) {
     return CLI_OK;
 }
 
-static struct image_coding coding_for(const struct render_job *job, enum image_format format) {
-    const struct cli_options *o = &job->cli->options;
+struct image_coding render_coding(const struct cli_options *o, enum image_format format) {
     const struct image_format_info *info = image_format_info(format);
     return (struct image_coding){.bits = has_bits(info, o->depth) ? (unsigned)o->depth : info->bits[0],
                                  .quality = (unsigned)o->quality,
@@ -159,7 +161,7 @@ static int write_made(struct render_job *job, const char *path, const struct str
 
 void render_encode(struct render_job *job, enum image_format format, struct strbuf *out) {
     const struct image_display display = {job->session.image->tone, job->session.image->transfer};
-    job->image.coding = coding_for(job, format);
+    job->image.coding = render_coding(&job->cli->options, format);
     image_encode(&job->image, format, display, out);
 }
 
@@ -192,6 +194,10 @@ void render_tell_written(struct render_job *job, uint32_t camera) {
 }
 
 // ---- what else is known of pixels: --aov
+
+const struct render_estimate *render_estimate_of(const struct render_job *job) {
+    return job->shot.settings.error > 0 ? renderer_estimate(job->shot.renderer) : NULL;
+}
 
 static float aov_of(const struct render_estimate *estimate, int aov, size_t pixel) {
     return aov == CLI_AOV_ERROR ? estimate->error[pixel] : (float)estimate->samples[pixel];

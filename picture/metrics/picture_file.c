@@ -23,11 +23,11 @@ static const char *decode(str bytes, struct picture_header *header, struct pictu
     const char *fault = picture_decode(bytes, header, &picture);
     if (fault)
         return fault;
-    const size_t pixels = (size_t)picture.width * picture.height;
+    const size_t pixels = heap_times(picture.width, picture.height);
     out->width = picture.width;
     out->height = picture.height;
     out->space = picture_is_linear(&picture) ? MEASURE_LINEAR : MEASURE_DISPLAYED;
-    out->rgb = heap_alloc(3 * pixels * sizeof *out->rgb);
+    out->rgb = heap_array(heap_times(3, pixels), sizeof *out->rgb);
     for (size_t i = 0; out->rgb && i < pixels; i++)
         for (size_t k = 0; k < 3; k++)
             out->rgb[3 * i + k] = channel(&picture, i, k);
@@ -49,7 +49,7 @@ const char *picture_file_decode(str bytes, uint64_t most_bytes, struct picture_f
         return fault;
     if (header.kind == IMAGE_NONE) {
         *unknown = true;
-        return "it is not a picture of a kind that is read: " IMAGE_COMPARED_NAMES;
+        return "it is not a " IMAGE_COMPARED_NAMES " picture";
     }
     if (picture_memory(&header, 3 * sizeof *out->rgb) > most_bytes)
         return "it takes more memory than the limit image-memory";

@@ -285,7 +285,7 @@ const char *picture_exr_rows(str bytes, struct picture_header *header, struct pi
         fault = read_facts(d.file, &d.facts, &again);
     if (!fault) {
         d.width = again.width;
-        d.lines = heap_zeroed((size_t)d.facts.lines * d.width, COLORS * sizeof *d.lines);
+        d.lines = heap_zeroed(heap_times((uint32_t)d.facts.lines, d.width), sizeof(float[COLORS]));
         fault = d.lines ? decode_all(&d, rows) : picture_no_memory;
     }
     if (!fault && d.is_negative)

@@ -26,7 +26,7 @@ static void encode_bytes(const struct image *image, enum image_format format, co
 static void encode_displayed(const struct image *image, enum image_format format,
                              struct image_display display, struct strbuf *out) {
     const bool is_deep = format == IMAGE_PNG && image->coding.bits == DEEP_BITS;
-    uint8_t *bytes = heap_alloc((size_t)(is_deep ? 6 : 3) * image->width * image->height);
+    uint8_t *bytes = heap_array(heap_times(is_deep ? 6 : 3, image->width), image->height);
     if (bytes) {
         (is_deep ? image_to_words : image_to_bytes)(image, display, bytes);
         encode_bytes(image, format, bytes, out);
