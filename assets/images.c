@@ -28,8 +28,8 @@ static bool fits_memory(struct asset_file *file, str name, const struct store_en
 static void decode_image(struct asset_file *file, str name, struct store_entry *entry) {
     struct picture_header header;
     const char *fault = picture_read_header(file->text, &header);
-    if (header.kind == PICTURE_KIND_NONE) {
-        asset_report_named(file, DIAG_IMAGE_KIND, "'%.*s' is not a PNG, JPEG or Radiance HDR image",
+    if (header.kind == IMAGE_NONE) {
+        asset_report_named(file, DIAG_IMAGE_KIND, "'%.*s' is not a " IMAGE_IN_SCENE_NAMES " image",
                            STR_ARG(name));
         return;
     }
@@ -41,6 +41,7 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
         fault = picture_decode(file->text, &header, &entry->picture);
     else if (!fault && entry->kind == STORE_PICTURE_CHECKED)
         fault = picture_check(file->text, &header);
+    entry->picture.ignored = header.ignored;
     if (fault == picture_no_memory)
         asset_report_memory(file, ARENA_FAULT_SYSTEM);
     else

@@ -4,6 +4,7 @@
 #include "assets/mesh_coordinates.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
+#include "picture/formats/formats.h"
 
 // ---- images
 
@@ -18,7 +19,7 @@ static bool is_found(const struct material_source *source, str name) {
         return true;
     if (asset_report_line(file, DIAG_MTL_DROPPED, source->line, "'map_Kd' has no effect: '%.*s' %s",
                           STR_ARG(name),
-                          exists ? "is not a PNG, JPEG or Radiance HDR image" : "cannot be found"))
+                          exists ? "is not a " IMAGE_IN_SCENE_NAMES " image" : "cannot be found"))
         diag_help(input->sink,
                   exists ? "convert the image, or give the model a 'material'"
                          : "put the image where the material file says, or give the model a 'material'");

@@ -9,6 +9,8 @@
 #include "core/strbuf.h"
 #include "diag/diag.h"
 #include "diag/diag_policy.h"
+#include "picture/formats/formats.h"
+#include "picture/write/image.h"
 
 enum cli_exit {
     CLI_OK = 0,
@@ -41,14 +43,29 @@ enum cli_aov {
 };
 extern const char *const cli_aov_names[CLI_AOVS];
 
+// A picture that render is to write.
+struct cli_output {
+    const char *path; // "-": standard output
+    enum image_format format;
+    int arg; // its place on the command line; 0: it was not given
+};
+
+struct cli_outputs {
+    struct cli_output *items;
+    uint32_t count, capacity;
+};
+
 struct cli_list {
     str *items;
     uint32_t count, capacity;
 };
 
 struct cli_options {
-    const char *output;                     // NULL: not given
+    const char *output;                     // the last that was given; NULL: none
+    struct cli_outputs outputs;             // all of them, in their order
     int32_t width, height, samples, repeat; // 0: not given
+    int32_t depth, quality;                 // of pictures; 0: not given
+    int compression;                        // enum image_compression
     uint32_t aovs;                          // bits of enum cli_aov
     int aov_arg;
     int32_t sample; // of a pixel, from 0
@@ -149,6 +166,8 @@ bool cli_take_config(struct cli *cli);
 bool cli_read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least, int64_t most,
                     int32_t *out);
 bool cli_read_aovs(struct cli *cli, int arg, const char *text);
+bool cli_read_depth(struct cli *cli, int arg, const char *text);
+bool cli_read_compression(struct cli *cli, int arg, const char *text);
 bool cli_read_size(struct cli *cli, int arg, const char *text);
 bool cli_read_limit(struct cli *cli, int arg, const char *text);
 bool cli_read_max_messages(struct cli *cli, int arg, const char *text);

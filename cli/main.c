@@ -97,7 +97,8 @@ static const struct cli_command commands[] = {
      "  glint explain E206\n  glint explain material.albedo\n  glint explain --list W4xx\n",
      0, 1, cmd_explain},
     {"compare", "PICTURE REFERENCE", "measure how far one picture is from another",
-     "Reads PNG, JPEG, PFM and Radiance HDR pictures of the same size. Two float pictures are compared as\n"
+     "Reads two pictures of the same size: each " IMAGE_COMPARED_NAMES
+     ".\nTwo float pictures are compared as\n"
      "linear values; two 8-bit ones, or one of each kind, as displayed values from 0 to 1 (floats are\n"
      "clamped and encoded, see --tone and --transfer). SSIM and FLIP always use displayed values. --format\n"
      "is text or json. The exit status is 1 if a value is beyond its bound.\n\n"

@@ -52,6 +52,9 @@ enum option_id {
     OPTION_COLOR,
     OPTION_ALLOW_RESOLUTION,
     OPTION_FORCE,
+    OPTION_DEPTH,
+    OPTION_QUALITY,
+    OPTION_COMPRESSION,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -66,8 +69,14 @@ struct option_row {
 };
 
 static const struct option_row rows[] = {
-    {OPTION_OUTPUT, "output", 'o', "FILE", "render",
-     "write to FILE (.png .pfm .hdr); '-' writes PNG to standard output"},
+    {OPTION_OUTPUT, "output", 'o', "FILE ...", "render",
+     "write to FILE (" IMAGE_WRITTEN_ENDINGS
+     "); '-' writes PNG to standard output; several are rendered once"},
+    {OPTION_DEPTH, "depth", 0, "N", "render",
+     "bits per channel: 16 for PNG instead of 8, or for OpenEXR (half) instead of 32 (float)"},
+    {OPTION_QUALITY, "quality", 0, "N", "render",
+     "of JPEG and WebP: from 1 to 100, instead of 90; WebP is lossless at 100"},
+    {OPTION_COMPRESSION, "compression", 0, "KIND", "render", "of OpenEXR: zip (the default), piz or none"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "tradeoff",
      "write the report with its plot and pictures to FILE (.html)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "check",
@@ -389,6 +398,12 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         return cli_read_count(cli, arg, "samples", value, 1, 4096, &options->samples);
     case OPTION_AOV:
         return cli_read_aovs(cli, arg, value);
+    case OPTION_DEPTH:
+        return cli_read_depth(cli, arg, value);
+    case OPTION_QUALITY:
+        return cli_read_count(cli, arg, "quality", value, 1, IMAGE_QUALITY_MOST, &options->quality);
+    case OPTION_COMPRESSION:
+        return cli_read_compression(cli, arg, value);
     case OPTION_SAMPLE:
         return cli_read_count(cli, arg, "sample", value, 0, 4095, &options->sample);
     case OPTION_CAMERA:
@@ -443,6 +458,9 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
         *flag = true;
     if (text)
         *text = value;
+    if (row->id == OPTION_OUTPUT)
+        *(struct cli_output *)ARENA_PUSH(&cli->arena, &cli->options.outputs) =
+            (struct cli_output){.path = value, .arg = arg};
     return flag || text || apply_value(cli, arg, row->id, value);
 }
 

@@ -1,6 +1,7 @@
 #include "grammar/schema.h"
 
 #include "grammar/ir.h"
+#include "picture/formats/formats.h"
 #include "shaders/features.h"
 
 #include <stddef.h>
@@ -207,7 +208,7 @@ static const struct schema_row background_rows[] = {
      .also = "texture map file skybox envmap hdri",
      .file = SCHEMA_FILE_IMAGE, .choice = 1, .alternative = IR_BACKDROP_IMAGE,
      .feature = FEATURE_BACKGROUND_IMAGE,
-     .doc = "Path of an equirectangular image (PNG, JPEG or Radiance HDR): its middle is the view along +x."},
+     .doc = "Path of an equirectangular image (" IMAGE_IN_SCENE_NAMES "): its middle is the view along +x."},
     {.name = "intensity", FIELD(ir_background, intensity), .example = "0.5", .range = SCHEMA_RANGE_WEIGHT,
      .also = "strength brightness",
      .standard = "1", .doc = "Multiplies the background."},
@@ -303,7 +304,7 @@ static const struct schema_row texture_rows[] = {
     {.name = "file", FIELD(ir_texture, file), .example = "wood.jpg", .text = SCHEMA_TEXT_PATH,
      .also = "path src href image texture map filename", .file = SCHEMA_FILE_IMAGE, .required = true,
      .short_form = true, .feature = FEATURE_TEXTURES,
-     .doc = "Path of an image: PNG, JPEG or Radiance HDR."},
+     .doc = "Path of an image: " IMAGE_IN_SCENE_NAMES "."},
     {.name = "repeat", .element = "Repeat", FIELD(ir_texture, repeat), .example = "2 2",
      .also = "scale tiling tile times", .range = SCHEMA_RANGE_REPEAT, .standard = "1 1", .fill = true,
      .doc = "How often the image lies side by side where the surface's coordinates go from 0 to 1."},

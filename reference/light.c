@@ -201,7 +201,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
 // ---- background
 
 static double channel(const struct reference *r, const struct picture *picture, size_t at, size_t c) {
-    if (picture->depth == PICTURE_RGBE)
+    if (picture_is_linear(picture))
         return (double)picture_linear(picture, at, c);
     return r->decoded[picture_stored(picture, at, c)];
 }
@@ -259,7 +259,7 @@ static double rgbe_brightest(const struct reference *r, size_t texels) {
 static double image_brightest(const struct reference *r) {
     const struct picture *picture = r->input.scene->background.picture;
     const size_t texels = (size_t)picture->width * picture->height;
-    if (picture->depth == PICTURE_RGBE)
+    if (picture_is_linear(picture))
         return rgbe_brightest(r, texels);
     const size_t greatest = picture_greatest(picture->depth);
     size_t most = 0;
@@ -278,7 +278,7 @@ void reference_make_background(struct reference *r) {
     r->background_brightest = reference_brightest(background->color);
     if (!picture || r->input.gradient)
         return;
-    if (picture->depth != PICTURE_RGBE) {
+    if (!picture_is_linear(picture)) {
         size_t greatest = picture_greatest(picture->depth);
         r->decoded = ARENA_ARRAY(&r->arena, double, greatest + 1);
         for (size_t i = 0; i <= greatest; i++) {

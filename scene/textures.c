@@ -45,7 +45,7 @@ static vec3 picture_texel(const struct scene_texture *t, size_t at) {
     const struct picture *picture = t->picture;
     double value[3];
     for (size_t k = 0; k < 3; k++) {
-        if (picture->depth == PICTURE_RGBE) {
+        if (picture_is_linear(picture)) {
             value[k] = (double)picture_linear(picture, at, k);
             continue;
         }
@@ -173,7 +173,7 @@ static const struct scene_texture *texture_of(struct scene *scene, const struct 
                                 .number = scene->texture_count++,
                                 .picture = picture,
                                 .is_srgb = scene->ir->image.transfer == IR_TRANSFER_SRGB &&
-                                           picture->depth != PICTURE_RGBE};
+                                           !picture_is_linear(picture)};
     make_levels(t, arena);
     scene->textures = t;
     return t;

@@ -3,6 +3,7 @@
 #include "app/import/names.h"
 #include "grammar/ir.h"
 #include "grammar/print/ir_print.h"
+#include "picture/formats/formats.h"
 #include "picture/read/picture_read.h"
 
 struct planning {
@@ -23,8 +24,8 @@ static str stem_of(str path) {
     return str_slice(base, 0, end);
 }
 
-static const char *ending_of(enum picture_kind kind) {
-    return kind == PICTURE_KIND_PNG ? "png" : kind == PICTURE_KIND_JPEG ? "jpg" : "hdr";
+static const char *ending_of(enum image_format kind) {
+    return image_format_info(kind)->endings[0] + 1;
 }
 
 // A file for an image that the glTF file holds; the empty string: it has none, and that was told.
@@ -36,8 +37,8 @@ static str take_out(struct planning *p, uint32_t image) {
     if (!gltf_document_image(p->document, image, &file, &identity))
         return STR("");
     picture_read_header(file.text, &header);
-    if (header.kind == PICTURE_KIND_NONE) {
-        asset_report_named(&file, DIAG_IMAGE_KIND, "'%.*s' is not a PNG, JPEG or Radiance HDR image",
+    if (header.kind == IMAGE_NONE) {
+        asset_report_named(&file, DIAG_IMAGE_KIND, "'%.*s' is not " IMAGE_IN_SCENE_NAMES,
                            STR_ARG(file.path));
         return STR("");
     }

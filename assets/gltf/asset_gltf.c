@@ -197,7 +197,7 @@ static void read_means(void *context) {
     if (!gltf_document_image(document, mean->image, &file, &identity) ||
         (file.text.len == 0 && !asset_read(&file, &document->arena)))
         return;
-    if (picture_read_header(file.text, &header) || header.kind == PICTURE_KIND_NONE ||
+    if (picture_read_header(file.text, &header) || header.kind == IMAGE_NONE ||
         picture_memory(&header, 0) > file.input->limits->value[LIMIT_IMAGE_MEMORY] ||
         picture_decode(file.text, &header, &mean->picture))
         asset_report_named(&file, DIAG_IMAGE_BROKEN, "the image of metal and roughness cannot be decoded");

@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "cli/progress.h"
+#include "cli/render_job.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
 #include "picture/write/image.h"
@@ -58,6 +59,9 @@ static int refuse(struct cli *cli, const char *output) {
                          "--watch replaces the picture's file after each change: name one with -o");
     if (str_equal(cli->options.camera, STR("all")))
         return cli_usage(cli, place, "--watch looks through one camera: name it with --camera");
+    if (cli->options.outputs.count > 1)
+        return cli_usage(cli, cli->options.outputs.items[1].arg,
+                         "--watch writes one picture: leave this one out");
     if (cli_device_is_reference(cli))
         return cli_usage(cli, place, "--watch works on a device, not by the reference");
     return has_no_place(cli) ? CLI_USAGE : CLI_OK;
@@ -88,6 +92,7 @@ static int write_picture(struct watching *w, double *encode_seconds) {
     struct strbuf file;
     strbuf_init(&file);
     const double start = clock_seconds();
+    w->image.coding = render_coding(&w->cli->options, w->format);
     image_encode(&w->image, w->format, w->live.shot.display, &file);
     *encode_seconds = clock_seconds() - start;
     const int status = cli_write_made(w->cli, w->output, &file, "the picture");
@@ -205,7 +210,7 @@ int cmd_watch(struct cli *cli) {
     int status = refuse(cli, w.output);
     if (status != CLI_OK)
         return status;
-    image_format_of_path(str_from(w.output), &w.format);
+    image_format_of_path(str_from(w.output), IMAGE_WRITTEN, &w.format);
     interrupt_catch();
     status = cli_try_output(cli, w.output);
     if (status == CLI_OK)

@@ -49,7 +49,7 @@ kernels=$(ours '^shaders/.*\.(glsl|comp)$')
         if (target ~ /^stb/) return path ~ /^(tools|tests|bench)\//
         if (target ~ /^png\.h/) return path ~ /^(picture|bench|tests)\//
         if (target ~ /^zlib/) return path ~ /^(shaders|tools|picture\/(read|write))\//
-        if (target ~ /^(jpeglib|jerror)\.h/) return path ~ /^(picture\/read|bench|tests\/unit\/picture|tests\/analytic)\//
+        if (target ~ /^(jpeglib|jerror)\.h/) return path ~ /^(picture|bench|tests\/unit\/picture|tests\/analytic)\//
         if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
         if (target ~ /^minizip/) return path ~ /^app\/pack\/pack_zip/
         if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//
