@@ -5,8 +5,8 @@ set -eu
 
 build="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libpng-dev zlib1g-dev
 libjpeg62-turbo-dev libstb-dev libminizip-dev libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers
-glslang-tools spirv-tools"
-test="libcmocka-dev vulkan-validationlayers valgrind libxml2-utils clang-format git"
+glslang-tools spirv-tools libglfw3-dev"
+test="libcmocka-dev vulkan-validationlayers valgrind libxml2-utils clang-format git xvfb libx11-dev libxtst-dev"
 
 case "${1:-}" in
 build) wanted=$build ;;
