@@ -50,7 +50,6 @@ kernels=$(ours '^shaders/.*\.(glsl|comp)$')
         if (target ~ /^(jpeglib|jerror)\.h/) return path ~ /^(picture\/read|bench|tests\/unit\/picture|tests\/analytic)\//
         if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
         if (target ~ /^minizip/) return path ~ /^app\/pack\/pack_zip/
-        if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//
         if (target ~ /^cmocka/) return path ~ /^tests\//
         if (target ~ /^GLFW\//) return path == "view/window.c"
         if (target ~ /^X11\//) return path ~ /^tests\/live\//
