@@ -72,7 +72,7 @@ static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
 // Reads it now, if it was not read ahead.
 static void fill_mesh(struct loader *loader, struct asset_file *file, const struct file_read *identity,
                       struct store_entry *entry) {
-    const size_t cap = (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY];
+    const size_t cap = limits_size(loader->input->limits, LIMIT_MESH_MEMORY);
     struct arena *scratch = &loader->hold->scratch;
     if (meshes_ahead_take(loader->ahead, identity, &entry->mesh)) {
         store_complete(loader->hold, entry);

@@ -229,6 +229,15 @@ enum {
     ROW_COUNT = sizeof rows / sizeof rows[0]
 };
 
+const char *const cli_purpose =
+    "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
+    "any Vulkan device, including the processor.\n";
+const char *const cli_exits =
+    "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
+    "line cannot be\n"
+    "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
+    "141 the reader of standard output is gone.\n";
+
 static bool belongs(const struct option_row *row, const struct cli_command *command) {
     if (!command)
         return strchr(row->commands, '-') != NULL;
@@ -254,6 +263,15 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command) {
             snprintf(left, sizeof left, "    --%s%s%s", rows[i].name, joint, argument);
         strbuf_format(out, "  %-28s %s\n", left, rows[i].doc);
     }
+}
+
+int cli_next_option(const struct cli_command *command, int at, struct cli_option_text *option) {
+    while (at < ROW_COUNT && !belongs(&rows[at], command))
+        at++;
+    if (at >= ROW_COUNT)
+        return 0;
+    *option = (struct cli_option_text){rows[at].name, rows[at].argument, rows[at].doc, rows[at].letter};
+    return at + 1;
 }
 
 static void append(struct cli *cli, struct cli_list *list, const char *text) {

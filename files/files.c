@@ -272,11 +272,12 @@ static ssize_t read_in_order(int fd, char *data, size_t size) {
     return (ssize_t)got;
 }
 
-static enum file_status read_all(struct files *files, int fd, size_t size, struct arena *into,
+static enum file_status read_all(struct files *files, int fd, uint64_t size_bytes, struct arena *into,
                                  str *contents) {
-    char *data = arena_try_alloc(into, size + 1);
+    char *data = arena_try_alloc_array(into, size_bytes + 1, 1);
     if (!data)
         return FILE_NO_MEMORY;
+    const size_t size = (size_t)size_bytes;
     const bool in_pieces = size > PIECE_BYTES && size <= (size_t)PIECE_BYTES * PIECES_MAX;
     const ssize_t got = in_pieces ? read_pieces(fd, data, size) : read_in_order(fd, data, size);
     if (got < 0)
@@ -309,7 +310,7 @@ enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, s
     else if ((uint64_t)info.st_size > cap_bytes)
         status = FILE_TOO_LARGE;
     else
-        status = read_all(files, fd, (size_t)info.st_size, into, contents);
+        status = read_all(files, fd, (uint64_t)info.st_size, into, contents);
     close(fd);
     if (status == FILE_OK)
         log_read(files, path, &info);

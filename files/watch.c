@@ -255,7 +255,7 @@ static bool is_quiet(const struct watch *watch, const struct watched *seen) {
 }
 
 bool watch_settle(struct watch *watch, double seconds) {
-    struct watched *seen = heap_alloc((watch->count + (size_t)1) * sizeof *seen);
+    struct watched *seen = heap_array(watch->count + (size_t)1, sizeof *seen);
     bool quiet = false, goes_on = true;
     for (int i = 0; seen && i < SETTLE_TIMES && goes_on && !quiet; i++) {
         note(watch, seen);

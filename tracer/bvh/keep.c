@@ -48,8 +48,8 @@ static void key_of(const struct bvh_item *items, uint32_t count, enum bvh_method
 }
 
 static bool copy(const struct bvh *from, struct bvh *to) {
-    const size_t node_bytes = (size_t)from->node_count * NODE_WORDS * sizeof *from->nodes;
-    const size_t order_bytes = from->item_count * sizeof *from->order;
+    const size_t node_bytes = heap_times(heap_times(from->node_count, NODE_WORDS), sizeof *from->nodes);
+    const size_t order_bytes = heap_times(from->item_count, sizeof *from->order);
     *to = *from;
     to->nodes = heap_alloc(node_bytes);
     to->order = heap_alloc(order_bytes);

@@ -73,7 +73,7 @@ static bool make_triangle_tree(struct flattening *f) {
     out->triangle_depth = bvh.depth;
     bvh.nodes = NULL;
     const size_t total = f->record_total;
-    f->leaf_of = heap_alloc((total ? total : 1) * sizeof *f->leaf_of);
+    f->leaf_of = heap_array(total ? total : 1, sizeof *f->leaf_of);
     if (f->leaf_of) {
         memset(f->leaf_of, 0xFF, total * sizeof *f->leaf_of);
         struct placing placing = {bvh.order, f->leaf_of};
@@ -95,7 +95,7 @@ static enum flatten_fault make_triangles(struct flattening *f) {
         out->strides.triangle = PLACED_WORDS;
         out->strides.normal = NORMAL64_WORDS;
     }
-    f->items = heap_alloc((total ? total : 1) * sizeof *f->items);
+    f->items = heap_array(total ? total : 1, sizeof *f->items);
     if (!f->items)
         return FLATTEN_NO_MEMORY;
     enum flatten_fault fault = flatten_triangles(f);
@@ -115,8 +115,8 @@ static enum flatten_fault make_triangles(struct flattening *f) {
 static enum flatten_fault make_spheres(struct flattening *f) {
     struct flat_scene *out = f->out;
     uint32_t count = f->out->sphere_count;
-    struct gpu_word *words = heap_alloc(((size_t)count + 1) * out->strides.sphere * sizeof *words);
-    struct bvh_item *items = heap_alloc(((size_t)count + 1) * sizeof *items);
+    struct gpu_word *words = heap_array(heap_times((size_t)count + 1, out->strides.sphere), sizeof *words);
+    struct bvh_item *items = heap_array((size_t)count + 1, sizeof *items);
     bool done = words && items;
     if (done) {
         flatten_spheres(f, words, items);

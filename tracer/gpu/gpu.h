@@ -16,6 +16,7 @@
 
 enum gpu_status {
     GPU_OK,
+    GPU_LEFT_OUT,  // the program is built without devices (gpu_none.c)
     GPU_NO_LOADER, // libvulkan is not installed
     GPU_NO_DRIVER, // the loader is there, a driver with a device that can compute is not
     GPU_NO_DEVICE, // no device of the name or number asked for

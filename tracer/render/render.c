@@ -241,7 +241,7 @@ static bool make_band(struct renderer *renderer) {
     const bool third = renderer_is_adaptive(renderer) || (at_once && has_state(renderer));
     const uint64_t lists = 2 * (uint64_t)renderer->places + (third ? paths : 0);
     const uint32_t zero[COUNTER_COUNT] = {0};
-    renderer->band = heap_alloc(slots * PATH_OUTPUT_BYTES);
+    renderer->band = heap_array(slots, PATH_OUTPUT_BYTES);
     return renderer->band &&
            renderer_upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, paths * PATH_OUTPUT_BYTES) &&
            renderer_upload(renderer, BINDING_STATE, GPU_STORAGE, NULL,

@@ -66,8 +66,8 @@ enum render_result renderer_draw_until(struct renderer_frame *run, const struct 
     run->is_over = false;
     if (!renderer_begin_frame(run, camera))
         return RENDER_FAILED;
-    const size_t words = (size_t)4 * TILE_PIXELS * renderer->tiles;
-    struct sums sums = {heap_alloc(words * sizeof(uint32_t)), heap_alloc(words * sizeof(uint32_t)),
+    const size_t words = heap_times(heap_times(4, TILE_PIXELS), renderer->tiles);
+    struct sums sums = {heap_array(words, sizeof(uint32_t)), heap_array(words, sizeof(uint32_t)),
                         run->statistics->bands > 1};
     enum render_result result = sums.whole && sums.next ? draw_samples(run, &sums, rgb) : RENDER_FAILED;
     if (result == RENDER_DONE) {
