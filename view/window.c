@@ -38,7 +38,6 @@ enum {
     F(GetWindowContentScale)                                                                                 \
     F(GetPrimaryMonitor)                                                                                     \
     F(GetMonitorWorkarea)                                                                                    \
-    F(GetCursorPos)                                                                                          \
     F(SetKeyCallback)                                                                                        \
     F(SetMouseButtonCallback)                                                                                \
     F(SetCursorPosCallback)                                                                                  \
@@ -63,6 +62,7 @@ struct window {
     GLFWwindow *handle;
     struct steer_event events[EVENTS_MAX];
     uint32_t first, count;
+    double x, y; // of the mouse, by the last event
     char *error; // where the library's messages go while it is opened; NULL: nowhere
     bool is_begun;
 };
@@ -127,16 +127,17 @@ static void on_button(GLFWwindow *handle, int button, int action, int mods) {
     event->kind = STEER_BUTTON;
     event->button = button;
     event->down = action == GLFW_PRESS;
-    opened->glfw.GetCursorPos(handle, &event->x, &event->y);
-    to_pixels(opened, &event->x, &event->y);
+    // Where it was then: by now it may be elsewhere.
+    event->x = opened->x;
+    event->y = opened->y;
 }
 
 static void on_move(GLFWwindow *handle, double x, double y) {
     struct steer_event *event = push(handle);
     event->kind = STEER_MOVE;
     to_pixels(opened, &x, &y);
-    event->x = x;
-    event->y = y;
+    event->x = opened->x = x;
+    event->y = opened->y = y;
 }
 
 static void on_wheel(GLFWwindow *handle, double x, double y) {
