@@ -110,7 +110,7 @@ static const struct schema_row image_rows[] = {
      .standard = "0",
      .doc = "A pixel takes no more samples once the standard error of its displayed colour is at most this; `samples` "
             "is then the most that it takes. 0: all pixels take all samples."},
-    {.name = "min_samples", FIELD(ir_image, min_samples), .example = "32", .range = SCHEMA_RANGE_SAMPLES,
+    {.name = "min_samples", FIELD(ir_image, min_samples), .example = "8", .range = SCHEMA_RANGE_SAMPLES,
      .also = "samples_min min_spp",
      .standard = "16", .doc = "Samples that a pixel takes before `error` may end it."},
     {.name = "tone", FIELD(ir_image, tone), .example = "normalize", .words = tone_words,

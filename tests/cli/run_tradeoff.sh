@@ -47,6 +47,12 @@ if [ -z "$mode" ]; then
     # The reference's share of the budget grows with the processors.
     expect "a truth cut short, whatever the depth of the file" 0 'allowed the reference only [0-9]+ rays per sample; those' - \
         "$glint" tradeoff small.yaml -q --budget 1 --size 80x60 --samples $((8 * $(nproc))) --set trace.max_depth=0
+    # What light does: the little budget leaves only the first rows; the whole studies have all.
+    expect "a file whose pixels end by their error" 0 '^  0 .*as the file says' - "$glint" tradeoff small.yaml -q --budget 1 \
+        --set image.error=0.05 --set image.min_samples=4 --samples 16
+    expect "a search says how many samples there are" 0 - 'image.error=0' "$glint" render small.yaml --max-error flip=0.5 \
+        --set image.error=0.02 --set image.samples=64 --size 20x15 -o chosen.png
+    expect "and its choice has no finding" 1 - - grep -q W429 err.txt
     expect "both bounds" 0 '^cheapest that fits both' - \
         "$glint" tradeoff small.yaml -q --budget 1 --max-error flip=0.9 --max-time 100000
     expect "nothing fits" 1 '"misses_by"' - "$glint" tradeoff small.yaml -q --max-error mae=0 --budget 1 --format json
@@ -132,6 +138,35 @@ for row in 'max_depth 0' 'min_weight 0\.1' 'samples 4' 'shadows off' '12 x 8' 'g
     'study: offset 1e-3' 'study: offset by distance' 'study: moeller-trumbore'; do
     expect "a row of $row" 0 "^[0-9]+,\"$row\"" - cat study.csv
 done
+cat >soft.yaml <<'S'
+glint: 1
+image: {width: 24, height: 16, samples: 8}
+trace: {max_depth: 4, transparent_shadows: true}
+camera: {position: [0, 1, 6], look_at: [0, 0.6, 0], fov: 40, aperture: 0.2, focus: 6}
+ambient: {color: 0.2, occlusion: 3}
+lights:
+  - {position: [-5, 8, 5], radius: 1}
+materials:
+  glass: {albedo: [0, 0.5, 0.2, 0.7], refractive_index: 1.5}
+  checker: {diffuse_color: {checker: {colors: [0.8, 0.2], antialias: true}}}
+spheres:
+  - {center: [-0.7, 0.7, 0], radius: 0.7, material: glass}
+  - {center: [0.9, 0.6, -0.5], radius: 0.6, material: {albedo: [0.4, 0.4, 0.6, 0], roughness: 0.3}}
+rectangles:
+  - {corner: [-4, 0, -4], edge_u: [8, 0, 0], edge_v: [0, 0, 7], material: checker}
+S
+expect "a study of what light does" 0 '^0,"as the file says",1' - "$glint" tradeoff soft.yaml -q --budget 1000 --format csv
+cp out.txt soft.csv
+for row in 'transparent_shadows off",1' 'occlusion off",1' 'lights without extent",0' 'pinhole",0' 'no roughness",0' \
+    'no filter",0' 'error 0\.02 by 4 to 16 samples",1'; do
+    expect "a row of $row" 0 "^[0-9]+,\"$row" - cat soft.csv
+done
+expect "none of what a scene does not have" 1 - - grep -qE '"[^"]*(transparent|occlusion|extent|pinhole|roughness|filter)' study.csv
+expect "some of the front end pixels by their error" 0 '^[0-9]+,"error [^"]*",1,1' - cat soft.csv
+# Each picture has the file's samples or other ones, and the reference knows which: what is numeric is rounding.
+expect "the numeric part is rounding" 0 - - awk -F, -v n="$(column numeric soft.csv)" 'NR > 1 && $n > 0.001 && $2 !~ /study/ { print $2, $n; bad = 1 } END { exit bad || NR < 20 }' soft.csv
+expect "more samples have less noise" 0 - - falls 'samples' sampling soft.csv
+
 expect "pairs" 0 '^[0-9]+,"[a-z_]+ [0-9.]+, ' - cat study.csv
 expect "what is truncated falls along max_depth" 0 - - falls max_depth truncation study.csv
 expect "and along min_weight" 0 - - falls min_weight truncation study.csv
