@@ -1,6 +1,7 @@
 #include "assets/mesh_build.h"
 
 #include "assets/triangulate.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 
 #include <math.h>
@@ -152,7 +153,7 @@ static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena
     struct face_buffer buffer = {0};
     struct triangulator triangulator;
     triangulate_init(&triangulator, scratch);
-    mesh->triangles = ARENA_ARRAY(&mesh->arena, struct mesh_triangle, (size_t)obj->triangle_count);
+    mesh->triangles = ARENA_ARRAY(&mesh->arena, struct mesh_triangle, obj->triangle_count);
     if (are_plain(obj, mesh)) {
         struct taking taking = {obj, place, mesh};
         mesh->triangle_count = obj->faces.count;
@@ -171,7 +172,7 @@ static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena
         if (n > buffer.capacity) {
             buffer.capacity = n > 2 * buffer.capacity ? n : 2 * buffer.capacity;
             buffer.corners = ARENA_ARRAY(scratch, vec3, buffer.capacity);
-            buffer.cuts = ARENA_ARRAY(scratch, uint32_t, 3 * (size_t)buffer.capacity);
+            buffer.cuts = ARENA_ARRAY(scratch, uint32_t, heap_times(3, buffer.capacity));
         }
         for (uint32_t i = 0; i < n; i++)
             buffer.corners[i] = obj->vertices.items[obj->corners.items[face->first + i].vertex];

@@ -141,7 +141,7 @@ static void assign(struct reading *r) {
     struct mesh *mesh = r->mesh;
     const uint32_t *place = place_vertices(r);
     uint32_t triangle = 0;
-    mesh->textured = arena_alloc(&mesh->arena, (size_t)mesh->triangle_count * sizeof *mesh->textured);
+    mesh->textured = arena_alloc_array(&mesh->arena, mesh->triangle_count, sizeof *mesh->textured);
     for (uint32_t f = 0; f < r->faces.count; f++) {
         const uint32_t begin = r->faces.items[f];
         const uint32_t end = f + 1 < r->faces.count ? r->faces.items[f + 1] : r->corners.count;

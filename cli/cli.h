@@ -81,6 +81,7 @@ struct cli_options {
     int audit_arg;             // the place of either
     bool check, diff, upgrade; // of what changes files
     bool list;
+    bool watch;
     bool changed;
     int changed_arg;            // as output_arg
     const char *baseline;       // NULL: not given
@@ -216,6 +217,7 @@ int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made,
 int cli_try_output(struct cli *cli, const char *path);
 
 int cmd_render(struct cli *cli);
+int cmd_watch(struct cli *cli); // render where --watch was given
 int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);
 int cmd_convert(struct cli *cli);

@@ -287,6 +287,8 @@ int cmd_render(struct cli *cli) {
             "'--time' works for one frame on a device: without --repeat and '--device reference'");
     if (!noise_fits(&job))
         return CLI_USAGE;
+    if (cli->options.watch)
+        return cmd_watch(cli);
     interrupt_catch();
     strbuf_init(&job.note);
     strbuf_init(&job.audit_note);

@@ -24,6 +24,7 @@ enum option_id {
     OPTION_LIMIT,
     OPTION_CONFIG,
     OPTION_REPEAT,
+    OPTION_WATCH,
     OPTION_STATS,
     OPTION_QUIET,
     OPTION_VERBOSE,
@@ -125,6 +126,8 @@ static const struct option_row rows[] = {
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
+    {OPTION_WATCH, "watch", 0, NULL, "render",
+     "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
      "show times, rays, memory and the device: text on standard error, JSON on standard output; "
      "docs/reports.md describes it"},
@@ -284,6 +287,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->no_cache;
     case OPTION_SKIP_PIXELS:
         return &options->skip_pixels;
+    case OPTION_WATCH:
+        return &options->watch;
     case OPTION_AUDIT:
         return &options->audit;
     case OPTION_ALLOW_RESOLUTION:

@@ -312,7 +312,7 @@ enum shot_status render_take_frame(struct render_job *job, uint32_t cameras,
     const double time = job->cli->options.measure.time_s, now = clock_seconds();
     if (!(time > 0))
         return shot_take(&job->shot, &job->image, progress, &job->stats.last);
-    const struct render_limit limit = {goes_on, is_over, job};
+    const struct render_limit limit = {.goes_on = goes_on, .is_over = is_over, .context = job};
     // Pictures of several cameras share what is left.
     const double end = job->cli->begun + AIM * time - DISPATCH_SECONDS;
     deadline_begin(&job->deadline, now, now + (end - now) / cameras);

@@ -8,9 +8,17 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 
 option(GLINT_WERROR "Treat warnings as errors" OFF)
 option(GLINT_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(GLINT_DEVICE "Draw on devices; without it glint checks, and draws by the reference, and needs neither Vulkan nor glslang" ON)
 # Reports link to docs/codes.md below it. There is no copy of glint that all know: whoever publishes one names it here.
 set(GLINT_HOME "https://example.com/glint" CACHE STRING "Address of this copy of glint, for links in reports; empty: no links")
 option(GLINT_FUZZ "Build the libFuzzer targets (clang only)" OFF)
+
+option(GLINT_STATIC "Link everything into the program, libc too" OFF)
+if(GLINT_STATIC)
+  set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+  add_link_options(-static-pie)
+endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes
                     -Wpointer-arith -Wwrite-strings -Wformat=2)

@@ -65,7 +65,7 @@ void lint_run(const struct lint_input *input, enum lint_level level) {
     if (level == LINT_NONE)
         return;
     struct arena arena;
-    arena_init(&arena, (size_t)input->files->limits->value[LIMIT_MESH_MEMORY]);
+    arena_init(&arena, limits_size(input->files->limits, LIMIT_MESH_MEMORY));
     struct run run = {{.input = input,
                        .scene = input->scene,
                        .ir = input->scene->ir,

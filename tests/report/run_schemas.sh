@@ -76,6 +76,21 @@ json render_noise 0 "$glint" render scene.yaml --noise 0.05 -o noise.png --stats
 json render_unused 0 "$glint" render scene.yaml --set image.error=0.05 --set image.samples=64 --samples 8 -o noise.png --stats=json -q
 by_schema render render.json render_off.json render_noise.json render_unused.json render_reference.json
 
+"$glint" render scene.yaml --watch -o watch.png --stats=json -q >loads.json 2>/dev/null </dev/null &
+watcher=$!
+for lines in 1 2; do
+    for _ in $(seq 600); do
+        [ "$(wc -l <loads.json)" -lt $lines ] && kill -0 $watcher 2>/dev/null || break
+        sleep 0.1
+    done
+    [ $lines -eq 1 ] && cp scene.yaml kept.yaml && echo 'spheres: 1' >>scene.yaml
+done
+kill $watcher
+wait $watcher
+cp kept.yaml scene.yaml
+for line in 1 2; do sed -n ${line}p loads.json >watch$line.json; done
+by_schema watch watch1.json watch2.json
+
 json pick 0 "$glint" pick scene.yaml 8,8 --format json
 json pick_mesh 0 "$glint" pick scene.yaml 14,8 --format json
 json pick_off 0 "$glint" pick far.yaml 12,8 --format json

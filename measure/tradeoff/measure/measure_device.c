@@ -151,9 +151,9 @@ enum tradeoff_status device_samples(struct measuring *s, const struct setting *s
 
 // How many samples the row's pixels took, for the parts of its error.
 static bool keep_taken(struct measuring *s, const struct renderer *renderer, const struct setting *setting) {
-    const size_t pixels = (size_t)setting->width * setting->height;
+    const size_t pixels = heap_times(setting->width, setting->height);
     free(s->taken);
-    s->taken = heap_alloc(pixels * sizeof *s->taken);
+    s->taken = heap_array(pixels, sizeof *s->taken);
     if (s->taken)
         memcpy(s->taken, renderer_estimate(renderer)->samples, pixels * sizeof *s->taken);
     return s->taken != NULL;

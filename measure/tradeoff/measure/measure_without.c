@@ -61,10 +61,10 @@ static bool make(struct measuring *s, bool shadows, uint32_t without) {
     v->scene = *in->scene;
     v->scene.ir = &v->ir;
     v->scene.occlusion = without & 1u << KNOB_OCCLUSION ? 0 : v->scene.occlusion;
-    v->scene.materials = heap_alloc((materials + 1) * sizeof *v->scene.materials);
+    v->scene.materials = heap_array((size_t)materials + 1, sizeof *v->scene.materials);
     v->view = *in->view;
     v->view.camera.lens_radius = without & 1u << KNOB_LENS ? 0 : v->view.camera.lens_radius;
-    v->view.lights = heap_alloc((lights + 1) * sizeof *v->view.lights);
+    v->view.lights = heap_array((size_t)lights + 1, sizeof *v->view.lights);
     const struct reference_input input = {.scene = &v->scene, .view = &v->view};
     const struct folder_store none = {0};
     reference_source_init(&v->source, &input, none);
