@@ -127,6 +127,8 @@ void reference_call_key(const uint64_t scene_key[2], const struct reference_sett
     if (!hits) {
         hash128_whole(&h, settings->samples);
         hash128_whole(&h, settings->first_sample);
+        hash128_whole(&h, settings->points_of);
+        hash128_whole(&h, settings->shared_by);
         hash128_whole(&h, settings->max_depth);
         hash128_number(&h, settings->min_weight);
         hash128_whole(&h, settings->cut_sees_background);

@@ -61,6 +61,7 @@ struct reference_settings reference_settings_of(const struct ir_scene *ir, const
         .height = (uint32_t)image->height,
         .samples = (uint32_t)image->samples,
         .points_of = image->error > 0 && image->samples > 1 ? (uint32_t)image->samples : 0,
+        .shared_by = image->error > 0 ? (uint32_t)image->min_samples : 0,
         .max_depth = as_file ? (uint32_t)trace->max_depth : REFERENCE_MAX_DEPTH,
         .min_weight = as_file ? trace->min_weight : REFERENCE_MIN_WEIGHT,
         .cut_sees_background = as_file && trace->depth_limit == IR_DEPTH_BACKGROUND,

@@ -61,6 +61,9 @@ struct reference_settings {
     // Above 0: where samples lie in a pixel are points of a picture of so many samples (scene/points.h), as
     // where pixels end by their error. 0: view_sample_offset.
     uint32_t points_of;
+    // Above 0: how many samples share what a pixel sees, as wide as filters are (where pixels end by their
+    // error, the least that each has). 0: `samples`.
+    uint32_t shared_by;
     uint32_t max_depth;       // a surface this deep sends no ray
     double min_weight;        // rays of a lower weight are not followed
     bool cut_sees_background; // what a ray sees that max_depth cut; else nothing

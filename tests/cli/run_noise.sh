@@ -29,6 +29,8 @@ cmp -s one.png option.png && pass 'threads change no byte' || fail 'threads chan
 "$glint" render "$scene" --size 64x48 --samples 16 -q -o plain.png
 "$glint" render "$scene" --size 64x48 --samples 16 --set image.error=0.02 -q -o few.png
 cmp -s plain.png few.png && pass 'with few samples all pixels take them' || fail 'with few samples all pixels take them'
+expect 'filters are as wide as the reference has them' 0 - '0 % of the pixels are off' "$glint" render \
+    "$source/scenes/elements/images.glint.yaml" --size 64x48 --noise 0.02 --samples 32 --max-off 0 -o audited.png
 
 # An error that ends no pixel is never passed over in silence.
 render() { "$glint" render "$scene" --size 64x48 -o unused.png "$@"; }
