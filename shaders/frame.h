@@ -180,7 +180,8 @@
 #define COUNTED_PATHS (1 << 19)
 
 /* Specialization constants. */
-#define CONSTANT_FEATURES       0
+#define CONSTANT_FEATURES       0 /* the first word, and of the second: */
+#define CONSTANT_MORE_FEATURES  12
 #define CONSTANT_TRIANGLE_STACK 1 /* groups of nodes that wait at most */
 #define CONSTANT_SPHERE_STACK   2
 #define CONSTANT_PACKED_GROUPS  3 /* 1: both trees have at most 65536 nodes */
@@ -194,7 +195,7 @@
 #define CONSTANT_AT_ONCE  9
 #define CONSTANT_BRANCHES 10
 #define CONSTANT_LISTED   11 /* paths begin by a list: render_adaptive.c */
-#define CONSTANT_COUNT    12
+#define CONSTANT_COUNT    13
 
 /* Most samples of a pixel that are traced at once. */
 #define SAMPLES_AT_ONCE 64

@@ -86,7 +86,7 @@ struct flat_scene {
     uint32_t *first_triangle;              // by body: the number of its first triangle
     uint32_t dropped_triangles;            // without area after rounding
     double occlusion;                      // of ambient light: flat
-    uint32_t features;                     // FEATURE_ bits that the scene needs
+    uint64_t features;                     // FEATURE_ bits that the scene needs
     uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
     double build_seconds;                  // tree building
 };

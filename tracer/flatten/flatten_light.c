@@ -191,12 +191,12 @@ enum flatten_fault flatten_background(struct flattening *f) {
 
 // ---- features
 
-static uint32_t used_material_features(const struct flattening *f) {
-    uint32_t mask = 0;
+static uint64_t used_material_features(const struct flattening *f) {
+    uint64_t mask = 0;
     for (uint32_t i = 0; i < f->scene->material_count; i++) {
         if (!f->material_used[i])
             continue;
-        uint32_t bits = f->scene->materials[i].features;
+        uint64_t bits = f->scene->materials[i].features;
         // Attenuation is where it is inside a body: flatten_media.c.
         bits &= ~(FEATURE_ATTENUATION | FEATURE_TEXTURES | FEATURE_FOOTPRINT);
         mask |= bits & FEATURE_DIFFUSE ? bits : bits & ~FEATURE_CHECKER;
@@ -205,7 +205,7 @@ static uint32_t used_material_features(const struct flattening *f) {
     return mask;
 }
 
-static uint32_t ambient_features(struct flattening *f) {
+static uint64_t ambient_features(struct flattening *f) {
     const struct scene *scene = f->scene;
     if (vec3_is_zero(scene->ambient))
         return 0;
@@ -215,14 +215,14 @@ static uint32_t ambient_features(struct flattening *f) {
 
 // What the scene's rows ask for, materials, lights, bodies and background as they turned out.
 void flatten_features(struct flattening *f) {
-    const uint32_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
+    const uint64_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
                          FEATURE_REFLECTION | FEATURE_REFRACTION | FEATURE_CHECKER | FEATURE_SMOOTH |
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
                          FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
                          FEATURE_EMISSION;
     struct flat_scene *out = f->out;
-    uint32_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
+    uint64_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
     mask |= out->sphere_count ? FEATURE_SPHERES : 0;
     mask |= out->normals.count ? FEATURE_SMOOTH : 0;

@@ -47,7 +47,7 @@ static bool make(struct renderer *renderer) {
     renderer->log = log;
     log->state = gpu_buffer_create(renderer->gpu, GPU_STORAGE, sizeof log->rays);
     log->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, sizeof log->told);
-    const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
+    const uint64_t own = FEATURE_SLICES | FEATURE_COUNTERS;
     if (log->state && log->output)
         log->program = renderer_compile_kernel(renderer, RENDERER_LOG, renderer->features & ~own, log->output,
                                                log->state);
