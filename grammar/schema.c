@@ -213,6 +213,9 @@ static const struct schema_row background_rows[] = {
      .standard = "1", .doc = "Multiplies the background."},
     {.name = "rotation", FIELD(ir_background, rotation), .example = "90", .unit = SCHEMA_UNIT_DEGREES,
      .range = SCHEMA_RANGE_ANGLE, .standard = "0", .doc = "Turns the background about the y axis."},
+    {.name = "lights", FIELD(ir_background, lights), .standard = "false", .feature = FEATURE_SKY_LIGHT,
+     .also = "light lighting illuminates ibl image_based_lighting environment_light",
+     .doc = "Whether the background lights surfaces, with soft shadows, the brighter parts of it more."},
 };
 const struct schema_element SCHEMA_BACKGROUND = {
     ELEMENT("background", "Background", ir_background, background_rows, "What rays that hit no body see."),

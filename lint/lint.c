@@ -43,6 +43,9 @@ const struct lint_rule lint_rules[] = {
     {DIAG_NOTHING_SHARP, lint_nothing_sharp, LINT_ALL},
     // A few places for each refracting body and camera.
     {DIAG_LENS_INSIDE, lint_lens_inside, LINT_ALL},
+    // One value each.
+    {DIAG_SKY_SAMPLES, lint_sky_samples, LINT_CHEAP},
+    {DIAG_SKY_DARK, lint_sky_dark, LINT_ALL},
     {.run = NULL},
 };
 

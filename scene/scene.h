@@ -108,6 +108,7 @@ struct scene_background {
     const struct picture *picture; // NULL: none, or not loaded
     double intensity;
     double sine, cosine; // of the image's rotation about +y
+    bool lights;         // surfaces; never where it is black for certain
 };
 
 struct scene {

@@ -40,8 +40,9 @@
     ROW(EMISSION, emission)                                                                                  \
     ROW(ROUGHNESS, roughness)                                                                                \
     ROW(CAMERA, camera)                                                                                      \
-    ROW(TEXTURES, textures)
-#define FEATURE_COUNT 31
+    ROW(TEXTURES, textures)                                                                                  \
+    ROW(SKY_LIGHT, sky_light)
+#define FEATURE_COUNT 32
 
 #ifdef __STDC_VERSION__
 #include <stdint.h>
@@ -83,8 +84,10 @@
 #define FEATURE_ROUGHNESS        FEATURE_FIRST(28)
 #define FEATURE_CAMERA           FEATURE_FIRST(29) /* other than a pinhole in perspective */
 #define FEATURE_TEXTURES         FEATURE_FIRST(30) /* images on surfaces */
+#define FEATURE_SKY_LIGHT        FEATURE_FIRST(31) /* the background lights */
 /* With any of them something is sampled that has extent: rays have keys (light/points.h). */
-#define FEATURE_POINTS (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA)
+#define FEATURE_POINTS                                                                                       \
+    (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA | FEATURE_SKY_LIGHT)
 #ifdef __STDC_VERSION__
 #define FEATURE_ALL (UINT64_MAX >> (64 - FEATURE_COUNT))
 /* What only a scene can switch on; the others are the renderer's. */

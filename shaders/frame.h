@@ -47,7 +47,11 @@
                                parallel rays its width, of other projections its angle */                    \
     UINT(projection)        /* PROJECTION_: what camera_right and camera_up are multiplied by */             \
     FLOAT(lens_radius)      /* 0: a pinhole */                                                               \
-    FLOAT(focus)
+    FLOAT(focus)                                                                                             \
+    UINT(sky_table)  /* gpu_scene.h */                                                                       \
+    UINT(sky_width)  /* cells of a row */                                                                    \
+    UINT(sky_rows)   /* 0: the background does not light */                                                  \
+    UINT(sky_stride) /* from one row's words to the next */
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
