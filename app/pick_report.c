@@ -53,12 +53,22 @@ static void put_lights(const struct pick *pick, const struct reference_segment *
         }
 }
 
+// "dragon.obj:12", or in a binary file "face 12 of dragon.ply".
+static void put_face(const struct where *where, struct strbuf *out) {
+    if (str_equal_cstr(STR("line"), where->mesh_word))
+        strbuf_format(out, "%.*s:%u", STR_ARG(where->mesh), where->mesh_line);
+    else
+        strbuf_format(out, "%s %u of %.*s", where->mesh_word, where->mesh_line, STR_ARG(where->mesh));
+}
+
 static void put_target(const struct pick *pick, const struct reference_segment *s, struct strbuf *out) {
     struct where where;
     const bool found = where_find(pick->session, s->body, s->triangle, &where);
     where_body_words(found ? &where : NULL, out);
-    if (found && where.mesh_line)
-        strbuf_format(out, ", %.*s:%u", STR_ARG(where.mesh), where.mesh_line);
+    if (found && where.mesh_line) {
+        strbuf_cstr(out, ", ");
+        put_face(&where, out);
+    }
     if (found)
         strbuf_format(out, ", at %.9g", s->distance);
     else if (s->depth > pick->max_depth)
@@ -145,9 +155,10 @@ static void put_seen(const struct pick *pick, struct strbuf *out) {
         strbuf_cstr(out, "\nwith       ");
         where_material_words(&where, out);
         put_place(pick, where.material_at, out);
-        if (where.mesh_line)
-            strbuf_format(out, "\nface       triangle %u, %.*s:%u", s->triangle, STR_ARG(where.mesh),
-                          where.mesh_line);
+        if (where.mesh_line) {
+            strbuf_format(out, "\nface       triangle %u, ", s->triangle);
+            put_face(&where, out);
+        }
         strbuf_format(out, "\ndistance   %.9g\npoint      ", s->distance);
         put_vector(out, s->point);
         strbuf_cstr(out, "\nnormal     ");
@@ -282,7 +293,8 @@ static void json_target(struct json_writer *w, const struct pick *pick, const st
     json_place(w, "material_place", pick, where.material_at);
     if (where.mesh_line) {
         json_write_text(w, "mesh", where.mesh);
-        json_write_integer(w, "mesh_line", where.mesh_line);
+        json_write_integer(w, str_equal_cstr(STR("line"), where.mesh_word) ? "mesh_line" : "mesh_face",
+                           where.mesh_line);
     }
 }
 

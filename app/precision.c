@@ -37,7 +37,7 @@ static void put_measure(const struct session *session, enum precision_feature fe
     struct where where;
     if ((feature == PRECISION_EDGE || feature == PRECISION_HEIGHT) &&
         where_find(session, m->body, m->triangle, &where) && where.mesh_line)
-        strbuf_format(out, ", line %u of %.*s", where.mesh_line, STR_ARG(where.mesh));
+        strbuf_format(out, ", %s %u of %.*s", where.mesh_word, where.mesh_line, STR_ARG(where.mesh));
 }
 
 static void put_trial(const struct precision_choice *choice, struct strbuf *out) {

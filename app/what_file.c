@@ -1,14 +1,22 @@
 #include "app/what_file.h"
 
+#include "grammar/mesh_format.h"
+
 #include <string.h>
 
 #define ARCHIVE  "unpack it, and name the scene in it"
-#define MESH     "glint reads meshes in Wavefront OBJ: a 3D program can convert it"
 #define PICTURE  "a picture can be the 'image' of a background; 'glint compare' compares pictures"
 #define LANGUAGE "glint reads scenes in its own language, YAML or XML: see docs/reference.md"
 
 // Magic numbers before endings, which can lie.
-static const struct what_file files[] = {
+struct row {
+    const char *ending; // NULL: no ending says it
+    const char *magic;  // its first bytes; NULL: none says it
+    const char *what;
+    const char *advice; // NULL: that of a mesh of another format
+};
+
+static const struct row files[] = {
     {".zip", "PK\003\004", "a ZIP archive", ARCHIVE},
     {".gz", "\037\213", "a gzip archive", ARCHIVE},
     {".xz", "\3757zXZ", "an xz archive", ARCHIVE},
@@ -17,21 +25,21 @@ static const struct what_file files[] = {
     {".7z", "7z\274\257\047\034", "a 7-Zip archive", ARCHIVE},
     {".rar", "Rar!\032", "a RAR archive", ARCHIVE},
     {".tar", NULL, "a tar archive", ARCHIVE},
-    {".ply", "ply\n", "a PLY mesh", MESH},
-    {NULL, "ply\r", "a PLY mesh", MESH},
-    {".stl", NULL, "an STL mesh", MESH},
-    {NULL, "solid ", "an STL mesh", MESH},
-    {".glb", "glTF", "a glTF scene", MESH},
-    {".gltf", NULL, "a glTF scene", MESH},
-    {".fbx", "Kaydara FBX", "an FBX scene", MESH},
-    {".blend", "BLENDER", "a Blender file", "export the meshes from Blender as Wavefront OBJ"},
-    {".dae", NULL, "a COLLADA scene", MESH},
-    {".3ds", NULL, "a 3DS mesh", MESH},
-    {".off", "OFF\n", "an OFF mesh", MESH},
-    {".usd", "PXR-USDC", "a USD scene", MESH},
-    {".usda", "#usda", "a USD scene", MESH},
-    {".usdc", NULL, "a USD scene", MESH},
-    {".usdz", NULL, "a USD archive", MESH},
+    {".ply", "ply\n", "a PLY mesh", NULL},
+    {NULL, "ply\r", "a PLY mesh", NULL},
+    {".stl", NULL, "an STL mesh", NULL},
+    {NULL, "solid ", "an STL mesh", NULL},
+    {".glb", "glTF", "a glTF scene", NULL},
+    {".gltf", NULL, "a glTF scene", NULL},
+    {".fbx", "Kaydara FBX", "an FBX scene", NULL},
+    {".blend", "BLENDER", "a Blender file", "export the meshes from Blender"},
+    {".dae", NULL, "a COLLADA scene", NULL},
+    {".3ds", NULL, "a 3DS mesh", NULL},
+    {".off", "OFF\n", "an OFF mesh", NULL},
+    {".usd", "PXR-USDC", "a USD scene", NULL},
+    {".usda", "#usda", "a USD scene", NULL},
+    {".usdc", NULL, "a USD scene", NULL},
+    {".usdz", NULL, "a USD archive", NULL},
     {".mtl", "newmtl", "a material file of a mesh",
      "name the mesh (.obj), which names its material files itself"},
     {".png", "\211PNG", "a PNG picture", PICTURE},
@@ -67,7 +75,7 @@ static bool says_glint(str text) {
     return false;
 }
 
-const struct what_file *what_file(str path, str text) {
+static const struct row *find(str path, str text) {
     for (int i = 0; i < FILE_COUNT; i++)
         if (files[i].magic && str_starts_with(text, str_from(files[i].magic)))
             return &files[i];
@@ -77,4 +85,24 @@ const struct what_file *what_file(str path, str text) {
         if (files[i].ending && str_ends_with_nocase(path, files[i].ending))
             return &files[i];
     return NULL;
+}
+
+bool what_file(str path, str text, struct arena *arena, struct what_file *out) {
+    const enum mesh_format_id id = mesh_format_of_text(text);
+    if (id != MESH_FORMAT_COUNT) {
+        const struct mesh_format *format = &mesh_formats[id];
+        *out = (struct what_file){
+            str_from(format->called),
+            arena_format(arena, "a mesh by itself is a scene if its name shows what it is: let it end in %s",
+                         format->endings[0])};
+        return true;
+    }
+    const struct row *row = find(path, text);
+    if (!row)
+        return false;
+    *out = (struct what_file){str_from(row->what), str_from(row->advice)};
+    if (!row->advice)
+        out->advice = arena_format(arena, "glint reads %.*s: a 3D program can convert other meshes",
+                                   STR_ARG(mesh_format_words(arena)));
+    return true;
 }

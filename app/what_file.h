@@ -1,19 +1,18 @@
 // What a file is that is named as a scene and is none: by its first bytes, else by its ending.
 //
-// Input: its path and its text. Output: what it is and what to do with it, in words; NULL where it may be a
-// scene. Thread safety: constant data.
+// Input: its path and its text. Output: what it is and what to do with it, in words that live as long as the
+// arena; false where it may be a scene. Thread safety: that of the arena.
 #ifndef GLINT_APP_WHAT_FILE_H
 #define GLINT_APP_WHAT_FILE_H
 
+#include "core/arena.h"
 #include "core/str.h"
 
 struct what_file {
-    const char *ending; // NULL: no ending says it
-    const char *magic;  // its first bytes; NULL: none says it
-    const char *what;   // "a ZIP archive"
-    const char *advice; // what to do
+    str what;   // "a ZIP archive"
+    str advice; // what to do
 };
 
-const struct what_file *what_file(str path, str text);
+bool what_file(str path, str text, struct arena *arena, struct what_file *out);
 
 #endif

@@ -33,6 +33,7 @@ bool where_find(const struct session *session, uint32_t number, uint32_t triangl
     } else if (body->mesh && triangle < body->mesh->triangle_count) {
         out->mesh = body->mesh->path;
         out->mesh_line = body->mesh->triangles[triangle].line;
+        out->mesh_word = mesh_place_word(body->mesh);
         out->material = scene_body_material(body, triangle);
     }
     find_material(session, out);
@@ -69,8 +70,8 @@ void where_report_fault(struct session *session, const struct where_fault *fault
     diag_add(&session->sink, fault->code, at, "%u pixel%s %s, the first at %u,%u%.*s", fault->pixels,
              fault->pixels == 1 ? "" : "s", fault->words, fault->x, fault->y, STR_ARG(strbuf_view(&body)));
     if (found && where.mesh_line)
-        diag_note(&session->sink, SPAN_NONE, "the face there is at line %u of %.*s", where.mesh_line,
-                  STR_ARG(where.mesh));
+        diag_note(&session->sink, SPAN_NONE, "the face there is at %s %u of %.*s", where.mesh_word,
+                  where.mesh_line, STR_ARG(where.mesh));
     if (found && !span_is_none(where.material_at))
         diag_note(&session->sink, where.material_at, "its %.*s", STR_ARG(strbuf_view(&material)));
     else if (found)

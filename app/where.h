@@ -20,6 +20,7 @@ struct where {
     span material_at;          // in the scene; SPAN_NONE if it is not written there
     str mesh;                  // path; empty: no mesh
     uint32_t mesh_line;        // 0: no mesh
+    const char *mesh_word;     // what that counts: "line", or "face" in a binary file
 };
 
 // `body` in IR order, `triangle` in file order. false: there is no such body.

@@ -8,7 +8,7 @@
 #ifndef GLINT_ASSETS_AHEAD_H
 #define GLINT_ASSETS_AHEAD_H
 
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 #include "assets/store.h"
 
 struct asset_ahead;

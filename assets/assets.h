@@ -8,6 +8,7 @@
 #ifndef GLINT_ASSETS_ASSETS_H
 #define GLINT_ASSETS_ASSETS_H
 
+#include "assets/file/asset_input.h"
 #include "assets/mesh.h"
 #include "core/limits.h"
 #include "diag/diag.h"
@@ -26,24 +27,13 @@ struct asset_hold;
 struct timeline;
 
 struct asset_store *asset_store_create(void); // NULL: no memory
+// Files that were read for a store and found to be whole, since it was made: what it had is not among them.
+struct asset_reads {
+    uint32_t meshes, images;
+};
+struct asset_reads asset_store_reads(const struct asset_store *store);
 // All assets that were loaded with the store must be finished before.
 void asset_store_destroy(struct asset_store *store);
-
-// A file that was found under a name, one for each place that names it: what `deps` and `pack` list.
-struct asset_use {
-    const char *what; // "mesh", "material file", "image"
-    str named;        // as it is written there
-    str path;         // to open
-    str canonical;    // absolute, links resolved
-    uint64_t size_bytes;
-    span at;      // where the scene names it, or the mesh that names it
-    str named_in; // the mesh that names it, to open; empty: the scene
-    uint32_t named_line;
-};
-struct asset_uses {
-    struct asset_use *items;
-    uint32_t count, capacity;
-};
 
 struct assets_model {
     const struct mesh *mesh;  // NULL if it could not be loaded (a diagnostic says why)
@@ -78,19 +68,6 @@ struct assets {
     struct asset_uses uses;            // in the order of loading; text is in the arena of the scene
 };
 
-struct assets_input {
-    const struct ir_scene *scene;
-    const struct ir_origin *origin;
-    struct source_set *sources;
-    struct files *files;
-    const struct limits *limits;
-    struct diag_sink *sink;
-    struct arena *arena;       // for what belongs to this scene; guarded by the caller
-    struct asset_uses *uses;   // of the assets being loaded: set by assets_load
-    bool pixels_later;         // pixels that are kept may still be decoded when assets_load returns
-    struct timeline *timeline; // may be NULL
-};
-
 // What is done with the pixels of an image.
 enum assets_pixels {
     ASSETS_KEEP_PIXELS,
@@ -110,7 +87,7 @@ void assets_settle(struct assets *assets);
 void assets_finish(struct assets *assets);
 // The index in assets.materials of a body's reference.
 uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_ref *ref);
-// Whether `path` has the ending of a supported mesh (.obj).
+// Whether `path` has the ending of a mesh file that is read (grammar/mesh_format.h).
 bool assets_is_mesh_path(str path);
 
 #endif

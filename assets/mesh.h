@@ -5,6 +5,7 @@
 #ifndef GLINT_ASSETS_MESH_H
 #define GLINT_ASSETS_MESH_H
 
+#include "assets/file/polygons.h"
 #include "core/arena.h"
 #include "core/vec3.h"
 #include "grammar/ir_value.h"
@@ -13,35 +14,7 @@ struct mesh_triangle {
     uint32_t corners[3]; // into positions
     uint32_t normals[3]; // into normals; IR_NO_INDEX: the file has none for this corner
     uint32_t group;      // into groups
-    uint32_t line;       // of the face in the file, from 1
-};
-
-// The faces of one `usemtl` name (or of none: an empty name), in the order of their first face. Their
-// material depends on the model: struct assets_model.
-struct mesh_group {
-    str name;
-    uint32_t line; // of the first `usemtl` of this name; 0 for the empty name
-};
-
-// A `mtllib` line: one name, or several.
-struct mesh_library {
-    str names; // the text after the word, trimmed
-    uint32_t line;
-};
-
-// What a mesh file says and no picture shows as it is said.
-enum mesh_loss {
-    MESH_LOSS_NOT_FACES, // points, lines, curves and surfaces
-    MESH_LOSS_COLORS,    // of vertices
-    MESH_LOSS_IMAGES,    // of faces
-    MESH_LOSS_BENT,      // faces that are not flat
-    MESH_LOSS_NORMALS,   // corners of faces whose normal has length 0
-    MESH_LOSS_COUNT
-};
-
-struct mesh_loss_count {
-    uint32_t count;
-    uint32_t line; // of the first
+    uint32_t line;       // of the face in the file, from 1; of a binary file, which face it is
 };
 
 struct mesh {
@@ -61,6 +34,7 @@ struct mesh {
     uint32_t group_count;
     struct mesh_library *libraries;
     uint32_t library_count;
+    bool is_binary;      // the file has no lines: a face's line is its number, from 1
     bool closed;         // bit-equal positions merged, every directed edge occurs as often as its opposite
     bool turned;         // a closed mesh of negative volume: `triangles` were turned outward
     double volume;       // signed, before turning; 0 if open
@@ -73,11 +47,10 @@ struct mesh {
     vec3 lower, upper; // bounds of the positions
 };
 
-static inline void mesh_lose(struct mesh_loss_count *losses, enum mesh_loss what, uint32_t line) {
-    if (losses[what].count++ == 0)
-        losses[what].line = line;
+// What the numbers in mesh_triangle.line count.
+static inline const char *mesh_place_word(const struct mesh *mesh) {
+    return mesh->is_binary ? "face" : "line";
 }
-
 // Whether the triangle's area is not 0 (in double, without underflow).
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle);
 

@@ -1,6 +1,8 @@
 #include "assets/mesh_build.h"
 
+#include "assets/mesh_reader.h"
 #include "assets/triangulate.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 
 #include <math.h>
@@ -16,52 +18,53 @@ enum {
     PIECE = 1 << 14, // triangles, in parallel work
 };
 
-static void copy_names(const struct obj *obj, str path, struct mesh *mesh) {
+static void copy_names(const struct polygons *polygons, str path, struct mesh *mesh) {
     struct arena *arena = &mesh->arena;
     mesh->path = arena_copy(arena, path);
-    mesh->group_count = obj->groups.count;
-    mesh->groups = ARENA_ARRAY(arena, struct mesh_group, obj->groups.count);
-    for (uint32_t i = 0; i < obj->groups.count; i++) {
-        mesh->groups[i] = obj->groups.items[i];
+    mesh->group_count = polygons->groups.count;
+    mesh->groups = ARENA_ARRAY(arena, struct mesh_group, polygons->groups.count);
+    for (uint32_t i = 0; i < polygons->groups.count; i++) {
+        mesh->groups[i] = polygons->groups.items[i];
         mesh->groups[i].name = arena_copy(arena, mesh->groups[i].name);
     }
-    mesh->library_count = obj->libraries.count;
-    mesh->libraries = ARENA_ARRAY(arena, struct mesh_library, obj->libraries.count);
-    for (uint32_t i = 0; i < obj->libraries.count; i++) {
-        mesh->libraries[i] = obj->libraries.items[i];
+    mesh->library_count = polygons->libraries.count;
+    mesh->libraries = ARENA_ARRAY(arena, struct mesh_library, polygons->libraries.count);
+    for (uint32_t i = 0; i < polygons->libraries.count; i++) {
+        mesh->libraries[i] = polygons->libraries.items[i];
         mesh->libraries[i].names = arena_copy(arena, mesh->libraries[i].names);
     }
-    memcpy(mesh->losses, obj->losses, sizeof mesh->losses);
-    mesh->face_count = obj->faces.count;
+    memcpy(mesh->losses, polygons->losses, sizeof mesh->losses);
+    mesh->is_binary = polygons->is_binary;
+    mesh->face_count = polygons->faces.count;
 }
 
 // Positions that faces use, in file order. Returns the new index of each vertex.
-static uint32_t *keep_used_positions(struct obj *obj, struct arena *scratch, struct mesh *mesh) {
-    uint32_t *place = ARENA_ARRAY(scratch, uint32_t, obj->vertices.count);
-    for (uint32_t i = 0; i < obj->corners.count; i++)
-        place[obj->corners.items[i].vertex] = 1;
+static uint32_t *keep_used_positions(struct polygons *polygons, struct arena *scratch, struct mesh *mesh) {
+    uint32_t *place = ARENA_ARRAY(scratch, uint32_t, polygons->vertices.count);
+    for (uint32_t i = 0; i < polygons->corners.count; i++)
+        place[polygons->corners.items[i].vertex] = 1;
     uint32_t count = 0;
-    for (uint32_t i = 0; i < obj->vertices.count; i++)
+    for (uint32_t i = 0; i < polygons->vertices.count; i++)
         count += place[i];
-    const bool all = count == obj->vertices.count && count == obj->vertices.capacity;
-    if (all && arena_hand_over(scratch, &mesh->arena, obj->vertices.items, count, sizeof(vec3)))
-        mesh->positions = obj->vertices.items;
+    const bool all = count == polygons->vertices.count && count == polygons->vertices.capacity;
+    if (all && arena_hand_over(scratch, &mesh->arena, polygons->vertices.items, count, sizeof(vec3)))
+        mesh->positions = polygons->vertices.items;
     else
         mesh->positions = ARENA_ARRAY(&mesh->arena, vec3, count);
-    for (uint32_t i = 0; i < obj->vertices.count; i++) {
+    for (uint32_t i = 0; i < polygons->vertices.count; i++) {
         if (!place[i])
             continue;
         place[i] = mesh->position_count;
-        mesh->positions[mesh->position_count++] = obj->vertices.items[i];
+        mesh->positions[mesh->position_count++] = polygons->vertices.items[i];
     }
     return place;
 }
 
-static void keep_normals(const struct obj *obj, struct mesh *mesh) {
-    mesh->normal_count = obj->normals.count;
-    mesh->normals = ARENA_ARRAY(&mesh->arena, vec3, obj->normals.count);
-    for (uint32_t i = 0; i < obj->normals.count; i++)
-        mesh->normals[i] = vec3_unit(obj->normals.items[i]);
+static void keep_normals(const struct polygons *polygons, struct mesh *mesh) {
+    mesh->normal_count = polygons->normals.count;
+    mesh->normals = ARENA_ARRAY(&mesh->arena, vec3, polygons->normals.count);
+    for (uint32_t i = 0; i < polygons->normals.count; i++)
+        mesh->normals[i] = vec3_unit(polygons->normals.items[i]);
 }
 
 struct face_buffer {
@@ -70,7 +73,7 @@ struct face_buffer {
     uint32_t *cuts;
 };
 
-static void add_face(const struct obj *obj, const uint32_t *place, const struct obj_face *face,
+static void add_face(const struct polygons *polygons, const uint32_t *place, const struct polygon_face *face,
                      const uint32_t *cuts, uint32_t triangles, const struct mesh *mesh,
                      struct mesh_triangle *out) {
     for (uint32_t t = 0; t < triangles; t++) {
@@ -78,7 +81,8 @@ static void add_face(const struct obj *obj, const uint32_t *place, const struct 
         triangle->group = face->group;
         triangle->line = face->line;
         for (int k = 0; k < 3; k++) {
-            const struct obj_corner *corner = &obj->corners.items[face->first + cuts[3 * t + (uint32_t)k]];
+            const struct polygon_corner *corner =
+                &polygons->corners.items[face->first + cuts[3 * t + (uint32_t)k]];
             triangle->corners[k] = place[corner->vertex];
             // A normal of length 0 counts as none.
             bool has = corner->normal != IR_NO_INDEX && !vec3_is_zero(mesh->normals[corner->normal]);
@@ -116,10 +120,10 @@ static void measure_bend(struct mesh *mesh, const vec3 *corners, uint32_t n, uin
     mesh->bent_most = fmax(mesh->bent_most, bend);
 }
 
-static void count_lost_normals(const struct obj *obj, const struct obj_face *face, uint32_t corners,
-                               struct mesh *mesh) {
+static void count_lost_normals(const struct polygons *polygons, const struct polygon_face *face,
+                               uint32_t corners, struct mesh *mesh) {
     for (uint32_t i = 0; i < corners; i++) {
-        uint32_t normal = obj->corners.items[face->first + i].normal;
+        uint32_t normal = polygons->corners.items[face->first + i].normal;
         if (normal != IR_NO_INDEX && vec3_is_zero(mesh->normals[normal]))
             mesh_lose(mesh->losses, MESH_LOSS_NORMALS, face->line);
     }
@@ -128,7 +132,7 @@ static void count_lost_normals(const struct obj *obj, const struct obj_face *fac
 static const uint32_t whole[3] = {0, 1, 2};
 
 struct taking {
-    const struct obj *obj;
+    const struct polygons *polygons;
     const uint32_t *place;
     const struct mesh *mesh;
 };
@@ -136,48 +140,49 @@ struct taking {
 static void take_faces(void *context, size_t begin, size_t end) {
     const struct taking *t = context;
     for (size_t i = begin; i < end; i++)
-        add_face(t->obj, t->place, &t->obj->faces.items[i], whole, 1, t->mesh, &t->mesh->triangles[i]);
+        add_face(t->polygons, t->place, &t->polygons->faces.items[i], whole, 1, t->mesh,
+                 &t->mesh->triangles[i]);
 }
 
 // Whether every face is a triangle and no normal is lost: then faces do not depend on each other.
-static bool are_plain(const struct obj *obj, const struct mesh *mesh) {
-    bool are = obj->triangle_count == obj->faces.count;
+static bool are_plain(const struct polygons *polygons, const struct mesh *mesh) {
+    bool are = polygons->triangle_count == polygons->faces.count;
     for (uint32_t i = 0; are && i < mesh->normal_count; i++)
         are = !vec3_is_zero(mesh->normals[i]);
     return are;
 }
 
-static void cut_faces(const struct obj *obj, const uint32_t *place, struct arena *scratch,
+static void cut_faces(const struct polygons *polygons, const uint32_t *place, struct arena *scratch,
                       struct mesh *mesh) {
     struct face_buffer buffer = {0};
     struct triangulator triangulator;
     triangulate_init(&triangulator, scratch);
-    mesh->triangles = ARENA_ARRAY(&mesh->arena, struct mesh_triangle, (size_t)obj->triangle_count);
-    if (are_plain(obj, mesh)) {
-        struct taking taking = {obj, place, mesh};
-        mesh->triangle_count = obj->faces.count;
+    mesh->triangles = ARENA_ARRAY(&mesh->arena, struct mesh_triangle, (size_t)polygons->triangle_count);
+    if (are_plain(polygons, mesh)) {
+        struct taking taking = {polygons, place, mesh};
+        mesh->triangle_count = polygons->faces.count;
         parallel_for(mesh->triangle_count, PIECE, take_faces, &taking);
         return;
     }
-    for (uint32_t f = 0; f < obj->faces.count; f++) {
-        const struct obj_face *face = &obj->faces.items[f];
-        uint32_t end = f + 1 < obj->faces.count ? face[1].first : obj->corners.count;
+    for (uint32_t f = 0; f < polygons->faces.count; f++) {
+        const struct polygon_face *face = &polygons->faces.items[f];
+        uint32_t end = f + 1 < polygons->faces.count ? face[1].first : polygons->corners.count;
         uint32_t n = end - face->first;
-        count_lost_normals(obj, face, n, mesh);
+        count_lost_normals(polygons, face, n, mesh);
         if (n == 3) {
-            add_face(obj, place, face, whole, 1, mesh, &mesh->triangles[mesh->triangle_count++]);
+            add_face(polygons, place, face, whole, 1, mesh, &mesh->triangles[mesh->triangle_count++]);
             continue;
         }
         if (n > buffer.capacity) {
             buffer.capacity = n > 2 * buffer.capacity ? n : 2 * buffer.capacity;
             buffer.corners = ARENA_ARRAY(scratch, vec3, buffer.capacity);
-            buffer.cuts = ARENA_ARRAY(scratch, uint32_t, 3 * (size_t)buffer.capacity);
+            buffer.cuts = ARENA_ARRAY(scratch, uint32_t, heap_times(3, buffer.capacity));
         }
         for (uint32_t i = 0; i < n; i++)
-            buffer.corners[i] = obj->vertices.items[obj->corners.items[face->first + i].vertex];
+            buffer.corners[i] = polygons->vertices.items[polygons->corners.items[face->first + i].vertex];
         measure_bend(mesh, buffer.corners, n, face->line);
         triangulate(&triangulator, buffer.corners, n, buffer.cuts);
-        add_face(obj, place, face, buffer.cuts, n - 2, mesh, &mesh->triangles[mesh->triangle_count]);
+        add_face(polygons, place, face, buffer.cuts, n - 2, mesh, &mesh->triangles[mesh->triangle_count]);
         mesh->triangle_count += n - 2;
     }
 }
@@ -207,31 +212,31 @@ static void measure(struct mesh *mesh) {
 }
 
 // Of what is not needed any more.
-static struct mesh_room room_of(struct obj *obj, struct arena *scratch) {
+static struct mesh_room room_of(struct polygons *polygons, struct arena *scratch) {
     return (struct mesh_room){
-        {{(char *)obj->faces.items, obj->faces.capacity * sizeof *obj->faces.items},
-         {(char *)obj->corners.items, obj->corners.capacity * sizeof *obj->corners.items}},
+        {{(char *)polygons->faces.items, polygons->faces.capacity * sizeof *polygons->faces.items},
+         {(char *)polygons->corners.items, polygons->corners.capacity * sizeof *polygons->corners.items}},
         scratch};
 }
 
-void mesh_build(struct obj *obj, str path, struct arena *scratch, struct mesh *mesh) {
-    copy_names(obj, path, mesh);
-    uint32_t *place = keep_used_positions(obj, scratch, mesh);
-    keep_normals(obj, mesh);
-    cut_faces(obj, place, scratch, mesh);
+void mesh_build(struct polygons *polygons, str path, struct arena *scratch, struct mesh *mesh) {
+    copy_names(polygons, path, mesh);
+    uint32_t *place = keep_used_positions(polygons, scratch, mesh);
+    keep_normals(polygons, mesh);
+    cut_faces(polygons, place, scratch, mesh);
     measure(mesh);
-    struct mesh_room room = room_of(obj, scratch);
+    struct mesh_room room = room_of(polygons, scratch);
     mesh_merge_positions(mesh, &room);
     mesh_find_edges(mesh, &room);
     mesh_turn_outward(mesh);
 }
 
 void mesh_read(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
-    struct obj obj;
-    read_obj(file, scratch, &obj);
+    struct polygons polygons;
+    mesh_reader_of(file->path)->polygons(file, scratch, &polygons);
     mesh->arena.cap_bytes -= scratch->used_bytes;
     if (file->errors == 0)
-        mesh_build(&obj, file->path, scratch, mesh);
+        mesh_build(&polygons, file->path, scratch, mesh);
 }
 
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle) {

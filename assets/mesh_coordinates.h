@@ -1,14 +1,15 @@
-// The texture coordinates of a mesh (`vt`), read only where one of its materials is an image: a second walk
-// over the file's text, so that meshes without images cost neither time nor memory for it.
+// The texture coordinates of a mesh, read only where one of its materials is an image: the reader of its
+// format walks over the file a second time, so that meshes without images cost neither time nor memory for
+// it.
 //
-// Input: the OBJ file of a mesh that was read. Output: mesh->coordinates and mesh->textured, in the mesh's
-// arena. Units: those of the file; u to the right, v upwards, an image from 0 to 1. Errors: faults in `vt`
+// Input: the file of a mesh that was read. Output: mesh->coordinates and mesh->textured, in the mesh's arena.
+// Units: those of the file; u to the right, v upwards, an image from 0 to 1. Errors: faults in coordinates
 // and in the indices of faces that name them, at their place, and E604 for a file that has changed meanwhile;
 // the mesh is then left without. Thread safety: as assets.h.
 #ifndef GLINT_ASSETS_MESH_COORDINATES_H
 #define GLINT_ASSETS_MESH_COORDINATES_H
 
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 #include "assets/mesh.h"
 
 // Reads file->text. Both arenas must be guarded.

@@ -25,6 +25,16 @@ static void report_parts(struct asset_file *file, const struct mesh *mesh) {
         asset_report_line(file, DIAG_MESH_DROPPED, lost->line, "the image%s of %u 'usemap' %s not drawn",
                           plural(lost->count), lost->count, lost->count == 1 ? "line is" : "lines are"))
         diag_help(sink, "the surfaces of bodies have no images: give the model a 'material'");
+    lost = &mesh->losses[MESH_LOSS_REST];
+    if (lost->count &&
+        asset_report_line(file, DIAG_MESH_DROPPED, lost->line, "%u byte%s after the last face %s not read",
+                          lost->count, plural(lost->count), lost->count == 1 ? "is" : "are"))
+        diag_help(sink, "the file may be damaged, or two files in one: export it again");
+    lost = &mesh->losses[MESH_LOSS_SCANNED];
+    if (lost->count)
+        asset_report_line(file, DIAG_MESH_COLORS, lost->line,
+                          "the mesh has colours of its own, which are not used; bodies have the colours of "
+                          "their materials");
 }
 
 void mesh_losses_report(struct asset_file *file, const struct mesh *mesh) {

@@ -5,7 +5,7 @@
 #ifndef GLINT_ASSETS_MESH_LOSSES_H
 #define GLINT_ASSETS_MESH_LOSSES_H
 
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 #include "assets/mesh.h"
 
 void mesh_losses_report(struct asset_file *file, const struct mesh *mesh);

@@ -129,7 +129,7 @@ void obj_chunk_count(struct obj_chunk *chunk) {
 struct quick {
     const char *at, *end;
     struct obj_chunk *chunk;
-    struct obj *obj;
+    struct polygons *obj;
     struct obj_counts done; // of this chunk
 };
 
@@ -177,7 +177,7 @@ static bool take_number(struct quick *q, double *value) {
     struct obj_lex lex = {.begin = q->at, .end = q->end, .at = q->at, .line = 1};
     const enum number_status status = obj_lex_number(&lex, value);
     q->at = lex.at;
-    return status == NUMBER_OK && fabs(*value) <= OBJ_COORDINATE_MAX;
+    return status == NUMBER_OK && fabs(*value) <= MESH_COORDINATE_MAX;
 }
 
 static inline bool take_integer(struct quick *q, int64_t *value) {
@@ -248,7 +248,7 @@ static bool take_slash(struct quick *q) {
     return true;
 }
 
-static bool take_corner(struct quick *q, struct obj_corner *corner) {
+static bool take_corner(struct quick *q, struct polygon_corner *corner) {
     const struct obj_counts *before = &q->chunk->before;
     corner->normal = IR_NO_INDEX;
     if (!take_index(q, before->vertices + q->done.vertices, &corner->vertex))
@@ -271,7 +271,7 @@ static bool take_face(struct quick *q, uint64_t corners_most) {
     struct obj_chunk *chunk = q->chunk;
     const uint32_t first = q->done.corners;
     const uint32_t number = chunk->before.faces + q->done.faces++;
-    struct obj_corner *corners = q->obj->corners.items + chunk->before.corners;
+    struct polygon_corner *corners = q->obj->corners.items + chunk->before.corners;
     q->at++;
     while (more(q))
         if (q->done.corners == chunk->here.corners || !take_corner(q, &corners[q->done.corners++]))
@@ -280,8 +280,8 @@ static bool take_face(struct quick *q, uint64_t corners_most) {
     if (count < 3 || count > corners_most)
         return false;
     chunk->triangles += count - 2;
-    q->obj->faces.items[number] = (struct obj_face){.first = chunk->before.corners + first,
-                                                    .line = chunk->before.lines + q->done.lines + 1};
+    q->obj->faces.items[number] = (struct polygon_face){.first = chunk->before.corners + first,
+                                                        .line = chunk->before.lines + q->done.lines + 1};
     return true;
 }
 
@@ -291,7 +291,7 @@ static void note_other(struct quick *q, struct obj_other *others) {
         (struct obj_other){q->at, before->lines + q->done.lines + 1, before->faces + q->done.faces};
 }
 
-void obj_chunk_read(struct obj_chunk *chunk, uint64_t corners_most, struct obj *obj,
+void obj_chunk_read(struct obj_chunk *chunk, uint64_t corners_most, struct polygons *obj,
                     struct obj_other *others) {
     struct quick q = {.at = chunk->begin, .end = chunk->end, .chunk = chunk, .obj = obj};
     while (chunk->is_ordinary && q.at < q.end) {

@@ -36,7 +36,7 @@ struct obj_chunk {
 void obj_chunk_count(struct obj_chunk *chunk);
 // Fills the chunk's parts of the arrays of `obj` and of `others`; all faces get group 0. A face has up to
 // `corners_most` corners. Where the chunk is not ordinary, its parts mean nothing.
-void obj_chunk_read(struct obj_chunk *chunk, uint64_t corners_most, struct obj *obj,
+void obj_chunk_read(struct obj_chunk *chunk, uint64_t corners_most, struct polygons *obj,
                     struct obj_other *others);
 
 #endif

@@ -1,10 +1,6 @@
 #include "assets/obj_lex.h"
 
-#include <string.h>
-
-enum {
-    WORD_NUMBER_MAX = 1000
-};
+#include "assets/file/mesh_number.h"
 
 void obj_lex_init(struct obj_lex *lex, str text) {
     *lex = (struct obj_lex){
@@ -85,31 +81,13 @@ str obj_lex_rest(struct obj_lex *lex) {
     return str_trim((str){begin, (size_t)(lex->at - begin)});
 }
 
-// What number_take does not decide: long mantissas, large exponents, and all that is not a number.
-static enum number_status slow_number(str word, double *value) {
-    // The language's own grammar finds what is wrong; only leading zeros are removed before.
-    char copy[WORD_NUMBER_MAX + 1];
-    size_t length = 0;
-    size_t at = 0;
-    if (word.len > WORD_NUMBER_MAX)
-        return NUMBER_TOO_LONG;
-    if (at < word.len && (word.ptr[at] == '+' || word.ptr[at] == '-'))
-        copy[length++] = word.ptr[at++];
-    while (at + 1 < word.len && word.ptr[at] == '0' && is_digit(word.ptr[at + 1]))
-        at++;
-    memcpy(copy + length, word.ptr + at, word.len - at);
-    enum number_status status = number_parse((str){copy, length + word.len - at}, value);
-    return status == NUMBER_UNDERFLOW ? NUMBER_OK : status;
-}
-
 enum number_status obj_lex_number(struct obj_lex *lex, double *value) {
     size_t length = number_take((str){lex->at, (size_t)(lex->end - lex->at)}, value);
     if (length && ends_word(lex->at + length, lex->end)) {
         lex->at += length;
         return NUMBER_OK;
     }
-    *value = 0;
-    return slow_number(obj_lex_word(lex), value);
+    return mesh_number(obj_lex_word(lex), value);
 }
 
 bool obj_lex_integer(struct obj_lex *lex, int64_t *value) {

@@ -13,7 +13,7 @@
 #ifndef GLINT_ASSETS_READ_MTL_H
 #define GLINT_ASSETS_READ_MTL_H
 
-#include "assets/asset_file.h"
+#include "assets/file/asset_file.h"
 #include "core/str_map.h"
 
 // Where a material names its image.

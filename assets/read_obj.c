@@ -19,7 +19,7 @@ enum {
 struct obj_reader {
     struct asset_file *file;
     struct arena *scratch;
-    struct obj *obj;
+    struct polygons *obj;
     struct obj_lex lex;
     bool refers_forward; // a face names what the file has not defined yet
     bool is_full;        // a limit is exceeded: read no further
@@ -57,7 +57,7 @@ static double read_coordinate(struct obj_reader *r) {
     const char *begin = r->lex.at;
     double value;
     enum number_status status = obj_lex_number(&r->lex, &value);
-    if (status == NUMBER_OK && fabs(value) <= OBJ_COORDINATE_MAX)
+    if (status == NUMBER_OK && fabs(value) <= MESH_COORDINATE_MAX)
         return value;
     str word = {begin, (size_t)(r->lex.at - begin)};
     report_word(r, DIAG_MESH_NUMBER, word,
@@ -155,7 +155,7 @@ static bool take_slash(struct obj_reader *r) {
 }
 
 // v, v/vt, v//vn or v/vt/vn; texture coordinates are not used, so only their form is checked.
-static bool read_corner(struct obj_reader *r, struct obj_corner *corner) {
+static bool read_corner(struct obj_reader *r, struct polygon_corner *corner) {
     corner->normal = IR_NO_INDEX;
     if (!read_index(r, r->obj->vertices.count, "vertices", &corner->vertex))
         return false;
@@ -188,14 +188,14 @@ static bool face_fits(struct obj_reader *r, str keyword, uint32_t corners) {
 }
 
 static void read_face(struct obj_reader *r, str keyword) {
-    struct obj *obj = r->obj;
+    struct polygons *obj = r->obj;
     uint32_t line = r->lex.line;
     uint32_t first = obj->corners.count;
     uint64_t most = r->file->input->limits->value[LIMIT_MESH_CORNERS];
     bool broken = false;
     while (obj_lex_more(&r->lex) && obj->corners.count - first <= most) {
         const char *begin = r->lex.at;
-        struct obj_corner *corner = ARENA_PUSH(r->scratch, &obj->corners);
+        struct polygon_corner *corner = ARENA_PUSH(r->scratch, &obj->corners);
         if (read_corner(r, corner))
             continue;
         broken = true;
@@ -214,8 +214,8 @@ static void read_face(struct obj_reader *r, str keyword) {
         obj->corners.count = first;
         return;
     }
-    struct obj_face *face = ARENA_PUSH(r->scratch, &obj->faces);
-    *face = (struct obj_face){.first = first, .line = line, .group = current_group(r)};
+    struct polygon_face *face = ARENA_PUSH(r->scratch, &obj->faces);
+    *face = (struct polygon_face){.first = first, .line = line, .group = current_group(r)};
 }
 
 // ---- lines
@@ -269,7 +269,7 @@ static void read_line(struct obj_reader *r) {
 
 // Finds the corner in the text again: storing its place would waste memory in files without faults. Faces
 // come in the order of their lines, so that the search goes on from the line of the last one.
-static void report_forward(struct obj_reader *r, const struct obj_face *face, uint32_t number,
+static void report_forward(struct obj_reader *r, const struct polygon_face *face, uint32_t number,
                            bool is_normal) {
     while (r->lex.line < face->line && !obj_lex_done(&r->lex))
         obj_lex_next_line(&r->lex);
@@ -279,7 +279,7 @@ static void report_forward(struct obj_reader *r, const struct obj_face *face, ui
     str word = STR("");
     for (uint32_t i = 0; i <= number && obj_lex_more(&r->lex); i++)
         word = obj_lex_word(&r->lex);
-    const struct obj_corner *corner = &r->obj->corners.items[face->first + number];
+    const struct polygon_corner *corner = &r->obj->corners.items[face->first + number];
     size_t cut = 0;
     while (!is_normal && cut < word.len && word.ptr[cut] != '/')
         cut++;
@@ -296,13 +296,13 @@ static void report_forward(struct obj_reader *r, const struct obj_face *face, ui
 }
 
 static void check_forward(struct obj_reader *r) {
-    const struct obj *obj = r->obj;
+    const struct polygons *obj = r->obj;
     obj_lex_init(&r->lex, r->file->text);
     for (uint32_t f = 0; f < obj->faces.count; f++) {
-        const struct obj_face *face = &obj->faces.items[f];
+        const struct polygon_face *face = &obj->faces.items[f];
         uint32_t end = f + 1 < obj->faces.count ? face[1].first : obj->corners.count;
         for (uint32_t c = face->first; c < end; c++) {
-            const struct obj_corner *corner = &obj->corners.items[c];
+            const struct polygon_corner *corner = &obj->corners.items[c];
             bool vertex = corner->vertex >= obj->vertices.count && corner->vertex != IR_NO_INDEX;
             bool normal = corner->normal >= obj->normals.count && corner->normal != IR_NO_INDEX;
             if (vertex && !asset_only_counts(r->file, DIAG_MESH_INDEX))
@@ -322,14 +322,14 @@ static void finish(struct obj_reader *r) {
 }
 
 static void reader_init(struct obj_reader *r, struct asset_file *file, struct arena *scratch,
-                        struct obj *out) {
-    *out = (struct obj){0};
+                        struct polygons *out) {
+    *out = (struct polygons){0};
     *r = (struct obj_reader){.file = file, .scratch = scratch, .obj = out, .group = IR_NO_INDEX};
     str_map_init(&r->groups, scratch);
     obj_lex_init(&r->lex, file->text);
 }
 
-void read_obj_in_order(struct asset_file *file, struct arena *scratch, struct obj *out) {
+void read_obj_in_order(struct asset_file *file, struct arena *scratch, struct polygons *out) {
     struct obj_reader r;
     reader_init(&r, file, scratch, out);
     while (!obj_lex_done(&r.lex) && !r.is_full) {
@@ -345,7 +345,7 @@ struct chunks {
     struct obj_chunk *items;
     uint32_t count;
     uint64_t corners_most;
-    struct obj *obj;
+    struct polygons *obj;
     struct obj_other *others;
 };
 
@@ -399,7 +399,7 @@ static void add_counts(struct obj_counts *sum, const struct obj_counts *counts) 
 // Room for exactly what was counted, and where each chunk's part of it begins. false: it would be much more
 // than the sequential reader takes of a file that is none of ours.
 static bool make_room(struct obj_reader *r, struct chunks *chunks, struct obj_counts *sum) {
-    struct obj *obj = r->obj;
+    struct polygons *obj = r->obj;
     for (uint32_t i = 0; i < chunks->count; i++) {
         chunks->items[i].before = *sum;
         add_counts(sum, &chunks->items[i].here);
@@ -409,8 +409,8 @@ static bool make_room(struct obj_reader *r, struct chunks *chunks, struct obj_co
         return false;
     obj->vertices.items = ARENA_ARRAY(r->scratch, vec3, sum->vertices);
     obj->normals.items = ARENA_ARRAY(r->scratch, vec3, sum->normals);
-    obj->corners.items = ARENA_ARRAY(r->scratch, struct obj_corner, sum->corners);
-    obj->faces.items = ARENA_ARRAY(r->scratch, struct obj_face, sum->faces);
+    obj->corners.items = ARENA_ARRAY(r->scratch, struct polygon_corner, sum->corners);
+    obj->faces.items = ARENA_ARRAY(r->scratch, struct polygon_face, sum->faces);
     chunks->others = ARENA_ARRAY(r->scratch, struct obj_other, sum->others);
     obj->vertices.count = obj->vertices.capacity = sum->vertices;
     obj->normals.count = obj->normals.capacity = sum->normals;
@@ -420,13 +420,13 @@ static bool make_room(struct obj_reader *r, struct chunks *chunks, struct obj_co
 }
 
 static void give_back_room(struct obj_reader *r, struct chunks *chunks, const struct obj_counts *sum) {
-    struct obj *obj = r->obj;
+    struct polygons *obj = r->obj;
     arena_give_back(r->scratch, obj->vertices.items, obj->vertices.capacity, sizeof *obj->vertices.items);
     arena_give_back(r->scratch, obj->normals.items, obj->normals.capacity, sizeof *obj->normals.items);
     arena_give_back(r->scratch, obj->corners.items, obj->corners.capacity, sizeof *obj->corners.items);
     arena_give_back(r->scratch, obj->faces.items, obj->faces.capacity, sizeof *obj->faces.items);
     arena_give_back(r->scratch, chunks->others, sum->others, sizeof *chunks->others);
-    *obj = (struct obj){0};
+    *obj = (struct polygons){0};
 }
 
 static void name_group(struct obj_reader *r, uint32_t begin, uint32_t end) {
@@ -439,7 +439,7 @@ static void name_group(struct obj_reader *r, uint32_t begin, uint32_t end) {
 
 // In the order of the file: sums, and the lines that only make sense in that order. false: one has a fault.
 static bool join_chunks(struct obj_reader *r, const struct chunks *chunks, uint32_t others) {
-    struct obj *obj = r->obj;
+    struct polygons *obj = r->obj;
     for (uint32_t i = 0; i < chunks->count; i++) {
         const struct obj_chunk *chunk = &chunks->items[i];
         obj->triangle_count += chunk->triangles;
@@ -465,7 +465,8 @@ static bool join_chunks(struct obj_reader *r, const struct chunks *chunks, uint3
     return !r->is_faulty && obj->triangle_count <= r->file->input->limits->value[LIMIT_MESH_TRIANGLES];
 }
 
-bool read_obj_in_chunks(struct asset_file *file, struct arena *scratch, size_t chunk_bytes, struct obj *out) {
+bool read_obj_in_chunks(struct asset_file *file, struct arena *scratch, size_t chunk_bytes,
+                        struct polygons *out) {
     struct obj_reader r;
     struct obj_counts sum = {0};
     reader_init(&r, file, scratch, out);
@@ -488,7 +489,7 @@ bool read_obj_in_chunks(struct asset_file *file, struct arena *scratch, size_t c
     return done;
 }
 
-void read_obj(struct asset_file *file, struct arena *scratch, struct obj *out) {
+void read_obj(struct asset_file *file, struct arena *scratch, struct polygons *out) {
     if (!read_obj_in_chunks(file, scratch, CHUNK_BYTES, out))
         read_obj_in_order(file, scratch, out);
 }

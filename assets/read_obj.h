@@ -7,60 +7,21 @@
 #ifndef GLINT_ASSETS_READ_OBJ_H
 #define GLINT_ASSETS_READ_OBJ_H
 
-#include "assets/asset_file.h"
-#include "assets/mesh.h"
-
-struct obj_corner {
-    uint32_t vertex; // into vertices
-    uint32_t normal; // into normals; IR_NO_INDEX: none
-};
-
-struct obj_face {
-    uint32_t first; // into corners; the next face's first ends it
-    uint32_t line;
-    uint32_t group; // into groups
-};
-
-struct obj {
-    struct {
-        vec3 *items;
-        uint32_t count, capacity;
-    } vertices;
-    struct {
-        vec3 *items;
-        uint32_t count, capacity;
-    } normals; // as written, not unit
-    struct {
-        struct obj_corner *items;
-        uint32_t count, capacity;
-    } corners;
-    struct {
-        struct obj_face *items;
-        uint32_t count, capacity;
-    } faces;
-    struct {
-        struct mesh_group *items;
-        uint32_t count, capacity;
-    } groups;
-    struct {
-        struct mesh_library *items;
-        uint32_t count, capacity;
-    } libraries;
-    uint64_t triangle_count;                        // that the faces will give
-    struct mesh_loss_count losses[MESH_LOSS_COUNT]; // of what is in lines of their own
-};
-
-#define OBJ_COORDINATE_MAX 1e18 // the largest that a vertex may have
+#include "assets/file/asset_file.h"
+#include "assets/file/polygons.h"
 
 // Reads file->text, on all processors. Faults are counted in file->errors; after one the result must not be
 // used.
-void read_obj(struct asset_file *file, struct arena *scratch, struct obj *out);
+void read_obj(struct asset_file *file, struct arena *scratch, struct polygons *out);
+// Reads file->text for the coordinates of textures only (obj_coordinates.c).
+void read_obj_coordinates(struct asset_file *file, struct arena *scratch, struct textured_faces *out);
 
 // The two ways in which it does, with the same result to the bit; for tests and benches.
 // By one thread, from the first line to the last.
-void read_obj_in_order(struct asset_file *file, struct arena *scratch, struct obj *out);
+void read_obj_in_order(struct asset_file *file, struct arena *scratch, struct polygons *out);
 // In pieces of about so many bytes, at least 1, on all processors. false: the file has something that only
 // the other way understands or reports, and nothing was reported.
-bool read_obj_in_chunks(struct asset_file *file, struct arena *scratch, size_t chunk_bytes, struct obj *out);
+bool read_obj_in_chunks(struct asset_file *file, struct arena *scratch, size_t chunk_bytes,
+                        struct polygons *out);
 
 #endif

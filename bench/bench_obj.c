@@ -91,7 +91,7 @@ static bool open_text(const char *word, char **text, size_t *length) {
     return done;
 }
 
-static bool same(const struct obj *a, const struct obj *b) {
+static bool same(const struct polygons *a, const struct polygons *b) {
     return a->vertices.count == b->vertices.count && a->normals.count == b->normals.count &&
            a->corners.count == b->corners.count && a->faces.count == b->faces.count &&
            memcmp(a->vertices.items, b->vertices.items, a->vertices.count * sizeof *a->vertices.items) == 0 &&
@@ -112,7 +112,7 @@ static void measure(void *context) {
     struct contest *c = round->contest;
     struct assets_input input = {.sources = &c->sources, .sink = &c->sink, .limits = &c->limits};
     struct asset_file file = {.input = &input, .what = "mesh", .text = c->text};
-    struct obj by_one, by_all;
+    struct polygons by_one, by_all;
     for (enum part part = 0; part < PARTS; part++) {
         if (part == PART_MESH)
             c->is_same = c->is_read && file.errors == 0 && same(&by_one, &by_all);

@@ -66,8 +66,8 @@ static void meshes(struct strbuf *out, const struct session *s) {
                       model->name.len ? ", " : "", STR_ARG(model->mesh), mesh->triangle_count,
                       mesh->closed ? "closed" : "open");
         if (!mesh->closed)
-            strbuf_format(out, " (%u edges, the first at line %u of the mesh)", mesh->open_edges,
-                          mesh->open_line);
+            strbuf_format(out, " (%u edges, the first at %s %u of the mesh)", mesh->open_edges,
+                          mesh_place_word(mesh), mesh->open_line);
         if (mesh->zero_area)
             strbuf_format(out, ", %u without area", mesh->zero_area);
         strbuf_cstr(out, mesh->turned ? ", turned outward\n" : "\n");

@@ -5,6 +5,7 @@
 #include "core/number.h"
 #include "core/vec3.h"
 #include "grammar/ir_value.h"
+#include "grammar/mesh_format.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -135,11 +136,10 @@ const char *const *schema_components(enum schema_kind kind) {
 const char *const *schema_file_endings(enum schema_file kind) {
     static const char *const scenes[] = {".yaml", ".yml", ".json", ".xml", NULL};
     static const char *const images[] = {".png", ".jpg", ".jpeg", ".hdr", NULL};
-    static const char *const meshes[] = {".obj", NULL};
     static const char *const none[] = {NULL};
     return kind == SCHEMA_FILE_SCENE   ? scenes
            : kind == SCHEMA_FILE_IMAGE ? images
-           : kind == SCHEMA_FILE_MESH  ? meshes
+           : kind == SCHEMA_FILE_MESH  ? mesh_format_endings
                                        : none;
 }
 

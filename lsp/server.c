@@ -1,6 +1,8 @@
 #include "lsp/server.h"
 
 #include "core/heap.h"
+#include "core/strbuf.h"
+#include "grammar/schema.h"
 #include "lsp/server_private.h"
 
 #include <stdlib.h>
@@ -111,14 +113,28 @@ static void did_save(struct server *server, const json_t *params) {
     server->was_saved = true;
 }
 
+// The files that a scene can be made of: "**/*.{yaml,yml,...}".
+static json_t *scene_files_glob(void) {
+    static const enum schema_file kinds[] = {SCHEMA_FILE_SCENE, SCHEMA_FILE_MESH, SCHEMA_FILE_IMAGE};
+    struct strbuf glob;
+    strbuf_init(&glob);
+    strbuf_cstr(&glob, "**/*.{mtl");
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        for (const char *const *ending = schema_file_endings(kinds[i]); *ending; ending++)
+            strbuf_format(&glob, ",%s", *ending + 1);
+    strbuf_char(&glob, '}');
+    json_t *text = json_stringn(glob.data, glob.len);
+    strbuf_finish(&glob);
+    return text;
+}
+
 // A mesh that another program writes is as much a part of the scene as its text.
 static void initialized(struct server *server, const json_t *params) {
     (void)params;
     if (!server->may_watch)
         return;
     json_t *watchers = json_array();
-    json_array_append_new(
-        watchers, json_pack("{s:s}", "globPattern", "**/*.{yaml,yml,json,xml,obj,mtl,png,jpg,jpeg,hdr}"));
+    json_array_append_new(watchers, json_pack("{s:o}", "globPattern", scene_files_glob()));
     json_array_append_new(watchers, json_pack("{s:s}", "globPattern", "**/" FILES_CONFIG_NAME));
     rpc_ask(&server->rpc, "watch", "client/registerCapability",
             json_pack("{s:[{s:s, s:s, s:{s:o}}]}", "registrations", "id", "watch", "method",

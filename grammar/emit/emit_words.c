@@ -16,7 +16,7 @@ static void list_words(const char *const *words, const char *separator, struct s
     }
 }
 
-void emit_type_words(const struct schema_row *row, struct strbuf *out) {
+static void text_words(const struct schema_row *row, struct strbuf *out) {
     static const char *const texts[] = {
         [SCHEMA_TEXT_FREE] = "text",
         [SCHEMA_TEXT_NAME] = "name",
@@ -24,6 +24,16 @@ void emit_type_words(const struct schema_row *row, struct strbuf *out) {
         [SCHEMA_TEXT_PATH] = "path",
     };
     static const char *const files[] = {"", " of a scene file", " of an image file", " of a mesh file"};
+    strbuf_cstr(out, texts[row->text]);
+    strbuf_cstr(out, files[row->file]);
+    if (row->file == SCHEMA_FILE_MESH) {
+        strbuf_cstr(out, " (");
+        list_words(schema_file_endings(row->file), ", ", out);
+        strbuf_cstr(out, ")");
+    }
+}
+
+void emit_type_words(const struct schema_row *row, struct strbuf *out) {
     if (row->many == SCHEMA_FIXED)
         strbuf_format(out, "list of %u: ", row->fixed_count);
     switch (row->kind) {
@@ -41,8 +51,7 @@ void emit_type_words(const struct schema_row *row, struct strbuf *out) {
         list_words(row->words, ", ", out);
         break;
     case SCHEMA_TEXT:
-        strbuf_cstr(out, texts[row->text]);
-        strbuf_cstr(out, files[row->file]);
+        text_words(row, out);
         break;
     case SCHEMA_VECTOR:
         strbuf_cstr(out, row->fill ? "vector x y z, or one number" : "vector x y z");

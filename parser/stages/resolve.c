@@ -60,18 +60,18 @@ static void refuse(struct loader *loader, span at, str path, str tried, enum fil
 
 // Meshes and images are named by attributes of their own.
 static bool is_other_kind(struct loader *loader, span at, str path) {
-    static const char *const endings[] = {".obj",  ".mtl", ".ply", ".stl", ".gltf", ".glb",  ".png", ".jpg",
-                                          ".jpeg", ".hdr", ".exr", ".bmp", ".tga",  ".tiff", ".ppm", ".pfm"};
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        if (!str_ends_with_nocase(path, endings[i]))
-            continue;
-        diag_add(loader->input->sink, DIAG_FILE_KIND, at, "'%.*s' is not a scene file", STR_ARG(path));
-        diag_help(loader->input->sink, "scene files end in .yaml, .yml, .json or .xml; a mesh belongs in "
-                                       "'mesh' of a model, an image in 'image' of the background");
-        loader->incomplete = true;
-        return true;
-    }
-    return false;
+    static const char *const others[] = {".mtl", ".ply", ".stl",  ".gltf", ".glb", ".exr",
+                                         ".bmp", ".tga", ".tiff", ".ppm",  ".pfm", NULL};
+    bool is_other = schema_file_fits(SCHEMA_FILE_MESH, path) || schema_file_fits(SCHEMA_FILE_IMAGE, path);
+    for (const char *const *ending = others; *ending; ending++)
+        is_other = is_other || str_ends_with_nocase(path, *ending);
+    if (!is_other)
+        return false;
+    diag_add(loader->input->sink, DIAG_FILE_KIND, at, "'%.*s' is not a scene file", STR_ARG(path));
+    diag_help(loader->input->sink, "scene files end in .yaml, .yml, .json or .xml; a mesh belongs in "
+                                   "'mesh' of a model, an image in 'image' of the background");
+    loader->incomplete = true;
+    return true;
 }
 
 static void report_cycle(struct loader *loader, uint32_t from, uint32_t to, span at) {

@@ -163,12 +163,12 @@ static void other_kinds_are_named(void **state) {
         scratch_write(&f->scratch, path, "ply\n");
     }
     expect(f, "a.ply", "meshes of the kind '.ply' are not supported [E605]",
-           "this version reads Wavefront OBJ (.obj); a 3D program can convert the file");
+           "glint reads Wavefront OBJ (.obj); a 3D program can convert other meshes");
     expect(f, "a.STL", "meshes of the kind '.STL' are not supported [E605]", "can convert");
     expect(f, "a.gltf", "meshes of the kind '.gltf' are not supported [E605]", "can convert");
     expect(f, "a.txt", "meshes of the kind '.txt' are not supported [E605]",
-           "this version reads Wavefront OBJ (.obj)\n");
-    expect(f, "a", "'a' has no extension that shows its kind [E605]", "this version reads");
+           "glint reads Wavefront OBJ (.obj); a 3D");
+    expect(f, "a", "'a' has no extension that shows its kind [E605]", "glint reads");
 }
 
 static void unreadable_files_say_why(void **state) {

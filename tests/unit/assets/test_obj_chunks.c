@@ -30,7 +30,7 @@ struct reading {
     struct diag_sink sink;
     struct limits limits;
     struct asset_file file;
-    struct obj obj;
+    struct polygons obj;
     bool is_read;
 };
 
@@ -71,7 +71,7 @@ static void assert_bytes(const void *a, const void *b, size_t size) {
         assert_memory_equal(a, b, size);
 }
 
-static void assert_same_obj(const struct obj *a, const struct obj *b) {
+static void assert_same_obj(const struct polygons *a, const struct polygons *b) {
     assert_int_equal(a->vertices.count, b->vertices.count);
     assert_int_equal(a->normals.count, b->normals.count);
     assert_int_equal(a->corners.count, b->corners.count);

@@ -1,0 +1,35 @@
+#include "assets/file/mesh_number.h"
+
+#include <string.h>
+
+enum {
+    WORD_MOST = 1000 // bytes
+};
+
+static bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+// What number_take does not decide: long mantissas, large exponents, and all that is not a number. The
+// language's own grammar finds what is wrong; only leading zeros are removed before.
+static enum number_status slow_number(str word, double *value) {
+    char copy[WORD_MOST + 1];
+    size_t length = 0;
+    size_t at = 0;
+    if (word.len > WORD_MOST)
+        return NUMBER_TOO_LONG;
+    if (at < word.len && (word.ptr[at] == '+' || word.ptr[at] == '-'))
+        copy[length++] = word.ptr[at++];
+    while (at + 1 < word.len && word.ptr[at] == '0' && is_digit(word.ptr[at + 1]))
+        at++;
+    memcpy(copy + length, word.ptr + at, word.len - at);
+    enum number_status status = number_parse((str){copy, length + word.len - at}, value);
+    return status == NUMBER_UNDERFLOW ? NUMBER_OK : status;
+}
+
+enum number_status mesh_number(str word, double *value) {
+    if (word.len && number_take(word, value) == word.len)
+        return NUMBER_OK;
+    *value = 0;
+    return slow_number(word, value);
+}

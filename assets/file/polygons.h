@@ -1,0 +1,113 @@
+// What a mesh file says, as the file has it: the polygons that every reader makes of its format, before they
+// become triangles (assets/mesh_build.h).
+//
+// Units: those of the file; texture coordinates go to the right and upwards, an image from 0 to 1. Ownership:
+// all of it is in one arena and may point into the file's text. Thread safety: plain data.
+#ifndef GLINT_ASSETS_FILE_POLYGONS_H
+#define GLINT_ASSETS_FILE_POLYGONS_H
+
+#include "core/str.h"
+#include "core/vec3.h"
+#include "grammar/ir_value.h"
+
+// The faces of one `usemtl` name (or of none: an empty name), in the order of their first face. Their
+// material depends on the model: struct assets_model.
+struct mesh_group {
+    str name;
+    uint32_t line; // of the first `usemtl` of this name; 0 for the empty name
+};
+
+// A `mtllib` line: one name, or several.
+struct mesh_library {
+    str names; // the text after the word, trimmed
+    uint32_t line;
+};
+
+// What a mesh file says and no picture shows as it is said.
+enum mesh_loss {
+    MESH_LOSS_NOT_FACES, // points, lines, curves and surfaces
+    MESH_LOSS_COLORS,    // of vertices
+    MESH_LOSS_IMAGES,    // of faces
+    MESH_LOSS_SCANNED,   // colours of vertices or faces, in formats whose programs write them unasked
+    MESH_LOSS_REST,      // bytes after the last face
+    MESH_LOSS_BENT,      // faces that are not flat
+    MESH_LOSS_NORMALS,   // corners of faces whose normal has length 0
+    MESH_LOSS_COUNT
+};
+
+struct mesh_loss_count {
+    uint32_t count;
+    uint32_t line; // of the first; 0: of the whole file
+};
+
+static inline void mesh_lose(struct mesh_loss_count *losses, enum mesh_loss what, uint32_t line) {
+    if (losses[what].count++ == 0)
+        losses[what].line = line;
+}
+
+struct polygon_corner {
+    uint32_t vertex; // into vertices
+    uint32_t normal; // into normals; IR_NO_INDEX: none
+};
+
+struct polygon_face {
+    uint32_t first; // into corners; the next face's first ends it
+    uint32_t line;
+    uint32_t group; // into groups
+};
+
+struct polygons {
+    struct {
+        vec3 *items;
+        uint32_t count, capacity;
+    } vertices;
+    struct {
+        vec3 *items;
+        uint32_t count, capacity;
+    } normals; // as written, not unit
+    struct {
+        struct polygon_corner *items;
+        uint32_t count, capacity;
+    } corners;
+    struct {
+        struct polygon_face *items;
+        uint32_t count, capacity;
+    } faces;
+    struct {
+        struct mesh_group *items;
+        uint32_t count, capacity;
+    } groups;
+    struct {
+        struct mesh_library *items;
+        uint32_t count, capacity;
+    } libraries;
+    bool is_binary;                                 // a line is the number of a face, from 1
+    uint64_t triangle_count;                        // that the faces will give
+    struct mesh_loss_count losses[MESH_LOSS_COUNT]; // of what is in lines of their own
+};
+
+// The coordinates of textures, read by themselves and only where an image asks for them.
+struct textured_corner {
+    uint32_t vertex;     // as in polygons
+    uint32_t coordinate; // into coordinates; IR_NO_INDEX: none
+};
+
+struct textured_faces {
+    uint32_t vertex_count;
+    struct {
+        struct ir_pair *items;
+        uint32_t count, capacity;
+    } coordinates;
+    struct {
+        struct textured_corner *items;
+        uint32_t count, capacity;
+    } corners;
+    struct {
+        uint32_t *items; // the first corner of each, in the order of the polygons
+        uint32_t count, capacity;
+    } faces;
+};
+
+#define MESH_COORDINATE_MAX 1e18 // the largest that a vertex may have
+
+#endif

@@ -1,0 +1,62 @@
+// The elements of a PLY file, row by row: where each begins, and its values, from text and from both binary
+// orders.
+//
+// In text a row is a line; empty lines are passed over. ply_walk finds where an element's rows are, and looks
+// only at what it needs for that; a row that was walked over is in the text with all that a binary file has
+// of it. Errors: of the walk, reported; of values, returned. Ownership: starts are in the arena. Thread
+// safety: a cursor belongs to one thread; what was walked is constant.
+#ifndef GLINT_ASSETS_PLY_PLY_ROWS_H
+#define GLINT_ASSETS_PLY_PLY_ROWS_H
+
+#include "assets/ply/ply_header.h"
+#include "core/number.h"
+
+enum {
+    PLY_PIECE = 1 << 14, // rows that one thread reads
+};
+
+struct ply_cursor {
+    const char *at, *end;
+    uint32_t line; // of `at`, in text
+    enum ply_form form;
+};
+
+// Where the rows of an element are.
+struct ply_extent {
+    const struct ply_element *element;
+    struct ply_cursor begin; // of the first row
+    struct ply_start {
+        const char *at;
+        uint32_t line;
+        uint32_t items;  // of the list in all rows before
+    } * starts;          // of each PLY_PIECE rows
+    uint64_t items;      // of the list `list`, in all rows
+    uint32_t items_most; // in one
+    uint32_t list;       // the property whose items are counted; PLY_ABSENT: none
+};
+
+enum ply_status {
+    PLY_OK,
+    PLY_ENDS, // the line or the file ends before
+    PLY_BAD,  // a number that is none: ply_number says why
+};
+
+// Finds the rows of extent->element, whose list `extent->list` counts, from the cursor on, and moves it past
+// them. false: the file ends within them, or a count is none; it was reported.
+bool ply_walk(struct asset_file *file, struct arena *arena, struct ply_cursor *cursor,
+              struct ply_extent *extent);
+// The cursor at the first row of a piece.
+struct ply_cursor ply_piece(const struct ply_extent *extent, size_t piece);
+// At the beginning of a row: passes over empty lines.
+void ply_begin_row(struct ply_cursor *cursor);
+// At its end: past the end of the line. false: words are left in it.
+bool ply_end_row(struct ply_cursor *cursor);
+// The next value; *why is why it is bad, in text.
+enum ply_status ply_number(struct ply_cursor *cursor, enum ply_type type, double *value,
+                           enum number_status *why);
+// The number of a list's items. PLY_BAD: it is no whole number from 0 on.
+enum ply_status ply_count(struct ply_cursor *cursor, enum ply_type type, uint32_t *count);
+// Passes over `count` values; false: there are fewer.
+bool ply_skip(struct ply_cursor *cursor, enum ply_type type, uint64_t count);
+
+#endif
