@@ -1,5 +1,6 @@
 // What accessors hold: numbers of any type, with their sparse values, and the corners of triangles.
 #include "assets/gltf/parts.h"
+#include "core/heap.h"
 
 #include <math.h>
 #include <string.h>
