@@ -122,7 +122,7 @@ static double *decoding(const struct scene *scene) {
     const struct picture *picture = scene->background.picture;
     const bool is_srgb = scene->ir->image.transfer == IR_TRANSFER_SRGB;
     const size_t greatest = picture_greatest(picture->depth);
-    double *decoded = heap_alloc((greatest + 1) * sizeof *decoded);
+    double *decoded = heap_array(greatest + 1, sizeof *decoded);
     for (size_t i = 0; decoded && i <= greatest; i++) {
         const double value = (double)i / (double)greatest;
         decoded[i] = is_srgb ? srgb_decode(value) : value;
@@ -134,8 +134,8 @@ bool sky_fill(const struct scene *scene, struct sky_size size, uint32_t *numbers
     struct filling f = {.picture = scene->background.picture, .size = size, .numbers = numbers};
     const size_t pieces = ((size_t)size.rows + PIECE_ROWS - 1) / PIECE_ROWS;
     const bool decodes = f.picture && f.picture->depth != PICTURE_RGBE;
-    struct rows rows = {&f, heap_alloc(pieces * size.width * sizeof *rows.values)};
-    f.totals = heap_alloc(size.rows * sizeof *f.totals);
+    struct rows rows = {&f, heap_array(heap_times(pieces, size.width), sizeof *rows.values)};
+    f.totals = heap_array(size.rows, sizeof *f.totals);
     f.decoded = decodes ? decoding(scene) : NULL;
     const bool made = rows.values && f.totals && (f.decoded || !decodes);
     *is_black = true;
