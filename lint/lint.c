@@ -45,6 +45,9 @@ const struct lint_rule lint_rules[] = {
     {DIAG_LENS_INSIDE, lint_lens_inside, LINT_ALL},
     // Three values.
     {DIAG_NEVER_ENDS, lint_never_ends, LINT_CHEAP},
+    // One value each.
+    {DIAG_SKY_SAMPLES, lint_sky_samples, LINT_CHEAP},
+    {DIAG_SKY_DARK, lint_sky_dark, LINT_ALL},
     {.run = NULL},
 };
 

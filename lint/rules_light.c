@@ -1,4 +1,4 @@
-// Lights with extent: at too few samples, around bodies and cameras.
+// Lights with extent: at too few samples, around bodies and cameras; ambient light; backgrounds that light.
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
@@ -10,6 +10,13 @@ static const char *extent_row(const struct ir_light *light) {
     if (light->kind == IR_LIGHT_POSITION)
         return light->radius > 0 ? "radius" : NULL;
     return light->angle > 0 ? "angle" : NULL;
+}
+
+static void fix_samples(struct lint *lint, str samples) {
+    const struct ir_image *image = &lint->ir->image;
+    if (image->head.written >> schema_find_row(&SCHEMA_IMAGE, STR("samples")) & 1)
+        diag_fix(lint->sink, false, ir_place_value(lint->origin, &image->head, &SCHEMA_IMAGE, "samples"),
+                 samples);
 }
 
 void lint_few_samples(struct lint *lint) {
@@ -25,10 +32,8 @@ void lint_few_samples(struct lint *lint) {
     const char *others = count > 1 ? ", as those of others" : "";
     diag_add(lint->sink, DIAG_FEW_SAMPLES, at,
              "the shadows of this light have hard edges%s: the image has 1 sample per pixel", others);
-    span samples = ir_place_value(lint->origin, &image->head, &SCHEMA_IMAGE, "samples");
     diag_help(lint->sink, "write image: {samples: 16}, or more");
-    if (image->head.written >> schema_find_row(&SCHEMA_IMAGE, STR("samples")) & 1)
-        diag_fix(lint->sink, false, samples, STR("16"));
+    fix_samples(lint, STR("16"));
 }
 
 // Whether all of the box is within the sphere.
@@ -101,7 +106,7 @@ void lint_ambient(struct lint *lint) {
 }
 
 void lint_emission(struct lint *lint) {
-    if (lint->ir->lights.count || !vec3_is_zero(lint->scene->ambient))
+    if (lint->ir->lights.count || !vec3_is_zero(lint->scene->ambient) || lint->scene->background.lights)
         return;
     for (uint32_t i = 0; i < lint->body_count; i++) {
         const struct lint_body *body = &lint->bodies[i];
@@ -115,4 +120,30 @@ void lint_emission(struct lint *lint) {
             return;
         }
     }
+}
+
+// ---- a background that lights
+
+void lint_sky_samples(struct lint *lint) {
+    const struct ir_scene *ir = lint->ir;
+    if (!lint->scene->background.lights || ir->image.samples > 1 || ir_body_count(ir) == 0)
+        return;
+    diag_add(lint->sink, DIAG_SKY_SAMPLES,
+             ir_place_key(lint->origin, &ir->background.head, &SCHEMA_BACKGROUND, "lights"),
+             "the light of this background looks grainy: the image has 1 sample per pixel");
+    diag_help(lint->sink, "write image: {samples: 64}, or more");
+    fix_samples(lint, STR("64"));
+}
+
+void lint_sky_dark(struct lint *lint) {
+    const struct ir_background *background = &lint->ir->background;
+    const bool has_image = background->kind == IR_BACKDROP_IMAGE && background->intensity > 0;
+    if (!background->lights || lint->scene->background.lights || has_image)
+        return;
+    diag_add(lint->sink, DIAG_SKY_DARK,
+             ir_place_key(lint->origin, &background->head, &SCHEMA_BACKGROUND, "lights"),
+             background->intensity > 0 ? "this background is black and lights nothing"
+                                       : "this background has the intensity 0 and lights nothing");
+    diag_help(lint->sink, background->intensity > 0 ? "write its image or its color, such as color: 0.5"
+                                                    : "write another intensity, or leave it out");
 }

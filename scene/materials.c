@@ -60,6 +60,7 @@ static struct scene_background background_of(const struct ir_background *ir, con
                                  .cosine = turn.m[0][0]};
     if (ir->kind == IR_BACKDROP_COLOR)
         b.color = vec3_mul(scene_linear_color(ir->color, transfer), ir->intensity);
+    b.lights = ir->lights && (b.picture ? ir->intensity > 0 : !vec3_is_zero(b.color));
     return b;
 }
 

@@ -128,11 +128,11 @@ static span scene_place(const struct scene *scene) {
     return origin ? ir_place_label(origin, &scene->ir->head) : SPAN_NONE;
 }
 
-// A scene without lights has one at the camera, unless there is ambient light.
+// A scene without lights has one at the camera, unless there is ambient light or the background lights.
 static void build_lights(const struct scene *scene, struct arena *arena, struct view *out) {
     const struct ir_scene *ir = scene->ir;
     const uint32_t count = ir->lights.count;
-    const bool automatic = count == 0 && vec3_is_zero(scene->ambient);
+    const bool automatic = count == 0 && vec3_is_zero(scene->ambient) && !scene->background.lights;
     out->light_count = automatic ? 1 : count;
     out->lights = ARENA_ARRAY(arena, struct view_light, out->light_count);
     for (uint32_t i = 0; i < count; i++)

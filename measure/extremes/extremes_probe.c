@@ -114,6 +114,7 @@ void probe_gap(struct variant *v, const struct extreme_base *base, double gap) {
     struct view_camera *camera = &v->view.camera;
     const double size = 2 * base->radius;
     v->scene.body_count = 0;
+    v->scene.background.lights = false;
     struct pose pose = {.center = base->center, .size = base->radius};
     pose.normal = vec3_unit((vec3){0.31, 0.87, 0.23});
     pose.right = vec3_unit(vec3_cross(pose.normal, (vec3){0.2, 0.1, 0.97}));

@@ -11,6 +11,7 @@
 #define GLINT_TRACER_FLATTEN_FLATTEN_H
 
 #include "scene/media.h"
+#include "scene/sky.h"
 #include "scene/view.h"
 #include "tracer/bvh/keep.h"
 #include "tracer/gpu_word.h"
@@ -85,8 +86,10 @@ struct flat_scene {
     uint64_t shown_triangles;              // of all models: each instance shows those of its mesh
     uint32_t *first_triangle;              // by body: the number of its first triangle
     uint32_t dropped_triangles;            // without area after rounding
+    struct sky_size sky;                   // rows 0: the background does not light
+    uint32_t sky_table;                    // as in the frame
     double occlusion;                      // of ambient light: flat
-    uint32_t features;                     // FEATURE_ bits that the scene needs
+    uint64_t features;                     // FEATURE_ bits that the scene needs
     uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
     double build_seconds;                  // tree building
 };

@@ -15,7 +15,8 @@
 #define LIGHT_DISTANCE_MAX 0x1p40
 
 enum {
-    PIECE_TEXELS = 65536
+    PIECE_TEXELS = 65536,
+    NUMBERS = sizeof(struct gpu_word) / sizeof(uint32_t),
 };
 
 // ---- materials
@@ -98,12 +99,27 @@ static bool any_extent(const struct view *view) {
     return any;
 }
 
+// After all that lights are: four numbers to a word.
+static bool fill_sky(struct flattening *f) {
+    struct flat_scene *out = f->out;
+    bool is_black = false;
+    if (!out->sky.rows)
+        return true;
+    if (!sky_fill(f->scene, out->sky, (uint32_t *)(out->lights.words + out->sky_table), &is_black))
+        return false;
+    if (is_black)
+        out->sky = (struct sky_size){0, 0, 0};
+    return true;
+}
+
 enum flatten_fault flatten_lights(struct flattening *f) {
     const struct view *view = f->input->view;
     const uint32_t extent_words = !any_extent(view) ? 0 : f->out->is_double ? EXTENT64_WORDS : EXTENT_WORDS;
+    const uint64_t words = (uint64_t)view->light_count * (f->out->strides.light + extent_words);
     f->out->light_count = view->light_count;
-    if (!flat_array_make(&f->out->lights,
-                         (uint64_t)view->light_count * (f->out->strides.light + extent_words)))
+    f->out->sky = sky_size(f->scene);
+    f->out->sky_table = (uint32_t)words;
+    if (!flat_array_make(&f->out->lights, words + sky_count(f->out->sky) / NUMBERS) || !fill_sky(f))
         return FLATTEN_NO_MEMORY;
     struct gpu_word *extents = f->out->lights.words + (size_t)view->light_count * f->out->strides.light;
     for (uint32_t i = 0; i < view->light_count; i++) {
@@ -191,12 +207,12 @@ enum flatten_fault flatten_background(struct flattening *f) {
 
 // ---- features
 
-static uint32_t used_material_features(const struct flattening *f) {
-    uint32_t mask = 0;
+static uint64_t used_material_features(const struct flattening *f) {
+    uint64_t mask = 0;
     for (uint32_t i = 0; i < f->scene->material_count; i++) {
         if (!f->material_used[i])
             continue;
-        uint32_t bits = f->scene->materials[i].features;
+        uint64_t bits = f->scene->materials[i].features;
         // Attenuation is where it is inside a body: flatten_media.c.
         bits &= ~(FEATURE_ATTENUATION | FEATURE_TEXTURES | FEATURE_FOOTPRINT);
         mask |= bits & FEATURE_DIFFUSE ? bits : bits & ~FEATURE_CHECKER;
@@ -205,7 +221,7 @@ static uint32_t used_material_features(const struct flattening *f) {
     return mask;
 }
 
-static uint32_t ambient_features(struct flattening *f) {
+static uint64_t ambient_features(struct flattening *f) {
     const struct scene *scene = f->scene;
     if (vec3_is_zero(scene->ambient))
         return 0;
@@ -213,16 +229,22 @@ static uint32_t ambient_features(struct flattening *f) {
     return FEATURE_AMBIENT | (f->out->occlusion > 0 ? FEATURE_OCCLUSION : 0);
 }
 
+// What only asks for sizes and features has no pixels.
+static bool has_pixels(const struct flattening *f) {
+    const struct picture *picture = f->scene->background.picture;
+    return !picture || picture->pixels;
+}
+
 // What the scene's rows ask for, materials, lights, bodies and background as they turned out.
 void flatten_features(struct flattening *f) {
-    const uint32_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
+    const uint64_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
                          FEATURE_REFLECTION | FEATURE_REFRACTION | FEATURE_CHECKER | FEATURE_SMOOTH |
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
                          FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
-                         FEATURE_EMISSION;
+                         FEATURE_EMISSION | FEATURE_SKY_LIGHT;
     struct flat_scene *out = f->out;
-    uint32_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
+    uint64_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
     mask |= out->sphere_count ? FEATURE_SPHERES : 0;
     mask |= out->normals.count ? FEATURE_SMOOTH : 0;
@@ -230,13 +252,14 @@ void flatten_features(struct flattening *f) {
     mask |= used_material_features(f);
     mask |= f->light_features;
     mask |= ambient_features(f);
+    mask |= out->sky.rows || (f->scene->background.lights && !has_pixels(f)) ? FEATURE_SKY_LIGHT : 0;
     if (!(mask & FEATURE_DIFFUSE))
         mask &= ~(FEATURE_AMBIENT | FEATURE_OCCLUSION);
     if (!(mask & FEATURE_SHADOWS))
         mask &= ~FEATURE_OCCLUSION;
     if (!(mask & (FEATURE_DIFFUSE | FEATURE_SPECULAR)))
         mask &= ~(FEATURE_SHADOWS | FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
-                  FEATURE_SOFT_LIGHT);
+                  FEATURE_SOFT_LIGHT | FEATURE_SKY_LIGHT);
     if (!(mask & (FEATURE_REFLECTION | FEATURE_REFRACTION)))
         mask &= ~(FEATURE_DEPTH_BLACK | FEATURE_FRESNEL);
     if (!(mask & FEATURE_REFRACTION) || !(mask & FEATURE_SHADOWS))

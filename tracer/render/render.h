@@ -41,7 +41,7 @@ struct render_settings {
     double background_rotation; // degrees about +y
     // FEATURE_ bits to compile in: at least those of the flat scene. Those of the renderer (slices,
     // counters, long rays) are added where needed.
-    uint32_t features;
+    uint64_t features;
     uint64_t path_segments;              // LIMIT_PATH_SEGMENTS
     uint32_t slice_iterations;           // SLICE_ITERATIONS of shaders/frame.h; 0: slices of one ray
     enum render_alternative alternative; // in single precision only

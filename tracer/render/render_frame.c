@@ -120,6 +120,10 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .projection = camera->projection,
         .lens_radius = (float)(camera->lens_radius * scale),
         .focus = (float)(camera->focus * scale),
+        .sky_table = flat->sky_table,
+        .sky_width = flat->sky.width,
+        .sky_rows = flat->sky.rows,
+        .sky_stride = flat->sky.stride,
     };
     put_inside(flat, camera, &frame);
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
