@@ -103,7 +103,7 @@ static void load_config(struct session *session) {
     session->config_failed = session->sink.errors > 0;
     limits_fill(&session->options.limits, &session->config.limits);
     diag_sink_keep(&session->sink, (uint32_t)session->options.limits.value[LIMIT_MESSAGES]);
-    session->arena.cap_bytes = (size_t)session->options.limits.value[LIMIT_SCENE_MEMORY];
+    session->arena.cap_bytes = limits_size(&session->options.limits, LIMIT_SCENE_MEMORY);
     session->policy = session->config.policy;
     if (session->options.policy)
         diag_policy_overlay(&session->policy, &session->arena, session->options.policy);
@@ -186,6 +186,7 @@ static void take_image_options(struct session *session) {
     // With fewer samples no pixel could end before the others.
     if (image->samples <= image->min_samples)
         image->error = 0;
+    session->unused_error = image->error > 0 ? 0 : session->scene->image.error;
     session->image = image;
 }
 
@@ -278,7 +279,7 @@ static enum session_state guarded_load(struct session *session, const struct ses
     struct loading loading = {session, store, extent};
     *session = (struct session){.options = *options};
     diag_sink_init(&session->sink);
-    arena_init(&session->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
+    arena_init(&session->arena, limits_size(&options->limits, LIMIT_SCENE_MEMORY));
     run_guarded(session, load, &loading);
     put_in_order(session);
     return session->state;

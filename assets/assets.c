@@ -78,10 +78,10 @@ static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
 // Reads it now, if it was not read ahead.
 static void fill_mesh(struct loader *loader, struct asset_file *file, const struct file_read *identity,
                       struct store_entry *entry) {
-    const size_t cap = (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY];
+    const size_t cap = limits_size(loader->input->limits, LIMIT_MESH_MEMORY);
     struct arena *scratch = &loader->hold->scratch;
-    entry->is_whole = meshes_ahead_take(loader->ahead, identity, &entry->mesh);
-    if (entry->is_whole) {
+    if (meshes_ahead_take(loader->ahead, identity, &entry->mesh)) {
+        store_complete(loader->hold, entry);
         report_mesh(file, &entry->mesh);
         return;
     }
@@ -90,10 +90,10 @@ static void fill_mesh(struct loader *loader, struct asset_file *file, const stru
     const double start = clock_seconds();
     read_mesh_guarded(file, scratch, &entry->mesh);
     timeline_add(loader->input->timeline, "mesh", file->path, start);
-    entry->is_whole = file->errors == 0;
-    if (entry->is_whole)
+    if (file->errors == 0) {
+        store_complete(loader->hold, entry);
         report_mesh(file, &entry->mesh);
-    else
+    } else
         arena_finish(&entry->mesh.arena);
     file->text = STR("");
     arena_finish(scratch);
@@ -275,7 +275,8 @@ void assets_settle(struct assets *assets) {
         asset_report_memory(file, ARENA_FAULT_SYSTEM);
         entry->picture_fault = NULL;
     }
-    entry->is_whole = file->errors == 0;
+    if (file->errors == 0)
+        store_complete(assets->hold, entry);
     assets->background = loader_judge_image(file, entry);
 }
 

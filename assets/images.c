@@ -49,14 +49,15 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
 
 static void read_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry) {
     struct arena *scratch = &loader->hold->scratch;
-    arena_init(scratch, (size_t)file->input->limits->value[LIMIT_IMAGE_BYTES] + ASSET_TEXT_ROOM);
+    arena_init(scratch, limits_size(file->input->limits, LIMIT_IMAGE_BYTES) + ASSET_TEXT_ROOM);
     const double start = clock_seconds();
     if (file->text.len || asset_read(file, scratch))
         decode_image(file, name, entry);
     timeline_add(loader->input->timeline, "image", file->path, start);
     file->text = STR("");
     arena_finish(scratch);
-    entry->is_whole = file->errors == 0;
+    if (file->errors == 0)
+        store_complete(loader->hold, entry);
 }
 
 // An image of which at least as much is known as is asked for.

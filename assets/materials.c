@@ -53,7 +53,7 @@ static bool read_library(struct loader *loader, struct loaded_mesh *loaded, str 
     if (found && (*str_map_at(&loaded->library_paths, identity.path))++)
         return true;
     struct arena *scratch = &loader->hold->scratch;
-    arena_init(scratch, (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY]);
+    arena_init(scratch, limits_size(loader->input->limits, LIMIT_MESH_MEMORY));
     if (found && asset_read(file, scratch))
         read_mtl(file, &loaded->materials);
     file->text = STR("");

@@ -107,7 +107,7 @@ static void read_text(void *context) {
 
 // Of the file that it was, and not of one that has grown since.
 static void begin(struct one *one) {
-    const size_t cap = (size_t)one->input.limits->value[LIMIT_MESH_MEMORY];
+    const size_t cap = limits_size(one->input.limits, LIMIT_MESH_MEMORY);
     arena_init(&one->scratch, cap);
     arena_init(&one->mesh.arena, cap);
     if (arena_guarded(&one->scratch, read_text, one) != ARENA_FAULT_NONE)

@@ -9,6 +9,7 @@
 struct asset_store {
     struct store_entry *entries;
     struct asset_hold *holds;
+    struct asset_reads reads;
 };
 
 struct asset_store *asset_store_create(void) {
@@ -104,6 +105,19 @@ struct store_entry *store_add(struct asset_hold *hold, enum store_kind kind,
     entry->next = hold->store->entries;
     hold->store->entries = entry;
     return entry;
+}
+
+void store_complete(struct asset_hold *hold, struct store_entry *entry) {
+    struct asset_reads *reads = &hold->store->reads;
+    entry->is_whole = true;
+    if (entry->kind == STORE_MESH)
+        reads->meshes++;
+    else
+        reads->images++;
+}
+
+struct asset_reads asset_store_reads(const struct asset_store *store) {
+    return store->reads;
 }
 
 void store_sweep(struct asset_store *store) {

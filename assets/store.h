@@ -49,6 +49,8 @@ struct store_entry *store_find(struct asset_hold *hold, enum store_kind kind,
 // A new entry, referenced by the hold and not whole yet; NULL: no memory.
 struct store_entry *store_add(struct asset_hold *hold, enum store_kind kind,
                               const struct file_read *identity);
+// The entry is whole from now on: what is known of its file will be found again.
+void store_complete(struct asset_hold *hold, struct store_entry *entry);
 // Frees what nothing refers to, and what is not whole.
 void store_sweep(struct asset_store *store);
 

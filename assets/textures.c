@@ -119,7 +119,7 @@ static bool has_file(const struct ir_texture *texture, const struct material_sou
 
 static const struct picture **images_of(struct loader *loader, struct assets *out, uint32_t material) {
     if (!out->images)
-        out->images = arena_alloc(loader->input->arena, loader->materials.count * sizeof *out->images);
+        out->images = arena_alloc_array(loader->input->arena, loader->materials.count, sizeof *out->images);
     return out->images[material];
 }
 
@@ -159,7 +159,7 @@ static void read_guarded(struct loader *loader, struct loaded_mesh *loaded) {
     struct arena *scratch = &loader->hold->scratch;
     struct arena *arenas[] = {scratch, &loaded->own->arena, NULL};
     struct coordinates_reading reading = {&loaded->file, scratch, loaded->own};
-    arena_init(scratch, (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY]);
+    arena_init(scratch, limits_size(loader->input->limits, LIMIT_MESH_MEMORY));
     if (loaded->file.document) {
         gltf_document_guarded(loaded->file.document, arenas, read_coordinates, &reading);
     } else {

@@ -81,6 +81,7 @@ struct cli_options {
     int audit_arg;             // the place of either
     bool check, diff, upgrade; // of what changes files
     bool list;
+    bool watch;
     bool force; // overwrite
     bool changed;
     int changed_arg;            // as output_arg
@@ -102,6 +103,7 @@ struct cli_stream {
 struct cli {
     int argc;
     char **argv;
+    const struct cli_command *commands; // a row without a name at the end
     struct arena arena;
     struct source_set sources; // [1] is the command line
     struct diag_sink sink;     // of the command line itself
@@ -125,9 +127,6 @@ struct cli_command {
     int least_operands, most_operands; // most: -1 means any number
     int (*run)(struct cli *cli);
 };
-
-extern const struct cli_command cli_commands[]; // a row without a name at the end
-const struct cli_command *cli_find_command(const char *name);
 
 // Reads argv into cli->options and cli->operands; mistakes go to cli->sink. `command` NULL: the program's
 // own options only.
@@ -159,6 +158,18 @@ bool cli_read_folder(struct cli *cli, int arg, const char *name, const char *tex
 int cli_read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words);
 // The options of a command (NULL: of the program), one line each.
 void cli_option_help(struct strbuf *out, const struct cli_command *command);
+// An option as --help shows it.
+struct cli_option_text {
+    const char *name;
+    const char *argument; // NULL: none; "[=X]": optional; "a|b": one of these words
+    const char *doc;
+    char letter; // 0: none
+};
+// The option of a command (NULL: of the program) at number `at` or the next one; returns the number after it,
+// 0 if there is none.
+int cli_next_option(const struct cli_command *command, int at, struct cli_option_text *option);
+// What the program does, and its exit status, as --help says it.
+extern const char *const cli_purpose, *const cli_exits;
 
 // Whether a command takes an option.
 bool cli_has_option(const struct cli_command *command, const char *name);
@@ -217,6 +228,7 @@ int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made,
 int cli_try_output(struct cli *cli, const char *path);
 
 int cmd_render(struct cli *cli);
+int cmd_watch(struct cli *cli); // render where --watch was given
 int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);
 int cmd_convert(struct cli *cli);
@@ -234,5 +246,7 @@ int cmd_extremes_random(struct cli *cli); // where --random was given
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);
 int cmd_lsp(struct cli *cli);
+int cmd_manual(struct cli *cli);
+int cmd_version(struct cli *cli); // --version
 
 #endif

@@ -211,11 +211,17 @@ static int run_job(struct render_job *job, struct asset_store *store) {
     struct session_options options = cli_session_options(job->cli, job->cli->operands[0]);
     const bool device = !cli_device_is_reference(job->cli);
     options.lint = LINT_CHEAP;
+    options.error = device ? options.error : -1; // the reference takes all samples
     options.pixels_later = device;
     options.on_text = device && !job->gpu ? begin_device : NULL;
     options.on_text_context = job;
     options.timeline = job->timeline;
     session_load(&job->session, &options, store);
+    if (job->session.sink.errors == 0 && job->session.image && options.error > 0 &&
+        !(job->session.image->error > 0)) {
+        cli_has_no_effect(job->cli, "noise", "no pixel ends before it has image.min_samples");
+        return CLI_USAGE;
+    }
     part_sinks(job);
     const bool goes_on = job->session.unsettled || settle(job) == CLI_OK;
     return goes_on ? render_cameras(job) : job->settled;
@@ -281,6 +287,8 @@ int cmd_render(struct cli *cli) {
             "'--time' works for one frame on a device: without --repeat and '--device reference'");
     if (!noise_fits(&job))
         return CLI_USAGE;
+    if (cli->options.watch)
+        return cmd_watch(cli);
     interrupt_catch();
     strbuf_init(&job.note);
     strbuf_init(&job.audit_note);

@@ -24,6 +24,7 @@ enum option_id {
     OPTION_LIMIT,
     OPTION_CONFIG,
     OPTION_REPEAT,
+    OPTION_WATCH,
     OPTION_STATS,
     OPTION_QUIET,
     OPTION_VERBOSE,
@@ -129,6 +130,8 @@ static const struct option_row rows[] = {
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
+    {OPTION_WATCH, "watch", 0, NULL, "render",
+     "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
      "show times, rays, memory and the device: text on standard error, JSON on standard output; "
      "docs/reports.md describes it"},
@@ -227,6 +230,15 @@ enum {
     ROW_COUNT = sizeof rows / sizeof rows[0]
 };
 
+const char *const cli_purpose =
+    "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
+    "any Vulkan device, including the processor.\n";
+const char *const cli_exits =
+    "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
+    "line cannot be\n"
+    "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
+    "141 the reader of standard output is gone.\n";
+
 static bool belongs(const struct option_row *row, const struct cli_command *command) {
     if (!command)
         return strchr(row->commands, '-') != NULL;
@@ -252,6 +264,15 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command) {
             snprintf(left, sizeof left, "    --%s%s%s", rows[i].name, joint, argument);
         strbuf_format(out, "  %-28s %s\n", left, rows[i].doc);
     }
+}
+
+int cli_next_option(const struct cli_command *command, int at, struct cli_option_text *option) {
+    while (at < ROW_COUNT && !belongs(&rows[at], command))
+        at++;
+    if (at >= ROW_COUNT)
+        return 0;
+    *option = (struct cli_option_text){rows[at].name, rows[at].argument, rows[at].doc, rows[at].letter};
+    return at + 1;
 }
 
 static void append(struct cli *cli, struct cli_list *list, const char *text) {
@@ -290,6 +311,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->no_cache;
     case OPTION_SKIP_PIXELS:
         return &options->skip_pixels;
+    case OPTION_WATCH:
+        return &options->watch;
     case OPTION_AUDIT:
         return &options->audit;
     case OPTION_ALLOW_RESOLUTION:

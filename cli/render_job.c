@@ -149,6 +149,8 @@ int render_note_estimate(struct render_job *job) {
     strbuf_clear(&job->note);
     job->image.note = NULL;
     job->stats.estimate = estimate;
+    job->stats.unused_error = job->session.unused_error;
+    render_tell_unused_error(job);
     if (!estimate)
         return CLI_OK;
     const double pixels = (double)job->image.width * job->image.height;
@@ -161,6 +163,22 @@ int render_note_estimate(struct render_job *job) {
     if (!job->cli->options.quiet)
         fprintf(stderr, "glint: %s\n", job->note.data);
     return CLI_OK;
+}
+
+void render_tell_unused_error(const struct render_job *job) {
+    const struct session *session = &job->session;
+    const struct ir_image *image = &session->scene->image;
+    if (!(session->unused_error > 0) || image->samples <= image->min_samples || job->cli->options.quiet)
+        return;
+    if (cli_device_is_reference(job->cli))
+        fprintf(stderr, "glint: image.error ends no pixel: the reference takes all %d samples of each\n",
+                session->image->samples);
+    else if (session->options.error < 0)
+        fprintf(stderr, "glint: image.error ends no pixel: %s says how many samples all have\n",
+                job->cli->options.measure.time_s > 0 ? "--time" : "the search");
+    else
+        fprintf(stderr, "glint: image.error ends no pixel before it has %d samples, and each takes %d\n",
+                image->min_samples, session->image->samples);
 }
 
 static float aov_of(const struct render_estimate *estimate, int aov, size_t pixel) {
@@ -294,7 +312,7 @@ enum shot_status render_take_frame(struct render_job *job, uint32_t cameras,
     const double time = job->cli->options.measure.time_s, now = clock_seconds();
     if (!(time > 0))
         return shot_take(&job->shot, &job->image, progress, &job->stats.last);
-    const struct render_limit limit = {goes_on, is_over, job};
+    const struct render_limit limit = {.goes_on = goes_on, .is_over = is_over, .context = job};
     // Pictures of several cameras share what is left.
     const double end = job->cli->begun + AIM * time - DISPATCH_SECONDS;
     deadline_begin(&job->deadline, now, now + (end - now) / cameras);

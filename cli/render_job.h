@@ -62,6 +62,8 @@ int render_tell_audit(const struct render_job *job);
 // --aov asks for beside `path`. An exit code.
 int render_note_estimate(struct render_job *job);
 int render_write_aovs(struct render_job *job, const char *path);
+// Says that the scene's image.error ended no pixel, and why; nothing where a finding says so.
+void render_tell_unused_error(const struct render_job *job);
 
 // One frame, that ends in time if the command line says when. `cameras` is how many pictures
 // are still to be made, this one included.

@@ -43,6 +43,7 @@ static void text_of(const struct exact *exact, const struct reference_statistics
 
 static void json_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
     const struct reference_settings *settings = &exact->settings;
+    const double unused_error = exact->session->unused_error;
     struct json_writer w;
     json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
     json_open_report(&w, "glint render --device reference", 1);
@@ -53,6 +54,8 @@ static void json_of(const struct exact *exact, const struct reference_statistics
     json_write_integer(&w, "width", settings->width);
     json_write_integer(&w, "height", settings->height);
     json_write_integer(&w, "samples", settings->samples);
+    if (unused_error > 0)
+        json_write_real(&w, "unused_error", unused_error);
     json_write_real(&w, "seconds", s->seconds);
     json_open_object(&w, "rays");
 #define JSON(words, name, value) json_write_integer(&w, name, value);
@@ -83,6 +86,7 @@ static void tell_end(struct render_job *job, const struct exact *exact, const ch
                      const struct reference_statistics *statistics) {
     if (job->cli->options.quiet)
         return;
+    render_tell_unused_error(job);
     fprintf(stderr,
             "glint: the reference left out at most %.3g of a pixel's weight, which could add %.3g%s\n",
             statistics->left_weight_most, statistics->bound,

@@ -102,7 +102,7 @@ static const struct schema_row image_rows[] = {
     {.name = "height", FIELD(ir_image, height), .example = "1080", .unit = SCHEMA_UNIT_PIXELS,
      .also = "h res_y yres",
      .range = SCHEMA_RANGE_EXTENT, .standard = "768", .doc = "Height of the picture."},
-    {.name = "samples", FIELD(ir_image, samples), .example = "16", .range = SCHEMA_RANGE_SAMPLES,
+    {.name = "samples", FIELD(ir_image, samples), .example = "64", .range = SCHEMA_RANGE_SAMPLES,
      .also = "spp aa antialiasing samples_per_pixel sample_count",
      .standard = "1", .doc = "Rays through each pixel, averaged; more of them smooth edges."},
     {.name = "error", FIELD(ir_image, error), .example = "0.01", .range = SCHEMA_RANGE_FRACTION,
@@ -110,7 +110,7 @@ static const struct schema_row image_rows[] = {
      .standard = "0",
      .doc = "A pixel takes no more samples once the standard error of its displayed colour is at most this; `samples` "
             "is then the most that it takes. 0: all pixels take all samples."},
-    {.name = "min_samples", FIELD(ir_image, min_samples), .example = "32", .range = SCHEMA_RANGE_SAMPLES,
+    {.name = "min_samples", FIELD(ir_image, min_samples), .example = "8", .range = SCHEMA_RANGE_SAMPLES,
      .also = "samples_min min_spp",
      .standard = "16", .doc = "Samples that a pixel takes before `error` may end it."},
     {.name = "tone", FIELD(ir_image, tone), .example = "normalize", .words = tone_words,

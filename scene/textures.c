@@ -1,4 +1,5 @@
 // Images on surfaces: their levels, and how coordinates become places in them.
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "core/srgb.h"
 #include "grammar/ir.h"
@@ -150,7 +151,8 @@ static void make_levels(struct scene_texture *t, struct arena *arena) {
         *next = (struct scene_level){.width = last->width > 1 ? last->width / 2 : 1,
                                      .height = last->height > 1 ? last->height / 2 : 1,
                                      .is_bytes = last->is_bytes};
-        const size_t bytes = (size_t)next->width * next->height * 3 * (next->is_bytes ? 1 : sizeof(float));
+        const size_t pixel_bytes = next->is_bytes ? 3 : 3 * sizeof(float);
+        const size_t bytes = heap_times(heap_times(next->width, next->height), pixel_bytes);
         halving.level = t->level_count;
         halving.pixels = arena_alloc(arena, bytes);
         next->pixels = halving.pixels;

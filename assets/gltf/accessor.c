@@ -1,5 +1,6 @@
 // What accessors hold: numbers of any type, with their sparse values, and the corners of triangles.
 #include "assets/gltf/parts.h"
+#include "core/heap.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,7 +58,7 @@ static uint32_t sparse_index(const struct gltf *gltf, const struct gltf_sparse *
 }
 
 static double *read_elements(const struct gltf *gltf, const struct gltf_accessor *a) {
-    double *out = ARENA_ARRAY(gltf->arena, double, (size_t)a->count * a->components + 1);
+    double *out = ARENA_ARRAY(gltf->arena, double, heap_times(a->count, a->components));
     if (a->view != GLTF_NONE && a->count) {
         const char *at = view_at(gltf, a->view, a->offset);
         const uint32_t stride = gltf_stride(gltf, a);
@@ -198,7 +199,7 @@ uint64_t gltf_triangle_count(const struct gltf *gltf, const struct gltf_primitiv
 static const uint32_t *corners_of(const struct gltf *gltf, const struct gltf_primitive *p,
                                   const double *indices, struct arena *arena) {
     const uint64_t triangles = gltf_triangle_count(gltf, p);
-    uint32_t *out = ARENA_ARRAY(arena, uint32_t, (size_t)(3 * triangles) + 1);
+    uint32_t *out = ARENA_ARRAY(arena, uint32_t, heap_times(3, triangles));
     for (uint64_t t = 0; t < triangles; t++) {
         const uint32_t i = (uint32_t)t, odd = i & 1;
         // As the specification orders them, so that all faces of a strip look the same way.

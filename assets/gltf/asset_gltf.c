@@ -63,7 +63,7 @@ struct gltf_document *gltf_document_open(const struct asset_file *file, const st
     document->file = *file;
     document->file.is_binary = false; // its JSON has lines
     document->report = (struct gltf_report){document, add_finding};
-    arena_init(&document->arena, (size_t)file->input->limits->value[LIMIT_MESH_MEMORY]);
+    arena_init(&document->arena, limits_size(file->input->limits, LIMIT_MESH_MEMORY));
     gltf_document_guarded(document, NULL, open_document, &opening);
     return document;
 }

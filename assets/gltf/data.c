@@ -19,7 +19,7 @@ static unsigned digit_of(char c) {
 }
 
 static bool decode_base64(str text, struct arena *arena, str *out) {
-    unsigned char *bytes = arena_alloc(arena, text.len / 4 * 3 + 3);
+    unsigned char *bytes = arena_alloc_array(arena, text.len / 4 + 1, 3);
     size_t length = 0;
     unsigned bits = 0, held = 0;
     while (text.len && text.ptr[text.len - 1] == '=')

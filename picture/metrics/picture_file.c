@@ -23,11 +23,11 @@ static const char *decode(str bytes, const struct picture_header *header, struct
     const char *fault = picture_decode(bytes, header, &picture);
     if (fault)
         return fault;
-    const size_t pixels = (size_t)picture.width * picture.height;
+    const size_t pixels = heap_times(picture.width, picture.height);
     out->width = picture.width;
     out->height = picture.height;
     out->space = picture.depth == PICTURE_RGBE ? MEASURE_LINEAR : MEASURE_DISPLAYED;
-    out->rgb = heap_alloc(3 * pixels * sizeof *out->rgb);
+    out->rgb = heap_array(heap_times(3, pixels), sizeof *out->rgb);
     for (size_t i = 0; out->rgb && i < pixels; i++)
         for (size_t k = 0; k < 3; k++)
             out->rgb[3 * i + k] = channel(&picture, i, k);

@@ -35,9 +35,9 @@ static const char *read_rows(str bytes, const struct picture_header *header, str
 
 // The rows, each `stride` bytes after the one before; NULL and *fault, or the memory that they are in.
 // It is zeroed, so that no file can show old contents of memory.
-static void *make_rows(str bytes, const struct picture_header *header, size_t size, size_t stride,
+static void *make_rows(str bytes, const struct picture_header *header, uint64_t size, size_t stride,
                        const char **fault) {
-    void *memory = heap_zeroed(1, size);
+    void *memory = heap_zeroed(size, 1);
     *fault = memory ? read_rows(bytes, header, (struct picture_rows){memory, stride}) : picture_no_memory;
     if (!*fault)
         return memory;
@@ -55,7 +55,7 @@ const char *picture_check(str bytes, const struct picture_header *header) {
 const char *picture_decode(str bytes, const struct picture_header *header, struct picture *out) {
     const char *fault;
     *out = picture_of_header(header);
-    out->pixels = make_rows(bytes, header, (size_t)out->size_bytes,
-                            header->width * picture_pixel_bytes(out->depth), &fault);
+    out->pixels =
+        make_rows(bytes, header, out->size_bytes, header->width * picture_pixel_bytes(out->depth), &fault);
     return fault;
 }

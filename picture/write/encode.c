@@ -12,7 +12,7 @@ void image_encode(const struct image *image, enum image_format format, struct im
     } else if (format == IMAGE_HDR) {
         encode_hdr(image->width, image->height, image->rgb, image->note, out);
     } else {
-        uint8_t *bytes = heap_alloc((size_t)3 * image->width * image->height);
+        uint8_t *bytes = heap_array(heap_times(3, image->width), image->height);
         if (bytes) {
             image_to_bytes(image, display, bytes);
             encode_png(image->width, image->height, bytes, image->note, out);

@@ -6,7 +6,7 @@
 
 bool image_init(struct image *image, uint32_t width, uint32_t height) {
     *image = (struct image){.width = width, .height = height};
-    image->rgb = heap_zeroed((size_t)width * height, 3 * sizeof *image->rgb);
+    image->rgb = heap_zeroed(heap_times(width, height), 3 * sizeof *image->rgb);
     return image->rgb != NULL;
 }
 

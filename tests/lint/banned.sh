@@ -16,7 +16,7 @@ allocates='malloc|calloc|realloc|reallocarray|strdup|strndup|aligned_alloc|posix
 code=$(mktemp)
 trap 'rm -f "$code"' EXIT
 # A program that a library's folder holds may do as a program does.
-rooms=$(sed -n 's/^\([a-z][a-z/]*\):.*/\1/p' cmake/rooms.txt | grep -v '^cli$' | tr '\n' '|')
+rooms=$(sed -n 's/^\([a-z][a-z/]*\):.*/\1/p' cmake/rooms.txt | grep -vE '^cli(/|$)' | tr '\n' '|')
 ours "^(${rooms%|})/[^/]*\.[ch]\$" | grep -vE '(^|[/_])main\.c$' | code >"$code"
 {
     ours '\.[ch]$' | code | grep -E "$call($anywhere)[ ]*\(" | sed 's/$/   <- a banned call/' || true

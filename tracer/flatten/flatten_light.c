@@ -178,7 +178,7 @@ enum flatten_fault flatten_background(struct flattening *f) {
     if (!f->out->background_texels.is_float || picture->depth == PICTURE_RGBE)
         return FLATTEN_DONE;
     uint32_t greatest = picture_greatest(picture->depth);
-    float *decoded = heap_alloc(((size_t)greatest + 1) * sizeof *decoded);
+    float *decoded = heap_array((size_t)greatest + 1, sizeof *decoded);
     if (!decoded)
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i <= greatest; i++) {
