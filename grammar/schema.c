@@ -467,7 +467,7 @@ const struct schema_element SCHEMA_MAP_ENTRY = {
 static const struct schema_row model_rows[] = {
     BODY_NAME(ir_model, "dragon"),
     {.name = "mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .text = SCHEMA_TEXT_PATH,
-     .also = "file path filename src geometry obj shape",
+     .also = "file path filename src geometry obj ply stl shape",
      .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file."},
     {.name = "part", FIELD(ir_model, part), .example = "wheel", .text = SCHEMA_TEXT_FOREIGN_NAME,
      .also = "submesh sub_mesh object_name mesh_name",

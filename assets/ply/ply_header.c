@@ -180,9 +180,10 @@ static void report_other(struct asset_file *file) {
                   mesh_formats[id].endings[0]);
 }
 
-// A file cannot hold more elements than it has bytes for: in text each value takes a digit and what ends it.
+// A file cannot hold more elements than it has bytes for: in text each value takes a digit and what ends it,
+// which the last one may lack.
 static void check_counts(struct header_reader *r) {
-    uint64_t left = r->text.len - r->out->bytes + 1;
+    uint64_t left = r->text.len - r->out->bytes + (r->out->form == PLY_TEXT);
     for (uint32_t i = 0; i < r->out->elements.count; i++) {
         const struct ply_element *element = &r->out->elements.items[i];
         const uint64_t least =

@@ -209,7 +209,7 @@ bool ply_walk(struct asset_file *file, struct arena *arena, struct ply_cursor *c
         return true;
     // The header was checked against the size of the file: all these rows are there.
     if (cursor->form != PLY_TEXT && !element->has_lists)
-        return ply_skip(cursor, PLY_INT8, (uint64_t)element->count * element->bytes_least);
+        return ply_skip(cursor, PLY_UINT8, (uint64_t)element->count * element->bytes_least);
     extent->starts = ARENA_ARRAY(arena, struct ply_start, element->count / PLY_PIECE + 1);
     for (uint32_t row = 0; row < element->count; row++) {
         if (row % PLY_PIECE == 0)

@@ -60,8 +60,8 @@ static void refuse(struct loader *loader, span at, str path, str tried, enum fil
 
 // Meshes and images are named by attributes of their own.
 static bool is_other_kind(struct loader *loader, span at, str path) {
-    static const char *const others[] = {".mtl", ".ply", ".stl",  ".gltf", ".glb", ".exr",
-                                         ".bmp", ".tga", ".tiff", ".ppm",  ".pfm", NULL};
+    static const char *const others[] = {".mtl", ".gltf", ".glb", ".exr", ".bmp",
+                                         ".tga", ".tiff", ".ppm", ".pfm", NULL};
     bool is_other = schema_file_fits(SCHEMA_FILE_MESH, path) || schema_file_fits(SCHEMA_FILE_IMAGE, path);
     for (const char *const *ending = others; *ending; ending++)
         is_other = is_other || str_ends_with_nocase(path, *ending);

@@ -87,13 +87,13 @@ expect "--color takes" 2 - '--color takes auto, always or never' "$glint" check 
 
 # What is no scene says what it is.
 printf 'PK\003\004xx' >p.zip
-printf 'ply\nformat ascii 1.0\n' >x.ply
+printf 'ply\nformat ascii 1.0\n' >x.scan
 cp p.zip scene.yaml
 cp "$source/tests/data/image/interlaced.png" sky.png
-printf 'facet' >m.stl
+printf 'facet' >m.off
 printf 'newmtl a\n' >m.mtl
-for case in 'p.zip:a ZIP archive:unpack it' 'scene.yaml:a ZIP archive:unpack it' 'x.ply:a PLY mesh:Wavefront OBJ' \
-    'sky.png:a PNG picture:background' 'm.stl:an STL mesh:Wavefront OBJ' 'm.mtl:a material file of a mesh:name the mesh'; do
+for case in 'p.zip:a ZIP archive:unpack it' 'scene.yaml:a ZIP archive:unpack it' 'x.scan:a PLY mesh:let it end in .ply' \
+    'sky.png:a PNG picture:background' 'm.off:an OFF mesh:glint reads Wavefront OBJ (.obj), PLY (.ply) or STL' 'm.mtl:a material file of a mesh:name the mesh'; do
     file=${case%%:*} rest=${case#*:}
     expect "$file" 3 - "$file:1:1: error: this is ${rest%%:*}, not a scene \[E605\]" "$glint" check "$file"
     also "and what to do" '' "help: .*${rest#*:}"

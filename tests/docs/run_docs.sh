@@ -48,9 +48,10 @@ END
     cp -R "$source/scenes" play/scenes
     (
         cd play || exit 2
-        for mesh in dragon statue pane door; do
+        for mesh in dragon pane door; do
             awk '/^f / && !named++ { print "usemtl Gold" } { print }' gem.obj >$mesh.obj
         done
+        cp "$source/tests/fuzz/seeds/ply/text.ply" statue.ply
         cp "$source/tests/data/image/progressive.jpg" sky.jpg
         cp sky.jpg wood.jpg
         cp scene.yaml old.yaml

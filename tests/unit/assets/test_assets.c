@@ -156,18 +156,19 @@ static void files_outside_are_refused(void **state) {
 
 static void other_kinds_are_named(void **state) {
     struct fixture *f = *state;
-    static const char *const names[] = {"a.ply", "a.STL", "a.gltf", "a.txt", "a", "b.obj"};
+    static const char *const names[] = {"a.off", "a.FBX", "a.dae", "a.txt", "a", "b.obj"};
     for (int i = 0; i < 5; i++) {
         char path[32];
         snprintf(path, sizeof path, "scene/%s", names[i]);
         scratch_write(&f->scratch, path, "ply\n");
     }
-    expect(f, "a.ply", "meshes of the kind '.ply' are not supported [E605]",
-           "glint reads Wavefront OBJ (.obj); a 3D program can convert other meshes");
-    expect(f, "a.STL", "meshes of the kind '.STL' are not supported [E605]", "can convert");
-    expect(f, "a.gltf", "meshes of the kind '.gltf' are not supported [E605]", "can convert");
+    expect(f, "a.off", "meshes of the kind '.off' are not supported [E605]",
+           "glint reads Wavefront OBJ (.obj), PLY (.ply), STL (.stl) or glTF 2.0 (.glb, .gltf); a 3D program "
+           "can convert");
+    expect(f, "a.FBX", "meshes of the kind '.FBX' are not supported [E605]", "can convert");
+    expect(f, "a.dae", "meshes of the kind '.dae' are not supported [E605]", "can convert");
     expect(f, "a.txt", "meshes of the kind '.txt' are not supported [E605]",
-           "glint reads Wavefront OBJ (.obj); a 3D");
+           "glint reads Wavefront OBJ (.obj), PLY");
     expect(f, "a", "'a' has no extension that shows its kind [E605]", "glint reads");
 }
 
