@@ -197,7 +197,7 @@ static bool read_index(struct ply_reading *r, struct ply_cursor *c, enum ply_typ
     if (status != PLY_OK) {
         report_status(r, status, begin, c, why);
     } else if (!(value >= 0 && value < vertex_count(r)) || floor(value) != value) {
-        snprintf(what, sizeof what, "is no vertex: the file has %u, counted from 0", vertex_count(r));
+        snprintf(what, sizeof what, "is not a vertex: the file has %u, counted from 0", vertex_count(r));
         report_value(r, DIAG_MESH_INDEX, begin, c->at, value, what);
     } else {
         *index = (uint32_t)value;
@@ -386,7 +386,7 @@ static bool fits(struct ply_reading *r, const struct ply_extent *extent, enum li
     return false;
 }
 
-static bool open(struct ply_reading *r) {
+static bool begin(struct ply_reading *r) {
     if (!ply_read_header(r->file, r->scratch, &r->header) || !walk(r))
         return false;
     const struct ply_extent *faces = r->faces, *strips = r->strips;
@@ -446,7 +446,7 @@ static void read_all(struct ply_reading *r) {
 void read_ply(struct asset_file *file, struct arena *scratch, struct polygons *out) {
     struct ply_reading r = {.file = file, .scratch = scratch, .out = out};
     *out = (struct polygons){0};
-    if (open(&r))
+    if (begin(&r))
         read_all(&r);
     out->is_binary = file->is_binary;
 }
@@ -521,7 +521,7 @@ void read_ply_coordinates(struct asset_file *file, struct arena *scratch, struct
     struct polygons polygons = {0};
     struct ply_reading r = {.file = file, .scratch = scratch, .out = &polygons};
     *out = (struct textured_faces){0};
-    if (!open(&r))
+    if (!begin(&r))
         return;
     read_all(&r);
     if (file->errors)

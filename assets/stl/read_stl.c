@@ -90,7 +90,7 @@ static bool has_length(struct binary *b) {
         const enum mesh_format_id other = mesh_format_of_text(text);
         if (asset_report_byte(
                 b->file, DIAG_MESH_SYNTAX, 0,
-                "an STL file is a text that begins with 'solid', or has a header of %d bytes; this one "
+                "an STL file begins with 'solid' and is text, or has a header of %d bytes; this one "
                 "has %zu bytes",
                 HEAD_BYTES, text.len) &&
             other != MESH_FORMAT_COUNT)
