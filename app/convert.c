@@ -86,7 +86,7 @@ enum convert_status convert_check(struct session *session, enum convert_spelling
                                         .limits = &session->options.limits,
                                         .arena = &again.arena};
     diag_sink_init(&again.sink);
-    arena_init(&again.arena, (size_t)session->options.limits.value[LIMIT_SCENE_MEMORY]);
+    arena_init(&again.arena, limits_size(&session->options.limits, LIMIT_SCENE_MEMORY));
     enum arena_fault fault = arena_guarded(&again.arena, read_again, &again);
     const struct diag *error = first_error(&again.sink);
     if (fault || (error && error->code == DIAG_OUT_OF_MEMORY))

@@ -67,8 +67,8 @@ static struct reference_fault round_picture(const struct exact *exact, const dou
 enum shot_status exact_take(struct exact *exact, struct image *image, double *rgb,
                             const struct reference_progress *progress,
                             struct reference_statistics *statistics) {
-    size_t count = (size_t)exact->settings.width * exact->settings.height * 3;
-    double *values = rgb ? rgb : heap_alloc(count * sizeof *values);
+    size_t count = heap_times(heap_times(exact->settings.width, exact->settings.height), 3);
+    double *values = rgb ? rgb : heap_array(count, sizeof *values);
     if (!values)
         return shot_no_memory(exact->session, "the reference");
     enum reference_result result =

@@ -224,7 +224,7 @@ static void make_all(void *context) {
 void fixes_make(struct fixes *fixes, const struct session_options *options, enum fix_level level,
                 struct asset_store *store) {
     *fixes = (struct fixes){0};
-    arena_init(&fixes->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
+    arena_init(&fixes->arena, limits_size(&options->limits, LIMIT_SCENE_MEMORY));
     struct fixer f = {.fixes = fixes, .given = options, .options = *options, .level = level, .store = store};
     if (arena_guarded(&fixes->arena, make_all, &f) != ARENA_FAULT_NONE)
         fixes->failed = true;

@@ -73,7 +73,7 @@ static enum layout_status guarded(struct job *job) {
     struct layout *layout = job->layout;
     diag_sink_init(&layout->sink);
     strbuf_init(&layout->result);
-    arena_init(&layout->arena, (size_t)job->limits->value[LIMIT_SCENE_MEMORY]);
+    arena_init(&layout->arena, limits_size(job->limits, LIMIT_SCENE_MEMORY));
     enum arena_fault fault = arena_guarded(&layout->arena, run_job, job);
     if (fault) {
         diag_add(&layout->sink, fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,

@@ -41,8 +41,8 @@ static enum shot_status log_device(struct pick *pick, struct gpu *gpu, uint32_t 
     struct pick_log *out = &pick->logs[PICK_DEVICE];
     struct shot shot;
     enum shot_status status = shot_open(&shot, pick->session, gpu, camera);
-    struct render_segment *segments = heap_alloc(PICK_SEGMENTS_MAX * sizeof *segments);
-    out->segments = heap_alloc(PICK_SEGMENTS_MAX * sizeof *out->segments);
+    struct render_segment *segments = heap_array(PICK_SEGMENTS_MAX, sizeof *segments);
+    out->segments = heap_array(PICK_SEGMENTS_MAX, sizeof *out->segments);
     if (status == SHOT_OK && (!segments || !out->segments))
         status = shot_no_memory(pick->session, "the path");
     struct render_log log = {.segments = segments, .capacity = PICK_SEGMENTS_MAX};
@@ -78,7 +78,7 @@ static enum shot_status log_reference(struct pick *pick, uint32_t camera) {
     enum shot_status status = exact_open(&exact, pick->session, camera, options);
     if (status == SHOT_OK) {
         const struct reference *reference = reference_source_get(&exact.source);
-        out->segments = heap_alloc(PICK_SEGMENTS_MAX * sizeof *out->segments);
+        out->segments = heap_array(PICK_SEGMENTS_MAX, sizeof *out->segments);
         if (reference && out->segments)
             out->count = reference_log(reference, &exact.settings, pick->x, pick->y, pick->sample,
                                        out->segments, PICK_SEGMENTS_MAX, &out->color);
@@ -149,8 +149,7 @@ static bool compare_segments(struct pick *pick, uint32_t device, uint32_t refere
 
 static enum shot_status compare_paths(struct pick *pick) {
     const struct pick_log *logs = pick->logs;
-    uint32_t *twin =
-        heap_alloc(((size_t)logs[PICK_DEVICE].count + 1) * sizeof *twin); // in the reference's log
+    uint32_t *twin = heap_array((size_t)logs[PICK_DEVICE].count + 1, sizeof *twin); // in the reference's log
     if (!twin)
         return shot_no_memory(pick->session, "the path");
     for (uint32_t i = 0; i < logs[PICK_DEVICE].count; i++) {

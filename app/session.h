@@ -76,6 +76,7 @@ struct session {
     struct ir_scene *scene;
     struct ir_origin origin;
     const struct ir_image *image; // the scene's, with the options' size and samples
+    double unused_error;          // what the scene says that no pixel ends by; 0: it says nothing, or they do
     struct assets assets;
     struct scene resolved; // what scene and assets mean together; without assets: nothing
     bool unsettled;        // pixels are still being decoded, and nothing has failed so far

@@ -1,12 +1,14 @@
 // From path and options to a loaded session: the stages one after the other.
 #include "app/around/around.h"
 #include "app/check_allow.h"
+#include "app/import/scene_text.h"
 #include "app/what_file.h"
 #include "core/clock.h"
 #include "core/strbuf.h"
 #include "core/timeline.h"
 #include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
+#include "grammar/mesh_format.h"
 #include "parser/parser.h"
 
 #include <stdlib.h>
@@ -53,28 +55,38 @@ static bool is_another_kind(struct session *session, str path, str text) {
     return true;
 }
 
+static str finished_text(struct session *session, struct strbuf *text) {
+    str copy = arena_copy(&session->arena, strbuf_view(text));
+    strbuf_finish(text);
+    return copy;
+}
+
 // A mesh becomes a scene around it, which nobody wrote.
 static str scene_around_mesh(struct session *session, struct asset_store *store, str path) {
     const struct assets_input input = session_assets_input(session);
-    str around = STR("");
-    if (store && !session->options.text_only)
+    struct strbuf text;
+    str name = path_base(path), around = STR("");
+    const struct import_source source = {&input, store, &session->assets, session->options.width,
+                                         session->options.height};
+    strbuf_init(&text);
+    const bool may_read = store && !session->options.text_only;
+    const bool is_scene =
+        may_read && mesh_format_of_path(path) == MESH_FORMAT_GLTF && import_scene_text(&source, path, &text);
+    if (!is_scene && may_read)
         around = around_text(store, &input, path, session->options.width, session->options.height,
                              &session->assets);
     assets_finish(&session->assets);
+    if (is_scene)
+        return finished_text(session, &text);
     if (around.len)
         return around;
-    struct strbuf text;
-    str name = path_base(path);
-    strbuf_init(&text);
     strbuf_cstr(&text, "glint: 1\nmodels:\n  - mesh: ");
     if (utf8_first_error(name) == name.len)
         print_yaml_text(&text, name, false);
     else
         strbuf_str(&text, name); // the reader says what is wrong with it
     strbuf_char(&text, '\n');
-    str copy = arena_copy(&session->arena, strbuf_view(&text));
-    strbuf_finish(&text);
-    return copy;
+    return finished_text(session, &text);
 }
 
 static struct config_input config_input(struct session *session) {
@@ -91,7 +103,7 @@ static void load_config(struct session *session) {
     session->config_failed = session->sink.errors > 0;
     limits_fill(&session->options.limits, &session->config.limits);
     diag_sink_keep(&session->sink, (uint32_t)session->options.limits.value[LIMIT_MESSAGES]);
-    session->arena.cap_bytes = (size_t)session->options.limits.value[LIMIT_SCENE_MEMORY];
+    session->arena.cap_bytes = limits_size(&session->options.limits, LIMIT_SCENE_MEMORY);
     session->policy = session->config.policy;
     if (session->options.policy)
         diag_policy_overlay(&session->policy, &session->arena, session->options.policy);
@@ -174,6 +186,7 @@ static void take_image_options(struct session *session) {
     // With fewer samples no pixel could end before the others.
     if (image->samples <= image->min_samples)
         image->error = 0;
+    session->unused_error = image->error > 0 ? 0 : session->scene->image.error;
     session->image = image;
 }
 
@@ -266,7 +279,7 @@ static enum session_state guarded_load(struct session *session, const struct ses
     struct loading loading = {session, store, extent};
     *session = (struct session){.options = *options};
     diag_sink_init(&session->sink);
-    arena_init(&session->arena, (size_t)options->limits.value[LIMIT_SCENE_MEMORY]);
+    arena_init(&session->arena, limits_size(&options->limits, LIMIT_SCENE_MEMORY));
     run_guarded(session, load, &loading);
     put_in_order(session);
     return session->state;

@@ -27,6 +27,7 @@ static enum shot_status flatten_shot(struct opening *opening, struct precision_g
     struct session *s = shot->session;
     double start = clock_seconds();
     struct flat_input input = precision_input(s, &shot->view);
+    input.keep = shot->wish.keep;
     input.sharing = gpu_info(shot->gpu)->has_double && !shot->wish.copies ? FLAT_CHEAPER : FLAT_COPIES;
     const struct precision_wish wish = {.counts = shot->wish.counts,
                                         .reference = shot->wish.audits ? &shot->reference : NULL,
@@ -58,7 +59,7 @@ static void show(const void *context, const float *linear, size_t pixels, float 
     image_to_displayed(linear, pixels, *display, shown);
 }
 
-static void set_up(struct shot *shot) {
+void shot_set_up(struct shot *shot) {
     const struct session *session = shot->session;
     shot->settings = render_settings_of(&session->resolved, &shot->flat, &session->options.limits);
     shot->settings.width = (uint32_t)session->image->width;
@@ -96,7 +97,7 @@ static enum shot_status open_shot(struct shot *shot, uint32_t camera) {
     enum shot_status status = flatten_shot(&opening, &gains);
     if (status != SHOT_OK)
         return status;
-    set_up(shot);
+    shot_set_up(shot);
     const double start = clock_seconds(), waited = opening.waited_seconds;
     status = make_renderer(&opening, gains.renderer);
     shot->upload_seconds = clock_seconds() - start - (opening.waited_seconds - waited);
@@ -136,8 +137,10 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
                : where_camera_fits(session, camera, &shot->view) ? SHOT_OK
                                                                  : SHOT_SCENE;
     struct gpu *gpu = shot->gpu;
-    const struct shot_wish wish = {
-        .counts = shot->wish.counts, .audits = shot->wish.audits, .copies = shot->wish.copies};
+    const struct shot_wish wish = {.counts = shot->wish.counts,
+                                   .audits = shot->wish.audits,
+                                   .copies = shot->wish.copies,
+                                   .keep = shot->wish.keep};
     shot_close(shot);
     return shot_open_for(shot, session, gpu, camera, wish);
 }

@@ -26,6 +26,7 @@ struct shot_wish {
     // settles it. false: the shot is not opened. NULL: the session is settled.
     bool (*ready)(void *context);
     void *ready_context;
+    struct bvh_keep *keep; // of the trees, for a scene that changes (app/live); NULL: all are built
 };
 
 struct shot {
@@ -47,6 +48,8 @@ enum shot_status shot_open(struct shot *shot, struct session *session, struct gp
 enum shot_status shot_open_for(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera,
                                struct shot_wish wish);
 void shot_close(struct shot *shot);
+// What the session asks for: the settings and how its picture is displayed, for the flat scene as it is.
+void shot_set_up(struct shot *shot);
 // Reports in the sink that there is no memory for `what`; returns SHOT_SCENE.
 enum shot_status shot_no_memory(struct session *session, const char *what);
 // Looks through another camera of the same session; only the lights of a scene without lights must be

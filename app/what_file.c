@@ -1,6 +1,7 @@
 #include "app/what_file.h"
 
 #include "grammar/mesh_format.h"
+#include "picture/formats/formats.h"
 
 #include <string.h>
 
@@ -38,15 +39,7 @@ static const struct row files[] = {
     {".usdz", NULL, "a USD archive", NULL},
     {".mtl", "newmtl", "a material file of a mesh",
      "name the mesh (.obj), which names its material files itself"},
-    {".png", "\211PNG", "a PNG picture", PICTURE},
-    {".jpg", "\377\330\377", "a JPEG picture", PICTURE},
-    {".jpeg", NULL, "a JPEG picture", PICTURE},
-    {".hdr", "#?RADIANCE", "a Radiance picture", PICTURE},
-    {".pfm", "PF\n", "a PFM picture", PICTURE},
     {".gif", "GIF8", "a GIF picture", "save it as PNG to use it as the 'image' of a background"},
-    {".exr", "v/1\001", "an OpenEXR picture",
-     "save it as Radiance HDR to use it as the 'image' of a background"},
-    {".webp", NULL, "a WebP picture", "save it as PNG to use it as the 'image' of a background"},
     {".pdf", "%PDF", "a PDF document", LANGUAGE},
     {".pov", NULL, "a POV-Ray scene", LANGUAGE},
     {".inc", NULL, "a POV-Ray file", LANGUAGE},
@@ -71,16 +64,35 @@ static bool says_glint(str text) {
     return false;
 }
 
-static const struct row *find(str path, str text) {
-    for (int i = 0; i < FILE_COUNT; i++)
-        if (files[i].magic && str_starts_with(text, str_from(files[i].magic)))
-            return &files[i];
-    if (says_glint(text))
-        return NULL;
-    for (int i = 0; i < FILE_COUNT; i++)
-        if (files[i].ending && str_ends_with_nocase(path, files[i].ending))
-            return &files[i];
-    return NULL;
+// By its first bytes, or, where there is no text, by its ending. A picture that glint knows is in the table
+// of their formats.
+static bool is_picture(str path, str text, struct what_file *out) {
+    for (int i = 0; i < IMAGE_FORMATS; i++) {
+        const struct image_format_info *info = image_format_info((enum image_format)i);
+        bool is = info->magic && str_starts_with(text, str_from(info->magic));
+        for (const char *const *ending = info->endings; !text.len && *ending; ending++)
+            is |= str_ends_with_nocase(path, *ending);
+        if (is) {
+            *out = (struct what_file){str_from(info->what), str_from(PICTURE)};
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_other(str path, str text, struct arena *arena, struct what_file *out) {
+    for (int i = 0; i < FILE_COUNT; i++) {
+        const struct row *row = &files[i];
+        if (text.len ? !row->magic || !str_starts_with(text, str_from(row->magic))
+                     : !row->ending || !str_ends_with_nocase(path, row->ending))
+            continue;
+        *out = (struct what_file){str_from(row->what), str_from(row->advice)};
+        if (!row->advice)
+            out->advice = arena_format(arena, "glint reads %.*s: a 3D program can convert other meshes",
+                                       STR_ARG(mesh_format_words(arena)));
+        return true;
+    }
+    return false;
 }
 
 bool what_file(str path, str text, struct arena *arena, struct what_file *out) {
@@ -93,12 +105,8 @@ bool what_file(str path, str text, struct arena *arena, struct what_file *out) {
                          format->endings[0])};
         return true;
     }
-    const struct row *row = find(path, text);
-    if (!row)
-        return false;
-    *out = (struct what_file){str_from(row->what), str_from(row->advice)};
-    if (!row->advice)
-        out->advice = arena_format(arena, "glint reads %.*s: a 3D program can convert other meshes",
-                                   STR_ARG(mesh_format_words(arena)));
-    return true;
+    const str nothing = STR("");
+    if (text.len && (is_other(path, text, arena, out) || is_picture(path, text, out)))
+        return true;
+    return !says_glint(text) && (is_other(path, nothing, arena, out) || is_picture(path, nothing, out));
 }

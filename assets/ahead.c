@@ -42,9 +42,9 @@ static bool find(struct asset_ahead *ahead, const struct assets_input *input, st
         files_identify(files, ahead->path, &ahead->identity) != FILE_OK ||
         ahead->identity.size_bytes > most || store_find(hold, STORE_PICTURE_KEPT, &ahead->identity))
         return false;
-    arena_init(&ahead->arena, (size_t)most + ASSET_TEXT_ROOM);
+    arena_init(&ahead->arena, limits_size(input->limits, LIMIT_IMAGE_BYTES) + ASSET_TEXT_ROOM);
     return files_read(files, ahead->path, most, &ahead->arena, &ahead->text) == FILE_OK &&
-           !picture_read_header(ahead->text, &ahead->header) && ahead->header.kind != PICTURE_KIND_NONE &&
+           !picture_read_header(ahead->text, &ahead->header) && ahead->header.kind != IMAGE_NONE &&
            picture_memory(&ahead->header, ASSET_TEXEL_BYTES) <= input->limits->value[LIMIT_IMAGE_MEMORY];
 }
 

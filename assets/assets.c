@@ -1,6 +1,7 @@
 #include "assets/assets.h"
 
 #include "assets/ahead.h"
+#include "assets/gltf/asset_gltf.h"
 #include "assets/loader.h"
 #include "assets/mesh_build.h"
 #include "assets/mesh_losses.h"
@@ -48,13 +49,18 @@ struct mesh_reading {
 
 static void read_mesh(void *context) {
     const struct mesh_reading *r = context;
-    if (asset_read(r->file, r->scratch))
+    if (r->file->document || asset_read(r->file, r->scratch))
         mesh_read(r->file, r->scratch, r->mesh);
 }
 
 static void read_mesh_guarded(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
     struct mesh_reading reading = {file, scratch, mesh};
     struct arena *arenas[] = {scratch, &mesh->arena, NULL};
+    if (file->document) {
+        gltf_document_guarded(file->document, arenas, read_mesh, &reading);
+        file->errors += file->document->file.errors;
+        return;
+    }
     enum arena_fault fault = arena_guarded_all(arenas, read_mesh, &reading);
     if (fault)
         asset_report_memory(file, fault);
@@ -72,10 +78,10 @@ static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
 // Reads it now, if it was not read ahead.
 static void fill_mesh(struct loader *loader, struct asset_file *file, const struct file_read *identity,
                       struct store_entry *entry) {
-    const size_t cap = (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY];
+    const size_t cap = limits_size(loader->input->limits, LIMIT_MESH_MEMORY);
     struct arena *scratch = &loader->hold->scratch;
-    entry->is_whole = meshes_ahead_take(loader->ahead, identity, &entry->mesh);
-    if (entry->is_whole) {
+    if (meshes_ahead_take(loader->ahead, identity, &entry->mesh)) {
+        store_complete(loader->hold, entry);
         report_mesh(file, &entry->mesh);
         return;
     }
@@ -84,21 +90,24 @@ static void fill_mesh(struct loader *loader, struct asset_file *file, const stru
     const double start = clock_seconds();
     read_mesh_guarded(file, scratch, &entry->mesh);
     timeline_add(loader->input->timeline, "mesh", file->path, start);
-    entry->is_whole = file->errors == 0;
-    if (entry->is_whole)
+    if (file->errors == 0) {
+        store_complete(loader->hold, entry);
         report_mesh(file, &entry->mesh);
-    else
+    } else
         arena_finish(&entry->mesh.arena);
     file->text = STR("");
     arena_finish(scratch);
 }
 
 static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const struct file_read *identity) {
-    struct store_entry *entry = store_find(loader->hold, STORE_MESH, identity);
+    struct file_read key = *identity; // a part of a file is a mesh of its own
+    if (loaded->part.len)
+        key.path = arena_format(loader->input->arena, "%.*s\n%.*s", STR_ARG(key.path), STR_ARG(loaded->part));
+    struct store_entry *entry = store_find(loader->hold, STORE_MESH, &key);
     if (entry) {
         report_mesh(&loaded->file, &entry->mesh);
     } else {
-        entry = store_add(loader->hold, STORE_MESH, identity);
+        entry = store_add(loader->hold, STORE_MESH, &key);
         if (!entry) {
             asset_report_memory(&loaded->file, ARENA_FAULT_SYSTEM);
             return;
@@ -115,14 +124,15 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     struct file_read identity;
     // Thousands of models may name one mesh: that its file is there was seen when the first of them did.
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
-        if (known->file.named_at.source == at.source && str_equal(known->name, model->mesh)) {
+        if (known->file.named_at.source == at.source && str_equal(known->name, model->mesh) &&
+            str_equal(known->part, model->part)) {
             asset_note_again(&known->file, at, known->name, known->canonical, known->size_bytes);
             return known;
         }
     if (!asset_find(&file, asset_base(input, at), model->mesh, &identity, NULL))
         return NULL;
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
-        if (str_equal(known->canonical, identity.path))
+        if (str_equal(known->canonical, identity.path) && str_equal(known->part, model->part))
             return known;
     if (!assets_is_mesh_path(model->mesh)) {
         report_mesh_kind(&file);
@@ -131,11 +141,14 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     struct loaded_mesh *loaded = ARENA_NEW(input->arena, struct loaded_mesh);
     loaded->file = file;
     loaded->name = model->mesh;
+    loaded->part = model->part;
+    loaded->file.part = model->part;
     loaded->size_bytes = identity.size_bytes;
     loaded->canonical = arena_copy(input->arena, identity.path);
     loaded->next = loader->meshes;
     loader->meshes = loaded;
-    load_mesh(loader, loaded, &identity);
+    if (loader_open_document(loader, &loaded->file, &identity) && loaded->file.errors == 0)
+        load_mesh(loader, loaded, &identity);
     return loaded;
 }
 
@@ -262,7 +275,8 @@ void assets_settle(struct assets *assets) {
         asset_report_memory(file, ARENA_FAULT_SYSTEM);
         entry->picture_fault = NULL;
     }
-    entry->is_whole = file->errors == 0;
+    if (file->errors == 0)
+        store_complete(assets->hold, entry);
     assets->background = loader_judge_image(file, entry);
 }
 
@@ -315,6 +329,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
     out->meshes_ahead = NULL;
     report_unfit(&loader, out);
     loader_load_textures(&loader, out);
+    loader_close_documents(&loader);
     if (has_image)
         out->background = load_background(&loader, out);
     out->materials = loader.materials.items;

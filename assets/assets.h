@@ -27,6 +27,11 @@ struct asset_hold;
 struct timeline;
 
 struct asset_store *asset_store_create(void); // NULL: no memory
+// Files that were read for a store and found to be whole, since it was made: what it had is not among them.
+struct asset_reads {
+    uint32_t meshes, images;
+};
+struct asset_reads asset_store_reads(const struct asset_store *store);
 // All assets that were loaded with the store must be finished before.
 void asset_store_destroy(struct asset_store *store);
 

@@ -28,8 +28,8 @@ static bool fits_memory(struct asset_file *file, str name, const struct store_en
 static void decode_image(struct asset_file *file, str name, struct store_entry *entry) {
     struct picture_header header;
     const char *fault = picture_read_header(file->text, &header);
-    if (header.kind == PICTURE_KIND_NONE) {
-        asset_report_named(file, DIAG_IMAGE_KIND, "'%.*s' is not a PNG, JPEG or Radiance HDR image",
+    if (header.kind == IMAGE_NONE) {
+        asset_report_named(file, DIAG_IMAGE_KIND, "'%.*s' is not a " IMAGE_IN_SCENE_NAMES " image",
                            STR_ARG(name));
         return;
     }
@@ -41,6 +41,7 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
         fault = picture_decode(file->text, &header, &entry->picture);
     else if (!fault && entry->kind == STORE_PICTURE_CHECKED)
         fault = picture_check(file->text, &header);
+    entry->picture.ignored = header.ignored;
     if (fault == picture_no_memory)
         asset_report_memory(file, ARENA_FAULT_SYSTEM);
     else
@@ -49,14 +50,15 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
 
 static void read_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry) {
     struct arena *scratch = &loader->hold->scratch;
-    arena_init(scratch, (size_t)file->input->limits->value[LIMIT_IMAGE_BYTES] + ASSET_TEXT_ROOM);
+    arena_init(scratch, limits_size(file->input->limits, LIMIT_IMAGE_BYTES) + ASSET_TEXT_ROOM);
     const double start = clock_seconds();
-    if (asset_read(file, scratch))
+    if (file->text.len || asset_read(file, scratch))
         decode_image(file, name, entry);
     timeline_add(loader->input->timeline, "image", file->path, start);
     file->text = STR("");
     arena_finish(scratch);
-    entry->is_whole = file->errors == 0;
+    if (file->errors == 0)
+        store_complete(loader->hold, entry);
 }
 
 // An image of which at least as much is known as is asked for.

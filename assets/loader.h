@@ -13,7 +13,7 @@ struct meshes_ahead;
 // A mesh file that models of this scene name.
 struct loaded_mesh {
     struct asset_file file;
-    str name;            // as the first model that names it does
+    str name, part;      // as the first model that names it does
     uint64_t size_bytes; // of the file
     str canonical;
     const struct mesh *mesh; // NULL: it could not be loaded
@@ -41,9 +41,11 @@ struct loaded_image {
 
 // Where a material comes from: the scene, or a line of a material file.
 struct material_source {
-    struct asset_file *file; // NULL: the scene
-    uint32_t line;           // of its image
-    uint32_t kd_line;        // 0: it has no Kd
+    struct asset_file *file;        // NULL: the scene, or a glTF file
+    uint32_t line;                  // of its image
+    uint32_t kd_line;               // 0: it has no Kd
+    struct gltf_document *document; // NULL: of another kind
+    uint32_t image;                 // of the document
 };
 
 enum {
@@ -95,6 +97,12 @@ void loader_load_textures(struct loader *loader, struct assets *out);
 void loader_load_coordinates(struct loader *loader, const struct assets_model *model,
                              struct loaded_mesh *loaded);
 
+// gltf_assets.c: the document of a mesh that is a glTF file, opened when the first model names it; what it
+// loses is told at the end. The material of a group of its mesh; false: it has none.
+bool loader_open_document(struct loader *loader, struct asset_file *file, const struct file_read *identity);
+void loader_close_documents(struct loader *loader);
+bool loader_document_material(const struct loader *loader, struct loaded_mesh *loaded, str group,
+                              struct ir_material *material, struct material_source *source);
 // The material of each group of the model's mesh: material_map, else material, else the material file's,
 // else the default.
 uint32_t *loader_group_materials(struct loader *loader, const struct ir_model *model,

@@ -53,7 +53,7 @@ static bool read_library(struct loader *loader, struct loaded_mesh *loaded, str 
     if (found && (*str_map_at(&loaded->library_paths, identity.path))++)
         return true;
     struct arena *scratch = &loader->hold->scratch;
-    arena_init(scratch, (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY]);
+    arena_init(scratch, limits_size(loader->input->limits, LIMIT_MESH_MEMORY));
     if (found && asset_read(file, scratch))
         read_mtl(file, &loaded->materials);
     file->text = STR("");
@@ -133,13 +133,22 @@ static uint32_t from_library(struct loader *loader, struct loaded_mesh *loaded, 
     if (g->name.len == 0 ||
         !(mesh_formats[mesh_format_of_path(loaded->mesh->path)].traits & MESH_HOLDS_MATERIALS))
         return standard;
+    if (loaded->file.document) {
+        struct ir_material own;
+        struct material_source source;
+        if (!loader_document_material(loader, loaded, g->name, &own, &source))
+            return standard;
+        *loader_add_material(loader, source) = own;
+        return loader->materials.count - 1;
+    }
     if (!loaded->libraries_read)
         read_libraries(loader, loaded);
     const struct ir_material *material = mtl_find(&loaded->materials, g->name);
     if (material) {
         const struct mtl_image *image = &loaded->materials.images.items[material - loaded->materials.items];
-        *loader_add_material(loader, (struct material_source){image->file, image->line, image->kd_line}) =
-            *material;
+        *loader_add_material(loader, (struct material_source){.file = image->file,
+                                                              .line = image->line,
+                                                              .kd_line = image->kd_line}) = *material;
         loader_settle_image(loader, loader->materials.count - 1);
         return loader->materials.count - 1;
     }

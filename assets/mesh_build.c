@@ -2,6 +2,7 @@
 
 #include "assets/mesh_reader.h"
 #include "assets/triangulate.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 
 #include <math.h>
@@ -175,7 +176,7 @@ static void cut_faces(const struct polygons *polygons, const uint32_t *place, st
         if (n > buffer.capacity) {
             buffer.capacity = n > 2 * buffer.capacity ? n : 2 * buffer.capacity;
             buffer.corners = ARENA_ARRAY(scratch, vec3, buffer.capacity);
-            buffer.cuts = ARENA_ARRAY(scratch, uint32_t, 3 * (size_t)buffer.capacity);
+            buffer.cuts = ARENA_ARRAY(scratch, uint32_t, heap_times(3, buffer.capacity));
         }
         for (uint32_t i = 0; i < n; i++)
             buffer.corners[i] = polygons->vertices.items[polygons->corners.items[face->first + i].vertex];

@@ -48,7 +48,7 @@ static void assign(struct assigning *r) {
     struct mesh *mesh = r->mesh;
     const uint32_t *place = place_vertices(r);
     uint32_t triangle = 0;
-    mesh->textured = arena_alloc(&mesh->arena, (size_t)mesh->triangle_count * sizeof *mesh->textured);
+    mesh->textured = arena_alloc_array(&mesh->arena, mesh->triangle_count, sizeof *mesh->textured);
     for (uint32_t f = 0; f < r->faces->faces.count; f++) {
         const uint32_t begin = r->faces->faces.items[f];
         const uint32_t end =
@@ -68,7 +68,7 @@ void mesh_read_coordinates(struct asset_file *file, struct arena *scratch, struc
     const uint32_t before = file->errors;
     struct textured_faces faces = {0};
     if (!reader->coordinates) {
-        mesh->textured = arena_alloc(&mesh->arena, (size_t)mesh->triangle_count * sizeof *mesh->textured);
+        mesh->textured = arena_alloc_array(&mesh->arena, mesh->triangle_count, sizeof *mesh->textured);
         memset(mesh->textured, 0xFF, (size_t)mesh->triangle_count * sizeof *mesh->textured);
         return;
     }

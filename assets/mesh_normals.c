@@ -1,6 +1,8 @@
 // Vertex normals of smooth models.
 #include "assets/mesh.h"
 
+#include "core/heap.h"
+
 #include <math.h>
 
 // Unit normal of a face times its angle at each corner (Thürmer and Wüthrich 1998, "Computing Vertex Normals
@@ -65,7 +67,7 @@ static vec3 unit_or_zero(vec3 sum, double weight) {
 }
 
 vec3 *mesh_smooth_normals(const struct mesh *mesh, struct arena *arena) {
-    vec3 *normals = ARENA_ARRAY(arena, vec3, 3 * (size_t)mesh->triangle_count);
+    vec3 *normals = ARENA_ARRAY(arena, vec3, heap_times(3, mesh->triangle_count));
     struct sums s = {0};
     if (needs_computed(mesh)) {
         s = sum_at_positions(mesh, arena);

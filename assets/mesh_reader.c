@@ -1,5 +1,6 @@
 #include "assets/mesh_reader.h"
 
+#include "assets/gltf/read_gltf.h"
 #include "assets/ply/read_ply.h"
 #include "assets/read_obj.h"
 #include "assets/stl/read_stl.h"

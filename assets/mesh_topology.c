@@ -1,6 +1,7 @@
 // What a mesh encloses: equal positions, edges without their opposite, volume.
 #include "assets/mesh_build.h"
 
+#include "core/heap.h"
 #include "core/parallel.h"
 
 #include <stdlib.h>
@@ -14,8 +15,8 @@ enum {
 };
 
 // `count` items of `size` bytes, not cleared.
-static void *take(struct mesh_room *room, size_t count, size_t size) {
-    const size_t bytes = (count * size + ROOM_ALIGN - 1) / ROOM_ALIGN * ROOM_ALIGN;
+static void *take(struct mesh_room *room, uint64_t count, size_t size) {
+    const size_t bytes = (heap_times(count, size) + ROOM_ALIGN - 1) / ROOM_ALIGN * ROOM_ALIGN;
     for (int i = 0; i < 2; i++) {
         if (room->used[i].left < bytes)
             continue;
@@ -27,8 +28,8 @@ static void *take(struct mesh_room *room, size_t count, size_t size) {
     return arena_alloc_array(room->scratch, count, size);
 }
 
-static void *take_zeroed(struct mesh_room *room, size_t count, size_t size) {
-    return memset(take(room, count, size), 0, count * size);
+static void *take_zeroed(struct mesh_room *room, uint64_t count, size_t size) {
+    return memset(take(room, count, size), 0, heap_times(count, size));
 }
 
 // ---- equal positions
@@ -162,7 +163,7 @@ static uint32_t edges_of(const struct mesh *mesh, uint32_t triangle, struct tria
 void mesh_find_edges(struct mesh *mesh, struct mesh_room *room) {
     // Sorted by their lower end by counting: one pass over memory, where a hash table would jump around.
     uint32_t *first = take_zeroed(room, (size_t)mesh->position_count + 1, sizeof *first);
-    struct half_edge *edges = take(room, 3 * (size_t)mesh->triangle_count, sizeof *edges);
+    struct half_edge *edges = take(room, heap_times(3, mesh->triangle_count), sizeof *edges);
     struct triangle_edge found[3];
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         for (uint32_t k = edges_of(mesh, t, found); k > 0; k--)

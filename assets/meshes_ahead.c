@@ -56,7 +56,8 @@ static void consider(struct meshes_ahead *ahead, const struct loader *loader, co
     const span at = ir_place_value(input->origin, &model->head, &SCHEMA_MODEL, "mesh");
     struct file_read identity;
     str path;
-    if (mesh_format_of_path(model->mesh) == MESH_FORMAT_COUNT || !is_new_name(ahead, model->mesh, at) ||
+    const enum mesh_format_id format = mesh_format_of_path(model->mesh);
+    if (format == MESH_FORMAT_COUNT || format == MESH_FORMAT_GLTF || !is_new_name(ahead, model->mesh, at) ||
         files_resolve(input->files, asset_base(input, at), model->mesh, &path) != FILE_OK ||
         files_identify(input->files, path, &identity) != FILE_OK || identity.size_bytes > GROUP_BYTES ||
         identity.size_bytes > input->limits->value[LIMIT_MESH_BYTES] ||
@@ -106,7 +107,7 @@ static void read_text(void *context) {
 
 // Of the file that it was, and not of one that has grown since.
 static void begin(struct one *one) {
-    const size_t cap = (size_t)one->input.limits->value[LIMIT_MESH_MEMORY];
+    const size_t cap = limits_size(one->input.limits, LIMIT_MESH_MEMORY);
     arena_init(&one->scratch, cap);
     arena_init(&one->mesh.arena, cap);
     if (arena_guarded(&one->scratch, read_text, one) != ARENA_FAULT_NONE)

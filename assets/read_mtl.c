@@ -40,9 +40,9 @@ struct mtl_entry {
     str name;
     str statement; // newmtl and name, in the text
     str tr_statement, tf_statement, illum_statement;
-    double kd[3], ks[3], tf[3];
-    bool has_kd, has_ks, has_tf, has_d, has_tr, has_ns, has_ni;
-    double d, tr, ns, ni;
+    double kd[3], ks[3], ke[3], tf[3];
+    bool has_kd, has_ks, has_ke, has_tf, has_d, has_tr, has_ns, has_ni, has_pr;
+    double d, tr, ns, ni, pr;
     uint32_t illum;
     str image; // of map_Kd, in the text; empty: none
     uint32_t image_line;
@@ -93,10 +93,8 @@ static const struct known_statement {
     const char *word;
     const char *why;
 } known_statements[] = {
-    {"Ka", "there is no ambient light"},
-    {"Ke", "surfaces give no light of their own"},
+    {"Ka", "ambient light is the scene's, and takes the colour of diffuse light"},
     {"sharpness", "reflections are always sharp"},
-    {"Pr", "materials have no roughness"},
     {"Pm", "materials have no metallic part"},
     {"Ps", "materials have no sheen"},
     {"Pc", "materials have no clear coat"},
@@ -126,7 +124,7 @@ static bool is_zero(struct mtl_reader *r) {
 
 static void drop_statement(struct mtl_reader *r, str keyword) {
     if (is_map(keyword)) {
-        drop(r, keyword, "only colours of diffuse light (map_Kd) can be images", true);
+        drop(r, keyword, "of a material file only map_Kd is used", true);
         return;
     }
     const struct known_statement *known = known_statements;
@@ -379,10 +377,14 @@ static void close_entry(struct mtl_reader *r) {
         m->diffuse_color.color = (struct ir_color){.r = e->kd[0], .g = e->kd[1], .b = e->kd[2]};
     if (e->has_ks)
         m->specular_color.color = (struct ir_color){.r = e->ks[0], .g = e->ks[1], .b = e->ks[2]};
+    if (e->has_ke)
+        m->emission = (struct ir_color){.r = e->ke[0], .g = e->ke[1], .b = e->ke[2]};
     if (e->has_ns)
         m->specular_exponent = e->ns;
     if (e->has_ni)
         m->refractive_index = e->ni;
+    if (e->has_pr)
+        m->roughness = e->pr;
     judge_entry(r, m);
     take_image(r, m);
     e->open = false;
@@ -428,6 +430,10 @@ static bool read_attribute(struct mtl_reader *r, str keyword) {
         read_image(r, keyword);
     else if (str_equal_cstr(keyword, "Ks"))
         e->has_ks |= read_color(r, keyword, e->ks);
+    else if (str_equal_cstr(keyword, "Ke"))
+        e->has_ke |= read_color(r, keyword, e->ke);
+    else if (str_equal_cstr(keyword, "Pr"))
+        e->has_pr |= read_range(r, keyword, SCHEMA_RANGE_FRACTION, &e->pr);
     else if (str_equal_cstr(keyword, "Ns"))
         e->has_ns |= read_range(r, keyword, SCHEMA_RANGE_EXPONENT, &e->ns);
     else if (str_equal_cstr(keyword, "Ni"))

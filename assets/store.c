@@ -1,5 +1,6 @@
 #include "assets/store.h"
 
+#include "assets/gltf/asset_gltf.h"
 #include "core/heap.h"
 
 #include <stdlib.h>
@@ -8,6 +9,7 @@
 struct asset_store {
     struct store_entry *entries;
     struct asset_hold *holds;
+    struct asset_reads reads;
 };
 
 struct asset_store *asset_store_create(void) {
@@ -54,6 +56,7 @@ void store_release(struct asset_hold *hold) {
         at = &(*at)->next;
     *at = hold->next;
     arena_finish(&hold->scratch);
+    gltf_documents_finish(hold->documents);
     free(hold->items);
     free(hold);
 }
@@ -102,6 +105,19 @@ struct store_entry *store_add(struct asset_hold *hold, enum store_kind kind,
     entry->next = hold->store->entries;
     hold->store->entries = entry;
     return entry;
+}
+
+void store_complete(struct asset_hold *hold, struct store_entry *entry) {
+    struct asset_reads *reads = &hold->store->reads;
+    entry->is_whole = true;
+    if (entry->kind == STORE_MESH)
+        reads->meshes++;
+    else
+        reads->images++;
+}
+
+struct asset_reads asset_store_reads(const struct asset_store *store) {
+    return store->reads;
 }
 
 void store_sweep(struct asset_store *store) {

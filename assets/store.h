@@ -35,7 +35,8 @@ struct asset_hold {
     struct asset_hold *next;
     struct store_entry **items;
     uint32_t count, capacity;
-    struct arena scratch; // of the file being read
+    struct arena scratch;            // of the file being read
+    struct gltf_document *documents; // of the scene that is being loaded
 };
 
 // NULL: no memory.
@@ -48,6 +49,8 @@ struct store_entry *store_find(struct asset_hold *hold, enum store_kind kind,
 // A new entry, referenced by the hold and not whole yet; NULL: no memory.
 struct store_entry *store_add(struct asset_hold *hold, enum store_kind kind,
                               const struct file_read *identity);
+// The entry is whole from now on: what is known of its file will be found again.
+void store_complete(struct asset_hold *hold, struct store_entry *entry);
 // Frees what nothing refers to, and what is not whole.
 void store_sweep(struct asset_store *store);
 

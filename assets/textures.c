@@ -1,8 +1,10 @@
 // The images that materials name, and the coordinates of meshes that show them.
+#include "assets/gltf/asset_gltf.h"
 #include "assets/loader.h"
 #include "assets/mesh_coordinates.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
+#include "picture/formats/formats.h"
 
 // ---- images
 
@@ -17,7 +19,7 @@ static bool is_found(const struct material_source *source, str name) {
         return true;
     if (asset_report_line(file, DIAG_MTL_DROPPED, source->line, "'map_Kd' has no effect: '%.*s' %s",
                           STR_ARG(name),
-                          exists ? "is not a PNG, JPEG or Radiance HDR image" : "cannot be found"))
+                          exists ? "is not a " IMAGE_IN_SCENE_NAMES " image" : "cannot be found"))
         diag_help(input->sink,
                   exists ? "convert the image, or give the model a 'material'"
                          : "put the image where the material file says, or give the model a 'material'");
@@ -53,6 +55,25 @@ static const struct picture *known_image(const struct loader *loader, str canoni
     return NULL;
 }
 
+struct image_finding {
+    const struct material_source *source;
+    struct asset_file *file;
+    struct file_read *identity;
+    bool found;
+};
+
+static void find_image(void *context) {
+    struct image_finding *f = context;
+    f->found = gltf_document_image(f->source->document, f->source->image, f->file, f->identity);
+}
+
+static bool find_in_document(const struct material_source *source, struct asset_file *file,
+                             struct file_read *identity) {
+    struct image_finding finding = {source, file, identity, false};
+    gltf_document_guarded(source->document, NULL, find_image, &finding);
+    return finding.found;
+}
+
 static const struct picture *load_image(struct loader *loader, struct assets *out,
                                         const struct ir_texture *texture,
                                         const struct material_source *source) {
@@ -62,18 +83,25 @@ static const struct picture *load_image(struct loader *loader, struct assets *ou
     const str base = source->file ? source->file->path : asset_base(input, at);
     struct file_read identity;
     bool is_known;
-    image->file = (struct asset_file){.input = input, .what = "image", .limit = LIMIT_IMAGE_BYTES};
-    image->file.named_in = source->file;
-    image->file.named_line = source->line;
-    if (!source->file)
-        image->file.named_at = at;
-    if (!asset_find(&image->file, base, texture->file, &identity, NULL))
-        return NULL;
+    str name = texture->file;
+    if (source->document) {
+        if (!find_in_document(source, &image->file, &identity))
+            return NULL;
+        name = image->file.path;
+    } else {
+        image->file = (struct asset_file){.input = input, .what = "image", .limit = LIMIT_IMAGE_BYTES};
+        image->file.named_in = source->file;
+        image->file.named_line = source->line;
+        if (!source->file)
+            image->file.named_at = at;
+        if (!asset_find(&image->file, base, name, &identity, NULL))
+            return NULL;
+    }
     const struct picture *known = known_image(loader, identity.path, &is_known);
     if (is_known)
         return known;
     image->canonical = arena_copy(input->arena, identity.path);
-    struct store_entry *entry = loader_read_image(loader, &image->file, texture->file, &identity);
+    struct store_entry *entry = loader_read_image(loader, &image->file, name, &identity);
     if (!entry)
         return NULL;
     image->picture = loader_judge_image(&image->file, entry);
@@ -83,14 +111,16 @@ static const struct picture *load_image(struct loader *loader, struct assets *ou
     return image->picture;
 }
 
-static bool has_file(const struct ir_texture *texture) {
+static bool has_file(const struct ir_texture *texture, const struct material_source *source) {
+    if (source->document)
+        return source->image != GLTF_NONE;
     const uint32_t row = (uint32_t)schema_find_row(&SCHEMA_TEXTURE, STR("file"));
     return texture->file.len && !(texture->head.poisoned >> row & 1);
 }
 
 static const struct picture **images_of(struct loader *loader, struct assets *out, uint32_t material) {
     if (!out->images)
-        out->images = arena_alloc(loader->input->arena, loader->materials.count * sizeof *out->images);
+        out->images = arena_alloc_array(loader->input->arena, loader->materials.count, sizeof *out->images);
     return out->images[material];
 }
 
@@ -98,10 +128,10 @@ void loader_load_textures(struct loader *loader, struct assets *out) {
     for (uint32_t i = 0; i < loader->materials.count; i++) {
         struct ir_material *m = &loader->materials.items[i];
         const struct material_source *source = &loader->sources.items[i];
-        if (m->diffuse_color.kind == IR_PAINT_IMAGE && has_file(&m->diffuse_color.image))
+        if (m->diffuse_color.kind == IR_PAINT_IMAGE && has_file(&m->diffuse_color.image, source))
             images_of(loader, out, i)[ASSETS_DIFFUSE] =
                 load_image(loader, out, &m->diffuse_color.image, source);
-        if (m->specular_color.kind == IR_PAINT_IMAGE && has_file(&m->specular_color.image))
+        if (m->specular_color.kind == IR_PAINT_IMAGE && has_file(&m->specular_color.image, source))
             images_of(loader, out, i)[ASSETS_SPECULAR] =
                 load_image(loader, out, &m->specular_color.image, source);
     }
@@ -122,7 +152,7 @@ struct coordinates_reading {
 
 static void read_coordinates(void *context) {
     const struct coordinates_reading *r = context;
-    if (asset_read(r->file, r->scratch))
+    if (r->file->document || asset_read(r->file, r->scratch))
         mesh_read_coordinates(r->file, r->scratch, r->mesh);
 }
 
@@ -130,10 +160,14 @@ static void read_guarded(struct loader *loader, struct loaded_mesh *loaded) {
     struct arena *scratch = &loader->hold->scratch;
     struct arena *arenas[] = {scratch, &loaded->own->arena, NULL};
     struct coordinates_reading reading = {&loaded->file, scratch, loaded->own};
-    arena_init(scratch, (size_t)loader->input->limits->value[LIMIT_MESH_MEMORY]);
-    const enum arena_fault fault = arena_guarded_all(arenas, read_coordinates, &reading);
-    if (fault)
-        asset_report_memory(&loaded->file, fault);
+    arena_init(scratch, limits_size(loader->input->limits, LIMIT_MESH_MEMORY));
+    if (loaded->file.document) {
+        gltf_document_guarded(loaded->file.document, arenas, read_coordinates, &reading);
+    } else {
+        const enum arena_fault fault = arena_guarded_all(arenas, read_coordinates, &reading);
+        if (fault)
+            asset_report_memory(&loaded->file, fault);
+    }
     loaded->file.text = STR("");
     arena_finish(scratch);
 }

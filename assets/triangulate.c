@@ -1,5 +1,7 @@
 #include "assets/triangulate.h"
 
+#include "core/heap.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -386,7 +388,7 @@ static void reserve(struct triangulator *t, uint32_t n) {
     t->cell_items = ARENA_ARRAY(t->arena, uint32_t, t->capacity);
     t->queue = ARENA_ARRAY(t->arena, uint32_t, t->capacity);
     if (!t->cell_first)
-        t->cell_first = ARENA_ARRAY(t->arena, uint32_t, GRID_SIDE_MAX * GRID_SIDE_MAX + 1);
+        t->cell_first = ARENA_ARRAY(t->arena, uint32_t, heap_times(GRID_SIDE_MAX, GRID_SIDE_MAX) + 1);
 }
 
 void triangulate(struct triangulator *t, const vec3 *corners, uint32_t n, uint32_t *out) {

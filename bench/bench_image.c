@@ -117,7 +117,7 @@ static void tell_difference(const struct job *job) {
 static void measure(const char *path, str bytes) {
     struct job job = {.bytes = bytes};
     const char *fault = picture_read_header(bytes, &job.header);
-    if (fault || job.header.kind == PICTURE_KIND_NONE) {
+    if (fault || job.header.kind == IMAGE_NONE) {
         printf("%s: %s\n", path, fault ? fault : "it is no picture that is read");
         return;
     }
@@ -125,7 +125,7 @@ static void measure(const char *path, str bytes) {
     time_rounds("glint", decode_glint, &job);
     time_rounds("stb_image", decode_stb, &job);
     tell_difference(&job);
-    if (job.header.kind == PICTURE_KIND_JPEG)
+    if (job.header.kind == IMAGE_JPEG)
         for (job.part = 1; job.part <= 8; job.part *= 2) {
             char name[40];
             snprintf(name, sizeof name, "libjpeg-turbo alone, 1/%d", job.part);

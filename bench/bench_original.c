@@ -75,8 +75,8 @@ static bool read_options(int argc, char **argv, struct options *o) {
 
 static bool write_picture(const char *path, const struct image *image, struct image_display display) {
     enum image_format format;
-    if (!image_format_of_path(str_from(path), &format)) {
-        fprintf(stderr, "%s: the output must end in %s\n", path, image_format_endings());
+    if (!image_format_of_path(str_from(path), IMAGE_WRITTEN, &format)) {
+        fprintf(stderr, "%s: the output must end in %s\n", path, IMAGE_WRITTEN_ENDINGS);
         return false;
     }
     struct strbuf file;

@@ -9,6 +9,8 @@
 #include "core/strbuf.h"
 #include "diag/diag.h"
 #include "diag/diag_policy.h"
+#include "picture/formats/formats.h"
+#include "picture/write/image.h"
 
 enum cli_exit {
     CLI_OK = 0,
@@ -41,14 +43,29 @@ enum cli_aov {
 };
 extern const char *const cli_aov_names[CLI_AOVS];
 
+// A picture that render is to write.
+struct cli_output {
+    const char *path; // "-": standard output
+    enum image_format format;
+    int arg; // its place on the command line; 0: it was not given
+};
+
+struct cli_outputs {
+    struct cli_output *items;
+    uint32_t count, capacity;
+};
+
 struct cli_list {
     str *items;
     uint32_t count, capacity;
 };
 
 struct cli_options {
-    const char *output;                     // NULL: not given
+    const char *output;                     // the last that was given; NULL: none
+    struct cli_outputs outputs;             // all of them, in their order
     int32_t width, height, samples, repeat; // 0: not given
+    int32_t depth, quality;                 // of pictures; 0: not given
+    int compression;                        // enum image_compression
     uint32_t aovs;                          // bits of enum cli_aov
     int aov_arg;
     int32_t sample; // of a pixel, from 0
@@ -81,6 +98,8 @@ struct cli_options {
     int audit_arg;             // the place of either
     bool check, diff, upgrade; // of what changes files
     bool list;
+    bool watch;
+    bool force; // overwrite
     bool changed;
     int changed_arg;            // as output_arg
     const char *baseline;       // NULL: not given
@@ -101,6 +120,7 @@ struct cli_stream {
 struct cli {
     int argc;
     char **argv;
+    const struct cli_command *commands; // a row without a name at the end
     struct arena arena;
     struct source_set sources; // [1] is the command line
     struct diag_sink sink;     // of the command line itself
@@ -125,9 +145,6 @@ struct cli_command {
     int (*run)(struct cli *cli);
 };
 
-extern const struct cli_command cli_commands[]; // a row without a name at the end
-const struct cli_command *cli_find_command(const char *name);
-
 // Reads argv into cli->options and cli->operands; mistakes go to cli->sink. `command` NULL: the program's
 // own options only.
 bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first);
@@ -149,6 +166,8 @@ bool cli_take_config(struct cli *cli);
 bool cli_read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least, int64_t most,
                     int32_t *out);
 bool cli_read_aovs(struct cli *cli, int arg, const char *text);
+bool cli_read_depth(struct cli *cli, int arg, const char *text);
+bool cli_read_compression(struct cli *cli, int arg, const char *text);
 bool cli_read_size(struct cli *cli, int arg, const char *text);
 bool cli_read_limit(struct cli *cli, int arg, const char *text);
 bool cli_read_max_messages(struct cli *cli, int arg, const char *text);
@@ -158,6 +177,18 @@ bool cli_read_folder(struct cli *cli, int arg, const char *name, const char *tex
 int cli_read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words);
 // The options of a command (NULL: of the program), one line each.
 void cli_option_help(struct strbuf *out, const struct cli_command *command);
+// An option as --help shows it.
+struct cli_option_text {
+    const char *name;
+    const char *argument; // NULL: none; "[=X]": optional; "a|b": one of these words
+    const char *doc;
+    char letter; // 0: none
+};
+// The option of a command (NULL: of the program) at number `at` or the next one; returns the number after it,
+// 0 if there is none.
+int cli_next_option(const struct cli_command *command, int at, struct cli_option_text *option);
+// What the program does, and its exit status, as --help says it.
+extern const char *const cli_purpose, *const cli_exits;
 
 // Whether a command takes an option.
 bool cli_has_option(const struct cli_command *command, const char *name);
@@ -216,9 +247,11 @@ int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made,
 int cli_try_output(struct cli *cli, const char *path);
 
 int cmd_render(struct cli *cli);
+int cmd_watch(struct cli *cli); // render where --watch was given
 int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);
 int cmd_convert(struct cli *cli);
+int cmd_import(struct cli *cli);
 int cmd_format(struct cli *cli);
 int cmd_diff(struct cli *cli);
 int cmd_schema(struct cli *cli);
@@ -232,5 +265,7 @@ int cmd_extremes_random(struct cli *cli); // where --random was given
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);
 int cmd_lsp(struct cli *cli);
+int cmd_manual(struct cli *cli);
+int cmd_version(struct cli *cli); // --version
 
 #endif

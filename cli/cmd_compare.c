@@ -49,7 +49,7 @@ static int no_memory(struct comparison *c) {
 
 static bool keep_linear(struct comparison *c, int which) {
     const struct picture_file *p = &c->pictures[which];
-    const size_t size = (size_t)p->width * p->height * 3 * sizeof *c->linear;
+    const size_t size = heap_times(heap_times(p->width, p->height), 3 * sizeof *c->linear);
     c->linear = heap_alloc(size);
     if (c->linear)
         memcpy(c->linear, p->rgb, size);
@@ -172,7 +172,7 @@ static int compare(struct comparison *c) {
         return status;
     const struct picture_file *p = c->pictures;
     if (m->heatmap)
-        c->map = heap_alloc((size_t)p[0].width * p[0].height * sizeof *c->map);
+        c->map = heap_array(heap_times(p[0].width, p[0].height), sizeof *c->map);
     if ((m->heatmap && !c->map) ||
         !measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &c->options, &c->result,
                           m->heatmap_flip ? NULL : c->map, m->heatmap_flip ? c->map : NULL))

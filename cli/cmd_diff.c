@@ -153,7 +153,7 @@ int cmd_diff(struct cli *cli) {
     int format = 0;
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;
-    arena_init(&c.arena, (size_t)cli->options.limits.value[LIMIT_SCENE_MEMORY]);
+    arena_init(&c.arena, limits_size(&cli->options.limits, LIMIT_SCENE_MEMORY));
     int first = load(&c, 0), second = load(&c, 1);
     int status = first > second ? first : second;
     if (status == CLI_OK && compare_guarded(&c)) {

@@ -35,7 +35,12 @@ static int judge_load(struct render_job *job) {
         timeline_add(job->timeline, "wait", STR(""), start);
     if (job->session.state != SESSION_LOADED || job->session.sink.errors)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
-    return interrupt_signal() ? render_interrupted(job) : cli_try_output(job->cli, job->output);
+    if (interrupt_signal())
+        return render_interrupted(job);
+    int status = CLI_OK;
+    for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++)
+        status = cli_try_output(job->cli, job->outputs[i].path);
+    return status;
 }
 
 // Waits for the pixels. What the load has to say comes first, and alone if there are errors; then what was
@@ -124,7 +129,7 @@ static int report_stats(struct render_job *job) {
 }
 
 // One camera of those that are left: frames, picture, statistics. The shot is open and uses it.
-static int render_camera(struct render_job *job, const char *path, uint32_t cameras) {
+static int render_camera(struct render_job *job, uint32_t camera, uint32_t cameras) {
     progress_begin(&job->progress, job->cli->options.quiet);
     int status = take_frames(job, cameras);
     if (status == CLI_OK)
@@ -135,9 +140,9 @@ static int render_camera(struct render_job *job, const char *path, uint32_t came
     if (status == CLI_OK)
         status = render_scale_up(job);
     if (status == CLI_OK)
-        status = render_write_picture(job, path);
+        status = render_write_pictures(job, camera);
     if (status == CLI_OK)
-        status = render_write_aovs(job, path);
+        status = render_write_aovs(job, camera);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
     if (status == CLI_OK)
@@ -152,8 +157,7 @@ static int render_camera(struct render_job *job, const char *path, uint32_t came
                 1e3 * job->stats.median_frame_seconds, job->stats.frames,
                 1e3 * job->stats.least_frame_seconds, 1e3 * job->stats.most_frame_seconds,
                 1e3 * job->stats.median_device_seconds, gpu_info(job->gpu)->name);
-    if (strcmp(path, "-") != 0)
-        fprintf(stderr, "glint: wrote %s, %u x %u\n", path, job->image.width, job->image.height);
+    render_tell_written(job, camera);
     return status;
 }
 
@@ -181,7 +185,7 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
             return render_failed(job, opened);
-        status = render_camera(job, render_output_of(job, i), end - i);
+        status = render_camera(job, i, end - i);
     }
     int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
     return status != CLI_OK ? status : reported;
@@ -200,9 +204,13 @@ static int render_cameras(struct render_job *job) {
     if (first == IR_NO_INDEX)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
     if (!good) {
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->output, NULL, "not enough memory for the picture");
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->outputs[0].path, NULL,
+                  "not enough memory for the picture");
         return CLI_SCENE;
     }
+    const int fits = render_judge_size(job);
+    if (fits != CLI_OK)
+        return fits;
     uint32_t end = job->all_cameras ? cameras->count : first + 1;
     return exact ? render_by_reference(job, first, end) : render_by_device(job, first, end);
 }
@@ -211,21 +219,20 @@ static int run_job(struct render_job *job, struct asset_store *store) {
     struct session_options options = cli_session_options(job->cli, job->cli->operands[0]);
     const bool device = !cli_device_is_reference(job->cli);
     options.lint = LINT_CHEAP;
+    options.error = device ? options.error : -1; // the reference takes all samples
     options.pixels_later = device;
     options.on_text = device && !job->gpu ? begin_device : NULL;
     options.on_text_context = job;
     options.timeline = job->timeline;
     session_load(&job->session, &options, store);
+    if (job->session.sink.errors == 0 && job->session.image && options.error > 0 &&
+        !(job->session.image->error > 0)) {
+        cli_has_no_effect(job->cli, "noise", "no pixel ends before it has image.min_samples");
+        return CLI_USAGE;
+    }
     part_sinks(job);
     const bool goes_on = job->session.unsettled || settle(job) == CLI_OK;
     return goes_on ? render_cameras(job) : job->settled;
-}
-
-static int needs_output(struct cli *cli) {
-    int status = cli_usage(cli, cli_operand_place(cli, 0),
-                           "a picture of standard input has no name: say where to write it");
-    diag_help(&cli->sink, "for example -o picture.png, or '-o -' for standard output");
-    return status;
 }
 
 static bool has_useless_option(struct cli *cli) {
@@ -244,7 +251,7 @@ static bool noise_fits(struct render_job *job) {
     else if (m->noise > 0 && cli_device_is_reference(cli))
         cli_usage(cli, m->noise_arg,
                   "the reference takes all samples of all pixels: --noise works on a device");
-    else if (cli->options.aovs && strcmp(job->output, "-") == 0)
+    else if (cli->options.aovs && job->output_count == 1 && render_uses_stdout(job))
         cli_usage(cli, cli->options.aov_arg, "--aov writes files beside the picture: name one with -o");
     else
         return true;
@@ -252,19 +259,10 @@ static bool noise_fits(struct render_job *job) {
 }
 
 int cmd_render(struct cli *cli) {
-    struct render_job job = {.cli = cli, .format = IMAGE_PNG};
-    if (!cli->options.output && cli_is_stream(cli, cli->operands[0]))
-        return needs_output(cli);
-    job.output = cli->options.output ? cli->options.output : cli_default_picture(cli, cli->operands[0]);
-    if (strcmp(job.output, "-") != 0 && strncmp(job.output, "/dev/", 5) != 0 &&
-        !image_format_of_path(str_from(job.output), &job.format))
-        return cli_usage(cli, cli->options.output_arg, "the output '%s' must end in %s", job.output,
-                         image_format_endings());
-    if (strcmp(job.output, "-") == 0 && str_equal(cli->options.camera, STR("all"))) {
-        int status = cli_usage(cli, cli->options.output_arg, "'--camera all' writes a file for each camera");
-        diag_help(&cli->sink, "name a file; only one picture can go to '-'");
-        return status;
-    }
+    struct render_job job = {.cli = cli};
+    const int outputs = render_take_outputs(&job);
+    if (outputs != CLI_OK)
+        return outputs;
     if (cli->options.as_file && !cli_device_is_reference(cli))
         return cli_usage(cli, cli->options.as_file_arg, "'--as-file' works only with '--device reference'");
     if (has_useless_option(cli))
@@ -281,6 +279,8 @@ int cmd_render(struct cli *cli) {
             "'--time' works for one frame on a device: without --repeat and '--device reference'");
     if (!noise_fits(&job))
         return CLI_USAGE;
+    if (cli->options.watch)
+        return cmd_watch(cli);
     interrupt_catch();
     strbuf_init(&job.note);
     strbuf_init(&job.audit_note);

@@ -47,6 +47,14 @@ static const char *driver_variable(void) {
     return NULL;
 }
 
+// A program without devices is what its package is for; what has them is another package.
+static int left_out(struct cli *cli, const char *place, const char *error) {
+    cli_error(cli, DIAG_NO_VULKAN, place,
+              "the package 'glint' draws on devices; 'glint render --device reference' needs none", "%s",
+              error);
+    return CLI_DEVICE;
+}
+
 static int no_vulkan(struct cli *cli, const char *place, const char *error) {
     const char *variable = driver_variable();
     struct strbuf help;
@@ -69,8 +77,9 @@ int cmd_devices(struct cli *cli) {
     struct gpu_device_info *items = ARENA_ARRAY(&cli->arena, struct gpu_device_info, DEVICES_MAX);
     char error[GPU_ERROR_BYTES] = "";
     uint32_t count = 0;
-    if (gpu_list(items, DEVICES_MAX, &count, error) != GPU_OK)
-        return no_vulkan(cli, "devices", error);
+    const enum gpu_status found = gpu_list(items, DEVICES_MAX, &count, error);
+    if (found != GPU_OK)
+        return found == GPU_LEFT_OUT ? left_out(cli, "devices", error) : no_vulkan(cli, "devices", error);
     struct strbuf text;
     strbuf_init(&text);
     for (uint32_t i = 0; i < count && i < DEVICES_MAX; i++) {
@@ -116,7 +125,9 @@ static int report_opening(struct cli *cli, enum gpu_status status, const char *e
     const char *asked = cli->options.device ? "--device" : wanted ? "GLINT_DEVICE" : "device";
     if (status == GPU_OK)
         return CLI_OK;
-    if (status == GPU_NO_DEVICE)
+    if (status == GPU_LEFT_OUT)
+        left_out(cli, "device", error);
+    else if (status == GPU_NO_DEVICE)
         no_device(cli, asked, error);
     else if (status == GPU_NO_LOADER || status == GPU_NO_DRIVER)
         no_vulkan(cli, "device", error);

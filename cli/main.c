@@ -13,9 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define GLINT_VERSION_TEXT "glint " GLINT_VERSION "\n"
-
-const struct cli_command cli_commands[] = {
+static const struct cli_command commands[] = {
     {"render", "SCENE", "render a scene to a picture",
      "SCENE is a scene file (YAML or XML), a mesh (OBJ), or '-' for a scene on standard input. Without -o "
      "the\n"
@@ -49,6 +47,13 @@ const struct cli_command cli_commands[] = {
      "comments). If OUT is in another folder, paths are changed to name the same files.\n\n  glint convert "
      "scene.xml scene.yaml\n",
      2, 2, cmd_convert},
+    {"import", "FILE", "make a scene of a glTF file (.glb, .gltf)",
+     "Writes a scene with a model for each thing that the file shows, its cameras, its lights and its\n"
+     "materials, and beside it the images that the file holds; meshes stay in the file. The scene renders\n"
+     "as 'glint render FILE' does, and is there to be changed. Without -o it is written to the current\n"
+     "folder and named after the file. Files that exist are kept. docs/gltf.md says what becomes of what.\n\n"
+     "  glint import car.glb -o scene.yaml\n",
+     1, 1, cmd_import},
     {"deps", "SCENE...", "list every file that scenes read",
      "One path per line, each once: scene files, includes, meshes, their material files, the background.\n"
      "--format is one of text; json, with the role of each file and the places that name it; and make,\n"
@@ -92,7 +97,8 @@ const struct cli_command cli_commands[] = {
      "  glint explain E206\n  glint explain material.albedo\n  glint explain --list W4xx\n",
      0, 1, cmd_explain},
     {"compare", "PICTURE REFERENCE", "measure how far one picture is from another",
-     "Reads PNG, JPEG, PFM and Radiance HDR pictures of the same size. Two float pictures are compared as\n"
+     "Reads two pictures of the same size: each " IMAGE_COMPARED_NAMES
+     ".\nTwo float pictures are compared as\n"
      "linear values; two 8-bit ones, or one of each kind, as displayed values from 0 to 1 (floats are\n"
      "clamped and encoded, see --tone and --transfer). SSIM and FLIP always use displayed values. --format\n"
      "is text or json. The exit status is 1 if a value is beyond its bound.\n\n"
@@ -127,11 +133,18 @@ const struct cli_command cli_commands[] = {
      "  glint tradeoff scene.yaml --max-error flip=0.02 --max-time 40\n",
      1, 1, cmd_tradeoff},
     {"devices", "", "list the devices that can render", "", 0, 0, cmd_devices},
+    {"manual", "page|bash|zsh|fish [COMMAND]", "print a man page, or completions for a shell",
+     "page: glint(1), or the page of COMMAND, which 'man -l -' shows. bash, zsh, fish: what the shell "
+     "completes\n"
+     "after 'glint'. An installed glint has both in their places.\n\n"
+     "  glint manual page render | man -l -\n"
+     "  eval \"$(glint manual bash)\"\n",
+     1, 2, cmd_manual},
     {0},
 };
 
-const struct cli_command *cli_find_command(const char *name) {
-    for (const struct cli_command *c = cli_commands; c->name; c++)
+static const struct cli_command *find_command(const char *name) {
+    for (const struct cli_command *c = commands; c->name; c++)
         if (strcmp(c->name, name) == 0)
             return c;
     return NULL;
@@ -139,7 +152,7 @@ const struct cli_command *cli_find_command(const char *name) {
 
 static void init(struct cli *cli, int argc, char **argv) {
     struct strbuf text;
-    *cli = (struct cli){.argc = argc, .argv = argv, .begun = clock_seconds()};
+    *cli = (struct cli){.argc = argc, .argv = argv, .commands = commands, .begun = clock_seconds()};
     arena_init(&cli->arena, SIZE_MAX / 2);
     source_set_init(&cli->sources, &cli->arena);
     diag_sink_init(&cli->sink);
@@ -159,22 +172,15 @@ static void init(struct cli *cli, int argc, char **argv) {
 }
 
 static void program_help(struct strbuf *out) {
-    strbuf_cstr(
-        out,
-        "Usage: glint COMMAND [OPTION]...\n\n"
-        "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
-        "any Vulkan device, including the processor.\n\nCommands:\n");
-    for (const struct cli_command *c = cli_commands; c->name; c++)
+    strbuf_format(out, "Usage: glint COMMAND [OPTION]...\n\n%s\nCommands:\n", cli_purpose);
+    for (const struct cli_command *c = commands; c->name; c++)
         strbuf_format(out, "  %-10s %s\n", c->name, c->summary);
     strbuf_cstr(out, "\nOptions:\n");
     cli_option_help(out, NULL);
     strbuf_cstr(out, "\n'glint COMMAND --help' shows more about a command. An option whose value is followed "
                      "by '...' may be\n"
-                     "given several times.\n"
-                     "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
-                     "line cannot be\n"
-                     "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
-                     "141 the reader of standard output is gone.\n");
+                     "given several times.\n");
+    strbuf_cstr(out, cli_exits);
 }
 
 static void command_help(struct strbuf *out, const struct cli_command *command) {
@@ -213,7 +219,7 @@ static int show_limits(struct cli *cli) {
 
 static int unknown_command(struct cli *cli, int arg) {
     struct nearest search = nearest_begin(str_from(cli->argv[arg]));
-    for (const struct cli_command *c = cli_commands; c->name; c++)
+    for (const struct cli_command *c = commands; c->name; c++)
         nearest_offer(&search, str_from(c->name));
     int status = cli_usage(cli, arg, "there is no command '%s'", cli->argv[arg]);
     if (nearest_best(&search).len)
@@ -267,7 +273,7 @@ static int run(struct cli *cli) {
     if (cli->argv[1][0] == '-') {
         bool good = cli_parse_options(cli, NULL, 1);
         if (good && cli->options.version)
-            return cli_print(cli, STR(GLINT_VERSION_TEXT));
+            return cmd_version(cli);
         if (good && cli->options.help)
             return show_help(cli, NULL);
         return good ? cli_usage(cli, 1, "a command is needed before its options") : CLI_USAGE;
@@ -275,7 +281,7 @@ static int run(struct cli *cli) {
     bool help = strcmp(cli->argv[1], "help") == 0;
     if (help && cli->argc == 2)
         return show_help(cli, NULL);
-    const struct cli_command *command = cli_find_command(cli->argv[help ? 2 : 1]);
+    const struct cli_command *command = find_command(cli->argv[help ? 2 : 1]);
     if (!command)
         return unknown_command(cli, help ? 2 : 1);
     return help ? show_help(cli, command) : run_command(cli, command);

@@ -24,6 +24,7 @@ enum option_id {
     OPTION_LIMIT,
     OPTION_CONFIG,
     OPTION_REPEAT,
+    OPTION_WATCH,
     OPTION_STATS,
     OPTION_QUIET,
     OPTION_VERBOSE,
@@ -50,6 +51,10 @@ enum option_id {
     OPTION_BASE,
     OPTION_COLOR,
     OPTION_ALLOW_RESOLUTION,
+    OPTION_FORCE,
+    OPTION_DEPTH,
+    OPTION_QUALITY,
+    OPTION_COMPRESSION,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -64,8 +69,14 @@ struct option_row {
 };
 
 static const struct option_row rows[] = {
-    {OPTION_OUTPUT, "output", 'o', "FILE", "render",
-     "write to FILE (.png .pfm .hdr); '-' writes PNG to standard output"},
+    {OPTION_OUTPUT, "output", 'o', "FILE ...", "render",
+     "write to FILE (" IMAGE_WRITTEN_ENDINGS
+     "); '-' writes PNG to standard output; several are rendered once"},
+    {OPTION_DEPTH, "depth", 0, "N", "render",
+     "bits per channel: 16 for PNG instead of 8, or for OpenEXR (half) instead of 32 (float)"},
+    {OPTION_QUALITY, "quality", 0, "N", "render",
+     "of JPEG and WebP: from 1 to 100, instead of 90; WebP is lossless at 100"},
+    {OPTION_COMPRESSION, "compression", 0, "KIND", "render", "of OpenEXR: zip (the default), piz or none"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "tradeoff",
      "write the report with its plot and pictures to FILE (.html)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "check",
@@ -88,6 +99,9 @@ static const struct option_row rows[] = {
      "fail if single precision is chosen for more random scenes where it is wrong, instead of 0"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_NEEDLESS, "max-needless", 0, "X", "extremes",
      "fail if a larger share of the double precision chosen is not needed, instead of 0.05"},
+    {OPTION_OUTPUT, "output", 'o', "FILE", "import",
+     "write the scene to FILE (.yaml .yml .json .xml); '-' writes YAML to standard output, and no images"},
+    {OPTION_FORCE, "force", 0, NULL, "import", "overwrite files that exist"},
     {OPTION_SIZE, "size", 0, "WxH", "render inspect pick tradeoff extremes",
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render inspect tradeoff",
@@ -115,16 +129,18 @@ static const struct option_row rows[] = {
     {OPTION_SKIP_PIXELS, "skip-pixels", 0, NULL, "check inspect",
      "read only the headers of images, which is faster; damaged pixels are not found"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR ...",
-     "render pick check inspect convert deps pack tradeoff extremes",
+     "render pick check inspect convert deps pack tradeoff extremes import",
      "another folder in which to look for files of the scene"},
     {OPTION_LIMIT, "limit", 0, "NAME=VALUE ...",
-     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp",
+     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp import",
      "change a limit on the size of inputs; '--limit help' lists them"},
     {OPTION_CONFIG, "config", 0, "FILE",
-     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp",
+     "render pick check inspect format diff convert deps pack compare tradeoff extremes lsp import",
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
+    {OPTION_WATCH, "watch", 0, NULL, "render",
+     "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
      "show times, rays, memory and the device: text on standard error, JSON on standard output; "
      "docs/reports.md describes it"},
@@ -132,7 +148,7 @@ static const struct option_row rows[] = {
      "say at most what share of the picture's pixels is off, in the file too; --stats does so as well"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_OFF, "max-off", 0, "X", "render",
      "fail if more than this share of the pixels is off; the audit goes on until it is sure"},
-    {OPTION_QUIET, "quiet", 'q', NULL, "render extremes check tradeoff",
+    {OPTION_QUIET, "quiet", 'q', NULL, "render extremes check tradeoff import",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
@@ -223,6 +239,15 @@ enum {
     ROW_COUNT = sizeof rows / sizeof rows[0]
 };
 
+const char *const cli_purpose =
+    "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
+    "any Vulkan device, including the processor.\n";
+const char *const cli_exits =
+    "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
+    "line cannot be\n"
+    "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
+    "141 the reader of standard output is gone.\n";
+
 static bool belongs(const struct option_row *row, const struct cli_command *command) {
     if (!command)
         return strchr(row->commands, '-') != NULL;
@@ -248,6 +273,15 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command) {
             snprintf(left, sizeof left, "    --%s%s%s", rows[i].name, joint, argument);
         strbuf_format(out, "  %-28s %s\n", left, rows[i].doc);
     }
+}
+
+int cli_next_option(const struct cli_command *command, int at, struct cli_option_text *option) {
+    while (at < ROW_COUNT && !belongs(&rows[at], command))
+        at++;
+    if (at >= ROW_COUNT)
+        return 0;
+    *option = (struct cli_option_text){rows[at].name, rows[at].argument, rows[at].doc, rows[at].letter};
+    return at + 1;
 }
 
 static void append(struct cli *cli, struct cli_list *list, const char *text) {
@@ -276,6 +310,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->ir;
     case OPTION_LIST:
         return &options->list;
+    case OPTION_FORCE:
+        return &options->force;
     case OPTION_CHANGED:
         return &options->changed;
     case OPTION_AS_FILE:
@@ -284,6 +320,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->no_cache;
     case OPTION_SKIP_PIXELS:
         return &options->skip_pixels;
+    case OPTION_WATCH:
+        return &options->watch;
     case OPTION_AUDIT:
         return &options->audit;
     case OPTION_ALLOW_RESOLUTION:
@@ -360,6 +398,12 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         return cli_read_count(cli, arg, "samples", value, 1, 4096, &options->samples);
     case OPTION_AOV:
         return cli_read_aovs(cli, arg, value);
+    case OPTION_DEPTH:
+        return cli_read_depth(cli, arg, value);
+    case OPTION_QUALITY:
+        return cli_read_count(cli, arg, "quality", value, 1, IMAGE_QUALITY_MOST, &options->quality);
+    case OPTION_COMPRESSION:
+        return cli_read_compression(cli, arg, value);
     case OPTION_SAMPLE:
         return cli_read_count(cli, arg, "sample", value, 0, 4095, &options->sample);
     case OPTION_CAMERA:
@@ -414,6 +458,9 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
         *flag = true;
     if (text)
         *text = value;
+    if (row->id == OPTION_OUTPUT)
+        *(struct cli_output *)ARENA_PUSH(&cli->arena, &cli->options.outputs) =
+            (struct cli_output){.path = value, .arg = arg};
     return flag || text || apply_value(cli, arg, row->id, value);
 }
 

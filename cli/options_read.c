@@ -24,6 +24,24 @@ bool cli_read_count(struct cli *cli, int arg, const char *name, const char *text
     return true;
 }
 
+bool cli_read_depth(struct cli *cli, int arg, const char *text) {
+    static const char *const words[] = {"8", "16", "32", NULL};
+    static const int32_t bits[] = {8, 16, 32};
+    const int word = cli_read_word(cli, arg, "depth", text, words);
+    if (word >= 0)
+        cli->options.depth = bits[word];
+    return word >= 0;
+}
+
+bool cli_read_compression(struct cli *cli, int arg, const char *text) {
+    static const char *const words[] = {
+        [IMAGE_ZIP] = "zip", [IMAGE_PIZ] = "piz", [IMAGE_UNCOMPRESSED] = "none", NULL};
+    const int word = cli_read_word(cli, arg, "compression", text, words);
+    if (word >= 0)
+        cli->options.compression = word;
+    return word >= 0;
+}
+
 bool cli_read_size(struct cli *cli, int arg, const char *text) {
     const char *x = strpbrk(text, "xX");
     int64_t width = 0;

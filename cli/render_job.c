@@ -9,27 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 
-// Without its ending.
-static str stem_of(str path) {
-    size_t dot = path.len;
-    while (dot > 0 && path.ptr[dot - 1] != '.')
-        dot--;
-    return str_slice(path, 0, dot ? dot - 1 : path.len);
-}
-
-// OUT.NAME.png for OUT.png.
-static const char *camera_output(struct render_job *job, str camera) {
-    str path = str_from(job->output);
-    const str stem = stem_of(path);
-    return arena_format(&job->cli->arena, "%.*s.%.*s%s", STR_ARG(stem), STR_ARG(camera), path.ptr + stem.len)
-        .ptr;
-}
-
-const char *render_output_of(struct render_job *job, uint32_t camera) {
-    return job->all_cameras ? camera_output(job, job->session.scene->cameras.items[camera].name)
-                            : job->output;
-}
-
 int render_interrupted(struct render_job *job) {
     progress_end(&job->progress);
     return cli_interrupted(job->cli);
@@ -50,7 +29,8 @@ int render_scale_up(struct render_job *job) {
     if (!m->scale_width)
         return CLI_OK;
     if (!image_init(&large, m->scale_width, m->scale_height)) {
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->output, NULL, "not enough memory for the picture");
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->outputs[0].path, NULL,
+                  "not enough memory for the picture");
         return CLI_SCENE;
     }
     scale_picture(job->image.rgb, job->image.width, job->image.height, large.rgb, large.width, large.height);
@@ -64,32 +44,10 @@ int render_scale_up(struct render_job *job) {
 }
 
 int render_tell_stats(const struct render_job *job, str text) {
-    if (job->cli->options.stats == CLI_STATS_JSON && strcmp(job->output, "-") != 0)
+    if (job->cli->options.stats == CLI_STATS_JSON && !render_uses_stdout(job))
         return cli_print(job->cli, text);
     cli_write_error(text);
     return CLI_OK;
-}
-
-int render_write_picture(struct render_job *job, const char *path) {
-    struct strbuf file;
-    struct image_display display = {job->session.image->tone, job->session.image->transfer};
-    strbuf_init(&file);
-    double start = clock_seconds();
-    image_encode(&job->image, job->format, display, &file);
-    job->stats.encode_seconds = clock_seconds() - start;
-    timeline_add(job->timeline, "encode", str_from(path), start);
-    int status = CLI_OK;
-    if (file.failed) {
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
-        status = CLI_FILE;
-    } else {
-        start = clock_seconds();
-        status = cli_write(job->cli, path, strbuf_view(&file));
-        timeline_add(job->timeline, "write", str_from(path), start);
-    }
-    job->written = clock_seconds();
-    strbuf_finish(&file);
-    return status;
 }
 
 // ---- a picture states its own error: --audit, --max-off and --stats
@@ -98,14 +56,10 @@ bool render_wants_audit(const struct cli_options *options) {
     return options->audit || options->has_max_off || options->stats;
 }
 
-static const struct render_estimate *estimate_of(const struct render_job *job) {
-    return job->shot.settings.error > 0 ? renderer_estimate(job->shot.renderer) : NULL;
-}
-
 static struct audit_wish wish_of(const struct render_job *job) {
     const struct cli_options *options = &job->cli->options;
     // With --time it is not decided: that may take any time.
-    const struct render_estimate *estimate = estimate_of(job);
+    const struct render_estimate *estimate = render_estimate_of(job);
     return (struct audit_wish){.reference = job->shot.reference,
                                .samples = estimate ? estimate->samples : NULL,
                                .share = options->has_max_off ? options->max_off : AUDIT_SHARE,
@@ -135,7 +89,7 @@ int render_audit(struct render_job *job) {
 // ---- a picture states its noise: --noise and image.error
 
 int render_note_estimate(struct render_job *job) {
-    const struct render_estimate *estimate = estimate_of(job);
+    const struct render_estimate *estimate = render_estimate_of(job);
     struct cli *cli = job->cli;
     if (cli->options.aovs && !estimate) {
         progress_end(&job->progress);
@@ -149,6 +103,8 @@ int render_note_estimate(struct render_job *job) {
     strbuf_clear(&job->note);
     job->image.note = NULL;
     job->stats.estimate = estimate;
+    job->stats.unused_error = job->session.unused_error;
+    render_tell_unused_error(job);
     if (!estimate)
         return CLI_OK;
     const double pixels = (double)job->image.width * job->image.height;
@@ -163,42 +119,20 @@ int render_note_estimate(struct render_job *job) {
     return CLI_OK;
 }
 
-static float aov_of(const struct render_estimate *estimate, int aov, size_t pixel) {
-    return aov == CLI_AOV_ERROR ? estimate->error[pixel] : (float)estimate->samples[pixel];
-}
-
-static int write_aov(struct render_job *job, const struct render_estimate *estimate, const char *path,
-                     int aov) {
-    struct image image;
-    struct strbuf file;
-    const str whole = str_from(path);
-    if (!image_init(&image, job->image.width, job->image.height)) {
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory for '%s'", cli_aov_names[aov]);
-        return CLI_SCENE;
-    }
-    for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++)
-        image.rgb[i] = aov_of(estimate, aov, i / 3);
-    strbuf_init(&file);
-    image_encode(&image, IMAGE_PFM, (struct image_display){0}, &file);
-    const str stem = stem_of(whole);
-    const str name = arena_format(&job->cli->arena, "%.*s.%s.pfm", STR_ARG(stem), cli_aov_names[aov]);
-    const int status = file.failed ? CLI_FILE : cli_write(job->cli, name.ptr, strbuf_view(&file));
-    if (file.failed)
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, name.ptr, NULL, "not enough memory to encode the picture");
-    else if (status == CLI_OK && !job->cli->options.quiet)
-        fprintf(stderr, "glint: wrote %s, %u x %u\n", name.ptr, image.width, image.height);
-    strbuf_finish(&file);
-    image_finish(&image);
-    return status;
-}
-
-int render_write_aovs(struct render_job *job, const char *path) {
-    const struct render_estimate *estimate = estimate_of(job);
-    int status = CLI_OK;
-    for (int aov = 0; estimate && aov < CLI_AOVS && status == CLI_OK; aov++)
-        if (job->cli->options.aovs >> aov & 1)
-            status = write_aov(job, estimate, path, aov);
-    return status;
+void render_tell_unused_error(const struct render_job *job) {
+    const struct session *session = &job->session;
+    const struct ir_image *image = &session->scene->image;
+    if (!(session->unused_error > 0) || image->samples <= image->min_samples || job->cli->options.quiet)
+        return;
+    if (cli_device_is_reference(job->cli))
+        fprintf(stderr, "glint: image.error ends no pixel: the reference takes all %d samples of each\n",
+                session->image->samples);
+    else if (session->options.error < 0)
+        fprintf(stderr, "glint: image.error ends no pixel: %s says how many samples all have\n",
+                job->cli->options.measure.time_s > 0 ? "--time" : "the search");
+    else
+        fprintf(stderr, "glint: image.error ends no pixel before it has %d samples, and each takes %d\n",
+                image->min_samples, session->image->samples);
 }
 
 int render_tell_audit(const struct render_job *job) {
@@ -239,13 +173,13 @@ static void set_samples(struct render_job *job, uint32_t samples) {
 
 // With the first sample's picture: what comes after the frame is done once, to know what it takes.
 static void measure_rest(struct render_job *job) {
-    const struct image_display display = {job->session.image->tone, job->session.image->transfer};
     const double start = clock_seconds();
     struct strbuf file;
     strbuf_init(&file);
-    image_encode(&job->image, job->format, display, &file);
-    job->deadline.after =
-        RESERVE * (clock_seconds() - start) + (double)file.len / BYTES_A_SECOND + RENAME_SECONDS;
+    for (uint32_t i = 0; i < job->output_count; i++)
+        render_encode(job, job->outputs[i].format, &file);
+    job->deadline.after = RESERVE * (clock_seconds() - start) + (double)file.len / BYTES_A_SECOND +
+                          RENAME_SECONDS * job->output_count;
     strbuf_finish(&file);
     if (!render_wants_audit(&job->cli->options))
         return;
@@ -294,7 +228,7 @@ enum shot_status render_take_frame(struct render_job *job, uint32_t cameras,
     const double time = job->cli->options.measure.time_s, now = clock_seconds();
     if (!(time > 0))
         return shot_take(&job->shot, &job->image, progress, &job->stats.last);
-    const struct render_limit limit = {goes_on, is_over, job};
+    const struct render_limit limit = {.goes_on = goes_on, .is_over = is_over, .context = job};
     // Pictures of several cameras share what is left.
     const double end = job->cli->begun + AIM * time - DISPATCH_SECONDS;
     deadline_begin(&job->deadline, now, now + (end - now) / cameras);

@@ -27,8 +27,8 @@ struct render_job {
     struct image image;
     struct stats stats;
     struct progress progress;
-    enum image_format format;
-    const char *output; // without the camera's name
+    struct cli_output *outputs; // at least one; their paths are without the camera's name
+    uint32_t output_count;
     bool all_cameras;
     struct strbuf note;       // what the picture states of itself; empty: nothing
     struct strbuf audit_note; // what the audit says of it
@@ -38,13 +38,26 @@ struct render_job {
     struct ir_image image_made;
 };
 
-// Where a camera's picture goes.
-const char *render_output_of(struct render_job *job, uint32_t camera);
+// Where a camera's picture goes: the path of one of the outputs.
+const char *render_output_of(struct render_job *job, const struct cli_output *output, uint32_t camera);
+// Reads the outputs of the command line into the job; CLI_OK, or CLI_USAGE with the mistake reported.
+int render_take_outputs(struct render_job *job);
+// Whether the formats of the outputs hold pictures of this size: CLI_OK, or CLI_USAGE with the mistake in the
+// command line's sink.
+int render_judge_size(struct render_job *job);
+// How the options have a format coded; what they ask of others is left out.
+struct image_coding render_coding(const struct cli_options *options, enum image_format format);
+// The picture as a file of a format, appended to `out`.
+void render_encode(struct render_job *job, enum image_format format, struct strbuf *out);
+// Whether one of them is standard output.
+bool render_uses_stdout(const struct render_job *job);
 // These return an exit code.
 int render_interrupted(struct render_job *job);
 // A smaller picture that was chosen, to the size asked for.
 int render_scale_up(struct render_job *job);
-int render_write_picture(struct render_job *job, const char *path);
+// Every output of a camera's picture; and says on standard error which files there are.
+int render_write_pictures(struct render_job *job, uint32_t camera);
+void render_tell_written(struct render_job *job, uint32_t camera);
 // What --stats reports: JSON to standard output, unless the picture goes there; text to standard error.
 int render_tell_stats(const struct render_job *job, str text);
 // Ends the progress and reports why there is no picture.
@@ -58,10 +71,14 @@ bool render_wants_audit(const struct cli_options *options);
 // After the picture was written: says what was found, and whether it is within --max-off; an exit code.
 int render_tell_audit(const struct render_job *job);
 
+// What is known of where pixels ended; NULL: they do not end by their error.
+const struct render_estimate *render_estimate_of(const struct render_job *job);
 // Where pixels end by their error: appends to the picture's note what it states of itself, and writes what
-// --aov asks for beside `path`. An exit code.
+// --aov asks for beside the first output that is a file. An exit code.
 int render_note_estimate(struct render_job *job);
-int render_write_aovs(struct render_job *job, const char *path);
+int render_write_aovs(struct render_job *job, uint32_t camera);
+// Says that the scene's image.error ended no pixel, and why; nothing where a finding says so.
+void render_tell_unused_error(const struct render_job *job);
 
 // One frame, that ends in time if the command line says when. `cameras` is how many pictures
 // are still to be made, this one included.

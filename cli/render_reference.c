@@ -43,6 +43,7 @@ static void text_of(const struct exact *exact, const struct reference_statistics
 
 static void json_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
     const struct reference_settings *settings = &exact->settings;
+    const double unused_error = exact->session->unused_error;
     struct json_writer w;
     json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
     json_open_report(&w, "glint render --device reference", 1);
@@ -53,6 +54,8 @@ static void json_of(const struct exact *exact, const struct reference_statistics
     json_write_integer(&w, "width", settings->width);
     json_write_integer(&w, "height", settings->height);
     json_write_integer(&w, "samples", settings->samples);
+    if (unused_error > 0)
+        json_write_real(&w, "unused_error", unused_error);
     json_write_real(&w, "seconds", s->seconds);
     json_open_object(&w, "rays");
 #define JSON(words, name, value) json_write_integer(&w, name, value);
@@ -79,21 +82,20 @@ static int tell_statistics(struct render_job *job, const struct exact *exact,
     return status;
 }
 
-static void tell_end(struct render_job *job, const struct exact *exact, const char *path,
+static void tell_end(struct render_job *job, const struct exact *exact, uint32_t camera,
                      const struct reference_statistics *statistics) {
     if (job->cli->options.quiet)
         return;
+    render_tell_unused_error(job);
     fprintf(stderr,
             "glint: the reference left out at most %.3g of a pixel's weight, which could add %.3g%s\n",
             statistics->left_weight_most, statistics->bound,
             exact->source.found ? " (picture from its cache)" : "");
-    if (strcmp(path, "-") != 0)
-        fprintf(stderr, "glint: wrote %s, %u x %u\n", path, job->image.width, job->image.height);
+    render_tell_written(job, camera);
 }
 
 static int render_camera(struct render_job *job, uint32_t camera) {
     const struct cli_options *options = &job->cli->options;
-    const char *path = render_output_of(job, camera);
     struct exact exact;
     struct reference_statistics statistics;
     struct render_progress callback = progress_callback(&job->progress);
@@ -106,11 +108,11 @@ static int render_camera(struct render_job *job, uint32_t camera) {
     progress_end(&job->progress);
     int status = taken == SHOT_OK ? CLI_OK : taken == SHOT_CANCELLED ? render_interrupted(job) : CLI_SCENE;
     if (status == CLI_OK)
-        status = render_write_picture(job, path);
+        status = render_write_pictures(job, camera);
     if (status == CLI_OK && options->stats)
         status = tell_statistics(job, &exact, &statistics);
     if (status == CLI_OK)
-        tell_end(job, &exact, path, &statistics);
+        tell_end(job, &exact, camera, &statistics);
     exact_close(&exact);
     return status;
 }

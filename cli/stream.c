@@ -13,7 +13,7 @@ str cli_stream_name(struct cli *cli) {
 }
 
 int cli_read_stream(struct cli *cli, struct strbuf *text) {
-    int error = stream_read(STDIN_FILENO, (size_t)cli->options.limits.value[LIMIT_SCENE_BYTES], text);
+    int error = stream_read(STDIN_FILENO, limits_size(&cli->options.limits, LIMIT_SCENE_BYTES), text);
     if (!error && !text->failed)
         return CLI_OK;
     if (error)

@@ -8,12 +8,24 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 
 option(GLINT_WERROR "Treat warnings as errors" OFF)
 option(GLINT_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(GLINT_DEVICE "Draw on devices; without it glint checks, and draws by the reference, and needs neither Vulkan nor glslang" ON)
 # Reports link to docs/codes.md below it. There is no copy of glint that all know: whoever publishes one names it here.
 set(GLINT_HOME "https://example.com/glint" CACHE STRING "Address of this copy of glint, for links in reports; empty: no links")
 option(GLINT_FUZZ "Build the libFuzzer targets (clang only)" OFF)
 
+option(GLINT_STATIC "Link everything into the program, libc too" OFF)
+if(GLINT_STATIC)
+  set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+  add_link_options(-static-pie)
+endif()
+
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes
                     -Wpointer-arith -Wwrite-strings -Wformat=2)
+# What is released names no folder of the machine that built it, and two folders build the same bytes.
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  add_compile_options(-ffile-prefix-map=${CMAKE_BINARY_DIR}/= -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=)
+endif()
 # The numbers of a picture must not depend on what the C compiler fuses.
 add_compile_options(-ffp-contract=off)
 add_compile_definitions(_POSIX_C_SOURCE=200809L _DEFAULT_SOURCE _FILE_OFFSET_BITS=64)
@@ -118,6 +130,7 @@ function(glint_room)
   endif()
   set(libs ${MAY_${room}})
   list(FILTER libs EXCLUDE REGEX "\\.h$")
+  list(REMOVE_ITEM libs cli) # the program, which is linked with its rooms
   list(TRANSFORM libs REPLACE "/" "_")
   list(TRANSFORM libs PREPEND "glint_")
   if(NOT sources AND NOT R_SOURCES)

@@ -1,12 +1,18 @@
 # From GLSL to C: compile, decorate (tools/spirv_exact), validate; pack all that a library has together, and embed.
-find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
-find_program(SPIRV_OPT spirv-opt REQUIRED)
-find_program(SPIRV_VAL spirv-val REQUIRED)
+if(GLINT_DEVICE)
+  find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+  find_program(SPIRV_OPT spirv-opt REQUIRED)
+  find_program(SPIRV_VAL spirv-val REQUIRED)
+endif()
 
 # glint_kernel(PREFIX NAME SOURCE.comp DEFINE...): compiles SOURCE, which sees shaders/, with the macros given. Appends
 # to the lists PREFIX_NAMES and PREFIX_MODULES. If MAY_FUSE is one of the macros, the operations stay undecorated; if
 # FETCH_TEXELS is, functions take by value what they only read.
 function(glint_kernel prefix name source)
+  if(NOT GLINT_DEVICE)
+    set(${prefix}_NAMES ${${prefix}_NAMES} ${name} PARENT_SCOPE)
+    return()
+  endif()
   set(base ${CMAKE_CURRENT_BINARY_DIR}/${name})
   set(plain)
   set(fuses exact)
@@ -49,8 +55,15 @@ macro(glint_kernel_pair prefix name source)
 endmacro()
 
 # glint_pack_kernels(PREFIX): what was appended to PREFIX_MODULES, as a C file that defines the struct kernel
-# `kernel_NAME` of each. Sets PREFIX_SOURCES.
+# `kernel_NAME` of each; without devices, all of them empty. Sets PREFIX_SOURCES.
 function(glint_pack_kernels prefix)
+  if(NOT GLINT_DEVICE)
+    list(TRANSFORM ${prefix}_NAMES PREPEND "kernel_" OUTPUT_VARIABLE empty)
+    list(JOIN empty ",\n    " empty)
+    file(CONFIGURE OUTPUT kernels.c CONTENT "#include \"shaders/kernel.h\"\n\nconst struct kernel @empty@;\n" @ONLY)
+    set(${prefix}_SOURCES ${CMAKE_CURRENT_BINARY_DIR}/kernels.c PARENT_SCOPE)
+    return()
+  endif()
   set(modules ${${prefix}_MODULES})
   list(FILTER modules INCLUDE REGEX "\\.spv$")
   set(packed ${CMAKE_CURRENT_BINARY_DIR}/kernels.c)

@@ -214,9 +214,12 @@ void *arena_alloc(struct arena *arena, size_t size) {
     return memory;
 }
 
-void *arena_alloc_array(struct arena *arena, size_t count, size_t size) {
-    bool overflows = size && count > SIZE_MAX / size;
-    return arena_alloc(arena, overflows ? SIZE_MAX : count * size);
+void *arena_alloc_array(struct arena *arena, uint64_t count, size_t size) {
+    return arena_alloc(arena, heap_times(count, size));
+}
+
+void *arena_try_alloc_array(struct arena *arena, uint64_t count, size_t size) {
+    return arena_try_alloc(arena, heap_times(count, size));
 }
 
 str arena_copy(struct arena *arena, str s) {

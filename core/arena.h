@@ -56,8 +56,9 @@ enum arena_fault arena_guarded_all(struct arena *const *arenas, arena_work *work
 void *arena_alloc(struct arena *arena, size_t size);
 // As `arena_alloc`, but returns NULL when that would jump.
 void *arena_try_alloc(struct arena *arena, size_t size);
-// `count * size` with the overflow checked.
-void *arena_alloc_array(struct arena *arena, size_t count, size_t size);
+// The same for `count` items of `size` bytes; a product beyond all memory is an allocation that fails.
+void *arena_alloc_array(struct arena *arena, uint64_t count, size_t size);
+void *arena_try_alloc_array(struct arena *arena, uint64_t count, size_t size);
 #define ARENA_NEW(arena, type)          ((type *)arena_alloc((arena), sizeof(type)))
 #define ARENA_ARRAY(arena, type, count) ((type *)arena_alloc_array((arena), (count), sizeof(type)))
 

@@ -43,16 +43,29 @@ static void *checked(void *memory, size_t size) {
     return memory;
 }
 
-void *heap_alloc(size_t size) {
-    return checked(malloc(size), size);
+size_t heap_times(uint64_t a, uint64_t b) {
+    return b && a > (HEAP_TOO_MUCH - 1) / b ? HEAP_TOO_MUCH : (size_t)(a * b);
 }
 
-void *heap_zeroed(size_t count, size_t size) {
-    return checked(calloc(count, size), size && count > SIZE_MAX / size ? SIZE_MAX : count * size);
+void *heap_alloc(size_t size) {
+    return checked(size < HEAP_TOO_MUCH ? malloc(size) : NULL, size);
+}
+
+void *heap_zeroed(uint64_t count, size_t size) {
+    const size_t all = heap_times(count, size);
+    return checked(all < HEAP_TOO_MUCH ? calloc(1, all) : NULL, all);
 }
 
 void *heap_resize(void *memory, size_t size) {
-    return checked(realloc(memory, size), size);
+    return checked(size < HEAP_TOO_MUCH ? realloc(memory, size) : NULL, size);
+}
+
+void *heap_array(uint64_t count, size_t size) {
+    return heap_alloc(heap_times(count, size));
+}
+
+void *heap_resize_array(void *memory, uint64_t count, size_t size) {
+    return heap_resize(memory, heap_times(count, size));
 }
 
 char *heap_text(const char *text) {
@@ -74,7 +87,7 @@ void *heap_grow(void *items, size_t count, uint32_t *capacity, size_t item_size)
     if (*capacity > UINT32_MAX / 2)
         return NULL;
     uint32_t wanted = *capacity ? *capacity * 2 : 8;
-    void *moved = heap_resize(items, wanted * item_size);
+    void *moved = heap_resize_array(items, wanted, item_size);
     if (moved)
         *capacity = wanted;
     return moved;

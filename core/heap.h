@@ -21,10 +21,19 @@ void heap_on_exhausted(heap_handler *handler);
 // The system refused memory to a library, or to a system call. Returns only where there is no handler.
 void heap_exhausted(size_t size_bytes);
 
+// The one way to multiply sizes: a * b, or HEAP_TOO_MUCH where that, or more, comes out. HEAP_TOO_MUCH may be
+// multiplied again, and a little may be added to it: it is never given, and who asks for it is answered as
+// if memory had ended. `lint/sizes` finds products that are made without it.
+#define HEAP_TOO_MUCH (SIZE_MAX / 2 + 1)
+size_t heap_times(uint64_t a, uint64_t b);
+
 // As malloc, calloc, realloc, strdup and strndup; what is large gets huge pages, as by heap_expect.
 void *heap_alloc(size_t size);
-void *heap_zeroed(size_t count, size_t size);
+void *heap_zeroed(uint64_t count, size_t size);
 void *heap_resize(void *memory, size_t size);
+// As heap_alloc and heap_resize, for `count` items of `size` bytes.
+void *heap_array(uint64_t count, size_t size);
+void *heap_resize_array(void *memory, uint64_t count, size_t size);
 char *heap_text(const char *text);
 char *heap_text_of(const char *text, size_t length);
 

@@ -19,6 +19,11 @@ const struct limit_info *limit_info(enum limit which) {
     return &infos[which];
 }
 
+size_t limits_size(const struct limits *limits, enum limit which) {
+    const uint64_t value = limits->value[which];
+    return value < SIZE_MAX / 2 ? (size_t)value : SIZE_MAX / 2;
+}
+
 bool limit_find(str name, enum limit *which) {
     for (int i = 0; i < LIMIT_COUNT; i++)
         if (str_equal_cstr(name, infos[i].name)) {

@@ -71,7 +71,7 @@ static bool came_down(const struct rows *rows, int32_t d, int32_t k) {
 
 // One more edit; true: both ends are reached. *failed: no memory.
 static bool next_row(const struct middle *mid, struct rows *rows, int32_t d, bool *failed) {
-    int32_t *row = heap_alloc(sizeof *row * (2 * (size_t)d + 1));
+    int32_t *row = heap_array(heap_times(2, (uint64_t)d) + 1, sizeof *row);
     *failed = !row;
     if (*failed)
         return false;

@@ -55,14 +55,14 @@ __attribute__((format(printf, 3, 0))) static bool format_text(struct diag_sink *
 static bool make_room(struct diag_sink *sink) {
     if (sink->count < sink->capacity)
         return true;
-    uint32_t capacity = sink->capacity ? sink->capacity * 2 : 16;
-    struct diag *items = arena_try_alloc(&sink->arena, capacity * sizeof *items);
+    const size_t capacity = sink->capacity ? heap_times(2, sink->capacity) : 16;
+    struct diag *items = arena_try_alloc_array(&sink->arena, capacity, sizeof *items);
     if (!items)
         return false;
     if (sink->count)
         memcpy(items, sink->items, sink->count * sizeof *items);
     sink->items = items;
-    sink->capacity = capacity;
+    sink->capacity = (uint32_t)capacity;
     return true;
 }
 
@@ -229,7 +229,7 @@ void diag_sort(struct diag_sink *sink) {
     size_t slot_count = 4;
     while (slot_count < (size_t)sink->count * 2)
         slot_count *= 2;
-    struct diag *spare = heap_alloc(sink->count * sizeof *spare);
+    struct diag *spare = heap_array(sink->count, sizeof *spare);
     uint32_t *slots = heap_zeroed(slot_count, sizeof *slots);
     if (spare)
         sort_items(sink->items, spare, sink->count);

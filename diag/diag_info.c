@@ -1,5 +1,6 @@
 // The codes with their sentences: the only object that a changed sentence rebuilds.
 #include "diag/diag.h"
+#include "picture/formats/formats.h"
 
 #include <string.h>
 

@@ -22,7 +22,7 @@ static bool ends_line(str text, size_t at) {
 static void map_characters(struct source_set *set, struct source *source) {
     const str text = source->text;
     source->character_count = 0;
-    source->characters = arena_try_alloc(set->arena, (text.len / SOURCE_STEP + 1) * sizeof(uint32_t));
+    source->characters = arena_try_alloc_array(set->arena, text.len / SOURCE_STEP + 1, sizeof(uint32_t));
     size_t count = 0;
     for (size_t at = 0; source->characters && at < text.len; count++) {
         if (count % SOURCE_STEP == 0)
@@ -36,7 +36,7 @@ static void map_lines(struct source_set *set, struct source *source) {
     size_t count = 1;
     for (size_t i = 0; i < source->text.len; i++)
         count += ends_line(source->text, i);
-    uint32_t *starts = arena_try_alloc(set->arena, count * sizeof *starts);
+    uint32_t *starts = arena_try_alloc_array(set->arena, count, sizeof *starts);
     if (!starts)
         return;
     source->line_starts = starts;

@@ -18,6 +18,7 @@ enum {
     SUGGEST_ENTRIES_MAX = 10000,
     PIECE_BYTES = 4 << 20, // of a large file
     PIECES_MAX = 1024,
+    MISSES_MAX = 256,
 };
 
 void files_init(struct files *files, struct arena *arena) {
@@ -152,6 +153,15 @@ static bool below_a_root(const struct files *files, str canonical) {
     return false;
 }
 
+static void log_miss(struct files *files, str canonical) {
+    if (files->missed.count == MISSES_MAX)
+        return;
+    for (uint32_t i = 0; i < files->missed.count; i++)
+        if (str_equal(files->missed.items[i], canonical))
+            return;
+    *ARENA_PUSH(files->arena, &files->missed) = canonical;
+}
+
 static enum file_status try_path(struct files *files, str path, str *out) {
     *out = path;
     str canonical;
@@ -162,8 +172,10 @@ static enum file_status try_path(struct files *files, str path, str *out) {
     bool allowed = below_a_root(files, canonical);
     if (find_overlay(files, canonical) && (allowed || files->roots.count == 0))
         return FILE_OK;
-    if (!exists)
+    if (!exists) {
+        log_miss(files, canonical);
         return status_of_errno(files, error);
+    }
     if (allowed)
         return FILE_OK;
     *out = canonical;
@@ -260,11 +272,12 @@ static ssize_t read_in_order(int fd, char *data, size_t size) {
     return (ssize_t)got;
 }
 
-static enum file_status read_all(struct files *files, int fd, size_t size, struct arena *into,
+static enum file_status read_all(struct files *files, int fd, uint64_t size_bytes, struct arena *into,
                                  str *contents) {
-    char *data = arena_try_alloc(into, size + 1);
+    char *data = arena_try_alloc_array(into, size_bytes + 1, 1);
     if (!data)
         return FILE_NO_MEMORY;
+    const size_t size = (size_t)size_bytes;
     const bool in_pieces = size > PIECE_BYTES && size <= (size_t)PIECE_BYTES * PIECES_MAX;
     const ssize_t got = in_pieces ? read_pieces(fd, data, size) : read_in_order(fd, data, size);
     if (got < 0)
@@ -297,7 +310,7 @@ enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, s
     else if ((uint64_t)info.st_size > cap_bytes)
         status = FILE_TOO_LARGE;
     else
-        status = read_all(files, fd, (size_t)info.st_size, into, contents);
+        status = read_all(files, fd, (uint64_t)info.st_size, into, contents);
     close(fd);
     if (status == FILE_OK)
         log_read(files, path, &info);

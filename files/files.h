@@ -45,7 +45,11 @@ struct files {
     struct {
         struct file_read *items;
         uint32_t count, capacity;
-    } log;            // every file that was read, once
+    } log; // every file that was read, once
+    struct {
+        str *items;
+        uint32_t count, capacity;
+    } missed;         // paths where files_resolve looked and nothing was, links resolved: the first ones
     int system_error; // errno of the last FILE_UNREADABLE
 };
 

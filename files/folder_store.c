@@ -62,7 +62,7 @@ static char *read_file(int fd, size_t most_bytes, size_t *count) {
     struct stat info;
     if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode) || (uintmax_t)info.st_size > most_bytes)
         return NULL;
-    char *bytes = heap_alloc((size_t)info.st_size + 1);
+    char *bytes = heap_array((uint64_t)info.st_size + 1, 1);
     if (!bytes)
         return NULL;
     *count = (size_t)info.st_size;

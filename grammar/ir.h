@@ -216,6 +216,7 @@ struct ir_model {
     struct ir_head head;
     str name;
     str mesh; // path as written
+    str part; // of a mesh file that has several; empty: all of it
     struct ir_material_ref material;
     struct ir_map_entries material_map;
     bool smooth;

@@ -1,6 +1,7 @@
 #include "grammar/schema.h"
 
 #include "grammar/ir.h"
+#include "picture/formats/formats.h"
 #include "shaders/features.h"
 
 #include <stddef.h>
@@ -102,7 +103,7 @@ static const struct schema_row image_rows[] = {
     {.name = "height", FIELD(ir_image, height), .example = "1080", .unit = SCHEMA_UNIT_PIXELS,
      .also = "h res_y yres",
      .range = SCHEMA_RANGE_EXTENT, .standard = "768", .doc = "Height of the picture."},
-    {.name = "samples", FIELD(ir_image, samples), .example = "16", .range = SCHEMA_RANGE_SAMPLES,
+    {.name = "samples", FIELD(ir_image, samples), .example = "64", .range = SCHEMA_RANGE_SAMPLES,
      .also = "spp aa antialiasing samples_per_pixel sample_count",
      .standard = "1", .doc = "Rays through each pixel, averaged; more of them smooth edges."},
     {.name = "error", FIELD(ir_image, error), .example = "0.01", .range = SCHEMA_RANGE_FRACTION,
@@ -110,7 +111,7 @@ static const struct schema_row image_rows[] = {
      .standard = "0",
      .doc = "A pixel takes no more samples once the standard error of its displayed colour is at most this; `samples` "
             "is then the most that it takes. 0: all pixels take all samples."},
-    {.name = "min_samples", FIELD(ir_image, min_samples), .example = "32", .range = SCHEMA_RANGE_SAMPLES,
+    {.name = "min_samples", FIELD(ir_image, min_samples), .example = "8", .range = SCHEMA_RANGE_SAMPLES,
      .also = "samples_min min_spp",
      .standard = "16", .doc = "Samples that a pixel takes before `error` may end it."},
     {.name = "tone", FIELD(ir_image, tone), .example = "normalize", .words = tone_words,
@@ -207,7 +208,7 @@ static const struct schema_row background_rows[] = {
      .also = "texture map file skybox envmap hdri",
      .file = SCHEMA_FILE_IMAGE, .choice = 1, .alternative = IR_BACKDROP_IMAGE,
      .feature = FEATURE_BACKGROUND_IMAGE,
-     .doc = "Path of an equirectangular image (PNG, JPEG or Radiance HDR): its middle is the view along +x."},
+     .doc = "Path of an equirectangular image (" IMAGE_IN_SCENE_NAMES "): its middle is the view along +x."},
     {.name = "intensity", FIELD(ir_background, intensity), .example = "0.5", .range = SCHEMA_RANGE_WEIGHT,
      .also = "strength brightness",
      .standard = "1", .doc = "Multiplies the background."},
@@ -303,7 +304,7 @@ static const struct schema_row texture_rows[] = {
     {.name = "file", FIELD(ir_texture, file), .example = "wood.jpg", .text = SCHEMA_TEXT_PATH,
      .also = "path src href image texture map filename", .file = SCHEMA_FILE_IMAGE, .required = true,
      .short_form = true, .feature = FEATURE_TEXTURES,
-     .doc = "Path of an image: PNG, JPEG or Radiance HDR."},
+     .doc = "Path of an image: " IMAGE_IN_SCENE_NAMES "."},
     {.name = "repeat", .element = "Repeat", FIELD(ir_texture, repeat), .example = "2 2",
      .also = "scale tiling tile times", .range = SCHEMA_RANGE_REPEAT, .standard = "1 1", .fill = true,
      .doc = "How often the image lies side by side where the surface's coordinates go from 0 to 1."},
@@ -465,6 +466,10 @@ static const struct schema_row model_rows[] = {
     {.name = "mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .text = SCHEMA_TEXT_PATH,
      .also = "file path filename src geometry obj ply stl shape",
      .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file."},
+    {.name = "part", FIELD(ir_model, part), .example = "wheel", .text = SCHEMA_TEXT_FOREIGN_NAME,
+     .also = "submesh sub_mesh object_name mesh_name",
+     .doc = "What to show of a glTF file: the name of one of its meshes, 'mesh 3' or 'node 7' by number; if left out, "
+            "its whole scene."},
     BODY_MATERIAL(ir_model),
     {.name = "material_map", .element = "MaterialMap", FIELD(ir_model, material_map),
      .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MAP_ENTRY,

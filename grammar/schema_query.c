@@ -6,6 +6,7 @@
 #include "core/vec3.h"
 #include "grammar/ir_value.h"
 #include "grammar/mesh_format.h"
+#include "picture/formats/formats.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -135,10 +136,9 @@ const char *const *schema_components(enum schema_kind kind) {
 
 const char *const *schema_file_endings(enum schema_file kind) {
     static const char *const scenes[] = {".yaml", ".yml", ".json", ".xml", NULL};
-    static const char *const images[] = {".png", ".jpg", ".jpeg", ".hdr", NULL};
     static const char *const none[] = {NULL};
     return kind == SCHEMA_FILE_SCENE   ? scenes
-           : kind == SCHEMA_FILE_IMAGE ? images
+           : kind == SCHEMA_FILE_IMAGE ? image_scene_endings()
            : kind == SCHEMA_FILE_MESH  ? mesh_format_endings
                                        : none;
 }

@@ -1,5 +1,7 @@
 #include "lint/box_tree.h"
 
+#include "core/heap.h"
+
 #include <stdlib.h>
 
 enum {
@@ -69,7 +71,7 @@ void lint_box_tree_build(struct lint_box_tree *tree, struct arena *arena, struct
     *tree = (struct lint_box_tree){.items = items};
     if (count == 0)
         return;
-    tree->nodes = ARENA_ARRAY(arena, struct lint_box_node, 2 * (size_t)count);
+    tree->nodes = ARENA_ARRAY(arena, struct lint_box_node, heap_times(2, count));
     build(tree, 0, count);
 }
 

@@ -43,6 +43,8 @@ const struct lint_rule lint_rules[] = {
     {DIAG_NOTHING_SHARP, lint_nothing_sharp, LINT_ALL},
     // A few places for each refracting body and camera.
     {DIAG_LENS_INSIDE, lint_lens_inside, LINT_ALL},
+    // Three values.
+    {DIAG_NEVER_ENDS, lint_never_ends, LINT_CHEAP},
     {.run = NULL},
 };
 
@@ -63,7 +65,7 @@ void lint_run(const struct lint_input *input, enum lint_level level) {
     if (level == LINT_NONE)
         return;
     struct arena arena;
-    arena_init(&arena, (size_t)input->files->limits->value[LIMIT_MESH_MEMORY]);
+    arena_init(&arena, limits_size(input->files->limits, LIMIT_MESH_MEMORY));
     struct run run = {{.input = input,
                        .scene = input->scene,
                        .ir = input->scene->ir,

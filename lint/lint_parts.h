@@ -98,6 +98,10 @@ span lint_place_mesh(const struct lint *lint, const struct lint_body *body);
 // A note at a line of a mesh file.
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+// A fix, not a safe one, of the last finding: another value of an element's row. A row that the file does not
+// have is written after `beside`, on a line of its own where that has one; without both there is no fix.
+void lint_fix_row(struct lint *lint, const struct ir_head *head, const struct schema_element *schema,
+                  const char *row, const char *beside, const char *value);
 
 struct lint_rule {
     enum diag_code code;
@@ -133,5 +137,6 @@ void lint_emission(struct lint *lint);
 void lint_one_sample(struct lint *lint); // rules_lens.c
 void lint_nothing_sharp(struct lint *lint);
 void lint_lens_inside(struct lint *lint);
+void lint_never_ends(struct lint *lint); // rules_samples.c
 
 #endif

@@ -63,3 +63,34 @@ void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, co
     else
         diag_note(lint->sink, at, "%s", text);
 }
+
+void lint_fix_row(struct lint *lint, const struct ir_head *head, const struct schema_element *schema,
+                  const char *row, const char *beside, const char *value) {
+    const struct source_set *sources = lint->input->files->sources;
+    const int own = schema_find_row(schema, str_from(row));
+    const int other = schema_find_row(schema, str_from(beside));
+    const struct ir_row_origin *at = ir_origin_row(lint->origin, head, (uint32_t)own);
+    if (at) {
+        diag_fix(lint->sink, false, at->value, arena_format(lint->arena, "%s", value));
+        return;
+    }
+    at = ir_origin_row(lint->origin, head, (uint32_t)other);
+    if (!at || span_is_none(at->value))
+        return;
+    const str text = sources->items[at->value.source].text;
+    const span end = {at->value.source, at->value.end, at->value.end};
+    uint32_t line = at->key.begin;
+    while (line > 0 && text.ptr[line - 1] != '\n')
+        line--;
+    uint32_t first = line;
+    while (first < at->key.begin && text.ptr[first] == ' ')
+        first++;
+    if (at->key.end < text.len && text.ptr[at->key.end] == '=')
+        diag_fix(lint->sink, false, (span){end.source, end.begin + 1, end.begin + 1},
+                 arena_format(lint->arena, " %s=\"%s\"", row, value));
+    else if (first == at->key.begin)
+        diag_fix(lint->sink, false, end,
+                 arena_format(lint->arena, "\n%.*s%s: %s", (int)(first - line), text.ptr + line, row, value));
+    else
+        diag_fix(lint->sink, false, end, arena_format(lint->arena, ", %s: %s", row, value));
+}

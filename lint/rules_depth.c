@@ -5,6 +5,7 @@
 // left out: it moves the layers in the picture, and hardly changes their number.
 #include "lint/lint_parts.h"
 
+#include "core/heap.h"
 #include "core/number.h"
 #include "core/parallel.h"
 #include "grammar/ir.h"
@@ -273,8 +274,8 @@ void lint_depth_short(struct lint *lint) {
         glass.columns /= 2;
     glass.rows = (uint32_t)ceil((double)glass.columns * image->height / image->width);
     glass.rows = glass.rows > 4 * glass.columns ? 4 * glass.columns : glass.rows;
-    glass.layers = ARENA_ARRAY(lint->arena, uint32_t, (size_t)glass.columns * glass.rows);
-    glass.first = ARENA_ARRAY(lint->arena, uint32_t, (size_t)glass.columns * glass.rows);
+    glass.layers = ARENA_ARRAY(lint->arena, uint32_t, heap_times(glass.columns, glass.rows));
+    glass.first = ARENA_ARRAY(lint->arena, uint32_t, heap_times(glass.columns, glass.rows));
     for (uint32_t i = 0; i < lint->view_count; i++) {
         glass.camera = &lint->views[i].camera;
         look(&glass);

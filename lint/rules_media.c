@@ -302,39 +302,6 @@ static int compare_overlaps(const void *left, const void *right) {
     return x->other < y->other ? -1 : x->other > y->other;
 }
 
-// Another value of a row of the material, which the file may not have yet: then after the index, on a line of
-// its own where that has one.
-static void fix_row(struct lint *lint, const struct ir_material *material, const char *row,
-                    const char *value) {
-    const struct source_set *sources = lint->input->files->sources;
-    const int own = schema_find_row(&SCHEMA_MATERIAL, str_from(row));
-    const int index = schema_find_row(&SCHEMA_MATERIAL, STR("refractive_index"));
-    const struct ir_row_origin *at = ir_origin_row(lint->origin, &material->head, (uint32_t)own);
-    if (at) {
-        diag_fix(lint->sink, false, at->value, arena_format(lint->arena, "%s", value));
-        return;
-    }
-    at = ir_origin_row(lint->origin, &material->head, (uint32_t)index);
-    if (!at || span_is_none(at->value))
-        return;
-    const str text = sources->items[at->value.source].text;
-    const span end = {at->value.source, at->value.end, at->value.end};
-    uint32_t line = at->key.begin;
-    while (line > 0 && text.ptr[line - 1] != '\n')
-        line--;
-    uint32_t first = line;
-    while (first < at->key.begin && text.ptr[first] == ' ')
-        first++;
-    if (at->key.end < text.len && text.ptr[at->key.end] == '=')
-        diag_fix(lint->sink, false, (span){end.source, end.begin + 1, end.begin + 1},
-                 arena_format(lint->arena, " %s=\"%s\"", row, value));
-    else if (first == at->key.begin)
-        diag_fix(lint->sink, false, end,
-                 arena_format(lint->arena, "\n%.*s%s: %s", (int)(first - line), text.ptr + line, row, value));
-    else
-        diag_fix(lint->sink, false, end, arena_format(lint->arena, ", %s: %s", row, value));
-}
-
 static double volume_of(const struct lint_body *body) {
     const double r = body->is->radius;
     if (body->is->shape == SCENE_SPHERE)
@@ -359,8 +326,8 @@ static void advise_priority(struct media *media, const struct overlap *first, ui
     const int32_t priority = lower ? media->lowest : media->highest;
     diag_help(lint->sink, "give the material of the one that %s a %s one, such as priority: %d",
               lower ? "gives way there" : "fills that place", lower ? "lower" : "higher", priority);
-    fix_row(lint, filling_in_file(lint, first->body), "priority",
-            arena_format(lint->arena, "%d", priority).ptr);
+    lint_fix_row(lint, &filling_in_file(lint, first->body)->head, &SCHEMA_MATERIAL, "priority",
+                 "refractive_index", arena_format(lint->arena, "%d", priority).ptr);
 }
 
 static void report_equal(struct media *media, const struct overlap *first, uint32_t count) {
@@ -397,7 +364,8 @@ static void report_hidden(struct lint *lint, const struct overlap *found) {
     diag_note(lint->sink, lint_place(lint, found->other), "it is inside %.*s",
               STR_ARG(lint_words_other(lint, found->other)));
     diag_help(lint->sink, "write priority: %d for its material, or leave both out", other);
-    fix_row(lint, filling_in_file(lint, body), "priority", arena_format(lint->arena, "%d", other).ptr);
+    lint_fix_row(lint, &filling_in_file(lint, body)->head, &SCHEMA_MATERIAL, "priority", "refractive_index",
+                 arena_format(lint->arena, "%d", other).ptr);
 }
 
 static void report_relative(struct lint *lint, const struct overlap *found) {
@@ -414,7 +382,8 @@ static void report_relative(struct lint *lint, const struct overlap *found) {
              own, STR_ARG(lint_words_other(lint, found->other)), STR_ARG(lint_words_other(lint, body)));
     diag_note(lint->sink, lint_place(lint, body), "%.*s has this material", STR_ARG(lint_words(lint, body)));
     diag_help(lint->sink, "write its own index: refractive_index: %.3g", right);
-    fix_row(lint, material, "refractive_index", arena_format(lint->arena, "%.3g", right).ptr);
+    lint_fix_row(lint, &material->head, &SCHEMA_MATERIAL, "refractive_index", "refractive_index",
+                 arena_format(lint->arena, "%.3g", right).ptr);
 }
 
 // A ray there would be inside all of them.

@@ -1,6 +1,8 @@
 // Meshes that refract and whose faces disagree on which side is outside, or that cross themselves.
 #include "lint/lint_parts.h"
 
+#include "core/heap.h"
+
 #include <stdlib.h>
 
 // ---- crossing itself
@@ -192,7 +194,7 @@ static bool edge_of(const struct mesh *mesh, uint32_t triangle, int k, uint32_t 
 // By counting: in the order of triangles within each lower end.
 static struct edges list_edges(struct lint *lint, const struct mesh *mesh) {
     struct edges edges = {ARENA_ARRAY(lint->arena, uint32_t, (size_t)mesh->position_count + 1),
-                          ARENA_ARRAY(lint->arena, struct half_edge, 3 * (size_t)mesh->triangle_count)};
+                          ARENA_ARRAY(lint->arena, struct half_edge, heap_times(3, mesh->triangle_count))};
     struct half_edge edge;
     uint32_t low;
     for (uint32_t t = 0; t < mesh->triangle_count; t++)

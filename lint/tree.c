@@ -1,5 +1,6 @@
 #include "lint/tree.h"
 
+#include "core/heap.h"
 #include "core/parallel.h"
 
 #include <stdlib.h>
@@ -147,7 +148,7 @@ void lint_tree_build(struct lint_tree *tree, const struct mesh *mesh, struct are
         tree->order[i] = entries[i].triangle;
     find_crowded(tree, entries, arena);
     tree->leaf_count = (tree->count + LINT_LEAF - 1) / LINT_LEAF;
-    tree->nodes = ARENA_ARRAY(arena, struct lint_box, 2 * (size_t)tree->leaf_count - 1);
+    tree->nodes = ARENA_ARRAY(arena, struct lint_box, heap_times(2, tree->leaf_count) - 1);
     tree->leaves = ARENA_ARRAY(arena, struct lint_box, tree->leaf_count);
     parallel_for(tree->leaf_count, PIECE, leaf_piece, &build);
     join_node(&build, 0, 0, tree->leaf_count);

@@ -2,6 +2,7 @@
 #include "lsp/context.h"
 #include "lsp/server_private.h"
 
+#include "core/heap.h"
 #include "core/strbuf.h"
 #include "files/files_walk.h"
 #include "grammar/emit/emit_words.h"
@@ -153,7 +154,7 @@ static void offer_for(struct completing *c, const struct schema_row *row) {
 
 // A snippet gives '$', '}' and a backslash a meaning.
 static str escaped(struct arena *arena, str text) {
-    char *out = arena_alloc(arena, 2 * text.len + 1);
+    char *out = arena_alloc(arena, heap_times(2, text.len) + 1);
     size_t length = 0;
     for (size_t i = 0; i < text.len; i++) {
         if (strchr("$}\\", text.ptr[i]))

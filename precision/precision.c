@@ -62,7 +62,7 @@ static void choose_size(struct small *small, double pixels) {
 }
 
 static size_t values_of(const struct small *small) {
-    return 3 * (size_t)small->width * small->height;
+    return heap_times(heap_times(3, small->width), small->height);
 }
 
 static struct reference *make_reference(const struct small *small, bool as_single) {
@@ -181,7 +181,7 @@ static enum precision_status try_small(struct small *small, struct precision_cho
 static bool afford(struct small *small, double *pixels) {
     struct reference_statistics statistics;
     choose_size(small, LEAST_PIXELS);
-    double *rgb = heap_alloc(values_of(small) * sizeof *rgb);
+    double *rgb = heap_array(values_of(small), sizeof *rgb);
     const bool good = rgb && draw_reference(small, small->reference, rgb, &statistics);
     free(rgb);
     if (!good)
@@ -194,10 +194,10 @@ static bool afford(struct small *small, double *pixels) {
 }
 
 static bool make_pictures(struct small *small) {
-    small->exact = heap_alloc(values_of(small) * sizeof *small->exact);
-    small->rounded = heap_alloc(values_of(small) * sizeof *small->rounded);
+    small->exact = heap_array(values_of(small), sizeof *small->exact);
+    small->rounded = heap_array(values_of(small), sizeof *small->rounded);
     for (int i = 0; i < 2; i++)
-        small->shown[i] = heap_alloc(values_of(small) * sizeof *small->shown[i]);
+        small->shown[i] = heap_array(values_of(small), sizeof *small->shown[i]);
     return small->exact && small->rounded && small->shown[0] && small->shown[1];
 }
 

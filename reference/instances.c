@@ -8,9 +8,8 @@
 // 1 is measured. The ray's origin is moved by the sum, to either side of each plane.
 #include "reference/parts.h"
 
+#include "scene/mesh_use.h"
 #include "scene/transform.h"
-
-#include <stdlib.h>
 
 // Units of the largest numbers: 6 of a vertex, 16 by which the boxes of a tree in scene space are wider, 7 of
 // a ray's start and as many of the operations from there to mesh space and back; and as many again.
@@ -25,18 +24,6 @@ enum {
     TRIANGLES_LEAST = 64, // of a mesh
     BOXES_DEPTH = 6       // of the nodes by which an instance's box is found
 };
-
-struct use {
-    const struct mesh *mesh;
-    uint32_t body;
-};
-
-static int compare_uses(const void *a, const void *b) {
-    const struct use *x = a, *y = b;
-    if (x->mesh != y->mesh)
-        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
-    return x->body < y->body ? -1 : x->body > y->body;
-}
 
 static double row_size(const double row[3], vec3 v) {
     return fabs(row[0]) * v.x + fabs(row[1]) * v.y + fabs(row[2]) * v.z;
@@ -81,20 +68,11 @@ static bool invert(const struct body *body, struct instance *out) {
 
 // ---- which
 
-static uint32_t find_uses(const struct reference *r, struct use *uses) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < r->input.scene->body_count; i++)
-        if (r->bodies[i].is->mesh && r->bodies[i].is->triangle_count >= TRIANGLES_LEAST)
-            uses[count++] = (struct use){r->bodies[i].is->mesh, i};
-    qsort(uses, count, sizeof *uses, compare_uses);
-    return count;
-}
-
-static bool is_shared(const struct use *uses, uint32_t count, uint32_t i) {
+static bool is_shared(const struct mesh_use *uses, uint32_t count, uint32_t i) {
     return (i > 0 && uses[i - 1].mesh == uses[i].mesh) || (i + 1 < count && uses[i + 1].mesh == uses[i].mesh);
 }
 
-static bool is_worth_it(const struct reference *r, const struct use *uses, uint32_t count) {
+static bool is_worth_it(const struct reference *r, const struct mesh_use *uses, uint32_t count) {
     uint64_t saved = 0;
     for (uint32_t i = 1; i < count; i++)
         saved += uses[i].mesh == uses[i - 1].mesh ? uses[i].mesh->triangle_count : 0;
@@ -104,7 +82,7 @@ static bool is_worth_it(const struct reference *r, const struct use *uses, uint3
            saved >= (r->input.few_rays ? SAVED_LEAST_FEW_RAYS : SAVED_LEAST);
 }
 
-static void add_instances(struct reference *r, const struct use *uses, uint32_t count) {
+static void add_instances(struct reference *r, const struct mesh_use *uses, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         if (!is_shared(uses, count, i))
             continue;
@@ -121,8 +99,8 @@ static void add_instances(struct reference *r, const struct use *uses, uint32_t 
 }
 
 void reference_share(struct reference *r) {
-    struct use *uses = ARENA_ARRAY(&r->arena, struct use, r->input.scene->body_count);
-    const uint32_t count = find_uses(r, uses);
+    struct mesh_use *uses = ARENA_ARRAY(&r->arena, struct mesh_use, r->input.scene->body_count);
+    const uint32_t count = mesh_uses(r->input.scene, TRIANGLES_LEAST, uses);
     if (!is_worth_it(r, uses, count))
         return;
     r->shared_meshes = ARENA_ARRAY(&r->arena, struct shared_mesh, count);

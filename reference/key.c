@@ -9,9 +9,11 @@
 
 // What is hashed by name here is not in the table: the view, which is made from the scene and may be moved
 // afterwards, meshes and images. A field that one of these gains changes its size: hash the field, then count
-// it.
-static_assert(sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 6 * 8, "hash the new field of a camera");
-static_assert(sizeof(struct view_light) == 4 * 8 + 6 * sizeof(vec3) + 8, "hash the new field of a light");
+// it. Sizes are those of 64 bits.
+static_assert(sizeof(void *) != 8 || sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 6 * 8,
+              "hash the new field of a camera");
+static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 4 * 8 + 6 * sizeof(vec3) + 8,
+              "hash the new field of a light");
 static_assert(sizeof(struct mesh_triangle) == 8 * sizeof(uint32_t), "triangles are hashed as bytes");
 
 static void add_view(struct hash128 *h, const struct view *view) {

@@ -10,26 +10,6 @@ struct place {
     double aspect;
 };
 
-// Unit vectors across `n` and each other, the same for every tracer: its samples are the same.
-void reference_frame(vec3 n, vec3 *a, vec3 *b) {
-    const vec3 axis = {9 / 25., 12 / 25., 20 / 25.}, other = {12 / 25., -9 / 25., 20 / 25.};
-    const bool along = fabs(vec3_dot(axis, n)) > 0.875;
-    *a = vec3_unit(vec3_cross(along ? other : axis, n));
-    *b = vec3_cross(n, *a);
-}
-
-// Shirley and Chiu 1997: rings of the square become rings of the disc.
-static void disc_point(double across, double down, double *x, double *y) {
-    const double u = 2 * across - 1, v = 2 * down - 1;
-    *x = *y = 0;
-    if (u == 0 && v == 0)
-        return;
-    const bool is_wide = fabs(u) > fabs(v);
-    const double ring = is_wide ? u : v, angle = QUARTER_TURN / 2 * (is_wide ? v / u : u / v);
-    *x = ring * (is_wide ? cos(angle) : sin(angle));
-    *y = ring * (is_wide ? sin(angle) : cos(angle));
-}
-
 static vec3 combined(const struct view_camera *c, double forward, double right, double up) {
     const vec3 across = vec3_add(vec3_mul(c->right, right), vec3_mul(c->up, up));
     return forward == 0 ? across : vec3_add(vec3_mul(c->forward, forward), across);
@@ -79,7 +59,7 @@ struct camera_ray reference_lens_ray(const struct reference *r, const struct ref
         if (!is_parallel && c->projection != IR_PROJECTION_PERSPECTIVE)
             reference_frame(ray.direction, &right, &up);
         points_at(points, point_key(point_root(points->x, points->y), POINT_LENS), &u, &v);
-        disc_point(u, v, &u, &v);
+        reference_disc(u, v, &u, &v);
         const vec3 aside = vec3_add(vec3_mul(right, u * c->lens_radius), vec3_mul(up, v * c->lens_radius));
         ray.start = vec3_add(ray.start, aside);
         ray.direction = vec3_unit(vec3_sub(vec3_mul(direction, c->focus), aside));

@@ -29,34 +29,12 @@ struct spot {
     double share; // of what a point there would add
 };
 
-// The unit disc, area by area, from the unit square (Shirley and Chiu 1997, "A Low Distortion Map Between
-// Disk and Square").
-static void in_disc(double a, double b, double *x, double *y) {
-    const double u = 2 * a - 1, v = 2 * b - 1;
-    const bool wide = fabs(u) > fabs(v);
-    const double radius = wide ? u : v;
-    const double angle = radius == 0 ? 0 : PI / 4 * (wide ? v : u) / radius;
-    *x = radius * (wide ? cos(angle) : sin(angle));
-    *y = radius * (wide ? sin(angle) : cos(angle));
-}
-
-// Two unit vectors at right angles to a third, which vary smoothly but at z = 0 (Duff et al. 2017, "Building
-// an Orthonormal Basis, Revisited").
-static void basis(vec3 n, vec3 *first, vec3 *second) {
-    const double side = n.z < 0 ? -1 : 1, a = -1 / (side + n.z);
-    *first = (vec3){1 + side * a * n.x * n.x, side * a * n.x * n.y, -side * n.x};
-    *second = (vec3){a * n.x * n.y, side + a * n.y * n.y, -n.y};
-}
-
 // A direction of a cap around the axis: (a, b) of the unit square, all directions alike.
 static vec3 in_cap(vec3 axis, double gap, double a, double b) {
     double x, y;
-    vec3 first, second;
-    in_disc(a, b, &x, &y);
-    basis(axis, &first, &second);
+    reference_disc(a, b, &x, &y);
     const double below = gap * (x * x + y * y), wide = sqrt(gap * (2 - below));
-    const vec3 across = vec3_add(vec3_mul(first, x * wide), vec3_mul(second, y * wide));
-    return vec3_add(vec3_mul(axis, 1 - below), across);
+    return reference_turned(axis, x * wide, y * wide, 1 - below);
 }
 
 // Half of a sphere, from inside it; else its cap in view.
@@ -185,12 +163,9 @@ static vec3 ambient(const struct reference *r, const struct surface *s, const st
     if (scene->occlusion == 0 || !scene->ir->trace.shadows || vec3_max_abs(value) < LEAST_LIGHT)
         return value;
     double a, b, x, y;
-    vec3 first, second;
     points_at(points, point_key(key, POINT_AMBIENT), &a, &b);
-    in_disc(a, b, &x, &y);
-    basis(s->shading, &first, &second);
-    vec3 l = vec3_mul(s->shading, sqrt(fmax(0, 1 - x * x - y * y)));
-    l = vec3_add(l, vec3_add(vec3_mul(first, x), vec3_mul(second, y)));
+    reference_disc(a, b, &x, &y);
+    const vec3 l = reference_turned(s->shading, x, y, sqrt(fmax(0, 1 - x * x - y * y)));
     if (!(vec3_dot(l, s->geometric) > 0))
         return (vec3){0, 0, 0};
     const struct view_light nowhere = {.extent = VIEW_POINT};
@@ -226,7 +201,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
 // ---- background
 
 static double channel(const struct reference *r, const struct picture *picture, size_t at, size_t c) {
-    if (picture->depth == PICTURE_RGBE)
+    if (picture_is_linear(picture))
         return (double)picture_linear(picture, at, c);
     return r->decoded[picture_stored(picture, at, c)];
 }
@@ -284,7 +259,7 @@ static double rgbe_brightest(const struct reference *r, size_t texels) {
 static double image_brightest(const struct reference *r) {
     const struct picture *picture = r->input.scene->background.picture;
     const size_t texels = (size_t)picture->width * picture->height;
-    if (picture->depth == PICTURE_RGBE)
+    if (picture_is_linear(picture))
         return rgbe_brightest(r, texels);
     const size_t greatest = picture_greatest(picture->depth);
     size_t most = 0;
@@ -303,7 +278,7 @@ void reference_make_background(struct reference *r) {
     r->background_brightest = reference_brightest(background->color);
     if (!picture || r->input.gradient)
         return;
-    if (picture->depth != PICTURE_RGBE) {
+    if (!picture_is_linear(picture)) {
         size_t greatest = picture_greatest(picture->depth);
         r->decoded = ARENA_ARRAY(&r->arena, double, greatest + 1);
         for (size_t i = 0; i <= greatest; i++) {

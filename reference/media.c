@@ -142,7 +142,7 @@ static void look_from_above(const struct reference *r, struct approach *on) {
 
 // false: no memory. Of too many the outermost ones count; who opened the scene has said so.
 static bool find_around_camera(struct reference *r) {
-    struct approach on = {heap_alloc(((size_t)r->input.scene->body_count + 1) * sizeof *on.bodies), 0};
+    struct approach on = {heap_array((size_t)r->input.scene->body_count + 1, sizeof *on.bodies), 0};
     if (!on.bodies)
         return false;
     look_from_above(r, &on);

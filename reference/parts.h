@@ -304,14 +304,22 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
                      const struct inside *inside, const struct points *points, uint32_t key,
                      struct lighting *out);
 
+// ---- round.c
+
+// A point of the unit square as one of the unit disc; areas keep their ratios, and the middle is the middle
+// (Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square").
+void reference_disc(double across, double down, double *x, double *y);
+// Unit vectors across `n` and each other.
+void reference_frame(vec3 n, vec3 *a, vec3 *b);
+// x and y along the frame's vectors and `along` along n.
+vec3 reference_turned(vec3 n, double x, double y, double along);
+
 // ---- lens.c
 
 struct camera_ray {
     vec3 start, direction; // unit
 };
 
-// Unit vectors across `n` and each other.
-void reference_frame(vec3 n, vec3 *a, vec3 *b);
 // The ray of a sample.
 struct camera_ray reference_lens_ray(const struct reference *r, const struct reference_settings *settings,
                                      const struct points *points);

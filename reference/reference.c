@@ -374,7 +374,7 @@ static struct reference_statistics join_tiles(const struct work *w, size_t count
 static enum reference_result run(struct work *w, struct reference_statistics *statistics) {
     double start = clock_seconds();
     w->tiles_x = (w->settings->width + TILE - 1) / TILE;
-    size_t count = (size_t)w->tiles_x * ((w->settings->height + TILE - 1) / TILE);
+    size_t count = heap_times(w->tiles_x, (w->settings->height + TILE - 1) / TILE);
     w->pixels = (size_t)w->settings->width * w->settings->height;
     w->tiles = heap_zeroed(count, sizeof *w->tiles);
     if (!w->tiles)

@@ -358,7 +358,7 @@ static bool build(struct building *b, size_t count) {
 // Makes the tree over items whose number it returns in *count; false: no memory.
 static bool make_nodes(struct building *b, uint32_t total, parallel_body *make, uint32_t *count) {
     *count = 0;
-    b->items = heap_alloc(total * sizeof *b->items);
+    b->items = heap_array(total, sizeof *b->items);
     if (!b->items)
         return false;
     parallel_for(total, PIECE, make, b);
@@ -367,7 +367,7 @@ static bool make_nodes(struct building *b, uint32_t total, parallel_body *make, 
             b->items[(*count)++] = b->items[i];
     if (*count == 0)
         return true;
-    b->nodes = heap_alloc(2 * (size_t)*count * sizeof *b->nodes);
+    b->nodes = heap_array(heap_times(2, *count), sizeof *b->nodes);
     return b->nodes && build(b, *count);
 }
 
@@ -381,7 +381,7 @@ static bool make_mesh_tree(struct reference *r, struct shared_mesh *shared) {
     uint32_t count;
     bool made = make_nodes(&b, shared->mesh->triangle_count, make_mesh_items, &count);
     shared->nodes = b.nodes;
-    shared->order = made ? heap_alloc(count * sizeof *shared->order) : NULL;
+    shared->order = made ? heap_array(count, sizeof *shared->order) : NULL;
     for (uint32_t i = 0; shared->order && i < count; i++)
         shared->order[i] = b.items[i].number;
     finish(&b);
@@ -394,7 +394,7 @@ static bool make_scene_tree(struct reference *r) {
         r->primitive_count == 0 || make_nodes(&b, r->primitive_count, make_items, &r->primitive_count);
     r->nodes = b.nodes;
     if (made && r->primitive_count) {
-        r->primitives = heap_alloc((size_t)r->primitive_count * sizeof *r->primitives);
+        r->primitives = heap_array(r->primitive_count, sizeof *r->primitives);
         made = r->primitives != NULL;
         if (made)
             parallel_for(r->primitive_count, PIECE, gather, &b);

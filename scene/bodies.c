@@ -282,7 +282,7 @@ static const struct scene_body *first_over(const struct scene *scene, struct tri
 bool scene_check_triangles(const struct scene *scene, const struct limits *limits, struct diag_sink *sink) {
     const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
     const uint64_t most = limits->value[LIMIT_SCENE_TRIANGLES];
-    struct triangle_use *uses = heap_alloc(((size_t)scene->body_count + 1) * sizeof *uses);
+    struct triangle_use *uses = heap_array((size_t)scene->body_count + 1, sizeof *uses);
     uint64_t total = 0;
     if (!uses) {
         diag_add(sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "there is not enough memory for the scene's bodies");

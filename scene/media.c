@@ -151,7 +151,7 @@ static void find_overlap(struct medium *media, uint32_t count, struct scene_medi
 bool scene_media_need(const struct scene *scene, struct scene_media_reason *out) {
     *out = (struct scene_media_reason){.need = SCENE_MEDIA_APART};
     uint32_t count = 0;
-    struct medium *media = heap_alloc(((size_t)scene->body_count + 1) * sizeof *media);
+    struct medium *media = heap_array((size_t)scene->body_count + 1, sizeof *media);
     if (!media)
         return false;
     for (uint32_t i = 0; i < scene->body_count; i++) {

@@ -1,4 +1,5 @@
 // Images on surfaces: their levels, and how coordinates become places in them.
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "core/srgb.h"
 #include "grammar/ir.h"
@@ -44,7 +45,7 @@ static vec3 picture_texel(const struct scene_texture *t, size_t at) {
     const struct picture *picture = t->picture;
     double value[3];
     for (size_t k = 0; k < 3; k++) {
-        if (picture->depth == PICTURE_RGBE) {
+        if (picture_is_linear(picture)) {
             value[k] = (double)picture_linear(picture, at, k);
             continue;
         }
@@ -150,7 +151,8 @@ static void make_levels(struct scene_texture *t, struct arena *arena) {
         *next = (struct scene_level){.width = last->width > 1 ? last->width / 2 : 1,
                                      .height = last->height > 1 ? last->height / 2 : 1,
                                      .is_bytes = last->is_bytes};
-        const size_t bytes = (size_t)next->width * next->height * 3 * (next->is_bytes ? 1 : sizeof(float));
+        const size_t pixel_bytes = next->is_bytes ? 3 : 3 * sizeof(float);
+        const size_t bytes = heap_times(heap_times(next->width, next->height), pixel_bytes);
         halving.level = t->level_count;
         halving.pixels = arena_alloc(arena, bytes);
         next->pixels = halving.pixels;
@@ -171,7 +173,7 @@ static const struct scene_texture *texture_of(struct scene *scene, const struct 
                                 .number = scene->texture_count++,
                                 .picture = picture,
                                 .is_srgb = scene->ir->image.transfer == IR_TRANSFER_SRGB &&
-                                           picture->depth != PICTURE_RGBE};
+                                           !picture_is_linear(picture)};
     make_levels(t, arena);
     scene->textures = t;
     return t;

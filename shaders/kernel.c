@@ -89,8 +89,8 @@ static uint32_t *unpacked(const struct kernel *kernel) {
     for (size_t i = 0; i < kernel->group_count; i++)
         size += size_of(group_of(kernel, i));
     unsigned char *bytes = heap_alloc(size + 1);
-    uint32_t *words = heap_alloc((kernel->packed_words + 1) * sizeof *words);
-    uint32_t *ids = heap_alloc((2 * kernel->packed_words + 1) * sizeof *ids);
+    uint32_t *words = heap_array(kernel->packed_words + 1, sizeof *words);
+    uint32_t *ids = heap_array(heap_times(2, kernel->packed_words) + 1, sizeof *ids);
     const bool ok = bytes && words && ids && unpack(kernel, bytes, words, ids);
     free(bytes);
     free(ids);
@@ -104,7 +104,7 @@ uint32_t *kernel_inflate(const struct kernel *kernel) {
     uint32_t *module = unpacked(kernel), *out = NULL;
     bool *done = NULL;
     if (module && exact_is_sound(module, kernel->packed_words)) {
-        out = heap_alloc(EXACT_ROOM(kernel->packed_words) * sizeof *out);
+        out = heap_array(EXACT_ROOM(kernel->packed_words), sizeof *out);
         done = heap_zeroed(module[3], sizeof *done);
     }
     const bool ok =

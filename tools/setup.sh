@@ -1,21 +1,30 @@
 #!/bin/sh
-# Installs the Debian packages that are missing, and only those: `tools/setup.sh build` for building and
-# rendering, `tools/setup.sh test` for the tests too. Needs root or sudo only where something is missing.
+# Installs the Debian packages that are missing, and only those: `tools/setup.sh check-only` for building what checks
+# scenes, `tools/setup.sh build` for building and rendering, `tools/setup.sh test` for the tests too. Needs root or sudo
+# only where something is missing. `--list` only prints them.
 set -eu
 
-build="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libpng-dev zlib1g-dev
-libjpeg62-turbo-dev libstb-dev libminizip-dev libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers
-glslang-tools spirv-tools"
+check="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libpng-dev zlib1g-dev
+libjpeg62-turbo-dev libopenexr-dev libwebp-dev libminizip-dev"
+build="$check libstb-dev libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers
+glslang-tools spirv-headers spirv-tools"
 test="libcmocka-dev vulkan-validationlayers valgrind libxml2-utils clang-format git"
 
 case "${1:-}" in
+check-only) wanted=$check ;;
 build) wanted=$build ;;
 test) wanted="$build $test" ;;
 *)
-    echo "usage: tools/setup.sh build|test" >&2
+    echo "usage: tools/setup.sh check-only|build|test [--list]" >&2
     exit 2
     ;;
 esac
+
+if [ "${2:-}" = --list ]; then
+    # shellcheck disable=SC2086
+    printf '%s\n' $wanted
+    exit 0
+fi
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
     echo "setup: this is not a Debian system; install the packages listed in tools/setup.sh by hand" >&2

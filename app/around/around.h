@@ -26,10 +26,14 @@ struct around_input {
 
 bool around_mesh(const struct around_input *input, struct ir_scene *out);
 
-// The same as the text of a scene file beside the mesh, whose path is `path`: reads the mesh into the store,
-// where who reads the text finds it again. An empty text: the mesh cannot be read, which they will report, or
-// has no scene around it. `input` is that of the session, without a scene; its arena must be guarded. What
-// was taken of the store is in *assets: assets_finish, also if memory ends.
+// The scene around the mesh file at `path`, which is read into the store, where who reads the scene finds it
+// again. false: the mesh cannot be read, which they will report, or has no scene around it. `input` is that
+// of the session, without a scene; its arena must be guarded. What was taken of the store is in *assets:
+// assets_finish, also if memory ends.
+bool around_scene(struct asset_store *store, const struct assets_input *input, str path, int32_t width,
+                  int32_t height, struct assets *assets, struct ir_scene *out);
+
+// The same as the text of a scene file beside the mesh, whose path is `path`; empty where there is none.
 str around_text(struct asset_store *store, const struct assets_input *input, str path, int32_t width,
                 int32_t height, struct assets *assets);
 

@@ -36,16 +36,20 @@ static str text_of(const struct ir_scene *scene, struct arena *arena) {
     return copy;
 }
 
-str around_text(struct asset_store *store, const struct assets_input *input, str path, int32_t width,
-                int32_t height, struct assets *assets) {
+bool around_scene(struct asset_store *store, const struct assets_input *input, str path, int32_t width,
+                  int32_t height, struct assets *assets, struct ir_scene *out) {
     load(store, input, path, assets);
     const struct around_input around = {.name = path_base(path),
                                         .mesh = assets->models ? assets->models[0].mesh : NULL,
                                         .width = width,
                                         .height = height,
                                         .arena = input->arena};
+    return around.mesh && utf8_first_error(around.name) == around.name.len && around_mesh(&around, out);
+}
+
+str around_text(struct asset_store *store, const struct assets_input *input, str path, int32_t width,
+                int32_t height, struct assets *assets) {
     struct ir_scene *scene = ARENA_NEW(input->arena, struct ir_scene);
-    if (!around.mesh || utf8_first_error(around.name) < around.name.len || !around_mesh(&around, scene))
-        return STR("");
-    return text_of(scene, input->arena);
+    const bool good = around_scene(store, input, path, width, height, assets, scene);
+    return good ? text_of(scene, input->arena) : STR("");
 }

@@ -165,6 +165,8 @@ static void json_audit(struct json_writer *w, const struct audit *audit) {
 }
 
 static void put_estimate(struct json_writer *w, const struct stats *s) {
+    if (s->unused_error > 0)
+        json_write_real(w, "unused_error", s->unused_error);
     if (!s->estimate)
         return;
     json_open_object(w, "noise");

@@ -25,6 +25,7 @@ struct stats {
     uint32_t width, height, samples;
     str camera;                             // its name; empty where the scene has none
     const struct render_estimate *estimate; // where pixels end by their error; NULL: all have `samples`
+    double unused_error;                    // the scene's, where none does; 0: it has none
     bool has_audit;
     struct audit audit;
     struct timeline *timeline; // since `begun`, a time of the clock

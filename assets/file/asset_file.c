@@ -80,7 +80,8 @@ static span named_place(struct asset_file *file) {
 
 static void add_named_notes(struct asset_file *file) {
     for (struct asset_file *f = file; f; f = f->named_in)
-        if (f->named_in || f->input->sources->items[f->named_at.source].kind != SOURCE_KIND_GENERATED)
+        if (f->named_in || (f->named_at.source != SOURCE_DEFAULT &&
+                            f->input->sources->items[f->named_at.source].kind != SOURCE_KIND_GENERATED))
             diag_note(f->input->sink, named_place(f), "the %s is named here", f->what);
 }
 

@@ -11,6 +11,8 @@
 
 #include "assets/file/asset_input.h"
 
+struct gltf_document;
+
 struct asset_file {
     const struct assets_input *input;
     str path;                             // to open, and as shown
@@ -26,6 +28,9 @@ struct asset_file {
     uint32_t errors;
     bool is_binary;      // it has no lines: a "line" is the number of a face, from 1
     uint32_t head_bytes; // of a binary file: lines at its beginning, which can be shown
+    struct gltf_document
+        *document; // of a glTF mesh, which all models of the file share; NULL: of another format
+    str part;      // of the mesh, as the model names it; empty: all
 };
 
 // The file that holds a value: paths are relative to it. Values of options belong to the scene's file.

@@ -56,7 +56,7 @@ static float arctan2(float y, float x) {
 
 static float3 texel(const struct peer *peer, const struct picture *picture, uint32_t column, uint32_t row) {
     const size_t at = (size_t)row * picture->width + column;
-    if (picture->depth == PICTURE_RGBE)
+    if (picture_is_linear(picture))
         return (float3){picture_linear(picture, at, 0), picture_linear(picture, at, 1),
                         picture_linear(picture, at, 2)};
     return (float3){peer->decoded[picture_stored(picture, at, 0)],

@@ -168,7 +168,7 @@ static void make_background(struct peer *peer) {
     const struct picture *picture = peer->scene->background.picture;
     const bool srgb = peer->scene->ir->image.transfer == IR_TRANSFER_SRGB;
     peer->background = float3_of(peer->scene->background.color);
-    if (!picture || picture->depth == PICTURE_RGBE)
+    if (!picture || picture_is_linear(picture))
         return;
     const uint32_t greatest = picture_greatest(picture->depth);
     peer->decoded = ARENA_ARRAY(&peer->arena, float, greatest + (size_t)1);

@@ -28,7 +28,7 @@ static vec3 mean_background(const struct export_input *in) {
     double sum[3] = {0, 0, 0}, count = 0;
     for (size_t at = 0; at < (size_t)picture->width * picture->height; at += MEAN_STEP, count++)
         for (size_t c = 0; c < 3; c++) {
-            if (picture->depth == PICTURE_RGBE) {
+            if (picture_is_linear(picture)) {
                 sum[c] += (double)picture_linear(picture, at, c);
                 continue;
             }

@@ -197,8 +197,8 @@ static void write_frames(struct turns *t, struct json_writer *w) {
 static bool write_picture(struct turns *t, const char *path) {
     enum image_format format;
     struct strbuf bytes;
-    if (!image_format_of_path(str_from(path), &format))
-        return turns_say(TURNS_FAILED, "%s: the output must end in %s", path, image_format_endings()) ==
+    if (!image_format_of_path(str_from(path), IMAGE_WRITTEN, &format))
+        return turns_say(TURNS_FAILED, "%s: the output must end in %s", path, IMAGE_WRITTEN_ENDINGS) ==
                TURNS_DONE;
     const struct image_display display = {t->session.image->tone, t->session.image->transfer};
     strbuf_init(&bytes);

@@ -45,7 +45,7 @@ struct run {
 };
 
 static size_t pixels_of(const struct run *run) {
-    return (size_t)run->input->width * run->input->height;
+    return heap_times(run->input->width, run->input->height);
 }
 
 static struct image_display display_of(const struct ir_scene *scene) {
@@ -230,7 +230,7 @@ static enum extremes_status measure_cell(struct run *run, struct extreme_cell *c
 }
 
 static bool list_cells(struct extremes *out, uint32_t axes) {
-    out->cells = heap_zeroed((size_t)EXTREME_AXES * EXTREME_VALUES_MAX, sizeof *out->cells);
+    out->cells = heap_zeroed(heap_times(EXTREME_AXES, EXTREME_VALUES_MAX), sizeof *out->cells);
     if (!out->cells)
         return false;
     for (int axis = 0; axis < EXTREME_AXES; axis++) {
@@ -294,7 +294,7 @@ static enum extremes_status make_rest(struct run *run) {
     enum extremes_status status = trace_device(run, &run->base_variant, &cell);
     if (status != EXTREMES_DONE || cell.left_out)
         return status;
-    float *rest = heap_alloc(3 * pixels_of(run) * sizeof *rest);
+    float *rest = heap_array(heap_times(3, pixels_of(run)), sizeof *rest);
     if (!rest)
         return EXTREMES_MEMORY;
     image_to_displayed(run->rgb, pixels_of(run), display_of(run->input->scene->ir), rest);
@@ -307,11 +307,11 @@ static enum extremes_status make_rest(struct run *run) {
 static bool make_pictures(struct run *run) {
     const size_t count = pixels_of(run);
     for (int i = 0; i < 2; i++) {
-        run->hits[i] = heap_alloc(count * sizeof *run->hits[i]);
-        run->shown[i] = heap_alloc(3 * count * sizeof *run->shown[i]);
+        run->hits[i] = heap_array(count, sizeof *run->hits[i]);
+        run->shown[i] = heap_array(heap_times(3, count), sizeof *run->shown[i]);
     }
-    run->exact = heap_alloc(3 * count * sizeof *run->exact);
-    run->rgb = heap_alloc(3 * count * sizeof *run->rgb);
+    run->exact = heap_array(heap_times(3, count), sizeof *run->exact);
+    run->rgb = heap_array(heap_times(3, count), sizeof *run->rgb);
     return run->hits[0] && run->hits[1] && run->shown[0] && run->shown[1] && run->exact && run->rgb;
 }
 

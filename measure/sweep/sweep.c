@@ -170,10 +170,10 @@ static enum sweep_status judge_pictures(struct judging *j) {
 static void judge_guarded(void *context) {
     struct judging *j = context;
     const size_t pixels = j->pixels;
-    j->rgb = ARENA_ARRAY(&j->arena, float, 3 * pixels);
-    j->exact = ARENA_ARRAY(&j->arena, double, 3 * pixels);
+    j->rgb = ARENA_ARRAY(&j->arena, float, heap_times(3, pixels));
+    j->exact = ARENA_ARRAY(&j->arena, double, heap_times(3, pixels));
     for (int i = 0; i < 2; i++) {
-        j->shown[i] = ARENA_ARRAY(&j->arena, float, 3 * pixels);
+        j->shown[i] = ARENA_ARRAY(&j->arena, float, heap_times(3, pixels));
         j->hits[i] = ARENA_ARRAY(&j->arena, struct hit_pixel, pixels);
     }
     view_build(j->scene, 0, (int32_t)j->input->width, (int32_t)j->input->height, &j->arena, NULL, &j->view);

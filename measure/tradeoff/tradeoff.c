@@ -143,7 +143,7 @@ static enum tradeoff_status run_rows(struct measuring *s) {
 
 static enum tradeoff_status choose(struct tradeoff *t) {
     const enum metric metric = t->options.metric;
-    struct choice_row *choices = heap_alloc(t->count * sizeof *choices);
+    struct choice_row *choices = heap_array(t->count, sizeof *choices);
     if (!choices)
         return TRADEOFF_MEMORY;
     for (uint32_t i = 0; i < t->count; i++) {

@@ -16,11 +16,54 @@ static bool is_hex_color(str text) {
     return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), &ignored);
 }
 
+// As in "wood.png".
+static bool is_file_name(str text) {
+    size_t dot = text.len;
+    while (dot > 0 && isalpha((unsigned char)text.ptr[dot - 1]))
+        dot--;
+    return dot > 1 && text.ptr[dot - 1] == '.' && text.len - dot >= 3 && text.len - dot <= 4;
+}
+
+// The row by which the element takes a file in place of a colour; NULL: there is none.
+static const struct schema_row *row_of_file(struct bind_subject subject) {
+    const struct schema_element *schema = subject.frame->schema;
+    const bool chosen = subject.frame->via && subject.row && subject.row->choice;
+    for (uint32_t i = 0; chosen && i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        const int file = row->kind == SCHEMA_ELEMENT ? schema_short_row(row->child) : -1;
+        if (row->choice == subject.row->choice && file >= 0 &&
+            row->child->rows[file].text == SCHEMA_TEXT_PATH)
+            return row;
+    }
+    return NULL;
+}
+
+// A file where a colour is expected: how it is written.
+static void help_file(struct bind_context *context, struct bind_subject subject, const struct schema_row *row,
+                      tree_index node) {
+    const str text = tree_text(context->tree, node);
+    const struct schema_row *via = subject.frame->via;
+    if (context->tree->is_xml) {
+        diag_help(context->sink, "an image is written <%s><%s file=\"%.*s\"/></%s>", via->element,
+                  row->element, STR_ARG(text), via->element);
+        return;
+    }
+    const str written = source_text(context->sources, tree_span(context->tree, node));
+    const str whole = arena_format(context->scratch, "{%s: %.*s}", row->name, STR_ARG(written));
+    diag_help(context->sink, "an image is written %.*s", STR_ARG(whole));
+    diag_fix(context->sink, true, tree_span(context->tree, node), whole);
+}
+
 bool bind_bad_color(struct bind_context *context, struct bind_subject subject, tree_index node) {
     str text = tree_text(context->tree, node);
     span at = tree_span(context->tree, node);
     diag_add(context->sink, DIAG_BAD_COLOR, at, "%.*s: '%.*s' is not a colour",
              STR_ARG(say_subject(context->scratch, subject)), STR_ARG(say_text(context->scratch, text)));
+    const struct schema_row *file = is_file_name(text) ? row_of_file(subject) : NULL;
+    if (file) {
+        help_file(context, subject, file, node);
+        return false;
+    }
     bool safe;
     str mended = mend_color(context->scratch, text, &safe);
     if (mended.len == 0) {

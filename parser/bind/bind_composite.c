@@ -102,13 +102,18 @@ static void unknown_component(struct bind_context *context, struct bind_subject 
     diag_fix(context->sink, mend_is_safe(&search), at, str_from(search.best));
 }
 
-// What is given, with 0 for the rest, in the spelling of the file.
-static void help_with_zeros(struct bind_context *context, struct bind_subject subject, tree_index node) {
+static bool takes_zero(struct bind_subject subject) {
+    return schema_in_range(subject.row->range, 0);
+}
+
+// What is given, with 0 for the rest, or 1 where 0 is not allowed, in the spelling of the file.
+static void help_with_rest(struct bind_context *context, struct bind_subject subject, tree_index node) {
     const struct tree *tree = context->tree;
     const char *const *names = schema_components(subject.row->kind);
+    const str rest = takes_zero(subject) ? STR("0") : STR("1");
     str list = STR("");
     for (uint32_t i = 0; names[i]; i++) {
-        str value = STR("0");
+        str value = rest;
         for (tree_index key = tree_first(tree, node); key; key = tree_next_key(tree, key))
             if (str_equal_cstr(tree_text(tree, key), names[i]))
                 value = tree_text(tree, tree_value(tree, key));
@@ -116,7 +121,8 @@ static void help_with_zeros(struct bind_context *context, struct bind_subject su
     }
     str all = context->tree->is_xml ? say_components(context->scratch, subject, list)
                                     : arena_format(context->scratch, "[%.*s]", STR_ARG(list));
-    diag_help(context->sink, "with 0 for the rest: %.*s", STR_ARG(say_text(context->scratch, all)));
+    diag_help(context->sink, "with %.*s for the rest: %.*s", STR_ARG(rest),
+              STR_ARG(say_text(context->scratch, all)));
     // What is missing may be another number: a suggestion. A comment inside would be lost.
     str written = source_text(context->sources, tree_span(tree, node));
     bool has_comment = written.len && memchr(written.ptr, tree->is_xml ? '!' : '#', written.len);
@@ -137,10 +143,10 @@ static bool report_missing(struct bind_context *context, struct bind_subject sub
     if (bind_is_known(context, node))
         return false;
     diag_add(context->sink, DIAG_MISSING_COMPONENT, tree_span(context->tree, node),
-             "%.*s lacks %.*s; write every component, even if it is 0",
-             STR_ARG(say_subject(context->scratch, subject)), STR_ARG(list));
+             "%.*s lacks %.*s; write every component%s", STR_ARG(say_subject(context->scratch, subject)),
+             STR_ARG(list), takes_zero(subject) ? ", even if it is 0" : "");
     if (numbers_are_good && tree_node(context->tree, node)->count)
-        help_with_zeros(context, subject, node);
+        help_with_rest(context, subject, node);
     else
         bind_help_example(context, subject);
     return false;

@@ -4,6 +4,7 @@
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
 
+#include "core/heap.h"
 #include "core/nearest.h"
 #include "core/number.h"
 
@@ -116,7 +117,7 @@ static str found(struct bind_context *context, tree_index node) {
 
 // Lines of "radius:1" with a space after each ':'; empty if one of them is not of that kind.
 static str with_blanks(struct arena *arena, const struct schema_element *schema, str lines) {
-    char *all = arena_alloc(arena, 2 * lines.len + 1);
+    char *all = arena_alloc(arena, heap_times(2, lines.len) + 1);
     size_t length = 0;
     while (lines.len) {
         const char *line_end = memchr(lines.ptr, '\n', lines.len);

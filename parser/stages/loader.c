@@ -34,7 +34,7 @@ static struct ir_scene *stream_file(struct loader *loader, read_file *read, uint
     diag_sink_init(sink);
     diag_sink_keep(sink, loader->input->sink->kept_max);
     struct bind_context context = binding(loader, sink, tree);
-    bind_stream_begin(stream, &context, (size_t)loader->input->limits->value[LIMIT_SCENE_MEMORY]);
+    bind_stream_begin(stream, &context, limits_size(loader->input->limits, LIMIT_SCENE_MEMORY));
     struct reader_context reader = reading(loader, sink);
     reader.taker = &stream->taker;
     struct ir_scene *scene = read(&reader, source, tree) ? bind_file(&context) : NULL;

@@ -67,8 +67,8 @@ static bool load(const struct parser_input *input, uint32_t main_source, bool al
                  struct parser_output *output) {
     struct loader loader = {.input = input, .output = output};
     *output = (struct parser_output){.scene = NULL};
-    arena_init(&loader.scratch, (size_t)input->limits->value[LIMIT_SCENE_MEMORY]);
-    arena_init(&loader.steady, (size_t)input->limits->value[LIMIT_SCENE_MEMORY]);
+    arena_init(&loader.scratch, limits_size(input->limits, LIMIT_SCENE_MEMORY));
+    arena_init(&loader.steady, limits_size(input->limits, LIMIT_SCENE_MEMORY));
     bool done = guarded(&loader, main_source, alone);
     diag_sink_finish(&loader.trial);
     bind_stream_finish(&loader.stream);

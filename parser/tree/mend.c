@@ -1,5 +1,6 @@
 #include "parser/tree/mend.h"
 
+#include "core/heap.h"
 #include "core/nearest.h"
 
 #include <limits.h>
@@ -195,7 +196,7 @@ str mend_like(struct arena *arena, str written, str replacement) {
 
 str mend_snake(struct arena *arena, str text) {
     text = mend_quotes(text);
-    char *out = arena_alloc(arena, 2 * text.len + 1);
+    char *out = arena_alloc(arena, heap_times(2, text.len) + 1);
     size_t length = 0;
     for (size_t i = 0; i < text.len; i++) {
         char c = text.ptr[i];

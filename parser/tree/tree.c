@@ -19,7 +19,7 @@ void tree_grow_texts(struct tree *tree, size_t bytes) {
         wanted = need;
     if (wanted > UINT32_MAX)
         wanted = need > UINT32_MAX ? SIZE_MAX : UINT32_MAX; // beyond any arena's cap
-    char *moved = arena_alloc(tree->arena, wanted);
+    char *moved = arena_alloc_array(tree->arena, wanted, 1);
     if (tree->texts.count)
         memcpy(moved, tree->texts.items, tree->texts.count);
     tree->texts.items = moved;

@@ -1,5 +1,7 @@
 #include "parser/yaml/yaml_reader.h"
 
+#include "core/heap.h"
+
 #include <string.h>
 
 // An unquoted colour that made a comment of the rest of its line, in text that libyaml has scanned without an
@@ -54,7 +56,7 @@ static uint32_t replace_tabs(struct yaml_reader *r) {
 // on; *end is after the last of these tabs.
 static str with_spaces(struct yaml_reader *r, uint32_t begin, uint32_t *end) {
     str text = r->text->bytes;
-    char *out = arena_alloc(r->context->arena, 2 * (text.len - begin) + 1);
+    char *out = arena_alloc(r->context->arena, heap_times(2, text.len - begin) + 1);
     size_t length = 0, whole = 0;
     bool indent = true;
     for (uint32_t at = begin; at < text.len; at++) {

@@ -250,9 +250,9 @@ static void compare_pixels(void *context, size_t begin, size_t end) {
 
 bool flip_measure(struct plane_size size, const float *picture, const float *reference,
                   double pixels_per_degree, double *mean, float *map) {
-    const size_t count = (size_t)size.width * size.height;
-    float *planes = heap_alloc(2 * PLANE_COUNT * count * sizeof *planes);
-    struct filter *filters = heap_alloc(2 * sizeof *filters);
+    const size_t count = heap_times(size.width, size.height);
+    float *planes = heap_array(heap_times(heap_times(2, PLANE_COUNT), count), sizeof *planes);
+    struct filter *filters = heap_array(2, sizeof *filters);
     if (planes && filters) {
         struct comparing context = {
             .a = planes, .b = planes + PLANE_COUNT * count, .count = count, .map = map};

@@ -39,8 +39,8 @@ void heatmap_color(double value, uint8_t rgb[3]) {
 
 void heatmap_png(uint32_t width, uint32_t height, const float *values, enum heatmap_scale scale,
                  struct strbuf *out) {
-    const size_t pixels = (size_t)width * height;
-    uint8_t *bytes = heap_alloc(3 * pixels);
+    const size_t pixels = heap_times(width, height);
+    uint8_t *bytes = heap_array(pixels, 3);
     if (!bytes) {
         out->failed = true;
         return;

@@ -135,7 +135,7 @@ static void fill(struct measure_result *r, const struct row_sums *total, uint64_
 
 static bool sum_pixels(struct plane_size size, const float *picture, const float *reference, double threshold,
                        struct measure_result *result, float *difference) {
-    struct row_sums *rows = heap_alloc(size.height * sizeof *rows);
+    struct row_sums *rows = heap_array(size.height, sizeof *rows);
     if (!rows)
         return false;
     struct summing context = {size.width, picture, reference, threshold, rows, difference};
@@ -149,7 +149,7 @@ static bool sum_pixels(struct plane_size size, const float *picture, const float
 // ---- the metrics of displayed values
 
 static float *displayed_copy(const float *picture, size_t pixels, const struct measure_options *options) {
-    float *copy = heap_alloc(3 * pixels * sizeof *copy);
+    float *copy = heap_array(heap_times(3, pixels), sizeof *copy);
     // In displayed values only what is not a number changes.
     const struct image_display none = {IR_TONE_CLIP, IR_TRANSFER_NONE};
     if (copy)
@@ -161,7 +161,7 @@ bool measure_pictures(uint32_t width, uint32_t height, const float *picture, con
                       const struct measure_options *options, struct measure_result *result, float *difference,
                       float *flip) {
     const struct plane_size size = {width, height};
-    const size_t pixels = (size_t)width * height;
+    const size_t pixels = heap_times(width, height);
     const bool ssim = !options->metrics || options->metrics & 1u << METRIC_SSIM;
     const bool wants_flip = flip || !options->metrics || options->metrics & 1u << METRIC_FLIP;
     *result = (struct measure_result){0};
@@ -171,7 +171,7 @@ bool measure_pictures(uint32_t width, uint32_t height, const float *picture, con
     if (!good || !(ssim || wants_flip))
         return good;
     float *a = displayed_copy(picture, pixels, options), *b = displayed_copy(reference, pixels, options);
-    float *map = flip || !wants_flip ? flip : heap_alloc(pixels * sizeof *map);
+    float *map = flip || !wants_flip ? flip : heap_array(pixels, sizeof *map);
     good = a && b && (map || !wants_flip);
     if (good && ssim)
         good = ssim_measure(size, a, b, &result->value[METRIC_SSIM]);

@@ -13,21 +13,21 @@ void picture_file_finish(struct picture_file *picture) {
 }
 
 static float channel(const struct picture *picture, size_t at, size_t k) {
-    if (picture->depth == PICTURE_RGBE)
+    if (picture_is_linear(picture))
         return picture_linear(picture, at, k);
     return (float)(picture_stored(picture, at, k) / (double)picture_greatest(picture->depth));
 }
 
-static const char *decode(str bytes, const struct picture_header *header, struct picture_file *out) {
+static const char *decode(str bytes, struct picture_header *header, struct picture_file *out) {
     struct picture picture;
     const char *fault = picture_decode(bytes, header, &picture);
     if (fault)
         return fault;
-    const size_t pixels = (size_t)picture.width * picture.height;
+    const size_t pixels = heap_times(picture.width, picture.height);
     out->width = picture.width;
     out->height = picture.height;
-    out->space = picture.depth == PICTURE_RGBE ? MEASURE_LINEAR : MEASURE_DISPLAYED;
-    out->rgb = heap_alloc(3 * pixels * sizeof *out->rgb);
+    out->space = picture_is_linear(&picture) ? MEASURE_LINEAR : MEASURE_DISPLAYED;
+    out->rgb = heap_array(heap_times(3, pixels), sizeof *out->rgb);
     for (size_t i = 0; out->rgb && i < pixels; i++)
         for (size_t k = 0; k < 3; k++)
             out->rgb[3 * i + k] = channel(&picture, i, k);
@@ -36,24 +36,20 @@ static const char *decode(str bytes, const struct picture_header *header, struct
 }
 
 const char *picture_file_decode(str bytes, uint64_t most_bytes, struct picture_file *out, bool *unknown) {
-    static const char *const kinds[] = {[PICTURE_KIND_NONE] = "",
-                                        [PICTURE_KIND_PNG] = "PNG",
-                                        [PICTURE_KIND_JPEG] = "JPEG",
-                                        [PICTURE_KIND_HDR] = "HDR"};
     *out = (struct picture_file){0};
     *unknown = false;
     if (str_starts_with(bytes, STR("PF")) || str_starts_with(bytes, STR("Pf"))) {
-        out->kind = "PFM";
+        out->kind = image_format_info(IMAGE_PFM)->name;
         return pfm_decode(bytes, most_bytes, out);
     }
     struct picture_header header;
     const char *fault = picture_read_header(bytes, &header);
-    out->kind = kinds[header.kind];
+    out->kind = image_format_info(header.kind)->name;
     if (fault)
         return fault;
-    if (header.kind == PICTURE_KIND_NONE) {
+    if (header.kind == IMAGE_NONE) {
         *unknown = true;
-        return "it is not a PNG, JPEG, PFM or Radiance HDR picture";
+        return "it is not a " IMAGE_COMPARED_NAMES " picture";
     }
     if (picture_memory(&header, 3 * sizeof *out->rgb) > most_bytes)
         return "it takes more memory than the limit image-memory";

@@ -1,4 +1,5 @@
-// A finished picture read back from a file: PNG and JPEG (displayed values), PFM and HDR (linear floats).
+// A finished picture read back from a file: PNG and JPEG (displayed values), PFM, OpenEXR and HDR (linear
+// floats).
 //
 // Ownership: picture_file_finish frees the pixels; it accepts NULL and zeroed ones. Errors: a sentence.
 // Thread safety: pure.

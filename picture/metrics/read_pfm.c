@@ -52,7 +52,7 @@ const char *pfm_decode(str bytes, uint64_t most_bytes, struct picture_file *out)
     if (at >= bytes.len || (bytes.len - at - 1) / (FLOAT_BYTES * channels) < pixels)
         return "the file ends before its last pixel";
     out->space = MEASURE_LINEAR;
-    out->rgb = heap_alloc(3 * (size_t)pixels * sizeof *out->rgb);
+    out->rgb = heap_array(heap_times(3, pixels), sizeof *out->rgb);
     if (!out->rgb)
         return "there is not enough memory";
     const unsigned char *data = (const unsigned char *)bytes.ptr + at + 1;

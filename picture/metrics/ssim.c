@@ -52,8 +52,8 @@ static double mean_over_windows(struct plane_size size, const float *planes) {
 }
 
 bool ssim_measure(struct plane_size size, const float *picture, const float *reference, double *mean) {
-    const size_t count = (size_t)size.width * size.height;
-    float *planes = heap_alloc(count * PLANES * sizeof *planes);
+    const size_t count = heap_times(size.width, size.height);
+    float *planes = heap_array(heap_times(count, PLANES), sizeof *planes);
     struct filter *filter = heap_alloc(sizeof *filter);
     if (planes && filter) {
         for (size_t i = 0; i < count; i++) {

@@ -25,7 +25,7 @@ static jvirt_barray_ptr request(j_common_ptr decoder, int pool, boolean pre_zero
 }
 
 static size_t plane_bytes(const struct jvirt_barray_control *plane) {
-    return (size_t)plane->width * plane->height * sizeof(JBLOCK);
+    return heap_times(heap_times(plane->width, plane->height), sizeof(JBLOCK));
 }
 
 // Rows of one plane: pointers to where they begin, as the library wants them.
@@ -38,14 +38,14 @@ static JBLOCK *make_rows(j_common_ptr decoder, struct jvirt_barray_control *plan
 
 static void realize(j_common_ptr decoder) {
     struct jpeg_blocks *blocks = decoder->client_data;
-    size_t bytes = 0;
+    uint64_t bytes = 0;
     for (unsigned i = 0; i < blocks->count; i++)
         bytes += plane_bytes(&blocks->planes[i]);
     if (bytes == 0 || blocks->memory)
         return;
-    if (bytes > (size_t)decoder->mem->max_memory_to_use)
+    if (bytes > (uint64_t)decoder->mem->max_memory_to_use)
         ERREXITS(decoder, JERR_NO_BACKING_STORE, "");
-    blocks->memory = heap_zeroed(1, bytes + ALIGNMENT);
+    blocks->memory = heap_zeroed(bytes + ALIGNMENT, 1);
     if (!blocks->memory)
         ERREXIT1(decoder, JERR_OUT_OF_MEMORY, 0);
     JBLOCK *first = (JBLOCK *)(((uintptr_t)blocks->memory + ALIGNMENT - 1) & ~(uintptr_t)(ALIGNMENT - 1));

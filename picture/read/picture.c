@@ -13,7 +13,10 @@ void picture_finish(struct picture *picture) {
 }
 
 enum picture_depth picture_depth_of(const struct picture_header *header) {
-    return header->kind == PICTURE_KIND_HDR ? PICTURE_RGBE : header->is_16_bit ? PICTURE_16 : PICTURE_8;
+    return header->kind == IMAGE_HDR   ? PICTURE_RGBE
+           : header->kind == IMAGE_EXR ? PICTURE_FLOAT
+           : header->is_16_bit         ? PICTURE_16
+                                       : PICTURE_8;
 }
 
 uint64_t picture_memory(const struct picture_header *header, uint64_t more_bytes) {

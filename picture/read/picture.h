@@ -1,19 +1,23 @@
-// Images that a scene reads: PNG and JPEG (decoded by libpng and libjpeg-turbo), Radiance HDR.
+// Images that a scene reads: PNG and JPEG (decoded by libpng and libjpeg-turbo), OpenEXR (by
+// OpenEXRCore), Radiance HDR.
 //
-// Pixels are kept as their file has them, without alpha: three or six bytes a pixel, four of an HDR image.
+// Pixels are kept as their file has them, without alpha: three or six bytes a pixel, four of an HDR image,
+// three floats of an OpenEXR image.
 // Ownership: pixels on the heap, freed by picture_finish; pictures in the store belong to the store.
 // Thread safety: a picture is immutable once decoded.
 #ifndef GLINT_PICTURE_READ_PICTURE_H
 #define GLINT_PICTURE_READ_PICTURE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
 enum picture_depth {
-    PICTURE_8,    // 3 x uint8_t per pixel; value / 255
-    PICTURE_16,   // 3 x uint16_t; value / 65535
-    PICTURE_RGBE, // 3 x uint8_t and the exponent that they share (picture_rgbe_scale), linear always
+    PICTURE_8,     // 3 x uint8_t per pixel; value / 255
+    PICTURE_16,    // 3 x uint16_t; value / 65535
+    PICTURE_RGBE,  // 3 x uint8_t and the exponent that they share (picture_rgbe_scale), linear always
+    PICTURE_FLOAT, // 3 x float, finite and not negative, linear always
 };
 
 struct picture {
@@ -28,15 +32,21 @@ struct picture {
 void picture_finish(struct picture *picture);
 
 static inline size_t picture_pixel_bytes(enum picture_depth depth) {
-    return depth == PICTURE_8 ? 3 : depth == PICTURE_16 ? 6 : 4;
+    return depth == PICTURE_8 ? 3 : depth == PICTURE_16 ? 6 : depth == PICTURE_RGBE ? 4 : 12;
 }
 
-// The greatest value of a channel that is a whole number; not of PICTURE_RGBE.
+// Whether the values are linear, whatever the scene says: read by picture_linear. Else they are whole
+// numbers.
+static inline bool picture_is_linear(const struct picture *picture) {
+    return picture->depth >= PICTURE_RGBE;
+}
+
+// The greatest value of a channel that is a whole number.
 static inline uint32_t picture_greatest(enum picture_depth depth) {
     return depth == PICTURE_8 ? UINT8_MAX : UINT16_MAX;
 }
 
-// The value of a channel (0 to 2) of pixel `at`, as it is stored; not of PICTURE_RGBE.
+// The value of a channel (0 to 2) of pixel `at`, as it is stored, where it is a whole number.
 static inline uint32_t picture_stored(const struct picture *picture, size_t at, size_t channel) {
     return picture->depth == PICTURE_8 ? ((const uint8_t *)picture->pixels)[3 * at + channel]
                                        : ((const uint16_t *)picture->pixels)[3 * at + channel];
@@ -57,8 +67,10 @@ static inline float picture_rgbe_scale(uint8_t exponent) {
     return scale;
 }
 
-// The value of a channel (0 to 2) of pixel `at` of a PICTURE_RGBE.
+// The value of a channel (0 to 2) of pixel `at`, where picture_is_linear.
 static inline float picture_linear(const struct picture *picture, size_t at, size_t channel) {
+    if (picture->depth == PICTURE_FLOAT)
+        return ((const float *)picture->pixels)[3 * at + channel];
     const uint8_t *pixel = (const uint8_t *)picture->pixels + 4 * at;
     return (float)pixel[channel] * picture_rgbe_scale(pixel[3]);
 }

@@ -10,17 +10,11 @@
 #define GLINT_PICTURE_READ_PICTURE_READ_H
 
 #include "core/str.h"
+#include "picture/formats/formats.h"
 #include "picture/read/picture.h"
 
-enum picture_kind {
-    PICTURE_KIND_NONE,
-    PICTURE_KIND_PNG,
-    PICTURE_KIND_JPEG,
-    PICTURE_KIND_HDR,
-};
-
 struct picture_header {
-    enum picture_kind kind;
+    enum image_format kind;
     uint32_t width, height;
     bool is_16_bit;         // PNG
     uint64_t decoder_bytes; // that decoding takes at most besides the pixels
@@ -40,9 +34,10 @@ enum picture_depth picture_depth_of(const struct picture_header *header);
 uint64_t picture_memory(const struct picture_header *header, uint64_t more_bytes);
 // What a picture with this header is without its pixels.
 struct picture picture_of_header(const struct picture_header *header);
-// Decodes every row and keeps none. NULL, or what is wrong.
-const char *picture_check(str bytes, const struct picture_header *header);
+// Decodes every row and keeps none. NULL, or what is wrong. What pixels have that is not used is added to
+// `ignored` of the header, in both of these.
+const char *picture_check(str bytes, struct picture_header *header);
 // Decodes; returns NULL, or what is wrong, and then *out has no pixels. picture_finish frees them.
-const char *picture_decode(str bytes, const struct picture_header *header, struct picture *out);
+const char *picture_decode(str bytes, struct picture_header *header, struct picture *out);
 
 #endif

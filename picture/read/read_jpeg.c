@@ -4,6 +4,7 @@
 #include "picture/read/jpeg_blocks.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -274,7 +275,8 @@ static void read_rows(str bytes, struct job *job) {
     jpeg_blocks_use(decoder, &job->blocks);
     jpeg_mem_src(decoder, (const unsigned char *)bytes.ptr, bytes.len);
     // No header can make the library keep more than was counted.
-    decoder->mem->max_memory_to_use = (long)header->decoder_bytes;
+    decoder->mem->max_memory_to_use =
+        header->decoder_bytes < LONG_MAX ? (long)header->decoder_bytes : LONG_MAX;
     jpeg_read_header(decoder, TRUE);
     if (decoder->image_width != header->width || decoder->image_height != header->height) {
         job->fault = "its parts contradict each other about its size";
@@ -303,7 +305,7 @@ static void read_guarded(str bytes, struct job *job) {
 }
 
 const char *picture_jpeg_rows(str bytes, const struct picture_header *header, struct picture_rows rows) {
-    struct job job = {.header = header, .rows = rows, .inks = heap_alloc(4 * (size_t)header->width)};
+    struct job job = {.header = header, .rows = rows, .inks = heap_array(4, header->width)};
     if (!job.inks)
         return picture_no_memory;
     job.decoder.err = jpeg_std_error(&job.errors);

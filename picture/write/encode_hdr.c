@@ -68,7 +68,7 @@ void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const char *n
     if (note)
         strbuf_format(out, "# %s: %s\n", IMAGE_NOTE_KEYWORD, note);
     strbuf_format(out, "FORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
-    uint8_t *planes = heap_alloc((size_t)4 * width);
+    uint8_t *planes = heap_array(4, width);
     if (!planes) {
         out->failed = true;
         return;

@@ -12,6 +12,7 @@
 
 struct file {
     uint32_t width, height;
+    int bits;
     const char *note;
     struct png_data data;
 };
@@ -81,7 +82,7 @@ static void write_data(png_structp png, const struct png_data *data) {
 
 // Returns normally, or through libpng's jump to the caller's setjmp.
 static void write_all(png_structp png, png_infop info, const struct file *file) {
-    png_set_IHDR(png, info, file->width, file->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+    png_set_IHDR(png, info, file->width, file->height, file->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (file->note) {
         char keyword[] = IMAGE_NOTE_KEYWORD;
@@ -111,11 +112,21 @@ static void write_file(const struct file *file, struct strbuf *out) {
     png_destroy_write_struct(&png, &info);
 }
 
-void encode_png(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note, struct strbuf *out) {
-    struct file file = {.width = width, .height = height, .note = note};
-    if (png_data_make(width, height, rgb, &file.data))
-        write_file(&file, out);
+static void encode(struct file *file, const uint8_t *rgb, struct strbuf *out) {
+    if (png_data_make(file->width, file->height, 3 * (uint32_t)file->bits / 8, rgb, &file->data))
+        write_file(file, out);
     else
         out->failed = true;
-    png_data_finish(&file.data);
+    png_data_finish(&file->data);
+}
+
+void encode_png(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note, struct strbuf *out) {
+    struct file file = {.width = width, .height = height, .bits = 8, .note = note};
+    encode(&file, rgb, out);
+}
+
+void encode_png_deep(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note,
+                     struct strbuf *out) {
+    struct file file = {.width = width, .height = height, .bits = 16, .note = note};
+    encode(&file, rgb, out);
 }

@@ -11,19 +11,33 @@
 
 #include "core/strbuf.h"
 #include "grammar/ir_value.h"
+#include "picture/formats/formats.h"
 
 #include <math.h>
+
+enum image_compression {
+    IMAGE_ZIP,
+    IMAGE_PIZ,
+    IMAGE_UNCOMPRESSED,
+};
+
+// How a file is to be coded, where its format leaves a choice; zeros: by default.
+struct image_coding {
+    unsigned bits;        // per channel: PNG 8 or 16, OpenEXR 16 or 32; 0: 8, and 32
+    unsigned quality;     // 1 to 100, of JPEG and WebP, where 100 is lossless; 0: IMAGE_QUALITY
+    unsigned compression; // enum image_compression, of OpenEXR
+};
+
+enum {
+    IMAGE_QUALITY = 90,
+    IMAGE_QUALITY_MOST = 100,
+};
 
 struct image {
     uint32_t width, height;
     float *rgb;       // three per pixel, row 0 on top
     const char *note; // a line of ASCII for the file's head; not owned; NULL: none
-};
-
-enum image_format {
-    IMAGE_PNG, // 8 bits per channel, tone and transfer applied
-    IMAGE_PFM, // floats, little endian
-    IMAGE_HDR, // Radiance, shared exponents
+    struct image_coding coding;
 };
 
 // How linear values are displayed: the words of the scene's image element.
@@ -43,16 +57,15 @@ static inline bool image_is_marked(const float rgb[3]) {
 
 // `bytes` has room for 3 * width * height.
 void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes);
+// The same rounded to 16 bits, the higher byte first: 6 * width * height.
+void image_to_words(const struct image *image, struct image_display display, uint8_t *bytes);
 // The same before rounding: 0..1, what is not a number is 0. `displayed` may be `linear`.
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
 
-// By the ending of a path; false: not a supported one.
-bool image_format_of_path(str path, enum image_format *format);
-// ".png, .pfm or .hdr", for messages.
-const char *image_format_endings(void);
 // What a note is filed under: a PNG's tEXt chunk, a comment in the head of an HDR; a PFM has no room for one.
 #define IMAGE_NOTE_KEYWORD "Accuracy"
-// Appends the whole file to `out`. `display` is only for PNG.
+// Appends the whole file to `out`; IMAGE_WRITTEN, and not image_format_missing. `display` is for formats of
+// displayed values.
 void image_encode(const struct image *image, enum image_format format, struct image_display display,
                   struct strbuf *out);
 

@@ -32,7 +32,7 @@ struct deflating {
 
 static voidpf on_alloc(voidpf opaque, uInt count, uInt size) {
     (void)opaque;
-    return heap_alloc((size_t)count * size);
+    return heap_array(count, size);
 }
 
 static void on_free(voidpf opaque, voidpf memory) {
@@ -87,12 +87,13 @@ static bool deflate_all(const uint8_t *filtered, size_t size, struct png_data *o
     return !d.failed;
 }
 
-bool png_data_make(uint32_t width, uint32_t height, const uint8_t *rgb, struct png_data *out) {
+bool png_data_make(uint32_t width, uint32_t height, uint32_t pixel, const uint8_t *rgb,
+                   struct png_data *out) {
     *out = (struct png_data){0};
-    const size_t size = ((size_t)3 * width + 1) * height;
+    const size_t size = heap_times(heap_times(pixel, width) + 1, height);
     uint8_t *filtered = heap_alloc(size);
     const bool made =
-        filtered && png_filter_rows(width, height, rgb, filtered) && deflate_all(filtered, size, out);
+        filtered && png_filter_rows(width, height, pixel, rgb, filtered) && deflate_all(filtered, size, out);
     free(filtered);
     return made;
 }

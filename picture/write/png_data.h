@@ -25,14 +25,14 @@ struct png_data {
     size_t count;
 };
 
-// `rgb`: three bytes per pixel, row 0 on top; width and height are at least 1.
-bool png_data_make(uint32_t width, uint32_t height, const uint8_t *rgb, struct png_data *out);
+// `rgb`: `pixel` bytes per pixel, 3 or 6, row 0 on top; width and height are at least 1.
+bool png_data_make(uint32_t width, uint32_t height, uint32_t pixel, const uint8_t *rgb, struct png_data *out);
 // Accepts what png_data_make left, whatever it returned.
 void png_data_finish(struct png_data *data);
 
 // ---- png_filter.c
 
-// Rows of 3 * width bytes, each after the number of its filter. false: no memory.
-bool png_filter_rows(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t *filtered);
+// Rows of pixel * width bytes, each after the number of its filter. false: no memory.
+bool png_filter_rows(uint32_t width, uint32_t height, uint32_t pixel, const uint8_t *rgb, uint8_t *filtered);
 
 #endif

@@ -8,14 +8,14 @@
 #include <string.h>
 
 enum {
-    PIXEL = 3,
+    PIXEL_MOST = 6,
     FILTERS = 5,
     ROWS = 16,    // of a piece of work
     BLOCK = 4096, // bytes whose sum fits 32 bits
 };
 
 struct filtering {
-    size_t row_bytes;
+    size_t row_bytes, pixel;
     const uint8_t *rgb;
     uint8_t *out;
     atomic_bool failed;
@@ -55,8 +55,8 @@ static uint8_t paeth(int a, int b, int c) {
 }
 
 // All filters but the one that changes nothing.
-static void filter(const struct rows *rows, size_t count) {
-    const uint8_t *x = rows->row, *a = x - PIXEL, *b = rows->above, *c = b - PIXEL;
+static void filter(const struct rows *rows, size_t count, size_t pixel) {
+    const uint8_t *x = rows->row, *a = x - pixel, *b = rows->above, *c = b - pixel;
     uint8_t *sub = rows->through[1], *up = rows->through[2], *average = rows->through[3],
             *nearest = rows->through[4];
     for (size_t i = 0; i < count; i++)
@@ -86,20 +86,20 @@ static void put_best(const struct rows *rows, size_t count, uint8_t *to) {
 static void filter_rows(void *context, size_t begin, size_t end) {
     struct filtering *f = context;
     const size_t count = f->row_bytes;
-    uint8_t *memory = heap_zeroed(FILTERS + 1, count + PIXEL);
+    uint8_t *memory = heap_zeroed(FILTERS + 1, count + PIXEL_MOST);
     if (!memory) {
         f->failed = true;
         return;
     }
-    struct rows rows = {.row = memory + PIXEL, .above = memory + count + (size_t)2 * PIXEL};
+    struct rows rows = {.row = memory + PIXEL_MOST, .above = memory + count + (size_t)2 * PIXEL_MOST};
     rows.through[0] = rows.row;
     for (size_t i = 1; i < FILTERS; i++)
-        rows.through[i] = memory + (i + 1) * (count + PIXEL);
+        rows.through[i] = memory + (i + 1) * (count + PIXEL_MOST);
     if (begin > 0)
         memcpy(rows.above, f->rgb + (begin - 1) * count, count);
     for (size_t y = begin; y < end; y++) {
         memcpy(rows.row, f->rgb + y * count, count);
-        filter(&rows, count);
+        filter(&rows, count, f->pixel);
         put_best(&rows, count, f->out + y * (count + 1));
         uint8_t *row = rows.above;
         rows.above = rows.row;
@@ -108,8 +108,8 @@ static void filter_rows(void *context, size_t begin, size_t end) {
     free(memory);
 }
 
-bool png_filter_rows(uint32_t width, uint32_t height, const uint8_t *rgb, uint8_t *filtered) {
-    struct filtering f = {.row_bytes = (size_t)PIXEL * width, .rgb = rgb, .out = filtered};
+bool png_filter_rows(uint32_t width, uint32_t height, uint32_t pixel, const uint8_t *rgb, uint8_t *filtered) {
+    struct filtering f = {.row_bytes = (size_t)pixel * width, .pixel = pixel, .rgb = rgb, .out = filtered};
     parallel_for(height, ROWS, filter_rows, &f);
     return !f.failed;
 }

@@ -93,6 +93,28 @@ void image_to_bytes(const struct image *image, struct image_display display, uin
     parallel_for((size_t)image->width * image->height, PIECE_PIXELS, convert_pixels, &job);
 }
 
+// To 16 bits there is no table: a power for each channel.
+static void word_pixels(void *context, size_t begin, size_t end) {
+    const struct conversion *job = context;
+    for (size_t i = begin; i < end; i++) {
+        const float *c = job->rgb + 3 * i;
+        const bool marked = image_is_marked(c);
+        const float divisor = tone_divisor(c, job->display.tone);
+        for (size_t k = 0; k < 3; k++) {
+            const double value = marked ? k != 1 : (double)toned(c[k], divisor);
+            const double shown = job->display.transfer == IR_TRANSFER_SRGB ? srgb_encode(value) : value;
+            const uint32_t word = (uint32_t)floor(65535 * shown + 0.5);
+            job->bytes[6 * i + 2 * k] = (uint8_t)(word >> 8);
+            job->bytes[6 * i + 2 * k + 1] = (uint8_t)word;
+        }
+    }
+}
+
+void image_to_words(const struct image *image, struct image_display display, uint8_t *bytes) {
+    struct conversion job = {.rgb = image->rgb, .bytes = bytes, .display = display};
+    parallel_for((size_t)image->width * image->height, PIECE_PIXELS, word_pixels, &job);
+}
+
 struct displaying {
     const float *linear;
     float *displayed;

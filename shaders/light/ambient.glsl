@@ -17,7 +17,7 @@ uint light_end() { return frame.light_count + (is_occluded() ? 1u : 0u); }
 
 // A direction of the hemisphere, by its cosine (Malley's method; Pharr et al. 2016, section 13.6.3), as far as `occlusion`.
 light_ray ambient_ray(surface s, REAL3 start, uint ray_key) {
-    REAL2 at = disc_of(point_at(point_key(ray_key, POINT_AMBIENT)));
+    REAL2 at = disc_point(point_at(point_key(ray_key, POINT_AMBIENT)));
     REAL3 l = turned_to(s.shading, at, sqrt(max(1.0 - dot3(REAL3(at, 0.0), REAL3(at, 0.0)), 0.0)));
     light_ray ray;
     ray.place = s.point + l * frame.occlusion;

@@ -54,3 +54,10 @@ void frame_around(REAL3 n, out REAL3 a, out REAL3 b) {
     a = unit3(cross3(axis, n));
     b = cross3(n, a);
 }
+
+// across.x and across.y along the frame's vectors and `along` along n.
+REAL3 turned_to(REAL3 n, REAL2 across, REAL along) {
+    REAL3 a, b;
+    frame_around(n, a, b);
+    return a * across.x + b * across.y + n * along;
+}

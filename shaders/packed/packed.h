@@ -14,14 +14,12 @@
 #ifndef GLINT_SHADERS_PACKED_PACKED_H
 #define GLINT_SHADERS_PACKED_PACKED_H
 
+#include <spirv/unified1/spirv.h>
 #include <stdbool.h>
 #include <stdint.h>
 
 enum {
     PACKED_HEADER_WORDS = 5, // of a module: as they are
-    PACKED_FUNCTION = 54,    // the opcodes between which a function is
-    PACKED_FUNCTION_END = 56,
-    PACKED_LABEL = 248,
 };
 
 // The parts that follow each other in the bytes of a module, or of a group.
@@ -44,43 +42,33 @@ enum packed_word {
 
 // Whether an instruction begins with a type and its result.
 static inline bool packed_has_type(uint32_t opcode) {
-    enum {
-        OP_EXT_INST = 12,
-        OP_CONSTANT_TRUE = 41,
-        OP_STORE = 62,
-        OP_COPY_MEMORY = 63,
-        OP_DECORATE = 71,
-        OP_MEMBER_DECORATE = 72,
-        OP_LOOP_MERGE = 246,
-        OP_UNREACHABLE = 255,
-    };
-    return opcode == OP_EXT_INST ||
-           (opcode >= OP_CONSTANT_TRUE && opcode != OP_STORE && opcode != OP_COPY_MEMORY &&
-            opcode != OP_DECORATE && opcode != OP_MEMBER_DECORATE &&
-            (opcode < OP_LOOP_MERGE || opcode > OP_UNREACHABLE));
+    return opcode == SpvOpExtInst ||
+           (opcode >= SpvOpConstantTrue && opcode != SpvOpStore && opcode != SpvOpCopyMemory &&
+            opcode != SpvOpDecorate && opcode != SpvOpMemberDecorate &&
+            (opcode < SpvOpLoopMerge || opcode > SpvOpUnreachable));
 }
 
 // The first of the words of an instruction that are literals to its end; a large number: none.
 static inline uint32_t packed_literals(uint32_t opcode) {
     switch (opcode) {
-    case 21: // OpTypeInt
-    case 22: // OpTypeFloat
-    case 71: // OpDecorate
-    case 72: // OpMemberDecorate
+    case SpvOpTypeInt:
+    case SpvOpTypeFloat:
+    case SpvOpDecorate:
+    case SpvOpMemberDecorate:
         return 2;
-    case 25:  // OpTypeImage
-    case 43:  // OpConstant
-    case 50:  // OpSpecConstant
-    case 62:  // OpStore
-    case 63:  // OpCopyMemory
-    case 246: // OpLoopMerge
+    case SpvOpTypeImage:
+    case SpvOpConstant:
+    case SpvOpSpecConstant:
+    case SpvOpStore:
+    case SpvOpCopyMemory:
+    case SpvOpLoopMerge:
         return 3;
-    case 61: // OpLoad
-    case 81: // OpCompositeExtract
+    case SpvOpLoad:
+    case SpvOpCompositeExtract:
         return 4;
-    case 79: // OpVectorShuffle
-    case 82: // OpCompositeInsert
-    case 95: // OpImageFetch
+    case SpvOpVectorShuffle:
+    case SpvOpCompositeInsert:
+    case SpvOpImageFetch:
         return 5;
     default:
         return opcode < 12 || (opcode > 12 && opcode < 19) ? 1 : UINT32_MAX; // modes, names, capabilities
@@ -90,18 +78,18 @@ static inline uint32_t packed_literals(uint32_t opcode) {
 // Whether one word among ids is a literal.
 static inline bool packed_single_literal(uint32_t opcode, uint32_t index) {
     switch (opcode) {
-    case 32:  // OpTypePointer
-    case 247: // OpSelectionMerge
+    case SpvOpTypePointer:
+    case SpvOpSelectionMerge:
         return index == 2;
-    case 23: // OpTypeVector
-    case 24: // OpTypeMatrix
-    case 52: // OpSpecConstantOp
-    case 54: // OpFunction
-    case 59: // OpVariable
+    case SpvOpTypeVector:
+    case SpvOpTypeMatrix:
+    case SpvOpSpecConstantOp:
+    case SpvOpFunction:
+    case SpvOpVariable:
         return index == 3;
-    case 12: // OpExtInst
+    case SpvOpExtInst:
         return index == 4;
-    case 251: // OpSwitch
+    case SpvOpSwitch:
         return index > 2 && index % 2 == 1;
     default:
         return false;

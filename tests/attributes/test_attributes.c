@@ -42,6 +42,13 @@ struct use {
     uint32_t tries;   // in this scene
 };
 
+struct pictures {
+    struct session session;
+    struct image device, reference;
+    struct image_display display;
+    bool has_reference;
+};
+
 struct bench {
     struct picture_kit kit;
     const char *work;
@@ -49,7 +56,8 @@ struct bench {
     uint32_t count;
     struct arena arena;
     struct ir_scene *scene; // of this seed
-    struct image device;    // as it is
+    struct pictures before; // as it is, once a change asks for it
+    bool asked_before, has_before;
 };
 
 // ---- the rows
@@ -158,12 +166,6 @@ static bool change(const struct bench *b, const struct use *use, void *field) {
 
 // ---- pictures
 
-struct pictures {
-    struct session session;
-    struct image device, reference;
-    struct image_display display;
-};
-
 static bool write_scene(const struct bench *b, char path[PATH_BYTES]) {
     struct strbuf text;
     strbuf_init(&text);
@@ -201,10 +203,13 @@ static bool by_reference(struct pictures *p) {
     struct exact exact;
     struct reference_statistics statistics;
     const struct exact_options options = {.as_file = true, .no_cache = true};
+    if (p->has_reference)
+        return true;
     bool good = exact_open(&exact, &p->session, 0, options) == SHOT_OK &&
                 image_init(&p->reference, exact.settings.width, exact.settings.height) &&
                 exact_take(&exact, &p->reference, NULL, NULL, &statistics) == SHOT_OK;
     exact_close(&exact);
+    p->has_reference = good;
     return good;
 }
 
@@ -324,28 +329,34 @@ static void *field_of(const struct use *use, void *element) {
     return schema_field(use->row, element);
 }
 
+static bool has_before(struct bench *b) {
+    if (!b->asked_before)
+        b->has_before = load(b, &b->before) && by_device(b, &b->before);
+    b->asked_before = true;
+    return b->has_before;
+}
+
 // true: the picture changed, and everything was as it must be, or was said.
 static void try_element(struct bench *b, struct use *use, void *element) {
     struct ir_head *head = element;
     const uint64_t bit = UINT64_C(1) << (use->row - use->schema->rows);
     const struct ir_head head_before = *head;
     unsigned char field_before[64];
-    struct pictures before, after;
+    struct pictures after;
     if (use->row->size > sizeof field_before || use->proven || use->tries >= TRIES_A_SCENE)
         return;
     memcpy(field_before, field_of(use, element), use->row->size);
     use->tries++;
-    bool good = load(b, &before) && by_device(b, &before);
+    bool good = has_before(b);
     good = change(b, use, field_of(use, element)) && good;
     head->written |= bit;
     memset(&after, 0, sizeof after);
     bool loaded = good && load(b, &after);
     if (loaded && by_device(b, &after)) {
-        note_change(b, use, &before, &after);
+        note_change(b, use, &b->before, &after);
     }
     if (good)
         finish(&after);
-    finish(&before);
     memcpy(field_of(use, element), field_before, use->row->size);
     *head = head_before;
 }
@@ -486,6 +497,9 @@ static void try_seed(struct bench *b, uint64_t seed) {
     for (uint32_t i = 0; i < b->count; i++)
         b->uses[i].tries = 0;
     try_rows(b, &SCHEMA_SCENE, b->scene);
+    if (b->asked_before)
+        finish(&b->before);
+    b->asked_before = false;
     arena_finish(&b->arena);
 }
 

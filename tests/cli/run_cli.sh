@@ -225,6 +225,40 @@ if "$glint" devices >devices.txt 2>/dev/null; then
     expect "pfm" 0 - '' "$glint" render good.yaml -o out.pfm
     expect "pfm header" 0 '^PF' '' head -c 2 out.pfm
     expect "hdr" 0 - '' "$glint" render good.yaml -o out.hdr
+    expect "several pictures of one rendering" 0 - 'wrote many\.hdr' "$glint" render good.yaml -o many.png -o many.pfm -o many.hdr
+    ok "as one by one" sh -c 'cmp many.png out.png && cmp many.pfm out.pfm && cmp many.hdr out.hdr'
+    expect "rendered once" 0 '^1$' - sh -c '"$1" render good.yaml -o many.png -o many.pfm -q --stats=json | grep -o "\"name\": \"frame\"" | wc -l' - "$glint"
+    if "$glint" render good.yaml -o many.exr -o half.exr -q 2>why.txt; then
+        expect "OpenEXR holds what PFM holds" 0 - - "$glint" compare many.exr out.pfm --max-largest 0 --format json
+        expect "halves, by PIZ" 0 - - "$glint" render good.yaml -o half.exr -q --depth 16 --compression piz
+        expect "nearly" 0 - - "$glint" compare half.exr out.pfm --max-relmse 1e-6
+        expect "and not quite" 1 - - "$glint" compare half.exr out.pfm --max-largest 0
+        printf 'glint: 1\nbackground: {image: many.exr}\n' >exr.yaml
+        expect "an OpenEXR background" 0 - - "$glint" render exr.yaml --size 16x16 -o exr.png -q
+    else
+        grep -q 'was built without OpenEXR' why.txt || fail "OpenEXR cannot be written, and nothing says why"
+    fi
+    expect "JPEG" 0 - - "$glint" render good.yaml -o out.jpg -q
+    expect "which is close" 0 - - "$glint" compare out.jpg out.png --max-rmse 0.05
+    expect "JPEG of less quality" 0 - - "$glint" render good.yaml -o less.jpg -q --quality 10
+    ok "is smaller" sh -c 'test $(wc -c <less.jpg) -lt $(wc -c <out.jpg)'
+    if "$glint" render good.yaml -o out.webp -q 2>why.txt; then
+        expect "WebP" 0 'WEBP' - head -c 12 out.webp
+    else
+        grep -q 'was built without WebP' why.txt || fail "WebP cannot be written, and nothing says why"
+    fi
+    expect "PNG of 16 bits" 0 - - "$glint" render good.yaml -o deep.png -q --depth 16
+    expect "within half of a step of 8 bits" 0 - - "$glint" compare deep.png out.png --max-largest 0.00198
+    expect "a depth that no output has" 2 - 'can have 32 bits' "$glint" render good.yaml -o a.png --depth 32
+    expect "quality of a PNG" 2 - 'no output is JPEG' "$glint" render good.yaml -o a.png --quality 50
+    expect "compression of a PNG" 2 - 'no output is OpenEXR' "$glint" render good.yaml -o a.png --compression piz
+    expect "another compression" 2 - "takes zip, piz or none" "$glint" render good.yaml -o a.exr --compression dwaa
+    expect "a WebP that is too wide" 2 - 'at most 16383 pixels' "$glint" render good.yaml -o a.webp --size 16384x1
+    expect "a picture that is named twice" 2 - 'named twice' "$glint" render good.yaml -o a.png -o a.png
+    expect "a second one of no known kind" 2 - 'must end in' "$glint" render good.yaml -o a.png -o a.tga
+    ok "and no picture is written" test ! -e a.png
+    expect "one of several on standard output" 0 'PNG' '' "$glint" render good.yaml -o many2.pfm -o -
+    ok "and the other one in its file" cmp many2.pfm out.pfm
     expect "png on standard output" 0 'PNG' '' "$glint" render good.yaml -o -
     expect "a mesh is a scene" 0 - '' "$glint" render tri.obj --size 16x16 -o tri.png
     expect "all cameras" 0 - '' "$glint" render two.yaml --camera all -o two.png

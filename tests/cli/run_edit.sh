@@ -206,6 +206,22 @@ for scene in "$source"/scenes/*.yaml "$source"/scenes/elements/*.yaml; do
     expect "twins: $(basename "$scene")" 0 - - "$glint" diff "$scene" "${scene%.yaml}.xml"
 done
 
+# A row that the file lacks is written beside another one, as that is written.
+for case in yaml yaml_default yaml_most xml; do
+    cp "$source"/tests/invalid/w429_$case/case.* .
+    file=case.${case%%_*}
+    expect "w429_$case: mended" 0 - "$file: 1 fix made" "$glint" check --fix=all $file
+    expect "w429_$case: for good" 0 - - "$glint" check $file
+    case $case in
+    yaml_default) expect "on a line of its own" 0 '^  samples: 256$' - cat $file ;;
+    yaml_most) expect "the other row" 0 'samples: 2000, error: 0.01, min_samples: 16.$' - cat $file ;;
+    *) expect "in its place" 0 'samples(: |=")256.* error' - cat $file ;;
+    esac
+done
+printf '<Scene glint="1"><Image error="0.01"/><Sphere radius="1"><Center x="0" y="0" z="-4"/></Sphere></Scene>\n' >error.xml
+"$glint" check --fix=all error.xml >out.txt 2>err.txt
+expect "as an attribute" 0 '<Image error="0.01" samples="256"/>' - cat error.xml
+
 # Vectors: what the help says is what the fix writes.
 cp "$source/tests/invalid/e209_yaml_flow/case.yaml" flow.yaml
 expect "brackets around numbers in a flow map" 1 - 'flow.yaml: 6 fixes made' "$glint" check --fix flow.yaml

@@ -30,6 +30,22 @@ cmp -s one.png option.png && pass 'threads change no byte' || fail 'threads chan
 "$glint" render "$scene" --size 64x48 --samples 16 --set image.error=0.02 -q -o few.png
 cmp -s plain.png few.png && pass 'with few samples all pixels take them' || fail 'with few samples all pixels take them'
 
+# An error that ends no pixel is never passed over in silence.
+render() { "$glint" render "$scene" --size 64x48 -o unused.png "$@"; }
+scene_says='--set image.error=0.02 --set image.samples=64'
+expect 'too few samples in the scene' 0 - 'none ends before it has 16.*W429' render --set image.error=0.02
+expect 'enough of them on the command line' 0 - 'standard error' render --set image.error=0.02 --samples 64
+grep -q W429 err.txt && fail 'and then nothing is found' || pass 'and then nothing is found'
+expect 'too few on the command line' 0 - 'image.error ends no pixel before it has 16 samples, and each takes 8' \
+    render $scene_says --samples 8
+expect 'the reference takes all' 0 - 'image.error ends no pixel: the reference takes all 2 samples' \
+    render $scene_says --samples 2 --device reference --no-cache
+expect 'its report says so' 0 '"unused_error": 0.02' '' \
+    render $scene_says --samples 2 --device reference --no-cache --stats=json -q
+expect 'a time says how many' 0 - 'image.error ends no pixel: --time says' render $scene_says --time 60
+expect 'the option with too few' 2 - 'noise.* would have no effect: no pixel ends before it has image.min_samples' \
+    render --noise 0.02 --samples 8
+
 expect 'not with a time' 2 - 'noise.*--time.*E801' "$glint" render "$scene" --noise 0.02 --time 3 -o no.png
 expect 'not with a search' 2 - 'noise.*E801' "$glint" render "$scene" --noise 0.02 --max-error flip=0.1 -o no.png
 expect 'not by the reference' 2 - 'all samples of all pixels' "$glint" render "$scene" --noise 0.02 --device reference -o no.png

@@ -54,7 +54,7 @@ fi
 cp "$models/bunny-69k.ply" statue.ply
 "$writer" statue.ply . as.obj
 "$glint" render statue.ply -o by_itself.pfm --size 48x36 --samples 2 -q
-"$glint" convert statue.ply scene.yaml -q
+"$glint" convert statue.ply scene.yaml
 "$glint" render scene.yaml -o converted.pfm --size 48x36 --samples 2 -q
 same "a mesh by itself, and the scene around it" by_itself.pfm converted.pfm
 "$glint" render as.obj -o as_obj.pfm --size 48x36 --samples 2 -q

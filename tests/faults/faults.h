@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #define FAULTS_VARIABLE "GLINT_TEST_FAULTS"
+#define FAULTS_LISTED   "fault: " // begins a line of a list
 
 enum faults_kind {
     FAULTS_MEMORY,
@@ -29,7 +30,7 @@ struct faults {
     int32_t error;   // an errno, FAULTS_SHORT, or a VkResult
     uint32_t number; // of the call that fails, from 1
     bool onward;     // and all after it
-    bool lists;      // writes the name of each call to the standard error
+    bool lists;      // writes each call to the standard error: its name and, but for Vulkan, who makes it
     // What happened.
     atomic_uint seen, failed;
     char call[64]; // the first that failed
@@ -48,5 +49,7 @@ bool faults_strike(enum faults_kind kind, const char *call);
 bool faults_is_ours(const void *address);
 // Whether it is made by the program's own code.
 bool faults_is_program(const void *address);
+// A number for the calls that led here, each place once however often it calls itself; the same in every run.
+unsigned long long faults_stack(void);
 
 #endif

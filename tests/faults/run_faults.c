@@ -3,7 +3,8 @@
 // half-written.
 //
 // Usage: run_faults GLINT SHIM SOURCES WORK memory|files|vulkan [spread|whole] [TASK]...
-//   spread   (what the suite runs) a spread of the calls where one run takes long; `whole`: every call of all
+//   spread   (what the suite runs) each place that calls, a spread where one run takes long; `whole`: every
+//   call
 #define _POSIX_C_SOURCE 200809L
 
 #include "judge.h"
@@ -16,7 +17,8 @@
 #include <vulkan/vulkan_core.h>
 
 enum {
-    SPREAD_RUNS = 12,  // faults of one kind in a task that takes long
+    SPREAD_RUNS = 12, // faults of one kind in a task that takes long
+    SPREAD_RUNS_RARE = 4,
     SHOWN_MOST = 8,    // bad outcomes of a task that are shown
     SHOWN_BYTES = 600, // of the standard error
     EXIT_FILE = 3,
@@ -89,22 +91,70 @@ static uint32_t count(struct trial *t, struct faults plan) {
     return seen;
 }
 
-// Every call, or the first few and a spread of the rest.
-static uint32_t after(uint32_t number, uint32_t most, bool all) {
-    all = all || most <= SPREAD_RUNS;
-    return number + (all || number < SPREAD_RUNS / 3 ? 1 : most / (SPREAD_RUNS - SPREAD_RUNS / 3) + 1);
+// The first few and a spread of the rest.
+static uint32_t after(const struct trial *t, uint32_t number, uint32_t most) {
+    const uint32_t runs = t->task->marks & RARE ? SPREAD_RUNS_RARE : SPREAD_RUNS;
+    const bool all = t->whole || most <= runs || number < runs / 3;
+    return number + (all ? 1 : most / (runs - runs / 3) + 1);
 }
 
-// What fails once fails in its own way at every call. Where all that come after it fail too, the way out is
-// the same from everywhere: of that the suite takes a spread.
+static void try_spread(struct trial *t, struct faults plan, uint32_t most) {
+    for (plan.number = 1; plan.number <= most; plan.number = after(t, plan.number, most))
+        try(t, &plan);
+}
+
+// How often a line is among those before `end`.
+static unsigned times(const char *lines, const char *end, const char *line, size_t length) {
+    unsigned times = 0;
+    for (const char *at = lines; at < end; at = strchr(at, '\n') + 1)
+        times += strncmp(at, line, length + 1) == 0;
+    return times;
+}
+
+// The first and the last of those that are listed alike.
+static bool is_chosen(const struct trial *t, const char *lines, const char *line, size_t length) {
+    const char *end = lines + strlen(lines), *next = line + length + 1;
+    return t->whole || times(lines, line, line, length) == 0 || times(next, end, line, length) == 0;
+}
+
+// Calls `each` for the calls of the plan's kind that are chosen, with their numbers and with what they are
+// listed as.
+static void for_chosen(struct trial *t, struct faults plan,
+                       void (*each)(struct trial *, struct faults, const char *)) {
+    stage_reset(t->stage, t->task);
+    plan.lists = true;
+    struct outcome calls = stage_run(t->stage, t->task, &plan);
+    plan.lists = false;
+    for (char *line = calls.error.data, *end; (end = strchr(line, '\n')); line = end + 1) {
+        char call[96];
+        const size_t length = (size_t)(end - line);
+        if (strncmp(line, FAULTS_LISTED, strlen(FAULTS_LISTED)) != 0 || length >= sizeof call)
+            continue;
+        plan.number++;
+        memcpy(call, line, length);
+        call[length] = '\0';
+        if (is_chosen(t, calls.error.data, line, length))
+            each(t, plan, call + strlen(FAULTS_LISTED));
+    }
+    outcome_finish(&calls);
+}
+
+static void try_one(struct trial *t, struct faults plan, const char *call) {
+    (void)call;
+    try(t, &plan);
+}
+
+// What fails once fails in its own way at every place that calls; where all that come after it fail too, the
+// way out is the same from everywhere: of that the suite takes a spread.
 static void try_all(struct trial *t, struct faults plan, bool onward) {
-    const bool all = t->whole || !(t->task->marks & SPREAD);
     const uint32_t most = count(t, plan);
-    for (plan.number = 1; plan.number <= most; plan.number = after(plan.number, most, all))
-        try(t, &plan);
+    if (t->whole || t->task->marks & SPREAD)
+        try_spread(t, plan, most);
+    else
+        for_chosen(t, plan, try_one);
     plan.onward = true;
-    for (plan.number = 1; onward && plan.number <= most; plan.number = after(plan.number, most, t->whole))
-        try(t, &plan);
+    if (onward)
+        try_spread(t, plan, most);
 }
 
 static void try_memory(struct trial *t) {
@@ -134,30 +184,17 @@ static size_t errors_of(const char *call, const VkResult **errors) {
     return 0;
 }
 
-// How often a line is among those before `end`.
-static unsigned times(const char *lines, const char *end, const char *line, size_t length) {
-    unsigned times = 0;
-    for (const char *at = lines; at < end; at = strchr(at, '\n') + 1)
-        times += strncmp(at, line, length + 1) == 0;
-    return times;
-}
-
-// The first and the last of each name.
-static bool is_chosen(const struct trial *t, const char *lines, const char *line, size_t length) {
-    const char *end = lines + strlen(lines), *next = line + length + 1;
-    return t->whole || times(lines, line, line, length) == 0 || times(next, end, line, length) == 0;
-}
-
 // Those after which a device may be at work, which a second failure must not stop from being told.
 static bool is_in_flight(const char *call) {
     return strcmp(call, "vkQueueSubmit") == 0 || strcmp(call, "vkWaitForFences") == 0;
 }
 
-static void try_call(struct trial *t, uint32_t number, const char *call) {
+static void try_call(struct trial *t, struct faults plan, const char *call) {
     const VkResult *errors;
     const size_t most = errors_of(call, &errors);
     for (size_t i = 0; i < most; i++) {
-        struct faults plan = {.kind = FAULTS_VULKAN, .error = errors[i], .number = number};
+        plan.error = errors[i];
+        plan.onward = false;
         try(t, &plan);
         plan.onward = true;
         if (t->whole || is_in_flight(call))
@@ -166,24 +203,7 @@ static void try_call(struct trial *t, uint32_t number, const char *call) {
 }
 
 static void try_vulkan(struct trial *t) {
-    static const char mark[] = "fault: ";
-    struct faults plan = {.kind = FAULTS_VULKAN};
-    uint32_t number = 0;
-    count(t, plan);
-    plan.lists = true;
-    struct outcome calls = stage_run(t->stage, t->task, &plan);
-    for (char *line = calls.error.data, *end; (end = strchr(line, '\n')); line = end + 1) {
-        char call[64];
-        const size_t length = (size_t)(end - line);
-        if (strncmp(line, mark, sizeof mark - 1) != 0 || length - sizeof mark + 1 >= sizeof call)
-            continue;
-        number++;
-        memcpy(call, line + sizeof mark - 1, length - sizeof mark + 1);
-        call[length - sizeof mark + 1] = '\0';
-        if (is_chosen(t, calls.error.data, line, length))
-            try_call(t, number, call);
-    }
-    outcome_finish(&calls);
+    for_chosen(t, (struct faults){.kind = FAULTS_VULKAN}, try_call);
 }
 
 // ---- all

@@ -2,6 +2,7 @@
 #include "faults.h"
 
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -21,13 +22,12 @@ __attribute__((constructor)) static void begin(void) {
     faults = memory == MAP_FAILED ? NULL : memory;
 }
 
-static void list(const char *call) {
+static void list(enum faults_kind kind, const char *call) {
     char line[96];
-    size_t length = strlen(call);
-    memcpy(line, "fault: ", 7);
-    memcpy(line + 7, call, length);
-    line[7 + length] = '\n';
-    syscall(SYS_write, STDERR_FILENO, line, length + 8);
+    const unsigned long long from = kind == FAULTS_VULKAN ? 0 : faults_stack();
+    const int length =
+        snprintf(line, sizeof line, from ? FAULTS_LISTED "%s %llx\n" : FAULTS_LISTED "%s\n", call, from);
+    syscall(SYS_write, STDERR_FILENO, line, (size_t)length);
 }
 
 bool faults_strike(enum faults_kind kind, const char *call) {
@@ -35,7 +35,7 @@ bool faults_strike(enum faults_kind kind, const char *call) {
         return false;
     uint32_t number = atomic_fetch_add(&faults->seen, 1) + 1;
     if (faults->lists)
-        list(call);
+        list(kind, call);
     if (faults->number == 0 || number < faults->number || (number > faults->number && !faults->onward))
         return false;
     if (atomic_fetch_add(&faults->failed, 1) == 0)

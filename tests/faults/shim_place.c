@@ -83,3 +83,23 @@ bool faults_is_ours(const void *address) {
     }
     return false;
 }
+
+static bool is_repeated(void *const *frames, int i) {
+    for (int k = 0; k < i; k++)
+        if (frames[k] == frames[i])
+            return true;
+    return false;
+}
+
+// FNV-1a over the places, which are counted from where their objects begin.
+unsigned long long faults_stack(void) {
+    void *frames[FRAMES_MAX];
+    unsigned long long hash = 14695981039346656037u;
+    const int count = backtrace(frames, FRAMES_MAX);
+    for (int i = 0; i < count; i++) {
+        const struct object *object = linked(frames[i]);
+        if (object && !is_repeated(frames, i))
+            hash = (hash ^ ((uintptr_t)frames[i] - object->begin)) * 1099511628211u;
+    }
+    return hash;
+}

@@ -17,7 +17,8 @@ enum task_mark {
     CACHE = 16,  // uses the reference's cache, which is empty before
     REPORT = 64, // writes report.sarif
     WHOLE = 256, // one run takes several seconds: only a whole run makes its calls fail
-    RARE = 128,  // its calls of Vulkan are those of another task: only a whole run makes them fail
+    RARE = 128,  // most of its calls are those of another task: fewer fail, and those of Vulkan only in a
+                 // whole run
     SPREAD = 32  // one run takes long: the suite's run makes only a spread of its calls fail
 };
 

@@ -52,14 +52,14 @@ static void read_image(str bytes) {
     struct picture_header header;
     struct picture picture = {0};
     const char *fault = picture_read_header(bytes, &header);
-    if (fault || header.kind == PICTURE_KIND_NONE || (uint64_t)header.width * header.height > PIXELS_MAX)
+    if (fault || header.kind == IMAGE_NONE || (uint64_t)header.width * header.height > PIXELS_MAX)
         return;
     const char *checked = picture_check(bytes, &header);
     fault = picture_decode(bytes, &header, &picture);
     require(!checked == !fault && (!fault || strcmp(checked, fault) == 0),
             "the same fault whether pixels are kept or not");
     require(fault ? !picture.pixels : picture.pixels != NULL, "pixels, or a fault");
-    if (!fault && picture.depth == PICTURE_RGBE)
+    if (!fault && picture_is_linear(&picture))
         check_floats(&picture);
     picture_finish(&picture);
 }

@@ -224,6 +224,22 @@ plant parser/bind/bind_b.c '' 'if (element == &SCHEMA_SPHERE)'
 finds bind 'parser/bind/bind_b.c:2: knows the element sphere' ../names
 
 fresh
+plant core/heap.c 'x = heap_alloc(count * size);'
+plant core/a.h 'void *heap_alloc(struct heap *heap, size_t size);'
+plant core/a.c 'struct a *f(size_t n) {' '    char *text = heap_alloc(n + 1);' '    size_t all = heap_times(n, *m);' \
+    '    uint64_t small = (uint64_t)w * h;' '    x = heap_array(heap_times(n, 3) + 1, 3 * sizeof(float));' \
+    '    x = ARENA_ARRAY(arena, char *, n);' '    return heap_alloc(all) ? heap_array(small, sizeof *x) : NULL;' '}'
+passes sizes
+refuses sizes core/b.c 'x = heap_alloc(n * sizeof *x);'
+refuses sizes core/b.c 'x = heap_zeroed((size_t)n * 4, 1);'
+plant core/b.c 'x = arena_try_alloc(arena,' '    2 * (n + 1));'
+finds sizes 'core/b.c:1: a product'
+refuses sizes core/b.c 'x = ARENA_ARRAY(arena, char *, 3 * n);'
+refuses sizes core/b.c 'arena_init(&a, (size_t)in->limits->value[LIMIT_X]);'
+plant core/b.c 'void f(void) {' '    const size_t all = (size_t)w *' '        h;' '    x = heap_alloc(all);' '}'
+finds sizes 'core/b.c:4: a product'
+
+fresh
 cp "$root/.clang-format" .
 plant a.c 'int a(void) {' '    return 1;' '}'
 passes format

@@ -375,7 +375,7 @@ static void test_limits(struct frames *f, uint32_t band_tiles) {
     good = image_init(&image, LIMITED_WIDTH, LIMITED_HEIGHT) && good;
     for (uint32_t k = 0; good && k < 20; k++) {
         struct limiting l = {.samples = k < 4 ? k + 1 : 9, .calls = k < 4 ? UINT32_MAX : k - 4};
-        const struct render_limit limit = {goes_on, runs_out, &l};
+        const struct render_limit limit = {.goes_on = goes_on, .is_over = runs_out, .context = &l};
         good = shot_take_until(&stage.shot, &image, NULL, &limit, &statistics) == SHOT_OK &&
                statistics.samples >= 1 && statistics.samples <= 4 &&
                (k >= 4 || statistics.samples == k + 1) &&

@@ -33,7 +33,7 @@ static bool write(const struct session *session, const struct image *image, cons
     const struct image_display display = {session->image->tone, session->image->transfer};
     enum image_format format;
     struct strbuf bytes;
-    if (!image_format_of_path(str_from(path), &format))
+    if (!image_format_of_path(str_from(path), IMAGE_WRITTEN, &format))
         return false;
     strbuf_init(&bytes);
     image_encode(image, format, display, &bytes);

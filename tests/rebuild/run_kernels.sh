@@ -15,6 +15,7 @@ cp -r "$root/shaders/packed" shaders
 cat >CMakeLists.txt <<'EOF'
 cmake_minimum_required(VERSION 3.25)
 project(rebuild LANGUAGES C)
+set(GLINT_DEVICE ON)
 add_subdirectory(tools/spirv_exact)
 add_subdirectory(shaders)
 EOF

@@ -55,7 +55,7 @@ json compare_same 0 "$glint" compare exact.pfm exact.pfm --format json --max-lar
 by_schema compare compare.json compare_bounds.json compare_same.json
 
 json pick_reference 0 "$glint" pick scene.yaml 8,8 --format json --device reference
-json render_reference 0 "$glint" render scene.yaml -o exact.png --device reference --stats=json -q
+json render_reference 0 "$glint" render scene.yaml --set image.error=0.05 --set image.samples=64 --samples 1 -o exact.png --device reference --stats=json -q
 if ! "$glint" render scene.yaml -o probe.png -q 2>/dev/null; then
     echo "skip: no Vulkan device: of render, pick and tradeoff only what needs none"
     exit $failed
@@ -73,7 +73,23 @@ spheres: [{center: [0.1, 0, -123456789.3], radius: 0.8}]
 S
 json render_off 0 "$glint" render far.yaml -o far.png --stats=json -q
 json render_noise 0 "$glint" render scene.yaml --noise 0.05 -o noise.png --stats=json -q
-by_schema render render.json render_off.json render_noise.json render_reference.json
+json render_unused 0 "$glint" render scene.yaml --set image.error=0.05 --set image.samples=64 --samples 8 -o noise.png --stats=json -q
+by_schema render render.json render_off.json render_noise.json render_unused.json render_reference.json
+
+"$glint" render scene.yaml --watch -o watch.png --stats=json -q >loads.json 2>/dev/null </dev/null &
+watcher=$!
+for lines in 1 2; do
+    for _ in $(seq 600); do
+        [ "$(wc -l <loads.json)" -lt $lines ] && kill -0 $watcher 2>/dev/null || break
+        sleep 0.1
+    done
+    [ $lines -eq 1 ] && cp scene.yaml kept.yaml && echo 'spheres: 1' >>scene.yaml
+done
+kill $watcher
+wait $watcher
+cp kept.yaml scene.yaml
+for line in 1 2; do sed -n ${line}p loads.json >watch$line.json; done
+by_schema watch watch1.json watch2.json
 
 json pick 0 "$glint" pick scene.yaml 8,8 --format json
 json pick_mesh 0 "$glint" pick scene.yaml 14,8 --format json

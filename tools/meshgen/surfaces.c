@@ -36,7 +36,7 @@ static void paint_rows(void *context, size_t begin, size_t end) {
 }
 
 static unsigned char *paint(surface_colour *colour, int width, int height) {
-    struct painting p = {colour, heap_alloc((size_t)width * (size_t)height * 3), width, height};
+    struct painting p = {colour, heap_array(heap_times(width, height), 3), width, height};
     if (p.pixels)
         parallel_for((size_t)height, 8, paint_rows, &p);
     return p.pixels;

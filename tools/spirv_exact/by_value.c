@@ -1,6 +1,7 @@
 // Reference: SPIR-V Specification 1.6, section 3.
 #include "tools/spirv_exact/by_value.h"
 
+#include <spirv/unified1/spirv.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,24 +9,6 @@
 enum {
     HEADER_WORDS = 5,
     BOUND = 3, // the header's word
-    STORAGE_FUNCTION = 7,
-    OP_EXT_INST = 12,
-    OP_TYPE_POINTER = 32,
-    OP_TYPE_FUNCTION = 33,
-    OP_CONSTANT = 43,
-    OP_FUNCTION = 54,
-    OP_FUNCTION_PARAMETER = 55,
-    OP_FUNCTION_CALL = 57,
-    OP_VARIABLE = 59,
-    OP_LOAD = 61,
-    OP_STORE = 62,
-    OP_ACCESS_CHAIN = 65,
-    OP_VECTOR_SHUFFLE = 79,
-    OP_COMPOSITE_EXTRACT = 81,
-    OP_COMPOSITE_INSERT = 82,
-    OP_COPY_OBJECT = 83,
-    OP_LOOP_MERGE = 246,
-    OP_SELECTION_MERGE = 247,
     // Words of an instruction, by what they hold.
     TYPE = 1,
     RESULT = 2,
@@ -76,12 +59,12 @@ static const uint32_t *find(const struct module *m, uint32_t id, uint32_t opcode
 
 // What a pointer to a function's own memory points to; 0: it is something else.
 static uint32_t pointee(const struct module *m, uint32_t type) {
-    const uint32_t *pointer = find(m, type, OP_TYPE_POINTER);
-    return pointer && pointer[2] == STORAGE_FUNCTION ? pointer[3] : 0;
+    const uint32_t *pointer = find(m, type, SpvOpTypePointer);
+    return pointer && pointer[2] == SpvStorageClassFunction ? pointer[3] : 0;
 }
 
 static const uint32_t *pointer_parameter(const struct module *m, uint32_t id) {
-    const uint32_t *parameter = find(m, id, OP_FUNCTION_PARAMETER);
+    const uint32_t *parameter = find(m, id, SpvOpFunctionParameter);
     return parameter && pointee(m, parameter[TYPE]) ? parameter : NULL;
 }
 
@@ -94,18 +77,18 @@ static void index_module(struct module *m) {
     for (size_t at = HEADER_WORDS; at < m->count; at += length_of(m->words + at)) {
         const uint32_t *i = m->words + at;
         switch (opcode_of(i)) {
-        case OP_TYPE_POINTER:
-        case OP_TYPE_FUNCTION:
+        case SpvOpTypePointer:
+        case SpvOpTypeFunction:
             m->defined[i[1]] = at;
             break;
-        case OP_FUNCTION:
+        case SpvOpFunction:
             m->functions = at < m->functions ? at : m->functions;
             m->defined[i[RESULT]] = at;
             break;
-        case OP_CONSTANT:
-        case OP_FUNCTION_PARAMETER:
-        case OP_VARIABLE:
-        case OP_ACCESS_CHAIN:
+        case SpvOpConstant:
+        case SpvOpFunctionParameter:
+        case SpvOpVariable:
+        case SpvOpAccessChain:
             m->defined[i[RESULT]] = at;
             break;
         default:
@@ -116,7 +99,7 @@ static void index_module(struct module *m) {
 
 static bool has_constant_indices(const struct module *m, const uint32_t *chain) {
     for (uint32_t k = INDICES; k < length_of(chain); k++)
-        if (!find(m, chain[k], OP_CONSTANT))
+        if (!find(m, chain[k], SpvOpConstant))
             return false;
     return true;
 }
@@ -125,20 +108,20 @@ static bool has_constant_indices(const struct module *m, const uint32_t *chain) 
 // an id counts as a use of that.
 static bool is_number(uint32_t opcode, uint32_t k) {
     switch (opcode) {
-    case OP_EXT_INST:
+    case SpvOpExtInst:
         return k == 4;
-    case OP_FUNCTION:
+    case SpvOpFunction:
         return k == 3;
-    case OP_LOAD:
-    case OP_COMPOSITE_EXTRACT:
+    case SpvOpLoad:
+    case SpvOpCompositeExtract:
         return k > 3;
-    case OP_VECTOR_SHUFFLE:
-    case OP_COMPOSITE_INSERT:
+    case SpvOpVectorShuffle:
+    case SpvOpCompositeInsert:
         return k > 4;
-    case OP_STORE:
-    case OP_LOOP_MERGE:
+    case SpvOpStore:
+    case SpvOpLoopMerge:
         return k > 2;
-    case OP_SELECTION_MERGE:
+    case SpvOpSelectionMerge:
         return k > 1;
     default:
         return false;
@@ -148,21 +131,21 @@ static bool is_number(uint32_t opcode, uint32_t k) {
 // A word that may be the id of a parameter, or of a place in one.
 static void note_read(struct module *m, const uint32_t *i, uint32_t k) {
     const uint32_t opcode = opcode_of(i), id = i[k];
-    const bool loads = opcode == OP_LOAD && k == LOADED;
-    const uint32_t *chain = find(m, id, OP_ACCESS_CHAIN);
+    const bool loads = opcode == SpvOpLoad && k == LOADED;
+    const uint32_t *chain = find(m, id, SpvOpAccessChain);
     if (pointer_parameter(m, id))
-        m->kept[id] |= !loads && !(opcode == OP_FUNCTION_PARAMETER && k == RESULT) &&
-                       !(opcode == OP_ACCESS_CHAIN && k == BASE && has_constant_indices(m, i));
+        m->kept[id] |= !loads && !(opcode == SpvOpFunctionParameter && k == RESULT) &&
+                       !(opcode == SpvOpAccessChain && k == BASE && has_constant_indices(m, i));
     else if (chain && pointer_parameter(m, chain[BASE]))
         m->kept[chain[BASE]] |= !loads && i != chain;
 }
 
 static void note_variable(struct module *m, const uint32_t *i, uint32_t k) {
-    const uint32_t *variable = find(m, i[k], OP_VARIABLE);
+    const uint32_t *variable = find(m, i[k], SpvOpVariable);
     if (!variable || i == variable)
         return;
     m->uses[i[k]]++;
-    if (opcode_of(i) == OP_STORE && k == STORED_TO)
+    if (opcode_of(i) == SpvOpStore && k == STORED_TO)
         m->store[i[k]] = (size_t)(i - m->words);
 }
 
@@ -178,7 +161,7 @@ static void note_uses(struct module *m) {
 
 // The parameter that takes argument `k` of a call.
 static const uint32_t *parameter_of(const struct module *m, const uint32_t *call, uint32_t k) {
-    const uint32_t *at = find(m, call[CALLED], OP_FUNCTION);
+    const uint32_t *at = find(m, call[CALLED], SpvOpFunction);
     for (uint32_t i = 0; at && i <= k - ARGUMENTS; i++)
         at += length_of(at);
     return at;
@@ -186,13 +169,13 @@ static const uint32_t *parameter_of(const struct module *m, const uint32_t *call
 
 // A variable that exists for this argument alone.
 static bool is_for(const struct module *m, uint32_t id, const uint32_t *call) {
-    return find(m, id, OP_VARIABLE) && m->uses[id] == 2 && m->store[id] && m->words + m->store[id] < call;
+    return find(m, id, SpvOpVariable) && m->uses[id] == 2 && m->store[id] && m->words + m->store[id] < call;
 }
 
 static void drop_variables(struct module *m) {
     for (size_t at = m->functions; at < m->count; at += length_of(m->words + at)) {
         const uint32_t *i = m->words + at;
-        for (uint32_t k = ARGUMENTS; opcode_of(i) == OP_FUNCTION_CALL && k < length_of(i); k++)
+        for (uint32_t k = ARGUMENTS; opcode_of(i) == SpvOpFunctionCall && k < length_of(i); k++)
             if (is_by_value(m, parameter_of(m, i, k)[RESULT]) && is_for(m, i[k], i))
                 m->dropped[i[k]] = true;
     }
@@ -213,7 +196,7 @@ static void copy(struct output *out, const uint32_t *i) {
 
 // Whether a function's type, as it becomes, is this one.
 static bool is_type_of(const struct module *m, const uint32_t *function, const uint32_t *type) {
-    const uint32_t *before = find(m, function[FUNCTION_TYPE], OP_TYPE_FUNCTION);
+    const uint32_t *before = find(m, function[FUNCTION_TYPE], SpvOpTypeFunction);
     bool same = length_of(type) == length_of(before) && type[2] == before[2];
     const uint32_t *parameter = function;
     for (uint32_t k = FIRST_PARAMETER; same && k < length_of(before); k++) {
@@ -228,7 +211,7 @@ static bool is_type_of(const struct module *m, const uint32_t *function, const u
 // The id of that type; 0: there is none yet.
 static uint32_t type_of(const struct module *m, const struct output *out, const uint32_t *function) {
     for (size_t at = HEADER_WORDS; at < m->functions; at += length_of(m->words + at))
-        if (opcode_of(m->words + at) == OP_TYPE_FUNCTION && is_type_of(m, function, m->words + at))
+        if (opcode_of(m->words + at) == SpvOpTypeFunction && is_type_of(m, function, m->words + at))
             return m->words[at + 1];
     for (size_t i = 0; i < out->type_count; i++)
         if (is_type_of(m, function, out->words + out->types[i]))
@@ -239,7 +222,7 @@ static uint32_t type_of(const struct module *m, const struct output *out, const 
 static void put_type(struct module *m, struct output *out, const uint32_t *function) {
     const size_t at = out->count;
     const uint32_t *parameter = function;
-    copy(out, find(m, function[FUNCTION_TYPE], OP_TYPE_FUNCTION));
+    copy(out, find(m, function[FUNCTION_TYPE], SpvOpTypeFunction));
     out->words[at + 1] = m->bound++;
     for (uint32_t k = FIRST_PARAMETER; k < length_of(out->words + at); k++) {
         parameter += length_of(parameter);
@@ -265,7 +248,7 @@ static void put_call(struct module *m, struct output *out, const uint32_t *call)
             continue;
         }
         const uint32_t load[] = {pointee(m, parameter[TYPE]), m->bound, call[k]};
-        put(out, OP_LOAD, load, 3);
+        put(out, SpvOpLoad, load, 3);
         values[k] = m->bound++;
     }
     out->count += length_of(call);
@@ -273,17 +256,17 @@ static void put_call(struct module *m, struct output *out, const uint32_t *call)
 
 // From memory, or from what came by value.
 static void put_load(struct module *m, struct output *out, const uint32_t *load) {
-    const uint32_t *chain = find(m, load[LOADED], OP_ACCESS_CHAIN);
+    const uint32_t *chain = find(m, load[LOADED], SpvOpAccessChain);
     if (is_by_value(m, load[LOADED])) {
-        put(out, OP_COPY_OBJECT, load + 1, 3);
+        put(out, SpvOpCopyObject, load + 1, 3);
     } else if (chain && is_by_value(m, chain[BASE])) {
         const size_t at = out->count;
         copy(out, chain);
-        out->words[at] = length_of(chain) << 16 | OP_COMPOSITE_EXTRACT;
+        out->words[at] = length_of(chain) << 16 | SpvOpCompositeExtract;
         out->words[at + TYPE] = load[TYPE];
         out->words[at + RESULT] = load[RESULT];
         for (uint32_t k = INDICES; k < length_of(chain); k++)
-            out->words[at + k] = find(m, chain[k], OP_CONSTANT)[3];
+            out->words[at + k] = find(m, chain[k], SpvOpConstant)[3];
     } else {
         copy(out, load);
     }
@@ -292,31 +275,31 @@ static void put_load(struct module *m, struct output *out, const uint32_t *load)
 static void put_instruction(struct module *m, struct output *out, const uint32_t *i) {
     const size_t at = out->count;
     switch (opcode_of(i)) {
-    case OP_FUNCTION:
+    case SpvOpFunction:
         copy(out, i);
         out->words[at + FUNCTION_TYPE] = type_of(m, out, i);
         break;
-    case OP_FUNCTION_PARAMETER:
+    case SpvOpFunctionParameter:
         copy(out, i);
         if (is_by_value(m, i[RESULT]))
             out->words[at + TYPE] = pointee(m, i[TYPE]);
         break;
-    case OP_VARIABLE:
+    case SpvOpVariable:
         if (!m->dropped[i[RESULT]])
             copy(out, i);
         break;
-    case OP_STORE:
-        if (!(find(m, i[STORED_TO], OP_VARIABLE) && m->dropped[i[STORED_TO]]))
+    case SpvOpStore:
+        if (!(find(m, i[STORED_TO], SpvOpVariable) && m->dropped[i[STORED_TO]]))
             copy(out, i);
         break;
-    case OP_ACCESS_CHAIN:
+    case SpvOpAccessChain:
         if (!is_by_value(m, i[BASE]))
             copy(out, i);
         break;
-    case OP_LOAD:
+    case SpvOpLoad:
         put_load(m, out, i);
         break;
-    case OP_FUNCTION_CALL:
+    case SpvOpFunctionCall:
         put_call(m, out, i);
         break;
     default:
@@ -329,7 +312,7 @@ static void put_module(struct module *m, struct output *out) {
     memcpy(out->words, m->words, m->functions * sizeof *m->words);
     out->count = m->functions;
     for (size_t at = m->functions; at < m->count; at += length_of(m->words + at))
-        if (opcode_of(m->words + at) == OP_FUNCTION && type_of(m, out, m->words + at) == 0)
+        if (opcode_of(m->words + at) == SpvOpFunction && type_of(m, out, m->words + at) == 0)
             put_type(m, out, m->words + at);
     for (size_t at = m->functions; at < m->count; at += length_of(m->words + at))
         put_instruction(m, out, m->words + at);

@@ -8,6 +8,7 @@
 #include "shaders/packed/packed.h"
 #include "tools/spirv_exact/module.h"
 
+#include <spirv/unified1/spirv.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -86,7 +87,7 @@ static void put_distance(struct bytes *to, uint32_t value) {
 // Where the first function begins.
 static size_t head_end(const struct module *module) {
     size_t at = PACKED_HEADER_WORDS;
-    while (at < module->count && (module->words[at] & 0xffff) != PACKED_FUNCTION)
+    while (at < module->count && (module->words[at] & 0xffff) != SpvOpFunction)
         at += module->words[at] >> 16;
     return at;
 }
@@ -94,7 +95,7 @@ static size_t head_end(const struct module *module) {
 // The largest id that is there before functions introduce theirs: the first label is the first of those.
 static uint32_t newest_before(const struct module *module, size_t end) {
     for (size_t at = end; at < module->count; at += module->words[at] >> 16)
-        if ((module->words[at] & 0xffff) == PACKED_LABEL)
+        if ((module->words[at] & 0xffff) == SpvOpLabel)
             return module->words[at + 1] - 1;
     return 0;
 }
@@ -167,7 +168,7 @@ static size_t pack_function(struct module *module, size_t at, struct ids *ids, s
             put_number(&function->parts[kind == PACKED_ID ? PACKED_REFS : PACKED_PLAIN],
                        kind == PACKED_LITERAL ? word : code_of(ids, word, &module->own[PACKED_OUTER]));
         }
-        ended = opcode == PACKED_FUNCTION_END;
+        ended = opcode == SpvOpFunctionEnd;
     }
     return at;
 }

@@ -62,8 +62,8 @@ bool binary_build(struct binary_tree *tree, enum bvh_method method) {
     if (!top_build(tree->items, tree->count, method, &top))
         return false;
     struct build build = {.tree = tree, .method = method, .leaf_items = leaf_items, .top = &top};
-    tree->nodes = heap_alloc(tree->count * sizeof *tree->nodes);
-    build.results = heap_alloc(top.count * sizeof *build.results);
+    tree->nodes = heap_array(tree->count, sizeof *tree->nodes);
+    build.results = heap_array(top.count, sizeof *build.results);
     bool done = tree->nodes && build.results;
     if (done) {
         parallel_for(top.small_count, 1, build_small, &build);

@@ -10,7 +10,7 @@
 
 static bool build_empty(struct bvh *out) {
     static const struct wide_child none[BVH_WIDTH];
-    out->nodes = heap_alloc(NODE_WORDS * sizeof *out->nodes);
+    out->nodes = heap_array(NODE_WORDS, sizeof *out->nodes);
     if (!out->nodes)
         return false;
     encode_node(none, 0, 0, out->nodes);
@@ -25,7 +25,7 @@ bool bvh_build(struct bvh_item *items, uint32_t count, enum bvh_method method, s
         return build_empty(out);
     struct binary_tree tree = {.items = items, .count = count};
     bool done = binary_build(&tree, method);
-    out->order = done ? heap_alloc(count * sizeof *out->order) : NULL;
+    out->order = done ? heap_array(count, sizeof *out->order) : NULL;
     done = out->order && wide_build(&tree, out);
     free(tree.nodes);
     if (!done)

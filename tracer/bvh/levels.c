@@ -108,8 +108,8 @@ static void open_node(struct opening *o, uint32_t number) {
 bool bvh_open_leaves(struct bvh *bvh, const struct gpu_word *leaves) {
     const size_t all = (size_t)bvh->node_count + bvh->item_count;
     struct opening o = {.from = bvh, .leaves = leaves, .count = 1};
-    o.nodes = heap_alloc(all * NODE_WORDS * sizeof *o.nodes);
-    o.old = heap_alloc(all * sizeof *o.old);
+    o.nodes = heap_array(heap_times(all, NODE_WORDS), sizeof *o.nodes);
+    o.old = heap_array(all, sizeof *o.old);
     const bool done = o.nodes && o.old;
     if (done)
         o.old[0] = 0;

@@ -135,8 +135,8 @@ static bool list_pieces(struct cutting *c) {
         total += node->is_small ? 0 : pieces_of(node);
     }
     c->piece_count = 0;
-    c->pieces = heap_alloc((total + 1) * sizeof *c->pieces);
-    c->cuts = heap_alloc((size_t)(c->level_end - c->level_begin + 1) * sizeof *c->cuts);
+    c->pieces = heap_array(total + 1, sizeof *c->pieces);
+    c->cuts = heap_array(c->level_end - c->level_begin + 1, sizeof *c->cuts);
     if (!c->pieces || !c->cuts)
         return false;
     for (uint32_t i = c->level_begin; i < c->level_end; i++) {
@@ -228,7 +228,7 @@ static void settle_nodes(void *context, size_t begin, size_t end) {
 }
 
 static bool list_small(struct top *top) {
-    top->small = heap_alloc(top->count * sizeof *top->small);
+    top->small = heap_array(top->count, sizeof *top->small);
     for (uint32_t i = 0; top->small && i < top->count; i++)
         if (top->nodes[i].is_small)
             top->small[top->small_count++] = i;
@@ -247,7 +247,7 @@ static void piece_middles(void *context, size_t begin, size_t end) {
 
 static bool bound_all(const struct bvh_item *items, uint32_t count, struct bvh_box *middles) {
     const size_t pieces = ((size_t)count + PIECE_ITEMS - 1) / PIECE_ITEMS;
-    struct bounding b = {items, heap_alloc(pieces * sizeof *b.bounds)};
+    struct bounding b = {items, heap_array(pieces, sizeof *b.bounds)};
     if (!b.bounds)
         return false;
     parallel_for(count, PIECE_ITEMS, piece_middles, &b);
@@ -262,7 +262,7 @@ bool top_build(struct bvh_item *items, uint32_t count, enum bvh_method method, s
     *top = (struct top){0};
     struct cutting c = {.top = top, .method = method, .items = items, .level_end = 1};
     c.small_items = count / SUBTREES_WANTED > SMALL_ITEMS ? count / SUBTREES_WANTED : SMALL_ITEMS;
-    c.moved = count > c.small_items ? heap_alloc(count * sizeof *c.moved) : NULL;
+    c.moved = count > c.small_items ? heap_array(count, sizeof *c.moved) : NULL;
     struct top_node root = {.range = {0, 0, count}};
     bool done = (c.moved || count <= c.small_items) && bound_all(items, count, &root.middles);
     done = done && push(top, root);

@@ -291,7 +291,7 @@ bool wide_build(const struct binary_tree *tree, struct bvh *out) {
         nodes += wide.tasks[i].nodes;
         items += wide.tasks[i].range.count;
     }
-    out->nodes = wide.has_failed ? NULL : heap_alloc((size_t)nodes * NODE_WORDS * sizeof *out->nodes);
+    out->nodes = wide.has_failed ? NULL : heap_array(heap_times(nodes, NODE_WORDS), sizeof *out->nodes);
     if (out->nodes) {
         parallel_for(wide.task_count, 1, write_tasks, &wide);
         walk_above(&wide, false, &w);

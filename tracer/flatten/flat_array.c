@@ -4,7 +4,6 @@
 
 bool flat_array_make(struct flat_array *array, uint64_t words) {
     array->count = words;
-    array->words =
-        words > SIZE_MAX / sizeof *array->words ? NULL : heap_zeroed(words ? words : 1, sizeof *array->words);
+    array->words = heap_zeroed(words ? words : 1, sizeof *array->words);
     return array->words != NULL;
 }

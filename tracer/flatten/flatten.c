@@ -32,11 +32,11 @@ static void gather_items(void *context, size_t begin, size_t end) {
 }
 
 // Builds a tree over `items` and takes the `records` that they name into the order of its leaves.
-static bool make_tree(enum bvh_method method, struct bvh_item *items, uint32_t count,
+static bool make_tree(const struct flat_input *input, struct bvh_item *items, uint32_t count,
                       const struct gpu_word *records, uint32_t words, struct flat_array *nodes,
                       struct flat_array *leaves, uint32_t *depth) {
     struct bvh bvh;
-    if (!bvh_build(items, count, method, &bvh))
+    if (!bvh_build_kept(input->keep, items, count, input->method, &bvh))
         return false;
     *nodes = (struct flat_array){bvh.nodes, (uint64_t)bvh.node_count * NODE_WORDS};
     *depth = bvh.depth;
@@ -65,7 +65,7 @@ static void place_leaves(void *context, size_t begin, size_t end) {
 static bool make_triangle_tree(struct flattening *f) {
     struct flat_scene *out = f->out;
     struct bvh bvh;
-    if (!bvh_build(f->items, f->item_count, f->input->method, &bvh))
+    if (!bvh_build_kept(f->input->keep, f->items, f->item_count, f->input->method, &bvh))
         return false;
     free(f->items);
     f->items = NULL;
@@ -73,7 +73,7 @@ static bool make_triangle_tree(struct flattening *f) {
     out->triangle_depth = bvh.depth;
     bvh.nodes = NULL;
     const size_t total = f->record_total;
-    f->leaf_of = heap_alloc((total ? total : 1) * sizeof *f->leaf_of);
+    f->leaf_of = heap_array(total ? total : 1, sizeof *f->leaf_of);
     if (f->leaf_of) {
         memset(f->leaf_of, 0xFF, total * sizeof *f->leaf_of);
         struct placing placing = {bvh.order, f->leaf_of};
@@ -95,7 +95,7 @@ static enum flatten_fault make_triangles(struct flattening *f) {
         out->strides.triangle = PLACED_WORDS;
         out->strides.normal = NORMAL64_WORDS;
     }
-    f->items = heap_alloc((total ? total : 1) * sizeof *f->items);
+    f->items = heap_array(total ? total : 1, sizeof *f->items);
     if (!f->items)
         return FLATTEN_NO_MEMORY;
     enum flatten_fault fault = flatten_triangles(f);
@@ -115,13 +115,13 @@ static enum flatten_fault make_triangles(struct flattening *f) {
 static enum flatten_fault make_spheres(struct flattening *f) {
     struct flat_scene *out = f->out;
     uint32_t count = f->out->sphere_count;
-    struct gpu_word *words = heap_alloc(((size_t)count + 1) * out->strides.sphere * sizeof *words);
-    struct bvh_item *items = heap_alloc(((size_t)count + 1) * sizeof *items);
+    struct gpu_word *words = heap_array(heap_times((size_t)count + 1, out->strides.sphere), sizeof *words);
+    struct bvh_item *items = heap_array((size_t)count + 1, sizeof *items);
     bool done = words && items;
     if (done) {
         flatten_spheres(f, words, items);
         double start = clock_seconds();
-        done = make_tree(f->input->method, items, count, words, out->strides.sphere, &out->sphere_nodes,
+        done = make_tree(f->input, items, count, words, out->strides.sphere, &out->sphere_nodes,
                          &out->spheres, &out->sphere_depth);
         end_tree(f, start);
     }

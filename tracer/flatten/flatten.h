@@ -12,7 +12,7 @@
 
 #include "scene/media.h"
 #include "scene/view.h"
-#include "tracer/bvh/bvh.h"
+#include "tracer/bvh/keep.h"
 #include "tracer/gpu_word.h"
 
 struct flat_array {
@@ -100,6 +100,7 @@ struct flat_input {
     bool is_double;
     enum flat_sharing sharing;
     enum bvh_method method; // of the trees; none shows in a picture
+    struct bvh_keep *keep;  // of trees; NULL: all are built
     const struct limits *limits;
     struct diag_sink *sink;
     struct timeline *timeline; // may be NULL

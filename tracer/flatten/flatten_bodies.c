@@ -70,7 +70,7 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
                                        double *extent) {
     const struct mesh *mesh = body->mesh;
     size_t pieces = ((size_t)mesh->position_count + PIECE - 1) / PIECE;
-    double *largest = heap_alloc(2 * (pieces + 1) * sizeof *largest);
+    double *largest = heap_array(heap_times(2, pieces + 1), sizeof *largest);
     if (!largest)
         return FLATTEN_NO_MEMORY;
     struct measuring m = {mesh, flatten_map(f, body), body->object_to_world.offset, largest,
@@ -325,7 +325,7 @@ static enum flatten_fault fill_body(struct flattening *f, uint32_t number, uint3
         fill_triangles(&fill, 0, count);
         return FLATTEN_DONE;
     }
-    uint32_t *shade = heap_alloc((body->group_count + (size_t)1) * sizeof *shade);
+    uint32_t *shade = heap_array(body->group_count + (size_t)1, sizeof *shade);
     if (!shade)
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < body->group_count; i++)

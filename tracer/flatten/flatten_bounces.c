@@ -16,7 +16,7 @@ static void add_body(struct flat_scene *out, const struct scene *scene, const st
 
 enum flatten_fault flatten_bounces(struct flattening *f) {
     const struct scene *scene = f->scene;
-    f->out->bounces = heap_alloc(((size_t)scene->body_count + 1) * sizeof *f->out->bounces);
+    f->out->bounces = heap_array((size_t)scene->body_count + 1, sizeof *f->out->bounces);
     if (!f->out->bounces)
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < scene->body_count; i++)

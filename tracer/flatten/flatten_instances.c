@@ -131,7 +131,7 @@ static void fill_mesh(void *context, size_t begin, size_t end) {
 
 // Takes what `from` holds to the end of `to`.
 static bool append(struct flat_array *to, const struct gpu_word *from, uint64_t count) {
-    struct gpu_word *words = heap_resize(to->words, (to->count + count + 1) * sizeof *words);
+    struct gpu_word *words = heap_resize_array(to->words, to->count + count + 1, sizeof *words);
     if (!words)
         return false;
     memcpy(words + to->count, from, count * sizeof *words);
@@ -143,7 +143,7 @@ static bool append(struct flat_array *to, const struct gpu_word *from, uint64_t 
 static bool append_records(struct flat_array *to, const struct gpu_word *records, const uint32_t *order,
                            uint32_t count) {
     struct gpu_word *words =
-        heap_resize(to->words, (to->count + (uint64_t)count * PLACED_WORDS + 1) * sizeof *words);
+        heap_resize_array(to->words, to->count + heap_times(count, PLACED_WORDS) + 1, sizeof *words);
     if (!words)
         return false;
     to->words = words;
@@ -158,7 +158,7 @@ static bool keep_tree(struct flattening *f, struct shared_mesh *shared, struct b
     shared->root = (uint32_t)(out->triangle_nodes.count / NODE_WORDS);
     shared->first_record = (uint32_t)(out->triangles.count / PLACED_WORDS);
     shared->count = bvh->item_count;
-    shared->boxes = heap_alloc(BVH_BOUNDS_MOST * sizeof *shared->boxes);
+    shared->boxes = heap_array(BVH_BOUNDS_MOST, sizeof *shared->boxes);
     if (!shared->boxes)
         return false;
     shared->box_count = bvh_first_bounds(bvh, shared->boxes);
@@ -177,7 +177,7 @@ static bool build_mesh(struct flattening *f, struct shared_mesh *shared, const s
         if (!filling->items[i].spare)
             filling->items[count++] = filling->items[i];
     const double start = clock_seconds();
-    if (!bvh_build(filling->items, count, f->input->method, &bvh))
+    if (!bvh_build_kept(f->input->keep, filling->items, count, f->input->method, &bvh))
         return false;
     f->out->build_seconds += clock_seconds() - start;
     const bool done = keep_tree(f, shared, &bvh, filling->records);
@@ -188,11 +188,11 @@ static bool build_mesh(struct flattening *f, struct shared_mesh *shared, const s
 static enum flatten_fault make_mesh(struct flattening *f, struct shared_mesh *shared) {
     const size_t count = shared->mesh->triangle_count;
     bool *is_copied = heap_zeroed(count + 1, sizeof *is_copied);
-    struct mesh_filling filling = {.shared = shared,
-                                   .is_copied = is_copied,
-                                   .records =
-                                       heap_alloc((count + 1) * PLACED_WORDS * sizeof(struct gpu_word)),
-                                   .items = heap_alloc((count + 1) * sizeof *filling.items)};
+    struct mesh_filling filling = {
+        .shared = shared,
+        .is_copied = is_copied,
+        .records = heap_array(heap_times(count + 1, PLACED_WORDS), sizeof(struct gpu_word)),
+        .items = heap_array(count + 1, sizeof *filling.items)};
     bool done = is_copied && filling.records && filling.items;
     choose_space(shared);
     shared->edge = usual_edge(shared->mesh);
@@ -420,7 +420,7 @@ static bool make_tables(struct placing *p) {
     const uint32_t count = p->f->sharing.instance_count, blocks = p->block[count];
     const uint64_t records = (uint64_t)count * p->words, shades = ((uint64_t)blocks + 3) / 4;
     const uint64_t words = shades + ((uint64_t)p->shades.count + 3) / 4 + 1;
-    struct gpu_word *all = heap_resize(p->records, (records + words) * sizeof *all);
+    struct gpu_word *all = heap_resize_array(p->records, records + words, sizeof *all);
     if (!all)
         return false;
     p->records = NULL;
@@ -449,7 +449,8 @@ static bool make_top(struct placing *p) {
     struct flat_scene *out = f->out;
     const uint32_t first = f->item_count ? 0 : 1;
     struct bvh top;
-    if (!bvh_build(p->items + first, f->sharing.instance_count - first, BVH_SAH_SINGLES, &top))
+    if (!bvh_build_kept(f->input->keep, p->items + first, f->sharing.instance_count - first, BVH_SAH_SINGLES,
+                        &top))
         return false;
     bool done = bvh_open_leaves(&top, p->leaves);
     struct bvh below = {.nodes = out->triangle_nodes.words,
@@ -491,10 +492,10 @@ static enum flatten_fault place_instances(struct flattening *f, struct bvh_item 
     const size_t count = f->sharing.instance_count;
     struct placing p = {.f = f};
     p.words = (f->out->is_double ? ENTRY64_WORDS : ENTRY_WORDS) + INSTANCE_WORDS;
-    p.records = heap_zeroed(count * p.words, sizeof *p.records);
-    p.items = heap_alloc(count * sizeof *p.items);
-    p.leaves = heap_alloc(count * NODE_WORDS * sizeof *p.leaves);
-    p.block = heap_alloc((count + 1) * sizeof *p.block);
+    p.records = heap_zeroed(heap_times(count, p.words), sizeof *p.records);
+    p.items = heap_array(count, sizeof *p.items);
+    p.leaves = heap_array(heap_times(count, NODE_WORDS), sizeof *p.leaves);
+    p.block = heap_array(count + 1, sizeof *p.block);
     bool done = p.records && p.items && p.leaves && p.block;
     if (done) {
         p.items[0] = copied;

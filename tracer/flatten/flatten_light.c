@@ -175,10 +175,10 @@ enum flatten_fault flatten_background(struct flattening *f) {
     size_t count = (size_t)picture->width * picture->height;
     f->out->background_texels.is_float = is_srgb || picture->depth != PICTURE_8;
     f->out->background_texels.bytes = count * (f->out->background_texels.is_float ? 4 * sizeof(float) : 4);
-    if (!f->out->background_texels.is_float || picture->depth == PICTURE_RGBE)
+    if (!f->out->background_texels.is_float || picture_is_linear(picture))
         return FLATTEN_DONE;
     uint32_t greatest = picture_greatest(picture->depth);
-    float *decoded = heap_alloc(((size_t)greatest + 1) * sizeof *decoded);
+    float *decoded = heap_array((size_t)greatest + 1, sizeof *decoded);
     if (!decoded)
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i <= greatest; i++) {

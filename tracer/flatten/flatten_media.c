@@ -19,7 +19,7 @@ static int compare(const void *a, const void *b) {
 // The materials of all media, alike ones next to each other.
 static const struct scene_material **sorted_fillings(const struct flattening *f, uint32_t *count) {
     const struct scene *scene = f->scene;
-    const struct scene_material **all = heap_alloc(((size_t)scene->body_count + 1) * sizeof *all);
+    const struct scene_material **all = heap_array((size_t)scene->body_count + 1, sizeof *all);
     *count = 0;
     for (uint32_t i = 0; all && i < scene->body_count; i++)
         if (scene_is_medium(scene, &scene->bodies[i]))

@@ -82,7 +82,7 @@ static int compare_uses(const void *a, const void *b) {
 // The smooth bodies, those of one mesh together, and the normal base of each in IR order.
 static enum flatten_fault list_uses(struct flattening *f, struct smooth_use **uses, uint32_t *count) {
     *count = 0;
-    *uses = heap_alloc(((size_t)f->scene->body_count + 1) * sizeof **uses);
+    *uses = heap_array((size_t)f->scene->body_count + 1, sizeof **uses);
     if (!*uses)
         return FLATTEN_NO_MEMORY;
     uint64_t normals = 0;

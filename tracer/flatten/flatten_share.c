@@ -6,6 +6,7 @@
 // more than |M^-1|, for which the Frobenius norm is a bound.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "scene/mesh_use.h"
 #include "tracer/flatten/flatten_parts.h"
 
 #include <inttypes.h>
@@ -144,7 +145,7 @@ static double choose_models(struct judging *j) {
 static bool list_copied(struct judging *j, double most) {
     struct shared_mesh *shared = j->shared;
     const uint32_t count = shared->mesh->triangle_count;
-    shared->copied = heap_alloc(((size_t)count_lower(j->sorted, count, most) + 1) * sizeof *shared->copied);
+    shared->copied = heap_array((size_t)count_lower(j->sorted, count, most) + 1, sizeof *shared->copied);
     if (!shared->copied)
         return false;
     for (uint32_t i = 0; i < count; i++)
@@ -170,7 +171,7 @@ static bool judge_models(struct judging *j) {
 static enum flatten_fault judge_mesh(struct flattening *f, struct shared_mesh *shared) {
     const size_t count = shared->mesh->triangle_count;
     struct judging j = {.f = f, .shared = shared};
-    j.height = heap_alloc(2 * (count + 1) * sizeof *j.height);
+    j.height = heap_array(heap_times(2, count + 1), sizeof *j.height);
     if (!j.height)
         return FLATTEN_NO_MEMORY;
     j.sorted = j.height + count;
@@ -261,18 +262,6 @@ static bool is_decided(struct flattening *f) {
 
 // ---- which models share a mesh
 
-struct use {
-    const struct mesh *mesh;
-    uint32_t body;
-};
-
-static int compare_uses(const void *a, const void *b) {
-    const struct use *x = a, *y = b;
-    if (x->mesh != y->mesh)
-        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
-    return x->body < y->body ? -1 : x->body > y->body;
-}
-
 static int compare_meshes(const void *a, const void *b) {
     const struct shared_mesh *x = a, *y = b;
     return x->first_use < y->first_use ? -1 : x->first_use > y->first_use;
@@ -280,10 +269,10 @@ static int compare_meshes(const void *a, const void *b) {
 
 // Meshes of two models at least, in the order of their first models: while they are sorted `first_use` is
 // that body, after it a place in `uses`.
-static bool list_meshes(struct flattening *f, const struct use *uses, uint32_t count) {
+static bool list_meshes(struct flattening *f, const struct mesh_use *uses, uint32_t count) {
     struct sharing *sharing = &f->sharing;
     sharing->meshes = heap_zeroed((size_t)count / 2 + 1, sizeof *sharing->meshes);
-    sharing->uses = heap_alloc(((size_t)count + 1) * sizeof *sharing->uses);
+    sharing->uses = heap_array((size_t)count + 1, sizeof *sharing->uses);
     sharing->instance = heap_zeroed((size_t)f->scene->body_count + 1, sizeof *sharing->instance);
     if (!sharing->meshes || !sharing->uses || !sharing->instance)
         return false;
@@ -311,14 +300,10 @@ static void order_meshes(struct sharing *sharing) {
 }
 
 static enum flatten_fault find_meshes(struct flattening *f) {
-    struct use *uses = heap_alloc(((size_t)f->scene->body_count + 1) * sizeof *uses);
-    uint32_t count = 0;
+    struct mesh_use *uses = heap_array((size_t)f->scene->body_count + 1, sizeof *uses);
     if (!uses)
         return FLATTEN_NO_MEMORY;
-    for (uint32_t i = 0; i < f->scene->body_count; i++)
-        if (f->scene->bodies[i].mesh && f->scene->bodies[i].triangle_count)
-            uses[count++] = (struct use){f->scene->bodies[i].mesh, i};
-    qsort(uses, count, sizeof *uses, compare_uses);
+    const uint32_t count = mesh_uses(f->scene, 1, uses);
     const bool done = list_meshes(f, uses, count);
     free(uses);
     if (done)
@@ -330,7 +315,7 @@ static enum flatten_fault find_meshes(struct flattening *f) {
 
 static enum flatten_fault report_uses(struct flattening *f) {
     struct flat_scene *out = f->out;
-    out->uses = heap_alloc(((size_t)f->sharing.mesh_count + 1) * sizeof *out->uses);
+    out->uses = heap_array((size_t)f->sharing.mesh_count + 1, sizeof *out->uses);
     if (!out->uses)
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < f->sharing.mesh_count; i++) {
@@ -348,7 +333,7 @@ static enum flatten_fault report_uses(struct flattening *f) {
 // Numbers the instances, from 1 on in IR order.
 static bool number_instances(struct flattening *f) {
     struct sharing *sharing = &f->sharing;
-    sharing->mesh_of = heap_alloc(((size_t)f->scene->body_count + 1) * sizeof *sharing->mesh_of);
+    sharing->mesh_of = heap_array((size_t)f->scene->body_count + 1, sizeof *sharing->mesh_of);
     if (!sharing->mesh_of)
         return false;
     for (uint32_t i = 0; i < f->scene->body_count; i++)

@@ -102,7 +102,7 @@ static bool choose(struct measuring *m, const struct precision_pieces *known,
     const struct precision_view view = precision_view_of(m->input, &m->map, m->body->mesh);
     if (precision_is_beyond(&view, &known->whole, found))
         return true;
-    m->chosen = heap_alloc((known->count + (size_t)1) * sizeof *m->chosen);
+    m->chosen = heap_array(known->count + (size_t)1, sizeof *m->chosen);
     for (uint32_t i = 0; m->chosen && i < known->count; i++)
         if (!precision_is_beyond(&view, &known->items[i], found))
             m->chosen[m->chosen_count++] = i;
@@ -201,7 +201,7 @@ static bool measure_body(const struct flat_input *input, uint32_t number, struct
 bool precision_measure(const struct flat_input *input, struct precision_report *out) {
     const uint32_t all = input->scene->body_count;
     *out = (struct precision_report){.suffices = true, .all_pairs = true};
-    struct precision_body *bodies = heap_alloc(((size_t)all + 1) * sizeof *bodies);
+    struct precision_body *bodies = heap_array((size_t)all + 1, sizeof *bodies);
     if (!bodies)
         return false;
     uint32_t count = 0;

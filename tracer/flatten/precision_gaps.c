@@ -166,7 +166,7 @@ static int widest_axis(const struct precision_body *bodies, uint32_t count) {
 
 bool precision_gaps(const struct flat_input *input, const struct precision_body *bodies, uint32_t count,
                     struct precision_report *out) {
-    struct swept *order = heap_alloc(((size_t)count + 1) * sizeof *order);
+    struct swept *order = heap_array((size_t)count + 1, sizeof *order);
     if (!order)
         return false;
     const int axis = widest_axis(bodies, count);

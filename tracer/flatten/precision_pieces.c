@@ -51,7 +51,7 @@ bool precision_pieces_make(const struct mesh *mesh, struct precision_pieces *out
     const uint32_t count =
         mesh->triangle_count / PRECISION_PIECE + (mesh->triangle_count % PRECISION_PIECE != 0);
     *out = (struct precision_pieces){.mesh = mesh, .count = count, .whole = no_piece()};
-    out->items = heap_alloc((count + (size_t)1) * sizeof *out->items);
+    out->items = heap_array(count + (size_t)1, sizeof *out->items);
     if (!out->items)
         return false;
     parallel_for(count, PRECISION_PIECE, make_pieces, out);

@@ -16,6 +16,7 @@
 
 enum gpu_status {
     GPU_OK,
+    GPU_LEFT_OUT,  // the program is built without devices (gpu_none.c)
     GPU_NO_LOADER, // libvulkan is not installed
     GPU_NO_DRIVER, // the loader is there, a driver with a device that can compute is not
     GPU_NO_DEVICE, // no device of the name or number asked for
@@ -131,6 +132,9 @@ void gpu_program_destroy(struct gpu *gpu, struct gpu_program *program);
 // running.
 void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
                       struct gpu_buffer *const buffers[GPU_BINDINGS]);
+
+// How many pipelines were made for it so far: programs share those of the same kernel and constants.
+uint32_t gpu_pipelines_made(const struct gpu *gpu);
 
 // What the driver says of the compiled kernel, in its own words: registers, private memory, size of the code
 // (VK_KHR_pipeline_executable_properties). Calls `tell` for each figure; false: it says nothing.

@@ -4,17 +4,13 @@
 #include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
+#include <spirv/unified1/spirv.h>
 #include <stdlib.h>
 #include <string.h>
 
 // Numbers of the SPIR-V specification, section 3.
 enum {
     SPIRV_HEADER_WORDS = 5,
-    OP_EXTENSION = 10,
-    OP_EXECUTION_MODE = 16,
-    OP_CAPABILITY = 17,
-    CAPABILITY_SIGNED_ZERO_INF_NAN_PRESERVE = 4466,
-    MODE_SIGNED_ZERO_INF_NAN_PRESERVE = 4461,
     DOUBLE_BITS = 64,
 };
 
@@ -23,12 +19,12 @@ static bool is_unknown(const struct gpu *gpu, const uint32_t *instruction) {
     static const char extension[] = "SPV_KHR_float_controls";
     const bool none = !gpu->preserves_nan && !gpu->preserves_nan64;
     switch (instruction[0] & 0xffff) {
-    case OP_CAPABILITY:
-        return none && instruction[1] == CAPABILITY_SIGNED_ZERO_INF_NAN_PRESERVE;
-    case OP_EXECUTION_MODE:
-        return instruction[2] == MODE_SIGNED_ZERO_INF_NAN_PRESERVE &&
+    case SpvOpCapability:
+        return none && instruction[1] == SpvCapabilitySignedZeroInfNanPreserve;
+    case SpvOpExecutionMode:
+        return instruction[2] == SpvExecutionModeSignedZeroInfNanPreserve &&
                !(instruction[3] == DOUBLE_BITS ? gpu->preserves_nan64 : gpu->preserves_nan);
-    case OP_EXTENSION:
+    case SpvOpExtension:
         return none && strncmp((const char *)(instruction + 1), extension, sizeof extension) == 0;
     default:
         return false;
@@ -184,8 +180,10 @@ static struct gpu_pipeline *make(struct gpu *gpu, const struct gpu_program_sourc
         return NULL;
     }
     *made = *wanted;
-    if (create_layout(gpu, made, source) && create_pipeline(gpu, made, source))
+    if (create_layout(gpu, made, source) && create_pipeline(gpu, made, source)) {
+        gpu->pipelines_made++;
         return made;
+    }
     destroy(gpu, made);
     return NULL;
 }
@@ -213,6 +211,10 @@ void gpu_pipeline_leave(struct gpu *gpu, struct gpu_pipeline *pipeline) {
         return;
     pipeline->users--;
     drop_idle(gpu);
+}
+
+uint32_t gpu_pipelines_made(const struct gpu *gpu) {
+    return gpu->pipelines_made;
 }
 
 void gpu_pipelines_destroy(struct gpu *gpu) {

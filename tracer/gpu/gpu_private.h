@@ -35,6 +35,7 @@ struct gpu {
     VkPipelineCache cache;          // of this run
     struct gpu_keep keep;           // from run to run; zeroed: nowhere
     struct gpu_pipeline *pipelines; // all of them, the one used last first
+    uint32_t pipelines_made;
     bool recording, submitted, timed;
     bool compiling;             // what was submitted touches no buffer
     bool stuck;                 // what was submitted may run for ever: all that it uses is kept

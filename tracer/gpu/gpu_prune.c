@@ -4,40 +4,13 @@
 #include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
+#include <spirv/unified1/spirv.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
     HEADER_WORDS = 5,
     BOUND = 3, // the header's word
-    DECORATION_SPEC_ID = 1,
-    DECORATION_NO_CONTRACTION = 42,
-    OP_ENTRY_POINT = 15,
-    OP_CONSTANT_TRUE = 41,
-    OP_CONSTANT_FALSE = 42,
-    OP_CONSTANT = 43,
-    OP_SPEC_CONSTANT_TRUE = 48,
-    OP_SPEC_CONSTANT_FALSE = 49,
-    OP_SPEC_CONSTANT = 50,
-    OP_SPEC_CONSTANT_OP = 52,
-    OP_FUNCTION = 54,
-    OP_FUNCTION_END = 56,
-    OP_FUNCTION_CALL = 57,
-    OP_DECORATE = 71,
-    OP_LOGICAL_OR = 166,
-    OP_LOGICAL_AND = 167,
-    OP_LOGICAL_NOT = 168,
-    OP_IEQUAL = 170,
-    OP_INOT_EQUAL = 171,
-    OP_BITWISE_AND = 199,
-    OP_PHI = 245,
-    OP_LOOP_MERGE = 246,
-    OP_SELECTION_MERGE = 247,
-    OP_LABEL = 248,
-    OP_BRANCH = 249,
-    OP_BRANCH_CONDITIONAL = 250,
-    OP_SWITCH = 251,
-    OP_UNREACHABLE = 255,
 };
 
 enum block_state {
@@ -85,29 +58,29 @@ static void know(struct prune *p, uint32_t id, uint32_t value) {
 // The result of an operation whose operands are ids, as far as these are known.
 static void compute(struct prune *p, uint32_t result, uint32_t opcode, const uint32_t *operands) {
     const struct prune_id *a = &p->ids[operands[0]];
-    const struct prune_id *b = opcode == OP_LOGICAL_NOT ? a : &p->ids[operands[1]];
+    const struct prune_id *b = opcode == SpvOpLogicalNot ? a : &p->ids[operands[1]];
     const bool both = a->is_known && b->is_known;
-    if (opcode == OP_LOGICAL_AND && ((a->is_known && !a->value) || (b->is_known && !b->value)))
+    if (opcode == SpvOpLogicalAnd && ((a->is_known && !a->value) || (b->is_known && !b->value)))
         know(p, result, 0);
-    else if (opcode == OP_LOGICAL_OR && ((a->is_known && a->value) || (b->is_known && b->value)))
+    else if (opcode == SpvOpLogicalOr && ((a->is_known && a->value) || (b->is_known && b->value)))
         know(p, result, 1);
-    else if (both && opcode == OP_LOGICAL_AND)
+    else if (both && opcode == SpvOpLogicalAnd)
         know(p, result, a->value && b->value);
-    else if (both && opcode == OP_LOGICAL_OR)
+    else if (both && opcode == SpvOpLogicalOr)
         know(p, result, a->value || b->value);
-    else if (both && opcode == OP_LOGICAL_NOT)
+    else if (both && opcode == SpvOpLogicalNot)
         know(p, result, !a->value);
-    else if (both && opcode == OP_IEQUAL)
+    else if (both && opcode == SpvOpIEqual)
         know(p, result, a->value == b->value);
-    else if (both && opcode == OP_INOT_EQUAL)
+    else if (both && opcode == SpvOpINotEqual)
         know(p, result, a->value != b->value);
-    else if (both && opcode == OP_BITWISE_AND)
+    else if (both && opcode == SpvOpBitwiseAnd)
         know(p, result, a->value & b->value);
 }
 
 static bool is_computed(uint32_t opcode) {
-    return (opcode >= OP_LOGICAL_OR && opcode <= OP_LOGICAL_NOT) || opcode == OP_IEQUAL ||
-           opcode == OP_INOT_EQUAL || opcode == OP_BITWISE_AND;
+    return (opcode >= SpvOpLogicalOr && opcode <= SpvOpLogicalNot) || opcode == SpvOpIEqual ||
+           opcode == SpvOpINotEqual || opcode == SpvOpBitwiseAnd;
 }
 
 static void know_constant(struct prune *p, const uint32_t *i, uint32_t value) {
@@ -120,24 +93,24 @@ static void know_constant(struct prune *p, const uint32_t *i, uint32_t value) {
 // What comes before the functions.
 static void take_global(struct prune *p, const uint32_t *i) {
     switch (opcode_of(i)) {
-    case OP_DECORATE:
-        if (i[2] == DECORATION_SPEC_ID)
+    case SpvOpDecorate:
+        if (i[2] == SpvDecorationSpecId)
             p->ids[i[1]].spec = i[3] + 1;
         break;
-    case OP_CONSTANT_TRUE:
-    case OP_SPEC_CONSTANT_TRUE:
+    case SpvOpConstantTrue:
+    case SpvOpSpecConstantTrue:
         know_constant(p, i, 1);
         break;
-    case OP_CONSTANT_FALSE:
-    case OP_SPEC_CONSTANT_FALSE:
+    case SpvOpConstantFalse:
+    case SpvOpSpecConstantFalse:
         know_constant(p, i, 0);
         break;
-    case OP_CONSTANT:
-    case OP_SPEC_CONSTANT:
+    case SpvOpConstant:
+    case SpvOpSpecConstant:
         if (length_of(i) == 4)
             know_constant(p, i, i[3]);
         break;
-    case OP_SPEC_CONSTANT_OP:
+    case SpvOpSpecConstantOp:
         if (is_computed(i[3]))
             compute(p, i[2], i[3], i + 4);
         break;
@@ -181,17 +154,17 @@ static void name_block(struct prune *p, uint32_t label, enum block_state state) 
 // Where a block goes on.
 static void lead(struct prune *p, const uint32_t *i, uint32_t label) {
     switch (opcode_of(i)) {
-    case OP_BRANCH:
+    case SpvOpBranch:
         name_block(p, i[1], BLOCK_LIVE);
         break;
-    case OP_BRANCH_CONDITIONAL:
+    case SpvOpBranchConditional:
         if (p->ids[i[1]].is_known)
             p->ids[label].taken = p->ids[i[1]].value ? i[2] : i[3];
         for (uint32_t k = 2; k <= 3; k++)
             if (p->ids[label].taken == 0 || p->ids[label].taken == i[k])
                 name_block(p, i[k], BLOCK_LIVE);
         break;
-    case OP_SWITCH:
+    case SpvOpSwitch:
         name_block(p, i[2], BLOCK_LIVE);
         for (uint32_t k = 4; k < length_of(i); k += 2)
             name_block(p, i[k], BLOCK_LIVE);
@@ -204,20 +177,20 @@ static void lead(struct prune *p, const uint32_t *i, uint32_t label) {
 // Whether a selection's condition is known: `i` is its OpSelectionMerge, the branch comes next.
 static bool is_decided(const struct prune *p, const uint32_t *i) {
     const uint32_t *branch = i + length_of(i);
-    return opcode_of(branch) == OP_BRANCH_CONDITIONAL && p->ids[branch[1]].is_known;
+    return opcode_of(branch) == SpvOpBranchConditional && p->ids[branch[1]].is_known;
 }
 
 static void look_at(struct prune *p, const uint32_t *i, uint32_t label) {
     const uint32_t opcode = opcode_of(i);
-    if (opcode == OP_FUNCTION_CALL)
+    if (opcode == SpvOpFunctionCall)
         p->ids[i[3]].is_called = true;
-    else if (opcode == OP_PHI)
+    else if (opcode == SpvOpPhi)
         compute_phi(p, i, label);
     else if (is_computed(opcode))
         compute(p, i[2], opcode, i + 3);
-    else if (opcode == OP_SELECTION_MERGE && !is_decided(p, i))
+    else if (opcode == SpvOpSelectionMerge && !is_decided(p, i))
         name_block(p, i[1], BLOCK_MERGE);
-    else if (opcode == OP_LOOP_MERGE) {
+    else if (opcode == SpvOpLoopMerge) {
         name_block(p, i[1], BLOCK_MERGE);
         name_block(p, i[2], BLOCK_REPEAT);
         p->ids[i[2]].header = label;
@@ -229,9 +202,9 @@ static void look_at(struct prune *p, const uint32_t *i, uint32_t label) {
 // A block comes after that which dominates it, so one look at each is enough.
 static void look_at_function(struct prune *p, size_t at) {
     uint32_t label = 0;
-    for (; opcode_of(p->words + at) != OP_FUNCTION_END; at += length_of(p->words + at)) {
+    for (; opcode_of(p->words + at) != SpvOpFunctionEnd; at += length_of(p->words + at)) {
         const uint32_t *i = p->words + at;
-        if (opcode_of(i) == OP_LABEL) {
+        if (opcode_of(i) == SpvOpLabel) {
             if (label == 0)
                 name_block(p, i[1], BLOCK_LIVE);
             label = i[1];
@@ -281,19 +254,19 @@ static void put_phi(const struct prune *p, struct output *out, const uint32_t *i
         put(out, value);
         put(out, from);
     }
-    out->words[at] = (uint32_t)(out->count - at) << 16 | OP_PHI;
+    out->words[at] = (uint32_t)(out->count - at) << 16 | SpvOpPhi;
 }
 
 static void put_instruction(struct prune *p, struct output *out, const uint32_t *i, uint32_t label) {
     const uint32_t opcode = opcode_of(i), length = length_of(i);
     if (length > 2)
         p->ids[i[2] < p->words[BOUND] ? i[2] : 0].is_kept = true;
-    if (opcode == OP_SELECTION_MERGE && is_decided(p, i))
+    if (opcode == SpvOpSelectionMerge && is_decided(p, i))
         return;
-    if (opcode == OP_PHI) {
+    if (opcode == SpvOpPhi) {
         put_phi(p, out, i, label);
-    } else if (opcode == OP_BRANCH_CONDITIONAL && p->ids[label].taken) {
-        put(out, 2u << 16 | OP_BRANCH);
+    } else if (opcode == SpvOpBranchConditional && p->ids[label].taken) {
+        put(out, 2u << 16 | SpvOpBranch);
         put(out, p->ids[label].taken);
     } else {
         memmove(out->words + out->count, i, length * sizeof *i);
@@ -303,7 +276,7 @@ static void put_instruction(struct prune *p, struct output *out, const uint32_t 
 
 static size_t block_length(const uint32_t *label) {
     const uint32_t *end = label + length_of(label);
-    while (opcode_of(end) != OP_LABEL && opcode_of(end) != OP_FUNCTION_END)
+    while (opcode_of(end) != SpvOpLabel && opcode_of(end) != SpvOpFunctionEnd)
         end += length_of(end);
     return (size_t)(end - label);
 }
@@ -313,12 +286,12 @@ static void put_empty(const struct prune *p, struct output *out, uint32_t label)
     const struct prune_id *block = &p->ids[label];
     if (block->block == BLOCK_DEAD)
         return;
-    put(out, 2u << 16 | OP_LABEL);
+    put(out, 2u << 16 | SpvOpLabel);
     put(out, label);
     if (block->block == BLOCK_MERGE) {
-        put(out, 1u << 16 | OP_UNREACHABLE);
+        put(out, 1u << 16 | SpvOpUnreachable);
     } else {
-        put(out, 2u << 16 | OP_BRANCH);
+        put(out, 2u << 16 | SpvOpBranch);
         put(out, block->header);
     }
 }
@@ -330,11 +303,11 @@ static size_t put_functions(struct prune *p, size_t at) {
     for (size_t length; at < p->count; at += length) {
         const uint32_t *i = p->words + at, opcode = opcode_of(i);
         length = length_of(i);
-        if (opcode == OP_FUNCTION)
+        if (opcode == SpvOpFunction)
             called = p->ids[i[2]].is_called;
-        if (opcode == OP_LABEL)
+        if (opcode == SpvOpLabel)
             label = i[1];
-        if (called && opcode == OP_LABEL && p->ids[label].block != BLOCK_LIVE) {
+        if (called && opcode == SpvOpLabel && p->ids[label].block != BLOCK_LIVE) {
             length = block_length(i);
             put_empty(p, &out, label);
         } else if (called) {
@@ -350,7 +323,7 @@ static size_t drop_decorations(struct prune *p, size_t functions, size_t count) 
     for (size_t at = HEADER_WORDS, length; at < functions; at += length) {
         const uint32_t *i = p->words + at;
         length = length_of(i);
-        if (opcode_of(i) == OP_DECORATE && i[2] == DECORATION_NO_CONTRACTION && !p->ids[i[1]].is_kept)
+        if (opcode_of(i) == SpvOpDecorate && i[2] == SpvDecorationNoContraction && !p->ids[i[1]].is_kept)
             continue;
         memmove(out.words + out.count, i, length * sizeof *i);
         out.count += length;
@@ -367,11 +340,11 @@ bool gpu_prune(const struct gpu_program_source *source, uint32_t *spirv, size_t 
     size_t functions = *words;
     for (size_t at = HEADER_WORDS; at < *words; at += length_of(spirv + at)) {
         const uint32_t *i = spirv + at;
-        if (opcode_of(i) == OP_FUNCTION) {
+        if (opcode_of(i) == SpvOpFunction) {
             functions = at < functions ? at : functions;
             p.ids[i[2]].function = at;
         } else if (functions == *words) {
-            if (opcode_of(i) == OP_ENTRY_POINT)
+            if (opcode_of(i) == SpvOpEntryPoint)
                 p.ids[i[2]].is_called = true;
             take_global(&p, i);
         }

@@ -8,7 +8,7 @@
 static bool has_extension(VkPhysicalDevice physical, const char *name) {
     uint32_t count = 0;
     vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL);
-    VkExtensionProperties *items = heap_alloc((count + (size_t)1) * sizeof *items);
+    VkExtensionProperties *items = heap_array(count + (size_t)1, sizeof *items);
     bool found = false;
     if (items && vkEnumerateDeviceExtensionProperties(physical, NULL, &count, items) == VK_SUCCESS)
         for (uint32_t i = 0; i < count; i++)

@@ -160,8 +160,8 @@ static void plan(struct renderer *renderer) {
         plan_at_once(renderer);
 }
 
-static bool upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
-                   uint64_t bytes) {
+bool renderer_upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
+                     uint64_t bytes) {
     struct gpu_buffer *buffer = gpu_buffer_create(renderer->gpu, use, bytes);
     renderer->buffers[binding] = buffer;
     return buffer && (!data || gpu_write(renderer->gpu, buffer, 0, data, bytes));
@@ -200,19 +200,15 @@ bool renderer_background(struct renderer *renderer) {
     return put;
 }
 
-static bool make_background(struct renderer *renderer) {
+bool renderer_make_background(struct renderer *renderer) {
     const struct flat_scene *flat = renderer->flat;
     const enum gpu_use use = flat->background_texels.is_float ? GPU_TEXELS_F32 : GPU_TEXELS_U8;
-    return upload(renderer, BINDING_BACKGROUND, use, NULL, flat->background_texels.bytes) &&
+    return renderer_upload(renderer, BINDING_BACKGROUND, use, NULL, flat->background_texels.bytes) &&
            (renderer->settings.background_later || renderer_background(renderer));
 }
 
-static bool upload_scene(struct renderer *renderer) {
-    const struct flat_scene *flat = renderer->flat;
-    const struct {
-        uint32_t binding;
-        const struct flat_array *array;
-    } arrays[] = {
+uint32_t renderer_arrays(const struct flat_scene *flat, struct renderer_array out[RENDERER_ARRAYS]) {
+    const struct renderer_array arrays[RENDERER_ARRAYS] = {
         {BINDING_TRIANGLE_NODES, &flat->triangle_nodes},
         {BINDING_TRIANGLES, &flat->triangles},
         {BINDING_NORMALS, &flat->normals},
@@ -224,12 +220,18 @@ static bool upload_scene(struct renderer *renderer) {
         {BINDING_PAINTS, &flat->paints},
         {BINDING_INSTANCES, &flat->instances},
     };
-    const size_t count = sizeof arrays / sizeof *arrays - (flat->instance_count == 0);
-    for (size_t i = 0; i < count; i++)
-        if (!upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
-                    arrays[i].array->count * sizeof(struct gpu_word)))
+    memcpy(out, arrays, sizeof arrays);
+    return RENDERER_ARRAYS - (flat->instance_count == 0);
+}
+
+static bool upload_scene(struct renderer *renderer) {
+    struct renderer_array arrays[RENDERER_ARRAYS];
+    const uint32_t count = renderer_arrays(renderer->flat, arrays);
+    for (uint32_t i = 0; i < count; i++)
+        if (!renderer_upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
+                             arrays[i].array->count * sizeof(struct gpu_word)))
             return false;
-    return make_background(renderer);
+    return renderer_make_background(renderer);
 }
 
 static bool make_band(struct renderer *renderer) {
@@ -239,14 +241,15 @@ static bool make_band(struct renderer *renderer) {
     const bool third = renderer_is_adaptive(renderer) || (at_once && has_state(renderer));
     const uint64_t lists = 2 * (uint64_t)renderer->places + (third ? paths : 0);
     const uint32_t zero[COUNTER_COUNT] = {0};
-    renderer->band = heap_alloc(slots * PATH_OUTPUT_BYTES);
-    return renderer->band && upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, paths * PATH_OUTPUT_BYTES) &&
-           upload(renderer, BINDING_STATE, GPU_STORAGE, NULL,
-                  renderer->places * slot_state_bytes(renderer)) &&
-           upload(renderer, BINDING_COUNTERS, GPU_STORAGE, NULL,
-                  (COUNTER_COUNT + lists) * sizeof(uint32_t)) &&
+    renderer->band = heap_array(slots, PATH_OUTPUT_BYTES);
+    return renderer->band &&
+           renderer_upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, paths * PATH_OUTPUT_BYTES) &&
+           renderer_upload(renderer, BINDING_STATE, GPU_STORAGE, NULL,
+                           renderer->places * slot_state_bytes(renderer)) &&
+           renderer_upload(renderer, BINDING_COUNTERS, GPU_STORAGE, NULL,
+                           (COUNTER_COUNT + lists) * sizeof(uint32_t)) &&
            gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], 0, zero, sizeof zero) &&
-           upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block)) &&
+           renderer_upload(renderer, BINDING_FRAME, GPU_UNIFORM, NULL, sizeof(struct frame_block)) &&
            renderer_make_at_once(renderer);
 }
 
@@ -288,10 +291,20 @@ static void take_settings(struct renderer *renderer, const struct render_setting
         renderer->settings.workgroup = TILE_PIXELS;
 }
 
+// Stacks never become smaller, so that kernels stay as they are where a tree loses a level.
+static void take_levels(struct renderer *renderer) {
+    const struct flat_scene *flat = renderer->flat;
+    if (flat->triangle_depth > renderer->triangle_depth)
+        renderer->triangle_depth = flat->triangle_depth;
+    if (flat->sphere_depth > renderer->sphere_depth)
+        renderer->sphere_depth = flat->sphere_depth;
+}
+
 bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
                      const struct render_settings *settings) {
     const struct render_settings old = renderer->settings, *now = &renderer->settings;
     renderer->flat = flat;
+    take_levels(renderer);
     take_settings(renderer, settings);
     if (old.width == now->width && old.height == now->height && old.max_depth == now->max_depth &&
         old.features == now->features && old.alternative == now->alternative &&
@@ -301,6 +314,17 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
         return renderer_first_program(renderer, now->counts) != NULL;
     drop_frame(renderer);
     return make_frame(renderer);
+}
+
+void renderer_forget_kernels(struct renderer *renderer) {
+    drop_frame(renderer);
+    for (int i = 0; i < RENDERER_KEPT; i++) {
+        gpu_program_destroy(renderer->gpu, renderer->kept[i].program);
+        renderer->kept[i] = (struct renderer_kept){0};
+    }
+    renderer->triangle_depth = renderer->sphere_depth = 0;
+    // No settings are these: the next change makes all anew.
+    renderer->settings.width = 0;
 }
 
 // There is time until the background comes.
@@ -320,6 +344,7 @@ struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
         return NULL;
     renderer->gpu = gpu;
     renderer->flat = flat;
+    take_levels(renderer);
     take_settings(renderer, settings);
     const double start = clock_seconds();
     bool made = upload_scene(renderer);

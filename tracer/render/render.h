@@ -124,6 +124,7 @@ struct render_limit {
     // Called between dispatches after the first sample; true: the frame ends, without the sample under way.
     bool (*is_over)(void *context);
     void *context;
+    bool shows_each; // `rgb` is their picture after each sample
 };
 
 enum render_result {
@@ -143,6 +144,20 @@ void renderer_destroy(struct renderer *renderer);
 // can only be destroyed.
 bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
                      const struct render_settings *settings);
+// What renderer_update wrote to the device.
+struct render_update {
+    uint32_t arrays; // that were written, in part or whole; the background is one
+    uint64_t bytes;
+};
+// Another flat scene in place of `old`, the renderer's or a copy of it: only what differs goes to the device,
+// and kernels are compiled only where they do not fit. Features that the renderer has and the scene does not
+// ask for stay in its kernels, which changes no bit of a picture. *done may be NULL. false: see gpu_error;
+// then the renderer can only be destroyed.
+bool renderer_update(struct renderer *renderer, const struct flat_scene *old, const struct flat_scene *flat,
+                     const struct render_settings *settings, struct render_update *done);
+// Compiles what the renderer's further frames begin in, where that is another kernel than the first one's.
+// false: see gpu_error.
+bool renderer_warm(struct renderer *renderer);
 // Puts the background's pixels onto the device, where background_later left them out. false: see gpu_error.
 bool renderer_background(struct renderer *renderer);
 // Renders a frame into width * height * 3 floats, rows from the top: the mean of the samples, before tone

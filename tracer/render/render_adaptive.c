@@ -48,14 +48,14 @@ static void finish(struct band *band) {
 }
 
 static bool make(struct band *band, uint32_t tiles) {
-    const size_t slots = (size_t)tiles * TILE_PIXELS;
-    band->sums = heap_alloc(slots * sizeof *band->sums);
-    band->variance = heap_alloc(slots * sizeof *band->variance);
-    band->samples = heap_alloc(slots * sizeof *band->samples);
-    band->faults = heap_alloc(slots * sizeof *band->faults);
-    band->list = heap_alloc(slots * sizeof *band->list);
-    band->shown = heap_alloc(slots * GROUPS * 3 * sizeof *band->shown);
-    band->goes_on = heap_alloc(slots * sizeof *band->goes_on);
+    const size_t slots = heap_times(tiles, TILE_PIXELS);
+    band->sums = heap_array(slots, sizeof *band->sums);
+    band->variance = heap_array(slots, sizeof *band->variance);
+    band->samples = heap_array(slots, sizeof *band->samples);
+    band->faults = heap_array(slots, sizeof *band->faults);
+    band->list = heap_array(slots, sizeof *band->list);
+    band->shown = heap_array(heap_times(heap_times(slots, GROUPS), 3), sizeof *band->shown);
+    band->goes_on = heap_array(slots, sizeof *band->goes_on);
     return band->sums && band->variance && band->samples && band->faults && band->list && band->shown &&
            band->goes_on;
 }
@@ -277,12 +277,12 @@ static enum render_result draw_band(struct band *band, float *rgb, struct total 
 // ---- the frame
 
 static bool make_estimate(struct renderer *renderer) {
-    const size_t pixels = (size_t)renderer->settings.width * renderer->settings.height;
+    const size_t pixels = heap_times(renderer->settings.width, renderer->settings.height);
     struct render_estimate *estimate = &renderer->estimate;
     if (!estimate->error)
-        estimate->error = heap_alloc(pixels * sizeof *estimate->error);
+        estimate->error = heap_array(pixels, sizeof *estimate->error);
     if (!estimate->samples)
-        estimate->samples = heap_alloc(pixels * sizeof *estimate->samples);
+        estimate->samples = heap_array(pixels, sizeof *estimate->samples);
     return estimate->error && estimate->samples;
 }
 

@@ -28,8 +28,8 @@ static bool make(struct renderer *renderer) {
         return false;
     renderer->hits = hits;
     hits->band_tiles = renderer->tiles < BAND_TILES_MAX ? renderer->tiles : BAND_TILES_MAX;
-    const size_t words = (size_t)hits->band_tiles * TILE_PIXELS * HITS_WORDS;
-    hits->words = heap_alloc(words * sizeof *hits->words);
+    const size_t words = heap_times(heap_times(hits->band_tiles, TILE_PIXELS), HITS_WORDS);
+    hits->words = heap_array(words, sizeof *hits->words);
     hits->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, words * sizeof *hits->words);
     const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
     if (hits->words && hits->output)

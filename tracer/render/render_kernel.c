@@ -77,8 +77,8 @@ static uint32_t stack_levels(uint32_t depth) {
 }
 
 uint32_t renderer_stack_levels(const struct renderer *renderer) {
-    const uint32_t a = stack_levels(renderer->flat->triangle_depth);
-    const uint32_t b = stack_levels(renderer->flat->sphere_depth);
+    const uint32_t a = stack_levels(renderer->triangle_depth);
+    const uint32_t b = stack_levels(renderer->sphere_depth);
     return a > b ? a : b;
 }
 
@@ -190,21 +190,24 @@ struct gpu_program *renderer_first_program(struct renderer *renderer, bool count
     return renderer->begins;
 }
 
+bool renderer_packs_groups(const struct flat_scene *flat) {
+    const uint64_t most = (uint64_t)NODE_WORDS << 16;
+    return !flat->instance_count && flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most;
+}
+
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
                                             uint32_t features, struct gpu_buffer *output,
                                             struct gpu_buffer *state) {
     const struct flat_scene *flat = renderer->flat;
     const bool texels = gpu_fetches_texels(renderer->gpu);
-    const uint64_t most = (uint64_t)NODE_WORDS << 16;
     const struct alternative *alternative = &alternatives[renderer->settings.alternative];
     const struct kernel_pair *pair = pair_of(renderer, kernel);
     const uint32_t constants[CONSTANT_COUNT] = {
         [CONSTANT_FEATURES] = features,
-        [CONSTANT_TRIANGLE_STACK] = stack_levels(flat->triangle_depth),
-        [CONSTANT_SPHERE_STACK] = stack_levels(flat->sphere_depth),
+        [CONSTANT_TRIANGLE_STACK] = stack_levels(renderer->triangle_depth),
+        [CONSTANT_SPHERE_STACK] = stack_levels(renderer->sphere_depth),
         // A group of the tree over instances says of its children too which are leaves.
-        [CONSTANT_PACKED_GROUPS] =
-            !flat->instance_count && flat->triangle_nodes.count <= most && flat->sphere_nodes.count <= most,
+        [CONSTANT_PACKED_GROUPS] = renderer_packs_groups(flat),
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,
         [CONSTANT_BRANCHES] = renderer->samples_at_once ? private_branches(renderer) : 1,

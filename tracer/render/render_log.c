@@ -258,7 +258,7 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
 
 // Depth-first, mirrored rays before refracted ones: the order in which the tracer adds.
 static bool tell(const struct walk *walk, struct render_log *log) {
-    uint32_t *place = heap_alloc(2 * (size_t)walk->count * sizeof *place);
+    uint32_t *place = heap_array(heap_times(2, walk->count), sizeof *place);
     walk->nodes[0].segment.parent = UINT32_MAX;
     if (!place)
         return false;
@@ -302,7 +302,7 @@ enum render_result renderer_log(struct renderer *renderer, const struct view_cam
     memset(log->rgb, 0, sizeof log->rgb);
     struct walk walk = {
         .renderer = renderer, .x = x, .y = y, .sample = sample, .capacity = log->capacity, .whole = true};
-    walk.nodes = heap_alloc((size_t)log->capacity * sizeof *walk.nodes);
+    walk.nodes = heap_array(log->capacity, sizeof *walk.nodes);
     if (!walk.nodes || (!renderer->log && !make(renderer)) || !renderer_write_frame(renderer, camera)) {
         free(walk.nodes);
         return RENDER_FAILED;

@@ -116,8 +116,8 @@ static void sort_tiles(const struct grid *grid, uint32_t tiles, uint32_t *order,
 
 bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *camera) {
     const uint32_t width = renderer->tiles_x, height = (renderer->tiles + width - 1) / width;
-    const size_t words = ((size_t)width + 1) * (height + 1);
-    int32_t *edges = heap_zeroed(words * RENDERER_RANK_ENDS, sizeof *edges);
+    const size_t words = heap_times((uint64_t)width + 1, (uint64_t)height + 1);
+    int32_t *edges = heap_zeroed(heap_times(words, RENDERER_RANK_ENDS), sizeof *edges);
     if (!edges)
         return false;
     struct grid grid = {width, height, {edges, edges + words}};
@@ -144,7 +144,7 @@ static bool same_view(const struct view_camera *a, const struct view_camera *b) 
 bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *camera) {
     if (renderer->samples_at_once == 0 || (renderer->order && same_view(camera, &renderer->ordered)))
         return true;
-    const size_t bytes = renderer->tiles * sizeof *renderer->order;
+    const size_t bytes = heap_times(renderer->tiles, sizeof *renderer->order);
     if (!renderer->order)
         renderer->order = heap_alloc(bytes);
     if (renderer->order && renderer_sort_tiles(renderer, camera) &&

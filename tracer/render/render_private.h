@@ -83,10 +83,11 @@ struct renderer {
     uint32_t run_tiles, runs, run_step;
     uint32_t band_tiles; // of a band; the last may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
-    struct gpu_program *program;  // of those kept; NULL: none was wanted yet
-    struct gpu_program *counting; // the same, with counters
-    struct gpu_program *begins;   // most of it, for paths that begin
-    bool has_drawn;               // a frame with these settings
+    uint32_t triangle_depth, sphere_depth; // levels that kernels have stacks for
+    struct gpu_program *program;           // of those kept; NULL: none was wanted yet
+    struct gpu_program *counting;          // the same, with counters
+    struct gpu_program *begins;            // most of it, for paths that begin
+    bool has_drawn;                        // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
     uint32_t *band;             // the band's output, read back: 4 words a slot
@@ -97,6 +98,23 @@ struct renderer {
     struct renderer_pace paces[RENDERER_PASSES];
     struct render_estimate estimate; // of an adaptive frame; its arrays NULL: there was none
 };
+
+// The arrays of a flat scene that lie on the device, and where.
+enum {
+    RENDERER_ARRAYS = 10
+};
+struct renderer_array {
+    uint32_t binding;
+    const struct flat_array *array;
+};
+// Returns how many it has.
+uint32_t renderer_arrays(const struct flat_scene *flat, struct renderer_array out[RENDERER_ARRAYS]);
+// Makes the buffer of a binding and fills it, unless `data` is NULL. false: see gpu_error.
+bool renderer_upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
+                     uint64_t bytes);
+bool renderer_make_background(struct renderer *renderer);
+// Destroys all kernels, and what depends on the settings: renderer_change must follow.
+void renderer_forget_kernels(struct renderer *renderer);
 
 // A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` take the place
 // of the band's where not NULL.
@@ -110,6 +128,8 @@ enum renderer_kernel {
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
                                             uint32_t features, struct gpu_buffer *output,
                                             struct gpu_buffer *state);
+// Whether the numbers of a group of nodes fit into one word.
+bool renderer_packs_groups(const struct flat_scene *flat);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
 // Whether a kernel pays for paths to begin in that has only what most of them need; and whether they do.

@@ -50,8 +50,8 @@ static enum render_result draw_samples(struct renderer_frame *run, struct sums *
     const struct render_limit *limit = run->limit;
     enum render_result result = RENDER_DONE;
     while (result == RENDER_DONE && run->samples_done < renderer->settings.samples) {
-        if (run->samples_done == 1)
-            renderer_unpack(renderer, 0, renderer->tiles, sums->whole, 1, rgb);
+        if (run->samples_done == 1 || (run->samples_done && limit->shows_each))
+            renderer_unpack(renderer, 0, renderer->tiles, sums->whole, run->samples_done, rgb);
         if (run->samples_done && !limit->goes_on(limit->context, run->samples_done, rgb))
             break;
         result = draw_all(run, sums);
@@ -66,8 +66,8 @@ enum render_result renderer_draw_until(struct renderer_frame *run, const struct 
     run->is_over = false;
     if (!renderer_begin_frame(run, camera))
         return RENDER_FAILED;
-    const size_t words = (size_t)4 * TILE_PIXELS * renderer->tiles;
-    struct sums sums = {heap_alloc(words * sizeof(uint32_t)), heap_alloc(words * sizeof(uint32_t)),
+    const size_t words = heap_times(heap_times(4, TILE_PIXELS), renderer->tiles);
+    struct sums sums = {heap_array(words, sizeof(uint32_t)), heap_array(words, sizeof(uint32_t)),
                         run->statistics->bands > 1};
     enum render_result result = sums.whole && sums.next ? draw_samples(run, &sums, rgb) : RENDER_FAILED;
     if (result == RENDER_DONE) {

@@ -15,7 +15,7 @@ static int compare_values(double a, double b) {
 
 // Three standard errors of the difference of two times, as a share of them, in the median row.
 static double pooled_noise(const struct choice_row *rows, uint32_t count) {
-    double *shares = heap_alloc((count ? count : 1) * sizeof *shares);
+    double *shares = heap_array(count ? count : 1, sizeof *shares);
     uint32_t known = 0;
     for (uint32_t i = 0; shares && i < count; i++)
         if (rows[i].choosable && rows[i].time_ms > 0)

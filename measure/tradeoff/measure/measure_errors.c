@@ -28,7 +28,7 @@ static uint32_t thumbnail_height(uint32_t width, uint32_t height, uint32_t to_wi
 static void picture_thumbnail(const float *shown, uint32_t width, uint32_t height, struct strbuf *out) {
     const uint32_t w = width < THUMBNAIL_WIDTH ? width : THUMBNAIL_WIDTH,
                    h = thumbnail_height(width, height, w);
-    uint8_t *bytes = heap_alloc((size_t)3 * w * h);
+    uint8_t *bytes = heap_array(heap_times(3, w), h);
     for (uint32_t i = 0; bytes && i < w * h; i++) {
         const struct box b = box_of(i % w, i / w, width, height, w, h);
         for (size_t k = 0; k < 3; k++) {
@@ -51,7 +51,7 @@ static void difference_thumbnail(const float *difference, uint32_t width, uint32
                                  struct strbuf *out) {
     const uint32_t w = width < THUMBNAIL_WIDTH ? width : THUMBNAIL_WIDTH,
                    h = thumbnail_height(width, height, w);
-    float *values = heap_alloc((size_t)w * h * sizeof *values);
+    float *values = heap_array(heap_times(w, h), sizeof *values);
     for (uint32_t i = 0; values && i < w * h; i++) {
         const struct box b = box_of(i % w, i / w, width, height, w, h);
         values[i] = 0;
@@ -72,7 +72,7 @@ bool errors_of_shown(struct measuring *s, struct row *row) {
     struct measure_options options = measure_options_default();
     struct measure_result result;
     float *difference =
-        s->out->options.thumbnails ? heap_alloc((size_t)width * height * sizeof *difference) : NULL;
+        s->out->options.thumbnails ? heap_array(heap_times(width, height), sizeof *difference) : NULL;
     options.threshold = s->out->options.threshold;
     options.pixels_per_degree = s->out->options.ppd;
     if (s->out->options.search)

@@ -26,8 +26,8 @@ static uint64_t rays_of(const struct reference_statistics *r) {
 
 enum tradeoff_status ground_truth_picture(struct measuring *s, const struct reference_settings *settings,
                                           float *shown, struct reference_statistics *statistics) {
-    const size_t pixels = (size_t)s->base.width * s->base.height;
-    double *rgb = heap_alloc(3 * pixels * sizeof *rgb);
+    const size_t pixels = heap_times(s->base.width, s->base.height);
+    double *rgb = heap_array(heap_times(3, pixels), sizeof *rgb);
     if (!rgb)
         return TRADEOFF_MEMORY;
     const struct reference_progress progress = measuring_reference_progress(s);
@@ -62,7 +62,7 @@ static enum tradeoff_status run_pilots(struct measuring *s, struct plan_ground_t
     struct reference_statistics taken;
     enum reference_result result = REFERENCE_DONE;
     in->pilot_pixels = (uint64_t)settings.width * settings.height;
-    double *rgb = heap_alloc(3 * in->pilot_pixels * sizeof *rgb);
+    double *rgb = heap_array(heap_times(3, in->pilot_pixels), sizeof *rgb);
     if (!rgb)
         return TRADEOFF_MEMORY;
     const struct reference_progress progress = measuring_reference_progress(s);
@@ -107,7 +107,7 @@ static enum tradeoff_status plan(struct measuring *s, const struct work *own, bo
 // ---- making
 
 enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *own, bool bounces) {
-    const size_t values = (size_t)3 * s->base.width * s->base.height;
+    const size_t values = heap_times(heap_times(3, s->base.width), s->base.height);
     struct tradeoff *t = s->out;
     struct reference_statistics taken;
     struct plan_ground_truth planned;
@@ -122,9 +122,9 @@ enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *o
     const bool lowered = planned.segments < s->full.segments;
     t->ground_truth_samples = s->full.samples = planned.samples;
     t->ground_truth_segments = s->full.segments = planned.segments;
-    s->ground_truth = heap_alloc(values * sizeof *s->ground_truth);
-    s->shown = heap_alloc(values * sizeof *s->shown);
-    s->picture = heap_alloc(values * sizeof *s->picture);
+    s->ground_truth = heap_array(values, sizeof *s->ground_truth);
+    s->shown = heap_array(values, sizeof *s->shown);
+    s->picture = heap_array(values, sizeof *s->picture);
     if (!s->ground_truth || !s->shown || !s->picture)
         return TRADEOFF_MEMORY;
     status = ground_truth_picture(s, &s->full, s->ground_truth, &taken);

@@ -8,11 +8,11 @@ enum {
 
 // The reference's hits at the file's size, once.
 static enum tradeoff_status make_reference_hits(struct measuring *s) {
-    const size_t pixels = (size_t)s->base.width * s->base.height;
+    const size_t pixels = heap_times(s->base.width, s->base.height);
     if (s->hits[1])
         return TRADEOFF_DONE;
     for (int i = 0; i < 2; i++)
-        s->hits[i] = heap_alloc(pixels * sizeof *s->hits[i]);
+        s->hits[i] = heap_array(pixels, sizeof *s->hits[i]);
     if (!s->hits[0] || !s->hits[1])
         return TRADEOFF_MEMORY;
     const struct reference_progress progress = measuring_reference_progress(s);

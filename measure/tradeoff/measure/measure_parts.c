@@ -104,7 +104,7 @@ static const float *probe(struct measuring *s, struct probe_set wanted) {
             return s->sets[i].values;
     const uint32_t count = probe_count(s);
     const struct reference *reference = reference_source_get(&s->source[!wanted.shadows]);
-    float *values = heap_alloc((size_t)3 * count * sizeof *values);
+    float *values = heap_array(heap_times(3, count), sizeof *values);
     if (!values || !reference || s->set_count == PROBE_SETS_MAX) {
         free(values);
         return NULL;
@@ -138,7 +138,7 @@ static double mean_difference(const float *a, const float *b, size_t count) {
 
 // What differs only in how it is computed is rare and far apart: it is measured over the whole picture.
 static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) {
-    const size_t pixels = (size_t)s->base.width * s->base.height;
+    const size_t pixels = heap_times(s->base.width, s->base.height);
     if (!s->as_file && !s->only_probes)
         s->only_probes = s->out->numeric_probed = !ground_truth_affords(s, (double)s->out->rows[0].work.rays);
     if (s->only_probes)
@@ -146,7 +146,7 @@ static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) 
     if (!s->as_file) {
         const struct reference_settings settings =
             reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, true);
-        float *shown = heap_alloc(3 * pixels * sizeof *shown);
+        float *shown = heap_array(heap_times(3, pixels), sizeof *shown);
         const enum tradeoff_status status =
             shown ? ground_truth_picture(s, &settings, shown, NULL) : TRADEOFF_MEMORY;
         if (status != TRADEOFF_DONE) {
@@ -182,7 +182,7 @@ enum tradeoff_status parts_measure(struct measuring *s, struct row *row) {
     full.samples = s->out->ground_truth_samples;
     full.first_sample = s->full.first_sample;
     const float *samples = paths ? probe(s, full) : NULL;
-    float *own = heap_alloc((size_t)6 * count * sizeof *own);
+    float *own = heap_array(heap_times(6, count), sizeof *own);
     if (!samples || !own) {
         free(own);
         return TRADEOFF_MEMORY;

@@ -14,6 +14,7 @@
 
 enum {
     PILOT_PIXELS = 2048,
+    PILOT_VALUES = 3 * PILOT_PIXELS,
     ADDED_MOST = 4, // samples of the reference, where they cost no more than what one may
 };
 // Change that does not matter where no bound says how little does; else this share of the bound.
@@ -24,7 +25,7 @@ static const double MARGIN = 0.1;
 static const double SMOOTH_WIDTH = 64;
 
 static size_t values_of(const struct measuring *s) {
-    return (size_t)3 * s->base.width * s->base.height;
+    return heap_times(heap_times(3, s->base.width), s->base.height);
 }
 
 // ---- what the reference may take
@@ -107,7 +108,7 @@ static enum tradeoff_status run_pilots(struct measuring *s, struct pilots *pilot
 }
 
 static enum tradeoff_status plan_truth(struct measuring *s) {
-    float *shown = heap_zeroed((size_t)6 * PILOT_PIXELS, sizeof *shown);
+    float *shown = heap_zeroed(heap_times(6, PILOT_PIXELS), sizeof *shown);
     struct pilots pilots = {.rgb = s->search.rgb, .shown = shown};
     if (!shown)
         return TRADEOFF_MEMORY;
@@ -121,15 +122,15 @@ enum tradeoff_status search_begin(struct measuring *s) {
     struct search_pictures *p = &s->search;
     const size_t values = values_of(s);
     s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
-    s->ground_truth = heap_alloc(values * sizeof *s->ground_truth);
-    s->shown = heap_alloc(values * sizeof *s->shown);
-    s->picture = heap_alloc(values * sizeof *s->picture);
-    p->smooth = heap_alloc(values * sizeof *p->smooth);
+    s->ground_truth = heap_array(values, sizeof *s->ground_truth);
+    s->shown = heap_array(values, sizeof *s->shown);
+    s->picture = heap_array(values, sizeof *s->picture);
+    p->smooth = heap_array(values, sizeof *p->smooth);
     p->truth = heap_zeroed(values, sizeof *p->truth);
     p->added = heap_zeroed(values, sizeof *p->added);
-    p->column = heap_alloc(s->base.height * sizeof *p->column);
+    p->column = heap_array(s->base.height, sizeof *p->column);
     p->row = heap_zeroed(values, sizeof *p->row);
-    p->rgb = heap_alloc((values > 3 * PILOT_PIXELS ? values : 3 * PILOT_PIXELS) * sizeof *p->rgb);
+    p->rgb = heap_array(values > PILOT_VALUES ? values : PILOT_VALUES, sizeof *p->rgb);
     if (!s->ground_truth || !s->shown || !s->picture || !p->truth || !p->added || !p->row || !p->rgb ||
         !p->smooth || !p->column)
         return TRADEOFF_MEMORY;

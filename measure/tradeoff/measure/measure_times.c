@@ -50,8 +50,8 @@ static void fill_times(struct tradeoff *t, double *times) {
 
 // Whether the noise has come down to the floor of the choice: further rounds would change nothing.
 static bool is_quiet(struct tradeoff *t, const double *times) {
-    const size_t count = (size_t)t->rounds * t->count;
-    double *copy = heap_alloc(count * sizeof *copy), *shares = heap_alloc(t->count * sizeof *shares);
+    const size_t count = heap_times(t->rounds, t->count);
+    double *copy = heap_array(count, sizeof *copy), *shares = heap_array(t->count, sizeof *shares);
     bool quiet = false;
     if (copy && shares) {
         memcpy(copy, times, count * sizeof *copy);
@@ -89,7 +89,7 @@ static bool has_time(const struct measuring *s, double begun, const double *time
 
 enum tradeoff_status times_measure(struct measuring *s) {
     struct tradeoff *t = s->out;
-    double *times = heap_alloc((size_t)TIMES_ROUNDS_MOST * t->count * sizeof *times);
+    double *times = heap_array(heap_times(TIMES_ROUNDS_MOST, t->count), sizeof *times);
     const double budget = t->options.budget_s;
     if (!times)
         return TRADEOFF_MEMORY;

@@ -10,6 +10,10 @@
 
 // ---- what a setting is called
 
+enum {
+    PAIRS_MAX = PLAN_ROWS_MAX * PLAN_ROWS_MAX / 2
+};
+
 bool plan_differs(const struct setting *a, const struct setting *b, enum knob knob) {
     switch (knob) {
     case KNOB_MAX_DEPTH:
@@ -194,7 +198,7 @@ static bool is_part(const struct setting *a, const struct setting *b) {
 }
 
 bool plan_order_times(struct row *rows, uint32_t count) {
-    double *ordered = heap_alloc((count ? count : 1) * sizeof *ordered);
+    double *ordered = heap_array(count ? count : 1, sizeof *ordered);
     if (!ordered)
         return false;
     for (uint32_t i = 0; i < count; i++) {
@@ -314,12 +318,11 @@ static void count_better(const struct row *rows, uint32_t count, enum metric met
 
 uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, uint32_t most,
                     struct row *pairs, uint32_t *left_out) {
-    static const uint32_t pairs_max = PLAN_ROWS_MAX * PLAN_ROWS_MAX / 2;
-    struct pair *found = heap_alloc(pairs_max * sizeof *found);
+    struct pair *found = heap_array(PAIRS_MAX, sizeof *found);
     uint32_t found_count = 0, made = 0, knob_a, knob_b;
     *left_out = 0;
     for (uint32_t a = 1; found && a < count; a++)
-        for (uint32_t b = a + 1; b < count && found_count < pairs_max; b++)
+        for (uint32_t b = a + 1; b < count && found_count < PAIRS_MAX; b++)
             if (is_single(&rows[a], &knob_a) && is_single(&rows[b], &knob_b) && knob_a != knob_b &&
                 matters(&rows[a], &rows[0], metric) && matters(&rows[b], &rows[0], metric) &&
                 is_worth_it(rows, count, a, metric) && is_worth_it(rows, count, b, metric))

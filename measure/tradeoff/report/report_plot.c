@@ -113,7 +113,7 @@ static int by_rank(const void *a, const void *b) {
 
 static void front_line(const struct plot *p, struct strbuf *out) {
     const struct tradeoff *t = p->t;
-    const struct row **front = heap_alloc((t->count ? t->count : 1) * sizeof *front);
+    const struct row **front = heap_array(t->count ? t->count : 1, sizeof *front);
     uint32_t count = 0;
     if (!front) {
         out->failed = true;

@@ -46,7 +46,7 @@ static struct row *rows_of(const char *bytes, size_t size, const uint64_t key[2]
         head->row_bytes != sizeof(struct row) || memcmp(head->key, key, sizeof head->key) != 0 ||
         count == 0 || count > ROWS_MOST || size != sizeof *head + count * sizeof(struct row))
         return NULL;
-    struct row *rows = heap_alloc(count * sizeof *rows);
+    struct row *rows = heap_array(count, sizeof *rows);
     if (!rows)
         return NULL;
     memcpy(rows, bytes + sizeof *head, count * sizeof *rows);

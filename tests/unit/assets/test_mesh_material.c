@@ -33,8 +33,8 @@ static void assert_weights(struct ir_weights w, double diffuse, double specular,
 static void every_value_has_its_place(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
-    const struct ir_material *m =
-        from_mtl(s, "  Kd .1 .2 .3\n\tKs 0.5 0.25 0.75\nNs 250\nNi 1.45\nd 0.75\nillum 2 # plain");
+    const struct ir_material *m = from_mtl(
+        s, "  Kd .1 .2 .3\n\tKs 0.5 0.25 0.75\nNs 250\nNi 1.45\nd 0.75\nKe 0 2 1\nPr 0.5\nillum 2 # plain");
     assert_int_equal(s->sink.count, assets_scene_count(s, DIAG_OPEN_DIELECTRIC));
     assert_true(str_equal_cstr(m->name, "gold"));
     assert_int_equal(m->diffuse_color.kind, IR_PAINT_COLOR);
@@ -43,6 +43,7 @@ static void every_value_has_its_place(void **state) {
     assert_true(m->specular_color.color.r == .5 && m->specular_color.color.g == .25 &&
                 m->specular_color.color.b == .75);
     assert_true(m->specular_exponent == 250 && m->refractive_index == 1.45);
+    assert_true(m->emission.r == 0 && m->emission.g == 2 && m->emission.b == 1 && m->roughness == 0.5);
     assert_weights(m->albedo, 0.75, 1, 0, 0.25);
     assert_int_equal(m->head.origin, 0);
     assets_scene_end(s);
@@ -138,7 +139,7 @@ static void each_kind_of_unused_line_is_a_warning(void **state) {
     struct assets_scene *s = assets_scene_begin();
     from_mtl(s, "Ka 1 1 1\nmap_Kd wood.png\nKa 0 0 1\nKa 0 0 0\nd -halo 0.5\nKs spectral a.rfl 1");
     assert_int_equal(assets_scene_count(s, DIAG_MTL_DROPPED), 4);
-    assert_says(s, "own.mtl:2:1: warning: 'Ka' has no effect (2 lines): there is no ambient light [W605]");
+    assert_says(s, "own.mtl:2:1: warning: 'Ka' has no effect (2 lines): ambient light is the scene's");
     assert_says(s, "own.mtl:3:1: warning: 'map_Kd' has no effect: 'wood.png' cannot be found");
     assert_says(s, "own.mtl:6:3: warning: '-halo' has no effect: transparency does not depend on the angle");
     assert_says(s, "own.mtl:7:1: warning: 'Ks spectral' has no effect: colours are three numbers");

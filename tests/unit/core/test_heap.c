@@ -62,10 +62,41 @@ static void what_is_large_asks_for_huge_pages(void **state) {
     free(small);
 }
 
+static void products_do_not_wrap(void **state) {
+    (void)state;
+    assert_int_equal(heap_times(3, 7), 21);
+    assert_int_equal(heap_times(0, UINT64_MAX), 0);
+    assert_int_equal(heap_times(UINT64_MAX, 0), 0);
+    assert_int_equal(heap_times(1, HEAP_TOO_MUCH - 1), HEAP_TOO_MUCH - 1);
+    assert_int_equal(heap_times(HEAP_TOO_MUCH / 2, 2), HEAP_TOO_MUCH);
+    // What a product in size_t would make zero, and a product of products.
+    assert_int_equal(heap_times(UINT64_C(1) << 63, 2), HEAP_TOO_MUCH);
+    assert_int_equal(heap_times(heap_times(UINT32_MAX, UINT32_MAX), 16), HEAP_TOO_MUCH);
+    assert_true(heap_times(UINT64_MAX, UINT64_MAX) + 1 > HEAP_TOO_MUCH);
+}
+
+static void what_cannot_be_held_is_refused(void **state) {
+    (void)state;
+    const uint64_t count = UINT64_C(1) << 61; // times 16 it is twice 2^64
+    int *kept = heap_array(4, sizeof *kept);
+    assert_non_null(kept);
+    kept[3] = 7;
+    assert_null(heap_array(count, 16));
+    assert_null(heap_zeroed(count, 16));
+    assert_null(heap_resize_array(kept, count, 16));
+    assert_int_equal(kept[3], 7);
+    kept = heap_resize_array(kept, 8, sizeof *kept);
+    assert_non_null(kept);
+    assert_int_equal(kept[3], 7);
+    free(kept);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keeps_items_and_doubles),
         cmocka_unit_test(leaves_the_array_where_it_cannot_grow),
+        cmocka_unit_test(products_do_not_wrap),
+        cmocka_unit_test(what_cannot_be_held_is_refused),
         cmocka_unit_test(what_is_large_asks_for_huge_pages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

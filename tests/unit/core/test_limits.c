@@ -76,9 +76,21 @@ static void refuses_what_is_no_assignment(void **state) {
     assert_memory_equal(&limits, &before, sizeof limits);
 }
 
+static void a_size_is_never_cut(void **state) {
+    (void)state;
+    struct limits limits = limits_default();
+    limits.value[LIMIT_MESH_MEMORY] = 4096;
+    assert_int_equal(limits_size(&limits, LIMIT_MESH_MEMORY), 4096);
+    limits.value[LIMIT_MESH_MEMORY] = UINT64_MAX;
+    assert_int_equal(limits_size(&limits, LIMIT_MESH_MEMORY), SIZE_MAX / 2);
+    limits.value[LIMIT_MESH_MEMORY] = (uint64_t)SIZE_MAX / 2 + 1; // whose lower half is zero in 32 bits
+    assert_int_equal(limits_size(&limits, LIMIT_MESH_MEMORY), SIZE_MAX / 2);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_table_is_sane),
+        cmocka_unit_test(a_size_is_never_cut),
         cmocka_unit_test(every_limit_takes_its_range_and_no_more),
         cmocka_unit_test(refuses_what_is_no_assignment),
     };

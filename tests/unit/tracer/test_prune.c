@@ -6,6 +6,7 @@
 #include "tracer/gpu/gpu_private.h"
 
 #include <setjmp.h>
+#include <spirv/unified1/spirv.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,16 +16,6 @@
 
 enum {
     HEADER_WORDS = 5,
-    OP_FUNCTION = 54,
-    OP_FUNCTION_CALL = 57,
-    OP_DECORATE = 71,
-    OP_FADD = 129,
-    OP_FMUL = 133,
-    OP_SELECTION_MERGE = 247,
-    OP_LABEL = 248,
-    OP_BRANCH = 249,
-    OP_BRANCH_CONDITIONAL = 250,
-    NO_CONTRACTION = 42,
 };
 
 struct module {
@@ -48,11 +39,11 @@ static void note(const struct module *module, bool *there, bool *exact) {
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
         const uint32_t *i = module->words + at, opcode = i[0] & 0xffff;
         assert_true(i[0] >> 16 > 0 && at + (i[0] >> 16) <= module->count);
-        if (opcode == OP_LABEL)
+        if (opcode == SpvOpLabel)
             there[i[1]] = true;
-        if (opcode == OP_FUNCTION)
+        if (opcode == SpvOpFunction)
             there[i[2]] = true;
-        if (opcode == OP_DECORATE && i[2] == NO_CONTRACTION)
+        if (opcode == SpvOpDecorate && i[2] == SpvDecorationNoContraction)
             exact[i[1]] = true;
     }
 }
@@ -63,13 +54,13 @@ static void check(const struct module *module) {
     note(module, there, exact);
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
         const uint32_t *i = module->words + at, opcode = i[0] & 0xffff;
-        if (opcode == OP_FUNCTION_CALL)
+        if (opcode == SpvOpFunctionCall)
             assert_true(there[i[3]]);
-        if (opcode == OP_BRANCH || opcode == OP_SELECTION_MERGE)
+        if (opcode == SpvOpBranch || opcode == SpvOpSelectionMerge)
             assert_true(there[i[1]]);
-        if (opcode == OP_BRANCH_CONDITIONAL)
+        if (opcode == SpvOpBranchConditional)
             assert_true(there[i[2]] && there[i[3]]);
-        if (opcode == OP_FADD || opcode == OP_FMUL)
+        if (opcode == SpvOpFAdd || opcode == SpvOpFMul)
             assert_true(exact[i[2]]);
     }
     free(there);

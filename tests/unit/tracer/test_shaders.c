@@ -4,6 +4,7 @@
 #include "tests/kernels/kernels.h"
 
 #include <setjmp.h>
+#include <spirv/unified1/spirv.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,18 +16,6 @@
 
 enum {
     HEADER_WORDS = 5,
-    OP_EXT_INST = 12,
-    OP_EXECUTION_MODE = 16,
-    OP_TYPE_FLOAT = 22,
-    OP_TYPE_VECTOR = 23,
-    OP_TYPE_POINTER = 32,
-    OP_FUNCTION_PARAMETER = 55,
-    OP_LOAD = 61,
-    OP_DECORATE = 71,
-    OP_FADD = 129,
-    STORAGE_FUNCTION = 7,
-    NO_CONTRACTION = 42,
-    SIGNED_ZERO_INF_NAN_PRESERVE = 4461,
 };
 
 struct module {
@@ -35,9 +24,9 @@ struct module {
     size_t count;
 };
 
-// FNegate, FAdd, FSub, FMul, FDiv, FRem, FMod, VectorTimesScalar
 static bool must_be_decorated(uint32_t opcode) {
-    static const uint32_t opcodes[] = {127, OP_FADD, 131, 133, 136, 140, 141, 142};
+    static const uint32_t opcodes[] = {SpvOpFNegate, SpvOpFAdd, SpvOpFSub, SpvOpFMul,
+                                       SpvOpFDiv,    SpvOpFRem, SpvOpFMod, SpvOpVectorTimesScalar};
     for (size_t i = 0; i < sizeof opcodes / sizeof *opcodes; i++)
         if (opcodes[i] == opcode)
             return true;
@@ -65,10 +54,10 @@ static int faults_of(const struct module *module, bool tell) {
     int faults = 0;
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
         const uint32_t *word = module->words + at, opcode = word[0] & 0xffff;
-        if (opcode == OP_DECORATE && word[2] == NO_CONTRACTION)
+        if (opcode == SpvOpDecorate && word[2] == SpvDecorationNoContraction)
             decorated[word[1]] = true;
         const bool fault = (must_be_decorated(opcode) && !decorated[word[2]]) || is_reordered(opcode) ||
-                           (opcode == OP_EXT_INST && is_loose_call(word[4]));
+                           (opcode == SpvOpExtInst && is_loose_call(word[4]));
         if (fault && tell)
             fprintf(stderr, "%s: word %zu: opcode %u\n", module->name, at, (unsigned)opcode);
         faults += fault;
@@ -81,19 +70,16 @@ static int faults_of(const struct module *module, bool tell) {
 static int preserves_nan(const struct module *module, uint32_t bits) {
     int count = 0;
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16)
-        count += (module->words[at] & 0xffff) == OP_EXECUTION_MODE &&
-                 module->words[at + 2] == SIGNED_ZERO_INF_NAN_PRESERVE && module->words[at + 3] == bits;
+        count += (module->words[at] & 0xffff) == SpvOpExecutionMode &&
+                 module->words[at + 2] == SpvExecutionModeSignedZeroInfNanPreserve &&
+                 module->words[at + 3] == bits;
     return count;
 }
 
 // Whether it may compute with doubles.
 static bool has_doubles(const struct module *module) {
-    enum {
-        OP_CAPABILITY = 17,
-        FLOAT64 = 10
-    };
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16)
-        if ((module->words[at] & 0xffff) == OP_CAPABILITY && module->words[at + 1] == FLOAT64)
+        if ((module->words[at] & 0xffff) == SpvOpCapability && module->words[at + 1] == SpvCapabilityFloat64)
             return true;
     return false;
 }
@@ -104,9 +90,9 @@ static int count_doubles(const struct module *module) {
     int count = 0;
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
         const uint32_t *word = module->words + at, opcode = word[0] & 0xffff;
-        if (opcode == OP_TYPE_FLOAT)
+        if (opcode == SpvOpTypeFloat)
             is_double[word[1]] = word[2] == 64;
-        if (opcode == OP_TYPE_VECTOR)
+        if (opcode == SpvOpTypeVector)
             is_double[word[1]] = is_double[word[2]];
         count += must_be_decorated(opcode) && is_double[word[1]];
     }
@@ -123,17 +109,17 @@ static int count_read_pointers(const struct module *module) {
     int count = 0;
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
         const uint32_t *word = module->words + at, opcode = word[0] & 0xffff, length = word[0] >> 16;
-        if (opcode == OP_TYPE_POINTER)
-            is_pointer[word[1]] = word[2] == STORAGE_FUNCTION;
-        if (opcode == OP_LOAD && word[3] < bound)
+        if (opcode == SpvOpTypePointer)
+            is_pointer[word[1]] = word[2] == SpvStorageClassFunction;
+        if (opcode == SpvOpLoad && word[3] < bound)
             is_read[word[3]] = true;
-        for (uint32_t i = 1; i < length && opcode > OP_FUNCTION_PARAMETER && opcode != OP_LOAD; i++)
+        for (uint32_t i = 1; i < length && opcode > SpvOpFunctionParameter && opcode != SpvOpLoad; i++)
             if (word[i] < bound)
                 is_used[word[i]] = true;
     }
     for (size_t at = HEADER_WORDS; at < module->count; at += module->words[at] >> 16) {
         const uint32_t *word = module->words + at;
-        count += (word[0] & 0xffff) == OP_FUNCTION_PARAMETER && is_pointer[word[1]] && is_read[word[2]] &&
+        count += (word[0] & 0xffff) == SpvOpFunctionParameter && is_pointer[word[1]] && is_read[word[2]] &&
                  !is_used[word[2]];
     }
     free(is_pointer);
@@ -149,7 +135,7 @@ static void check_module(const struct module *module) {
     const bool has_wide =
         traces && !may_fuse && !strstr(module->name, "_pairs_") && !strstr(module->name, "_alternative_");
     const int doubles = count_doubles(module);
-    assert_int_equal(module->words[0], 0x07230203);
+    assert_int_equal(module->words[0], SpvMagicNumber);
     assert_int_equal(faults_of(module, !may_fuse) > 0, may_fuse);
     assert_int_equal(preserves_nan(module, 32), 1);
     assert_int_equal(preserves_nan(module, 64), has_doubles(module));
@@ -243,15 +229,15 @@ static void test_faults_are_found(void **state) {
     const struct module module = {"copy", copy, count};
     size_t decoration = 0, addition = 0;
     for (size_t at = HEADER_WORDS; at < count; at += copy[at] >> 16) {
-        if ((copy[at] & 0xffff) == OP_DECORATE && copy[at + 2] == NO_CONTRACTION)
+        if ((copy[at] & 0xffff) == SpvOpDecorate && copy[at + 2] == SpvDecorationNoContraction)
             decoration = at;
-        if ((copy[at] & 0xffff) == OP_FADD)
+        if ((copy[at] & 0xffff) == SpvOpFAdd)
             addition = at;
     }
     assert_true(decoration && addition);
     copy[decoration + 2] = 0;
     assert_int_equal(faults_of(&module, false), 1);
-    copy[decoration + 2] = NO_CONTRACTION;
+    copy[decoration + 2] = SpvDecorationNoContraction;
     copy[addition] = (copy[addition] & 0xffff0000u) | 148;
     assert_int_equal(faults_of(&module, false), 1);
     free(copy);

@@ -1,0 +1,27 @@
+// What the files of this room share.
+//
+// Thread safety: as gltf.h.
+#ifndef GLINT_ASSETS_GLTF_PARTS_H
+#define GLINT_ASSETS_GLTF_PARTS_H
+
+#include "assets/gltf/fields.h"
+
+// The JSON of a GLB file, and gltf->chunk. false: it has been told.
+bool gltf_take_chunks(struct gltf *gltf, str bytes, str *text);
+
+// Each fills its lists from the root of the JSON, in this order; what is wrong is told.
+void gltf_read_extensions(struct gltf *gltf);
+void gltf_read_buffers(struct gltf *gltf); // buffers, views, accessors
+void gltf_read_images(struct gltf *gltf);  // images, samplers, textures
+void gltf_read_materials(struct gltf *gltf);
+void gltf_read_meshes(struct gltf *gltf);
+void gltf_read_cameras(struct gltf *gltf); // and lights
+void gltf_read_nodes(struct gltf *gltf);   // and the default scene
+// Bytes of a component.
+uint32_t gltf_component_bytes(unsigned component);
+// Bytes of an element, with what the columns of matrices are padded with.
+uint32_t gltf_element_bytes(const struct gltf_accessor *accessor);
+// From one element to the next.
+uint32_t gltf_stride(const struct gltf *gltf, const struct gltf_accessor *accessor);
+
+#endif

@@ -1,0 +1,239 @@
+// What render writes: its pictures, and what else is known of their pixels.
+#include "cli/render_job.h"
+#include "core/clock.h"
+#include "core/timeline.h"
+#include "grammar/ir.h"
+
+#include <stdio.h>
+#include <string.h>
+
+// ---- names
+
+// Without its ending.
+static str stem_of(str path) {
+    size_t dot = path.len;
+    while (dot > 0 && path.ptr[dot - 1] != '.')
+        dot--;
+    return str_slice(path, 0, dot ? dot - 1 : path.len);
+}
+
+// OUT.NAME.png for OUT.png.
+static const char *camera_output(struct render_job *job, str path, str camera) {
+    const str stem = stem_of(path);
+    return arena_format(&job->cli->arena, "%.*s.%.*s%s", STR_ARG(stem), STR_ARG(camera), path.ptr + stem.len)
+        .ptr;
+}
+
+const char *render_output_of(struct render_job *job, const struct cli_output *output, uint32_t camera) {
+    return job->all_cameras
+               ? camera_output(job, str_from(output->path), job->session.scene->cameras.items[camera].name)
+               : output->path;
+}
+
+static bool is_stdout(const struct cli_output *output) {
+    return strcmp(output->path, "-") == 0;
+}
+
+bool render_uses_stdout(const struct render_job *job) {
+    bool uses = false;
+    for (uint32_t i = 0; i < job->output_count; i++)
+        uses |= is_stdout(&job->outputs[i]);
+    return uses;
+}
+
+// ---- the command line
+
+static int needs_output(struct cli *cli) {
+    int status = cli_usage(cli, cli_operand_place(cli, 0),
+                           "a picture of standard input has no name: say where to write it");
+    diag_help(&cli->sink, "for example -o picture.png, or '-o -' for standard output");
+    return status;
+}
+
+static int judge_output(struct render_job *job, struct cli_output *output) {
+    struct cli *cli = job->cli;
+    output->format = IMAGE_PNG;
+    if (!is_stdout(output) && strncmp(output->path, "/dev/", 5) != 0 &&
+        !image_format_of_path(str_from(output->path), IMAGE_WRITTEN, &output->format))
+        return cli_usage(cli, output->arg, "the output '%s' must end in %s", output->path,
+                         IMAGE_WRITTEN_ENDINGS);
+    if (image_format_missing(output->format)) {
+        const int status = cli_usage(cli, output->arg, "the output '%s' cannot be written: %s", output->path,
+                                     image_format_missing(output->format));
+        diag_help(&cli->sink, "install the package and build glint again, or choose another ending");
+        return status;
+    }
+    if (is_stdout(output) && str_equal(cli->options.camera, STR("all"))) {
+        const int status = cli_usage(cli, output->arg, "'--camera all' writes a file for each camera");
+        diag_help(&cli->sink, "name a file; only one picture can go to '-'");
+        return status;
+    }
+    for (const struct cli_output *first = job->outputs; first < output; first++)
+        if (strcmp(first->path, output->path) == 0) {
+            const int status = cli_usage(cli, output->arg, "the output '%s' is named twice", output->path);
+            diag_note(&cli->sink, cli_place(cli, first->arg), "the first one is here");
+            diag_help(&cli->sink, "leave one of them out, or give it another name");
+            return status;
+        }
+    return CLI_OK;
+}
+
+static bool has_bits(const struct image_format_info *info, int32_t bits) {
+    for (const unsigned *b = info->bits; *b; b++)
+        if ((int32_t)*b == bits)
+            return true;
+    return false;
+}
+
+// An option that no output can follow is a mistake.
+static int judge_coding(struct render_job *job) {
+    struct cli *cli = job->cli;
+    bool depth = cli->options.depth == 0, quality = false, compression = false;
+    for (uint32_t i = 0; i < job->output_count; i++) {
+        const struct image_format_info *info = image_format_info(job->outputs[i].format);
+        depth |= has_bits(info, cli->options.depth);
+        quality |= info->has_quality;
+        compression |= info->has_compression;
+    }
+    if (!depth)
+        return cli_usage(cli, cli_option_place(cli, "depth"), "no output can have %d bits per channel",
+                         cli->options.depth);
+    if ((!quality && cli_has_no_effect(cli, "quality", "no output is JPEG or WebP")) ||
+        (!compression && cli_has_no_effect(cli, "compression", "no output is OpenEXR")))
+        return CLI_USAGE;
+    return CLI_OK;
+}
+
+// Once the scene has said how large it is.
+int render_judge_size(struct render_job *job) {
+    const struct cli_measure *m = &job->cli->options.measure;
+    const bool scaled = m->scale_width != 0;
+    const uint32_t width = scaled ? m->scale_width : (uint32_t)job->session.image->width;
+    const uint32_t height = scaled ? m->scale_height : (uint32_t)job->session.image->height;
+    for (uint32_t i = 0; i < job->output_count; i++) {
+        const struct image_format_info *info = image_format_info(job->outputs[i].format);
+        if (info->side_max && (width > info->side_max || height > info->side_max)) {
+            const int status = cli_usage(job->cli, job->outputs[i].arg,
+                                         "a %s picture has at most %u pixels in a row or column, not %u x %u",
+                                         info->words, info->side_max, width, height);
+            diag_help(&job->cli->sink, "choose another ending, or a smaller --size");
+            return status;
+        }
+    }
+    return CLI_OK;
+}
+
+struct image_coding render_coding(const struct cli_options *o, enum image_format format) {
+    const struct image_format_info *info = image_format_info(format);
+    return (struct image_coding){.bits = has_bits(info, o->depth) ? (unsigned)o->depth : info->bits[0],
+                                 .quality = (unsigned)o->quality,
+                                 .compression = (unsigned)o->compression};
+}
+
+int render_take_outputs(struct render_job *job) {
+    struct cli *cli = job->cli;
+    struct cli_outputs *outputs = &cli->options.outputs;
+    int status = CLI_OK;
+    if (outputs->count == 0 && cli_is_stream(cli, cli->operands[0]))
+        return needs_output(cli);
+    if (outputs->count == 0)
+        *(struct cli_output *)ARENA_PUSH(&cli->arena, outputs) =
+            (struct cli_output){.path = cli_default_picture(cli, cli->operands[0])};
+    job->outputs = outputs->items;
+    job->output_count = outputs->count;
+    for (uint32_t i = 0; i < outputs->count && status == CLI_OK; i++)
+        status = judge_output(job, &outputs->items[i]);
+    return status == CLI_OK ? judge_coding(job) : status;
+}
+
+// ---- pictures
+
+static int write_made(struct render_job *job, const char *path, const struct strbuf *file) {
+    if (file->failed) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
+        return CLI_FILE;
+    }
+    const double start = clock_seconds();
+    const int status = cli_write(job->cli, path, strbuf_view(file));
+    timeline_add(job->timeline, "write", str_from(path), start);
+    return status;
+}
+
+void render_encode(struct render_job *job, enum image_format format, struct strbuf *out) {
+    const struct image_display display = {job->session.image->tone, job->session.image->transfer};
+    job->image.coding = render_coding(&job->cli->options, format);
+    image_encode(&job->image, format, display, out);
+}
+
+static int write_picture(struct render_job *job, enum image_format format, const char *path) {
+    struct strbuf file;
+    strbuf_init(&file);
+    const double start = clock_seconds();
+    render_encode(job, format, &file);
+    job->stats.encode_seconds += clock_seconds() - start;
+    timeline_add(job->timeline, "encode", str_from(path), start);
+    const int status = write_made(job, path, &file);
+    strbuf_finish(&file);
+    return status;
+}
+
+int render_write_pictures(struct render_job *job, uint32_t camera) {
+    int status = CLI_OK;
+    job->stats.encode_seconds = 0;
+    for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++)
+        status = write_picture(job, job->outputs[i].format, render_output_of(job, &job->outputs[i], camera));
+    job->written = clock_seconds();
+    return status;
+}
+
+void render_tell_written(struct render_job *job, uint32_t camera) {
+    for (uint32_t i = 0; i < job->output_count; i++)
+        if (!is_stdout(&job->outputs[i]))
+            fprintf(stderr, "glint: wrote %s, %u x %u\n", render_output_of(job, &job->outputs[i], camera),
+                    job->image.width, job->image.height);
+}
+
+// ---- what else is known of pixels: --aov
+
+const struct render_estimate *render_estimate_of(const struct render_job *job) {
+    return job->shot.settings.error > 0 ? renderer_estimate(job->shot.renderer) : NULL;
+}
+
+static float aov_of(const struct render_estimate *estimate, int aov, size_t pixel) {
+    return aov == CLI_AOV_ERROR ? estimate->error[pixel] : (float)estimate->samples[pixel];
+}
+
+static int write_aov(struct render_job *job, const struct render_estimate *estimate, const char *path,
+                     int aov) {
+    struct image image;
+    struct strbuf file;
+    const str whole = str_from(path);
+    if (!image_init(&image, job->image.width, job->image.height)) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory for '%s'", cli_aov_names[aov]);
+        return CLI_SCENE;
+    }
+    for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++)
+        image.rgb[i] = aov_of(estimate, aov, i / 3);
+    strbuf_init(&file);
+    image_encode(&image, IMAGE_PFM, (struct image_display){0}, &file);
+    const str stem = stem_of(whole);
+    const str name = arena_format(&job->cli->arena, "%.*s.%s.pfm", STR_ARG(stem), cli_aov_names[aov]);
+    const int status = write_made(job, name.ptr, &file);
+    if (status == CLI_OK && !job->cli->options.quiet)
+        fprintf(stderr, "glint: wrote %s, %u x %u\n", name.ptr, image.width, image.height);
+    strbuf_finish(&file);
+    image_finish(&image);
+    return status;
+}
+
+int render_write_aovs(struct render_job *job, uint32_t camera) {
+    const struct render_estimate *estimate = render_estimate_of(job);
+    const struct cli_output *beside = job->outputs;
+    int status = CLI_OK;
+    while (beside + 1 < job->outputs + job->output_count && is_stdout(beside))
+        beside++;
+    for (int aov = 0; estimate && aov < CLI_AOVS && status == CLI_OK; aov++)
+        if (job->cli->options.aovs >> aov & 1)
+            status = write_aov(job, estimate, render_output_of(job, beside, camera), aov);
+    return status;
+}

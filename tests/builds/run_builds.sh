@@ -1,0 +1,100 @@
+#!/bin/sh
+# Another build of the program says the same bytes as this one: run_builds.sh GLINT SOURCE WORK KIND, where KIND is
+#     check-only   what needs neither Vulkan nor glslang
+#     i386         the same for 32 bits, where tools/i386.sh has put its libraries
+# The build folder is WORK/../build_KIND, so that another run only builds what has changed.
+built=$(dirname -- "$3")/build_$4
+. "$2/tests/cli/lib.sh"
+kind=$4
+
+case $kind in
+check-only) toolchain= ;;
+i386)
+    GLINT_I386=${GLINT_I386:-$source/build/i386}
+    export GLINT_I386
+    [ -d "$GLINT_I386/root" ] || {
+        echo "skipped: no libraries of 32 bits; tools/i386.sh fetches them"
+        exit 77
+    }
+    toolchain="--toolchain $source/cmake/i386.cmake"
+    ;;
+*) exit 2 ;;
+esac
+
+# shellcheck disable=SC2086 # two words, or none
+if (cd "$source" && cmake --preset check-only -B "$built" $toolchain) >build.log 2>&1 &&
+    cmake --build "$built" --parallel 2 --target glint run_invalid run_verdicts >>build.log 2>&1; then
+    pass "builds"
+else
+    tail -n 40 build.log
+    exit 1
+fi
+if grep -iE '^[^/#]*(glslang|spirv|vulkan|volk)' "$built/CMakeCache.txt" | grep -v displayName; then
+    fail "the build looks for what only devices need"
+fi
+other=$built/glint
+[ "$kind" != i386 ] || file -L "$other" | grep -q 32-bit || fail "it is no program of 32 bits"
+
+# ---- what is wrong with scenes
+
+wrong=0
+for case in "$source"/tests/invalid/*/expected.txt; do
+    "$built/run_invalid" case "$(dirname "$case")" >case.txt 2>&1 || {
+        cat case.txt
+        wrong=$((wrong + 1))
+    }
+done
+[ "$wrong" = 0 ] && pass "every wrong scene has its text" || fail "$wrong wrong scenes have another text"
+for table in yaml xml; do
+    "$built/run_verdicts" check "$source/tests/verdicts/$table.verdicts" >table.txt 2>&1 &&
+        pass "verdicts of $table" || {
+        cat table.txt
+        fail "verdicts of $table"
+    }
+done
+
+# same NAME ARGUMENT...: both programs answer with the same status and the same bytes.
+same() {
+    name=$1
+    shift
+    (cd "$source" && "$glint" "$@") >ours.out 2>ours.err </dev/null
+    status=$?
+    (cd "$source" && "$other" "$@") >other.out 2>other.err </dev/null
+    got=$?
+    if [ "$status" = "$got" ] && cmp -s ours.out other.out && cmp -s ours.err other.err; then
+        pass "$name"
+    else
+        fail "$name: status $got, wanted $status"
+        diff ours.out other.out | head -10
+        diff ours.err other.err | head -10
+    fi
+}
+
+same "check of all scenes" check scenes --verbose
+same "reports of all scenes" check scenes --format json
+same "reports of wrong scenes" check tests/invalid --format sarif
+scene=scenes/elements/models.glint.yaml
+same "inspect" inspect "$scene"
+same "the scene as it is understood" inspect --ir "$scene"
+same "convert" convert "$scene" -
+same "format" format --check scenes
+same "schema" schema json
+same "pick by the reference" pick "$scene" 320,200 --device reference --format json
+for scene in spheres models; do
+    for program in "$glint" "$other"; do
+        "$program" render "$source/scenes/elements/$scene.glint.yaml" --device reference --no-cache --size 160x120 -q \
+            -o "$work/$scene.$(basename "$(dirname "$program")").pfm" || fail "render $scene"
+    done
+    cmp "$work/$scene.$(basename "$(dirname "$glint")").pfm" "$work/$scene.$(basename "$built").pfm" &&
+        pass "the reference's picture of $scene"
+done
+
+# ---- what it cannot do
+
+expect "devices" 4 - 'this glint is built to check scenes: it draws on no device \[E701\]' "$other" devices
+also "the package is named" '' "the package 'glint' draws on devices"
+for command in render extremes tradeoff; do
+    expect "$command" 4 - "draws on no device" "$other" "$command" "$source/scenes/elements/spheres.glint.yaml"
+done
+[ ! -e spheres.png ] || fail "a picture was left"
+exit $failed

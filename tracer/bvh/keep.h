@@ -1,0 +1,25 @@
+// Trees that were built before, found again by what they were built over.
+//
+// For a scene that is flattened again and again while it changes: a tree depends on its items and on nothing
+// else, so that one over equal items need not be built again. Input and errors as bvh_build; ownership: the
+// keep has copies, and bvh_keep_destroy takes NULL. Thread safety: one thread at a time.
+#ifndef GLINT_TRACER_BVH_KEEP_H
+#define GLINT_TRACER_BVH_KEEP_H
+
+#include "tracer/bvh/bvh.h"
+
+struct bvh_keep;
+
+struct bvh_keep *bvh_keep_create(void); // NULL: no memory
+void bvh_keep_destroy(struct bvh_keep *keep);
+// As bvh_build. Without a keep (NULL) it builds. A tree that no memory is left to keep is built again next
+// time.
+bool bvh_build_kept(struct bvh_keep *keep, struct bvh_item *items, uint32_t count, enum bvh_method method,
+                    struct bvh *out);
+// Forgets the trees that were not asked for since the last call.
+void bvh_keep_sweep(struct bvh_keep *keep);
+// How many trees with items were built, and how many found, since the keep was made.
+uint32_t bvh_keep_built(const struct bvh_keep *keep);
+uint32_t bvh_keep_found(const struct bvh_keep *keep);
+
+#endif
