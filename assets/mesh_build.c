@@ -219,6 +219,12 @@ static struct mesh_room room_of(struct polygons *polygons, struct arena *scratch
         scratch};
 }
 
+static void take_positions_as_merged(struct mesh *mesh) {
+    mesh->merged = ARENA_ARRAY(&mesh->arena, uint32_t, mesh->position_count);
+    for (uint32_t i = 0; i < mesh->position_count; i++)
+        mesh->merged[i] = i;
+}
+
 void mesh_build(struct polygons *polygons, str path, struct arena *scratch, struct mesh *mesh) {
     copy_names(polygons, path, mesh);
     uint32_t *place = keep_used_positions(polygons, scratch, mesh);
@@ -226,7 +232,10 @@ void mesh_build(struct polygons *polygons, str path, struct arena *scratch, stru
     cut_faces(polygons, place, scratch, mesh);
     measure(mesh);
     struct mesh_room room = room_of(polygons, scratch);
-    mesh_merge_positions(mesh, &room);
+    if (polygons->is_joined)
+        take_positions_as_merged(mesh);
+    else
+        mesh_merge_positions(mesh, &room);
     mesh_find_edges(mesh, &room);
     mesh_turn_outward(mesh);
 }

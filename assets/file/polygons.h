@@ -81,6 +81,7 @@ struct polygons {
         struct mesh_library *items;
         uint32_t count, capacity;
     } libraries;
+    bool is_joined;                                 // no two vertices are at the same position
     bool is_binary;                                 // a line is the number of a face, from 1
     uint64_t triangle_count;                        // that the faces will give
     struct mesh_loss_count losses[MESH_LOSS_COUNT]; // of what is in lines of their own

@@ -201,6 +201,41 @@ static void report_row(struct asset_file *file, const struct ply_extent *extent,
                           STR_ARG(element->name), row + 1, element->count);
 }
 
+// Over rows that have one list with a length of one byte, and nothing else of varying length. Returns after
+// how many of them something is wrong, which the general way reports.
+static uint32_t walk_plain(struct ply_cursor *cursor, struct ply_extent *extent) {
+    const struct ply_element *element = extent->element;
+    const uint32_t size = ply_type_bytes[element->properties.items[extent->list].type];
+    uint32_t before = 0, row = 0;
+    for (uint32_t i = 0; i < extent->list; i++)
+        before += ply_type_bytes[element->properties.items[i].type];
+    const char *at = cursor->at;
+    for (; row < element->count; row++) {
+        if ((size_t)(cursor->end - at) < element->bytes_least)
+            break;
+        const uint32_t items = (unsigned char)at[before];
+        if ((size_t)(cursor->end - at) - element->bytes_least < (size_t)items * size)
+            break;
+        if (row % PLY_PIECE == 0)
+            extent->starts[row / PLY_PIECE] = (struct ply_start){at, cursor->line, (uint32_t)extent->items};
+        at += element->bytes_least + (size_t)items * size;
+        extent->items += items;
+        extent->items_most = items > extent->items_most ? items : extent->items_most;
+    }
+    cursor->at = at;
+    return row;
+}
+
+static bool is_plain(const struct ply_cursor *cursor, const struct ply_extent *extent) {
+    const struct ply_element *element = extent->element;
+    if (cursor->form == PLY_TEXT || extent->list == PLY_ABSENT)
+        return false;
+    for (uint32_t i = 0; i < element->properties.count; i++)
+        if (element->properties.items[i].count && i != extent->list)
+            return false;
+    return element->properties.items[extent->list].count == PLY_UINT8;
+}
+
 bool ply_walk(struct asset_file *file, struct arena *arena, struct ply_cursor *cursor,
               struct ply_extent *extent) {
     const struct ply_element *element = extent->element;
@@ -211,7 +246,8 @@ bool ply_walk(struct asset_file *file, struct arena *arena, struct ply_cursor *c
     if (cursor->form != PLY_TEXT && !element->has_lists)
         return ply_skip(cursor, PLY_UINT8, (uint64_t)element->count * element->bytes_least);
     extent->starts = ARENA_ARRAY(arena, struct ply_start, element->count / PLY_PIECE + 1);
-    for (uint32_t row = 0; row < element->count; row++) {
+    for (uint32_t row = is_plain(cursor, extent) ? walk_plain(cursor, extent) : 0; row < element->count;
+         row++) {
         if (row % PLY_PIECE == 0)
             extent->starts[row / PLY_PIECE] =
                 (struct ply_start){cursor->at, cursor->line, (uint32_t)extent->items};

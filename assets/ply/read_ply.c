@@ -1,5 +1,6 @@
 #include "assets/ply/read_ply.h"
 
+#include "assets/ply/ply_plain.h"
 #include "assets/ply/ply_rows.h"
 #include "core/parallel.h"
 
@@ -197,7 +198,7 @@ static bool read_index(struct ply_reading *r, struct ply_cursor *c, enum ply_typ
     if (status != PLY_OK) {
         report_status(r, status, begin, c, why);
     } else if (!(value >= 0 && value < vertex_count(r)) || floor(value) != value) {
-        snprintf(what, sizeof what, "is no vertex: the file has %u, counted from 0", vertex_count(r));
+        snprintf(what, sizeof what, "is not a vertex: the file has %u, counted from 0", vertex_count(r));
         report_value(r, DIAG_MESH_INDEX, begin, c->at, value, what);
     } else {
         *index = (uint32_t)value;
@@ -386,7 +387,7 @@ static bool fits(struct ply_reading *r, const struct ply_extent *extent, enum li
     return false;
 }
 
-static bool open(struct ply_reading *r) {
+static bool begin(struct ply_reading *r) {
     if (!ply_read_header(r->file, r->scratch, &r->header) || !walk(r))
         return false;
     const struct ply_extent *faces = r->faces, *strips = r->strips;
@@ -430,12 +431,58 @@ static void make_room(struct ply_reading *r) {
     *ARENA_PUSH(r->scratch, &out->groups) = (struct mesh_group){.name = STR("")};
 }
 
+// ---- rows that are plain
+
+struct plain_work {
+    struct ply_reading *r;
+    struct ply_plain_vertices vertices;
+    struct ply_plain_faces faces;
+};
+
+static void note(struct ply_reading *r, bool is_fine) {
+    if (!is_fine)
+        atomic_store_explicit(&r->is_faulty, true, memory_order_relaxed);
+}
+
+static void read_plain_vertices(void *context, size_t begin, size_t end) {
+    const struct plain_work *w = context;
+    const struct ply_cursor c = ply_piece(w->r->vertices, begin / PLY_PIECE);
+    note(w->r, ply_read_plain_vertices(&w->vertices, c.at, begin, end));
+}
+
+static void read_plain_faces(void *context, size_t begin, size_t end) {
+    const struct plain_work *w = context;
+    struct ply_reading *r = w->r;
+    const struct ply_cursor c = ply_piece(r->faces, begin / PLY_PIECE);
+    note(r, ply_read_plain_faces(&w->faces, c.at, begin, end, vertex_count(r), r->has_normals,
+                                 r->faces->starts[begin / PLY_PIECE].items, r->out));
+}
+
+// Each is read in the general way if it is not plain, or if there is a fault, which that reports.
+static void read_vertices_and_faces(struct ply_reading *r) {
+    struct plain_work w = {.r = r};
+    bool is_plain =
+        ply_plain_vertices(r->vertices->element, r->header.form, r->column_of, r->has_normals, &w.vertices);
+    w.vertices.positions = r->out->vertices.items;
+    w.vertices.normals = r->out->normals.items;
+    if (is_plain)
+        parallel_for(vertex_count(r), PLY_PIECE, read_plain_vertices, &w);
+    if (!is_plain || atomic_load(&r->is_faulty))
+        read_rows(r, r->vertices, read_vertex);
+    if (!r->faces)
+        return;
+    is_plain = ply_plain_faces(r->faces->element, r->header.form, r->faces->list, &w.faces);
+    atomic_store(&r->is_faulty, false);
+    if (is_plain)
+        parallel_for(r->faces->element->count, PLY_PIECE, read_plain_faces, &w);
+    if (!is_plain || atomic_load(&r->is_faulty))
+        read_rows(r, r->faces, read_face);
+}
+
 static void read_all(struct ply_reading *r) {
     const struct ply_element *edges = ply_find_element(&r->header, "edge");
     make_room(r);
-    read_rows(r, r->vertices, read_vertex);
-    if (r->faces)
-        read_rows(r, r->faces, read_face);
+    read_vertices_and_faces(r);
     if (r->strips)
         read_strips(r);
     r->out->losses[MESH_LOSS_NOT_FACES].count = edges ? edges->count : 0;
@@ -446,7 +493,7 @@ static void read_all(struct ply_reading *r) {
 void read_ply(struct asset_file *file, struct arena *scratch, struct polygons *out) {
     struct ply_reading r = {.file = file, .scratch = scratch, .out = out};
     *out = (struct polygons){0};
-    if (open(&r))
+    if (begin(&r))
         read_all(&r);
     out->is_binary = file->is_binary;
 }
@@ -521,7 +568,7 @@ void read_ply_coordinates(struct asset_file *file, struct arena *scratch, struct
     struct polygons polygons = {0};
     struct ply_reading r = {.file = file, .scratch = scratch, .out = &polygons};
     *out = (struct textured_faces){0};
-    if (!open(&r))
+    if (!begin(&r))
         return;
     read_all(&r);
     if (file->errors)

@@ -17,7 +17,8 @@ struct join {
 
 // For about so many different positions; more are no fault.
 void join_init(struct join *join, struct arena *arena, struct polygons *out, uint32_t expected);
-// The number of the vertex at this position, which is added if it is new. No part of it is -0.
-uint32_t join_vertex(struct join *join, vec3 position);
+// The numbers of the vertices at these positions, in turn; those that are new are added. No part of them is
+// -0. Many at once are faster than one: where they are in memory is asked for before it is needed.
+void join_vertices(struct join *join, const vec3 *positions, uint32_t count, uint32_t *numbers);
 
 #endif

@@ -12,6 +12,7 @@ enum {
     FACET_BYTES = 50, // a normal, three corners, two bytes of attributes
     NORMAL_BYTES = 12,
     POINT_BYTES = 12,
+    AT_ONCE = 32, // facets
 };
 
 static uint32_t load32(const char *at) {
@@ -46,6 +47,9 @@ struct binary {
     struct join join;
     uint32_t count;  // of facets
     uint32_t colors; // of them have attributes
+    // Of the corners of some facets.
+    vec3 positions[3 * AT_ONCE];
+    uint32_t vertices[3 * AT_ONCE];
 };
 
 // A coordinate, never -0.
@@ -69,18 +73,28 @@ static void report_point(struct binary *b, uint32_t facet, const char *at, const
                       "%.9g in facet %u is not a number up to 1e18", (double)point[k], facet + 1);
 }
 
-static void read_facet(struct binary *b, const char *at, uint32_t facet) {
-    struct polygon_corner *corners = &b->out->corners.items[3 * (size_t)facet];
+// Its corners' positions.
+static void read_facet(struct binary *b, const char *at, uint32_t facet, vec3 *positions) {
     b->out->faces.items[facet] = (struct polygon_face){.first = 3 * facet, .line = facet + 1};
     for (int k = 0; k < 3; k++) {
         const char *place = at + NORMAL_BYTES + k * POINT_BYTES;
         const float p[3] = {load_coordinate(place), load_coordinate(place + 4), load_coordinate(place + 8)};
         if (!is_fine(p))
             report_point(b, facet, place, p);
-        corners[k].normal = IR_NO_INDEX;
-        corners[k].vertex = join_vertex(&b->join, (vec3){(double)p[0], (double)p[1], (double)p[2]});
+        positions[k] = (vec3){(double)p[0], (double)p[1], (double)p[2]};
     }
     b->colors += at[FACET_BYTES - 2] != 0 || at[FACET_BYTES - 1] != 0;
+}
+
+static void read_facets(struct binary *b, uint32_t begin, uint32_t end) {
+    for (uint32_t i = begin; i < end; i++)
+        read_facet(b, b->file->text.ptr + HEAD_BYTES + (size_t)FACET_BYTES * i, i,
+                   b->positions + 3 * (i - begin));
+    if (b->file->errors)
+        return;
+    join_vertices(&b->join, b->positions, 3 * (end - begin), b->vertices);
+    for (uint32_t i = 0; i < 3 * (end - begin); i++)
+        b->out->corners.items[3 * (size_t)begin + i] = (struct polygon_corner){b->vertices[i], IR_NO_INDEX};
 }
 
 // Whether the file is as long as it says.
@@ -90,7 +104,7 @@ static bool has_length(struct binary *b) {
         const enum mesh_format_id other = mesh_format_of_text(text);
         if (asset_report_byte(
                 b->file, DIAG_MESH_SYNTAX, 0,
-                "an STL file is a text that begins with 'solid', or has a header of %d bytes; this one "
+                "an STL file begins with 'solid' and is text, or has a header of %d bytes; this one "
                 "has %zu bytes",
                 HEAD_BYTES, text.len) &&
             other != MESH_FORMAT_COUNT)
@@ -128,15 +142,15 @@ static void read_binary(struct asset_file *file, struct arena *scratch, struct p
     *ARENA_PUSH(scratch, &out->groups) = (struct mesh_group){.name = STR("")};
     // A closed mesh has about half as many vertices as triangles.
     join_init(&b.join, scratch, out, b.count / 2 + 2);
-    for (uint32_t i = 0; i < b.count; i++)
-        read_facet(&b, file->text.ptr + HEAD_BYTES + (size_t)FACET_BYTES * i, i);
+    for (uint32_t i = 0; i < b.count; i += AT_ONCE)
+        read_facets(&b, i, b.count - i < AT_ONCE ? b.count : i + AT_ONCE);
     const size_t rest = file->text.len - HEAD_BYTES - (size_t)FACET_BYTES * b.count;
     out->losses[MESH_LOSS_REST].count = rest < UINT32_MAX ? (uint32_t)rest : UINT32_MAX;
     out->losses[MESH_LOSS_SCANNED].count = b.colors;
 }
 
 void read_stl(struct asset_file *file, struct arena *scratch, struct polygons *out) {
-    *out = (struct polygons){0};
+    *out = (struct polygons){.is_joined = true};
     if (is_text(file->text))
         read_stl_text(file, scratch, out);
     else

@@ -76,7 +76,8 @@ static double read_coordinate(struct text_reader *r) {
 static void read_vertex(struct text_reader *r) {
     const vec3 position = {read_coordinate(r), read_coordinate(r), read_coordinate(r)};
     struct polygon_corner *corner = ARENA_PUSH(r->scratch, &r->out->corners);
-    *corner = (struct polygon_corner){join_vertex(&r->join, position), IR_NO_INDEX};
+    corner->normal = IR_NO_INDEX;
+    join_vertices(&r->join, &position, 1, &corner->vertex);
 }
 
 static void begin_solid(struct text_reader *r) {

@@ -93,7 +93,7 @@ cp "$source/tests/data/image/interlaced.png" sky.png
 printf 'facet' >m.off
 printf 'newmtl a\n' >m.mtl
 for case in 'p.zip:a ZIP archive:unpack it' 'scene.yaml:a ZIP archive:unpack it' 'x.scan:a PLY mesh:let it end in .ply' \
-    'sky.png:a PNG picture:background' 'm.off:an OFF mesh:glint reads Wavefront OBJ (.obj), PLY (.ply) or STL' 'm.mtl:a material file of a mesh:name the mesh'; do
+    'sky.png:a PNG picture:background' 'm.off:an OFF mesh:glint reads Wavefront OBJ' 'm.mtl:a material file of a mesh:name the mesh'; do
     file=${case%%:*} rest=${case#*:}
     expect "$file" 3 - "$file:1:1: error: this is ${rest%%:*}, not a scene \[E605\]" "$glint" check "$file"
     also "and what to do" '' "help: .*${rest#*:}"

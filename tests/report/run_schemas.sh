@@ -93,6 +93,7 @@ by_schema watch watch1.json watch2.json
 
 json pick 0 "$glint" pick scene.yaml 8,8 --format json
 json pick_mesh 0 "$glint" pick scene.yaml 14,8 --format json
+json pick_bytes 0 "$glint" pick "$source/tests/fuzz/seeds/ply/little.ply" 512,384 --format json
 json pick_off 0 "$glint" pick far.yaml 12,8 --format json
 json pick_image 0 "$glint" pick "$source/scenes/language/paint.glint.yaml" 98,90 --device reference --format json
 # Inside of two coloured bodies.
@@ -107,7 +108,7 @@ materials:
 spheres: [{center: [0, 0, 0], radius: 1, material: glass}, {center: [0.5, 0, 0], radius: 1, material: water}]
 S
 json pick_media 0 "$glint" pick media.yaml 12,8 --format json
-by_schema pick pick.json pick_mesh.json pick_off.json pick_reference.json pick_media.json pick_image.json
+by_schema pick pick.json pick_mesh.json pick_bytes.json pick_off.json pick_reference.json pick_media.json pick_image.json
 
 json tradeoff 0 "$glint" tradeoff scene.yaml --format json --budget 5 -q --max-error mae=0.5 --max-time 10000
 json tradeoff_none 1 "$glint" tradeoff scene.yaml --format json --budget 1 -q --max-time 0.000001

@@ -92,65 +92,61 @@ static void every_form_is_the_same_mesh(void **state) {
 #define PLY_FACE     "property list uchar int vertex_indices\nend_header\n"
 #define PLY_TRIANGLE PLY_HEAD "element vertex 3\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n1 0 0\n0 1 0\n"
 
+static const struct {
+    const char *text, *said;
+} ply_faults[] = {
+    {"", "byte 0: a PLY file begins with a line 'ply' [E610]"},
+    {"v 0 0 0\n", "byte 0: a PLY file begins with a line 'ply' [E610]"},
+    {"ply\nformat ascii 1.0\nfoo\n", "m.ply:3:1: error: 'foo' cannot begin a line of a PLY header [E610]"},
+    {"ply\nformat\n", "m.ply:2:1: error: this line ends where something should be ascii"},
+    {"ply\nformat binary\n", "m.ply:2:8: error: 'binary' should be ascii, binary_little_endian"},
+    {"ply\nend_header\n", "m.ply:1:1: error: the header has no line 'format' [E610]"},
+    {PLY_HEAD "element vertex\n", "m.ply:3:1: error: this line ends where something should be the number"},
+    {PLY_HEAD "element vertex -3\n", "m.ply:3:16: error: '-3' should be the number of elements"},
+    {PLY_HEAD "element vertex 4294967295\n", "'4294967295' is more than 4294967294"},
+    {PLY_HEAD "property float x\n", "m.ply:3:1: error: 'property' belongs after an element"},
+    {PLY_HEAD "element vertex 3\nproperty floot x\n", "m.ply:4:10: error: 'floot' should be a type: char"},
+    {PLY_HEAD "element vertex 3\nproperty list uchar x\n", "m.ply:4:21: error: 'x' should be a type"},
+    {PLY_HEAD "element vertex 3\nproperty float\n", "m.ply:4:1: error: this line ends where something should "
+                                                    "be the property's name"},
+    {PLY_HEAD "element vertex 3\n", "the header does not end with 'end_header'"},
+    {PLY_HEAD "element vertex 3\n" PLY_XYZ "end_header\n0 0 0\n0 0 0\n0 0 0\n",
+     "the mesh has no faces [E614]"},
+    {PLY_HEAD "element vertex 3\n" PLY_XYZ "end_header\n0 0 0\n0 0 0\n0 0 0\n", "it has 3 points"},
+    {PLY_HEAD "element face 1\n" PLY_FACE "3 0 1 2\n", "the file has faces, and no 'vertex' [E610]"},
+    {PLY_HEAD "element vertex 1\nproperty float x\nelement face 1\n" PLY_FACE "1\n3 0 0 0\n",
+     "m.ply:3:1: error: a vertex has no property 'y' [E610]"},
+    {PLY_HEAD "element vertex 1\n" PLY_XYZ "element face 1\nproperty int a\nend_header\n1 1 1\n3\n",
+     "m.ply:7:1: error: 'face' has no list 'vertex_indices' [E610]"},
+    {PLY_HEAD "element vertex 4000000000\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n",
+     "m.ply:3:1: error: 4000000000 of 'vertex' are announced, and the file has room for 1 at most"},
+    {PLY_TRIANGLE "3 0 1 3\n",
+     "m.ply:13:7: error: '3' is not a vertex: the file has 3, counted from 0 [E612]"},
+    {PLY_TRIANGLE "3 0 1 -1\n", "m.ply:13:7: error: '-1' is not a vertex"},
+    {PLY_TRIANGLE "3 0 1 1.5\n", "m.ply:13:7: error: '1.5' is not a vertex"},
+    {PLY_TRIANGLE "3 0 1 x\n", "m.ply:13:7: error: 'x' is not a number [E611]"},
+    {PLY_TRIANGLE "3 0 1\n", "m.ply:13:1: error: the line has fewer values than the header says [E610]"},
+    {PLY_TRIANGLE "3 0 1 2 0\n", "m.ply:13:1: error: the line has more values than the header says [E610]"},
+    {PLY_TRIANGLE "2 0 1\n", "m.ply:13:1: error: a face with fewer than three corners [E613]"},
+    {PLY_TRIANGLE "-3 0 1 2\n",
+     "m.ply:13:1: error: the number of a list's items is wrong in 'face' number 1"},
+    {PLY_TRIANGLE "99999 0 1 2\n", "m.ply:13:1: error: the line ends in 'face' number 1 of 1 [E610]"},
+    {PLY_HEAD "element vertex 2\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n1 inf 0\n3 0 1 0\n",
+     "m.ply:11:3: error: 'inf' is infinite"},
+    {PLY_HEAD "element vertex 2\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n1 1e19 0\n3 0 1 0\n",
+     "m.ply:11:3: error: '1e19' is not a number up to 1e18 [E611]"},
+    {PLY_HEAD "element vertex 2\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n\n1 1\n3 0 1 0\n",
+     "m.ply:12:1: error: the line has fewer values than the header says [E610]"},
+    {PLY_TRIANGLE "3 0 1 2\nrest\n", "5 bytes after the last face are not read [W606]"},
+    {PLY_TRIANGLE "3 0 1 3\n", "scene.yaml:1:7: note: the mesh is named here"},
+};
+
 static void faults_of_ply_are_placed(void **state) {
     (void)state;
-    static const struct {
-        const char *text, *said;
-    } cases[] = {
-        {"", "byte 0: a PLY file begins with a line 'ply' [E610]"},
-        {"v 0 0 0\n", "byte 0: a PLY file begins with a line 'ply' [E610]"},
-        {"ply\nformat ascii 1.0\nfoo\n",
-         "m.ply:3:1: error: 'foo' cannot begin a line of a PLY header [E610]"},
-        {"ply\nformat\n", "m.ply:2:1: error: this line ends where something should be ascii"},
-        {"ply\nformat binary\n", "m.ply:2:8: error: 'binary' should be ascii, binary_little_endian"},
-        {"ply\nend_header\n", "m.ply:1:1: error: the header has no line 'format' [E610]"},
-        {PLY_HEAD "element vertex\n",
-         "m.ply:3:1: error: this line ends where something should be the number"},
-        {PLY_HEAD "element vertex -3\n", "m.ply:3:16: error: '-3' should be the number of elements"},
-        {PLY_HEAD "element vertex 4294967295\n", "'4294967295' is more than 4294967294"},
-        {PLY_HEAD "property float x\n", "m.ply:3:1: error: 'property' belongs after an element"},
-        {PLY_HEAD "element vertex 3\nproperty floot x\n",
-         "m.ply:4:10: error: 'floot' should be a type: char"},
-        {PLY_HEAD "element vertex 3\nproperty list uchar x\n", "m.ply:4:21: error: 'x' should be a type"},
-        {PLY_HEAD "element vertex 3\nproperty float\n",
-         "m.ply:4:1: error: this line ends where something should "
-         "be the property's name"},
-        {PLY_HEAD "element vertex 3\n", "the header does not end with 'end_header'"},
-        {PLY_HEAD "element vertex 3\n" PLY_XYZ "end_header\n0 0 0\n0 0 0\n0 0 0\n",
-         "the mesh has no faces [E614]"},
-        {PLY_HEAD "element vertex 3\n" PLY_XYZ "end_header\n0 0 0\n0 0 0\n0 0 0\n", "it has 3 points"},
-        {PLY_HEAD "element face 1\n" PLY_FACE "3 0 1 2\n", "the file has faces, and no 'vertex' [E610]"},
-        {PLY_HEAD "element vertex 1\nproperty float x\nelement face 1\n" PLY_FACE "1\n3 0 0 0\n",
-         "m.ply:3:1: error: a vertex has no property 'y' [E610]"},
-        {PLY_HEAD "element vertex 1\n" PLY_XYZ "element face 1\nproperty int a\nend_header\n1 1 1\n3\n",
-         "m.ply:7:1: error: 'face' has no list 'vertex_indices' [E610]"},
-        {PLY_HEAD "element vertex 4000000000\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n",
-         "m.ply:3:1: error: 4000000000 of 'vertex' are announced, and the file has room for 1 at most"},
-        {PLY_TRIANGLE "3 0 1 3\n",
-         "m.ply:13:7: error: '3' is no vertex: the file has 3, counted from 0 [E612]"},
-        {PLY_TRIANGLE "3 0 1 -1\n", "m.ply:13:7: error: '-1' is no vertex"},
-        {PLY_TRIANGLE "3 0 1 1.5\n", "m.ply:13:7: error: '1.5' is no vertex"},
-        {PLY_TRIANGLE "3 0 1 x\n", "m.ply:13:7: error: 'x' is not a number [E611]"},
-        {PLY_TRIANGLE "3 0 1\n", "m.ply:13:1: error: the line has fewer values than the header says [E610]"},
-        {PLY_TRIANGLE "3 0 1 2 0\n",
-         "m.ply:13:1: error: the line has more values than the header says [E610]"},
-        {PLY_TRIANGLE "2 0 1\n", "m.ply:13:1: error: a face with fewer than three corners [E613]"},
-        {PLY_TRIANGLE "-3 0 1 2\n",
-         "m.ply:13:1: error: the number of a list's items is wrong in 'face' number 1"},
-        {PLY_TRIANGLE "99999 0 1 2\n", "m.ply:13:1: error: the line ends in 'face' number 1 of 1 [E610]"},
-        {PLY_HEAD "element vertex 2\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n1 inf 0\n3 0 1 0\n",
-         "m.ply:11:3: error: 'inf' is infinite"},
-        {PLY_HEAD "element vertex 2\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n1 1e19 0\n3 0 1 0\n",
-         "m.ply:11:3: error: '1e19' is not a number up to 1e18 [E611]"},
-        {PLY_HEAD "element vertex 2\n" PLY_XYZ "element face 1\n" PLY_FACE "0 0 0\n\n1 1\n3 0 1 0\n",
-         "m.ply:12:1: error: the line has fewer values than the header says [E610]"},
-        {PLY_TRIANGLE "3 0 1 2\nrest\n", "5 bytes after the last face are not read [W606]"},
-        {PLY_TRIANGLE "3 0 1 3\n", "scene.yaml:1:7: note: the mesh is named here"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof ply_faults / sizeof *ply_faults; i++) {
         struct assets_scene *s = assets_scene_begin();
-        load_text(s, "m.ply", cases[i].text);
-        assert_says(s, cases[i].said);
+        load_text(s, "m.ply", ply_faults[i].text);
+        assert_says(s, ply_faults[i].said);
         assets_scene_end(s);
     }
 }
@@ -165,8 +161,8 @@ static void faults_of_bytes_are_placed(void **state) {
         char expected[64];
     } cases[] = {
         {body + 12 + 4, "\0\0\300\177", "nan is not a number up to 1e18 [E611]", ""},
-        {body + 8 * 12 + 1, "\10\0\0\0", "8 is no vertex: the file has 8, counted from 0 [E612]", ""},
-        {body + 8 * 12 + 13 + 1 + 4, "\377\377\377\377", "-1 is no vertex", ""},
+        {body + 8 * 12 + 1, "\10\0\0\0", "8 is not a vertex: the file has 8, counted from 0 [E612]", ""},
+        {body + 8 * 12 + 13 + 1 + 4, "\377\377\377\377", "-1 is not a vertex", ""},
         {body + 8 * 12 + 11 * 13, "\4\0\0\0", "the file ends in 'face' number 12 of 12 [E610]", ""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
