@@ -108,6 +108,7 @@ static struct audit_wish wish_of(const struct render_job *job) {
     const struct render_estimate *estimate = estimate_of(job);
     return (struct audit_wish){.reference = job->shot.reference,
                                .samples = estimate ? estimate->samples : NULL,
+                               .planned = options->measure.time_s > 0 ? job->shot.settings.samples : 0,
                                .share = options->has_max_off ? options->max_off : AUDIT_SHARE,
                                .decides = options->has_max_off && options->measure.time_s <= 0};
 }

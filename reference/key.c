@@ -127,6 +127,9 @@ void reference_call_key(const uint64_t scene_key[2], const struct reference_sett
     if (!hits) {
         hash128_whole(&h, settings->samples);
         hash128_whole(&h, settings->first_sample);
+        hash128_whole(&h, settings->points_of);
+        hash128_whole(&h, settings->footprint_of);
+        hash128_whole(&h, settings->planned);
         hash128_whole(&h, settings->max_depth);
         hash128_number(&h, settings->min_weight);
         hash128_whole(&h, settings->cut_sees_background);

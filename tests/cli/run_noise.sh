@@ -30,6 +30,16 @@ cmp -s one.png option.png && pass 'threads change no byte' || fail 'threads chan
 "$glint" render "$scene" --size 64x48 --samples 16 --set image.error=0.02 -q -o few.png
 cmp -s plain.png few.png && pass 'with few samples all pixels take them' || fail 'with few samples all pixels take them'
 
+# What a pixel sees of a surface depends on how many samples share it: device and reference agree about those.
+printf '%s\n' 'glint: 1' 'camera: {position: [0, 1, 3], look_at: [0, 0, 0]}' 'background: {color: 0.3}' \
+    'lights: [{position: [2, 3, 2], radius: 1}]' \
+    'rectangles: [{corner: [-200, -1, 20], edge_u: [400, 0, 0], edge_v: [0, 0, -400], material: {diffuse_color:' \
+    '  {checker: {size: 1, colors: [1, 0], antialias: true}}}}]' >floor.yaml
+expect 'where pixels end by their error' 0 - '^glint: 0 % of the pixels are off' "$glint" render floor.yaml \
+    --size 48x36 --samples 256 --noise 0.01 --audit -o floor.png
+expect 'where a time ends the picture' 0 - '^glint: 0 % of the pixels are off' "$glint" render floor.yaml \
+    --size 48x36 --samples 64 --time 0.001 --audit -o floor.png
+
 # An error that ends no pixel is never passed over in silence.
 render() { "$glint" render "$scene" --size 64x48 -o unused.png "$@"; }
 scene_says='--set image.error=0.02 --set image.samples=64'
