@@ -160,6 +160,9 @@ int render_note_estimate(struct render_job *job) {
                   "pixel of at most %d",
                   estimate->mean, estimate->most, (double)job->stats.last.all_samples / pixels,
                   (int)image->samples);
+    if (estimate->unknown)
+        strbuf_format(&job->note, ", without %u that %s not finite", estimate->unknown,
+                      estimate->unknown == 1 ? "is" : "are");
     job->image.note = job->note.data;
     if (!job->cli->options.quiet)
         fprintf(stderr, "glint: %s\n", job->note.data);
