@@ -138,5 +138,6 @@ void lint_one_sample(struct lint *lint); // rules_lens.c
 void lint_nothing_sharp(struct lint *lint);
 void lint_lens_inside(struct lint *lint);
 void lint_never_ends(struct lint *lint); // rules_samples.c
+void lint_panel_away(struct lint *lint); // rules_light.c
 
 #endif
