@@ -1,9 +1,7 @@
 #include "scene/transform.h"
 
-#include "core/rotation.h"
-
 affine3 transform_of_model(const struct ir_model *model) {
-    affine3 map = {rotation_of(model->rotation), model->translation};
+    affine3 map = {mat3_rotation(model->rotation), model->translation};
     double scale[3] = {model->scale.x, model->scale.y, model->scale.z};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)

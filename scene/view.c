@@ -1,6 +1,5 @@
 #include "scene/view.h"
 
-#include "core/rotation.h"
 #include "grammar/ir.h"
 #include "scene/transform.h"
 #include <stdlib.h>
@@ -43,7 +42,7 @@ static struct view_camera turned_camera(const struct ir_camera *ir) {
                                  .half_height = ir->size / 2,
                                  .half_field = ir->fov / 2 * DEGREE};
     if (ir->view == IR_VIEW_ROTATION) {
-        mat3 turn = rotation_of(ir->rotation);
+        mat3 turn = mat3_rotation(ir->rotation);
         camera.right = mat3_column(turn, 0);
         camera.up = mat3_column(turn, 1);
         camera.forward = vec3_add(vec3_neg(mat3_column(turn, 2)), (vec3){0, 0, 0});

@@ -4,7 +4,6 @@
 #include "parser/stages/loader.h"
 
 #include "core/number.h"
-#include "core/rotation.h"
 #include "grammar/ir.h"
 
 #include <math.h>
@@ -153,7 +152,7 @@ static void check_focus(const struct rules *rules, const struct ir_camera *camer
 
 static void check_rotated(const struct rules *rules, const struct ir_camera *camera) {
     const struct schema_element *schema = &SCHEMA_CAMERA;
-    check_focus(rules, camera, vec3_neg(mat3_column(rotation_of(camera->rotation), 2)));
+    check_focus(rules, camera, vec3_neg(mat3_column(mat3_rotation(camera->rotation), 2)));
     if (!is_written(schema, camera, "up"))
         return;
     diag_add(rules->sink, DIAG_UP_WITH_ROTATION, ir_place_key(rules->origin, &camera->head, schema, "up"),
