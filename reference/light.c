@@ -39,8 +39,12 @@ static vec3 in_cap(vec3 axis, double gap, double a, double b) {
     return reference_turned(axis, x * wide, y * wide, 1 - below);
 }
 
+// What a ray to a light lacks, at its end, of one to a body that has the same surface: as on the device.
+#define SHORTER 0x1p-19
+
 // Half of a sphere, from inside it; else its cap in view.
-static void on_sphere(struct spot *spot, vec3 point, double radius, double a, double b) {
+static void on_sphere(struct spot *spot, const struct view_light *light, vec3 point, double a, double b) {
+    const double radius = light->radius;
     const vec3 way = vec3_sub(spot->place, point);
     const double distance = vec3_length(way);
     const bool inside = distance <= radius;
@@ -50,11 +54,14 @@ static void on_sphere(struct spot *spot, vec3 point, double radius, double a, do
     spot->share = 2 / (2 - gap);
     const double middle = vec3_dot(spot->l, way);
     const double beside = vec3_length(vec3_sub(way, vec3_mul(spot->l, middle)));
-    const double deep = beside < radius ? sqrt((radius - beside) * (radius + beside)) : 0;
-    spot->place = vec3_add(point, vec3_mul(spot->l, inside ? middle + deep : middle - deep));
+    const double reach = inside ? radius - light->before_body : radius + light->before_body;
+    const double deep = beside < reach ? sqrt((reach - beside) * (reach + beside)) : 0;
+    const double part = light->before_body > 0 ? 1 - SHORTER : 1;
+    spot->place = vec3_add(point, vec3_mul(spot->l, part * (inside ? middle + deep : middle - deep)));
 }
 
 static void on_panel(struct spot *spot, const struct view_light *light, vec3 point, double a, double b) {
+    spot->place = vec3_add(spot->place, vec3_mul(light->outward, light->before_body));
     const double before = vec3_length(vec3_sub(spot->place, point));
     spot->place =
         vec3_add(spot->place, vec3_add(vec3_mul(light->edge_u, a - 0.5), vec3_mul(light->edge_v, b - 0.5)));
@@ -79,7 +86,7 @@ static struct spot spot_of(const struct reference *r, const struct view_light *l
     if (light->extent == VIEW_PANEL) {
         on_panel(&spot, light, point, a, b);
     } else if (light->extent == VIEW_SPHERE) {
-        on_sphere(&spot, point, light->radius, a, b);
+        on_sphere(&spot, light, point, a, b);
     } else {
         const double gap = 2 * sin(light->half_angle / 2) * sin(light->half_angle / 2);
         spot.l = in_cap(spot.l, gap, a, b);

@@ -13,7 +13,7 @@ struct light_ray {
 
 exact_aim aim_at(uint index, light_ray ray) {
     if (HAS_PLACES)
-        return exact_aim(ray.direction, ray.t_max < FAR_AWAY, ray.place);
+        return exact_aim(ray.direction, ray.t_max < FAR_AWAY && index < frame.light_count, ray.place);
     light_record light = load_light(index);
     bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
     return exact_aim(ray.direction, !directional, light.place);

@@ -26,8 +26,9 @@ light_ray ambient_ray(surface s, REAL3 start, uint ray_key) {
     REAL2 at = disc_point(point_at(point_key(ray_key, POINT_AMBIENT)));
     REAL3 l = turned_to(s.shading, at, sqrt(max(1.0 - dot3(REAL3(at, 0.0), REAL3(at, 0.0)), 0.0)));
     light_ray ray;
-    ray.place = s.point + l * frame.occlusion;
-    ray.direction = ray.place - start;
+    // Not from place to place: where it is short beside the coordinates, rounding of them would turn it.
+    ray.direction = l * frame.occlusion;
+    ray.place = start + ray.direction;
     ray.t_max = 1.0;
     ray.value = vec3(0.0);
     if (HAS_DIFFUSE)

@@ -4,9 +4,10 @@
 // box that is nearest to it) is subtracted from the transforms in double before any vertex is touched; the
 // scale is 2^-ilogb(largest |coordinate - origin| of bodies), lights excluded; then values are rounded to
 // float, or stay double for the kernels in double precision, whose boxes alone are float. A point light
-// further than 2^40 after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double. The
-// background stays as its file has it: flat_background makes a few texels at a time of it. Ownership:
-// flat_finish frees everything. Thread safety: immutable once made.
+// further than 2^40 after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double; a sphere
+// or a panel as a smaller one at that distance. The background stays as its file has it: flat_background
+// makes a few texels at a time of it. Ownership: flat_finish frees everything. Thread safety: immutable once
+// made.
 #ifndef GLINT_TRACER_FLATTEN_FLATTEN_H
 #define GLINT_TRACER_FLATTEN_FLATTEN_H
 
@@ -15,6 +16,10 @@
 #include "scene/view.h"
 #include "tracer/bvh/keep.h"
 #include "tracer/gpu_word.h"
+
+// Flat units: lights farther away than this count as infinitely far away, or come nearer as they are seen; a
+// length that is larger counts as this one.
+#define FLAT_LENGTH_MAX 0x1p40
 
 struct flat_array {
     struct gpu_word *words;

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A point light further than this, in flat units, counts as infinitely far away.
-#define LIGHT_DISTANCE_MAX 0x1p40
+// A point light further than this counts as infinitely far away.
+#define LIGHT_DISTANCE_MAX FLAT_LENGTH_MAX
 
 enum {
     PIECE_TEXELS = 65536,
@@ -55,13 +55,25 @@ static double emission_bound(double value) {
     return fmin(value, FLT_MAX);
 }
 
+// 1, or what takes a light with an extent to the farthest distance that counts: there a smaller one is seen
+// under the same angle.
+static double nearer(const struct flattening *f, const struct view_light *light) {
+    const double distance = vec3_length(vec3_sub(light->position, f->out->origin)) * f->factor;
+    const bool is_far = !light->directional && light->extent != VIEW_POINT && distance > LIGHT_DISTANCE_MAX;
+    return is_far ? LIGHT_DISTANCE_MAX / distance : 1;
+}
+
 static struct gpu_light light_record(const struct flattening *f, const struct view_light *light) {
     vec3 from_origin = vec3_sub(light->position, f->out->origin);
-    vec3 position = vec3_mul(from_origin, f->factor);
+    // A panel that a body shows lies in front of it; of a sphere shaders/light/extent.glsl knows.
+    if (light->extent == VIEW_PANEL)
+        from_origin = vec3_add(from_origin, vec3_mul(light->outward, light->before_body));
+    const double factor = f->factor * nearer(f, light);
+    vec3 position = vec3_mul(from_origin, factor);
     struct gpu_light record = {.place = position, .flags = LIGHT_DIRECTIONAL, .emission = light->emission};
     if (light->directional) {
         record.place = light->to_light;
-    } else if (vec3_length(position) > LIGHT_DISTANCE_MAX) {
+    } else if (vec3_length(position) > LIGHT_DISTANCE_MAX && light->extent == VIEW_POINT) {
         double distance = vec3_length(from_origin);
         record.place = vec3_unit(from_origin);
         if (light->inverse_square)
@@ -69,9 +81,9 @@ static struct gpu_light light_record(const struct flattening *f, const struct vi
     } else {
         record.flags = light->inverse_square ? LIGHT_INVERSE_SQUARE : 0;
         if (light->inverse_square)
-            record.emission = vec3_mul(record.emission, f->factor * f->factor);
+            record.emission = vec3_mul(record.emission, factor * factor);
     }
-    if (light->extent != VIEW_POINT && !(record.flags & LIGHT_DIRECTIONAL && !light->directional))
+    if (light->extent != VIEW_POINT)
         record.flags |= LIGHT_EXTENT | (light->extent == VIEW_PANEL ? LIGHT_PANEL : 0);
     record.emission = (vec3){emission_bound(record.emission.x), emission_bound(record.emission.y),
                              emission_bound(record.emission.z)};
@@ -84,12 +96,13 @@ static double length_bound(double value) {
 }
 
 static struct gpu_extent extent_record(const struct flattening *f, const struct view_light *light) {
-    const double sine = sin(light->half_angle / 2);
-    return (struct gpu_extent){.edge_u = vec3_mul(light->edge_u, f->factor),
-                               .edge_v = vec3_mul(light->edge_v, f->factor),
+    const double sine = sin(light->half_angle / 2), factor = f->factor * nearer(f, light);
+    return (struct gpu_extent){.edge_u = vec3_mul(light->edge_u, factor),
+                               .edge_v = vec3_mul(light->edge_v, factor),
                                .outward = light->outward,
-                               .radius = length_bound(light->radius * f->factor),
-                               .gap = 2 * sine * sine};
+                               .radius = length_bound(light->radius * factor),
+                               .gap = 2 * sine * sine,
+                               .before_body = length_bound(light->before_body * factor)};
 }
 
 static bool any_extent(const struct view *view) {

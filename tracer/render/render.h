@@ -106,6 +106,7 @@ struct render_statistics {
 struct render_estimate {
     float *error;      // by pixel, rows from the top: the standard error
     uint32_t *samples; // that it has
+    uint32_t unknown;  // pixels that are not finite: their error is NaN, and not in the following
     double mean;       // root of the mean square of the error of all pixels and channels
     double most;       // the same, as sure as RENDER_ESTIMATE_CONFIDENCE
 };

@@ -115,7 +115,7 @@ enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *o
     s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
     // None that a row has: what two pictures share would not count as an error.
     s->full.first_sample = VIEW_OTHER_SAMPLES;
-    s->full.points_of = s->full.shared_by = 0; // all its pixels have all samples
+    s->full.points_of = s->full.footprint_of = 0; // all pixels of a row have all its samples
     enum tradeoff_status status = plan(s, own, bounces, &planned);
     if (status != TRADEOFF_DONE)
         return status;

@@ -122,7 +122,7 @@ static const float *probe(struct measuring *s, struct probe_set wanted) {
         s, reference, reference_settings_of(s->input->scene->ir, &image, s->input->limits, !wanted.full),
         wanted.taken, values};
     context.settings.points_of = wanted.taken ? wanted.samples : 0;
-    context.settings.shared_by = wanted.taken ? wanted.min_samples : 0;
+    context.settings.footprint_of = wanted.taken ? wanted.min_samples : 0;
     if (!wanted.full) {
         context.settings.max_depth = wanted.max_depth;
         context.settings.min_weight = wanted.min_weight;
