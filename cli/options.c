@@ -592,29 +592,3 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
     cli->operand_count = argc - optind;
     return good;
 }
-
-bool cli_format(struct cli *cli, const char *const *kinds, int *kind) {
-    const char *text = cli->options.format;
-    *kind = 0;
-    if (!text)
-        return true;
-    struct nearest search = nearest_begin(str_from(text));
-    for (int i = 0; kinds[i]; i++) {
-        nearest_offer(&search, str_from(kinds[i]));
-        *kind = i;
-        if (strcmp(text, kinds[i]) == 0)
-            return true;
-    }
-    cli_usage(cli, cli->options.format_arg, "--format does not know '%s'", text);
-    struct strbuf list;
-    strbuf_init(&list);
-    for (int i = 0; kinds[i]; i++)
-        strbuf_format(&list, "%s%s", i ? ", " : "", kinds[i]);
-    str best = nearest_best(&search);
-    if (best.len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
-    else
-        diag_help(&cli->sink, "it takes one of: %.*s", (int)list.len, list.data ? list.data : "");
-    strbuf_finish(&list);
-    return false;
-}
