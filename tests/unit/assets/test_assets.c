@@ -162,9 +162,8 @@ static void other_kinds_are_named(void **state) {
         snprintf(path, sizeof path, "scene/%s", names[i]);
         scratch_write(&f->scratch, path, "ply\n");
     }
-    expect(
-        f, "a.off", "meshes of the kind '.off' are not supported [E605]",
-        "glint reads Wavefront OBJ (.obj), PLY (.ply) or STL (.stl); a 3D program can convert other meshes");
+    expect(f, "a.off", "meshes of the kind '.off' are not supported [E605]",
+           "glint reads Wavefront OBJ (.obj), PLY (.ply), STL (.stl)");
     expect(f, "a.FBX", "meshes of the kind '.FBX' are not supported [E605]", "can convert");
     expect(f, "a.dae", "meshes of the kind '.dae' are not supported [E605]", "can convert");
     expect(f, "a.txt", "meshes of the kind '.txt' are not supported [E605]",
