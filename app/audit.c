@@ -142,6 +142,7 @@ enum shot_status audit_take(struct session *session, const struct view *view, co
                         .display = {session->image->tone, session->image->transfer},
                         .first_off = UINT32_MAX};
     work.settings = reference_settings_of(session->scene, session->image, &session->options.limits, true);
+    work.settings.planned = wish->planned;
     *out = (struct audit){.bound = 1};
     enum shot_status status = work.reference ? take_looks(&work, wish, progress, out) : SHOT_SCENE;
     if (!work.reference || atomic_load(&work.failed))

@@ -31,6 +31,7 @@ struct audit_wish {
     const struct reference *reference; // of the session's scene and the view; NULL: it is made for the audit
     double share; // whether more of the pixels are off is the question: AUDIT_SHARE, or what the user allows
     const uint32_t *samples; // of each pixel, where they differ; NULL: all have the session's
+    uint32_t planned;        // samples of the frame, where a time ended it earlier; 0: the session's
     bool decides; // it is answered, whatever that takes: at most all pixels. Else there are two looks at most
 };
 #define AUDIT_SHARE 0.001

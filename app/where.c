@@ -100,7 +100,7 @@ static void media_words(struct session *session, const struct scene_media_reason
     strbuf_char(out, '\n');
 }
 
-void where_feature_words(struct session *session, uint32_t feature, const struct scene_media_reason *reason,
+void where_feature_words(struct session *session, uint64_t feature, const struct scene_media_reason *reason,
                          struct strbuf *out) {
     if (feature == FEATURE_MEDIA)
         media_words(session, reason, out);

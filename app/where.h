@@ -32,7 +32,7 @@ void where_material_words(const struct where *where, struct strbuf *out);
 
 // Why a feature is on that nothing written in the scene asks for: the media that may share a place, or a
 // mesh's materials.
-void where_feature_words(struct session *session, uint32_t feature, const struct scene_media_reason *reason,
+void where_feature_words(struct session *session, uint64_t feature, const struct scene_media_reason *reason,
                          struct strbuf *out);
 
 // false: the camera is inside more media than a ray can be, which is an error in the sink.

@@ -317,7 +317,9 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
     struct loader loader = {.input = input, .hold = out->hold, .pixels = pixels};
     add_scene_materials(&loader);
     const bool has_image = has_background_image(input);
-    if (has_image && input->pixels_later && pixels == ASSETS_KEEP_PIXELS)
+    // A background that lights is flattened with the scene.
+    const bool waits = !scene->background.lights;
+    if (has_image && waits && input->pixels_later && pixels == ASSETS_KEEP_PIXELS)
         out->ahead = decode_ahead(input, out->hold);
     out->models = ARENA_ARRAY(input->arena, struct assets_model, scene->models.count);
     out->model_count = scene->models.count;

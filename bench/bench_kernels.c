@@ -9,6 +9,7 @@
 #include "tracer/render/render_private.h"
 
 #include <getopt.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -29,7 +30,7 @@ static bool print_kernels(struct gpu *gpu, const struct bench_scene *scene, bool
     struct bench_glint glint;
     bool done = bench_glint_open(&glint, gpu, scene, &scene->settings, is_double);
     if (done) {
-        printf("%s, %s precision, features %#x\n", scene->path, is_double ? "double" : "single",
+        printf("%s, %s precision, features %#" PRIx64 "\n", scene->path, is_double ? "double" : "single",
                glint.renderer->features);
         done = print_program(gpu, glint.renderer->program, "trace") &&
                (!glint.renderer->resolve || print_program(gpu, glint.renderer->resolve, "resolve"));

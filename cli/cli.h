@@ -247,6 +247,7 @@ int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made,
 int cli_try_output(struct cli *cli, const char *path);
 
 int cmd_render(struct cli *cli);
+int cmd_view(struct cli *cli);
 int cmd_watch(struct cli *cli); // render where --watch was given
 int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);

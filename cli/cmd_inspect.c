@@ -79,7 +79,8 @@ static void features(struct strbuf *out, struct session *s, const struct flat_sc
     ir_features_explain(s->scene, &s->origin, &reasons);
     strbuf_cstr(out, "features\n");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++) {
-        uint32_t bit = 1u << i, k = 0;
+        const uint64_t bit = UINT64_C(1) << i;
+        uint32_t k = 0;
         if (!(flat->features & bit))
             continue;
         strbuf_format(out, "  %-17s", feature_name(bit));
@@ -97,8 +98,8 @@ static void features(struct strbuf *out, struct session *s, const struct flat_sc
     }
     strbuf_cstr(out, "not required:");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++)
-        if ((FEATURE_SCENE_MASK & (1u << i)) && !(flat->features & (1u << i)))
-            strbuf_format(out, " %s", feature_name(1u << i));
+        if (FEATURE_SCENE_MASK & ~flat->features & UINT64_C(1) << i)
+            strbuf_format(out, " %s", feature_name(UINT64_C(1) << i));
     strbuf_char(out, '\n');
 }
 

@@ -185,6 +185,14 @@ int cli_open_device(struct cli *cli, struct gpu **gpu) {
     return report_opening(cli, gpu_create(&options, gpu, error), error);
 }
 
+int cli_open_screen_device(struct cli *cli, const char *const *extensions, uint32_t count, struct gpu **gpu) {
+    char error[GPU_ERROR_BYTES] = "";
+    struct gpu_options options = device_options(cli);
+    options.screen_extensions = extensions;
+    options.screen_extension_count = count;
+    return report_opening(cli, gpu_create(&options, gpu, error), error);
+}
+
 struct cli_opening {
     struct parallel_task task;
     struct gpu_options options;

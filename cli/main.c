@@ -22,6 +22,14 @@ static const struct cli_command commands[] = {
      "  glint render scene.xml -o picture.png --size 640x480 --samples 4\n"
      "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n",
      1, 1, cmd_render},
+    {"view", "SCENE", "fly through a scene in a window, and see it change as its file is saved",
+     "W A S D fly, E and Q go up and down, the wheel changes the speed. Drag with the left button to look\n"
+     "around, with the right one to turn around what was clicked. A click says what is there and in which\n"
+     "line. 1 to 9 are the scene's cameras, R goes back; C prints the camera as text for the scene, P "
+     "writes\n"
+     "the picture. Tab shows colour, normals, depth, cost or error; H hides the text, Escape ends.\n\n"
+     "  glint view scenes/showcase.glint.yaml\n",
+     1, 1, cmd_view},
     {"check", "SCENE|FOLDER...|--changed [REV] [FILE|FOLDER...]", "find every mistake in scene files",
      "Reads each scene with every file that it names and reports every mistake with its line and column.\n"
      "In folders it checks the files named *.glint.yaml, *.glint.yml and *.glint.xml. The exit status is 0\n"

@@ -62,6 +62,7 @@ static struct audit_wish wish_of(const struct render_job *job) {
     const struct render_estimate *estimate = render_estimate_of(job);
     return (struct audit_wish){.reference = job->shot.reference,
                                .samples = estimate ? estimate->samples : NULL,
+                               .planned = options->measure.time_s > 0 ? job->shot.settings.samples : 0,
                                .share = options->has_max_off ? options->max_off : AUDIT_SHARE,
                                .decides = options->has_max_off && options->measure.time_s <= 0};
 }
@@ -113,6 +114,9 @@ int render_note_estimate(struct render_job *job) {
                   "pixel of at most %d",
                   estimate->mean, estimate->most, (double)job->stats.last.all_samples / pixels,
                   (int)image->samples);
+    if (estimate->unknown)
+        strbuf_format(&job->note, ", without %u that %s not finite", estimate->unknown,
+                      estimate->unknown == 1 ? "is" : "are");
     job->image.note = job->note.data;
     if (!job->cli->options.quiet)
         fprintf(stderr, "glint: %s\n", job->note.data);

@@ -125,4 +125,43 @@ static inline vec3 affine3_apply(affine3 a, vec3 v) {
     return vec3_add(mat3_apply(a.linear, v), a.offset);
 }
 
+// ---- rotations
+
+struct vec3_turn {
+    double sine, cosine;
+};
+
+// Reduced to -45..45 degrees without rounding (remquo is exact), so that quarter turns are.
+static inline struct vec3_turn vec3_turn_of(double degrees) {
+    int quarter;
+    double rest = remquo(degrees, 90, &quarter) * 0.017453292519943295769 /* pi / 180 */;
+    double s = sin(rest);
+    double c = cos(rest);
+    switch (quarter & 3) {
+    case 0:
+        return (struct vec3_turn){s, c};
+    case 1:
+        return (struct vec3_turn){c, -s};
+    case 2:
+        return (struct vec3_turn){-s, -c};
+    default:
+        return (struct vec3_turn){-c, s};
+    }
+}
+
+// Rz·Ry·Rx of angles in degrees; exact for multiples of 90.
+static inline mat3 mat3_rotation(vec3 degrees) {
+    struct vec3_turn x = vec3_turn_of(degrees.x);
+    struct vec3_turn y = vec3_turn_of(degrees.y);
+    struct vec3_turn z = vec3_turn_of(degrees.z);
+    mat3 rx = {{{1, 0, 0}, {0, x.cosine, -x.sine}, {0, x.sine, x.cosine}}};
+    mat3 ry = {{{y.cosine, 0, y.sine}, {0, 1, 0}, {-y.sine, 0, y.cosine}}};
+    mat3 rz = {{{z.cosine, -z.sine, 0}, {z.sine, z.cosine, 0}, {0, 0, 1}}};
+    mat3 all = mat3_mul(rz, mat3_mul(ry, rx));
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            all.m[i][j] += 0.0; // no -0
+    return all;
+}
+
 #endif

@@ -111,6 +111,7 @@ struct ir_background {
     str image; // path as written
     double intensity;
     double rotation; // degrees about +y
+    bool lights;     // surfaces
 };
 
 // Light from everywhere.

@@ -13,7 +13,7 @@ struct feature_walk {
     const struct ir_scene *scene;
     const struct ir_origin *origin;    // may be NULL
     struct ir_feature_reason *reasons; // by bit number; NULL: only the mask is wanted
-    uint32_t mask;
+    uint64_t mask;
 };
 
 // What switches a feature on.
@@ -25,7 +25,7 @@ struct feature_use {
     double weight;
 };
 
-static int bit_number(uint32_t bit) {
+static int bit_number(uint64_t bit) {
     int n = 0;
     while (bit >> n > 1)
         n++;
@@ -81,7 +81,7 @@ static void explain_use(struct feature_walk *w, const struct feature_use *use,
     reason->at = place_of(w, use);
 }
 
-static void switch_on(struct feature_walk *w, uint32_t bit, const struct feature_use *use) {
+static void switch_on(struct feature_walk *w, uint64_t bit, const struct feature_use *use) {
     if (!bit || w->mask & bit)
         return;
     w->mask |= bit;
@@ -192,7 +192,7 @@ static void walk_scene(struct feature_walk *w) {
     }
 }
 
-uint32_t ir_features(const struct ir_scene *scene) {
+uint64_t ir_features(const struct ir_scene *scene) {
     struct feature_walk w = {.scene = scene};
     walk_scene(&w);
     return w.mask;
@@ -211,7 +211,7 @@ void ir_features_explain(const struct ir_scene *scene, const struct ir_origin *o
             out->items[out->count++] = reasons[i];
 }
 
-uint32_t ir_material_features(const struct ir_material *material) {
+uint64_t ir_material_features(const struct ir_material *material) {
     struct feature_walk w = {0};
     struct ir_material standard = {0};
     schema_init(&SCHEMA_MATERIAL, &standard);
@@ -219,47 +219,16 @@ uint32_t ir_material_features(const struct ir_material *material) {
     return w.mask;
 }
 
-static const struct feature_name {
-    uint32_t bit;
-    const char *name;
-} feature_names[] = {
-    {FEATURE_TRIANGLES, "triangles"},
-    {FEATURE_SPHERES, "spheres"},
-    {FEATURE_DIFFUSE, "diffuse"},
-    {FEATURE_SPECULAR, "specular"},
-    {FEATURE_REFLECTION, "reflection"},
-    {FEATURE_REFRACTION, "refraction"},
-    {FEATURE_SHADOWS, "shadows"},
-    {FEATURE_SMOOTH, "smooth"},
-    {FEATURE_CHECKER, "checker"},
-    {FEATURE_POINT_LIGHT, "point_light"},
-    {FEATURE_DIRECTION_LIGHT, "direction_light"},
-    {FEATURE_INVERSE_SQUARE, "inverse_square"},
-    {FEATURE_BACKGROUND_IMAGE, "background_image"},
-    {FEATURE_DEPTH_BLACK, "depth_black"},
-    {FEATURE_TEXTURES, "textures"},
-    {FEATURE_FOOTPRINT, "footprint"},
-    {FEATURE_SLICES, "slices"},
-    {FEATURE_COUNTERS, "counters"},
-    {FEATURE_LONG_RAYS, "long_rays"},
-    {FEATURE_MANY_LIGHTS, "many_lights"},
-    {FEATURE_MEDIA, "media"},
-    {FEATURE_ATTENUATION, "attenuation"},
-    {FEATURE_FRESNEL, "fresnel"},
-    {FEATURE_CLEAR_SHADOWS, "clear_shadows"},
-    {FEATURE_BEGINS, "begins"},
-    {FEATURE_SOFT_LIGHT, "soft_light"},
-    {FEATURE_AMBIENT, "ambient"},
-    {FEATURE_OCCLUSION, "occlusion"},
-    {FEATURE_EMISSION, "emission"},
-    {FEATURE_ROUGHNESS, "roughness"},
-    {FEATURE_CAMERA, "camera"},
-};
-static_assert(sizeof feature_names / sizeof feature_names[0] == FEATURE_COUNT, "every feature has a name");
-
-const char *feature_name(uint32_t bit) {
+const char *feature_name(uint64_t bit) {
+#define FEATURE_ROW(bit, name) {FEATURE_##bit, #name},
+    static const struct {
+        uint64_t bit;
+        const char *name;
+    } rows[] = {FEATURE_TABLE(FEATURE_ROW)};
+#undef FEATURE_ROW
+    static_assert(sizeof rows / sizeof rows[0] == FEATURE_COUNT, "every feature has a row");
     for (size_t i = 0; i < FEATURE_COUNT; i++)
-        if (feature_names[i].bit == bit)
-            return feature_names[i].name;
+        if (rows[i].bit == bit)
+            return rows[i].name;
     return "unknown";
 }

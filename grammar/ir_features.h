@@ -22,27 +22,27 @@ enum {
 
 // Why a feature is on: the first place that switches it on.
 struct ir_feature_reason {
-    uint32_t bit;                     // FEATURE_
+    uint64_t bit;                     // FEATURE_
     span at;                          // SPAN_NONE: nothing written says so, it is the default
     char words[IR_FEATURE_WORDS_MAX]; // "material 'glass': albedo refraction is 0.8"
 };
 
 struct ir_feature_reasons {
-    uint32_t mask;
+    uint64_t mask;
     uint32_t count;
     struct ir_feature_reason items[FEATURE_COUNT]; // in the order of the bits
 };
 
 // `scene` is merged and resolved.
-uint32_t ir_features(const struct ir_scene *scene);
+uint64_t ir_features(const struct ir_scene *scene);
 // The same with reasons; `origin` may be NULL.
 void ir_features_explain(const struct ir_scene *scene, const struct ir_origin *origin,
                          struct ir_feature_reasons *out);
 
 // The bits of only one material (NULL: the default material), for those that meshes bring along.
-uint32_t ir_material_features(const struct ir_material *material);
+uint64_t ir_material_features(const struct ir_material *material);
 
 // "refraction"; "unknown" for anything but a single FEATURE_ bit.
-const char *feature_name(uint32_t bit);
+const char *feature_name(uint64_t bit);
 
 #endif

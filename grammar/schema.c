@@ -214,6 +214,9 @@ static const struct schema_row background_rows[] = {
      .standard = "1", .doc = "Multiplies the background."},
     {.name = "rotation", FIELD(ir_background, rotation), .example = "90", .unit = SCHEMA_UNIT_DEGREES,
      .range = SCHEMA_RANGE_ANGLE, .standard = "0", .doc = "Turns the background about the y axis."},
+    {.name = "lights", FIELD(ir_background, lights), .standard = "false", .feature = FEATURE_SKY_LIGHT,
+     .also = "light lighting illuminates ibl image_based_lighting environment_light",
+     .doc = "Whether the background lights surfaces, with soft shadows, the brighter parts of it more."},
 };
 const struct schema_element SCHEMA_BACKGROUND = {
     ELEMENT("background", "Background", ir_background, background_rows, "What rays that hit no body see."),
@@ -265,10 +268,10 @@ static const struct schema_row light_rows[] = {
      .also = "panel area quad", .choice = 1, .alternative = IR_LIGHT_RECTANGLE,
      .feature = FEATURE_SOFT_LIGHT,
      .doc = "A panel: a rectangle that shines on one side, with soft shadows."},
-    {.name = "radius", FIELD(ir_light, radius), .example = "0.5", .unit = SCHEMA_UNIT_SCENE,
+    {.name = "radius", FIELD(ir_light, radius), .unit = SCHEMA_UNIT_SCENE,
      .range = SCHEMA_RANGE_SIZE, .standard = "0", .feature = FEATURE_SOFT_LIGHT,
      .doc = "Radius of a light with a position: a sphere around it, with soft shadows; 0 is a point."},
-    {.name = "angle", FIELD(ir_light, angle), .example = "0", .unit = SCHEMA_UNIT_DEGREES,
+    {.name = "angle", FIELD(ir_light, angle), .unit = SCHEMA_UNIT_DEGREES,
      .also = "angular_diameter sun_size",
      .range = SCHEMA_RANGE_OPENING, .standard = "0", .feature = FEATURE_SOFT_LIGHT,
      .doc = "Angle that a light with a direction measures across: a disc in the sky, with soft shadows; 0 is a point, the sun has 0.53."},

@@ -130,9 +130,9 @@ struct schema_row {
     uint8_t choice; // 0: none; else an index into the element's choices, from 1
     uint8_t alternative;
     // FEATURE_ bit while the value is not zero, false, the first word, empty, or white
-    uint32_t feature;
+    uint64_t feature;
     bool feature_of_first;              // SCHEMA_WORD: the bit is the first word's and no other's
-    uint32_t weight_features[4];        // SCHEMA_WEIGHTS: one per component
+    uint64_t weight_features[4];        // SCHEMA_WEIGHTS: one per component
     const struct schema_element *child; // SCHEMA_ELEMENT, SCHEMA_REFERENCE, SCHEMA_LIST
     const char *doc;                    // one sentence
 };

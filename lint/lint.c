@@ -45,6 +45,11 @@ const struct lint_rule lint_rules[] = {
     {DIAG_LENS_INSIDE, lint_lens_inside, LINT_ALL},
     // Three values.
     {DIAG_NEVER_ENDS, lint_never_ends, LINT_CHEAP},
+    // One value each.
+    {DIAG_SKY_SAMPLES, lint_sky_samples, LINT_CHEAP},
+    {DIAG_SKY_DARK, lint_sky_dark, LINT_ALL},
+    // The boxes of bodies for each panel, up to the first that it lights.
+    {DIAG_PANEL_AWAY, lint_panel_away, LINT_ALL},
     {.run = NULL},
 };
 

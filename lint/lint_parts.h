@@ -138,5 +138,8 @@ void lint_one_sample(struct lint *lint); // rules_lens.c
 void lint_nothing_sharp(struct lint *lint);
 void lint_lens_inside(struct lint *lint);
 void lint_never_ends(struct lint *lint); // rules_samples.c
+void lint_sky_samples(struct lint *lint);
+void lint_sky_dark(struct lint *lint);
+void lint_panel_away(struct lint *lint); // rules_light.c
 
 #endif

@@ -139,13 +139,25 @@ struct light_finding {
     uint32_t triangle; // that it is on, of a mesh
 };
 
+// Whether it is a sphere that is not all inside the body: then some of its light comes out.
+static bool reaches_out(const struct ir_light *light, const struct lint_body *body, double near) {
+    const double radius = light->radius;
+    const vec3 p = light->position, lower = body->box.lower, upper = body->box.upper;
+    if (!(radius > 0))
+        return false;
+    if (body->is->shape == SCENE_SPHERE)
+        return vec3_length(vec3_sub(p, body->is->object_to_world.offset)) + radius >= body->is->radius - near;
+    return p.x - radius < lower.x || p.y - radius < lower.y || p.z - radius < lower.z ||
+           p.x + radius > upper.x || p.y + radius > upper.y || p.z + radius > upper.z;
+}
+
 static struct light_finding judge_light(struct lint *lint, const struct ir_light *light,
                                         const struct lint_body *body) {
     // A few units of the last place that single precision keeps of the light's and the body's coordinates.
     double near = LINT_RESOLUTION * fmax(body_size(body), vec3_max_abs(light->position));
     struct lint_box reach = lint_box_grow(body->box, near);
     struct light_finding found = {.body = NULL};
-    if (!lint_box_holds(&reach, light->position))
+    if (!lint_box_holds(&reach, light->position) || reaches_out(light, body, near))
         return found;
     // Light shines through what refracts, wherever it comes from.
     const bool shines = lint->ir->trace.transparent_shadows && !body->is_opaque && body->is->closed;

@@ -1,4 +1,4 @@
-// Lights with extent: at too few samples, around bodies and cameras.
+// Lights with extent: at too few samples, around bodies and cameras; ambient light; backgrounds that light.
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
@@ -12,23 +12,40 @@ static const char *extent_row(const struct ir_light *light) {
     return light->angle > 0 ? "angle" : NULL;
 }
 
+static void fix_samples(struct lint *lint, str samples) {
+    const struct ir_image *image = &lint->ir->image;
+    if (image->head.written >> schema_find_row(&SCHEMA_IMAGE, STR("samples")) & 1)
+        diag_fix(lint->sink, false, ir_place_value(lint->origin, &image->head, &SCHEMA_IMAGE, "samples"),
+                 samples);
+}
+
+// Of lights with an extent, `count` of them; else of ambient light that bodies block.
+static void report_few_samples(struct lint *lint, const struct ir_light *first, uint32_t count) {
+    const struct ir_ambient *ambient = &lint->ir->ambient;
+    if (first)
+        diag_add(lint->sink, DIAG_FEW_SAMPLES,
+                 ir_place_key(lint->origin, &first->head, &SCHEMA_LIGHT, extent_row(first)),
+                 "the shadows of this light have hard edges%s: the image has 1 sample per pixel",
+                 count > 1 ? ", as those of others" : "");
+    else
+        diag_add(lint->sink, DIAG_FEW_SAMPLES,
+                 ir_place_key(lint->origin, &ambient->head, &SCHEMA_AMBIENT, "occlusion"),
+                 "what is near darkens ambient light with hard edges: the image has 1 sample per pixel");
+}
+
 void lint_few_samples(struct lint *lint) {
     const struct ir_image *image = &lint->ir->image;
+    const bool darkens = lint->scene->occlusion > 0 && !vec3_is_zero(lint->scene->ambient);
     const struct ir_light *first = NULL;
     uint32_t count = 0;
     for (uint32_t i = 0; i < lint->ir->lights.count; i++)
         if (extent_row(&lint->ir->lights.items[i]) && !count++)
             first = &lint->ir->lights.items[i];
-    if (image->samples > 1 || count == 0 || !lint->ir->trace.shadows)
+    if (image->samples > 1 || (count == 0 && !darkens) || !lint->ir->trace.shadows)
         return;
-    span at = ir_place_key(lint->origin, &first->head, &SCHEMA_LIGHT, extent_row(first));
-    const char *others = count > 1 ? ", as those of others" : "";
-    diag_add(lint->sink, DIAG_FEW_SAMPLES, at,
-             "the shadows of this light have hard edges%s: the image has 1 sample per pixel", others);
-    span samples = ir_place_value(lint->origin, &image->head, &SCHEMA_IMAGE, "samples");
+    report_few_samples(lint, first, count);
     diag_help(lint->sink, "write image: {samples: 16}, or more");
-    if (image->head.written >> schema_find_row(&SCHEMA_IMAGE, STR("samples")) & 1)
-        diag_fix(lint->sink, false, samples, STR("16"));
+    fix_samples(lint, STR("16"));
 }
 
 // Whether all of the box is within the sphere.
@@ -62,6 +79,13 @@ enum {
     WORK_MAX = 50000000, // lights times bodies: further ones are not looked at
 };
 
+// Whether it is a lamp in the middle of the light: rays to the light end before it.
+static bool is_lamp(const struct lint *lint, const struct ir_light *light, const struct lint_body *body) {
+    const vec3 middle = body->is->object_to_world.offset;
+    return body->is->shape == SCENE_SPHERE && vec3_length(vec3_sub(middle, light->position)) == 0 &&
+           !vec3_is_zero(lint->scene->materials[body->is->materials[0]].emission);
+}
+
 void lint_light_around(struct lint *lint) {
     uint64_t work = 0;
     for (uint32_t i = 0; i < lint->ir->lights.count && work < WORK_MAX; i++) {
@@ -71,11 +95,40 @@ void lint_light_around(struct lint *lint) {
         work += lint->body_count;
         for (uint32_t k = 0; k < lint->body_count; k++) {
             const struct lint_body *body = &lint->bodies[k];
-            if (!lint_is_there(body) || !is_around(light, &body->box))
+            if (!lint_is_there(body) || !is_around(light, &body->box) || is_lamp(lint, light, body))
                 continue;
             report_around(lint, light, lint_words_other(lint, body), lint_place(lint, body));
             break;
         }
+    }
+}
+
+// Whether all of the box is on the side that the panel does not shine on.
+static bool is_in_the_dark(const struct view_light *light, const struct lint_box *box) {
+    const vec3 n = light->outward, p = light->position;
+    const vec3 corner = {n.x > 0 ? box->upper.x : box->lower.x, n.y > 0 ? box->upper.y : box->lower.y,
+                         n.z > 0 ? box->upper.z : box->lower.z};
+    return vec3_dot(n, vec3_sub(corner, p)) <= LINT_RESOLUTION * fmax(vec3_max_abs(corner), vec3_max_abs(p));
+}
+
+static bool lights_nothing(const struct lint *lint, const struct view_light *light) {
+    for (uint32_t k = 0; k < lint->body_count; k++)
+        if (lint_is_there(&lint->bodies[k]) && !is_in_the_dark(light, &lint->bodies[k].box))
+            return false;
+    return true;
+}
+
+void lint_panel_away(struct lint *lint) {
+    const struct view *view = &lint->views[0];
+    for (uint32_t i = 0; i < view->light_count && lint->body_count > 0; i++) {
+        const struct view_light *light = &view->lights[i];
+        if (light->extent != VIEW_PANEL || !lights_nothing(lint, light))
+            continue;
+        const struct ir_light *ir = &lint->ir->lights.items[light->index];
+        diag_add(lint->sink, DIAG_PANEL_AWAY,
+                 ir_place_key(lint->origin, &ir->head, &SCHEMA_LIGHT, "rectangle"),
+                 "this panel lights nothing: all bodies are on the side that it does not shine on");
+        diag_help(lint->sink, "exchange edge_u and edge_v: it shines to the side of edge_u x edge_v");
     }
 }
 
@@ -101,7 +154,7 @@ void lint_ambient(struct lint *lint) {
 }
 
 void lint_emission(struct lint *lint) {
-    if (lint->ir->lights.count || !vec3_is_zero(lint->scene->ambient))
+    if (lint->ir->lights.count || !vec3_is_zero(lint->scene->ambient) || lint->scene->background.lights)
         return;
     for (uint32_t i = 0; i < lint->body_count; i++) {
         const struct lint_body *body = &lint->bodies[i];
@@ -111,8 +164,35 @@ void lint_emission(struct lint *lint) {
             diag_add(lint->sink, DIAG_EMISSION_ALONE, lint_place(lint, body),
                      "%.*s glows but lights nothing, and the scene has no light",
                      STR_ARG(lint_words(lint, body)));
-            diag_help(lint->sink, "put a light there too: lights: - {position: ..., radius: ...}");
+            diag_help(lint->sink, "put a light at the same place, with the ball's radius: lights: - "
+                                  "{position: ..., radius: ...}");
             return;
         }
     }
+}
+
+// ---- a background that lights
+
+void lint_sky_samples(struct lint *lint) {
+    const struct ir_scene *ir = lint->ir;
+    if (!lint->scene->background.lights || ir->image.samples > 1 || ir_body_count(ir) == 0)
+        return;
+    diag_add(lint->sink, DIAG_SKY_SAMPLES,
+             ir_place_key(lint->origin, &ir->background.head, &SCHEMA_BACKGROUND, "lights"),
+             "the light of this background looks grainy: the image has 1 sample per pixel");
+    diag_help(lint->sink, "write image: {samples: 64}, or more");
+    fix_samples(lint, STR("64"));
+}
+
+void lint_sky_dark(struct lint *lint) {
+    const struct ir_background *background = &lint->ir->background;
+    const bool has_image = background->kind == IR_BACKDROP_IMAGE && background->intensity > 0;
+    if (!background->lights || lint->scene->background.lights || has_image)
+        return;
+    diag_add(lint->sink, DIAG_SKY_DARK,
+             ir_place_key(lint->origin, &background->head, &SCHEMA_BACKGROUND, "lights"),
+             background->intensity > 0 ? "this background is black and lights nothing"
+                                       : "this background has the intensity 0 and lights nothing");
+    diag_help(lint->sink, background->intensity > 0 ? "write its image or its color, such as color: 0.5"
+                                                    : "write another intensity, or leave it out");
 }

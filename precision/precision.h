@@ -48,7 +48,7 @@ struct precision_trial {
     const struct flat_input *input; // is_double does not count
     uint32_t width, height;         // of the picture
     struct gpu *gpu;                // NULL: none
-    uint32_t features;              // compiled in beside what the scene wants
+    uint64_t features;              // compiled in beside what the scene wants
     bool counts;                    // draw with the kernel that counts, which is the one used afterwards
     // Where the reference is left that drew on a device's behalf, to be used for the whole picture: it sees
     // input->view, and the caller destroys it. NULL stays there where there was none. May be NULL.

@@ -12,7 +12,7 @@
 // it. Sizes are those of 64 bits.
 static_assert(sizeof(void *) != 8 || sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 6 * 8,
               "hash the new field of a camera");
-static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 4 * 8 + 6 * sizeof(vec3) + 8,
+static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 5 * 8 + 6 * sizeof(vec3) + 8,
               "hash the new field of a light");
 static_assert(sizeof(struct mesh_triangle) == 8 * sizeof(uint32_t), "triangles are hashed as bytes");
 
@@ -40,6 +40,7 @@ static void add_view(struct hash128 *h, const struct view *view) {
         hash128_whole(h, light->extent);
         hash128_number(h, light->radius);
         hash128_number(h, light->half_angle);
+        hash128_number(h, light->before_body);
         hash128_vector(h, light->edge_u);
         hash128_vector(h, light->edge_v);
         hash128_vector(h, light->outward);
@@ -127,6 +128,9 @@ void reference_call_key(const uint64_t scene_key[2], const struct reference_sett
     if (!hits) {
         hash128_whole(&h, settings->samples);
         hash128_whole(&h, settings->first_sample);
+        hash128_whole(&h, settings->points_of);
+        hash128_whole(&h, settings->footprint_of);
+        hash128_whole(&h, settings->planned);
         hash128_whole(&h, settings->max_depth);
         hash128_number(&h, settings->min_weight);
         hash128_whole(&h, settings->cut_sees_background);

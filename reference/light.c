@@ -5,6 +5,8 @@
 
 #include "grammar/ir.h"
 
+#include <string.h>
+
 #define PI 3.14159265358979323846
 // Less than the smallest normal float adds nothing that a picture could hold: tails of highlights.
 #define LEAST_LIGHT 0x1p-126
@@ -37,8 +39,12 @@ static vec3 in_cap(vec3 axis, double gap, double a, double b) {
     return reference_turned(axis, x * wide, y * wide, 1 - below);
 }
 
+// What a ray to a light lacks, at its end, of one to a body that has the same surface: as on the device.
+#define SHORTER 0x1p-19
+
 // Half of a sphere, from inside it; else its cap in view.
-static void on_sphere(struct spot *spot, vec3 point, double radius, double a, double b) {
+static void on_sphere(struct spot *spot, const struct view_light *light, vec3 point, double a, double b) {
+    const double radius = light->radius;
     const vec3 way = vec3_sub(spot->place, point);
     const double distance = vec3_length(way);
     const bool inside = distance <= radius;
@@ -48,11 +54,14 @@ static void on_sphere(struct spot *spot, vec3 point, double radius, double a, do
     spot->share = 2 / (2 - gap);
     const double middle = vec3_dot(spot->l, way);
     const double beside = vec3_length(vec3_sub(way, vec3_mul(spot->l, middle)));
-    const double deep = beside < radius ? sqrt((radius - beside) * (radius + beside)) : 0;
-    spot->place = vec3_add(point, vec3_mul(spot->l, inside ? middle + deep : middle - deep));
+    const double reach = inside ? radius - light->before_body : radius + light->before_body;
+    const double deep = beside < reach ? sqrt((reach - beside) * (reach + beside)) : 0;
+    const double part = light->before_body > 0 ? 1 - SHORTER : 1;
+    spot->place = vec3_add(point, vec3_mul(spot->l, part * (inside ? middle + deep : middle - deep)));
 }
 
 static void on_panel(struct spot *spot, const struct view_light *light, vec3 point, double a, double b) {
+    spot->place = vec3_add(spot->place, vec3_mul(light->outward, light->before_body));
     const double before = vec3_length(vec3_sub(spot->place, point));
     spot->place =
         vec3_add(spot->place, vec3_add(vec3_mul(light->edge_u, a - 0.5), vec3_mul(light->edge_v, b - 0.5)));
@@ -77,7 +86,7 @@ static struct spot spot_of(const struct reference *r, const struct view_light *l
     if (light->extent == VIEW_PANEL) {
         on_panel(&spot, light, point, a, b);
     } else if (light->extent == VIEW_SPHERE) {
-        on_sphere(&spot, point, light->radius, a, b);
+        on_sphere(&spot, light, point, a, b);
     } else {
         const double gap = 2 * sin(light->half_angle / 2) * sin(light->half_angle / 2);
         spot.l = in_cap(spot.l, gap, a, b);
@@ -174,6 +183,66 @@ static vec3 ambient(const struct reference *r, const struct surface *s, const st
     return scaled(value, arriving(r, &nowhere, &spot, start, inside, out));
 }
 
+// ---- the background as a light
+
+// The last of `count` shares that does not begin after `place`, and where it ends.
+static uint32_t share_at(const uint32_t *begin, uint32_t count, size_t apart, uint32_t place, double *end) {
+    uint32_t low = 0, high = count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (begin[middle * apart] <= place)
+            low = middle;
+        else
+            high = middle;
+    }
+    *end = high < count ? begin[high * apart] : 0x1p32;
+    return low;
+}
+
+static double float_of(uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return (double)value;
+}
+
+// Where the sample looks (scene/sky.h); its emission is that of a light in this direction.
+static vec3 look_up(const struct reference *r, const struct points *points, uint32_t key, vec3 *l) {
+    const struct sky_size size = r->sky;
+    const struct scene_background *background = &r->input.scene->background;
+    uint32_t a, b;
+    double row_end, end;
+    points_words(points, point_key(key, POINT_SKY), &a, &b);
+    const uint32_t row = share_at(r->sky_numbers, size.rows, SKY_ROW_WORDS, b, &row_end);
+    const uint32_t *record = r->sky_numbers + (size_t)SKY_ROW_WORDS * row;
+    const uint32_t *cells = r->sky_numbers + (size_t)SKY_ROW_WORDS * size.rows + (size_t)row * size.stride;
+    const uint32_t column = share_at(cells, size.width, 1, a, &end);
+    const double high = row_end - record[0], wide = end - cells[column];
+    const double step = float_of(record[2]), gap = float_of(record[1]) + (b - record[0]) / high * step;
+    const double longitude = 2 * PI * ((column + 0.5 + (a - cells[column]) / wide) / size.width - 0.5);
+    const double level = sqrt(fmax(0, gap * (2 - gap)));
+    const double x = level * cos(longitude), z = level * sin(longitude);
+    *l = (vec3){x * background->cosine + z * background->sine, step > 0 ? 1 - gap : gap - 1,
+                z * background->cosine - x * background->sine};
+    // Over pi, and over the density: the cell's share over its solid angle.
+    const double solid = 2 * PI / size.width * fabs(step);
+    return vec3_mul(reference_background(r, *l), solid / PI * (0x1p32 / high) * (0x1p32 / wide));
+}
+
+static vec3 from_sky(const struct reference *r, const struct surface *s, vec3 direction,
+                     const struct inside *inside, const struct points *points, uint32_t key,
+                     struct lighting *out) {
+    struct view_light light = {.extent = VIEW_POINT, .directional = true};
+    struct spot spot = {.share = 1};
+    if (!r->sky.rows)
+        return (vec3){0, 0, 0};
+    light.emission = look_up(r, points, key, &spot.l);
+    const vec3 value = unshadowed(r, &light, &spot, s, direction);
+    if (vec3_max_abs(value) < LEAST_LIGHT)
+        return (vec3){0, 0, 0};
+    const struct start start = reference_leave(r, s, s->geometric);
+    return scaled(value, arriving(r, &light, &spot, start, inside, out));
+}
+
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
                      const struct inside *inside, const struct points *points, uint32_t key,
                      struct lighting *out) {
@@ -196,6 +265,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
     }
     const vec3 around = ambient(r, s, inside, points, key, out);
     out->sum = vec3_add(out->sum, vec3_add(s->emission, around));
+    out->sum = vec3_add(out->sum, from_sky(r, s, direction, inside, points, key, out));
 }
 
 // ---- background
@@ -271,11 +341,24 @@ static double image_brightest(const struct reference *r) {
     return r->decoded[most];
 }
 
+static void make_sky(struct reference *r) {
+    const struct sky_size size = sky_size(r->input.scene);
+    bool is_black = false;
+    if (!size.rows)
+        return;
+    r->sky_numbers = ARENA_ARRAY(&r->arena, uint32_t, sky_count(size));
+    if (!sky_fill(r->input.scene, size, r->sky_numbers, &is_black))
+        arena_raise(&r->arena, ARENA_FAULT_SYSTEM);
+    if (!is_black)
+        r->sky = size;
+}
+
 void reference_make_background(struct reference *r) {
     const struct scene_background *background = &r->input.scene->background;
     const struct picture *picture = background->picture;
     bool srgb = r->input.scene->ir->image.transfer == IR_TRANSFER_SRGB;
     r->background_brightest = reference_brightest(background->color);
+    make_sky(r);
     if (!picture || r->input.gradient)
         return;
     if (!picture_is_linear(picture)) {

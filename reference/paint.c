@@ -20,7 +20,9 @@ enum {
 struct cone reference_camera_cone(const struct reference *r, const struct reference_settings *settings,
                                   vec3 direction) {
     const struct view_camera *camera = &r->input.view->camera;
-    const double part = 1 / (settings->height * sqrt(settings->samples));
+    const uint32_t planned = settings->planned ? settings->planned : settings->samples;
+    const uint32_t samples = settings->footprint_of ? settings->footprint_of : planned;
+    const double part = 1 / (settings->height * sqrt(samples));
     switch (camera->projection) {
     case IR_PROJECTION_ORTHOGRAPHIC:
         return (struct cone){2 * camera->half_height * part, 0};

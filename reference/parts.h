@@ -9,6 +9,7 @@
 #include "reference/reference.h"
 #include "scene/media.h"
 #include "scene/points.h"
+#include "scene/sky.h"
 
 // gamma(n) = n u / (1 - n u), u = 2^-53: bounds the relative error of n roundings (Higham 2002, section 3.1).
 #define REFERENCE_UNIT     0x1p-53
@@ -119,6 +120,8 @@ struct reference {
     struct inside around_camera;
     double *decoded; // a background's channel by stored value; NULL for floats
     double background_brightest;
+    struct sky_size sky; // rows 0: the background does not light
+    uint32_t *sky_numbers;
     struct primitive *primitives; // in the tree's order
     uint32_t primitive_count;
     struct tree_node *nodes;

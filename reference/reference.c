@@ -56,11 +56,13 @@ void reference_look(struct reference *r, const struct view *view) {
 struct reference_settings reference_settings_of(const struct ir_scene *ir, const struct ir_image *image,
                                                 const struct limits *limits, bool as_file) {
     const struct ir_trace *trace = &ir->trace;
+    const bool by_error = image->error > 0 && image->samples > 1;
     return (struct reference_settings){
         .width = (uint32_t)image->width,
         .height = (uint32_t)image->height,
         .samples = (uint32_t)image->samples,
-        .points_of = image->error > 0 && image->samples > 1 ? (uint32_t)image->samples : 0,
+        .points_of = by_error ? (uint32_t)image->samples : 0,
+        .footprint_of = by_error ? (uint32_t)image->min_samples : 0,
         .max_depth = as_file ? (uint32_t)trace->max_depth : REFERENCE_MAX_DEPTH,
         .min_weight = as_file ? trace->min_weight : REFERENCE_MIN_WEIGHT,
         .cut_sees_background = as_file && trace->depth_limit == IR_DEPTH_BACKGROUND,
@@ -72,7 +74,8 @@ struct reference_settings reference_settings_of(const struct ir_scene *ir, const
 
 static struct points points_of(const struct reference_settings *settings, uint32_t x, uint32_t y,
                                uint32_t sample) {
-    const uint32_t samples = settings->points_of ? settings->points_of : settings->samples;
+    const uint32_t planned = settings->planned ? settings->planned : settings->samples;
+    const uint32_t samples = settings->points_of ? settings->points_of : planned;
     return (struct points){x, y, sample, points_bits(settings->first_sample, samples)};
 }
 

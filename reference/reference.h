@@ -18,7 +18,7 @@
 struct ir_image;
 
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
-#define REFERENCE_VERSION 6
+#define REFERENCE_VERSION 8
 
 // How far paths are followed where the file's own limits do not apply.
 #define REFERENCE_MIN_WEIGHT 1e-6
@@ -61,6 +61,12 @@ struct reference_settings {
     // Above 0: where samples lie in a pixel are points of a picture of so many samples (scene/points.h), as
     // where pixels end by their error. 0: view_sample_offset.
     uint32_t points_of;
+    // Above 0: a pixel's footprint on images is that of so many samples, as where pixels end by their error:
+    // all have at least those. 0: that of `planned`.
+    uint32_t footprint_of;
+    // Above 0: lights, lens and roughness take points of so many samples, of which `samples` were traced, as
+    // where a time ends a picture. 0: of `samples`.
+    uint32_t planned;
     uint32_t max_depth;       // a surface this deep sends no ray
     double min_weight;        // rays of a lower weight are not followed
     bool cut_sees_background; // what a ray sees that max_depth cut; else nothing

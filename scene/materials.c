@@ -53,13 +53,14 @@ static struct scene_material material_of(const struct ir_material *ir, unsigned 
 
 static struct scene_background background_of(const struct ir_background *ir, const struct assets *assets,
                                              unsigned transfer) {
-    mat3 turn = transform_rotation((vec3){0, ir->rotation, 0});
+    mat3 turn = mat3_rotation((vec3){0, ir->rotation, 0});
     struct scene_background b = {.picture = assets->background,
                                  .intensity = ir->intensity,
                                  .sine = turn.m[0][2],
                                  .cosine = turn.m[0][0]};
     if (ir->kind == IR_BACKDROP_COLOR)
         b.color = vec3_mul(scene_linear_color(ir->color, transfer), ir->intensity);
+    b.lights = ir->lights && (b.picture ? ir->intensity > 0 : !vec3_is_zero(b.color));
     return b;
 }
 

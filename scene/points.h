@@ -17,6 +17,9 @@ struct points {
 // sample of a picture, which takes the middle of everything.
 uint32_t points_bits(uint32_t first, uint32_t samples);
 
+// All bits of the sample's point, of a picture of one sample too.
+void points_words(const struct points *points, uint32_t key, uint32_t *a, uint32_t *b);
+
 // The sample's point of what has the key: both coordinates in [0, 1), multiples of 2^-24.
 void points_at(const struct points *points, uint32_t key, double *a, double *b);
 

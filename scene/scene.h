@@ -94,7 +94,7 @@ struct scene_material {
     double alpha; // of the distribution of micro normals: roughness squared; 0: smooth
     int32_t priority;
     vec3 absorption; // per scene unit, at most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light
-    uint32_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
+    uint64_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
 };
 
 // Whether its colours need more than two of a checker's cells: for what shows scenes otherwise, and must
@@ -108,6 +108,7 @@ struct scene_background {
     const struct picture *picture; // NULL: none, or not loaded
     double intensity;
     double sine, cosine; // of the image's rotation about +y
+    bool lights;         // surfaces; never where it is black for certain
 };
 
 struct scene {

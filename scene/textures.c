@@ -182,7 +182,7 @@ static const struct scene_texture *texture_of(struct scene *scene, const struct 
 // The image lies between 0 and 1, is made smaller by `repeat`, turned about the middle and moved; here the
 // way back.
 static struct scene_image placed_image(const struct ir_texture *ir) {
-    const mat3 turn = transform_rotation((vec3){0, 0, ir->rotation});
+    const mat3 turn = mat3_rotation((vec3){0, 0, ir->rotation});
     const double c = turn.m[0][0], s = turn.m[1][0];
     const double du = -0.5 - ir->offset.u, dv = -0.5 - ir->offset.v;
     return (struct scene_image){

@@ -1,4 +1,4 @@
-// Transforms in double precision: rotations in degrees, a model's transform, inverses and what normals need.
+// Transforms in double precision: a model's transform, inverses and what normals need.
 //
 // Thread safety: pure functions.
 #ifndef GLINT_SCENE_TRANSFORM_H
@@ -7,8 +7,6 @@
 #include "core/vec3.h"
 #include "grammar/ir.h"
 
-// Rz·Ry·Rx of angles in degrees; exact for multiples of 90.
-mat3 transform_rotation(vec3 degrees);
 // The affine map of a model, T·Rz·Ry·Rx·S.
 affine3 transform_of_model(const struct ir_model *model);
 // The inverse of any map whose determinant is not 0; its offset, too.

@@ -2,6 +2,7 @@
 
 #include "grammar/ir.h"
 #include "scene/transform.h"
+#include <stdlib.h>
 #include <string.h>
 
 #define DEGREE 0.017453292519943295769 // pi / 180
@@ -41,7 +42,7 @@ static struct view_camera turned_camera(const struct ir_camera *ir) {
                                  .half_height = ir->size / 2,
                                  .half_field = ir->fov / 2 * DEGREE};
     if (ir->view == IR_VIEW_ROTATION) {
-        mat3 turn = transform_rotation(ir->rotation);
+        mat3 turn = mat3_rotation(ir->rotation);
         camera.right = mat3_column(turn, 0);
         camera.up = mat3_column(turn, 1);
         camera.forward = vec3_add(vec3_neg(mat3_column(turn, 2)), (vec3){0, 0, 0});
@@ -123,16 +124,99 @@ static struct view_light written_light(const struct ir_light *ir, uint32_t index
     return light;
 }
 
+// ---- lights that bodies show
+
+// Lights with a place and an extent, in the order of their places.
+static int compare_places(const void *a, const void *b) {
+    const struct view_light *const *first = a, *const *second = b;
+    const vec3 p = (*first)->position, q = (*second)->position;
+    if (p.x != q.x)
+        return p.x < q.x ? -1 : 1;
+    if (p.y != q.y)
+        return p.y < q.y ? -1 : 1;
+    return (p.z > q.z) - (p.z < q.z);
+}
+
+static bool is_equal(vec3 a, vec3 b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+// Whether the same edges, in either order and direction, make both.
+static bool are_edges(const struct view_light *light, vec3 u, vec3 v) {
+    const vec3 a = light->edge_u, b = light->edge_v;
+    const bool is_u = is_equal(u, a) || is_equal(u, vec3_neg(a));
+    const bool is_v = is_equal(v, b) || is_equal(v, vec3_neg(b));
+    const bool is_turned =
+        (is_equal(u, b) || is_equal(u, vec3_neg(b))) && (is_equal(v, a) || is_equal(v, vec3_neg(a)));
+    return (is_u && is_v) || is_turned;
+}
+
+static bool is_surface(const struct scene_body *body, const struct view_light *light) {
+    if (body->shape == SCENE_SPHERE)
+        return light->extent == VIEW_SPHERE && light->radius == body->radius;
+    return light->extent == VIEW_PANEL && are_edges(light, mat3_column(body->object_to_world.linear, 0),
+                                                    mat3_column(body->object_to_world.linear, 1));
+}
+
+static vec3 middle_of(const struct scene_body *body) {
+    const affine3 *map = &body->object_to_world;
+    if (body->shape == SCENE_SPHERE)
+        return map->offset;
+    const vec3 across = vec3_add(mat3_column(map->linear, 0), mat3_column(map->linear, 1));
+    return vec3_add(map->offset, vec3_mul(across, 0.5));
+}
+
+// 2^-19 of the coordinates: some ten units of the last place that single precision keeps of them.
+static double before_body(const struct view_light *light, vec3 origin) {
+    const double reach = light->radius + vec3_max_abs(light->edge_u) + vec3_max_abs(light->edge_v);
+    return 0x1p-19 * (vec3_max_abs(vec3_sub(light->position, origin)) + reach);
+}
+
+// As many lights as have a place and an extent: each, found in their order, that has the body's surface.
+static void take_body(const struct scene_body *body, struct view_light **lights, uint32_t count,
+                      vec3 origin) {
+    struct view_light at = {.position = middle_of(body)};
+    const struct view_light *key = &at;
+    uint32_t low = 0, high = count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (compare_places(&lights[middle], &key) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < count && compare_places(&lights[low], &key) == 0; low++)
+        if (is_surface(body, lights[low]))
+            lights[low]->before_body = before_body(lights[low], origin);
+}
+
+static void find_bodies(const struct scene *scene, struct arena *arena, struct view *out) {
+    uint32_t count = 0;
+    struct view_light **lights = ARENA_ARRAY(arena, struct view_light *, out->light_count);
+    for (uint32_t i = 0; i < out->light_count; i++)
+        if (out->lights[i].extent == VIEW_SPHERE || out->lights[i].extent == VIEW_PANEL)
+            lights[count++] = &out->lights[i];
+    if (count == 0)
+        return;
+    qsort(lights, count, sizeof *lights, compare_places);
+    // Flattening takes off the first camera's position.
+    const vec3 origin =
+        scene->ir->cameras.count ? scene->ir->cameras.items[0].position : out->camera.position;
+    for (uint32_t i = 0; i < scene->body_count; i++)
+        if (scene->bodies[i].shape != SCENE_MESH)
+            take_body(&scene->bodies[i], lights, count, origin);
+}
+
 static span scene_place(const struct scene *scene) {
     const struct ir_origin *origin = scene->assets->origin;
     return origin ? ir_place_label(origin, &scene->ir->head) : SPAN_NONE;
 }
 
-// A scene without lights has one at the camera, unless there is ambient light.
+// A scene without lights has one at the camera, unless there is ambient light or the background lights.
 static void build_lights(const struct scene *scene, struct arena *arena, struct view *out) {
     const struct ir_scene *ir = scene->ir;
     const uint32_t count = ir->lights.count;
-    const bool automatic = count == 0 && vec3_is_zero(scene->ambient);
+    const bool automatic = count == 0 && vec3_is_zero(scene->ambient) && !scene->background.lights;
     out->light_count = automatic ? 1 : count;
     out->lights = ARENA_ARRAY(arena, struct view_light, out->light_count);
     for (uint32_t i = 0; i < count; i++)
@@ -149,6 +233,7 @@ void view_build(const struct scene *scene, uint32_t camera_index, int32_t width,
     out->camera = cameras->count ? written_camera(&cameras->items[camera_index])
                                  : automatic_camera(scene, width, height);
     build_lights(scene, arena, out);
+    find_bodies(scene, arena, out);
     vec3 p = out->camera.position;
     if (sink && out->camera.automatic)
         diag_add(sink, DIAG_DEFAULT_CAMERA, scene_place(scene),

@@ -34,6 +34,9 @@ struct view_light {
     double radius;                // of the sphere; scene units
     double half_angle;            // of the disc, radians
     vec3 edge_u, edge_v, outward; // of the panel: scene units; unit, on the side that it shines on
+    // Above 0: a body has the very surface of the sphere or the panel. Shadow rays end so far in front of it
+    // (scene units), where rounding cannot decide whether it is in their way.
+    double before_body;
     bool directional;
     vec3 position; // scene units; zero where directional
     vec3 to_light; // unit; zero where positional

@@ -47,7 +47,11 @@
                                parallel rays its width, of other projections its angle */                    \
     UINT(projection)        /* PROJECTION_: what camera_right and camera_up are multiplied by */             \
     FLOAT(lens_radius)      /* 0: a pinhole */                                                               \
-    FLOAT(focus)
+    FLOAT(focus)                                                                                             \
+    UINT(sky_table)  /* gpu_scene.h */                                                                       \
+    UINT(sky_width)  /* cells of a row */                                                                    \
+    UINT(sky_rows)   /* 0: the background does not light */                                                  \
+    UINT(sky_stride) /* from one row's words to the next */
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
@@ -180,7 +184,8 @@
 #define COUNTED_PATHS (1 << 19)
 
 /* Specialization constants. */
-#define CONSTANT_FEATURES       0
+#define CONSTANT_FEATURES       0 /* the first word, and of the second: */
+#define CONSTANT_MORE_FEATURES  12
 #define CONSTANT_TRIANGLE_STACK 1 /* groups of nodes that wait at most */
 #define CONSTANT_SPHERE_STACK   2
 #define CONSTANT_PACKED_GROUPS  3 /* 1: both trees have at most 65536 nodes */
@@ -194,7 +199,7 @@
 #define CONSTANT_AT_ONCE  9
 #define CONSTANT_BRANCHES 10
 #define CONSTANT_LISTED   11 /* paths begin by a list: render_adaptive.c */
-#define CONSTANT_COUNT    12
+#define CONSTANT_COUNT    13
 
 /* Most samples of a pixel that are traced at once. */
 #define SAMPLES_AT_ONCE 64

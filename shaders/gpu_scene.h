@@ -115,6 +115,9 @@
 #define LIGHT_EXTENT         4u /* a sphere; with LIGHT_DIRECTIONAL a disc, with LIGHT_PANEL a panel */
 #define LIGHT_PANEL          8u
 
+/* A background that lights: where a sample looks (scene/sky.h), four numbers to a word of LIGHTS, from the
+   frame's sky_table on. */
+
 /* A scene in double precision: nodes as above; the other records lie as records.h says. Boxes hold the
    doubles, rounded outward. A kernel subtracts in double precision the t at which a ray enters a node from
    all t of it; what is left is rounded to single precision, with errors below 2^-13 of a cell of the node,

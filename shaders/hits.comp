@@ -20,6 +20,7 @@
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
+#include "background.glsl"
 #include "lights.glsl"
 #include "bounce.glsl"
 #include "light/rough.glsl"

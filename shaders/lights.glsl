@@ -9,10 +9,11 @@ struct light_ray {
 
 #include "light/extent.glsl"
 #include "light/ambient.glsl"
+#include "light/sky.glsl"
 
 exact_aim aim_at(uint index, light_ray ray) {
     if (HAS_PLACES)
-        return exact_aim(ray.direction, ray.t_max < FAR_AWAY, ray.place);
+        return exact_aim(ray.direction, ray.t_max < FAR_AWAY && index < frame.light_count, ray.place);
     light_record light = load_light(index);
     bool directional = HAS_DIRECTION_LIGHT && (!HAS_POINT_LIGHT || (light.flags & LIGHT_DIRECTIONAL) != 0u);
     return exact_aim(ray.direction, !directional, light.place);
@@ -28,7 +29,14 @@ light_ray lamp_at(uint index, surface s, REAL3 start, REAL3 direction, uint key)
     if (HAS_INVERSE_SQUARE)
         emission = (light.flags & LIGHT_INVERSE_SQUARE) != 0u ? emission / float(distance2) : emission;
     light_spot spot = light_spot(light.place, l, 1.0);
-    if (HAS_SOFT_LIGHT && (light.flags & LIGHT_EXTENT) != 0u) {
+    bool sky = is_sky(index);
+    if (HAS_SKY_LIGHT && sky) {
+        sky_spot seen = sky_at(point_key(key, POINT_SKY));
+        emission = seen.emission;
+        l = seen.l;
+        directional = true;
+    }
+    if (HAS_SOFT_LIGHT && (light.flags & LIGHT_EXTENT) != 0u && !sky) {
         spot = spot_of(index, light, s.point, l, distance2, key);
         l = spot.l;
         emission *= float(spot.share);
@@ -54,13 +62,15 @@ light_ray lamp_at(uint index, surface s, REAL3 start, REAL3 direction, uint key)
         ray.place = spot.place;
     if (HAS_SOFT_LIGHT)
         ray.direction = directional ? spot.l : spot.place - start;
+    if (HAS_SKY_LIGHT && sky)
+        ray.direction = l;
     return ray;
 }
 
 // `key`: of the ray that hit the surface; `index`: below light_end().
 light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction, uint key) {
     light_ray ray;
-    if (HAS_OCCLUSION && index >= frame.light_count)
+    if (HAS_OCCLUSION && index >= frame.light_count && !is_sky(index))
         ray = ambient_ray(s, start, key);
     else
         ray = lamp_at(index, s, start, direction, key);

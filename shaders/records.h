@@ -187,7 +187,8 @@
     REAL3(edge_u, 0, 0)       /* of a panel, whose middle is the light's place */                            \
     REAL(radius, 0, w, 1, zw) /* of a sphere */                                                              \
     REAL3(edge_v, 1, 2)                                                                                      \
-    REAL(gap, 1, w, 3, zw) /* of a disc: 1 - cosine of its half angle */                                     \
-    REAL3(outward, 2, 4)   /* of a panel: unit */
+    REAL(gap, 1, w, 3, zw)         /* of a disc: 1 - cosine of its half angle */                             \
+    REAL3(outward, 2, 4)           /* of a panel: unit */                                                    \
+    REAL(before_body, 2, w, 5, zw) /* of a sphere that a body has too: how far from it shadow rays end */
 
 #endif

@@ -47,7 +47,8 @@ const bool HAS_AMBIENT = (FEATURES & FEATURE_AMBIENT) != 0u;
 const bool HAS_OCCLUSION = (FEATURES & FEATURE_OCCLUSION) != 0u; // only with HAS_AMBIENT
 const bool HAS_EMISSION = (FEATURES & FEATURE_EMISSION) != 0u;
 const bool HAS_CAMERA = (FEATURES & FEATURE_CAMERA) != 0u;
-const bool HAS_PLACES = HAS_SOFT_LIGHT || HAS_OCCLUSION; // shadow rays know where they end
+const bool HAS_SKY_LIGHT = (FEATURES & FEATURE_SKY_LIGHT) != 0u;
+const bool HAS_PLACES = HAS_SOFT_LIGHT || HAS_OCCLUSION || HAS_SKY_LIGHT; // shadow rays know where they end
 const bool HAS_SIDES = HAS_MEDIA || HAS_FRESNEL; // surfaces know the indices on both sides
 const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;
 // Of this invocation, with HAS_COUNTERS.

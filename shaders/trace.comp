@@ -24,8 +24,8 @@
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
-#include "lights.glsl"
 #include "background.glsl"
+#include "lights.glsl"
 #include "bounce.glsl"
 #include "light/rough.glsl"
 #include "media.glsl"
@@ -36,6 +36,9 @@ layout(local_size_x = TILE_PIXELS, local_size_x_id = CONSTANT_WORKGROUP) in;
 
 // What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
 const uint SEGMENT_ITERATIONS = 9u + PAINT_ITERATIONS;
+
+// And looking for a light, of which the background needs two searches.
+const uint SKY_ITERATIONS = 33u;
 
 const uint PHASE_RAY = 0u;    // the path's ray must be traced
 const uint PHASE_HIT = 1u;    // it was traced before: only the surface must be made again
@@ -184,7 +187,7 @@ bool find_light(inout path_state p, surface s, ray_start start, inout light_ray 
     uint count = light_end() + OPAQUE_ZERO;
     bool found = false;
     while (p.light < count && !found && iterations < ITERATION_LIMIT) {
-        iterations++;
+        iterations += HAS_SKY_LIGHT ? SKY_ITERATIONS : 1u;
         shadow = light_at(p.light, s, start.at, p.direction, p.key);
         found = HAS_SHADOWS && wants(FEATURE_SHADOWS) && shadow.value != vec3(0.0);
         if (!(HAS_SHADOWS && wants(FEATURE_SHADOWS)))

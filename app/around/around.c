@@ -79,7 +79,7 @@ static void find_box(const struct around_input *in, struct frame *f) {
 
 // The camera that sees all of the mesh, in the middle of the picture.
 static void place_camera(const struct around_input *in, const struct ir_image *image, struct frame *f) {
-    const mat3 turn = transform_rotation((vec3){-ELEVATION, AZIMUTH, 0});
+    const mat3 turn = mat3_rotation((vec3){-ELEVATION, AZIMUTH, 0});
     const vec3 right = mat3_column(turn, 0), up = mat3_column(turn, 1), back = mat3_column(turn, 2);
     const double tall = tan(FOV / 2 * RADIAN);
     const double wide =
@@ -241,7 +241,7 @@ static void add_model(const struct around_input *in, struct ir_scene *scene) {
 }
 
 bool around_mesh(const struct around_input *in, struct ir_scene *out) {
-    struct frame f = {.turn = transform_rotation((vec3){stands_on_its_side(in->mesh) ? -90 : 0, 0, 0})};
+    struct frame f = {.turn = mat3_rotation((vec3){stands_on_its_side(in->mesh) ? -90 : 0, 0, 0})};
     find_box(in, &f);
     // A box is as exact as the numbers that say where it is.
     const double most = fmax(vec3_max_abs(f.lower), vec3_max_abs(f.upper));

@@ -38,7 +38,7 @@ static str take_out(struct planning *p, uint32_t image) {
         return STR("");
     picture_read_header(file.text, &header);
     if (header.kind == IMAGE_NONE) {
-        asset_report_named(&file, DIAG_IMAGE_KIND, "'%.*s' is not " IMAGE_IN_SCENE_NAMES,
+        asset_report_named(&file, DIAG_IMAGE_KIND, "'%.*s' is not a " IMAGE_IN_SCENE_NAMES " image",
                            STR_ARG(file.path));
         return STR("");
     }

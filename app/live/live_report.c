@@ -3,6 +3,10 @@
 #include "core/json_write.h"
 #include "core/strbuf.h"
 
+static bool has_picture(const struct live_report *report) {
+    return !report->is_broken && !report->is_view;
+}
+
 static const char *plural(uint32_t count) {
     return count == 1 ? "" : "s";
 }
@@ -20,7 +24,7 @@ void live_text(const struct live_report *report, struct strbuf *out) {
         strbuf_format(out, "%llu bytes written to the device\n", (unsigned long long)c->written.bytes);
     strbuf_format(out, "  read %.1f, assets %.1f, flatten %.1f, upload %.1f", 1e3 * c->read_seconds,
                   1e3 * c->assets_seconds, 1e3 * c->flatten_seconds, 1e3 * c->upload_seconds);
-    if (!report->is_broken)
+    if (has_picture(report))
         strbuf_format(out, ", frame %.1f, encode %.1f; all %.1f ms", 1e3 * report->frame->wall_seconds,
                       1e3 * report->encode_seconds, 1e3 * report->total_seconds);
     else
@@ -35,7 +39,7 @@ static void put_times(struct json_writer *w, const struct live_report *report) {
     json_write_real(w, "assets_s", c->assets_seconds);
     json_write_real(w, "flatten_s", c->flatten_seconds);
     json_write_real(w, "upload_s", c->upload_seconds);
-    if (!report->is_broken) {
+    if (has_picture(report)) {
         json_write_real(w, "frame_s", report->frame->wall_seconds);
         json_write_real(w, "encode_s", report->encode_seconds);
         json_write_real(w, "total_s", report->total_seconds);
@@ -47,10 +51,11 @@ void live_json(const struct live_report *report, struct strbuf *out) {
     const struct live_change *c = &report->live->change;
     struct json_writer w;
     json_writer_init(&w, out, 0);
-    json_open_report(&w, "glint render --watch", 1);
+    json_open_report(&w, report->is_view ? "glint view" : "glint render --watch", 1);
     json_write_integer(&w, "load", report->live->loads);
     json_write_boolean(&w, "broken", report->is_broken);
-    json_write_text(&w, "output", str_from(report->output));
+    if (!report->is_view)
+        json_write_text(&w, "output", str_from(report->output));
     json_write_boolean(&w, "whole", c->is_whole);
     json_write_integer(&w, "meshes_read", c->meshes_read);
     json_write_integer(&w, "images_read", c->images_read);
@@ -58,7 +63,7 @@ void live_json(const struct live_report *report, struct strbuf *out) {
     json_write_integer(&w, "trees_kept", c->trees_kept);
     json_write_integer(&w, "pipelines_made", c->pipelines_made);
     json_write_integer(&w, "bytes_written", c->written.bytes);
-    if (!report->is_broken) {
+    if (has_picture(report)) {
         json_write_integer(&w, "width", report->width);
         json_write_integer(&w, "height", report->height);
         json_write_integer(&w, "samples", report->frame->samples);

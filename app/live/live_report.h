@@ -11,6 +11,7 @@ struct strbuf;
 struct live_report {
     const struct live *live;
     bool is_broken;     // there is no new picture
+    bool is_view;       // of a window: without what is about a picture's file
     const char *output; // the picture's file
     uint32_t width, height;
     const struct render_statistics *frame;

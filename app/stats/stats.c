@@ -177,11 +177,11 @@ static void put_estimate(struct json_writer *w, const struct stats *s) {
     json_close_object(w);
 }
 
-static void put_features(struct json_writer *w, uint32_t mask) {
+static void put_features(struct json_writer *w, uint64_t mask) {
     json_open_list(w, "features");
     for (uint32_t i = 0; i < FEATURE_COUNT; i++)
-        if (mask & (1u << i))
-            json_write_text(w, NULL, str_from(feature_name(1u << i)));
+        if (mask & (UINT64_C(1) << i))
+            json_write_text(w, NULL, str_from(feature_name(UINT64_C(1) << i)));
     json_close_list(w);
 }
 

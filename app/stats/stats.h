@@ -18,7 +18,8 @@ struct stats {
     int32_t frames;
     struct render_statistics last;
     uint64_t scene_bytes, band_bytes, triangles, dropped, spheres;
-    uint32_t triangle_depth, features;
+    uint32_t triangle_depth;
+    uint64_t features;
     bool is_double;         // the precision that was used for tracing
     long peak_memory_bytes; // of the process
     char device[256];

@@ -61,7 +61,7 @@ static bool compile(struct original *o) {
     const float epsilon = (float)ldexp(EPSILON_SCENE, o->renderer->flat->scale_exponent);
     const bool texels = o->fetch == ORIGINAL_TEXELS;
     uint32_t constants[ORIGINAL_CONSTANTS] = {
-        [CONSTANT_FEATURES] = o->renderer->flat->features,
+        [CONSTANT_FEATURES] = (uint32_t)o->renderer->flat->features,
         [CONSTANT_TRIANGLE_STACK] = 1,
         [CONSTANT_SPHERE_STACK] = 1,
         [CONSTANT_BOXES] = o->box_count,

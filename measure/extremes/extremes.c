@@ -2,6 +2,7 @@
 #include "measure/extremes/extremes_parts.h"
 
 #include "core/clock.h"
+#include "core/parallel.h"
 #include "measure/hit_errors.h"
 #include "picture/metrics/metrics.h"
 #include "precision/precision.h"
@@ -9,8 +10,10 @@
 #include "tracer/render/render.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 const struct extreme_axis_info extreme_axes[EXTREME_AXES] = {
 #define X(NAME, name, title) {name, title},
@@ -25,6 +28,7 @@ const struct extreme_metric_info extreme_metrics[EXTREME_METRICS] = {
 };
 
 enum {
+    PIXELS_A_PIECE = 64,
     MOVES_AND_SCALES = 1u << EXTREME_MOVE | 1u << EXTREME_SCALE, // measured against the picture at rest too
 };
 
@@ -36,7 +40,8 @@ struct run {
     struct arena arena; // of the variant under way
     struct extreme_base base;
     struct arena base_arena;
-    struct variant base_variant;
+    struct variant base_variant, limit_variant;
+    uint32_t *taken;           // samples of the device's pixels, where they end by their error
     struct hit_pixel *hits[2]; // device, reference
     double *exact;
     float *rgb, *shown[2]; // the device's picture; displayed: device, reference
@@ -70,16 +75,27 @@ static enum extremes_status choose_precision(const struct run *run, const struct
     return EXTREMES_DONE;
 }
 
+static void show(const void *context, const float *linear, size_t pixels, float *shown) {
+    const struct variant *v = context;
+    image_to_displayed(linear, pixels, display_of(&v->ir), shown);
+}
+
 static enum extremes_status draw(struct run *run, const struct variant *v, const struct flat_scene *flat) {
     struct render_settings settings = render_settings_of(&v->scene, flat, run->input->limits);
     settings.width = v->width;
     settings.height = v->height;
-    settings.samples = 1;
+    settings.samples = v->samples;
+    settings.error = v->error;
+    settings.least_samples = v->min_samples;
+    settings.show = show;
+    settings.show_context = v;
     settings.alternative = run->input->alternative;
     struct render_statistics statistics;
     struct renderer *renderer = renderer_create(run->input->gpu, flat, &settings);
     bool good = renderer && renderer_hits(renderer, &v->view.camera, run->hits[0], NULL) == RENDER_DONE &&
                 renderer_render(renderer, &v->view.camera, run->rgb, NULL, &statistics) == RENDER_DONE;
+    if (good && v->error > 0)
+        memcpy(run->taken, renderer_estimate(renderer)->samples, pixels_of(run) * sizeof *run->taken);
     renderer_destroy(renderer);
     return good ? EXTREMES_DONE : EXTREMES_DEVICE;
 }
@@ -116,19 +132,49 @@ static enum extremes_status trace_device(struct run *run, const struct variant *
 
 // ---- the reference's side
 
+// The picture with as many samples of each pixel as the device took.
+struct taking {
+    const struct run *run;
+    const struct reference *reference;
+    struct reference_settings settings;
+    atomic_bool failed;
+};
+
+static void take_piece(void *context, size_t begin, size_t end) {
+    struct taking *t = context;
+    const uint32_t width = t->settings.width;
+    for (size_t i = begin; i < end; i++) {
+        struct reference_settings settings = t->settings;
+        settings.samples = t->run->taken[i];
+        if (!reference_pixel(t->reference, &settings, (uint32_t)(i % width), (uint32_t)(i / width),
+                             t->run->exact + 3 * i))
+            atomic_store(&t->failed, true);
+    }
+}
+
+static bool draw_reference(struct run *run, const struct variant *v, const struct reference *reference,
+                           const struct reference_settings *settings) {
+    struct reference_statistics statistics;
+    if (!(v->error > 0))
+        return reference_render(reference, settings, run->exact, NULL, &statistics) == REFERENCE_DONE;
+    struct taking taking = {.run = run, .reference = reference, .settings = *settings};
+    parallel_for(pixels_of(run), PIXELS_A_PIECE, take_piece, &taking);
+    return !atomic_load(&taking.failed);
+}
+
 static enum extremes_status trace_reference(struct run *run, const struct variant *v, bool with_picture) {
     const struct reference_input input = {.scene = &v->scene, .view = &v->view};
     struct ir_image image = v->ir.image;
     image.width = (int32_t)v->width;
     image.height = (int32_t)v->height;
-    image.samples = 1;
+    image.samples = (int32_t)v->samples;
+    image.error = v->error;
+    image.min_samples = (int32_t)v->min_samples;
     const struct reference_settings settings =
         reference_settings_of(&v->ir, &image, run->input->limits, true);
     struct reference *reference = reference_create(&input);
-    struct reference_statistics statistics;
     bool good = reference && reference_hits(reference, &settings, run->hits[1], NULL) == REFERENCE_DONE &&
-                (!with_picture ||
-                 reference_render(reference, &settings, run->exact, NULL, &statistics) == REFERENCE_DONE);
+                (!with_picture || draw_reference(run, v, reference, &settings));
     reference_destroy(reference);
     return good ? EXTREMES_DONE : EXTREMES_MEMORY;
 }
@@ -193,6 +239,28 @@ static enum extremes_status compare_paths(struct run *run, struct variant *v, st
     return status;
 }
 
+// The device's own picture of what the axis comes to; the cell's own is in shown[0].
+static enum extremes_status compare_limit(struct run *run, struct extreme_cell *cell) {
+    struct variant *v = &run->limit_variant;
+    struct measure_result result;
+    double value;
+    if (!extreme_limit(cell->axis, cell->value, &value))
+        return EXTREMES_DONE;
+    if (variant_make(v, &run->arena, &run->base, cell->axis, value))
+        return EXTREMES_DONE;
+    struct flat_input input = flat_input_of(run, v);
+    struct extreme_cell other = {.left_out = NULL};
+    input.is_double = cell->is_double;
+    const enum extremes_status status = trace_flattened(run, v, &input, &other);
+    if (status != EXTREMES_DONE || other.left_out)
+        return status;
+    image_to_displayed(run->rgb, pixels_of(run), display_of(&v->ir), run->shown[1]);
+    if (!measure(run, run->shown[0], run->shown[1], &result))
+        return EXTREMES_MEMORY;
+    cell->measured[EXTREME_LIMIT] = result.value[METRIC_SHARE];
+    return EXTREMES_DONE;
+}
+
 static void judge(const struct extremes_input *input, struct extreme_cell *cell) {
     for (uint32_t i = 0; i < input->bound_count; i++) {
         const struct extreme_bound *b = &input->bounds[i];
@@ -223,7 +291,9 @@ static enum extremes_status measure_cell(struct run *run, struct extreme_cell *c
     compare_hits(run, &v, cell);
     if (!compare_pictures(run, &v, cell))
         return EXTREMES_MEMORY;
-    status = compare_paths(run, &v, cell);
+    status = compare_limit(run, cell);
+    if (status == EXTREMES_DONE)
+        status = compare_paths(run, &v, cell);
     if (status == EXTREMES_DONE)
         judge(run->input, cell);
     return status;
@@ -312,7 +382,9 @@ static bool make_pictures(struct run *run) {
     }
     run->exact = heap_array(heap_times(3, count), sizeof *run->exact);
     run->rgb = heap_array(heap_times(3, count), sizeof *run->rgb);
-    return run->hits[0] && run->hits[1] && run->shown[0] && run->shown[1] && run->exact && run->rgb;
+    run->taken = heap_array(count, sizeof *run->taken);
+    return run->hits[0] && run->hits[1] && run->shown[0] && run->shown[1] && run->exact && run->rgb &&
+           run->taken;
 }
 
 static enum extremes_status measure_cells(struct run *run) {
@@ -344,6 +416,7 @@ static void finish(struct run *run) {
     }
     free(run->exact);
     free(run->rgb);
+    free(run->taken);
     free(run->rest);
     diag_sink_finish(&run->sink);
     arena_finish(&run->arena);

@@ -5,7 +5,7 @@
 #include <math.h>
 
 enum {
-    CELL_WIDTH = 70, // EXTREME_METRICS strips of 7
+    CELL_WIDTH = 77, // EXTREME_METRICS strips of 7
     CELL_HEIGHT = 30,
     STRIP_WIDTH = CELL_WIDTH / EXTREME_METRICS,
     COLUMN = CELL_WIDTH + 5,

@@ -18,6 +18,9 @@ struct variant {
     struct view view;
     uint32_t camera;
     uint32_t width, height;
+    uint32_t samples;
+    double error; // above 0: pixels end by it, once they have min_samples
+    uint32_t min_samples;
 };
 
 // What a variant is made from.
@@ -32,7 +35,8 @@ struct extreme_base {
 
 // The values of an axis; `values` has room for EXTREME_VALUES_MAX.
 enum {
-    EXTREME_VALUES_MAX = 16
+    EXTREME_VALUES_MAX = 16,
+    EXTREME_NESTED_MOST = 8,
 };
 uint32_t extreme_values(enum extreme_axis axis, double *values);
 
@@ -40,6 +44,9 @@ uint32_t extreme_values(enum extreme_axis axis, double *values);
 // variant.
 const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,
                          enum extreme_axis axis, double value);
+// Whether the value is so near the end of its axis that the picture is that of the limit, and then its value:
+// a radius of 0, say, which is a point.
+bool extreme_limit(enum extreme_axis axis, double value, double *limit);
 // The copy alone, with its view.
 void variant_copy(struct variant *v, struct arena *arena, const struct extremes_input *input);
 
@@ -53,5 +60,13 @@ void variant_show_background(struct variant *v);
 void probe_slivers(struct variant *v, const struct extreme_base *base, double aspect);
 void probe_coplanar(struct variant *v, const struct extreme_base *base, double shift);
 void probe_gap(struct variant *v, const struct extreme_base *base, double gap);
+// Balls of the first material that refracts, one in another. false: none does.
+bool probe_nested(struct variant *v, const struct extreme_base *base, uint32_t balls);
+
+// ---- extremes_light.c: lights with extent, lenses, paint, media, and pixels that end by their error
+
+// As variant_make, of an axis of these; the copy is made.
+const char *variant_change_light(struct variant *v, const struct extreme_base *base, enum extreme_axis axis,
+                                 double value);
 
 #endif

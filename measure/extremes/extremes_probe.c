@@ -2,6 +2,7 @@
 #include "measure/extremes/extremes_parts.h"
 
 #include <math.h>
+#include <string.h>
 
 enum {
     SECTORS_MAX = 1024, // of the disc: two triangles each
@@ -113,6 +114,7 @@ void probe_gap(struct variant *v, const struct extreme_base *base, double gap) {
     struct view_camera *camera = &v->view.camera;
     const double size = 2 * base->radius;
     v->scene.body_count = 0;
+    v->scene.background.lights = false;
     struct pose pose = {.center = base->center, .size = base->radius};
     pose.normal = vec3_unit((vec3){0.31, 0.87, 0.23});
     pose.right = vec3_unit(vec3_cross(pose.normal, (vec3){0.2, 0.1, 0.97}));
@@ -136,4 +138,34 @@ void probe_gap(struct variant *v, const struct extreme_base *base, double gap) {
     v->view.lights[1] = (struct view_light){.position = vec3_add(base->center, vec3_add(ahead, above)),
                                             .emission = {1, 1, 1},
                                             .index = IR_NO_INDEX};
+}
+
+// ---- balls
+
+// After the spheres that there are: tracers number spheres first, as the IR does.
+static struct scene_body *add_ball(struct variant *v, const uint32_t *material) {
+    struct scene_body *bodies = v->scene.bodies;
+    uint32_t at = 0;
+    while (at < v->scene.body_count && bodies[at].shape == SCENE_SPHERE)
+        at++;
+    memmove(bodies + at + 1, bodies + at, (v->scene.body_count - at) * sizeof *bodies);
+    v->scene.body_count++;
+    bodies[at] = (struct scene_body){
+        .head = &v->ir.head, .shape = SCENE_SPHERE, .closed = true, .materials = material, .group_count = 1};
+    return &bodies[at];
+}
+
+bool probe_nested(struct variant *v, const struct extreme_base *base, uint32_t balls) {
+    uint32_t glass = 0;
+    while (glass < v->scene.material_count && !(v->scene.materials[glass].refraction > 0))
+        glass++;
+    if (glass == v->scene.material_count)
+        return false;
+    const struct pose pose = before_camera(v, base);
+    const affine3 place = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, pose.center};
+    uint32_t *material = ARENA_ARRAY(v->arena, uint32_t, 1);
+    *material = glass;
+    for (uint32_t i = 0; i < balls; i++)
+        scene_body_place(add_ball(v, material), place, pose.size * (1 - (double)i / EXTREME_NESTED_MOST));
+    return true;
 }

@@ -13,6 +13,18 @@ static const double aspects[] = {1, 10, 100, 1e3, 1e4, 1e5, 1e6};
 static const double heights[] = {0, 1e-9, 1e-7, 1e-5, 1e-3, 0.1};
 static const double shifts[] = {0, 1e-3, 0.1, 0.37};
 static const double gaps[] = {0.1, 1e-2, 1e-3, 1e-4, 1e-5};
+static const double radii[] = {1e-9, 1e-2, 1, 100};
+static const double angles[] = {1e-9, 0.53, 30, 180};
+static const double apertures[] = {1e-9, 1e-3, 0.1, 1};
+static const double focuses[] = {1e-3, 1, 1e6, 1e9};
+static const double roughnesses[] = {1e-6, 1e-2, 0.3, 1};
+static const double densities[] = {1e-9, 1, 1e3, 1e9};
+static const double textures[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6};
+static const double reaches[] = {1e-9, 1e-2, 1, 1e9};
+static const double strengths[] = {1e-9, 1, 1e6};
+static const double nests[] = {2, EXTREME_NESTED_MOST};
+static const double errors[] = {1e-9, 0.01, 1};
+static const double leasts[] = {4, 16};
 
 #define VALUES(array)                                                                                        \
     { array, sizeof(array) / sizeof *(array) }
@@ -20,11 +32,28 @@ static const struct {
     const double *values;
     uint32_t count;
 } axis_values[EXTREME_AXES] = {
-    [EXTREME_MOVE] = VALUES(moves),         [EXTREME_SCALE] = VALUES(scales),
-    [EXTREME_DISTANCE] = VALUES(distances), [EXTREME_INDEX] = VALUES(indices),
-    [EXTREME_EXPONENT] = VALUES(exponents), [EXTREME_SLIVER] = VALUES(aspects),
-    [EXTREME_LIGHT] = VALUES(heights),      [EXTREME_CAMERA] = VALUES(heights),
-    [EXTREME_COPLANAR] = VALUES(shifts),    [EXTREME_GAP] = VALUES(gaps),
+    [EXTREME_MOVE] = VALUES(moves),
+    [EXTREME_SCALE] = VALUES(scales),
+    [EXTREME_DISTANCE] = VALUES(distances),
+    [EXTREME_INDEX] = VALUES(indices),
+    [EXTREME_EXPONENT] = VALUES(exponents),
+    [EXTREME_SLIVER] = VALUES(aspects),
+    [EXTREME_LIGHT] = VALUES(heights),
+    [EXTREME_CAMERA] = VALUES(heights),
+    [EXTREME_COPLANAR] = VALUES(shifts),
+    [EXTREME_GAP] = VALUES(gaps),
+    [EXTREME_LIGHT_RADIUS] = VALUES(radii),
+    [EXTREME_LIGHT_ANGLE] = VALUES(angles),
+    [EXTREME_APERTURE] = VALUES(apertures),
+    [EXTREME_FOCUS] = VALUES(focuses),
+    [EXTREME_ROUGHNESS] = VALUES(roughnesses),
+    [EXTREME_DENSITY] = VALUES(densities),
+    [EXTREME_TEXTURE] = VALUES(textures),
+    [EXTREME_OCCLUSION] = VALUES(reaches),
+    [EXTREME_EMISSION] = VALUES(strengths),
+    [EXTREME_NESTED] = VALUES(nests),
+    [EXTREME_ERROR_BOUND] = VALUES(errors),
+    [EXTREME_MIN_SAMPLES] = VALUES(leasts),
 };
 
 uint32_t extreme_values(enum extreme_axis axis, double *values) {
@@ -32,10 +61,31 @@ uint32_t extreme_values(enum extreme_axis axis, double *values) {
     return axis_values[axis].count;
 }
 
+// From where to where an axis is at its end, and the value that it comes to there.
+static const struct {
+    enum extreme_axis axis;
+    double from, to, limit;
+} limits[] = {
+    {EXTREME_LIGHT_RADIUS, 0, 1e-9, 0}, {EXTREME_LIGHT_ANGLE, 0, 1e-9, 0},
+    {EXTREME_APERTURE, 0, 1e-9, 0},     {EXTREME_FOCUS, 1e6, 1e9, 1e12},
+    {EXTREME_ROUGHNESS, 0, 1e-6, 0},    {EXTREME_DENSITY, 0, 1e-9, 0},
+    {EXTREME_TEXTURE, 0, 1e-6, 0},      {EXTREME_OCCLUSION, 0, 1e-9, 0},
+    {EXTREME_EMISSION, 0, 1e-9, 0},     {EXTREME_NESTED, 2, EXTREME_NESTED_MOST, 1},
+};
+
+bool extreme_limit(enum extreme_axis axis, double value, double *limit) {
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++)
+        if (limits[i].axis == axis && value >= limits[i].from && value <= limits[i].to) {
+            *limit = limits[i].limit;
+            return true;
+        }
+    return false;
+}
+
 // ---- copying
 
 enum {
-    ROOM_BODIES = 2 // that a probe may add
+    ROOM_BODIES = EXTREME_NESTED_MOST // that a probe may add
 };
 
 static void *copied(struct arena *arena, const void *items, size_t count, size_t size, size_t room) {
@@ -78,7 +128,8 @@ void variant_copy(struct variant *v, struct arena *arena, const struct extremes_
                           .scene = *from,
                           .camera = input->camera,
                           .width = input->width,
-                          .height = input->height};
+                          .height = input->height,
+                          .samples = 1};
     v->ir.cameras.items = copied(arena, cameras->items, cameras->count, sizeof *cameras->items, 0);
     v->ir.lights.items = copied(arena, lights->items, lights->count, sizeof *lights->items, 0);
     v->scene.ir = &v->ir;
@@ -244,8 +295,8 @@ const char *variant_make(struct variant *v, struct arena *arena, const struct ex
     case EXTREME_GAP:
         probe_gap(v, base, value);
         break;
-    case EXTREME_AXES:
-        break;
+    default:
+        return variant_change_light(v, base, axis, value);
     }
     return NULL;
 }

@@ -63,6 +63,8 @@ static enum tradeoff_status try_row(struct measuring *s, const struct row *plann
 
 // ---- before the rows
 
+// With the file's error even where pixels do not end by it: rows that say how many samples there are switch
+// it off.
 static struct setting file_setting(const struct tradeoff_input *in) {
     const struct ir_trace *trace = &in->scene->ir->trace;
     return (struct setting){.width = (uint32_t)in->image->width,
@@ -70,6 +72,8 @@ static struct setting file_setting(const struct tradeoff_input *in) {
                             .samples = (uint32_t)in->image->samples,
                             .max_depth = (uint32_t)trace->max_depth,
                             .min_weight = trace->min_weight,
+                            .error = in->scene->ir->image.error,
+                            .min_samples = (uint32_t)in->image->min_samples,
                             .is_double = in->is_double,
                             .shadows = trace->shadows};
 }
@@ -119,12 +123,14 @@ static enum tradeoff_status run_rows(struct measuring *s) {
         status = TRADEOFF_CANCELLED;
     if (status == TRADEOFF_DONE)
         status = ground_truth_make(s, &own.work, tradeoff_bounces(s));
-    const struct plan_input input = {.base = s->base,
-                                     .bounces = tradeoff_bounces(s),
-                                     .deepest = own.work.deepest,
-                                     .knows_double = gpu_info(s->input->gpu)->has_double,
-                                     .has_triangles = s->flat[s->base.is_double].triangle_count > 0,
-                                     .most_samples = s->out->ground_truth_samples / 2};
+    const struct plan_input input = {
+        .base = s->base,
+        .bounces = tradeoff_bounces(s),
+        .deepest = own.work.deepest,
+        .knows_double = gpu_info(s->input->gpu)->has_double,
+        .has_triangles = s->flat[s->base.is_double].triangle_count > 0,
+        .most_samples = s->out->ground_truth_samples / 2,
+        .parts = without_parts(s->flat[s->base.is_double].features, &s->input->view->camera)};
     const uint32_t count = status == TRADEOFF_DONE ? plan_single(&input, planned) : 0;
     s->steps = 1 + count + PAIRS_MOST + TIMES_ROUNDS_MOST; // the reference is the first
     for (uint32_t i = 0; i < count && status == TRADEOFF_DONE; i++) {
@@ -137,6 +143,29 @@ static enum tradeoff_status run_rows(struct measuring *s) {
     }
     free(planned);
     return status == TRADEOFF_DONE ? run_pairs(s) : status;
+}
+
+// ---- how errors fall with samples
+
+static bool is_of_samples(const struct row *row) {
+    return !(row->knobs & ~(1u << KNOB_SAMPLES | 1u << KNOB_ERROR)) && !setting_ends_pixels(&row->setting) &&
+           row->value[METRIC_MAE] > 0;
+}
+
+// Least squares over the logarithms.
+static double slope_of(const struct tradeoff *t) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (uint32_t i = 0; i < t->count; i++) {
+        if (!is_of_samples(&t->rows[i]))
+            continue;
+        const double a = log(t->rows[i].setting.samples), b = log(t->rows[i].value[METRIC_MAE]);
+        n++;
+        x += a;
+        y += b;
+        xx += a * a;
+        xy += a * b;
+    }
+    return n >= 3 ? (n * xy - x * y) / (n * xx - x * x) : (double)NAN;
 }
 
 // ---- the choice
@@ -210,9 +239,11 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
         status = times_measure(s);
     if (status == TRADEOFF_DONE)
         status = choose(study);
+    study->slope = slope_of(study);
     study->seconds = measuring_seconds(s);
     device_close(s);
     parts_close(s);
+    without_close(s);
     search_close(s);
     for (int i = 0; i < 2; i++) {
         reference_source_finish(&s->source[i]);
@@ -221,6 +252,7 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
     free(s->ground_truth);
     free(s->shown);
     free(s->picture);
+    free(s->taken);
     free(s);
     return status;
 }

@@ -122,6 +122,9 @@ static void check_projection(const struct rules *rules, const struct ir_camera *
     diag_help(rules->sink, "write a smaller 'fov', or projection: fisheye, which shows up to 360 degrees");
 }
 
+// Nearer to a right angle with the view, as a cosine, rounding decides which side a point is on.
+#define FOCUS_LEAST 1e-12
+
 // What a lens is focused on, once the view is known.
 static void check_focus(const struct rules *rules, const struct ir_camera *camera, vec3 view) {
     const struct schema_element *schema = &SCHEMA_CAMERA;
@@ -133,7 +136,7 @@ static void check_focus(const struct rules *rules, const struct ir_camera *camer
         is_poisoned(schema, camera, "focus_at") || is_poisoned(schema, camera, "position"))
         return;
     const vec3 way = vec3_sub(camera->focus_at, camera->position);
-    if (by_point && (all_round ? !vec3_is_zero(way) : vec3_dot(way, view) > 0))
+    if (by_point && (all_round ? !vec3_is_zero(way) : vec3_dot(way, view) > FOCUS_LEAST * vec3_length(way)))
         return;
     if (by_point) {
         diag_add(rules->sink, DIAG_NO_FOCUS, value_place(rules, schema, camera, "focus_at"),
@@ -147,17 +150,9 @@ static void check_focus(const struct rules *rules, const struct ir_camera *camer
     }
 }
 
-// -z turned about x, then y, then z.
-static vec3 turned_view(vec3 degrees) {
-    const double degree = 0.017453292519943295769;
-    const double x = degrees.x * degree, y = degrees.y * degree, z = degrees.z * degree;
-    const vec3 tilted = {-cos(x) * sin(y), sin(x), -cos(x) * cos(y)};
-    return (vec3){tilted.x * cos(z) - tilted.y * sin(z), tilted.x * sin(z) + tilted.y * cos(z), tilted.z};
-}
-
 static void check_rotated(const struct rules *rules, const struct ir_camera *camera) {
     const struct schema_element *schema = &SCHEMA_CAMERA;
-    check_focus(rules, camera, turned_view(camera->rotation));
+    check_focus(rules, camera, vec3_neg(mat3_column(mat3_rotation(camera->rotation), 2)));
     if (!is_written(schema, camera, "up"))
         return;
     diag_add(rules->sink, DIAG_UP_WITH_ROTATION, ir_place_key(rules->origin, &camera->head, schema, "up"),

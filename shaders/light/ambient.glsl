@@ -12,16 +12,23 @@ vec3 own_light(surface s) {
     return sum;
 }
 
-// Numbers of the lights, and past them that of ambient light: what a surface sends shadow rays to.
-uint light_end() { return frame.light_count + (is_occluded() ? 1u : 0u); }
+// Numbers of the lights, and past them those of ambient light and the background: what a surface sends shadow rays to.
+uint light_end() {
+    uint end = frame.light_count + (is_occluded() ? 1u : 0u);
+    if (HAS_SKY_LIGHT)
+        end += frame.sky_rows > OPAQUE_ZERO ? 1u : 0u;
+    return end;
+}
+bool is_sky(uint index) { return HAS_SKY_LIGHT && frame.sky_rows > OPAQUE_ZERO && index + 1u == light_end(); }
 
 // A direction of the hemisphere, by its cosine (Malley's method; Pharr et al. 2016, section 13.6.3), as far as `occlusion`.
 light_ray ambient_ray(surface s, REAL3 start, uint ray_key) {
     REAL2 at = disc_point(point_at(point_key(ray_key, POINT_AMBIENT)));
     REAL3 l = turned_to(s.shading, at, sqrt(max(1.0 - dot3(REAL3(at, 0.0), REAL3(at, 0.0)), 0.0)));
     light_ray ray;
-    ray.place = s.point + l * frame.occlusion;
-    ray.direction = ray.place - start;
+    // Not from place to place: where it is short beside the coordinates, rounding of them would turn it.
+    ray.direction = l * frame.occlusion;
+    ray.place = start + ray.direction;
     ray.t_max = 1.0;
     ray.value = vec3(0.0);
     if (HAS_DIFFUSE)

@@ -38,8 +38,11 @@ light_spot spot_of(uint index, light_record light, REAL3 point, REAL3 l, REAL di
         spot.share = 2.0 / (2.0 - gap);
         // Where the sphere is hit; from inside it, on the far side.
         REAL beside2 = distance2 * lacks * (2.0 - lacks);
-        REAL deep = sqrt(max(radius2 - beside2, 0.0)), middle = sqrt(distance2) * (1.0 - lacks);
+        // Where a body has the same sphere, in front of that, by what rounding of the sphere and of a long ray may be.
+        REAL reach = inside ? extent.radius - extent.before_body : extent.radius + extent.before_body;
+        REAL deep = sqrt(max(reach * reach - beside2, 0.0)), middle = sqrt(distance2) * (1.0 - lacks);
         REAL t = inside ? middle + deep : middle - deep;
+        t -= t * (extent.before_body > 0.0 ? 1.9073486328125e-6 : 0.0);
         if (!disc)
             spot.place = point + spot.l * t;
     }

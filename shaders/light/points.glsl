@@ -10,6 +10,14 @@ const bool HAS_POINTS = (FEATURES & FEATURE_POINTS) != 0u;
 uvec2 point_pixel = uvec2(0u);
 uint point_sample = 0u;
 
+// Where what has the key is sampled: all bits of it, of a picture of one sample too, which then looks grainy.
+uvec2 point_bits_at(uint key) {
+    uint bits = POINT_BITS;
+    uint seed = point_seed(key, point_sample, bits);
+    uint order = point_order(point_place(point_pixel.x, point_pixel.y, point_sample, bits), seed);
+    return uvec2(point_first(order, seed), point_second(order, seed));
+}
+
 // Where what has the key is sampled. Both in 0..1; the middle where the picture has one sample a pixel.
 vec2 point_at(uint key) {
     uint bits = POINT_BITS;

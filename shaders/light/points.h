@@ -38,6 +38,7 @@ static inline uint32_t point_reverse(uint32_t x) {
 #define POINT_REFRACTED 2u
 #define POINT_LENS      3u
 #define POINT_AMBIENT   4u
+#define POINT_SKY       5u  /* of a background that lights */
 #define POINT_PIXEL     6u  /* the place in the pixel, where pixels end by their error */
 #define POINT_ROUGH     7u  /* a facet of the surface that it hits */
 #define POINT_LIGHT     16u /* and from here on the lights */

@@ -73,20 +73,21 @@ struct result {
 
 static bool draw(struct study *s, const struct render_settings *settings, struct result *out) {
     struct render_statistics statistics;
+    const size_t pixels = (size_t)settings->width * settings->height; // at most PIXELS
     struct renderer *renderer = renderer_create(s->kit.gpu, &s->flat, settings);
     const bool good = renderer && renderer_render(renderer, &s->view.camera, &out->shown[0][0], NULL,
                                                   &statistics) == RENDER_DONE;
     if (good && settings->error > 0) {
         const struct render_estimate *estimate = renderer_estimate(renderer);
-        memcpy(out->error, estimate->error, sizeof out->error);
-        memcpy(out->samples, estimate->samples, sizeof out->samples);
+        memcpy(out->error, estimate->error, pixels * sizeof *out->error);
+        memcpy(out->samples, estimate->samples, pixels * sizeof *out->samples);
         out->mean = estimate->mean;
         out->most = estimate->most;
     }
-    out->samples_mean = good ? (double)statistics.all_samples / PIXELS : 0;
+    out->samples_mean = good ? (double)statistics.all_samples / (double)pixels : 0;
     renderer_destroy(renderer);
     if (good)
-        show(&s->display, &out->shown[0][0], PIXELS, &out->shown[0][0]);
+        show(&s->display, &out->shown[0][0], pixels, &out->shown[0][0]);
     return good;
 }
 
@@ -199,12 +200,15 @@ static void compare_cuts(struct study *s, const char *path) {
     struct render_settings settings = settings_of(s);
     settings.error = BOUND;
     settings.samples = 64;
+    // Small, but of tiles in lines and columns that bands and dispatches cut.
+    settings.width = 5 * SIDE;
+    settings.height = 4 * SIDE + SIDE / 2;
     bool good = draw(s, &settings, &whole);
     for (uint32_t i = 0; good && i < 3; i++) {
         struct render_settings other = settings;
         other.workgroup = i == 0 ? 8 : 0;
         other.band_tiles = i == 1 ? 5 : 0;
-        other.dispatch_paths = i == 2 ? 1000 : 0;
+        other.dispatch_paths = i == 2 ? 256 : 0;
         good = draw(s, &other, &cut);
         expect(s, good && memcmp(&whole, &cut, sizeof whole) == 0, path,
                i == 0   ? "is the same in other workgroups"

@@ -310,6 +310,77 @@ static void check_glow(struct analytic *a, const char *precision) {
     analytic_check(a, &picture);
 }
 
+// ---- scenes that must look the same
+
+static void check_same(struct analytic *a, const char *name, const char *precision, const char *one,
+                       const char *other) {
+    struct image images[2] = {{0}};
+    float off = 0, most = 0;
+    bool good = true;
+    for (int i = 0; i < 2; i++) {
+        char text[TEXT];
+        snprintf(text, sizeof text, "trace: {precision: %s}\nbackground: {color: 0}\n%s", precision,
+                 i ? other : one);
+        const struct analytic_picture picture = {.name = name,
+                                                 .scene = text,
+                                                 .camera = {{0, 2, 5}, {0, -0.7, -1}, {0, 0, 0}, 40},
+                                                 .width = 32,
+                                                 .height = 24,
+                                                 .samples = 16};
+        good = analytic_take(a, &picture, &images[i]) && good;
+    }
+    for (int i = 0; good && i < 3 * 32 * 24; i++) {
+        off = fmaxf(off, fabsf(images[0].rgb[i] - images[1].rgb[i]));
+        most = fmaxf(most, images[0].rgb[i]);
+    }
+    for (int i = 0; i < 2; i++)
+        image_finish(&images[i]);
+    analytic_expect(a, good && off < 1e-4F && most > 0.1F, name, "the pictures differ, or are black");
+}
+
+#define FLOOR "rectangles:\n  - {corner: [-9, 0, 9], edge_u: [18, 0, 0], edge_v: [0, 0, -18]}\n"
+
+// A body with the very surface of a light is never in its way: the lamps are above what the camera sees.
+static void check_lamps(struct analytic *a, const char *precision) {
+    static const char panel[] = "lights:\n  - {rectangle: {corner: [-1.3, 4, -1.1], edge_u: [2.7, 0, 0.1], "
+                                "edge_v: [0, 0, 2.3]}}\n" FLOOR;
+    static const char ball[] = "lights:\n  - {position: [1.7, 4.1, 0.3], radius: 0.37}\n" FLOOR;
+    char with[TEXT];
+    snprintf(
+        with, sizeof with,
+        "%s  - {corner: [-1.3, 4, -1.1], edge_u: [0, 0, 2.3], edge_v: [2.7, 0, 0.1], material: {emission: "
+        "1}}\n",
+        panel);
+    check_same(a, "a panel that is seen", precision, panel, with);
+    snprintf(with, sizeof with,
+             "%sspheres:\n  - {center: [1.7, 4.1, 0.3], radius: 0.37, material: {emission: 1}}\n", ball);
+    check_same(a, "a ball that is seen", precision, ball, with);
+}
+
+// However far away a lamp is, it has the extent that it is seen with.
+static void check_far(struct analytic *a, const char *precision) {
+    static const char ball[] = FLOOR "spheres:\n  - {center: [0, 0.5, 0], radius: 0.4}\n";
+    char far[TEXT], farther[TEXT];
+    snprintf(far, sizeof far, "lights:\n  - {position: [1e6, 4e6, 2e6], radius: 1e6}\n%s", ball);
+    snprintf(farther, sizeof farther, "lights:\n  - {position: [1e16, 4e16, 2e16], radius: 1e16}\n%s", ball);
+    check_same(a, "a lamp as far as the stars", precision, far, farther);
+    snprintf(
+        far, sizeof far,
+        "lights:\n  - {rectangle: {corner: [1e6, 4e6, 2e6], edge_u: [1e6, 0, 0], edge_v: [0, 0, 1e6]}}\n%s",
+        ball);
+    snprintf(farther, sizeof farther,
+             "lights:\n  - {rectangle: {corner: [1e16, 4e16, 2e16], edge_u: [1e16, 0, 0], edge_v: [0, 0, "
+             "1e16]}}\n%s",
+             ball);
+    check_same(a, "a panel as far as the stars", precision, far, farther);
+}
+
+// Nothing is that near to the floor.
+static void check_short_occlusion(struct analytic *a, const char *precision) {
+    check_same(a, "occlusion as short as rounding", precision,
+               "ambient: {color: 0.5, occlusion: 1e-5}\n" FLOOR, "ambient: {color: 0.5}\n" FLOOR);
+}
+
 int main(int argc, char **argv) {
     struct analytic a;
     int code = analytic_open(&a, argc, argv);
@@ -322,6 +393,12 @@ int main(int argc, char **argv) {
     check_corner(&a, "double");
     check_glow(&a, "single");
     check_glow(&a, "double");
+    static const char *const precisions[] = {"single", "double"};
+    for (int i = 0; i < 2; i++) {
+        check_lamps(&a, precisions[i]);
+        check_far(&a, precisions[i]);
+        check_short_occlusion(&a, precisions[i]);
+    }
     check_against_random(&a);
     return analytic_close(&a);
 }

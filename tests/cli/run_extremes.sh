@@ -1,7 +1,8 @@
 #!/bin/sh
 # glint extremes as a user sees it.
-# Usage: run_extremes.sh GLINT SOURCE_FOLDER WORK_FOLDER [whole | SCENE...]
-# whole: more of the axes, and studies of what can be wrong. With scenes: each at the default bounds, small, all axes.
+# Usage: run_extremes.sh GLINT SOURCE_FOLDER WORK_FOLDER [whole | light | SCENE...]
+# whole: more of the axes, and studies of what can be wrong. light: the axes of what light does. With scenes: each at the
+# default bounds, small, the other axes.
 . "$(dirname -- "$0")/lib.sh"
 shift 3
 
@@ -11,9 +12,44 @@ shift 3
 }
 
 mode=${1-}
+if [ "$mode" = light ]; then
+    # Each axis on what has it and little else: most of the time goes into kernels.
+    cat >plain.yaml <<'END'
+glint: 1
+image: {width: 64, height: 48}
+camera: {position: [0.3, 1.1, 5.2], look_at: [0.1, 0.2, 0]}
+background: {color: [0.2, 0.3, 0.4]}
+lights: [{position: [3.1, 5.3, 2.7]}, {direction: [0.4, -1, -0.3], intensity: 0.4}]
+materials:
+  floor: {diffuse_color: {checker: {colors: [0.8, 0.2], size: 0.3}}}
+spheres: [{center: [0.11, 0.83, 0.07], radius: 0.8}]
+rectangles: [{corner: [-4, 0, 4], edge_u: [8, 0, 0], edge_v: [0, 0, -8], material: floor}]
+END
+    cat >glass.yaml <<'END'
+glint: 1
+camera: {position: [0.3, 1.1, 5.2], look_at: [0.1, 0.2, 0]}
+background: {color: [0.2, 0.3, 0.4]}
+trace: {max_depth: 6}
+lights: [{direction: [0.4, -1, -0.3]}]
+materials:
+  glass: {albedo: [0, 0.5, 0.1, 0.8], refractive_index: 1.5}
+spheres: [{center: [0.11, 0.83, 0.07], radius: 0.8, material: glass}]
+rectangles: [{corner: [-4, 0, 4], edge_u: [8, 0, 0], edge_v: [0, 0, -8]}]
+END
+    expect "what light does, at its ends" 0 ' 0 left out, 0 broken, ' '' "$glint" extremes plain.yaml --size 48x36 -q \
+        --axis light_radius,light_angle,aperture,focus,texture,occlusion,emission,error,min_samples
+    # radius, angle, aperture, focus twice, texture twice, occlusion, emission
+    ok "each is its limit there" test "$(grep -cE ' 0\.00[0-9]*  *$' out.txt)" -eq 9
+    expect "rough glass, coloured glass and balls in balls" 0 ' 0 left out, 0 broken, ' '' \
+        "$glint" extremes glass.yaml --size 48x36 -q --axis roughness,density,nested
+    ok "as well" test "$(grep -cE ' 0\.00000 *$' out.txt)" -eq 4
+    expect "an axis that the scene lacks" 0 'left out: no material reflects or refracts' '' "$glint" extremes plain.yaml --size 24x18 -q --axis roughness
+    exit $failed
+fi
 if [ $# -gt 0 ] && [ "$mode" != whole ]; then
     for scene; do
-        expect "$scene keeps the default bounds" 0 ' 0 broken, ' '' "$glint" extremes "$source/$scene" --size 96x72 -q
+        expect "$scene keeps the default bounds" 0 ' 0 broken, ' '' "$glint" extremes "$source/$scene" --size 96x72 -q \
+            --axis move,scale,distance,index,exponent,sliver,light,camera,coplanar,gap
     done
     exit $failed
 fi

@@ -29,6 +29,33 @@ cmp -s one.png option.png && pass 'threads change no byte' || fail 'threads chan
 "$glint" render "$scene" --size 64x48 --samples 16 -q -o plain.png
 "$glint" render "$scene" --size 64x48 --samples 16 --set image.error=0.02 -q -o few.png
 cmp -s plain.png few.png && pass 'with few samples all pixels take them' || fail 'with few samples all pixels take them'
+expect 'filters are as wide as the reference has them' 0 - '0 % of the pixels are off' "$glint" render \
+    "$source/scenes/elements/images.glint.yaml" --size 64x48 --noise 0.02 --samples 32 --max-off 0 -o audited.png
+
+# What a pixel sees of a surface depends on how many samples share it: device and reference agree about those.
+printf '%s\n' 'glint: 1' 'camera: {position: [0, 1, 3], look_at: [0, 0, 0]}' 'background: {color: 0.3}' \
+    'lights: [{position: [2, 3, 2], radius: 1}]' \
+    'rectangles: [{corner: [-200, -1, 20], edge_u: [400, 0, 0], edge_v: [0, 0, -400], material: {diffuse_color:' \
+    '  {checker: {size: 1, colors: [1, 0], antialias: true}}}}]' >floor.yaml
+expect 'where pixels end by their error' 0 - '^glint: 0 % of the pixels are off' "$glint" render floor.yaml \
+    --size 48x36 --samples 256 --noise 0.01 --audit -o floor.png
+expect 'where a time ends the picture' 0 - '^glint: 0 % of the pixels are off' "$glint" render floor.yaml \
+    --size 48x36 --samples 64 --time 0.001 --audit -o floor.png
+
+# Of a pixel that is not finite nothing is known: more glass around a ray than it can tell apart, in the middle.
+{
+    printf '%s\n' 'glint: 1' 'camera: {position: [0, 0, 5]}' 'lights: [{position: [2, 3, 4]}]' \
+        'materials: {glass: {albedo: [0.2, 0, 0, 0.8], refractive_index: 1.1}}' 'spheres:'
+    for radius in 1 0.95 0.9 0.85 0.8 0.75 0.7 0.65 0.6 0.55; do
+        echo "  - {center: [0, 0, 0], radius: $radius, material: glass}"
+    done
+} >nested.yaml
+expect 'pixels that are not finite are left out' 1 - 'standard error [0-9.]* .*, without [1-9][0-9]* that are not finite' \
+    "$glint" render nested.yaml --size 24x16 --samples 64 --noise 0.02 --aov error -o nested.png
+tail -c 4608 nested.error.pfm | od -An -v -tx4 | tr -s ' ' '\n' | grep -q '^[7f]fc' && pass 'their error is not a number' ||
+    fail 'their error is not a number'
+expect 'an aperture of any size is finite' 0 - 'standard error [0-9.e-]* of' \
+    "$glint" render "$scene" --size 24x16 --samples 64 --noise 0.02 --set camera.aperture=1e18 --set camera.focus=4 -o wide.png
 
 # An error that ends no pixel is never passed over in silence.
 render() { "$glint" render "$scene" --size 64x48 -o unused.png "$@"; }

@@ -47,6 +47,12 @@ if [ -z "$mode" ]; then
     # The reference's share of the budget grows with the processors.
     expect "a truth cut short, whatever the depth of the file" 0 'allowed the reference only [0-9]+ rays per sample; those' - \
         "$glint" tradeoff small.yaml -q --budget 1 --size 80x60 --samples $((8 * $(nproc))) --set trace.max_depth=0
+    # What light does: the little budget leaves only the first rows; the whole studies have all.
+    expect "a file whose pixels end by their error" 0 '^  0 .*as the file says' - "$glint" tradeoff small.yaml -q --budget 1 \
+        --set image.error=0.05 --set image.min_samples=4 --samples 16
+    expect "a search says how many samples there are" 0 - 'image.error=0' "$glint" render small.yaml --max-error flip=0.5 \
+        --set image.error=0.02 --set image.samples=64 --size 20x15 -o chosen.png
+    expect "and its choice has no finding" 1 - - grep -q W429 err.txt
     expect "both bounds" 0 '^cheapest that fits both' - \
         "$glint" tradeoff small.yaml -q --budget 1 --max-error flip=0.9 --max-time 100000
     expect "nothing fits" 1 '"misses_by"' - "$glint" tradeoff small.yaml -q --max-error mae=0 --budget 1 --format json
@@ -122,8 +128,10 @@ falls() {
         END { exit bad || count < 3 }' "$3"
 }
 
+cp small.yaml whole.yaml
+echo 'ambient: {color: 0.2, occlusion: 3}' >>whole.yaml
 expect "a study as CSV, and its report" 0 '^0,"as the file says",1' - \
-    "$glint" tradeoff small.yaml -q --budget 1000 --format csv -o report.html
+    "$glint" tradeoff whole.yaml -q --budget 1000 --format csv -o report.html
 cp out.txt study.csv
 expect "the report is one file" 0 '<svg.*time against error' - cat report.html
 expect "with pictures inside" 0 'src="data:image/png;base64,iVBOR' - cat report.html
@@ -132,6 +140,20 @@ for row in 'max_depth 0' 'min_weight 0\.1' 'samples 4' 'shadows off' '12 x 8' 'g
     'study: offset 1e-3' 'study: offset by distance' 'study: moeller-trumbore'; do
     expect "a row of $row" 0 "^[0-9]+,\"$row\"" - cat study.csv
 done
+for row in 'occlusion off",1' 'error 0\.02 by 4 to 8 samples",1'; do
+    expect "a row of $row" 0 "^[0-9]+,\"$row" - cat study.csv
+done
+expect "none of what the scene does not have" 1 - - grep -qE '"[^"]*(transparent|extent|pinhole|roughness|filter)' study.csv
+expect "some of the front end pixels by their error" 0 '^[0-9]+,"error [^"]*",1,1' - cat study.csv
+# The reference knows how many samples each pixel took.
+expect "the numeric part of these is rounding" 0 - - awk -F, -v n="$(column numeric study.csv)" '
+    $2 ~ /^"error/ { rows++; if ($n > 0.0005) { print $2, $n; bad = 1 } }
+    END { exit bad || rows < 5 }' study.csv
+expect "what is left out is truncated" 0 - - awk -F, -v n="$(column truncation study.csv)" '
+    $2 == "\"as the file says\"" { own = $n }
+    $2 == "\"occlusion off\"" && $n > 10 * own { good = 1 }
+    END { exit !good }' study.csv
+
 expect "pairs" 0 '^[0-9]+,"[a-z_]+ [0-9.]+, ' - cat study.csv
 expect "what is truncated falls along max_depth" 0 - - falls max_depth truncation study.csv
 expect "and along min_weight" 0 - - falls min_weight truncation study.csv

@@ -52,8 +52,9 @@ kernels=$(ours '^shaders/.*\.(glsl|comp)$')
         if (target ~ /^(jpeglib|jerror)\.h/) return path ~ /^(picture|bench|tests\/unit\/picture|tests\/analytic)\//
         if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
         if (target ~ /^minizip/) return path ~ /^app\/pack\/pack_zip/
-        if (target ~ /^(GLFW|X11|wayland)/) return path ~ /^viewer\//
         if (target ~ /^cmocka/) return path ~ /^tests\//
+        if (target ~ /^GLFW\//) return path == "view/window.c"
+        if (target ~ /^X11\//) return path ~ /^tests\/live\//
         if (target ~ /^pthread/) return path ~ /^(core|tests)\//
         return !(folder(target) in rooms)
     }

@@ -1,5 +1,5 @@
 # What tests of commands that go on share: to be sourced after tests/cli/lib.sh. A command runs as $process; its standard
-# output, a line of JSON for each load, goes to loads.json, and its messages to said.txt.
+# output, with a line of JSON for each load, goes to loads.json, and its messages to said.txt.
 
 # begin command...
 begin() {
@@ -14,9 +14,9 @@ begin() {
 # load: waits for the next line, which is then in load.json; false: none came, or the command has ended.
 load() {
     for _ in $(seq 600); do
-        if [ "$(wc -l <loads.json)" -gt "$seen" ]; then
+        if [ "$(grep -c '^{' loads.json)" -gt "$seen" ]; then
             seen=$((seen + 1))
-            sed -n "${seen}p" loads.json >load.json
+            grep '^{' loads.json | sed -n "${seen}p" >load.json
             return 0
         fi
         kill -0 "$process" 2>/dev/null || break
@@ -48,7 +48,7 @@ loaded() {
 # unloaded NAME: nothing more was loaded than what the test has waited for.
 unloaded() {
     sleep 0.5
-    if [ "$(wc -l <loads.json)" -eq "$seen" ]; then
+    if [ "$(grep -c '^{' loads.json)" -eq "$seen" ]; then
         pass "$1"
     else
         fail "$1"

@@ -109,7 +109,7 @@ static void completes_attributes(void **state) {
         {"main.xml", "<Scene glint=\"1\"><!-- <Camera> --><Sphere radius=\"1\"><|", "Center",
          "Center x=\"0\" y=\"1\" z=\"0\"/>", "Sphere"},
         {"main.xml", "<Scene glint=\"1\"><Sphere radius=\"1\"/><|", "Light",
-         "Light name=\"sun\" radius=\"0.5\" angle=\"0\" intensity=\"1.5\"><Position x=\"-20\" y=\"20\" "
+         "Light name=\"sun\" intensity=\"1.5\"><Position x=\"-20\" y=\"20\" "
          "z=\"20\"/><Color r=\"1\" "
          "g=\"0.9\" b=\"0.8\"/></Light>",
          "Center"},

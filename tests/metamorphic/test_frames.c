@@ -199,7 +199,7 @@ static void test_followed(struct frames *f) {
     struct render_statistics statistics;
     if (!open_stage(f, &stage, 320, 240, 2))
         return;
-    stage.shot.settings.features &= ~(uint32_t)(FEATURE_REFLECTION | FEATURE_REFRACTION);
+    stage.shot.settings.features &= ~(FEATURE_REFLECTION | FEATURE_REFRACTION);
     bool good = apply(&stage) && take(&stage, &whole, &statistics) && statistics.slices == 0;
     expect(f, good && picture_variety(&whole) > 1000, "a picture without bounces, by one kernel");
     for (size_t i = 0; i < sizeof cases / sizeof *cases && good; i++) {

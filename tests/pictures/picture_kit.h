@@ -7,7 +7,7 @@
 // What a test changes against what the scene asks for.
 struct picture_options {
     int32_t width, height, samples; // 0: the scene's
-    uint32_t more_features;         // FEATURE_ bits compiled in beside those needed
+    uint64_t more_features;         // FEATURE_ bits compiled in beside those needed
     bool has_slices;                // use slice_iterations
     uint32_t slice_iterations;
     const char *asset_path;                              // NULL: none

@@ -85,6 +85,11 @@ static void test_found_again(void **state) {
     assert_false(ask(&kit, &settings, second, NULL));
     settings.first_sample = 2;
     assert_false(ask(&kit, &settings, second, NULL));
+    uint32_t *const spread[] = {&settings.points_of, &settings.footprint_of, &settings.planned};
+    for (size_t i = 0; i < sizeof spread / sizeof *spread; i++) {
+        *spread[i] = 16;
+        assert_false(ask(&kit, &settings, second, NULL));
+    }
     kit_finish(&kit);
 }
 

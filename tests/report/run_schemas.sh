@@ -112,5 +112,6 @@ by_schema pick pick.json pick_mesh.json pick_bytes.json pick_off.json pick_refer
 
 json tradeoff 0 "$glint" tradeoff scene.yaml --format json --budget 5 -q --max-error mae=0.5 --max-time 10000
 json tradeoff_none 1 "$glint" tradeoff scene.yaml --format json --budget 1 -q --max-time 0.000001
-by_schema tradeoff tradeoff.json tradeoff_none.json
+json tradeoff_error 0 "$glint" tradeoff scene.yaml --format json --budget 1 -q --set image.error=0.05 --set image.min_samples=4 --samples 8
+by_schema tradeoff tradeoff.json tradeoff_none.json tradeoff_error.json
 exit $failed

@@ -4,16 +4,22 @@
 // box that is nearest to it) is subtracted from the transforms in double before any vertex is touched; the
 // scale is 2^-ilogb(largest |coordinate - origin| of bodies), lights excluded; then values are rounded to
 // float, or stay double for the kernels in double precision, whose boxes alone are float. A point light
-// further than 2^40 after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double. The
-// background stays as its file has it: flat_background makes a few texels at a time of it. Ownership:
-// flat_finish frees everything. Thread safety: immutable once made.
+// further than 2^40 after scaling is flattened as a direction, its 1/|P-p|^2 taken once in double; a sphere
+// or a panel as a smaller one at that distance. The background stays as its file has it: flat_background
+// makes a few texels at a time of it. Ownership: flat_finish frees everything. Thread safety: immutable once
+// made.
 #ifndef GLINT_TRACER_FLATTEN_FLATTEN_H
 #define GLINT_TRACER_FLATTEN_FLATTEN_H
 
 #include "scene/media.h"
+#include "scene/sky.h"
 #include "scene/view.h"
 #include "tracer/bvh/keep.h"
 #include "tracer/gpu_word.h"
+
+// Flat units: lights farther away than this count as infinitely far away, or come nearer as they are seen; a
+// length that is larger counts as this one.
+#define FLAT_LENGTH_MAX 0x1p40
 
 struct flat_array {
     struct gpu_word *words;
@@ -85,8 +91,10 @@ struct flat_scene {
     uint64_t shown_triangles;              // of all models: each instance shows those of its mesh
     uint32_t *first_triangle;              // by body: the number of its first triangle
     uint32_t dropped_triangles;            // without area after rounding
+    struct sky_size sky;                   // rows 0: the background does not light
+    uint32_t sky_table;                    // as in the frame
     double occlusion;                      // of ambient light: flat
-    uint32_t features;                     // FEATURE_ bits that the scene needs
+    uint64_t features;                     // FEATURE_ bits that the scene needs
     uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
     double build_seconds;                  // tree building
 };

@@ -11,11 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A point light further than this, in flat units, counts as infinitely far away.
-#define LIGHT_DISTANCE_MAX 0x1p40
+// A point light further than this counts as infinitely far away.
+#define LIGHT_DISTANCE_MAX FLAT_LENGTH_MAX
 
 enum {
-    PIECE_TEXELS = 65536
+    PIECE_TEXELS = 65536,
+    NUMBERS = sizeof(struct gpu_word) / sizeof(uint32_t),
 };
 
 // ---- materials
@@ -54,13 +55,25 @@ static double emission_bound(double value) {
     return fmin(value, FLT_MAX);
 }
 
+// 1, or what takes a light with an extent to the farthest distance that counts: there a smaller one is seen
+// under the same angle.
+static double nearer(const struct flattening *f, const struct view_light *light) {
+    const double distance = vec3_length(vec3_sub(light->position, f->out->origin)) * f->factor;
+    const bool is_far = !light->directional && light->extent != VIEW_POINT && distance > LIGHT_DISTANCE_MAX;
+    return is_far ? LIGHT_DISTANCE_MAX / distance : 1;
+}
+
 static struct gpu_light light_record(const struct flattening *f, const struct view_light *light) {
     vec3 from_origin = vec3_sub(light->position, f->out->origin);
-    vec3 position = vec3_mul(from_origin, f->factor);
+    // A panel that a body shows lies in front of it; of a sphere shaders/light/extent.glsl knows.
+    if (light->extent == VIEW_PANEL)
+        from_origin = vec3_add(from_origin, vec3_mul(light->outward, light->before_body));
+    const double factor = f->factor * nearer(f, light);
+    vec3 position = vec3_mul(from_origin, factor);
     struct gpu_light record = {.place = position, .flags = LIGHT_DIRECTIONAL, .emission = light->emission};
     if (light->directional) {
         record.place = light->to_light;
-    } else if (vec3_length(position) > LIGHT_DISTANCE_MAX) {
+    } else if (vec3_length(position) > LIGHT_DISTANCE_MAX && light->extent == VIEW_POINT) {
         double distance = vec3_length(from_origin);
         record.place = vec3_unit(from_origin);
         if (light->inverse_square)
@@ -68,9 +81,9 @@ static struct gpu_light light_record(const struct flattening *f, const struct vi
     } else {
         record.flags = light->inverse_square ? LIGHT_INVERSE_SQUARE : 0;
         if (light->inverse_square)
-            record.emission = vec3_mul(record.emission, f->factor * f->factor);
+            record.emission = vec3_mul(record.emission, factor * factor);
     }
-    if (light->extent != VIEW_POINT && !(record.flags & LIGHT_DIRECTIONAL && !light->directional))
+    if (light->extent != VIEW_POINT)
         record.flags |= LIGHT_EXTENT | (light->extent == VIEW_PANEL ? LIGHT_PANEL : 0);
     record.emission = (vec3){emission_bound(record.emission.x), emission_bound(record.emission.y),
                              emission_bound(record.emission.z)};
@@ -83,12 +96,13 @@ static double length_bound(double value) {
 }
 
 static struct gpu_extent extent_record(const struct flattening *f, const struct view_light *light) {
-    const double sine = sin(light->half_angle / 2);
-    return (struct gpu_extent){.edge_u = vec3_mul(light->edge_u, f->factor),
-                               .edge_v = vec3_mul(light->edge_v, f->factor),
+    const double sine = sin(light->half_angle / 2), factor = f->factor * nearer(f, light);
+    return (struct gpu_extent){.edge_u = vec3_mul(light->edge_u, factor),
+                               .edge_v = vec3_mul(light->edge_v, factor),
                                .outward = light->outward,
-                               .radius = length_bound(light->radius * f->factor),
-                               .gap = 2 * sine * sine};
+                               .radius = length_bound(light->radius * factor),
+                               .gap = 2 * sine * sine,
+                               .before_body = length_bound(light->before_body * factor)};
 }
 
 static bool any_extent(const struct view *view) {
@@ -98,12 +112,27 @@ static bool any_extent(const struct view *view) {
     return any;
 }
 
+// After all that lights are: four numbers to a word.
+static bool fill_sky(struct flattening *f) {
+    struct flat_scene *out = f->out;
+    bool is_black = false;
+    if (!out->sky.rows)
+        return true;
+    if (!sky_fill(f->scene, out->sky, (uint32_t *)(out->lights.words + out->sky_table), &is_black))
+        return false;
+    if (is_black)
+        out->sky = (struct sky_size){0, 0, 0};
+    return true;
+}
+
 enum flatten_fault flatten_lights(struct flattening *f) {
     const struct view *view = f->input->view;
     const uint32_t extent_words = !any_extent(view) ? 0 : f->out->is_double ? EXTENT64_WORDS : EXTENT_WORDS;
+    const uint64_t words = (uint64_t)view->light_count * (f->out->strides.light + extent_words);
     f->out->light_count = view->light_count;
-    if (!flat_array_make(&f->out->lights,
-                         (uint64_t)view->light_count * (f->out->strides.light + extent_words)))
+    f->out->sky = sky_size(f->scene);
+    f->out->sky_table = (uint32_t)words;
+    if (!flat_array_make(&f->out->lights, words + sky_count(f->out->sky) / NUMBERS) || !fill_sky(f))
         return FLATTEN_NO_MEMORY;
     struct gpu_word *extents = f->out->lights.words + (size_t)view->light_count * f->out->strides.light;
     for (uint32_t i = 0; i < view->light_count; i++) {
@@ -191,12 +220,12 @@ enum flatten_fault flatten_background(struct flattening *f) {
 
 // ---- features
 
-static uint32_t used_material_features(const struct flattening *f) {
-    uint32_t mask = 0;
+static uint64_t used_material_features(const struct flattening *f) {
+    uint64_t mask = 0;
     for (uint32_t i = 0; i < f->scene->material_count; i++) {
         if (!f->material_used[i])
             continue;
-        uint32_t bits = f->scene->materials[i].features;
+        uint64_t bits = f->scene->materials[i].features;
         // Attenuation is where it is inside a body: flatten_media.c.
         bits &= ~(FEATURE_ATTENUATION | FEATURE_TEXTURES | FEATURE_FOOTPRINT);
         mask |= bits & FEATURE_DIFFUSE ? bits : bits & ~FEATURE_CHECKER;
@@ -205,7 +234,7 @@ static uint32_t used_material_features(const struct flattening *f) {
     return mask;
 }
 
-static uint32_t ambient_features(struct flattening *f) {
+static uint64_t ambient_features(struct flattening *f) {
     const struct scene *scene = f->scene;
     if (vec3_is_zero(scene->ambient))
         return 0;
@@ -213,16 +242,22 @@ static uint32_t ambient_features(struct flattening *f) {
     return FEATURE_AMBIENT | (f->out->occlusion > 0 ? FEATURE_OCCLUSION : 0);
 }
 
+// What only asks for sizes and features has no pixels.
+static bool has_pixels(const struct flattening *f) {
+    const struct picture *picture = f->scene->background.picture;
+    return !picture || picture->pixels;
+}
+
 // What the scene's rows ask for, materials, lights, bodies and background as they turned out.
 void flatten_features(struct flattening *f) {
-    const uint32_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
+    const uint64_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
                          FEATURE_REFLECTION | FEATURE_REFRACTION | FEATURE_CHECKER | FEATURE_SMOOTH |
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
                          FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
-                         FEATURE_EMISSION;
+                         FEATURE_EMISSION | FEATURE_SKY_LIGHT;
     struct flat_scene *out = f->out;
-    uint32_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
+    uint64_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
     mask |= out->sphere_count ? FEATURE_SPHERES : 0;
     mask |= out->normals.count ? FEATURE_SMOOTH : 0;
@@ -230,13 +265,14 @@ void flatten_features(struct flattening *f) {
     mask |= used_material_features(f);
     mask |= f->light_features;
     mask |= ambient_features(f);
+    mask |= out->sky.rows || (f->scene->background.lights && !has_pixels(f)) ? FEATURE_SKY_LIGHT : 0;
     if (!(mask & FEATURE_DIFFUSE))
         mask &= ~(FEATURE_AMBIENT | FEATURE_OCCLUSION);
     if (!(mask & FEATURE_SHADOWS))
         mask &= ~FEATURE_OCCLUSION;
     if (!(mask & (FEATURE_DIFFUSE | FEATURE_SPECULAR)))
         mask &= ~(FEATURE_SHADOWS | FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
-                  FEATURE_SOFT_LIGHT);
+                  FEATURE_SOFT_LIGHT | FEATURE_SKY_LIGHT);
     if (!(mask & (FEATURE_REFLECTION | FEATURE_REFRACTION)))
         mask &= ~(FEATURE_DEPTH_BLACK | FEATURE_FRESNEL);
     if (!(mask & FEATURE_REFRACTION) || !(mask & FEATURE_SHADOWS))

@@ -29,8 +29,8 @@ static bool shows(const struct scene_material *m, int which) {
            (which == ASSETS_DIFFUSE ? m->diffuse_weight : m->specular_weight) != 0;
 }
 
-uint32_t flatten_paint_features(const struct scene_material *m) {
-    uint32_t features = m->checker && m->soft && m->diffuse_weight != 0 ? FEATURE_FOOTPRINT : 0;
+uint64_t flatten_paint_features(const struct scene_material *m) {
+    uint64_t features = m->checker && m->soft && m->diffuse_weight != 0 ? FEATURE_FOOTPRINT : 0;
     for (int k = 0; k < ASSETS_IMAGES; k++)
         if (shows(m, k))
             features |= FEATURE_TEXTURES | (m->images[k].filter == IR_FILTER_AUTO ? FEATURE_FOOTPRINT : 0);

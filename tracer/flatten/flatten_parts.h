@@ -61,8 +61,8 @@ struct flattening {
     bool *material_used;     // by index in scene->materials
     uint32_t *normal_base;   // by body: its first record of out->normals
     uint32_t *coordinates;   // by body: its word of out->paints; 0: it has none
-    uint32_t light_features; // FEATURE_ bits that the lights ask for
-    uint32_t media_features; // and the media
+    uint64_t light_features; // FEATURE_ bits that the lights ask for
+    uint64_t media_features; // and the media
     uint32_t *medium;        // by body: as in its record; NULL: rays need not know what they are inside
 };
 
@@ -122,7 +122,7 @@ enum flatten_fault flatten_body_records(struct flattening *f);
 // Fills out->paints, if a material that is used needs them, and coordinates.
 enum flatten_fault flatten_paints(struct flattening *f);
 // FEATURE_ bits that a material's images and its checker ask for.
-uint32_t flatten_paint_features(const struct scene_material *material);
+uint64_t flatten_paint_features(const struct scene_material *material);
 
 // ---- flatten_light.c
 

@@ -1,12 +1,12 @@
 // The graphics processor: device, buffers, program, dispatch, times. The only folder that sees Vulkan.
 //
-// Compute only and headless. The Vulkan loader is opened at run time: a program that never calls
-// gpu_create or gpu_list runs where no Vulkan is installed. CPU drivers (lavapipe) are devices like others.
-// Errors: functions return false, or a status; gpu_error then has one line of text. After GPU_LOST nothing
-// but destroying works. Ownership: *_create returns a heap object, *_destroy takes NULL; buffers and
-// programs must be destroyed before their gpu. Sizes in bytes, times in seconds.
-// Thread safety: one thread at a time for a gpu and all that belongs to it, and one in the whole process
-// for gpu_list, gpu_create and gpu_destroy.
+// Compute only, and headless but for gpu_screen.h. The Vulkan loader is opened at run time: a program that
+// never calls gpu_create or gpu_list runs where no Vulkan is installed. CPU drivers (lavapipe) are devices
+// like others. Errors: functions return false, or a status; gpu_error then has one line of text. After
+// GPU_LOST nothing but destroying works. Ownership: *_create returns a heap object, *_destroy takes NULL;
+// buffers and programs must be destroyed before their gpu. Sizes in bytes, times in seconds. Thread safety:
+// one thread at a time for a gpu and all that belongs to it, and one in the whole process for gpu_list,
+// gpu_create and gpu_destroy.
 #ifndef GLINT_TRACER_GPU_GPU_H
 #define GLINT_TRACER_GPU_GPU_H
 
@@ -70,6 +70,9 @@ struct gpu_options {
     // outlive the gpu.
     uint32_t *validation_messages;
     struct gpu_keep keep; // zeroed: nowhere
+    // Of Vulkan's instance, that a window needs (tracer/gpu/gpu_screen.h); NULL: it shows nothing.
+    const char *const *screen_extensions;
+    uint32_t screen_extension_count;
 };
 
 struct gpu;

@@ -63,6 +63,8 @@ static void read_properties(struct gpu *gpu, const struct gpu_options *options) 
     gpu->queue_family = gpu_compute_family(gpu->physical);
     gpu->texels = gpu->info.kind == GPU_CPU && !options->storage;
     gpu->tells = options->tells && gpu_can_tell(gpu->physical);
+    gpu->shows =
+        options->screen_extension_count && gpu_has_extension(gpu->physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (gpu->properties.apiVersion >= VK_API_VERSION_1_2) {
         VkPhysicalDeviceFloatControlsProperties controls = {
             .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES};
@@ -75,7 +77,12 @@ static void read_properties(struct gpu *gpu, const struct gpu_options *options) 
 }
 
 static bool create_device(struct gpu *gpu) {
-    static const char *const telling = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+    const char *extensions[2];
+    uint32_t extension_count = 0;
+    if (gpu->tells)
+        extensions[extension_count++] = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+    if (gpu->shows)
+        extensions[extension_count++] = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR tells = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
         .pipelineExecutableInfo = VK_TRUE};
@@ -91,8 +98,8 @@ static bool create_device(struct gpu *gpu) {
                                  .pNext = gpu->tells ? &tells : NULL,
                                  .queueCreateInfoCount = 1,
                                  .pQueueCreateInfos = &queue,
-                                 .enabledExtensionCount = gpu->tells,
-                                 .ppEnabledExtensionNames = &telling,
+                                 .enabledExtensionCount = extension_count,
+                                 .ppEnabledExtensionNames = extensions,
                                  .pEnabledFeatures = &features};
     if (!gpu_check(gpu, vkCreateDevice(gpu->physical, &create, NULL, &gpu->device), "vkCreateDevice"))
         return false;
@@ -129,8 +136,7 @@ enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, 
         snprintf(error, GPU_ERROR_BYTES, "not enough memory");
         return GPU_NO_MEMORY;
     }
-    enum gpu_status status =
-        gpu_instance_create(options->validate, options->validation_messages, &gpu->instance, error);
+    enum gpu_status status = gpu_instance_create(options, &gpu->instance, error);
     if (status == GPU_OK)
         status = choose_device(gpu, options->device, error);
     if (status == GPU_OK) {

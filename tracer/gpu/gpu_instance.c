@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    SCREEN_EXTENSIONS_MAX = 15
+};
 static const char VALIDATION_LAYER[] = "VK_LAYER_KHRONOS_validation";
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
@@ -57,14 +60,17 @@ static enum gpu_status refuse(const char *call, VkResult result, char *error) {
     return memory ? GPU_NO_MEMORY : GPU_FAILED;
 }
 
-enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gpu_instance *out,
+enum gpu_status gpu_instance_create(const struct gpu_options *options, struct gpu_instance *out,
                                     char *error) {
+    static const struct gpu_options none;
+    options = options ? options : &none;
+    uint32_t *messages = options->validation_messages;
     *out = (struct gpu_instance){.messages = messages};
     if (!open_loader()) {
         snprintf(error, GPU_ERROR_BYTES, "the Vulkan loader (libvulkan.so.1) is not installed");
         return GPU_NO_LOADER;
     }
-    const bool layered = validate && has_validation();
+    const bool layered = options->validate && has_validation();
     VkDebugUtilsMessengerCreateInfoEXT messenger = {
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
         .messageSeverity =
@@ -74,7 +80,10 @@ enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gp
         .pfnUserCallback = count_message,
         .pUserData = messages};
     const char *layers[] = {VALIDATION_LAYER};
-    const char *extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    const char *extensions[1 + SCREEN_EXTENSIONS_MAX] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    uint32_t extension_count = layered && messages;
+    for (uint32_t i = 0; i < options->screen_extension_count && i < SCREEN_EXTENSIONS_MAX; i++)
+        extensions[extension_count++] = options->screen_extensions[i];
     VkInstanceCreateInfo create = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                    .pNext = layered && messages ? &messenger : NULL,
                                    .pApplicationInfo =
@@ -83,7 +92,7 @@ enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gp
                                                             .apiVersion = VK_API_VERSION_1_2},
                                    .enabledLayerCount = layered,
                                    .ppEnabledLayerNames = layers,
-                                   .enabledExtensionCount = layered && messages,
+                                   .enabledExtensionCount = extension_count,
                                    .ppEnabledExtensionNames = extensions};
     VkResult result = vkCreateInstance(&create, &gpu_memory, &out->handle);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
@@ -212,7 +221,7 @@ enum gpu_status gpu_list(struct gpu_device_info *items, uint32_t capacity, uint3
                          char error[GPU_ERROR_BYTES]) {
     *count = 0;
     struct gpu_instance instance;
-    enum gpu_status status = gpu_instance_create(false, NULL, &instance, error);
+    enum gpu_status status = gpu_instance_create(NULL, &instance, error);
     if (status != GPU_OK)
         return status;
     VkPhysicalDevice *handles;

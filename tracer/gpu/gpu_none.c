@@ -1,6 +1,6 @@
 // The devices of a program that is built without them (GLINT_DEVICE=OFF): there are none. What takes a gpu is
 // never called, because no gpu is ever made; it fails as on a device that does not answer.
-#include "tracer/gpu/gpu.h"
+#include "tracer/gpu/gpu_screen.h"
 
 #include <stdio.h>
 
@@ -101,6 +101,11 @@ void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
     (void)gpu, (void)program, (void)buffers;
 }
 
+uint32_t gpu_pipelines_made(const struct gpu *gpu) {
+    (void)gpu;
+    return 0;
+}
+
 bool gpu_program_tell(struct gpu *gpu, const struct gpu_program *program, gpu_tell *tell, void *context) {
     (void)gpu, (void)program, (void)tell, (void)context;
     return false;
@@ -142,7 +147,15 @@ bool gpu_compile(struct gpu *gpu, struct gpu_program *program, const void *push)
     return false;
 }
 
-uint32_t gpu_pipelines_made(const struct gpu *gpu) {
-    (void)gpu;
-    return 0;
+struct gpu_screen *gpu_screen_create(struct gpu *gpu, gpu_make_surface *make, void *context) {
+    (void)gpu, (void)make, (void)context;
+    return NULL;
+}
+void gpu_screen_destroy(struct gpu *gpu, struct gpu_screen *screen) {
+    (void)gpu, (void)screen;
+}
+enum gpu_shown gpu_screen_show(struct gpu *gpu, struct gpu_screen *screen, const uint8_t *pixels,
+                               uint32_t width, uint32_t height) {
+    (void)gpu, (void)screen, (void)pixels, (void)width, (void)height;
+    return GPU_SHOW_FAILED;
 }

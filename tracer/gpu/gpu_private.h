@@ -24,6 +24,7 @@ struct gpu {
     bool preserves_nan;   // SignedZeroInfNanPreserve for 32-bit floats
     bool preserves_nan64; // and for 64-bit ones
     bool tells;           // compiled kernels can be asked about
+    bool shows;           // it can have screens
     uint32_t queue_family;
     VkDevice device;
     struct VolkDeviceTable vk;
@@ -79,7 +80,8 @@ struct gpu_program {
     VkDescriptorSet set;
 };
 
-enum gpu_status gpu_instance_create(bool validate, uint32_t *messages, struct gpu_instance *out, char *error);
+// `options` NULL: without validation and screen.
+enum gpu_status gpu_instance_create(const struct gpu_options *options, struct gpu_instance *out, char *error);
 void gpu_instance_finish(struct gpu_instance *instance);
 // Devices that can compute, in the loader's order, and their descriptions; the caller frees both, whatever
 // comes. GPU_OK: *count, of at least one. Else `error` gets text.
@@ -118,6 +120,7 @@ void gpu_pipelines_destroy(struct gpu *gpu);                             // no p
 
 // ---- gpu_tell.c
 
+bool gpu_has_extension(VkPhysicalDevice physical, const char *name);
 // Whether the device can be asked about its kernels.
 bool gpu_can_tell(VkPhysicalDevice physical);
 

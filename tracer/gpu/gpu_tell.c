@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool has_extension(VkPhysicalDevice physical, const char *name) {
+bool gpu_has_extension(VkPhysicalDevice physical, const char *name) {
     uint32_t count = 0;
     vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL);
     VkExtensionProperties *items = heap_array(count + (size_t)1, sizeof *items);
@@ -18,7 +18,7 @@ static bool has_extension(VkPhysicalDevice physical, const char *name) {
 }
 
 bool gpu_can_tell(VkPhysicalDevice physical) {
-    if (!has_extension(physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
+    if (!gpu_has_extension(physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
         return false;
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR tells = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};

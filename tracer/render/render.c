@@ -122,7 +122,7 @@ static void plan_at_once(struct renderer *renderer) {
 
 static void plan(struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
-    const uint32_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
+    const uint64_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
     renderer->features = settings->features;
     if (is_long_path(renderer))
         renderer->features |= FEATURE_SLICES;

@@ -41,7 +41,7 @@ struct render_settings {
     double background_rotation; // degrees about +y
     // FEATURE_ bits to compile in: at least those of the flat scene. Those of the renderer (slices,
     // counters, long rays) are added where needed.
-    uint32_t features;
+    uint64_t features;
     uint64_t path_segments;              // LIMIT_PATH_SEGMENTS
     uint32_t slice_iterations;           // SLICE_ITERATIONS of shaders/frame.h; 0: slices of one ray
     enum render_alternative alternative; // in single precision only
@@ -106,6 +106,7 @@ struct render_statistics {
 struct render_estimate {
     float *error;      // by pixel, rows from the top: the standard error
     uint32_t *samples; // that it has
+    uint32_t unknown;  // pixels that are not finite: their error is NaN, and not in the following
     double mean;       // root of the mean square of the error of all pixels and channels
     double most;       // the same, as sure as RENDER_ESTIMATE_CONFIDENCE
 };

@@ -134,6 +134,11 @@ static float variance_of(const float *shown) {
     return sum / (3 * (GROUPS - 1) * GROUPS);
 }
 
+// Whether all samples were finite; of another pixel nothing is known.
+static bool is_sound(const struct band *band, uint32_t slot) {
+    return band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
+}
+
 static void estimate(struct band *band) {
     const struct render_settings *settings = &band->run->renderer->settings;
     for (uint32_t i = 0; i < band->count; i++) {
@@ -143,8 +148,10 @@ static void estimate(struct band *band) {
             band->shown[GROUPS * 3 * (size_t)i + (size_t)c] = band->sums[slot][c / 3][c % 3] * part;
     }
     settings->show(settings->show_context, band->shown, (size_t)GROUPS * band->count, band->shown);
-    for (uint32_t i = 0; i < band->count; i++)
-        band->variance[band->list[i]] = variance_of(band->shown + GROUPS * 3 * (size_t)i);
+    for (uint32_t i = 0; i < band->count; i++) {
+        const uint32_t slot = band->list[i];
+        band->variance[slot] = is_sound(band, slot) ? variance_of(band->shown + GROUPS * 3 * (size_t)i) : NAN;
+    }
 }
 
 static int slot_in_tile(int x, int y) {
@@ -152,7 +159,7 @@ static int slot_in_tile(int x, int y) {
 }
 
 // The greater one of the pixel's own variance and the mean of those around it; pixels outside the picture
-// have NaN.
+// have NaN, and those that are not finite.
 static float pooled(const float *variance, int x, int y) {
     float sum = 0;
     int count = 0;
@@ -183,7 +190,7 @@ static void shorten_list(struct band *band) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < band->count; i++) {
         const uint32_t slot = band->list[i];
-        if (band->goes_on[slot] && band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE)
+        if (band->goes_on[slot] && is_sound(band, slot))
             band->list[count++] = slot;
     }
     band->count = count;
@@ -212,7 +219,7 @@ static void put_pixel(const struct band *band, uint32_t slot, float *rgb) {
     if (!renderer_pixel(renderer, band->begin, slot, &x, &y))
         return;
     const size_t pixel = (size_t)y * renderer->settings.width + x;
-    const bool sound = band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
+    const bool sound = is_sound(band, slot);
     for (int k = 0; k < 3; k++) {
         float sum = 0;
         for (int group = 0; group < GROUPS; group++)
@@ -221,7 +228,8 @@ static void put_pixel(const struct band *band, uint32_t slot, float *rgb) {
     }
     const float *tile = band->variance + slot / TILE_PIXELS * TILE_PIXELS;
     const float most = pooled(tile, (int)(x % TILE_SIDE), (int)(y % TILE_SIDE));
-    renderer->estimate.error[pixel] = sqrtf(most);
+    renderer->estimate.error[pixel] = sound ? sqrtf(most) : NAN;
+    renderer->estimate.unknown += !sound;
     renderer->estimate.samples[pixel] = band->samples[slot];
 }
 
@@ -289,7 +297,8 @@ static bool make_estimate(struct renderer *renderer) {
 // Neither the errors nor their estimates are independent within a tile, where edges go on; of a tile the
 // square of the error varies by twice its square, and an estimate from four groups by two thirds of it.
 static void conclude(struct renderer *renderer, const struct total *total) {
-    const double pixels = (double)renderer->settings.width * renderer->settings.height;
+    const double all = (double)renderer->settings.width * renderer->settings.height;
+    const double pixels = fmax(all - renderer->estimate.unknown, 1);
     const double spread = SURE * sqrt((2 + 2.0 / (GROUPS - 1)) * total->squares);
     renderer->estimate.mean = sqrt(total->variance / pixels);
     renderer->estimate.most = sqrt((total->variance + spread) / pixels);
@@ -300,6 +309,7 @@ enum render_result renderer_draw_adaptive(struct renderer_frame *run, float *rgb
     struct band band = {.run = run};
     struct total total = {0, 0};
     run->statistics->all_samples = 0;
+    renderer->estimate.unknown = 0;
     run->steps = (uint64_t)renderer->settings.width * renderer->settings.height;
     enum render_result result =
         make_estimate(renderer) && make(&band, renderer->band_tiles) ? RENDER_DONE : RENDER_FAILED;

@@ -118,8 +118,12 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .coordinates_table = flat->coordinates_table,
         .footprint = (float)(footprint_of(camera, scale) / settings->height / sqrt(samples_of(renderer))),
         .projection = camera->projection,
-        .lens_radius = (float)(camera->lens_radius * scale),
+        .lens_radius = (float)fmin(camera->lens_radius * scale, FLAT_LENGTH_MAX),
         .focus = (float)(camera->focus * scale),
+        .sky_table = flat->sky_table,
+        .sky_width = flat->sky.width,
+        .sky_rows = flat->sky.rows,
+        .sky_stride = flat->sky.stride,
     };
     put_inside(flat, camera, &frame);
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);

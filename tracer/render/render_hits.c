@@ -31,7 +31,7 @@ static bool make(struct renderer *renderer) {
     const size_t words = heap_times(heap_times(hits->band_tiles, TILE_PIXELS), HITS_WORDS);
     hits->words = heap_array(words, sizeof *hits->words);
     hits->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, words * sizeof *hits->words);
-    const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
+    const uint64_t own = FEATURE_SLICES | FEATURE_COUNTERS;
     if (hits->words && hits->output)
         hits->program =
             renderer_compile_kernel(renderer, RENDERER_HITS, renderer->features & ~own, hits->output, NULL);
@@ -56,7 +56,7 @@ uint64_t renderer_hits_unfinished(const struct renderer *renderer) {
 }
 
 static bool is_kind_needed(const struct renderer *renderer, uint32_t kind) {
-    const uint32_t features = renderer->flat->features;
+    const uint64_t features = renderer->flat->features;
     switch (kind) {
     case HITS_FIRST:
         return true;

@@ -111,7 +111,7 @@ static uint32_t private_branches(const struct renderer *renderer) {
     return renderer->path_stack ? renderer->path_stack : 1;
 }
 
-static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint32_t features) {
+static bool is_for(const struct renderer_kept *kept, const struct renderer *renderer, uint64_t features) {
     return kept->program && kept->features == features &&
            kept->alternative == renderer->settings.alternative &&
            kept->workgroup == renderer->settings.workgroup && kept->branches == private_branches(renderer) &&
@@ -124,7 +124,7 @@ static bool is_in_use(const struct renderer *renderer, const struct gpu_program 
 }
 
 // The tracing kernel with these features, compiled now or before, over the band's buffers.
-static struct gpu_program *keep_program(struct renderer *renderer, uint32_t features) {
+static struct gpu_program *keep_program(struct renderer *renderer, uint64_t features) {
     for (uint32_t i = 0; i < RENDERER_KEPT; i++)
         if (is_for(&renderer->kept[i], renderer, features)) {
             gpu_program_bind(renderer->gpu, renderer->kept[i].program, renderer->buffers);
@@ -196,14 +196,15 @@ bool renderer_packs_groups(const struct flat_scene *flat) {
 }
 
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
-                                            uint32_t features, struct gpu_buffer *output,
+                                            uint64_t features, struct gpu_buffer *output,
                                             struct gpu_buffer *state) {
     const struct flat_scene *flat = renderer->flat;
     const bool texels = gpu_fetches_texels(renderer->gpu);
     const struct alternative *alternative = &alternatives[renderer->settings.alternative];
     const struct kernel_pair *pair = pair_of(renderer, kernel);
     const uint32_t constants[CONSTANT_COUNT] = {
-        [CONSTANT_FEATURES] = features,
+        [CONSTANT_FEATURES] = (uint32_t)features,
+        [CONSTANT_MORE_FEATURES] = (uint32_t)(features >> 32),
         [CONSTANT_TRIANGLE_STACK] = stack_levels(renderer->triangle_depth),
         [CONSTANT_SPHERE_STACK] = stack_levels(renderer->sphere_depth),
         // A group of the tree over instances says of its children too which are leaves.

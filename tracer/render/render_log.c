@@ -47,7 +47,7 @@ static bool make(struct renderer *renderer) {
     renderer->log = log;
     log->state = gpu_buffer_create(renderer->gpu, GPU_STORAGE, sizeof log->rays);
     log->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, sizeof log->told);
-    const uint32_t own = FEATURE_SLICES | FEATURE_COUNTERS;
+    const uint64_t own = FEATURE_SLICES | FEATURE_COUNTERS;
     if (log->state && log->output)
         log->program = renderer_compile_kernel(renderer, RENDERER_LOG, renderer->features & ~own, log->output,
                                                log->state);
@@ -115,9 +115,10 @@ static bool follow(struct walk *walk, uint32_t begin, uint32_t end) {
     if (!gpu_write(renderer->gpu, log->state, 0, log->rays, sizeof log->rays) ||
         !dispatch(renderer, block, LOG_FOLLOW))
         return false;
-    // Past the lights ambient light, where bodies may block it.
-    const uint32_t lights =
-        renderer->flat->light_count + (renderer->flat->features & FEATURE_OCCLUSION ? 1 : 0);
+    // Past the lights ambient light, where bodies may block it, and the background.
+    const uint32_t lights = renderer->flat->light_count +
+                            (renderer->flat->features & FEATURE_OCCLUSION ? 1 : 0) +
+                            (renderer->flat->sky.rows ? 1 : 0);
     for (uint32_t light = 0; light < lights; light++)
         if (!dispatch(renderer, block, LOG_LIGHTS + light))
             return false;

@@ -34,7 +34,8 @@ struct renderer_log;
 
 // A kernel that was compiled, for the settings that it depends on.
 struct renderer_kept {
-    uint32_t features, workgroup;
+    uint64_t features;
+    uint32_t workgroup;
     uint32_t branches; // in private memory; 0: samples are not traced at once
     bool is_listed;    // paths begin by a list
     enum render_alternative alternative;
@@ -68,7 +69,7 @@ struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
     struct render_settings settings;
-    uint32_t features;        // of the scene, FEATURE_SLICES and FEATURE_LONG_RAYS
+    uint64_t features;        // of the scene, FEATURE_SLICES and FEATURE_LONG_RAYS
     bool has_long_rays;       // one was seen
     uint32_t path_stack;      // entries
     uint32_t samples_at_once; // 0: a dispatch traces one sample, and lives of paths are in the state buffer
@@ -126,7 +127,7 @@ enum renderer_kernel {
     RENDERER_KERNELS,
 };
 struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum renderer_kernel kernel,
-                                            uint32_t features, struct gpu_buffer *output,
+                                            uint64_t features, struct gpu_buffer *output,
                                             struct gpu_buffer *state);
 // Whether the numbers of a group of nodes fit into one word.
 bool renderer_packs_groups(const struct flat_scene *flat);

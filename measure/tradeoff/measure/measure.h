@@ -29,8 +29,21 @@ enum {
 struct probe_set {
     uint32_t width, height, samples, first_sample, max_depth;
     double min_weight;
-    bool shadows, full; // full: paths to their ends, whatever depth and weight
-    float *values;      // three a probe
+    uint32_t without;
+    bool shadows, full;    // full: paths to their ends, whatever depth and weight
+    const uint32_t *taken; // samples of each pixel of the row, which are points of `samples`; NULL: all
+    uint32_t min_samples;  // with these
+    float *values;         // three a probe
+};
+
+// The scene with parts of it left out, for the reference: the last that was asked for.
+struct measure_variant {
+    bool is_made, shadows;
+    uint32_t without;
+    struct ir_scene ir;
+    struct scene scene;
+    struct view view;
+    struct reference_source source;
 };
 
 // The pictures of a search, as sums of linear values.
@@ -71,6 +84,7 @@ struct measuring {
     struct ir_scene ir_shadowless;
     struct scene scene_shadowless; // over that IR
     struct reference_source source[2];
+    struct measure_variant variant;
     struct reference_settings full; // of the file's size, ground truth's samples and rays
     double ground_truth_rays;       // that a sample of the ground truth took, on average
     double reference_rate;          // rays a second of the ground truth
@@ -78,6 +92,7 @@ struct measuring {
     float *ground_truth, *shown, *picture; // the two others are a row's, shown at the file's size
     struct image_display display;
     struct setting base;
+    uint32_t *taken;           // samples of a row's pixels, where they end by their error
     struct hit_pixel *hits[2]; // device's, reference's
     float *as_file;            // the reference at the file's own settings, displayed; NULL until asked
     bool only_probes;          // the budget does not allow as_file
@@ -121,6 +136,16 @@ enum tradeoff_status device_wake(struct measuring *s);
 enum tradeoff_status device_time(struct measuring *s, const struct setting *setting, double *ms);
 enum tradeoff_status device_hits(struct measuring *s, const struct setting *setting, struct hit_pixel *hits);
 void device_close(struct measuring *s);
+
+// ---- measure_without.c
+
+// Of KNOBS_WITHOUT, what a scene with these features and this camera has.
+uint32_t without_parts(uint32_t features, const struct view_camera *camera);
+// The features that go with parts that are left out.
+uint32_t without_features(uint32_t without, const struct view_camera *camera);
+// The reference of the scene without them; the measuring's, until the next call. NULL: no memory.
+struct reference_source *without_source(struct measuring *s, bool shadows, uint32_t without);
+void without_close(struct measuring *s);
 
 // ---- measure_ground_truth.c
 

@@ -1,9 +1,13 @@
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/clock.h"
+#include "core/heap.h"
 #include "core/quantile.h"
 #include "measure/tradeoff/plan/plan.h"
 #include "shaders/features.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 enum {
     FRAMES_MOST = 24, // of one timing
@@ -11,6 +15,11 @@ enum {
 // A timing's frames go on until they sum to this. A GPU that was idle takes a while to reach its clock: once
 // before all, and a little where buffers were made or a kernel compiled in between.
 static const double TIMED_SECONDS = 0.04, WARM_SECONDS_GPU = 0.02, WAKE_SECONDS_GPU = 1;
+
+static void show(const void *context, const float *linear, size_t pixels, float *shown) {
+    const struct image_display *display = context;
+    image_to_displayed(linear, pixels, *display, shown);
+}
 
 static struct render_settings settings_of(const struct measuring *s, const struct setting *setting,
                                           const struct flat_scene *flat) {
@@ -20,8 +29,12 @@ static struct render_settings settings_of(const struct measuring *s, const struc
     r.samples = setting->samples;
     r.max_depth = setting->max_depth;
     r.min_weight = setting->min_weight;
+    r.error = setting_ends_pixels(setting) ? setting->error : 0;
+    r.least_samples = setting->min_samples;
+    r.show = show;
+    r.show_context = &s->display;
     r.alternative = setting->alternative;
-    r.features = flat->features;
+    r.features = flat->features & ~without_features(setting->without, &s->input->view->camera);
     if (setting->general)
         r.features |= FEATURE_SCENE_MASK;
     return r;
@@ -102,10 +115,19 @@ static enum tradeoff_status status_of(enum render_result result) {
                                         : TRADEOFF_DEVICE;
 }
 
-static enum tradeoff_status frame(struct measuring *s, struct renderer *renderer, float *rgb,
+static struct view_camera camera_of(const struct measuring *s, const struct setting *setting) {
+    struct view_camera camera = s->input->view->camera;
+    if (setting->without & 1u << KNOB_LENS)
+        camera.lens_radius = 0;
+    return camera;
+}
+
+static enum tradeoff_status frame(struct measuring *s, const struct setting *setting,
+                                  struct renderer *renderer, float *rgb,
                                   struct render_statistics *statistics) {
     const struct render_progress progress = {report_frame, s};
-    return status_of(renderer_render(renderer, &s->input->view->camera, rgb, &progress, statistics));
+    const struct view_camera camera = camera_of(s, setting);
+    return status_of(renderer_render(renderer, &camera, rgb, &progress, statistics));
 }
 
 enum tradeoff_status device_samples(struct measuring *s, const struct setting *setting, uint32_t first,
@@ -114,9 +136,10 @@ enum tradeoff_status device_samples(struct measuring *s, const struct setting *s
     struct render_statistics statistics;
     struct renderer *renderer;
     some.samples = count;
+    some.error = 0;
     enum tradeoff_status status = set_from(s, &some, first, &renderer);
     if (status == TRADEOFF_DONE)
-        status = frame(s, renderer, s->picture, &statistics);
+        status = frame(s, &some, renderer, s->picture, &statistics);
     if (status != TRADEOFF_DONE)
         return status;
     *seconds = statistics.device_seconds;
@@ -126,14 +149,26 @@ enum tradeoff_status device_samples(struct measuring *s, const struct setting *s
     return status;
 }
 
+// How many samples the row's pixels took, for the parts of its error.
+static bool keep_taken(struct measuring *s, const struct renderer *renderer, const struct setting *setting) {
+    const size_t pixels = heap_times(setting->width, setting->height);
+    free(s->taken);
+    s->taken = heap_array(pixels, sizeof *s->taken);
+    if (s->taken)
+        memcpy(s->taken, renderer_estimate(renderer)->samples, pixels * sizeof *s->taken);
+    return s->taken != NULL;
+}
+
 enum tradeoff_status device_picture(struct measuring *s, struct row *row, float *rgb) {
     struct render_statistics statistics;
     struct renderer *renderer;
     enum tradeoff_status status = set(s, &row->setting, &renderer);
     if (status == TRADEOFF_DONE)
-        status = frame(s, renderer, rgb, &statistics);
+        status = frame(s, &row->setting, renderer, rgb, &statistics);
     if (status != TRADEOFF_DONE)
         return status;
+    if (setting_ends_pixels(&row->setting) && !keep_taken(s, renderer, &row->setting))
+        return TRADEOFF_MEMORY;
     row->not_finite = statistics.faults[RENDER_NOT_FINITE].pixels;
     row->time_ms = row->time_low_ms = row->time_high_ms = 1e3 * statistics.device_seconds;
     s->round_seconds += statistics.device_seconds > TIMED_SECONDS ? statistics.device_seconds : TIMED_SECONDS;
@@ -141,23 +176,27 @@ enum tradeoff_status device_picture(struct measuring *s, struct row *row, float 
 }
 
 // Rays, nodes and items of one sample a pixel, times the samples: what counts the same for all samples needs
-// no further frames.
+// no further frames. Where pixels end by their error, those of all.
 enum tradeoff_status device_count(struct measuring *s, struct row *row) {
-    struct setting one = row->setting;
+    struct setting counted = row->setting;
     struct renderer *renderer;
     struct render_rays rays;
     const struct render_progress progress = {report_frame, s};
-    one.samples = 1;
-    enum tradeoff_status status = set(s, &one, &renderer);
+    const struct view_camera camera = camera_of(s, &row->setting);
+    const bool whole = setting_ends_pixels(&counted);
+    counted.samples = whole ? counted.samples : 1;
+    enum tradeoff_status status = set(s, &counted, &renderer);
     if (status == TRADEOFF_DONE)
-        status = status_of(renderer_count(renderer, &s->input->view->camera, &progress, &rays));
+        status = status_of(renderer_count(renderer, &camera, &progress, &rays));
     if (status != TRADEOFF_DONE)
         return status;
-    const uint64_t n = row->setting.samples;
+    const uint64_t n = whole ? 1 : row->setting.samples;
+    const double pixels = (double)row->setting.width * row->setting.height;
     row->work = (struct work){.rays = n * (rays.primary + rays.reflected + rays.refracted + rays.shadow),
                               .nodes = n * rays.nodes,
-                              .triangles = n * rays.items};
-    row->work.deepest = rays.deepest;
+                              .triangles = n * rays.items,
+                              .deepest = rays.deepest,
+                              .samples = (double)(n * rays.primary) / pixels};
     row->work.cost = (double)(row->work.nodes + row->work.triangles) * (row->setting.is_double ? 2 : 1);
     return TRADEOFF_DONE;
 }
@@ -174,11 +213,11 @@ enum tradeoff_status device_time(struct measuring *s, const struct setting *sett
     statistics.device_seconds = 1;
     while (status == TRADEOFF_DONE && !is_warm && statistics.device_seconds > 0 &&
            (warm <= 0 || (is_gpu && warm < WARM_SECONDS_GPU))) {
-        status = frame(s, renderer, s->picture, &statistics);
+        status = frame(s, setting, renderer, s->picture, &statistics);
         warm += status == TRADEOFF_DONE ? statistics.device_seconds : 0;
     }
     while (status == TRADEOFF_DONE && count < FRAMES_MOST && (count == 0 || timed < TIMED_SECONDS)) {
-        status = frame(s, renderer, s->picture, &statistics);
+        status = frame(s, setting, renderer, s->picture, &statistics);
         times[count++] = statistics.device_seconds;
         timed += statistics.device_seconds;
     }
@@ -198,7 +237,7 @@ enum tradeoff_status device_wake(struct measuring *s) {
         return status;
     status = set(s, &s->base, &renderer);
     while (status == TRADEOFF_DONE && clock_seconds() - start < WAKE_SECONDS_GPU)
-        status = frame(s, renderer, s->picture, &statistics);
+        status = frame(s, &s->base, renderer, s->picture, &statistics);
     return status;
 }
 

@@ -85,7 +85,7 @@ static enum tradeoff_status plan(struct measuring *s, const struct work *own, bo
     struct plan_pilot pilots[PLAN_PILOTS_MAX];
     // The parts are measured by up to two more sets of probes before any other row.
     const uint64_t probes = pixels < PROBE_PIXELS ? pixels : PROBE_PIXELS;
-    struct plan_ground_truth_input in = {.file_samples = s->base.samples,
+    struct plan_ground_truth_input in = {.file_samples = (uint32_t)ceil(own->samples),
                                          .pixels = pixels + 2 * probes,
                                          .rays_most = budget > 0 ? GROUND_TRUTH_SHARE * budget *
                                                                        REFERENCE_RAYS * parallel_processors()
@@ -95,8 +95,8 @@ static enum tradeoff_status plan(struct measuring *s, const struct work *own, bo
     enum tradeoff_status status = TRADEOFF_DONE;
     if (budget > 0 && !bounces) {
         in.pilot_pixels = pixels;
-        pilots[in.pilot_count++] = (struct plan_pilot){
-            s->full.segments, (double)own->rays / ((double)pixels * s->base.samples), false};
+        pilots[in.pilot_count++] =
+            (struct plan_pilot){s->full.segments, (double)own->rays / ((double)pixels * own->samples), false};
     } else {
         status = run_pilots(s, &in, pilots);
     }
@@ -115,7 +115,7 @@ enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *o
     s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
     // None that a row has: what two pictures share would not count as an error.
     s->full.first_sample = VIEW_OTHER_SAMPLES;
-    s->full.points_of = 0; // all pixels of a row have all its samples
+    s->full.points_of = s->full.footprint_of = 0; // all pixels of a row have all its samples
     enum tradeoff_status status = plan(s, own, bounces, &planned);
     if (status != TRADEOFF_DONE)
         return status;

@@ -39,13 +39,15 @@ struct probing {
     struct measuring *s;
     const struct reference *reference;
     struct reference_settings settings;
+    const uint32_t *taken; // by pixel, where pixels end by their error; NULL: all samples
     float *values;
 };
 
 // The mean of a pixel's samples, displayed.
 static void pixel_value(const struct probing *p, uint32_t x, uint32_t y, float out[3]) {
+    const uint32_t samples = p->taken ? p->taken[(size_t)y * p->settings.width + x] : p->settings.samples;
     double sum[3] = {0};
-    for (uint32_t n = 0; n < p->settings.samples; n++) {
+    for (uint32_t n = 0; n < samples; n++) {
         vec3 radiance = {0};
         reference_log(p->reference, &p->settings, x, y, p->settings.first_sample + n, NULL, 0, &radiance);
         sum[0] += radiance.x;
@@ -53,7 +55,7 @@ static void pixel_value(const struct probing *p, uint32_t x, uint32_t y, float o
         sum[2] += radiance.z;
     }
     for (int k = 0; k < 3; k++)
-        out[k] = (float)(sum[k] / p->settings.samples);
+        out[k] = (float)(sum[k] / samples);
     image_to_displayed(out, 1, p->s->display, out);
 }
 
@@ -94,16 +96,19 @@ static bool is_set(const struct probe_set *a, const struct probe_set *b) {
     const bool paths = a->full || (a->max_depth == b->max_depth &&
                                    !(a->min_weight < b->min_weight || a->min_weight > b->min_weight));
     return a->width == b->width && a->height == b->height && a->samples == b->samples &&
-           a->first_sample == b->first_sample && a->shadows == b->shadows && a->full == b->full && paths;
+           a->first_sample == b->first_sample && a->without == b->without && a->shadows == b->shadows &&
+           a->full == b->full && paths;
 }
 
 // NULL: no memory.
 static const float *probe(struct measuring *s, struct probe_set wanted) {
-    for (uint32_t i = 0; i < s->set_count; i++)
-        if (is_set(&s->sets[i], &wanted))
+    // Each row takes samples of its own.
+    for (uint32_t i = 0; i < s->set_count && !wanted.taken; i++)
+        if (!s->sets[i].taken && is_set(&s->sets[i], &wanted))
             return s->sets[i].values;
     const uint32_t count = probe_count(s);
-    const struct reference *reference = reference_source_get(&s->source[!wanted.shadows]);
+    struct reference_source *source = without_source(s, wanted.shadows, wanted.without);
+    const struct reference *reference = source ? reference_source_get(source) : NULL;
     float *values = heap_array(heap_times(3, count), sizeof *values);
     if (!values || !reference || s->set_count == PROBE_SETS_MAX) {
         free(values);
@@ -115,7 +120,9 @@ static const float *probe(struct measuring *s, struct probe_set wanted) {
     image.samples = (int32_t)wanted.samples;
     struct probing context = {
         s, reference, reference_settings_of(s->input->scene->ir, &image, s->input->limits, !wanted.full),
-        values};
+        wanted.taken, values};
+    context.settings.points_of = wanted.taken ? wanted.samples : 0;
+    context.settings.footprint_of = wanted.taken ? wanted.min_samples : 0;
     if (!wanted.full) {
         context.settings.max_depth = wanted.max_depth;
         context.settings.min_weight = wanted.min_weight;
@@ -141,7 +148,8 @@ static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) 
     const size_t pixels = heap_times(s->base.width, s->base.height);
     if (!s->as_file && !s->only_probes)
         s->only_probes = s->out->numeric_probed = !ground_truth_affords(s, (double)s->out->rows[0].work.rays);
-    if (s->only_probes)
+    // The reference's picture has all samples of all pixels.
+    if (s->only_probes || setting_ends_pixels(&s->base))
         return TRADEOFF_DONE;
     if (!s->as_file) {
         const struct reference_settings settings =
@@ -172,15 +180,21 @@ enum tradeoff_status parts_measure(struct measuring *s, struct row *row) {
                                       .samples = t->samples,
                                       .max_depth = t->max_depth,
                                       .min_weight = t->min_weight,
+                                      .without = t->without,
+                                      .taken = setting_ends_pixels(t) ? s->taken : NULL,
+                                      .min_samples = t->min_samples,
                                       .shadows = t->shadows};
     struct probe_set full = {.width = t->width,
                              .height = t->height,
                              .samples = t->samples,
+                             .taken = as_file.taken,
+                             .min_samples = t->min_samples,
                              .shadows = s->base.shadows,
                              .full = true};
     const float *settings = probe(s, as_file), *paths = settings ? probe(s, full) : NULL;
     full.samples = s->out->ground_truth_samples;
     full.first_sample = s->full.first_sample;
+    full.taken = NULL;
     const float *samples = paths ? probe(s, full) : NULL;
     float *own = heap_array(heap_times(6, count), sizeof *own);
     if (!samples || !own) {

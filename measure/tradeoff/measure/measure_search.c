@@ -122,6 +122,7 @@ enum tradeoff_status search_begin(struct measuring *s) {
     struct search_pictures *p = &s->search;
     const size_t values = values_of(s);
     s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
+    s->full.points_of = s->full.footprint_of = 0;
     s->ground_truth = heap_array(values, sizeof *s->ground_truth);
     s->shown = heap_array(values, sizeof *s->shown);
     s->picture = heap_array(values, sizeof *s->picture);

@@ -8,6 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    ERROR_SAMPLES_LEAST = 4, // one for each of the groups whose means are compared
+};
+
 // ---- what a setting is called
 
 enum {
@@ -23,7 +27,10 @@ bool plan_differs(const struct setting *a, const struct setting *b, enum knob kn
     case KNOB_PRECISION:
         return a->is_double != b->is_double;
     case KNOB_SAMPLES:
-        return a->samples != b->samples;
+        return a->samples != b->samples && !plan_differs(a, b, KNOB_ERROR);
+    case KNOB_ERROR:
+        return a->error < b->error || a->error > b->error ||
+               (a->error > 0 && a->min_samples != b->min_samples);
     case KNOB_SHADOWS:
         return a->shadows != b->shadows;
     case KNOB_RESOLUTION:
@@ -33,8 +40,27 @@ bool plan_differs(const struct setting *a, const struct setting *b, enum knob kn
     case KNOB_ALTERNATIVE:
         return a->alternative != b->alternative;
     default:
-        return false;
+        return ((a->without ^ b->without) & KNOBS_WITHOUT) >> knob & 1;
     }
+}
+
+// Of what is left out.
+static const char *const without_names[KNOB_COUNT] = {
+    [KNOB_CLEAR_SHADOWS] = "transparent_shadows off",
+    [KNOB_OCCLUSION] = "occlusion off",
+    [KNOB_SOFT_LIGHTS] = "lights without extent",
+    [KNOB_LENS] = "pinhole",
+    [KNOB_ROUGHNESS] = "no roughness",
+    [KNOB_FILTER] = "no filter",
+};
+
+static void name_error(const struct setting *s, char *out, size_t capacity) {
+    char number[NUMBER_FORMAT_MAX];
+    number_format(s->error, number);
+    if (s->error > 0)
+        snprintf(out, capacity, "error %s by %u to %u samples", number, s->min_samples, s->samples);
+    else
+        snprintf(out, capacity, "error off, samples %u", s->samples);
 }
 
 static void name_part(const struct setting *s, enum knob knob, char *out, size_t capacity) {
@@ -65,8 +91,11 @@ static void name_part(const struct setting *s, enum knob knob, char *out, size_t
     case KNOB_ALTERNATIVE:
         snprintf(out, capacity, "study: %s", render_alternative_name(s->alternative));
         break;
+    case KNOB_ERROR:
+        name_error(s, out, capacity);
+        break;
     default:
-        snprintf(out, capacity, "?");
+        snprintf(out, capacity, "%s", without_names[knob] ? without_names[knob] : "?");
         break;
     }
 }
@@ -86,7 +115,7 @@ void plan_describe(struct row *row, const struct setting *base) {
     }
     if (!row->knobs)
         snprintf(row->name, sizeof row->name, "as the file says");
-    row->choosable = !(row->knobs & (1u << KNOB_FEATURES | 1u << KNOB_ALTERNATIVE));
+    row->choosable = !(row->knobs & KNOBS_NEVER_CHOSEN);
 }
 
 // ---- one knob at a time
@@ -151,8 +180,33 @@ static void add_sizes(struct planning *p) {
 
 static void add_samples(struct planning *p) {
     struct setting s = p->input->base;
+    s.error = 0;
     for (s.samples = 1; s.samples <= p->input->most_samples; s.samples *= 2)
         add(p, s);
+}
+
+// Of a file that has an error its own samples, else those of a ladder, of which a quarter come before any
+// ends.
+static void add_errors(struct planning *p) {
+    static const double ladder[] = {0.1, 0.05, 0.02, 0.01, 0.005};
+    struct setting s = p->input->base;
+    if (!(s.error > 0)) {
+        s.samples = p->input->most_samples;
+        s.min_samples = s.samples / 4 > ERROR_SAMPLES_LEAST ? s.samples / 4 : ERROR_SAMPLES_LEAST;
+    }
+    for (size_t i = 0; i < sizeof ladder / sizeof *ladder && s.samples > s.min_samples; i++) {
+        s.error = ladder[i];
+        add(p, s);
+    }
+}
+
+static void add_parts(struct planning *p) {
+    for (uint32_t knob = 0; knob < KNOB_COUNT; knob++) {
+        struct setting s = p->input->base;
+        s.without = p->input->parts & 1u << knob & KNOBS_WITHOUT;
+        if (s.without)
+            add(p, s);
+    }
 }
 
 static void add_alternatives(struct planning *p) {
@@ -177,6 +231,8 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows) {
     if (input->knows_double || !s.is_double)
         add(&p, s);
     add_samples(&p);
+    add_errors(&p);
+    add_parts(&p);
     s = input->base;
     s.shadows = false;
     add(&p, s);
@@ -190,11 +246,14 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows) {
 
 // ---- times
 
-// Whether all rays of `a` are rays of `b` too.
+// Whether all rays of `a` are rays of `b` too. Which pixels end earlier with a larger error is not as simple.
 static bool is_part(const struct setting *a, const struct setting *b) {
-    return a->max_depth <= b->max_depth && a->min_weight >= b->min_weight && a->samples <= b->samples &&
-           a->width <= b->width && a->height <= b->height && a->shadows <= b->shadows &&
-           a->is_double == b->is_double && a->general == b->general && a->alternative == b->alternative;
+    const uint32_t rays_only = 1u << KNOB_CLEAR_SHADOWS | 1u << KNOB_OCCLUSION;
+    return !plan_differs(a, b, KNOB_ERROR) && !((a->without ^ b->without) & ~rays_only) &&
+           !(b->without & ~a->without) && a->max_depth <= b->max_depth && a->min_weight >= b->min_weight &&
+           a->samples <= b->samples && a->width <= b->width && a->height <= b->height &&
+           a->shadows <= b->shadows && a->is_double == b->is_double && a->general == b->general &&
+           a->alternative == b->alternative;
 }
 
 bool plan_order_times(struct row *rows, uint32_t count) {
@@ -250,6 +309,12 @@ static bool is_worth_it(const struct row *rows, uint32_t count, uint32_t index, 
     return !isnan(error_of(row, metric));
 }
 
+// Both say how many samples there are.
+static bool are_one(uint32_t a, uint32_t b) {
+    const uint32_t samples = 1u << KNOB_SAMPLES | 1u << KNOB_ERROR;
+    return a == b || (1u << a & samples && 1u << b & samples);
+}
+
 static struct setting join(const struct setting *a, uint32_t knob_a, const struct setting *b) {
     // The setting of `b`, with the one knob of `a`.
     struct setting s = *b;
@@ -273,7 +338,13 @@ static struct setting join(const struct setting *a, uint32_t knob_a, const struc
         s.width = a->width;
         s.height = a->height;
         break;
+    case KNOB_ERROR:
+        s.error = a->error;
+        s.min_samples = a->min_samples;
+        s.samples = a->samples;
+        break;
     default:
+        s.without |= a->without & 1u << knob_a;
         break;
     }
     return s;
@@ -323,7 +394,7 @@ uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, 
     *left_out = 0;
     for (uint32_t a = 1; found && a < count; a++)
         for (uint32_t b = a + 1; b < count && found_count < PAIRS_MAX; b++)
-            if (is_single(&rows[a], &knob_a) && is_single(&rows[b], &knob_b) && knob_a != knob_b &&
+            if (is_single(&rows[a], &knob_a) && is_single(&rows[b], &knob_b) && !are_one(knob_a, knob_b) &&
                 matters(&rows[a], &rows[0], metric) && matters(&rows[b], &rows[0], metric) &&
                 is_worth_it(rows, count, a, metric) && is_worth_it(rows, count, b, metric))
                 found[found_count++] = foretell(rows, a, b, metric);

@@ -22,6 +22,7 @@ struct plan_input {
     bool knows_double; // the device can
     bool has_triangles;
     uint32_t most_samples; // of a ladder
+    uint32_t parts;        // of KNOBS_WITHOUT, what the scene has
 };
 
 // The file's own settings first, then each knob's ladder from coarse to fine, without the file's own value.

@@ -176,6 +176,7 @@ static void lower_others(struct searching *s, struct setting *at) {
 
 static void by_error(struct searching *s) {
     struct setting at = s->input->base;
+    at.error = 0; // the search says how many samples there are
     if (!climb_anywhere(s, &at))
         return;
     lower_samples(s, &at);
@@ -224,6 +225,7 @@ static struct setting cheaper(const struct searching *s, const struct setting *a
 
 static void by_time(struct searching *s) {
     struct setting at = s->input->base;
+    at.error = 0; // the search says how many samples there are
     uint32_t fit = fill(s, at, 0);
     for (int i = 0; s->input->bounces && !s->pending && at.max_depth > 0 && i < (fit ? 2 : 8); i++) {
         at = cheaper(s, &at);

@@ -7,11 +7,12 @@
 
 static const char STYLE[] =
     ":root{--ink:#1c1f24;--soft:#5d6570;--paper:#fff;--panel:#f4f5f7;--line:#d6dae0;--accent:#b3261e;"
-    "--k0:#1f6fb2;--k1:#2a8c82;--k2:#7a4fb5;--k3:#b06a00;--k4:#8a8d00;--k5:#c2457a;--pair:#7d858f;--study:#"
+    "--k0:#1f6fb2;--k1:#2a8c82;--k2:#7a4fb5;--k3:#b06a00;--k4:#8a8d00;--k5:#c2457a;--k6:#3c7d1e;--k7:#9a6a58;"
+    "--pair:#7d858f;--study:#"
     "a33}"
     "@media(prefers-color-scheme:dark){:root{--ink:#e6e8eb;--soft:#9aa3ad;--paper:#16181c;--panel:#1f2228;"
     "--line:#363b43;--accent:#ff8a80;--k0:#6cb2f0;--k1:#63c9bd;--k2:#b794f0;--k3:#eeae55;--k4:#c9cc4d;"
-    "--k5:#f08ab8;--pair:#8d96a1;--study:#ef7f7f}}"
+    "--k5:#f08ab8;--k6:#8fd06a;--k7:#cf9f8c;--pair:#8d96a1;--study:#ef7f7f}}"
     "body{margin:0 auto;max-width:1180px;padding:24px;background:var(--paper);color:var(--ink);"
     "font:15px/1.5 system-ui,sans-serif}"
     "h1{font-size:22px;margin:0 0 4px}h2{font-size:17px;margin:32px 0 8px}p{max-width:72ch}"
@@ -25,6 +26,7 @@ static const char STYLE[] =
     ".file{color:var(--ink)}.max_depth{color:var(--k0)}.min_weight{color:var(--k1)}.precision{color:var(--k2)"
     "}"
     ".samples{color:var(--k3)}.shadows{color:var(--k4)}.resolution{color:var(--k5)}.pair{color:var(--pair)}"
+    ".error{color:var(--k6)}.without{color:var(--k7)}"
     ".features,.study{color:var(--study)}"
     ".lines{white-space:pre-line}.legend span{margin-right:16px;white-space:nowrap}.legend "
     "b{font-size:18px;line-height:1}"
@@ -51,8 +53,9 @@ static const char SCRIPT[] =
     "return up?o:-o}).forEach(r=>b.append(r))}))";
 
 static void legend(struct strbuf *out) {
-    static const char *const kinds[] = {"file",    "max_depth",  "min_weight", "precision", "samples",
-                                        "shadows", "resolution", "pair",       "study"};
+    static const char *const kinds[] = {"file",    "max_depth", "min_weight", "precision",
+                                        "samples", "shadows",   "resolution", "error",
+                                        "without", "pair",      "study"};
     strbuf_cstr(out, "<p class=\"legend soft\">");
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         strbuf_format(out, "<span><b class=\"%s\">&#9679;</b> %s</span>", kinds[i],

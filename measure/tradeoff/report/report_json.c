@@ -20,6 +20,7 @@ static void put_work(const struct work *work, struct json_writer *json) {
     json_write_integer(json, "nodes", work->nodes);
     json_write_integer(json, "triangles", work->triangles);
     json_write_real(json, "cost", work->cost);
+    json_write_real(json, "mean_samples", work->samples);
     json_close_object(json);
 }
 
@@ -32,6 +33,10 @@ static void put_setting(const struct setting *s, struct json_writer *json) {
     json_write_real(json, "min_weight", s->min_weight);
     json_write_text(json, "precision", s->is_double ? STR("double") : STR("single"));
     json_write_boolean(json, "shadows", s->shadows);
+    if (s->error > 0) {
+        json_write_real(json, "error", s->error);
+        json_write_integer(json, "min_samples", s->min_samples);
+    }
     json_close_object(json);
 }
 
@@ -134,6 +139,7 @@ void tradeoff_json(const struct tradeoff *t, const char *scene, struct strbuf *o
     json_write_integer(&json, "truth_segments", t->ground_truth_segments);
     json_write_boolean(&json, "truth_cut", t->ground_truth_cut);
     json_write_real(&json, "truth_left_weight", t->ground_truth_left_weight);
+    json_write_real(&json, "samples_slope", t->slope);
     json_write_integer(&json, "parts_left_out", t->parts_out);
     json_write_boolean(&json, "numeric_probed", t->numeric_probed);
     json_write_boolean(&json, "hits_left_out", t->hits_out);

@@ -92,8 +92,10 @@ static struct plot plan(const struct tradeoff *t) {
     return p;
 }
 
-static const char *const knob_names[KNOB_COUNT] = {"max_depth", "min_weight", "precision", "samples",
-                                                   "shadows",   "resolution", "features",  "study"};
+static const char *const knob_names[KNOB_COUNT] = {
+    "max_depth", "min_weight", "precision", "samples", "shadows", "resolution", "error", "without",
+    "without",   "without",    "without",   "without", "without", "features",   "study",
+};
 
 const char *html_kind(const struct row *row) {
     if (!row->knobs)

@@ -167,7 +167,9 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
     if (t->options.budget_s > 0)
         strbuf_format(out, "; the budget was %.6g s", t->options.budget_s);
     strbuf_char(out, '\n');
-    if (t->ground_truth_samples <= t->base.samples)
+    if (!isnan(t->slope))
+        strbuf_format(out, "errors (mae) change as samples to the power of %.2f\n", t->slope);
+    if (t->ground_truth_samples <= t->rows[0].work.samples)
         strbuf_cstr(out, "the budget allowed the reference no more samples than the file: what more samples "
                          "would improve is not measured\n");
     if (t->ground_truth_cut)
@@ -245,7 +247,7 @@ void tradeoff_csv(const struct tradeoff *t, struct strbuf *out) {
         strbuf_format(out, ",%s", metric_infos[i].name);
     strbuf_cstr(out,
                 ",numeric,truncation,sampling,resolution,wrong_inside,wrong_outside,acne,leaks,shadow_edge,"
-                "holes,wrong_second,not_finite\n");
+                "holes,wrong_second,not_finite,error,min_samples,mean_samples\n");
     for (uint32_t i = 0; i < t->count; i++) {
         const struct row *row = &t->rows[i];
         const struct setting *s = &row->setting;
@@ -271,6 +273,10 @@ void tradeoff_csv(const struct tradeoff *t, struct strbuf *out) {
         for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
             csv_number(out, row->parts.known ? parts[k] : (double)NAN);
         csv_hits(row, out);
-        strbuf_format(out, ",%" PRIu64 "\n", row->not_finite);
+        strbuf_format(out, ",%" PRIu64, row->not_finite);
+        csv_number(out, s->error);
+        strbuf_format(out, ",%u", s->error > 0 ? s->min_samples : s->samples);
+        csv_number(out, row->work.samples);
+        strbuf_char(out, '\n');
     }
 }

@@ -12,7 +12,7 @@ struct assignment {
 };
 
 enum {
-    ASSIGNMENTS_MAX = 7
+    ASSIGNMENTS_MAX = 11
 };
 
 static void put(struct assignment *list, uint32_t *count, const char *element, const char *attribute,
@@ -21,6 +21,17 @@ static void put(struct assignment *list, uint32_t *count, const char *element, c
     a->element = element;
     a->attribute = attribute;
     snprintf(a->value, sizeof a->value, "%s", value);
+}
+
+static void put_real(struct assignment *list, uint32_t *count, const char *element, const char *attribute,
+                     double value) {
+    char text[NUMBER_FORMAT_MAX];
+    number_format(value, text);
+    put(list, count, element, attribute, text);
+}
+
+static bool is_other(double a, double b) {
+    return a < b || a > b;
 }
 
 static void put_integer(struct assignment *list, uint32_t *count, const char *element, const char *attribute,
@@ -34,23 +45,29 @@ static void put_integer(struct assignment *list, uint32_t *count, const char *el
 static uint32_t assignments(const struct setting *s, const struct setting *base,
                             struct assignment list[ASSIGNMENTS_MAX]) {
     uint32_t count = 0;
-    char number[NUMBER_FORMAT_MAX];
+    const uint32_t without = s->without & ~base->without;
     if (s->width != base->width)
         put_integer(list, &count, "image", "width", s->width);
     if (s->height != base->height)
         put_integer(list, &count, "image", "height", s->height);
     if (s->samples != base->samples)
         put_integer(list, &count, "image", "samples", s->samples);
+    if (is_other(s->error, base->error))
+        put_real(list, &count, "image", "error", s->error);
+    if (s->error > 0 && s->min_samples != base->min_samples)
+        put_integer(list, &count, "image", "min_samples", s->min_samples);
     if (s->max_depth != base->max_depth)
         put_integer(list, &count, "trace", "max_depth", s->max_depth);
-    if (s->min_weight < base->min_weight || s->min_weight > base->min_weight) {
-        number_format(s->min_weight, number);
-        put(list, &count, "trace", "min_weight", number);
-    }
+    if (is_other(s->min_weight, base->min_weight))
+        put_real(list, &count, "trace", "min_weight", s->min_weight);
     if (s->is_double != base->is_double)
         put(list, &count, "trace", "precision", s->is_double ? "double" : "single");
     if (s->shadows != base->shadows)
         put(list, &count, "trace", "shadows", s->shadows ? "true" : "false");
+    if (without & 1u << KNOB_CLEAR_SHADOWS)
+        put(list, &count, "trace", "transparent_shadows", "false");
+    if (without & 1u << KNOB_OCCLUSION)
+        put(list, &count, "ambient", "occlusion", "0");
     return count;
 }
 
@@ -72,7 +89,9 @@ static bool write_element(const struct assignment *list, uint32_t count, const c
 
 static void write_elements(const struct setting *s, const struct setting *base, struct strbuf *out,
                            bool xml) {
-    static const struct { const char *yaml, *xml; } elements[] = {{"image", "Image"}, {"trace", "Trace"}};
+    static const struct {
+        const char *yaml, *xml;
+    } elements[] = {{"image", "Image"}, {"trace", "Trace"}, {"ambient", "Ambient"}};
     struct assignment list[ASSIGNMENTS_MAX];
     const uint32_t count = assignments(s, base, list);
     for (size_t i = 0; i < sizeof elements / sizeof *elements; i++) {

@@ -31,23 +31,47 @@ enum knob {
     KNOB_SAMPLES,
     KNOB_SHADOWS,
     KNOB_RESOLUTION,
+    KNOB_ERROR, // pixels end by their error; `samples` is then part of it
+    // What the picture has is left out, as a bit of setting.without.
+    KNOB_CLEAR_SHADOWS,
+    KNOB_OCCLUSION,
+    KNOB_SOFT_LIGHTS, // these four are no one setting of a file: never chosen
+    KNOB_LENS,
+    KNOB_ROUGHNESS,
+    KNOB_FILTER,
     KNOB_FEATURES,    // what is compiled in: not a setting of the file, never chosen
     KNOB_ALTERNATIVE, // other tracers' ways: never chosen
     KNOB_COUNT,
 };
 
+#define KNOBS_WITHOUT                                                                                        \
+    (1u << KNOB_CLEAR_SHADOWS | 1u << KNOB_OCCLUSION | 1u << KNOB_SOFT_LIGHTS | 1u << KNOB_LENS |            \
+     1u << KNOB_ROUGHNESS | 1u << KNOB_FILTER)
+#define KNOBS_NEVER_CHOSEN                                                                                   \
+    (1u << KNOB_SOFT_LIGHTS | 1u << KNOB_LENS | 1u << KNOB_ROUGHNESS | 1u << KNOB_FILTER |                   \
+     1u << KNOB_FEATURES | 1u << KNOB_ALTERNATIVE)
+
 struct setting {
     uint32_t width, height, samples, max_depth;
     double min_weight;
+    double error;         // 0: all pixels take all samples
+    uint32_t min_samples; // with an error
+    uint32_t without;     // of KNOBS_WITHOUT, what is left out
     bool is_double, shadows;
     bool general; // every feature of the language is compiled in
     enum render_alternative alternative;
 };
 
+// Whether pixels end by their error: none does before it has the least samples.
+static inline bool setting_ends_pixels(const struct setting *s) {
+    return s->error > 0 && s->samples > s->min_samples;
+}
+
 // What was counted; it does not vary from run to run.
 struct work {
     uint64_t rays, nodes, triangles; // rays of all kinds; nodes and triangles (spheres too) tested
     uint32_t deepest;                // level of a ray that was traced
+    double samples;                  // of a pixel, on average
     double cost;                     // nodes + triangles, doubled in double precision; see docs/accuracy.md
 };
 
@@ -55,7 +79,7 @@ struct work {
 struct error_parts {
     bool known;
     double numeric;    // device against the reference at the same settings
-    double truncation; // what max_depth, min_weight and absent shadows leave out
+    double truncation; // what max_depth, min_weight, absent shadows and what else is absent leave out
     double sampling;   // few samples against those of the ground truth
     double resolution; // fewer pixels, scaled up
 };
@@ -137,8 +161,9 @@ struct tradeoff {
     uint32_t part_pixels;    // at which the parts were measured
     double seconds, reference_seconds;
     char device[256];
-    double noise;                              // share of a time below which two are equal
-    uint32_t knee;                             // CHOICE_NONE: none
+    double noise;  // share of a time below which two are equal
+    double slope;  // errors (mae) fall as samples to this power; NaN: too few rows
+    uint32_t knee; // CHOICE_NONE: none
     struct choice cheapest, best_within, both; // the last where both bounds were asked for
 };
 

@@ -163,7 +163,8 @@ static void other_kinds_are_named(void **state) {
         scratch_write(&f->scratch, path, "ply\n");
     }
     expect(f, "a.off", "meshes of the kind '.off' are not supported [E605]",
-           "glint reads Wavefront OBJ (.obj), PLY (.ply), STL (.stl)");
+           "glint reads Wavefront OBJ (.obj), PLY (.ply), STL (.stl) or glTF 2.0 (.glb, .gltf); a 3D program "
+           "can convert");
     expect(f, "a.FBX", "meshes of the kind '.FBX' are not supported [E605]", "can convert");
     expect(f, "a.dae", "meshes of the kind '.dae' are not supported [E605]", "can convert");
     expect(f, "a.txt", "meshes of the kind '.txt' are not supported [E605]",

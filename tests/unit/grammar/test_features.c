@@ -50,9 +50,7 @@ static struct ir_light *add_light(struct kit *kit) {
     return light;
 }
 
-enum {
-    ALWAYS = FEATURE_SHADOWS | FEATURE_POINT_LIGHT
-};
+static const uint64_t ALWAYS = FEATURE_SHADOWS | FEATURE_POINT_LIGHT;
 
 static void test_an_empty_scene(void **state) {
     struct kit *kit = *state;
@@ -114,7 +112,7 @@ static void test_lights(void **state) {
     assert_true(ir_features(&kit->scene) & FEATURE_DEPTH_BLACK);
 }
 
-static const struct ir_feature_reason *reason_for(const struct ir_feature_reasons *reasons, uint32_t bit) {
+static const struct ir_feature_reason *reason_for(const struct ir_feature_reasons *reasons, uint64_t bit) {
     for (uint32_t i = 0; i < reasons->count; i++)
         if (reasons->items[i].bit == bit)
             return &reasons->items[i];
@@ -149,7 +147,7 @@ static void test_reasons(void **state) {
     assert_true(span_is_none(reason->at));
     assert_string_equal(reason_for(&reasons, FEATURE_POINT_LIGHT)->words,
                         "no light is written, so one is placed at the camera");
-    uint32_t mask = 0;
+    uint64_t mask = 0;
     for (uint32_t i = 0; i < reasons.count; i++) {
         assert_true(reasons.items[i].bit > mask); // each once, in order
         mask |= reasons.items[i].bit;
@@ -160,17 +158,18 @@ static void test_reasons(void **state) {
 static void test_names(void **state) {
     (void)state;
     for (uint32_t i = 0; i < FEATURE_COUNT; i++) {
-        assert_string_not_equal(feature_name(1u << i), "unknown");
+        assert_string_not_equal(feature_name(UINT64_C(1) << i), "unknown");
         for (uint32_t k = 0; k < i; k++)
-            assert_string_not_equal(feature_name(1u << i), feature_name(1u << k));
+            assert_string_not_equal(feature_name(UINT64_C(1) << i), feature_name(UINT64_C(1) << k));
     }
     assert_string_equal(feature_name(3), "unknown");
+    assert_string_equal(feature_name(UINT64_C(1) << FEATURE_COUNT), "unknown");
 }
 
 // Every bit that only a file can set is in the table.
 static void test_every_feature_has_a_row(void **state) {
     (void)state;
-    uint32_t mask = 0;
+    uint64_t mask = 0;
     for (const struct schema_element *const *e = schema_elements; *e; e++)
         for (uint32_t i = 0; i < (*e)->row_count; i++) {
             mask |= (*e)->rows[i].feature;

@@ -65,7 +65,8 @@ bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scen
                     enum probe_way way) {
     const struct frame_block frame = {.sphere_count = flat->sphere_count};
     const uint32_t constants[CONSTANT_COUNT] = {
-        [CONSTANT_FEATURES] = flat->features & (FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_SMOOTH),
+        [CONSTANT_FEATURES] =
+            (uint32_t)(flat->features & (FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_SMOOTH)),
         [CONSTANT_TRIANGLE_STACK] = levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = levels(flat->sphere_depth),
         [CONSTANT_PACKED_GROUPS] = packed,

@@ -65,7 +65,7 @@ struct mesh *shape_mesh(struct kit *kit, const struct shape *shape) {
 // ---- long bodies
 
 static vec3 turned(vec3 v) {
-    return mat3_apply(transform_rotation(LONG_ROTATION), v);
+    return mat3_apply(mat3_rotation(LONG_ROTATION), v);
 }
 
 // Across y, from below the camera to above it; the camera is at 0.

@@ -67,7 +67,7 @@ static void quarter_turns_are_exact(void **state) {
         {{90, 90, 90}, {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        mat3 m = transform_rotation(cases[i].degrees);
+        mat3 m = mat3_rotation(cases[i].degrees);
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 3; c++)
                 if (m.m[r][c] != cases[i].m[r][c] || signbit(m.m[r][c]) != signbit(cases[i].m[r][c]))
@@ -77,7 +77,7 @@ static void quarter_turns_are_exact(void **state) {
 
 static void the_order_is_x_then_y_then_z(void **state) {
     (void)state;
-    mat3 m = transform_rotation((vec3){30, 45, 60});
+    mat3 m = mat3_rotation((vec3){30, 45, 60});
     double sx = 0.5, cx = sqrt(3) / 2, sy = sqrt(0.5), cy = sqrt(0.5), sz = sqrt(3) / 2, cz = 0.5;
     assert_near((vec3){m.m[0][0], m.m[1][0], m.m[2][0]}, cz * cy, sz * cy, -sy);
     assert_near((vec3){m.m[0][1], m.m[1][1], m.m[2][1]}, cz * sy * sx - sz * cx, sz * sy * sx + cz * cx,
@@ -88,9 +88,9 @@ static void the_order_is_x_then_y_then_z(void **state) {
 
 static void angles_are_exact_to_an_ulp(void **state) {
     (void)state;
-    assert_true(transform_rotation((vec3){0, 0, 30}).m[1][0] == 0.49999999999999994 ||
-                transform_rotation((vec3){0, 0, 30}).m[1][0] == 0.5);
-    assert_true(fabs(transform_rotation((vec3){0, 0, 1e6}).m[1][0] - sin(fmod(1e6, 360) * PI / 180)) < 1e-15);
+    assert_true(mat3_rotation((vec3){0, 0, 30}).m[1][0] == 0.49999999999999994 ||
+                mat3_rotation((vec3){0, 0, 30}).m[1][0] == 0.5);
+    assert_true(fabs(mat3_rotation((vec3){0, 0, 1e6}).m[1][0] - sin(fmod(1e6, 360) * PI / 180)) < 1e-15);
 }
 
 static void a_model_is_scaled_then_turned_then_moved(void **state) {

@@ -23,10 +23,14 @@ struct module {
     size_t count;
 };
 
-static struct module pruned(const struct kernel *kernel, uint32_t features) {
-    const uint32_t constants[CONSTANT_COUNT] = {
-        [CONSTANT_FEATURES] = features, [CONSTANT_TRIANGLE_STACK] = 8, [CONSTANT_SPHERE_STACK] = 1,
-        [CONSTANT_PACKED_GROUPS] = 1,   [CONSTANT_WORKGROUP] = 64,     [CONSTANT_BRANCHES] = 1};
+static struct module pruned(const struct kernel *kernel, uint64_t features) {
+    const uint32_t constants[CONSTANT_COUNT] = {[CONSTANT_FEATURES] = (uint32_t)features,
+                                                [CONSTANT_MORE_FEATURES] = (uint32_t)(features >> 32),
+                                                [CONSTANT_TRIANGLE_STACK] = 8,
+                                                [CONSTANT_SPHERE_STACK] = 1,
+                                                [CONSTANT_PACKED_GROUPS] = 1,
+                                                [CONSTANT_WORKGROUP] = 64,
+                                                [CONSTANT_BRANCHES] = 1};
     const struct gpu_program_source source = {
         .kernel = kernel, .constants = constants, .constant_count = CONSTANT_COUNT};
     struct module module = {kernel_inflate(kernel), kernel->words};
@@ -75,9 +79,8 @@ static void test_each_feature(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++)
         for (uint32_t bit = 0; bit < FEATURE_COUNT; bit++) {
-            const struct module without =
-                pruned(kernels[k], (UINT32_MAX >> (32 - FEATURE_COUNT)) & ~(1u << bit));
-            const struct module alone = pruned(kernels[k], 1u << bit);
+            const struct module without = pruned(kernels[k], FEATURE_ALL & ~(UINT64_C(1) << bit));
+            const struct module alone = pruned(kernels[k], UINT64_C(1) << bit);
             check(&without);
             check(&alone);
             assert_true(alone.count < kernels[k]->words && without.count <= kernels[k]->words);

@@ -1,0 +1,164 @@
+// Real events for a window of an X server, as a user makes them (XTest), and pictures of it.
+// Usage: x_events TITLE WORD..., where the words are, in their order:
+//   await             until there is a window of that title
+//   key K             press and release; down K, up K: one of them. K as Xlib names keys: w, Tab, Escape
+//   move X Y          the mouse, to a place of the window
+//   press N, release N    a button of the mouse; 4 and 5 are the wheel
+//   size W H          what a user does at the window's corner
+//   hide, show        what minimising does without a window manager
+//   close             what a user does with the window's button
+//   sleep MS
+//   shot FILE         the window as PPM
+// Exit: 0; 1 where the window is not there; 2 for a mistake.
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/extensions/XTest.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static Display *display;
+static Window window;
+
+static void nap(long ms) {
+    const struct timespec time = {ms / 1000, ms % 1000 * 1000000};
+    nanosleep(&time, NULL);
+}
+
+static int number(const char *text) {
+    return (int)strtol(text, NULL, 10);
+}
+
+static Window find(Window at, const char *title) {
+    Window root, parent, *children = NULL, found = None;
+    unsigned count = 0;
+    char *name = NULL;
+    if (XFetchName(display, at, &name) && name && strcmp(name, title) == 0)
+        found = at;
+    if (name)
+        XFree(name);
+    if (!found && XQueryTree(display, at, &root, &parent, &children, &count))
+        for (unsigned i = 0; i < count && !found; i++)
+            found = find(children[i], title);
+    if (children)
+        XFree(children);
+    return found;
+}
+
+static int await(const char *title) {
+    enum {
+        TRIES = 600
+    };
+    for (int i = 0; i < TRIES; i++) {
+        XWindowAttributes attributes;
+        window = find(DefaultRootWindow(display), title);
+        if (window && XGetWindowAttributes(display, window, &attributes) &&
+            attributes.map_state == IsViewable)
+            return 0;
+        nap(100);
+    }
+    fprintf(stderr, "x_events: no window '%s'\n", title);
+    return 1;
+}
+
+static void key(const char *name, int down) {
+    XTestFakeKeyEvent(display, XKeysymToKeycode(display, XStringToKeysym(name)), down, CurrentTime);
+}
+
+static void move(int x, int y) {
+    int root_x, root_y;
+    Window child;
+    XTranslateCoordinates(display, window, DefaultRootWindow(display), x, y, &root_x, &root_y, &child);
+    XTestFakeMotionEvent(display, -1, root_x, root_y, CurrentTime);
+}
+
+static void close_window(void) {
+    XEvent event = {0};
+    event.xclient.type = ClientMessage;
+    event.xclient.window = window;
+    event.xclient.message_type = XInternAtom(display, "WM_PROTOCOLS", False);
+    event.xclient.format = 32;
+    event.xclient.data.l[0] = (long)XInternAtom(display, "WM_DELETE_WINDOW", False);
+    XSendEvent(display, window, False, NoEventMask, &event);
+}
+
+static int shot(const char *path) {
+    XWindowAttributes attributes;
+    FILE *file = fopen(path, "wb");
+    XGetWindowAttributes(display, window, &attributes);
+    XImage *image = XGetImage(display, window, 0, 0, (unsigned)attributes.width, (unsigned)attributes.height,
+                              AllPlanes, ZPixmap);
+    if (!file || !image)
+        return 1;
+    fprintf(file, "P6\n%d %d\n255\n", attributes.width, attributes.height);
+    for (int y = 0; y < attributes.height; y++)
+        for (int x = 0; x < attributes.width; x++) {
+            const unsigned long pixel = XGetPixel(image, x, y);
+            fputc((int)(pixel >> 16 & 255), file);
+            fputc((int)(pixel >> 8 & 255), file);
+            fputc((int)(pixel & 255), file);
+        }
+    XDestroyImage(image);
+    return fclose(file) != 0;
+}
+
+// One word with its arguments; returns how many words it took, 0 for a mistake.
+static int run(char **words, int left, const char *title) {
+    static const struct {
+        const char *name;
+        int arguments;
+    } known[] = {{"await", 0}, {"key", 1},     {"down", 1}, {"up", 1},   {"move", 2},
+                 {"press", 1}, {"release", 1}, {"size", 2}, {"hide", 0}, {"show", 0},
+                 {"close", 0}, {"sleep", 1},   {"shot", 1}};
+    int is = -1;
+    for (int i = 0; i < (int)(sizeof known / sizeof *known); i++)
+        if (strcmp(words[0], known[i].name) == 0)
+            is = i;
+    if (is < 0 || left <= known[is].arguments)
+        return 0;
+    const char *word = words[0], *one = known[is].arguments ? words[1] : "";
+    if (strcmp(word, "await") == 0 && await(title))
+        exit(1);
+    if (strcmp(word, "key") == 0 || strcmp(word, "down") == 0)
+        key(one, True);
+    if (strcmp(word, "key") == 0 || strcmp(word, "up") == 0)
+        key(one, False);
+    if (strcmp(word, "move") == 0)
+        move(number(one), number(words[2]));
+    if (strcmp(word, "press") == 0 || strcmp(word, "release") == 0)
+        XTestFakeButtonEvent(display, (unsigned)number(one), word[0] == 'p', CurrentTime);
+    if (strcmp(word, "size") == 0)
+        XResizeWindow(display, window, (unsigned)number(one), (unsigned)number(words[2]));
+    if (strcmp(word, "hide") == 0)
+        XUnmapWindow(display, window);
+    if (strcmp(word, "show") == 0)
+        XMapWindow(display, window);
+    if (strcmp(word, "close") == 0)
+        close_window();
+    if (strcmp(word, "sleep") == 0)
+        nap(number(one));
+    XSync(display, False);
+    if (strcmp(word, "shot") == 0 && shot(one))
+        exit(1);
+    return 1 + known[is].arguments;
+}
+
+int main(int argc, char **argv) {
+    display = XOpenDisplay(NULL);
+    if (argc < 3 || !display) {
+        fprintf(stderr, "x_events: %s\n", display ? "needs a title and words" : "no display");
+        return 2;
+    }
+    window = find(DefaultRootWindow(display), argv[1]);
+    for (int at = 2; at < argc;) {
+        const int taken = strcmp(argv[at], "await") != 0 && !window ? 0 : run(argv + at, argc - at, argv[1]);
+        if (!taken) {
+            fprintf(stderr, "x_events: not understood, or no window: %s\n", argv[at]);
+            return window ? 2 : 1;
+        }
+        at += taken;
+    }
+    XCloseDisplay(display);
+    return 0;
+}
