@@ -144,7 +144,8 @@ static const struct option_row rows[] = {
     {OPTION_STATS, "stats", 0, "[=json]", "render",
      "show times, rays, memory and the device: text on standard error, JSON on standard output; "
      "docs/reports.md describes it"},
-    {OPTION_OUTPUT, "output", 'o', "FILE", "view", "where the key P writes the picture (.png .pfm .hdr)"},
+    {OPTION_OUTPUT, "output", 'o', "FILE", "view",
+     "where the key P writes the picture (" IMAGE_WRITTEN_ENDINGS ")"},
     {OPTION_STATS, "stats", 0, "[=json]", "view",
      "show what each load did, as --watch does: text on standard error, JSON on standard output"},
     {OPTION_AUDIT, "audit", 0, NULL, "render",
@@ -583,7 +584,7 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
             continue;
         }
         for (int i = 0; i < ROW_COUNT; i++)
-            if (rows[i].id == id || rows[i].letter == id) {
+            if ((rows[i].id == id || rows[i].letter == id) && belongs(&rows[i], command)) {
                 good = !is_repeated(cli, arg, &rows[i]) && apply(cli, arg, &rows[i], optarg) && good;
                 break;
             }

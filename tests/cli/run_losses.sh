@@ -6,12 +6,14 @@ unset GLINT_DEVICE
 
 printf 'glint: 1\nimage: {width: 8, height: 8}\nspheres: [{name: ball, center: [0, 0, 0], radius: 1}, {center: [3, 0, 0], radius: 2}]\n' >a.yaml
 
-expect "a second output" 2 - "command-line:1:30: error: option '--output' is given twice" "$glint" render a.yaml -o a.png --output b.png
-also "the first is shown" '' 'command-line:1:21: note: the first one is here'
-expect "glued to its letter" 2 - "command-line:1:30: error: option '--output' is given twice" "$glint" render a.yaml -o a.png -ob.png
-ok "neither is written" sh -c '! ls ./*.png'
+expect "a second output" 2 - "command-line:1:33: error: option '--output' is given twice" "$glint" tradeoff a.yaml -o a.html --output b.html
+also "the first is shown" '' 'command-line:1:23: note: the first one is here'
+expect "glued to its letter" 2 - "command-line:1:33: error: option '--output' is given twice" "$glint" tradeoff a.yaml -o a.html -ob.html
+ok "neither is written" sh -c '! ls ./*.html'
+expect "a picture named twice" 2 - "a.png" "$glint" render a.yaml -o a.png -o a.png
+ok "which is not written" [ ! -e a.png ]
 # Every option that takes one value, in the first command whose help lists it.
-"$glint" --help | sed -n 's/^  \([a-z]*\)  .*/\1/p' >commands.txt
+"$glint" --help | sed -n 's/^  \([a-z]\{1,\}\)  .*/\1/p' >commands.txt
 while read -r command; do
     "$glint" "$command" --help | sed -n 's/^  .*\(--[a-z-]*\) \([A-Z][^ ]*\)  *[^. ].*/\1 \2/p' | while read -r option value; do
         case $value in # any value of the right form
