@@ -41,6 +41,20 @@ static void report_mesh_kind(struct asset_file *file) {
               STR_ARG(mesh_format_words(file->input->arena)));
 }
 
+// Shown whole it would not be what the scene asks for.
+static bool can_have_part(struct asset_file *file) {
+    const enum mesh_format_id format = mesh_format_of_path(file->path);
+    if (file->part.len == 0 || mesh_formats[format].traits & MESH_HOLDS_BODIES)
+        return true;
+    asset_report_part(file, "'part' has no meaning here: '%.*s' is %s, which is one body",
+                      STR_ARG(file->path), mesh_formats[format].called);
+    diag_help(file->input->sink, "leave 'part' out%s",
+              mesh_formats[format].traits & MESH_HOLDS_PARTS
+                  ? "; 'material_map' gives its groups materials by their names"
+                  : "");
+    return false;
+}
+
 struct mesh_reading {
     struct asset_file *file;
     struct arena *scratch;
@@ -143,10 +157,13 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     loaded->name = model->mesh;
     loaded->part = model->part;
     loaded->file.part = model->part;
+    loaded->file.part_at = ir_place_value(input->origin, &model->head, &SCHEMA_MODEL, "part");
     loaded->size_bytes = identity.size_bytes;
     loaded->canonical = arena_copy(input->arena, identity.path);
     loaded->next = loader->meshes;
     loader->meshes = loaded;
+    if (!can_have_part(&loaded->file))
+        return loaded;
     if (loader_open_document(loader, &loaded->file, &identity) && loaded->file.errors == 0)
         load_mesh(loader, loaded, &identity);
     return loaded;

@@ -61,9 +61,6 @@ static bool is_other_archive(struct cli *cli) {
 int cmd_pack(struct cli *cli) {
     struct session session;
     struct session_options options = cli_session_options(cli, cli->operands[0]);
-    if (assets_is_mesh_path(options.path))
-        return cli_usage(cli, cli_operand_place(cli, 0),
-                         "'glint pack' takes a scene file, but this is a mesh");
     if (strcmp(cli->operands[0], "-") == 0)
         return cli_usage(cli, cli_operand_place(cli, 0),
                          "a package has the scene's name, and standard input has none: name a file");

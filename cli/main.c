@@ -70,7 +70,8 @@ static const struct cli_command commands[] = {
      1, -1, cmd_deps},
     {"pack", "SCENE OUT", "put a scene and all its files into one folder or ZIP archive",
      "OUT is a ZIP archive if it ends in .zip, otherwise a new folder. Paths are rewritten in the text of\n"
-     "the scene; nothing else is changed, and the package renders the same wherever it is put.\n\n"
+     "the scene; nothing else is changed, and the package renders the same wherever it is put. A mesh by\n"
+     "itself is packed with the scene that glint draws around it.\n\n"
      "  glint pack scenes/showcase.glint.yaml showcase.zip\n",
      2, 2, cmd_pack},
     {"lsp", "", "serve an editor through the Language Server Protocol",

@@ -22,6 +22,7 @@ enum mesh_traits {
     MESH_HOLDS_MATERIALS = 4,   // by itself, or in files that it names
     MESH_HOLDS_PARTS = 8,       // with names, so that 'material_map' can give each its material
     MESH_Z_UP = 16,             // the third axis points upwards; else the second
+    MESH_HOLDS_BODIES = 32,     // of which 'part' chooses one
 };
 
 struct mesh_format {

@@ -227,7 +227,26 @@ static void add_limits(struct planner *p) {
     strbuf_finish(&text);
 }
 
+// The scene around a mesh by itself, which nobody wrote: it is called as the mesh is, and its paths are seen
+// from there.
+static void add_scene_around(struct planner *p, const struct source *source) {
+    const str base = path_base(source->path);
+    size_t stem = base.len;
+    while (stem > 0 && base.ptr[stem - 1] != '.')
+        stem--;
+    const str name = str_slice(base, 0, stem > 1 ? stem - 1 : base.len);
+    *ARENA_PUSH(&p->session->arena, p->plan) = (struct pack_file){
+        .target = arena_format(&p->session->arena, "%.*s.glint.yaml", STR_ARG(name)), .text = source->text};
+}
+
+static bool is_generated(const struct session *session) {
+    const struct ir_file_origin *file = &session->origin.files.items[0];
+    return session->sources.items[file->source].kind == SOURCE_KIND_GENERATED;
+}
+
 static void place_all(struct planner *p) {
+    if (is_generated(p->session))
+        add_scene_around(p, &p->session->sources.items[p->session->origin.files.items[0].source]);
     for (uint32_t i = 0; i < p->plan->inventory->count; i++) {
         const struct inventory_use *use = &p->plan->inventory->items[i];
         if (use->role == INVENTORY_SCENE)
@@ -322,7 +341,8 @@ static void rewrite_all(struct planner *p) {
     for (uint32_t f = 0; f < p->session->origin.files.count; f++) {
         const struct ir_file_origin *file = &p->session->origin.files.items[f];
         str canonical = files_canonical(&p->session->files, p->session->sources.items[file->source].path);
-        struct pack_file *out = find_canonical(p->plan, canonical);
+        struct pack_file *out =
+            f == 0 && is_generated(p->session) ? &p->plan->items[0] : find_canonical(p->plan, canonical);
         if (out)
             rewrite(p, file, out);
     }

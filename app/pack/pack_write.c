@@ -110,7 +110,10 @@ static bool same_files(struct session *session, const struct inventory *after, c
     for (;; a++, b++) {
         while (a < before->count && before->items[a].role == INVENTORY_SETTINGS)
             a++;
-        while (b < after->count && after->items[b].role == INVENTORY_SETTINGS)
+        // The scene around a mesh by itself was no file before.
+        while (b < after->count && (after->items[b].role == INVENTORY_SETTINGS ||
+                                    (after->items[b].role == INVENTORY_SCENE && a < before->count &&
+                                     before->items[a].role != INVENTORY_SCENE)))
             b++;
         if (a == before->count || b == after->count)
             return a == before->count && b == after->count;

@@ -101,6 +101,16 @@ void asset_report_named(struct asset_file *file, enum diag_code code, const char
     add_named(file, code, message);
 }
 
+void asset_report_part(struct asset_file *file, const char *format, ...) {
+    char message[MESSAGE_MAX];
+    va_list args;
+    va_start(args, format);
+    format_message(message, format, args);
+    va_end(args);
+    diag_add(file->input->sink, DIAG_UNKNOWN_PART, file->part_at, "%s", message);
+    file->errors++;
+}
+
 bool asset_only_counts(struct asset_file *file, enum diag_code code) {
     struct diag_sink *sink = file->input->sink;
     if (!diag_is_full(sink))

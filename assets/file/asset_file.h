@@ -31,6 +31,7 @@ struct asset_file {
     struct gltf_document
         *document; // of a glTF mesh, which all models of the file share; NULL: of another format
     str part;      // of the mesh, as the model names it; empty: all
+    span part_at;  // where it names that
 };
 
 // The file that holds a value: paths are relative to it. Values of options belong to the scene's file.
@@ -63,6 +64,9 @@ span asset_line(struct asset_file *file, uint32_t line);
 // Adds a diagnostic where the file is named.
 void asset_report_named(struct asset_file *file, enum diag_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+// The same where the model names the part: the mesh has none of that name, or no parts. Help may follow.
+void asset_report_part(struct asset_file *file, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 // Reports that a limit is too low: E501 at the given bytes, with the option to raise it.
 void asset_report_limit(struct asset_file *file, enum limit limit, size_t begin, size_t end, uint64_t needed);
 // Reports the fault of an arena that was used for the file (E501 or E502) where the file is named.

@@ -50,7 +50,7 @@ static bool check_header(struct gltf *gltf, str *bytes) {
         gltf_add(gltf, DIAG_GLTF_SYNTAX, 0, "the file is GLB version %u; glint reads version 2", version);
         return false;
     }
-    if (length > bytes->len) {
+    if (length < HEADER_BYTES || length > bytes->len) {
         gltf_add(gltf, DIAG_GLTF_SYNTAX, 0, "the header says %u bytes, and the file has %zu", length,
                  bytes->len);
         return false;

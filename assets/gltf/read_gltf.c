@@ -241,15 +241,16 @@ static void make_room(struct reading *r) {
 
 static void report_part(struct reading *r) {
     const str part = r->file->part;
-    asset_report_named(r->file, DIAG_UNKNOWN_PART, "the mesh '%.*s' has no part '%.*s'",
-                       STR_ARG(r->file->path), part.len < 80 ? (int)part.len : 80, part.ptr);
+    asset_report_part(r->file, "the mesh '%.*s' has no part '%.*s'", STR_ARG(r->file->path),
+                      part.len < 80 ? (int)part.len : 80, part.ptr);
     struct nearest search = nearest_begin(part);
     for (uint32_t i = 0; i < r->gltf->meshes.count; i++)
         nearest_offer(&search, r->gltf->meshes.items[i].name);
     const str best = nearest_best(&search);
-    if (best.len)
+    if (best.len) {
         diag_help(r->file->input->sink, "did you mean '%.*s'?", STR_ARG(best));
-    else
+        diag_fix_part(r->file->input->sink, r->file->input->sources, false, part, best);
+    } else
         diag_help(r->file->input->sink,
                   "it has %u mesh%s and %u node%s: write the name of a mesh, 'mesh 0' or 'node 0'",
                   r->gltf->meshes.count, r->gltf->meshes.count == 1 ? "" : "es", r->gltf->nodes.count,

@@ -1,4 +1,4 @@
-// Any bytes as a mesh that a scene shows: what fuzz_obj.c, fuzz_ply.c and fuzz_stl.c share.
+// Any bytes as a mesh that a scene shows: what fuzz_obj.c, fuzz_ply.c, fuzz_stl.c and fuzz_gltf.c share.
 #ifndef GLINT_TESTS_FUZZ_MESH_H
 #define GLINT_TESTS_FUZZ_MESH_H
 

@@ -62,5 +62,14 @@ expect 'pack takes them along' 0 - '' "$glint" pack whole.yaml packed
 "$glint" render packed/whole.yaml $small -q -o packed.pfm 2>/dev/null
 "$glint" render whole.yaml $small -q -o whole.pfm 2>/dev/null
 same 'the package renders the same' packed whole
+expect 'pack takes a glTF file by itself' 0 - '' "$glint" pack beside.gltf by_itself
+render by_itself by_itself/beside.glint.yaml
+same 'and its package renders as the file does' glb by_itself
+cp "$source/scenes/meshes/crate.obj" "$source/scenes/meshes/crate.mtl" .
+expect 'pack takes a mesh by itself' 0 '' '' "$glint" pack crate.obj crate
+expect 'the scene around it is in the package' 0 'meshes/crate.mtl' '' "$glint" deps crate/crate.glint.yaml
+render crate_packed crate/crate.glint.yaml
+render crate crate.obj
+same 'and renders as the mesh does' crate crate_packed
 
 exit $failed

@@ -188,7 +188,8 @@ same "it lies beside each of them" shared.d/meshes/tri.mtl shared.d/meshes-2/tri
 # ---- what must not happen
 mkdir full && : >full/mine
 expect "pack into a folder with files" 3 - 'is not an empty folder' "$glint" pack in/sub/scene.yaml full
-expect "pack of a mesh" 2 - 'is a mesh' "$glint" pack in/one/tri.obj x
+expect "pack of a mesh" 0 - '' "$glint" pack in/one/tri.obj mesh_alone
+expect "and what is in it" 0 'mesh_alone/meshes/tri.mtl' '' "$glint" deps mesh_alone/tri.glint.yaml
 expect "pack into a folder that is not there" 3 - 'error: .*E802' "$glint" pack in/sub/scene.yaml nowhere/x
 expect "pack of a scene with a missing mesh" 1 - 'E601' "$glint" pack gone.yaml x
 printf 'glint: 1\nmodels:\n  - mesh: >-\n      in/one/tri.obj\n' >block.yaml
