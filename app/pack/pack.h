@@ -4,8 +4,8 @@
 // files in meshes/, the background in images/; of two files with the same name the second goes to meshes-2/
 // and so on. A mesh by itself is packed with the scene around it, which is called as the mesh is, and ends in
 // .glint.yaml. Paths in scene files are rewritten in place: no other byte of any file is changed. Limits that
-// were raised go into settings for --config (limits.yaml). Before it gets its name, the packed scene is loaded
-// and compared: same meaning, same files. Thread safety: the session's thread.
+// were raised go into settings for --config (limits.yaml). Before it gets its name, the packed scene is
+// loaded and compared: same meaning, same files. Thread safety: the session's thread.
 #ifndef GLINT_APP_PACK_PACK_H
 #define GLINT_APP_PACK_PACK_H
 
