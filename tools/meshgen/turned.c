@@ -82,8 +82,8 @@ void queen_generate(struct mesh *mesh) {
 }
 
 // An arm of the cross, from a to b, wider at its ends.
-static void arm(struct mesh *mesh, vec3 a, vec3 b, vec3 side) {
-    const vec3 u = vec3_mul(side, 0.045), v = {0, 0, 0.04}, narrow = vec3_mul(side, 0.026);
+static void arm(struct mesh *mesh, vec3 a, vec3 b, vec3 side, double half) {
+    const vec3 u = vec3_mul(side, 0.045), v = {0, 0, half}, narrow = vec3_mul(side, 0.026);
     const vec3 middle = vec3_mul(vec3_add(a, b), 0.5);
     const struct solids_ring rings[] = {
         {a, u, v, NULL, NULL}, {middle, narrow, v, NULL, NULL}, {b, u, v, NULL, NULL}};
@@ -92,8 +92,8 @@ static void arm(struct mesh *mesh, vec3 a, vec3 b, vec3 side) {
 
 void king_generate(struct mesh *mesh) {
     lathe_turn_curve(mesh, KING, sizeof KING / sizeof *KING, STEPS, SIDES);
-    arm(mesh, (vec3){0, 1.67, 0}, (vec3){0, 1.95, 0}, (vec3){1, 0, 0});
-    arm(mesh, (vec3){-0.11, 1.83, 0}, (vec3){0.11, 1.83, 0}, (vec3){0, 1, 0});
+    arm(mesh, (vec3){0, 1.67, 0}, (vec3){0, 1.95, 0}, (vec3){1, 0, 0}, 0.04);
+    arm(mesh, (vec3){-0.11, 1.83, 0}, (vec3){0.11, 1.83, 0}, (vec3){0, 1, 0}, 0.035);
 }
 
 void plinth_generate(struct mesh *mesh) {
