@@ -44,5 +44,7 @@ echo >>repository/docs/gallery/ball.jpg
 small 'a picture that somebody changed' 1 --check "$work/now"
 small 'rendered anew' 0
 cp repository/docs/gallery/ball.jpg repository/docs/gallery/none.jpg
+small 'wrong use' 2 --pages
+small 'a scene that is not there' 3 none
 small 'a picture without a scene' 1 --check "$work/now"
 exit $failed
