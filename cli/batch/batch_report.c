@@ -4,6 +4,7 @@
 #include "core/json_write.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static const char *plural(uint32_t count) {
     return count == 1 ? "" : "s";
@@ -13,31 +14,56 @@ static const char *place_of(const struct batch_run *run, const struct batch_job 
     return run->batch.film || run->cli->options.batch.montage ? run->outputs.outputs[0].path : job->paths[0];
 }
 
+// "scene.yaml, frame 7, at 1.3, camera side"
+static void put_job(const struct batch_run *run, const struct batch_job *job) {
+    fprintf(stderr, "%s", job->scene);
+    if (job->has_frame)
+        fprintf(stderr, ", frame %d", (int)job->frame);
+    if (job->values.len)
+        fprintf(stderr, ", at %.*s", STR_ARG(job->values));
+    if (str_equal(run->cli->options.camera, STR("all")) && job->camera.len)
+        fprintf(stderr, ", camera %.*s", STR_ARG(job->camera));
+}
+
+void batch_tell_failure(const struct batch_run *run, const struct batch_job *job) {
+    fprintf(stderr, "glint: failed: ");
+    put_job(run, job);
+    fputc('\n', stderr);
+}
+
+static void tell_failures(const struct batch_run *run) {
+    const struct batch_counts *c = &run->counts;
+    fprintf(stderr, "glint: %u of %u pictures failed", c->failed, run->batch.jobs.count);
+    if (c->failed > 1) {
+        fprintf(stderr, ", the first: ");
+        put_job(run, run->first_failed);
+    }
+    if (c->begun < run->batch.jobs.count)
+        fprintf(stderr, "; %u were not begun", run->batch.jobs.count - c->begun);
+    fputc('\n', stderr);
+}
+
 void batch_tell(const struct batch_run *run) {
     const struct batch_counts *c = &run->counts;
     const uint32_t count = run->batch.jobs.count;
     const double seconds = clock_seconds() - run->cli->begun;
-    if (c->failed) {
-        const struct batch_job *job = run->first_failed;
-        fprintf(stderr, "glint: %u of %u pictures failed, the first is number %u of %s", c->failed, count,
-                job->number, job->scene);
-        if (job->has_frame)
-            fprintf(stderr, ", frame %d", (int)job->frame);
-        if (job->values.len)
-            fprintf(stderr, ", at %.*s", STR_ARG(job->values));
-        if (c->written + c->failed < count)
-            fprintf(stderr, "; %u were not begun", count - c->written - c->failed);
-        fputc('\n', stderr);
-    }
-    if (run->cli->options.quiet || c->written == 0 || (run->batch.film && c->written < count))
+    if (c->failed)
+        tell_failures(run);
+    if (run->cli->options.quiet || c->written == 0 || (run->batch.film && c->failed))
         return;
     const char *first = place_of(run, &run->batch.jobs.items[0]);
     const char *last = place_of(run, &run->batch.jobs.items[count - 1]);
-    if (first == last)
-        fprintf(stderr, "glint: wrote %s, %u picture%s in %.1f s\n", first, c->written, plural(c->written),
+    fprintf(stderr, "glint: wrote ");
+    if (run->cli->options.batch.montage)
+        fprintf(stderr, "%s, %u pictures in rows of %u, in %.1f s\n", first, c->written, run->batch.columns,
                 seconds);
+    else if (c->written < count)
+        fprintf(stderr, "%u of %u pictures in %.1f s\n", c->written, count, seconds);
+    else if (first == last)
+        fprintf(stderr, "%s, %u picture%s, in %.1f s\n", strcmp(first, "-") == 0 ? "standard output" : first,
+                c->written, plural(c->written), seconds);
     else
-        fprintf(stderr, "glint: wrote %u pictures, %s to %s, in %.1f s\n", c->written, first, last, seconds);
+        fprintf(stderr, "%u pictures, %s to %s, in %.1f s\n", c->written, first, last, seconds);
 }
 
 static void put_text(const struct batch_run *run, struct strbuf *out) {

@@ -29,7 +29,7 @@ struct batch_reading {
 };
 
 struct batch_counts {
-    uint32_t written, failed, loads;
+    uint32_t begun, written, failed, loads; // a picture with faulty pixels is written and failed
     uint32_t meshes_read, images_read, trees_built, trees_kept, pipelines_made;
     double trace_seconds, device_seconds; // of frames; until the device was open
 };
@@ -60,6 +60,8 @@ void batch_encode(struct batch_run *run, struct batch_made *made);
 int batch_write(struct batch_run *run, struct batch_made *made);
 int batch_write_sheet(struct batch_run *run);
 // batch_report.c: --stats and the last line
+// A picture that failed, after its findings.
+void batch_tell_failure(const struct batch_run *run, const struct batch_job *job);
 void batch_tell(const struct batch_run *run);
 int batch_stats(const struct batch_run *run);
 

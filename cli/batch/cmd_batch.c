@@ -169,6 +169,7 @@ static int trace(struct batch_run *run, const struct batch_job *job, struct batc
 static int render_one(struct batch_run *run, uint32_t number, struct batch_made *made) {
     const struct batch_job *job = &run->batch.jobs.items[number];
     const uint32_t count = run->batch.jobs.count;
+    run->counts.begun++;
     run->progress.base = (double)number / count;
     run->progress.share = 1.0 / count;
     const enum live_state state = show(run, number);
@@ -199,6 +200,8 @@ static int note_failure(struct batch_run *run, const struct batch_job *job, int 
         return status;
     run->first_failed = run->first_failed ? run->first_failed : job;
     run->counts.failed++;
+    progress_end(&run->progress);
+    batch_tell_failure(run, job);
     return status;
 }
 
