@@ -32,6 +32,9 @@ fi
 if grep -iE '^[^/#]*(glslang|spirv|vulkan|volk)' "$built/CMakeCache.txt" | grep -v displayName; then
     fail "the build looks for what only devices need"
 fi
+if (cd "$built" && ninja -t deps) 2>/dev/null | grep -E '/(spirv|vulkan|volk)'; then
+    fail "the build includes what only devices need"
+fi
 other=$built/glint
 [ "$kind" != i386 ] || file -L "$other" | grep -q 32-bit || fail "it is no program of 32 bits"
 
