@@ -1,5 +1,6 @@
-// Pictures of a batch after tracing: encoded beside the next one's tracing, then written.
+// Pictures of a batch after tracing: encoded and written beside the next one's tracing.
 #include "cli/batch/batch_run.h"
+#include "files/output.h"
 
 #include <string.h>
 
@@ -22,6 +23,9 @@ static void encode(void *context) {
         const enum image_format format = run->outputs.outputs[i].format;
         made->image.coding = render_coding(&run->cli->options, format);
         image_encode(&made->image, format, made->display, &made->files[i]);
+        // The disk takes milliseconds a file: they are not the next picture's.
+        const str file = strbuf_view(&made->files[i]);
+        made->errors[i] = made->files[i].failed ? 0 : output_whole(made->job->paths[i], file.ptr, file.len);
     }
 }
 
@@ -86,12 +90,18 @@ int batch_write_sheet(struct batch_run *run) {
     return status;
 }
 
-// ---- writing
+// ---- at the end of a picture
 
-static int write_files(struct batch_run *run, struct batch_made *made) {
+static int judge_files(struct batch_run *run, const struct batch_made *made) {
     int status = CLI_OK;
-    for (uint32_t i = 0; i < run->outputs.output_count && status == CLI_OK; i++)
-        status = cli_write_made(run->cli, made->job->paths[i], &made->files[i], "the picture");
+    for (uint32_t i = 0; i < run->outputs.output_count; i++) {
+        if (made->files[i].failed)
+            status = no_memory(run, "the picture");
+        if (made->errors[i])
+            cli_error(run->cli, DIAG_OUTPUT, made->job->paths[i], NULL, "cannot be written: %s",
+                      strerror(made->errors[i]));
+        status = made->errors[i] ? CLI_FILE : status;
+    }
     return status;
 }
 
@@ -104,7 +114,7 @@ int batch_write(struct batch_run *run, struct batch_made *made) {
                        : has_film(run) && first->failed ? no_memory(run, "a frame of the film")
                        : has_film(run)
                            ? film_frame(&run->film, made->image.width, made->image.height, strbuf_view(first))
-                           : write_files(run, made);
+                           : judge_files(run, made);
     if (status == CLI_OK)
         run->counts.written++;
     made->job = NULL;

@@ -17,6 +17,7 @@ struct batch_made {
     struct image image;
     struct image_display display;
     struct strbuf *files; // by output; one for a film
+    int *errors;          // by output: errno of writing it, or 0
     struct parallel_task task;
 };
 
@@ -56,7 +57,7 @@ struct batch_run {
 
 // batch_made.c: pictures after tracing
 void batch_encode(struct batch_run *run, struct batch_made *made);
-// Waits, and writes what was encoded. An exit code; its job is then NULL.
+// Waits until it is encoded and written; a film or a sheet gets it now. An exit code; its job is then NULL.
 int batch_write(struct batch_run *run, struct batch_made *made);
 int batch_write_sheet(struct batch_run *run);
 // batch_report.c: --stats and the last line

@@ -38,19 +38,20 @@ static void to_limited(const uint8_t *rgb, uint8_t *y, uint8_t *cb, uint8_t *cr)
 void film_pixels(enum batch_film kind, const struct image *image, struct image_display display,
                  struct strbuf *out) {
     const size_t pixels = (size_t)image->width * image->height;
-    uint8_t *bytes = heap_array(pixels, 6);
+    const size_t frame = heap_times(3, pixels);
+    uint8_t *bytes = heap_array(frame, 2);
     if (!bytes) {
         out->failed = true;
         return;
     }
     image_to_bytes(image, display, bytes);
-    uint8_t *planes = bytes + 3 * pixels;
+    uint8_t *planes = bytes + frame;
     if (kind == BATCH_Y4M) {
         for (size_t i = 0; i < pixels; i++)
             to_limited(bytes + 3 * i, planes + i, planes + pixels + i, planes + 2 * pixels + i);
         strbuf_cstr(out, "FRAME\n");
     }
-    strbuf_add(out, kind == BATCH_Y4M ? planes : bytes, 3 * pixels);
+    strbuf_add(out, kind == BATCH_Y4M ? planes : bytes, frame);
     free(bytes);
 }
 

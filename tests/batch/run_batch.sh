@@ -68,10 +68,10 @@ same 'a frame alone has the same bytes' alone.pfm f.008.pfm
 "$glint" render scene.yaml --sweep 'materials.blue.diffuse_color=[1, 0, 0],[0, 1, 0]' --sweep cameras.front.fov=40:60:3 --set trace.precision=single \
     -o 'g.%d.pfm' --stats=json -q >stats.json || fail 'a grid'
 cp stats.json grid.json
-"$glint" render scene.yaml --sweep 'materials.blue.diffuse_color=[1, 0, 0]' --set trace.precision=single -o 'one.%d.pfm' --stats=json -q >stats.json
+"$glint" render scene.yaml --sweep cameras.front.fov=40,60 --set trace.precision=single -o 'two.%d.pfm' --stats=json -q >stats.json
 kernels=$(count pipelines_made)
 cp grid.json stats.json
-counts 'a grid compiles what one picture compiles' pictures=6 written=6 meshes_read=1 pipelines_made="$kernels"
+counts 'a grid compiles what two pictures compile' pictures=6 written=6 meshes_read=1 pipelines_made="$kernels"
 [ "$(count trees_built)" -le 2 ] && [ "$(count trees_kept)" -ge 5 ] && pass 'and builds its trees once' || fail "trees: $(cat stats.json)"
 "$glint" render scene.yaml --set trace.precision=single --set 'materials.blue.diffuse_color=[0, 1, 0]' --set cameras.front.fov=50 -o one.pfm -q
 same 'the last sweep changes fastest' one.pfm g.4.pfm
@@ -100,6 +100,10 @@ expect 'or ends it' 1 '' '1 were not begun' "$glint" render scene.yaml none.yaml
 [ -f l.0.png ] && [ ! -e l.2.png ] && pass 'nothing after it' || fail 'nothing after it'
 expect 'an impossible frame' 1 '' 'failed: scene.yaml, frame 2' "$glint" render scene.yaml --frames 0..2 --set 'cameras.front.fov={60+60*frame}' -o 'm.%d.png'
 [ -f m.1.png ] && [ ! -e m.2.png ] && pass 'leaves the others' || fail 'leaves the others'
+
+mkdir folder.1.png
+expect 'a file that cannot be written' 1 '' 'folder.1.png:1:1: error: cannot be written' "$glint" render scene.yaml other.yaml scene.yaml -o 'folder.%d.png'
+[ -f folder.0.png ] && [ -f folder.2.png ] && pass 'leaves the others too' || fail 'leaves the others too'
 
 # ---- films
 ok 'a film' "$glint" render scene.yaml --frames 0..3 --set "$turn" -o film.y4m --fps 12.5 -q
