@@ -42,6 +42,13 @@ static int judge(struct batch_run *run) {
     for (uint32_t i = 0; i < outputs->count && !b->montage; i++)
         if (batch_film_of(outputs->items[i].path) != BATCH_NO_FILM)
             run->batch.film = batch_film_of(outputs->items[i].path);
+    if (run->batch.film && !b->has_frames && !b->sweeps.count && !b->list && cli->operand_count == 1) {
+        const int status =
+            cli_usage(cli, outputs->items[0].arg, "the output '%s' must end in %s for one picture",
+                      outputs->items[0].path, IMAGE_WRITTEN_ENDINGS);
+        diag_help(&cli->sink, "for a film, say which frames: --frames 0..99");
+        return status;
+    }
     if (run->batch.film && outputs->count > 1)
         return cli_usage(cli, outputs->items[1].arg,
                          "a film is the only output of a run: leave this one out");

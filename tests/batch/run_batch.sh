@@ -31,6 +31,7 @@ tells 'a sweep of nothing' 2 'sweep takes PATH' "$glint" render scene.yaml --swe
 tells 'an audit' 2 'would have no effect' "$glint" render scene.yaml other.yaml --audit
 tells 'the reference' 2 'not by the reference' "$glint" render scene.yaml other.yaml --device reference
 tells 'a list that is not there' 3 'none.txt:1:1: error: cannot be read' "$glint" render --list none.txt
+tells 'a film without frames' 2 'say which frames' "$glint" render scene.yaml -o film.mp4
 tells 'no scene' 2 'needs SCENE' "$glint" render
 [ -z "$(find . -name '*.png')" ] && pass 'nothing was rendered' || fail 'something was rendered'
 
