@@ -44,7 +44,7 @@ expect "unknown limit" 2 - "did you mean 'mesh-bytes'" "$glint" check good.yaml 
 expect "limit out of range" 2 - 'from 1 to' "$glint" check good.yaml --limit mesh-bytes=0
 expect "limits listed" 0 '^scene-bytes' - "$glint" check --limit help
 expect "too few operands" 2 - 'needs SCENE' "$glint" render
-expect "too many operands" 2 - 'no more than 1 argument' "$glint" render good.yaml two.yaml
+expect "too many operands" 2 - 'no more than 1 argument' "$glint" inspect good.yaml two.yaml
 expect "the place of what is too much" 2 - 'command-line:1:52: error: .*no more than 2 arguments' \
     "$glint" convert good.yaml --limit messages=9 out.xml x
 expect "no argument at all" 2 - "'glint devices' takes no argument" "$glint" devices x
