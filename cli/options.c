@@ -55,6 +55,7 @@ enum option_id {
     OPTION_DEPTH,
     OPTION_QUALITY,
     OPTION_COMPRESSION,
+    OPTION_BATCH = 1400,   // and enum cli_batch_option after it
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
 };
@@ -139,6 +140,7 @@ static const struct option_row rows[] = {
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
+#include "cli/options_batch.def"
     {OPTION_WATCH, "watch", 0, NULL, "render",
      "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
@@ -455,6 +457,8 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
     if (row->id >= OPTION_MEASURE)
         return cli_measure_apply(cli, arg, (enum cli_measure_option)(row->id - OPTION_MEASURE), row->name,
                                  value);
+    if (row->id >= OPTION_BATCH && row->id < OPTION_POLICY)
+        return cli_batch_apply(cli, arg, (enum cli_batch_option)(row->id - OPTION_BATCH), value);
     bool *flag = flag_of(&cli->options, row->id);
     const char **text = text_of(&cli->options, row->id);
     keep_place(&cli->options, row->id, arg);
