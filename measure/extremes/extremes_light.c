@@ -6,7 +6,6 @@
 #include <math.h>
 
 enum {
-    SOFT_SAMPLES = 4, // of what has extent: one takes the middle of everything
     ERROR_SAMPLES = 16,
     ERROR_SAMPLES_LEAST = 4,
 };

@@ -9,6 +9,10 @@
 #include "measure/extremes/extremes.h"
 #include "scene/hits.h"
 
+enum {
+    SOFT_SAMPLES = 4 // of what has extent: one takes the middle of everything
+};
+
 // A scene that can be changed without changing its base: its bodies and materials are copies, and so are the
 // cameras and lights of its IR. `scene` points into the variant, which must stay where it is.
 struct variant {

@@ -1,6 +1,8 @@
 // Variants of a scene, made in memory: moved, scaled, seen from afar, of other materials.
 #include "measure/extremes/extremes_parts.h"
 
+#include "grammar/ir_features.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -129,7 +131,7 @@ void variant_copy(struct variant *v, struct arena *arena, const struct extremes_
                           .camera = input->camera,
                           .width = input->width,
                           .height = input->height,
-                          .samples = 1};
+                          .samples = ir_features(from->ir) & FEATURE_POINTS ? SOFT_SAMPLES : 1};
     v->ir.cameras.items = copied(arena, cameras->items, cameras->count, sizeof *cameras->items, 0);
     v->ir.lights.items = copied(arena, lights->items, lights->count, sizeof *lights->items, 0);
     v->scene.ir = &v->ir;
@@ -161,12 +163,18 @@ static void change_bodies(struct variant *v, const struct change *c) {
     }
 }
 
+static void change_camera(struct ir_camera *camera, const struct change *c) {
+    camera->position = changed(c, camera->position);
+    camera->look_at = changed(c, camera->look_at);
+    camera->size *= c->factor;
+    camera->aperture *= c->factor;
+    camera->focus *= c->factor;
+    camera->focus_at = changed(c, camera->focus_at);
+}
+
 static void change_all(struct variant *v, const struct change *c) {
-    for (uint32_t i = 0; i < v->ir.cameras.count; i++) {
-        struct ir_camera *camera = &v->ir.cameras.items[i];
-        camera->position = changed(c, camera->position);
-        camera->look_at = changed(c, camera->look_at);
-    }
+    for (uint32_t i = 0; i < v->ir.cameras.count; i++)
+        change_camera(&v->ir.cameras.items[i], c);
     for (uint32_t i = 0; i < v->ir.lights.count; i++) {
         struct ir_light *light = &v->ir.lights.items[i];
         light->position = changed(c, light->position);
@@ -181,6 +189,7 @@ static void change_all(struct variant *v, const struct change *c) {
         v->scene.materials[i].cell *= c->factor;
     for (uint32_t i = 0; i < v->scene.material_count; i++)
         v->scene.materials[i].absorption = vec3_mul(v->scene.materials[i].absorption, 1 / c->factor);
+    v->scene.occlusion *= c->factor;
     change_bodies(v, c);
     make_view(v);
 }
@@ -202,6 +211,9 @@ static vec3 over_surface(const struct extreme_base *base, double height) {
 static void light_surface(struct variant *v, const struct extreme_base *base, double height) {
     struct view_light *light = &v->view.lights[0];
     light->directional = false;
+    if (light->extent == VIEW_DISC)
+        light->extent = VIEW_POINT; // a disc is in the sky
+    light->before_body = 0;
     light->to_light = (vec3){0, 0, 0};
     light->position = over_surface(base, height);
     light->inverse_square = false;

@@ -43,6 +43,18 @@ END
     expect "rough glass, coloured glass and balls in balls" 0 ' 0 left out, 0 broken, ' '' \
         "$glint" extremes glass.yaml --size 48x36 -q --axis roughness,density,nested
     ok "as well" test "$(grep -cE ' 0\.00000 *$' out.txt)" -eq 4
+    # A scaled scene gives the same picture: its lens is scaled too, and so is what an orthographic
+    # camera takes in and how far occlusion reaches.
+    sed '/^camera:/d' plain.yaml >body.yaml
+    { cat body.yaml && echo 'camera: {position: [0.3, 1.1, 5.2], look_at: [0.1, 0.2, 0], projection: orthographic, size: 3}'; } >flat.yaml
+    { cat plain.yaml && echo 'ambient: {color: [1, 1, 1], intensity: 0.5, occlusion: 0.7}'; } >near.yaml
+    { cat body.yaml && echo 'camera: {position: [0.3, 1.1, 5.2], look_at: [0.1, 0.2, 0], aperture: 0.4, focus: 2}'; } >lens.yaml
+    { cat body.yaml && echo 'camera: {position: [0.3, 1.1, 5.2], look_at: [0.1, 0.2, 0], aperture: 0.4, focus_at: [0.1, 0.8, 2]}'; } >point.yaml
+    for kind in near flat lens point; do
+        expect "scaled: $kind" 0 ' 0 left out, 0 broken, ' '' "$glint" extremes $kind.yaml --size 48x36 -q --axis scale
+    done
+    sed 's/^lights: .*/lights: [{direction: [0.4, -1, -0.3], angle: 5}]/' plain.yaml >disc.yaml
+    expect "a sun that comes down to a surface" 0 ' 0 left out, 0 broken, ' '' "$glint" extremes disc.yaml --size 24x18 -q --axis light
     expect "an axis that the scene lacks" 0 'left out: no material reflects or refracts' '' "$glint" extremes plain.yaml --size 24x18 -q --axis roughness
     exit $failed
 fi
