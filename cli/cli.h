@@ -265,6 +265,7 @@ int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);
 int cmd_compare(struct cli *cli);
 int cmd_tradeoff(struct cli *cli);
+int cmd_verify(struct cli *cli);
 int cmd_pick(struct cli *cli);
 int cmd_extremes(struct cli *cli);
 int cmd_extremes_random(struct cli *cli); // where --random was given

@@ -258,6 +258,28 @@ static bool noise_fits(struct render_job *job) {
     return false;
 }
 
+int render_whole(struct render_job *job) {
+    struct cli *cli = job->cli;
+    interrupt_catch();
+    strbuf_init(&job->note);
+    strbuf_init(&job->audit_note);
+    struct asset_store *store = asset_store_create();
+    if (cli->options.stats)
+        job->timeline = ARENA_NEW(&cli->arena, struct timeline);
+    int status = cli_has_study(cli) ? cli_choose_settings(cli, store, &job->gpu) : CLI_OK;
+    if (status == CLI_OK)
+        status = run_job(job, store);
+    shot_close(&job->shot);
+    cli_drop_opening(cli, job->opening);
+    image_finish(&job->image);
+    strbuf_finish(&job->note);
+    strbuf_finish(&job->audit_note);
+    cli_close_device(cli, job->gpu);
+    session_finish(&job->session);
+    asset_store_destroy(store);
+    return status;
+}
+
 int cmd_render(struct cli *cli) {
     struct render_job job = {.cli = cli};
     if (batch_is_wanted(cli))
@@ -285,22 +307,5 @@ int cmd_render(struct cli *cli) {
         return CLI_USAGE;
     if (cli->options.watch)
         return cmd_watch(cli);
-    interrupt_catch();
-    strbuf_init(&job.note);
-    strbuf_init(&job.audit_note);
-    struct asset_store *store = asset_store_create();
-    if (cli->options.stats)
-        job.timeline = ARENA_NEW(&cli->arena, struct timeline);
-    int status = cli_has_study(cli) ? cli_choose_settings(cli, store, &job.gpu) : CLI_OK;
-    if (status == CLI_OK)
-        status = run_job(&job, store);
-    shot_close(&job.shot);
-    cli_drop_opening(cli, job.opening);
-    image_finish(&job.image);
-    strbuf_finish(&job.note);
-    strbuf_finish(&job.audit_note);
-    cli_close_device(cli, job.gpu);
-    session_finish(&job.session);
-    asset_store_destroy(store);
-    return status;
+    return render_whole(&job);
 }

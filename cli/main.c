@@ -115,6 +115,14 @@ static const struct cli_command commands[] = {
      "is text or json. The exit status is 1 if a value is beyond its bound.\n\n"
      "  glint compare picture.png reference.png --max-share 0.001 --heatmap errors.png\n",
      2, 2, cmd_compare},
+    {"verify", "PICTURE [SCENE]", "render a picture again, and say whether it is still the same",
+     "Reads how the picture was made (docs/provenance.md), renders it again with the settings recorded and\n"
+     "compares: the scene, which is told before rendering, glint's version, the device, settings and\n"
+     "pixels. SCENE is where the scene is now, if not where it was. Relative paths begin at the current\n"
+     "folder. --format is text or json. The exit status is 1 if anything differs that should not.\n\n"
+     "  glint verify picture.png\n"
+     "  glint verify picture.png scenes/moved.glint.yaml\n",
+     1, 2, cmd_verify},
     {"extremes", "[SCENE]", "push a scene to its extremes, and show what breaks",
      "Moves and scales the scene, moves the camera far away, changes refractive indices and specular\n"
      "exponents, adds slivers, coplanar rectangles and narrow gaps, and puts light and camera onto\n"

@@ -30,8 +30,11 @@ struct render_job {
     struct cli_output *outputs; // at least one; their paths are without the camera's name
     uint32_t output_count;
     bool all_cameras;
-    struct strbuf note;       // what the picture states of itself; empty: nothing
-    struct strbuf audit_note; // what the audit says of it
+    uint32_t camera;              // of the picture that is written
+    struct image_display display; // of the last picture that was encoded
+    struct strbuf *kept;          // for who wants the picture's file, and none written; NULL: the outputs are
+    struct strbuf note;           // what the picture states of itself; empty: nothing
+    struct strbuf audit_note;     // what the audit says of it
     // --time: what ends the frame, and the session's image with the samples that were made.
     struct deadline deadline;
     double written; // clock: when the last picture was
@@ -88,6 +91,10 @@ enum shot_status render_take_frame(struct render_job *job, uint32_t cameras,
 // than
 // --max-error asks for are a failure.
 int render_tell_time(const struct render_job *job);
+
+// cmd_render.c: a job with its outputs, from reading the scene to the pictures; frees what it took, the
+// session included. Returns an exit code.
+int render_whole(struct render_job *job);
 
 // render_reference.c: session and output are ready; `first` to before `end` are the cameras. Returns an exit
 // code.

@@ -2,19 +2,17 @@
 
 #include "core/hash128.h"
 #include "core/xxh64.h"
-#include "grammar/ir.h"
-#include "grammar/ir_hash.h"
+#include "scene/content.h"
 
 #include <assert.h>
 
 // What is hashed by name here is not in the table: the view, which is made from the scene and may be moved
-// afterwards, meshes and images. A field that one of these gains changes its size: hash the field, then count
+// afterwards. A field that one of these gains changes its size: hash the field, then count
 // it. Sizes are those of 64 bits.
 static_assert(sizeof(void *) != 8 || sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 6 * 8,
               "hash the new field of a camera");
 static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 5 * 8 + 6 * sizeof(vec3) + 8,
               "hash the new field of a light");
-static_assert(sizeof(struct mesh_triangle) == 8 * sizeof(uint32_t), "triangles are hashed as bytes");
 
 static void add_view(struct hash128 *h, const struct view *view) {
     const struct view_camera *c = &view->camera;
@@ -47,70 +45,13 @@ static void add_view(struct hash128 *h, const struct view *view) {
     }
 }
 
-static void add_mesh(struct hash128 *h, const struct mesh *mesh) {
-    hash128_whole(h, mesh->closed);
-    hash128_whole(h, mesh->turned);
-    hash128_array(h, mesh->positions, mesh->position_count, sizeof *mesh->positions);
-    hash128_array(h, mesh->normals, mesh->normal_count, sizeof *mesh->normals);
-    hash128_array(h, mesh->triangles, mesh->triangle_count, sizeof *mesh->triangles);
-    hash128_whole(h, mesh->textured != NULL);
-    if (!mesh->textured)
-        return;
-    hash128_array(h, mesh->coordinates, mesh->coordinate_count, sizeof *mesh->coordinates);
-    hash128_array(h, mesh->textured, mesh->triangle_count, sizeof *mesh->textured);
-}
-
-// Meshes, and which material each of their groups has. A mesh is read once; bodies that show it again name
-// one that did.
-static void add_bodies(struct hash128 *h, const struct scene *scene) {
-    for (uint32_t i = 0; i < scene->body_count; i++) {
-        const struct scene_body *body = &scene->bodies[i];
-        uint32_t same = i; // one more than an earlier body that shows the mesh; 0: none
-        hash128_array(h, body->materials, body->group_count, sizeof *body->materials);
-        while (same > 0 && scene->bodies[same - 1].mesh != body->mesh)
-            same--;
-        hash128_whole(h, body->mesh ? same : 0);
-        if (body->mesh && same == 0)
-            add_mesh(h, body->mesh);
-    }
-}
-
-static void add_picture(struct hash128 *h, const struct picture *picture) {
-    hash128_whole(h, picture != NULL);
-    if (!picture)
-        return;
-    hash128_whole(h, picture->depth);
-    hash128_whole(h, picture->width);
-    hash128_whole(h, picture->height);
-    hash128_array(h, picture->pixels, picture->size_bytes, 1);
-}
-
-// The images of all materials: their levels follow from them. One that was hashed is named by its number.
-static void add_images(struct hash128 *h, const struct scene *scene) {
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        for (int k = 0; k < ASSETS_IMAGES; k++) {
-            const struct scene_texture *texture = scene->materials[i].images[k].texture;
-            hash128_whole(h, texture ? texture->number + UINT64_C(1) : 0);
-        }
-    for (const struct scene_texture *t = scene->textures; t; t = t->next)
-        add_picture(h, t->picture);
-}
-
 void reference_scene_key(const struct reference_input *input, uint64_t key[2]) {
-    const struct scene *scene = input->scene;
     struct hash128 h;
     hash128_begin(&h);
     hash128_whole(&h, REFERENCE_VERSION);
     hash128_whole(&h, input->test);
-    ir_hash(&h, &SCHEMA_SCENE, scene->ir);
-    // The scene's materials again, as they are used, and those that material files of meshes add.
-    hash128_whole(&h, scene->assets->material_count);
-    for (uint32_t i = 0; i < scene->assets->material_count; i++)
-        ir_hash(&h, &SCHEMA_MATERIAL, &scene->assets->materials[i]);
+    scene_content(&h, input->scene);
     add_view(&h, input->view);
-    add_bodies(&h, scene);
-    add_picture(&h, scene->background.picture);
-    add_images(&h, scene);
     hash128_end(&h, key);
 }
 

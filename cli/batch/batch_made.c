@@ -1,5 +1,6 @@
 // Pictures of a batch after tracing: encoded and written beside the next one's tracing.
 #include "cli/batch/batch_run.h"
+#include "cli/pictures/provenance.h"
 #include "files/output.h"
 
 #include <string.h>
@@ -22,6 +23,7 @@ static void encode(void *context) {
     for (uint32_t i = 0; i < run->outputs.output_count && !has_sheet(run); i++) {
         const enum image_format format = run->outputs.outputs[i].format;
         made->image.coding = render_coding(&run->cli->options, format);
+        made->image.texts = made->texts[i];
         image_encode(&made->image, format, made->display, &made->files[i]);
         // The disk takes milliseconds a file: they are not the next picture's.
         const str file = strbuf_view(&made->files[i]);
@@ -29,10 +31,24 @@ static void encode(void *context) {
     }
 }
 
+// While the session is still that of this picture.
+static struct image_texts texts_of(struct batch_run *run, enum image_format format) {
+    const struct session *session = run->live.session;
+    const struct provenance provenance = {.session = session,
+                                          .gpu = run->gpu,
+                                          .camera = run->live.camera,
+                                          .is_double = run->live.shot.flat.is_double,
+                                          .format = format};
+    return has_film(run) || has_sheet(run) ? (struct image_texts){0}
+                                           : provenance_texts(run->cli, &provenance);
+}
+
 void batch_encode(struct batch_run *run, struct batch_made *made) {
     made->run = run;
-    for (uint32_t i = 0; i < run->outputs.output_count; i++)
+    for (uint32_t i = 0; i < run->outputs.output_count; i++) {
         strbuf_clear(&made->files[i]);
+        made->texts[i] = texts_of(run, run->outputs.outputs[i].format);
+    }
     parallel_start(&made->task, encode, made);
 }
 

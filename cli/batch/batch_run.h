@@ -16,8 +16,9 @@ struct batch_made {
     const struct batch_job *job; // NULL: none
     struct image image;
     struct image_display display;
-    struct strbuf *files; // by output; one for a film
-    int *errors;          // by output: errno of writing it, or 0
+    struct strbuf *files;      // by output; one for a film
+    int *errors;               // by output: errno of writing it, or 0
+    struct image_texts *texts; // by output
     struct parallel_task task;
 };
 

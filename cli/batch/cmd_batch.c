@@ -265,6 +265,7 @@ static int run_batch(struct batch_run *run) {
     for (int i = 0; i < 2; i++) {
         run->made[i].files = ARENA_ARRAY(&cli->arena, struct strbuf, run->outputs.output_count);
         run->made[i].errors = ARENA_ARRAY(&cli->arena, int, run->outputs.output_count);
+        run->made[i].texts = ARENA_ARRAY(&cli->arena, struct image_texts, run->outputs.output_count);
         for (uint32_t k = 0; k < run->outputs.output_count; k++)
             strbuf_init(&run->made[i].files[k]);
     }

@@ -2,6 +2,7 @@
 #include "app/live/live_report.h"
 #include "cli/cli.h"
 #include "cli/device.h"
+#include "cli/pictures/provenance.h"
 #include "cli/progress.h"
 #include "cli/render_job.h"
 #include "core/clock.h"
@@ -93,6 +94,12 @@ static int write_picture(struct watching *w, double *encode_seconds) {
     strbuf_init(&file);
     const double start = clock_seconds();
     w->image.coding = render_coding(&w->cli->options, w->format);
+    const struct provenance made = {.session = w->live.session,
+                                    .gpu = w->live.gpu,
+                                    .camera = w->live.camera,
+                                    .is_double = w->live.shot.flat.is_double,
+                                    .format = w->format};
+    w->image.texts = provenance_texts(w->cli, &made);
     image_encode(&w->image, w->format, w->live.shot.display, &file);
     *encode_seconds = clock_seconds() - start;
     const int status = cli_write_made(w->cli, w->output, &file, "the picture");

@@ -1,4 +1,6 @@
 // What render writes: its pictures, and what else is known of their pixels.
+#include "cli/device.h"
+#include "cli/pictures/provenance.h"
 #include "cli/render_job.h"
 #include "core/clock.h"
 #include "core/timeline.h"
@@ -161,7 +163,19 @@ static int write_made(struct render_job *job, const char *path, const struct str
 
 void render_encode(struct render_job *job, enum image_format format, struct strbuf *out) {
     const struct image_display display = {job->session.image->tone, job->session.image->transfer};
+    const bool is_scaled = job->cli->options.measure.scale_width != 0;
+    const bool exact = cli_device_is_reference(job->cli);
+    const struct provenance made = {.session = &job->session,
+                                    .gpu = exact ? NULL : job->gpu,
+                                    .camera = job->camera,
+                                    .is_double = exact || job->shot.flat.is_double,
+                                    .audits = render_wants_audit(&job->cli->options),
+                                    .scaled_width = is_scaled ? job->image.width : 0,
+                                    .scaled_height = is_scaled ? job->image.height : 0,
+                                    .format = format};
+    job->display = display;
     job->image.coding = render_coding(&job->cli->options, format);
+    job->image.texts = provenance_texts(job->cli, &made);
     image_encode(&job->image, format, display, out);
 }
 
@@ -169,10 +183,10 @@ static int write_picture(struct render_job *job, enum image_format format, const
     struct strbuf file;
     strbuf_init(&file);
     const double start = clock_seconds();
-    render_encode(job, format, &file);
+    render_encode(job, format, job->kept ? job->kept : &file);
     job->stats.encode_seconds += clock_seconds() - start;
     timeline_add(job->timeline, "encode", str_from(path), start);
-    const int status = write_made(job, path, &file);
+    const int status = job->kept ? CLI_OK : write_made(job, path, &file);
     strbuf_finish(&file);
     return status;
 }
@@ -180,6 +194,7 @@ static int write_picture(struct render_job *job, enum image_format format, const
 int render_write_pictures(struct render_job *job, uint32_t camera) {
     int status = CLI_OK;
     job->stats.encode_seconds = 0;
+    job->camera = camera;
     for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++)
         status = write_picture(job, job->outputs[i].format, render_output_of(job, &job->outputs[i], camera));
     job->written = clock_seconds();

@@ -63,10 +63,11 @@ static void put_plane(const uint8_t *plane, size_t width, struct strbuf *out) {
     }
 }
 
-void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const char *note, struct strbuf *out) {
+void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const struct image_texts *texts,
+                struct strbuf *out) {
     strbuf_cstr(out, "#?RADIANCE\n");
-    if (note)
-        strbuf_format(out, "# %s: %s\n", IMAGE_NOTE_KEYWORD, note);
+    for (uint32_t i = 0; texts && i < texts->count; i++)
+        strbuf_format(out, "# %s: %s\n", texts->items[i].keyword, texts->items[i].text);
     strbuf_format(out, "FORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
     uint8_t *planes = heap_array(4, width);
     if (!planes) {

@@ -14,6 +14,7 @@
 enum {
     FULL_CHROMA_FROM = 90,
     CHANNELS = 3,
+    COMMENT_MOST = 65533,
 };
 
 struct encoder {
@@ -48,21 +49,28 @@ static void set_up(struct encoder *e, uint32_t width, uint32_t height, unsigned 
         jpeg->comp_info[0].h_samp_factor = jpeg->comp_info[0].v_samp_factor = 1;
 }
 
-// A comment: "Accuracy: at most ...".
-static void write_note(struct encoder *e, const char *note) {
-    if (!note)
-        return;
-    const size_t head = sizeof IMAGE_NOTE_KEYWORD ": " - 1, length = strlen(note);
-    jpeg_write_m_header(&e->jpeg, JPEG_COM, (unsigned)(head + length));
-    for (size_t i = 0; i < head; i++)
-        jpeg_write_m_byte(&e->jpeg, IMAGE_NOTE_KEYWORD ": "[i]);
-    for (size_t i = 0; i < length; i++)
-        jpeg_write_m_byte(&e->jpeg, note[i]);
+static void write_part(struct encoder *e, const char *part) {
+    for (; *part; part++)
+        jpeg_write_m_byte(&e->jpeg, (unsigned char)*part);
 }
 
-static void write_rows(struct encoder *e, uint32_t width, const uint8_t *rgb, const char *note) {
+// A comment: "Accuracy: at most ...".
+static void write_text(struct encoder *e, const struct image_text *text) {
+    static const char joint[] = ": ";
+    const size_t length = strlen(text->keyword) + sizeof joint - 1 + strlen(text->text);
+    if (length > COMMENT_MOST)
+        return;
+    jpeg_write_m_header(&e->jpeg, JPEG_COM, (unsigned)length);
+    write_part(e, text->keyword);
+    write_part(e, joint);
+    write_part(e, text->text);
+}
+
+static void write_rows(struct encoder *e, uint32_t width, const uint8_t *rgb,
+                       const struct image_texts *texts) {
     jpeg_start_compress(&e->jpeg, TRUE);
-    write_note(e, note);
+    for (uint32_t i = 0; texts && i < texts->count; i++)
+        write_text(e, &texts->items[i]);
     while (e->jpeg.next_scanline < e->jpeg.image_height) {
         JSAMPROW row = (JSAMPROW)(rgb + (size_t)e->jpeg.next_scanline * CHANNELS * width);
         jpeg_write_scanlines(&e->jpeg, &row, 1);
@@ -72,24 +80,24 @@ static void write_rows(struct encoder *e, uint32_t width, const uint8_t *rgb, co
 
 // The encoder is outside the function that calls setjmp, so that it is defined after a jump.
 static bool write_guarded(struct encoder *e, uint32_t width, uint32_t height, const uint8_t *rgb,
-                          const char *note, unsigned quality) {
+                          const struct image_texts *texts, unsigned quality) {
     if (setjmp(e->end))
         return false;
     jpeg_create_compress(&e->jpeg);
     e->jpeg.client_data = e;
     set_up(e, width, height, quality);
-    write_rows(e, width, rgb, note);
+    write_rows(e, width, rgb, texts);
     return true;
 }
 
-void encode_jpeg(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note, unsigned quality,
-                 struct strbuf *out) {
+void encode_jpeg(uint32_t width, uint32_t height, const uint8_t *rgb, const struct image_texts *texts,
+                 unsigned quality, struct strbuf *out) {
     struct encoder e = {0};
     e.jpeg.err = jpeg_std_error(&e.errors);
     e.errors.error_exit = on_error;
     e.errors.output_message = on_message;
     e.jpeg.client_data = &e;
-    if (write_guarded(&e, width, height, rgb, note, quality)) {
+    if (write_guarded(&e, width, height, rgb, texts, quality)) {
         strbuf_add(out, e.bytes, e.count);
     } else {
         heap_exhausted(0); // sizes were checked: nothing else fails

@@ -7,17 +7,20 @@
 #include <stdint.h>
 
 struct image;
+struct image_texts;
 
-// `rgb`: three per pixel, row 0 on top. `note`: a line of ASCII for who reads the file's head; NULL: none.
+// `rgb`: three per pixel, row 0 on top. `texts`: lines for who reads the file's head; NULL: none.
 // encode_png_deep: six bytes per pixel, the higher one of each value first. `quality`: 1 to 100.
-void encode_png(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note, struct strbuf *out);
-void encode_png_deep(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note,
+void encode_png(uint32_t width, uint32_t height, const uint8_t *rgb, const struct image_texts *texts,
+                struct strbuf *out);
+void encode_png_deep(uint32_t width, uint32_t height, const uint8_t *rgb, const struct image_texts *texts,
                      struct strbuf *out);
-void encode_jpeg(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note, unsigned quality,
-                 struct strbuf *out);
+void encode_jpeg(uint32_t width, uint32_t height, const uint8_t *rgb, const struct image_texts *texts,
+                 unsigned quality, struct strbuf *out);
 void encode_webp(uint32_t width, uint32_t height, const uint8_t *rgb, unsigned quality, struct strbuf *out);
-void encode_exr(const struct image *image, struct strbuf *out);
+void encode_exr(const struct image *image, const struct image_texts *texts, struct strbuf *out);
 void encode_pfm(uint32_t width, uint32_t height, const float *rgb, struct strbuf *out);
-void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const char *note, struct strbuf *out);
+void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const struct image_texts *texts,
+                struct strbuf *out);
 
 #endif

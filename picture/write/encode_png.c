@@ -13,7 +13,7 @@
 struct file {
     uint32_t width, height;
     int bits;
-    const char *note;
+    const struct image_texts *texts; // NULL: none
     struct png_data data;
 };
 
@@ -80,16 +80,30 @@ static void write_data(png_structp png, const struct png_data *data) {
     }
 }
 
+static bool is_ascii(const char *text) {
+    while (*text && (unsigned char)*text < 0x80)
+        text++;
+    return *text == '\0';
+}
+
+// tEXt is Latin-1, iTXt is UTF-8.
+static void add_text(png_structp png, png_infop info, const struct image_text *text) {
+    char no_language[] = "";
+    png_text chunk = {.compression =
+                          is_ascii(text->text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
+                      .key = (char *)text->keyword,
+                      .text = (char *)text->text,
+                      .lang = no_language,
+                      .lang_key = no_language};
+    png_set_text(png, info, &chunk, 1);
+}
+
 // Returns normally, or through libpng's jump to the caller's setjmp.
 static void write_all(png_structp png, png_infop info, const struct file *file) {
     png_set_IHDR(png, info, file->width, file->height, file->bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    if (file->note) {
-        char keyword[] = IMAGE_NOTE_KEYWORD;
-        png_text text = {
-            .compression = PNG_TEXT_COMPRESSION_NONE, .key = keyword, .text = (char *)file->note};
-        png_set_text(png, info, &text, 1);
-    }
+    for (uint32_t i = 0; file->texts && i < file->texts->count; i++)
+        add_text(png, info, &file->texts->items[i]);
     png_write_info(png, info);
     write_data(png, &file->data);
     // png_write_end would miss the data, of which libpng knows nothing.
@@ -120,13 +134,14 @@ static void encode(struct file *file, const uint8_t *rgb, struct strbuf *out) {
     png_data_finish(&file->data);
 }
 
-void encode_png(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note, struct strbuf *out) {
-    struct file file = {.width = width, .height = height, .bits = 8, .note = note};
+void encode_png(uint32_t width, uint32_t height, const uint8_t *rgb, const struct image_texts *texts,
+                struct strbuf *out) {
+    struct file file = {.width = width, .height = height, .bits = 8, .texts = texts};
     encode(&file, rgb, out);
 }
 
-void encode_png_deep(uint32_t width, uint32_t height, const uint8_t *rgb, const char *note,
+void encode_png_deep(uint32_t width, uint32_t height, const uint8_t *rgb, const struct image_texts *texts,
                      struct strbuf *out) {
-    struct file file = {.width = width, .height = height, .bits = 16, .note = note};
+    struct file file = {.width = width, .height = height, .bits = 16, .texts = texts};
     encode(&file, rgb, out);
 }

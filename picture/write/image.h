@@ -33,10 +33,27 @@ enum {
     IMAGE_QUALITY_MOST = 100,
 };
 
+// A line for the file's head, UTF-8 without control characters.
+struct image_text {
+    const char *keyword; // ASCII: letters, and single spaces between words
+    const char *text;
+};
+
+struct image_texts {
+    const struct image_text *items; // not owned
+    uint32_t count;
+};
+
+enum {
+    IMAGE_TEXTS_MOST = 15,
+};
+
 struct image {
     uint32_t width, height;
     float *rgb;       // three per pixel, row 0 on top
-    const char *note; // a line of ASCII for the file's head; not owned; NULL: none
+    const char *note; // a line of ASCII for the file's head, filed under IMAGE_NOTE_KEYWORD; not owned; NULL:
+                      // none
+    struct image_texts texts; // more of them, at most IMAGE_TEXTS_MOST
     struct image_coding coding;
 };
 
@@ -62,7 +79,9 @@ void image_to_words(const struct image *image, struct image_display display, uin
 // The same before rounding: 0..1, what is not a number is 0. `displayed` may be `linear`.
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
 
-// What a note is filed under: a PNG's tEXt chunk, a comment in the head of an HDR; a PFM has no room for one.
+// Texts are text chunks of a PNG, comments of a JPEG and in the head of an HDR, and attributes of an OpenEXR
+// ("Scene hash": sceneHash). A WebP does not have them, a PFM has no room for one; a JPEG leaves out one of
+// more than 64 KiB.
 #define IMAGE_NOTE_KEYWORD "Accuracy"
 // Appends the whole file to `out`; IMAGE_WRITTEN, and not image_format_missing. `display` is for formats of
 // displayed values.

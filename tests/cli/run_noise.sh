@@ -21,14 +21,16 @@ expect 'as text too' 0 '' 'at most 1024 samples.*' "$glint" render "$scene" --si
 expect 'with an audit the file states both' 0 - 'traced again' \
     "$glint" render "$scene" --size 64x48 --noise 0.02 --samples 64 --audit -o audited.png
 grep -aq 'standard error.*; .*traced again' audited.png && pass 'both are in the file' || fail 'both are in the file'
+# The files say how they were made, which differs.
+same_pixels() { "$glint" compare "$1" "$2" --max-largest 0 >/dev/null; }
 "$glint" render "$scene" --size 64x48 --samples 64 --set image.error=0.02 -q -o same.png
 "$glint" render "$scene" --size 64x48 --samples 64 --noise 0.02 -q -o option.png
-cmp -s same.png option.png && pass 'the option is the attribute' || fail 'the option is the attribute'
+same_pixels same.png option.png && pass 'the option is the attribute' || fail 'the option is the attribute'
 LP_NUM_THREADS=1 "$glint" render "$scene" --size 64x48 --samples 64 --noise 0.02 -q -o one.png
 cmp -s one.png option.png && pass 'threads change no byte' || fail 'threads change no byte'
 "$glint" render "$scene" --size 64x48 --samples 16 -q -o plain.png
 "$glint" render "$scene" --size 64x48 --samples 16 --set image.error=0.02 -q -o few.png
-cmp -s plain.png few.png && pass 'with few samples all pixels take them' || fail 'with few samples all pixels take them'
+same_pixels plain.png few.png && pass 'with few samples all pixels take them' || fail 'with few samples all pixels take them'
 expect 'filters are as wide as the reference has them' 0 - '0 % of the pixels are off' "$glint" render \
     "$source/scenes/elements/images.glint.yaml" --size 64x48 --noise 0.02 --samples 32 --max-off 0 -o audited.png
 

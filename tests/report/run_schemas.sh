@@ -54,6 +54,13 @@ json compare_bounds 1 "$glint" compare exact.pfm other.pfm --format json --max-m
 json compare_same 0 "$glint" compare exact.pfm exact.pfm --format json --max-largest 0
 by_schema compare compare.json compare_bounds.json compare_same.json
 
+expect "a picture that says how it was made" 0 - '' "$glint" render scene.yaml -o made.hdr -q --device reference
+sed 's/^# Device: reference/# Device: another/' made.hdr >moved.hdr
+json verify 0 "$glint" verify made.hdr --format json
+json verify_changed 1 "$glint" verify made.hdr other.yaml --format json
+json verify_device 0 "$glint" verify moved.hdr --device reference --format json
+by_schema verify verify.json verify_changed.json verify_device.json
+
 json pick_reference 0 "$glint" pick scene.yaml 8,8 --format json --device reference
 json render_reference 0 "$glint" render scene.yaml --set image.error=0.05 --set image.samples=64 --samples 1 -o exact.png --device reference --stats=json -q
 if ! "$glint" render scene.yaml -o probe.png -q 2>/dev/null; then
