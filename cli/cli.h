@@ -5,6 +5,7 @@
 
 #include "app/session.h"
 #include "cli/options_measure.h"
+#include "cli/options_part.h"
 #include "core/limits.h"
 #include "core/strbuf.h"
 #include "diag/diag.h"
@@ -47,7 +48,8 @@ extern const char *const cli_aov_names[CLI_AOVS];
 struct cli_output {
     const char *path; // "-": standard output
     enum image_format format;
-    int arg; // its place on the command line; 0: it was not given
+    bool is_part; // a file of parts (app/parts), of no such format
+    int arg;      // its place on the command line; 0: it was not given
 };
 
 struct cli_outputs {
@@ -89,6 +91,7 @@ struct cli_options {
     struct limits limits;
     struct diag_policy policy; // what a check reports, over the folder's configuration
     struct cli_measure measure;
+    struct cli_part part;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
     bool as_file, no_cache; // of the reference
@@ -259,6 +262,7 @@ int cmd_schema(struct cli *cli);
 int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);
 int cmd_compare(struct cli *cli);
+int cmd_merge(struct cli *cli);
 int cmd_tradeoff(struct cli *cli);
 int cmd_pick(struct cli *cli);
 int cmd_extremes(struct cli *cli);

@@ -57,6 +57,7 @@ enum option_id {
     OPTION_COMPRESSION,
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
+    OPTION_PART = 2500,    // and enum cli_part_option after it
 };
 
 struct option_row {
@@ -72,11 +73,12 @@ static const struct option_row rows[] = {
     {OPTION_OUTPUT, "output", 'o', "FILE ...", "render",
      "write to FILE (" IMAGE_WRITTEN_ENDINGS
      "); '-' writes PNG to standard output; several are rendered once"},
-    {OPTION_DEPTH, "depth", 0, "N", "render",
+    {OPTION_DEPTH, "depth", 0, "N", "render merge",
      "bits per channel: 16 for PNG instead of 8, or for OpenEXR (half) instead of 32 (float)"},
-    {OPTION_QUALITY, "quality", 0, "N", "render",
+    {OPTION_QUALITY, "quality", 0, "N", "render merge",
      "of JPEG and WebP: from 1 to 100, instead of 90; WebP is lossless at 100"},
-    {OPTION_COMPRESSION, "compression", 0, "KIND", "render", "of OpenEXR: zip (the default), piz or none"},
+    {OPTION_COMPRESSION, "compression", 0, "KIND", "render merge",
+     "of OpenEXR: zip (the default), piz or none"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "tradeoff",
      "write the report with its plot and pictures to FILE (.html)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "check",
@@ -113,7 +115,8 @@ static const struct option_row rows[] = {
     {OPTION_AOV, "aov", 0, "NAME,...", "render",
      "write beside OUT what else is known of each pixel: OUT.error.pfm, its standard error, and "
      "OUT.samples.pfm, with --noise"},
-    {OPTION_SAMPLE, "sample", 0, "N", "pick", "the sample whose path is shown, counted from 0"},
+    CLI_PART_ROWS(OPTION_PART){OPTION_SAMPLE, "sample", 0, "N", "pick",
+                               "the sample whose path is shown, counted from 0"},
     {OPTION_CAMERA, "camera", 0, "NAME", "view pick tradeoff extremes", "the camera to look through"},
     {OPTION_CAMERA, "camera", 0, "NAME", "render",
      "the camera to look through; 'all' writes OUT.NAME.png for each"},
@@ -152,7 +155,7 @@ static const struct option_row rows[] = {
      "say at most what share of the picture's pixels is off, in the file too; --stats does so as well"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_OFF, "max-off", 0, "X", "render",
      "fail if more than this share of the pixels is off; the audit goes on until it is sure"},
-    {OPTION_QUIET, "quiet", 'q', NULL, "render view extremes check tradeoff import",
+    {OPTION_QUIET, "quiet", 'q', NULL, "render merge view extremes check tradeoff import",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
@@ -452,6 +455,8 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
 static bool apply(struct cli *cli, int arg, const struct option_row *row, const char *value) {
     if (row->id >= OPTION_POLICY && row->id < OPTION_MEASURE)
         return cli_policy_apply(cli, arg, (enum cli_policy_option)(row->id - OPTION_POLICY), value);
+    if (row->id >= OPTION_PART)
+        return cli_part_apply(cli, arg, (enum cli_part_option)(row->id - OPTION_PART), value);
     if (row->id >= OPTION_MEASURE)
         return cli_measure_apply(cli, arg, (enum cli_measure_option)(row->id - OPTION_MEASURE), row->name,
                                  value);

@@ -51,7 +51,8 @@ static void put_inside(const struct flat_scene *flat, const struct view_camera *
 // That share what a pixel sees between them: where pixels end by their error, those that each has.
 static double samples_of(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
-    return renderer_is_adaptive(renderer) ? settings->least_samples : settings->samples;
+    const uint32_t all = settings->whole_samples ? settings->whole_samples : settings->samples;
+    return renderer_is_adaptive(renderer) ? settings->least_samples : all;
 }
 
 static_assert(IR_PROJECTION_ORTHOGRAPHIC == PROJECTION_ORTHOGRAPHIC &&
@@ -89,7 +90,8 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
     const struct render_settings *settings = &renderer->settings;
     const struct flat_scene *flat = renderer->flat;
     const double scale = ldexp(1, flat->scale_exponent);
-    const double aspect = (double)settings->width / settings->height;
+    const struct render_size whole = renderer_whole(settings);
+    const double aspect = (double)whole.width / whole.height;
     struct frame_block frame = {
         .light_count = flat->light_count,
         .min_weight = (float)settings->min_weight,
@@ -114,9 +116,10 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .top_nodes = flat->top_nodes,
         .instance_table = flat->instance_table,
         .instance_shift = flat->instance_shift,
-        .point_bits = points_bits(settings->first_sample, settings->samples),
+        .point_bits = settings->whole_samples ? points_bits(0, settings->whole_samples)
+                                              : points_bits(settings->first_sample, settings->samples),
         .coordinates_table = flat->coordinates_table,
-        .footprint = (float)(footprint_of(camera, scale) / settings->height / sqrt(samples_of(renderer))),
+        .footprint = (float)(footprint_of(camera, scale) / whole.height / sqrt(samples_of(renderer))),
         .projection = camera->projection,
         .lens_radius = (float)fmin(camera->lens_radius * scale, FLAT_LENGTH_MAX),
         .focus = (float)(camera->focus * scale),
@@ -124,6 +127,10 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .sky_width = flat->sky.width,
         .sky_rows = flat->sky.rows,
         .sky_stride = flat->sky.stride,
+        .whole_width = whole.width,
+        .whole_height = whole.height,
+        .first_x = settings->first_x,
+        .first_y = settings->first_y,
     };
     put_inside(flat, camera, &frame);
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
