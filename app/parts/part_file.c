@@ -5,12 +5,10 @@
 #include "files/stream.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum {
     HEAD_BYTES = 1024, // a head is shorter
@@ -186,28 +184,11 @@ static bool take_floats(const struct strbuf *file, size_t head, struct part *par
     return true;
 }
 
-// Of a file that is open: its first bytes, or all.
-static int read_bytes(const char *path, bool head_only, struct strbuf *out) {
-    const int fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (fd < 0)
-        return errno;
-    int error = 0;
-    if (head_only) {
-        char bytes[HEAD_BYTES];
-        const ssize_t count = read(fd, bytes, sizeof bytes);
-        error = count < 0 ? errno : 0;
-        strbuf_add(out, bytes, count > 0 ? (size_t)count : 0);
-    } else {
-        error = stream_read(fd, SIZE_MAX / 2, out);
-    }
-    close(fd);
-    return error ? error : out->failed ? ENOMEM : 0;
-}
-
 static bool read_part(const char *path, bool head_only, struct strbuf *file, struct part *part,
                       struct strbuf *error) {
     char text[HEAD_BYTES + 1] = "";
-    const int fault = read_bytes(path, head_only, file);
+    const int error_number = stream_read_file(path, head_only ? HEAD_BYTES : SIZE_MAX, file);
+    const int fault = error_number ? error_number : file->failed ? ENOMEM : 0;
     if (fault) {
         strbuf_format(error, "cannot be read: %s", strerror(fault));
         return false;
