@@ -4,6 +4,7 @@
 #define GLINT_CLI_CLI_H
 
 #include "app/session.h"
+#include "cli/options_batch.h"
 #include "cli/options_measure.h"
 #include "cli/options_part.h"
 #include "core/limits.h"
@@ -92,6 +93,7 @@ struct cli_options {
     struct diag_policy policy; // what a check reports, over the folder's configuration
     struct cli_measure measure;
     struct cli_part part;
+    struct cli_batch batch;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
     bool as_file, no_cache; // of the reference
@@ -252,6 +254,9 @@ int cli_try_output(struct cli *cli, const char *path);
 int cmd_render(struct cli *cli);
 int cmd_view(struct cli *cli);
 int cmd_watch(struct cli *cli); // render where --watch was given
+int cmd_batch(struct cli *cli); // render where it is of many pictures, or a film
+// Whether the command line asks for that.
+bool batch_is_wanted(const struct cli *cli);
 int cmd_check(struct cli *cli);
 int cmd_inspect(struct cli *cli);
 int cmd_convert(struct cli *cli);

@@ -264,6 +264,10 @@ static bool noise_fits(struct render_job *job) {
 
 int cmd_render(struct cli *cli) {
     struct render_job job = {.cli = cli};
+    if (batch_is_wanted(cli))
+        return cmd_batch(cli);
+    if (cli->operand_count == 0)
+        return cli_usage(cli, 1, "'glint render' needs SCENE");
     const int outputs = render_take_outputs(&job);
     if (outputs != CLI_OK)
         return outputs;

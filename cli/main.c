@@ -13,15 +13,26 @@
 #include <string.h>
 #include <unistd.h>
 
+const char *const cli_purpose =
+    "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
+    "any Vulkan device, including the processor.\n";
+const char *const cli_exits =
+    "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
+    "line cannot be\n"
+    "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
+    "141 the reader of standard output is gone.\n";
+
 static const struct cli_command commands[] = {
-    {"render", "SCENE", "render a scene to a picture",
+    {"render", "SCENE...", "render a scene to a picture",
      "SCENE is a scene file (YAML or XML), a mesh (OBJ), or '-' for a scene on standard input. Without -o "
      "the\n"
      "picture is written to the current folder and named after the scene.\n\n"
      "  glint render scenes/showcase.glint.yaml\n"
      "  glint render scene.xml -o picture.png --size 640x480 --samples 4\n"
-     "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n",
-     1, 1, cmd_render},
+     "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n"
+     "  glint render scene.yaml --sweep materials.glass.refractive_index=1.3:1.7:9 --montage\n"
+     "  glint render scene.yaml --frames 0..99 --set 'models[0].rotation.y={3.6*frame}' -o film.mp4\n",
+     0, -1, cmd_render},
     {"view", "SCENE", "fly through a scene in a window, and see it change as its file is saved",
      "W A S D fly, E and Q go up and down, the wheel changes the speed. Drag with the left button to look\n"
      "around, with the right one to turn around what was clicked. A click says what is there and in which\n"

@@ -55,6 +55,7 @@ enum option_id {
     OPTION_DEPTH,
     OPTION_QUALITY,
     OPTION_COMPRESSION,
+    OPTION_BATCH = 1400,   // and enum cli_batch_option after it
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
     OPTION_PART = 2500,    // and enum cli_part_option after it
@@ -115,8 +116,7 @@ static const struct option_row rows[] = {
     {OPTION_AOV, "aov", 0, "NAME,...", "render",
      "write beside OUT what else is known of each pixel: OUT.error.pfm, its standard error, and "
      "OUT.samples.pfm, with --noise"},
-    CLI_PART_ROWS(OPTION_PART){OPTION_SAMPLE, "sample", 0, "N", "pick",
-                               "the sample whose path is shown, counted from 0"},
+    {OPTION_SAMPLE, "sample", 0, "N", "pick", "the sample whose path is shown, counted from 0"},
     {OPTION_CAMERA, "camera", 0, "NAME", "view pick tradeoff extremes", "the camera to look through"},
     {OPTION_CAMERA, "camera", 0, "NAME", "render",
      "the camera to look through; 'all' writes OUT.NAME.png for each"},
@@ -142,6 +142,8 @@ static const struct option_row rows[] = {
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
+#include "cli/options_batch.def"
+#include "cli/options_part.def"
     {OPTION_WATCH, "watch", 0, NULL, "render",
      "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
@@ -245,15 +247,6 @@ static const struct option_row rows[] = {
 enum {
     ROW_COUNT = sizeof rows / sizeof rows[0]
 };
-
-const char *const cli_purpose =
-    "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
-    "any Vulkan device, including the processor.\n";
-const char *const cli_exits =
-    "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
-    "line cannot be\n"
-    "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
-    "141 the reader of standard output is gone.\n";
 
 static bool belongs(const struct option_row *row, const struct cli_command *command) {
     if (!command)
@@ -460,6 +453,8 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
     if (row->id >= OPTION_MEASURE)
         return cli_measure_apply(cli, arg, (enum cli_measure_option)(row->id - OPTION_MEASURE), row->name,
                                  value);
+    if (row->id >= OPTION_BATCH && row->id < OPTION_POLICY)
+        return cli_batch_apply(cli, arg, (enum cli_batch_option)(row->id - OPTION_BATCH), value);
     bool *flag = flag_of(&cli->options, row->id);
     const char **text = text_of(&cli->options, row->id);
     keep_place(&cli->options, row->id, arg);

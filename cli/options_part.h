@@ -14,33 +14,6 @@ enum cli_part_option {
     CLI_PART_SAMPLES_TO,
 };
 
-// Their rows in the table of options; `first` is the number of the first one.
-#define CLI_PART_ROWS(first)                                                                                 \
-    {(first) + CLI_PART_REGION,                                                                              \
-     "region",                                                                                               \
-     0,                                                                                                      \
-     "X,Y,W,H",                                                                                              \
-     "render",                                                                                               \
-     "only W x H pixels from X,Y on, which count from 0,0 at the top left: a picture of that size"},         \
-        {(first) + CLI_PART_TILE,                                                                            \
-         "tile",                                                                                             \
-         0,                                                                                                  \
-         "I/N",                                                                                              \
-         "render",                                                                                           \
-         "only part I of N, from 1: rows of pixels; 'glint merge' joins parts that -o NAME.part wrote"},     \
-        {(first) + CLI_PART_SAMPLES_FROM,                                                                    \
-         "samples-from",                                                                                     \
-         0,                                                                                                  \
-         "A",                                                                                                \
-         "render",                                                                                           \
-         "only samples from number A on, counted from 0, into -o NAME.part"},                                \
-        {(first) + CLI_PART_SAMPLES_TO,                                                                      \
-         "samples-to",                                                                                       \
-         0,                                                                                                  \
-         "B",                                                                                                \
-         "render",                                                                                           \
-         "only samples before number B, into -o NAME.part"},
-
 struct cli_part {
     int region_arg;     // its place on the command line; 0: not given
     uint32_t region[4]; // x, y, width, height

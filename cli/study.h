@@ -8,7 +8,9 @@
 #include "measure/tradeoff/tradeoff.h"
 
 // Whether --max-error or --max-time was given.
-bool cli_has_study(const struct cli *cli);
+static inline bool cli_has_study(const struct cli *cli) {
+    return cli->options.measure.max_error || cli->options.measure.max_time_ms > 0;
+}
 // Reads --max-error METRIC=X into `options`, and the rest of what the command line says about studies. false:
 // a mistake is in cli->sink.
 bool cli_study_options(struct cli *cli, struct tradeoff_options *options);

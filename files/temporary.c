@@ -2,6 +2,7 @@
 
 #include "files/temporary.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
@@ -9,7 +10,9 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
+#ifndef __EMSCRIPTEN__
 #include <sys/syscall.h>
+#endif
 #include <unistd.h>
 
 enum {
@@ -78,11 +81,22 @@ struct listed {
 
 static bool remove_at(int folder, const char *name, int depth);
 
+#ifdef __EMSCRIPTEN__
+// No such call there, and no end of memory to work around.
+static long read_list(int folder, void *list, size_t bytes) {
+    return getdents(folder, list, bytes);
+}
+#else
+static long read_list(int folder, void *list, size_t bytes) {
+    return syscall(SYS_getdents64, folder, list, bytes);
+}
+#endif
+
 // Removes what one reading of the list shows. true: something was there, and is gone.
 static bool empty(int folder, int depth) {
     _Alignas(struct listed) char list[LIST_BYTES];
     bool removed = false;
-    long bytes = syscall(SYS_getdents64, folder, list, sizeof list);
+    long bytes = read_list(folder, list, sizeof list);
     for (long at = 0; at < bytes;) {
         const struct listed *entry = (const struct listed *)(list + at);
         at += entry->length;

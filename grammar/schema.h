@@ -116,6 +116,7 @@ struct schema_row {
     enum schema_range range;
     const char *standard;     // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
     const char *example;      // a value worth showing, as scene text; NULL if examples leave the row out
+    bool example_alone;       // the example is of the row by itself: that of its element leaves it out
     const char *example_next; // SCHEMA_FIXED: of the values after the first
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;

@@ -36,12 +36,13 @@ static void check_mesh(struct lint *lint, struct lint_mesh *mesh) {
 
 // ---- bodies at equal places
 
-// What a body's place and shape depend on.
+// What a body's place and shape depend on. All are as wide as each other, where pointers are narrower too:
+// there is no padding, whose bytes would count.
 struct place {
     affine3 object_to_world;
     double radius;
-    const struct mesh *mesh;
-    uint64_t shape; // as wide as the others: no padding, whose bytes would count
+    uint64_t mesh; // its address
+    uint64_t shape;
 };
 
 struct place_key {
@@ -51,7 +52,7 @@ struct place_key {
 
 static struct place place_of(const struct lint *lint, uint32_t index) {
     const struct scene_body *body = lint->bodies[index].is;
-    return (struct place){body->object_to_world, body->radius, body->mesh, body->shape};
+    return (struct place){body->object_to_world, body->radius, (uintptr_t)body->mesh, body->shape};
 }
 
 static bool is_same_place(const struct lint *lint, uint32_t a, uint32_t b) {

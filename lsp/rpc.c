@@ -18,6 +18,11 @@ void rpc_init(struct rpc *rpc, int in, int out) {
     strbuf_init(&rpc->received);
 }
 
+void rpc_init_sender(struct rpc *rpc, rpc_sender *sender, void *context) {
+    *rpc = (struct rpc){.in = -1, .out = -1, .sender = sender, .context = context};
+    strbuf_init(&rpc->received);
+}
+
 void rpc_finish(struct rpc *rpc) {
     strbuf_finish(&rpc->received);
 }
@@ -89,6 +94,13 @@ static bool content_length(str header, size_t *length) {
     return false;
 }
 
+json_t *rpc_parse(struct rpc *rpc, const char *text, size_t length) {
+    json_t *message = json_loadb(text, length, JSON_REJECT_DUPLICATES | JSON_ALLOW_NUL, NULL);
+    if (!message)
+        rpc_refuse(rpc, NULL, RPC_PARSE_ERROR, "the message is not JSON");
+    return message;
+}
+
 enum rpc_state rpc_read(struct rpc *rpc, json_t **message) {
     for (;;) {
         size_t header;
@@ -102,11 +114,10 @@ enum rpc_state rpc_read(struct rpc *rpc, json_t **message) {
             if (!receive(rpc))
                 return RPC_END;
         str text = str_slice(unread(rpc), header, header + body);
-        *message = json_loadb(text.ptr, text.len, JSON_REJECT_DUPLICATES | JSON_ALLOW_NUL, NULL);
+        *message = rpc_parse(rpc, text.ptr, text.len);
         rpc->taken += header + body;
         if (*message)
             return RPC_MESSAGE;
-        rpc_refuse(rpc, NULL, RPC_PARSE_ERROR, "the message is not JSON");
     }
 }
 
@@ -133,10 +144,14 @@ static void send(struct rpc *rpc, json_t *message) {
     json_decref(message);
     if (!text)
         return;
-    char header[64];
-    int length = snprintf(header, sizeof header, "Content-Length: %zu\r\n\r\n", strlen(text));
-    write_all(rpc, header, (size_t)length);
-    write_all(rpc, text, strlen(text));
+    if (rpc->sender) {
+        rpc->sender(rpc->context, text, strlen(text));
+    } else {
+        char header[64];
+        int length = snprintf(header, sizeof header, "Content-Length: %zu\r\n\r\n", strlen(text));
+        write_all(rpc, header, (size_t)length);
+        write_all(rpc, text, strlen(text));
+    }
     free(text);
 }
 

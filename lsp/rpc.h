@@ -1,5 +1,6 @@
 // JSON-RPC 2.0 in the frames of the Language Server Protocol 3.17 ("Base Protocol"): Content-Length headers
-// and a JSON body, over two file descriptors.
+// and a JSON body, over two file descriptors; or the bodies alone, one a call, where the program is a module
+// of another.
 //
 // Ownership: rpc_read returns a new reference; functions that take a json_t take over its reference, except
 // for ids. Errors: a peer that hangs up or does not send frames ends the connection (RPC_END); a body that is
@@ -26,8 +27,13 @@ enum rpc_state {
     RPC_END,
 };
 
+// Takes a message that the server sends: JSON in UTF-8, only for the call.
+typedef void rpc_sender(void *context, const char *text, size_t length);
+
 struct rpc {
     int in, out;
+    rpc_sender *sender;     // in place of both; NULL: there is none
+    void *context;          // of it
     struct strbuf received; // bytes not yet parsed
     size_t taken;           // of them
     bool broken;            // a stream failed, or the client is gone
@@ -36,7 +42,10 @@ struct rpc {
 };
 
 void rpc_init(struct rpc *rpc, int in, int out);
+void rpc_init_sender(struct rpc *rpc, rpc_sender *sender, void *context);
 void rpc_finish(struct rpc *rpc);
+// The message of a text; NULL where it is not JSON, which is answered here.
+json_t *rpc_parse(struct rpc *rpc, const char *text, size_t length);
 // Waits for a message.
 enum rpc_state rpc_read(struct rpc *rpc, json_t **message);
 // Whether, within that many milliseconds, rpc_read no longer has to wait for bytes.

@@ -283,20 +283,37 @@ static bool take(struct server *server, json_t *message) {
     return true;
 }
 
+// Its connection is there already.
+static void start(struct server *server, const struct session_options *settings) {
+    json_set_alloc_funcs(heap_alloc, free);
+    server->published = json_object();
+    documents_init(&server->documents);
+    scenes_init(&server->scenes, &server->documents, settings);
+}
+
+// Returns the exit status.
+static int end(struct server *server) {
+    scenes_finish(&server->scenes);
+    documents_finish(&server->documents);
+    json_decref(server->published);
+    server_forget(server);
+    position_index_finish(&server->index);
+    rpc_finish(&server->rpc);
+    return server->shut_down ? 0 : 1;
+}
+
 int lsp_serve(int in, int out, const char *version, const struct session_options *settings,
               struct lsp_fault *fault) {
-    json_set_alloc_funcs(heap_alloc, free);
-    struct server server = {.version = version, .published = json_object()};
+    struct server server = {.version = version};
     rpc_init(&server.rpc, in, out);
-    documents_init(&server.documents);
-    scenes_init(&server.scenes, &server.documents, settings);
+    start(&server, settings);
     bool goes_on = server.scenes.store != NULL;
     while (goes_on && !server.rpc.broken) {
         // Many keys may have been pressed since the last check: only the newest text counts.
         if (!rpc_pending(&server.rpc, 0))
-            refresh(&server, server.was_saved ? SCENES_WHOLE : SCENES_QUICK);
+            lsp_refresh(&server, false);
         if (scenes_are_partial(&server.scenes) && !rpc_pending(&server.rpc, IDLE_MS))
-            refresh(&server, SCENES_WHOLE);
+            lsp_refresh(&server, true);
         json_t *message;
         goes_on = rpc_read(&server.rpc, &message) == RPC_MESSAGE;
         if (!goes_on)
@@ -304,12 +321,39 @@ int lsp_serve(int in, int out, const char *version, const struct session_options
         goes_on = take(&server, message);
         json_decref(message);
     }
-    scenes_finish(&server.scenes);
-    documents_finish(&server.documents);
-    json_decref(server.published);
-    server_forget(&server);
-    position_index_finish(&server.index);
     *fault = (struct lsp_fault){server.rpc.error, server.rpc.input_failed};
-    rpc_finish(&server.rpc);
-    return server.shut_down ? 0 : 1;
+    return end(&server);
+}
+
+struct server *lsp_open(const char *version, const struct session_options *settings, rpc_sender *send,
+                        void *context) {
+    struct server *server = heap_zeroed(1, sizeof *server);
+    if (!server)
+        return NULL;
+    server->version = version;
+    rpc_init_sender(&server->rpc, send, context);
+    start(server, settings);
+    if (!server->scenes.store) {
+        lsp_close(server);
+        return NULL;
+    }
+    return server;
+}
+
+bool lsp_take(struct server *server, const char *text, size_t length) {
+    json_t *message = rpc_parse(&server->rpc, text, length);
+    bool goes_on = !message || take(server, message);
+    json_decref(message);
+    return goes_on;
+}
+
+bool lsp_refresh(struct server *server, bool idle) {
+    refresh(server, idle || server->was_saved ? SCENES_WHOLE : SCENES_QUICK);
+    return scenes_are_partial(&server->scenes);
+}
+
+int lsp_close(struct server *server) {
+    int status = end(server);
+    free(server);
+    return status;
 }

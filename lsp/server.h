@@ -1,4 +1,5 @@
-// `glint lsp`: a server of the Language Server Protocol 3.17 for scenes, over two file descriptors.
+// `glint lsp`: a server of the Language Server Protocol 3.17 for scenes, over two file descriptors, or
+// message by message.
 //
 // What a schema cannot offer: every diagnostic of `glint check` while the user types, with its fixes;
 // definitions and uses of names, over includes and spellings; meshes, images and includes as links; names,
@@ -9,6 +10,7 @@
 #define GLINT_LSP_SERVER_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 struct session_options;
 
@@ -22,5 +24,17 @@ struct lsp_fault {
 // policy of every scene. The exit status that the protocol asks for: 0 after `shutdown`, else 1.
 int lsp_serve(int in, int out, const char *version, const struct session_options *settings,
               struct lsp_fault *fault);
+
+// The same where no stream can be waited for, as in a web worker. lsp_open returns NULL where memory ends;
+// lsp_close takes its result and returns the exit status. `send` gets each message of the server, JSON in
+// UTF-8 without a header, within lsp_take and lsp_refresh, and must not call them.
+struct server *lsp_open(const char *version, const struct session_options *settings,
+                        void (*send)(void *context, const char *text, size_t length), void *context);
+// A message of the client. false: it said `exit`.
+bool lsp_take(struct server *server, const char *text, size_t length);
+// Checks what has changed, to be called when no message waits: at once what is quick, and with `idle`, when
+// nobody has typed for a while, what takes longer. Returns whether such a call is still to come.
+bool lsp_refresh(struct server *server, bool idle);
+int lsp_close(struct server *server);
 
 #endif

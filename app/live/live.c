@@ -19,8 +19,8 @@ bool live_begin(struct live *live, const struct live_wish *wish, struct gpu *gpu
     *live = (struct live){.wish = *wish, .gpu = gpu};
     live->store = asset_store_create();
     live->keep = bvh_keep_create();
-    live->watch = watch_create(wish->polls);
-    return live->store && live->keep && live->watch;
+    live->watch = wish->alone ? NULL : watch_create(wish->polls);
+    return live->store && live->keep && (live->watch || wish->alone);
 }
 
 static void drop_session(struct session **session) {
@@ -65,25 +65,19 @@ static void watch_all(struct live *live, const struct session *loaded) {
 
 // ---- counters
 
+// Of what is read a live_loaded knows: it may be read beside what is counted here.
 static struct live_change counters_of(const struct live *live) {
-    const struct asset_reads reads = asset_store_reads(live->store);
-    return (struct live_change){.meshes_read = reads.meshes,
-                                .images_read = reads.images,
-                                .trees_built = bvh_keep_built(live->keep),
+    return (struct live_change){.trees_built = bvh_keep_built(live->keep),
                                 .trees_kept = bvh_keep_found(live->keep),
                                 .pipelines_made = gpu_pipelines_made(live->gpu)};
 }
 
-static void count_since(struct live *live, const struct live_change *before, const struct session *loaded) {
+static void count_since(struct live *live, const struct live_change *before) {
     const struct live_change now = counters_of(live);
     struct live_change *change = &live->change;
-    change->meshes_read = now.meshes_read - before->meshes_read;
-    change->images_read = now.images_read - before->images_read;
     change->trees_built = now.trees_built - before->trees_built;
     change->trees_kept = now.trees_kept - before->trees_kept;
     change->pipelines_made = now.pipelines_made - before->pipelines_made;
-    change->read_seconds = loaded->read_seconds;
-    change->assets_seconds = loaded->assets_seconds;
 }
 
 // ---- from a session to a shot
@@ -112,16 +106,17 @@ static enum live_state open_whole(struct live *live, struct session *session, ui
 }
 
 // Whether `auto` might choose another precision: it looks at bodies more than at how they are lit.
-static bool is_other_geometry(const struct live *live, const struct session *session,
-                              const struct live_change *before) {
-    const struct session *old = live->session;
+static bool is_other_geometry(const struct live *live, const struct live_loaded *loaded) {
+    const struct session *old = live->session, *session = loaded->session;
     return old->scene->trace.precision != session->scene->trace.precision ||
            (session->scene->trace.precision == IR_PRECISION_AUTO &&
-            (asset_store_reads(live->store).meshes != before->meshes_read ||
+            (live->wish.alone || loaded->meshes_read ||
              old->resolved.body_count != session->resolved.body_count));
 }
 
 static vec3 choose_origin(const struct live *live, const struct session *session, const struct view *view) {
+    if (live->wish.alone)
+        return session_origin(session, view);
     const struct flat_scene *flat = &live->shot.flat;
     const vec3 way = vec3_sub(view->camera.position, flat->origin);
     const bool is_near = flat->is_double || ldexp(vec3_length(way), flat->scale_exponent) <= ORIGIN_REACH;
@@ -172,13 +167,14 @@ static bool is_good(const struct session *session) {
     return session->state == SESSION_LOADED && session->sink.errors == 0;
 }
 
-static enum live_state show(struct live *live, struct session *session, const struct live_change *before) {
+static enum live_state show(struct live *live, const struct live_loaded *loaded, str name) {
+    struct session *session = loaded->session;
     if (!is_good(session))
         return LIVE_BROKEN;
-    const uint32_t camera = session_camera(session, live->wish.camera);
+    const uint32_t camera = session_camera(session, name);
     if (camera == IR_NO_INDEX)
         return LIVE_BROKEN;
-    const enum live_state state = !live->session || is_other_geometry(live, session, before)
+    const enum live_state state = !live->session || !live->shot.renderer || is_other_geometry(live, loaded)
                                       ? open_whole(live, session, camera)
                                       : renew(live, session, camera);
     if (state == LIVE_SHOWN)
@@ -186,26 +182,63 @@ static enum live_state show(struct live *live, struct session *session, const st
     return state;
 }
 
-enum live_state live_load(struct live *live) {
-    const double start = clock_seconds();
+struct live_loaded live_read(struct live *live, const struct session_options *options) {
+    const struct asset_reads before = asset_store_reads(live->store);
+    struct live_loaded loaded = {.session = heap_zeroed(1, sizeof *loaded.session)};
+    if (!loaded.session)
+        return loaded;
+    session_load(loaded.session, options, live->store);
+    const struct asset_reads now = asset_store_reads(live->store);
+    loaded.meshes_read = now.meshes - before.meshes;
+    loaded.images_read = now.images - before.images;
+    return loaded;
+}
+
+void live_drop(struct live_loaded loaded) {
+    drop_session(&loaded.session);
+}
+
+enum live_state live_show(struct live *live, struct live_loaded loaded, str camera) {
     const struct live_change before = counters_of(live);
-    struct session *loaded = heap_zeroed(1, sizeof *loaded);
-    live->change = (struct live_change){0};
+    live->change = (struct live_change){.meshes_read = loaded.meshes_read, .images_read = loaded.images_read};
     live->loads++;
     drop_session(&live->broken);
-    if (!loaded)
+    if (!loaded.session)
         return LIVE_BROKEN;
-    session_load(loaded, &live->wish.session, live->store);
-    watch_all(live, loaded);
-    const enum live_state state = show(live, loaded, &before);
-    count_since(live, &before, loaded);
+    live->change.read_seconds = loaded.session->read_seconds;
+    live->change.assets_seconds = loaded.session->assets_seconds;
+    const enum live_state state = show(live, &loaded, camera);
+    count_since(live, &before);
     if (state == LIVE_SHOWN) {
         drop_session(&live->session);
-        live->session = loaded;
+        live->session = loaded.session;
         bvh_keep_sweep(live->keep);
     } else {
-        live->broken = loaded;
+        live->broken = loaded.session;
     }
+    return state;
+}
+
+enum live_state live_turn(struct live *live, str name) {
+    const struct live_change before = counters_of(live);
+    live->change = (struct live_change){0};
+    drop_session(&live->broken);
+    const uint32_t camera = session_camera(live->session, name);
+    if (camera == IR_NO_INDEX)
+        return LIVE_BROKEN;
+    const enum shot_status status = shot_turn(&live->shot, camera);
+    count_since(live, &before);
+    if (status == SHOT_OK)
+        live->camera = camera;
+    return state_of(status);
+}
+
+enum live_state live_load(struct live *live) {
+    const double start = clock_seconds();
+    const struct live_loaded loaded = live_read(live, &live->wish.session);
+    if (loaded.session)
+        watch_all(live, loaded.session);
+    const enum live_state state = live_show(live, loaded, live->wish.camera);
     live->change.seconds = clock_seconds() - start;
     return state;
 }

@@ -21,6 +21,9 @@ struct live_wish {
     str camera;                     // as session_camera has it
     bool counts;                    // pictures count their rays
     bool polls;                     // files are looked at from time to time, without inotify
+    // Of many pictures, each has the bytes that a program that has just started would give it: origin and
+    // precision are chosen for each. No file is watched.
+    bool alone;
 };
 
 enum live_state {
@@ -55,11 +58,24 @@ struct live {
     uint32_t loads;
 };
 
+// A session that was read for a live scene, and what reading it took.
+struct live_loaded {
+    struct session *session; // NULL: no memory
+    uint32_t meshes_read, images_read;
+};
+
 // false: no memory.
 bool live_begin(struct live *live, const struct live_wish *wish, struct gpu *gpu);
 void live_finish(struct live *live);
 // Reads all again. Whatever the result, what it read is watched from now on.
 enum live_state live_load(struct live *live);
+// The two halves of live_load, for a scene and settings that change. live_read may run beside a frame of the
+// shot, on another thread, one at a time; its result is for live_show, or for live_drop.
+struct live_loaded live_read(struct live *live, const struct session_options *options);
+enum live_state live_show(struct live *live, struct live_loaded loaded, str camera);
+void live_drop(struct live_loaded loaded);
+// Another camera of the session that is shown; where there is none of this name, the shot stays.
+enum live_state live_turn(struct live *live, str camera);
 // After the first picture: compiles what further ones would wait for. false: see gpu_error.
 bool live_warm(struct live *live);
 // The findings of the last load: of the broken session, else of the good one.

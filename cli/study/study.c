@@ -19,10 +19,6 @@
 // Of --time.
 static const double SEARCH_TIME_SHARE = 0.5;
 
-bool cli_has_study(const struct cli *cli) {
-    return cli->options.measure.max_error || cli->options.measure.max_time_ms > 0;
-}
-
 static bool read_max_error(struct cli *cli, struct tradeoff_options *options) {
     const struct cli_measure *m = &cli->options.measure;
     const char *text = m->max_error, *equals = strchr(text, '=');

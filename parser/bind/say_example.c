@@ -44,7 +44,7 @@ static uint32_t telling_row(const struct schema_element *element) {
         bool is_name = row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_NAME;
         if (is_shown(element, i))
             return element->row_count;
-        if (first == element->row_count && row->example && !row->key && !is_name)
+        if (first == element->row_count && row->example && !row->example_alone && !row->key && !is_name)
             first = i;
     }
     return first;

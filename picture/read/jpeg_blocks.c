@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h> // jerror.h
 
 #include <jerror.h>
 

@@ -162,13 +162,13 @@ expect "numeric errors fall along precision" 0 - - awk -F, -v n="$(column numeri
     $2 == "\"precision double\"" && $n > single { exit 1 }' study.csv
 expect "studies are never chosen" 1 - - grep -qE '"study[^"]*",1' study.csv
 
-expect "nothing fits" 1 'it misses by .* flip' - "$glint" tradeoff small.yaml -q --max-error flip=1e-9 --budget 20
-expect "render says so too" 1 - 'E807' "$glint" render small.yaml --max-time 0.000001 --budget 20 -o none.png
+expect "nothing fits" 1 'it misses by .* flip' - "$glint" tradeoff small.yaml -q --max-error flip=1e-9 --budget 4
+expect "render says so too" 1 - 'E807' "$glint" render small.yaml --max-time 0.000001 --budget 4 -o none.png
 expect "and writes nothing" 1 - - test -e none.png
 
 # The chosen settings, rendered again from the file, keep the bound.
 expect "the cheapest that errs by 0.1" 0 '"runner_up": [0-9]+' - \
-    "$glint" tradeoff small.yaml -q --budget 1000 --max-error flip=0.1 --set image.samples=2 --format json
+    "$glint" tradeoff small.yaml -q --budget 15 --max-error flip=0.1 --set image.samples=2 --format json
 options=$(sed -n 's/.*"options": "\([^"]*\)".*/\1/p' out.txt)
 samples=$(sed -n 's/.*"truth_samples": \([0-9]*\).*/\1/p' out.txt)
 if ! echo "$options" | grep -q width; then
@@ -178,7 +178,7 @@ if ! echo "$options" | grep -q width; then
     expect "the choice keeps the bound: $options" 0 'at most 0\.1: passed' - \
         "$glint" compare again.pfm truth.pfm --space displayed --max-flip 0.1
 fi
-expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.2 --budget 30 -o chosen.png
+expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.2 --budget 8 -o chosen.png
 expect "its picture" 0 PNG '' head -c 4 chosen.png
 
 exit $failed

@@ -3,7 +3,7 @@
 # run_pictures.sh check|update GLINT SOURCE_FOLDER WORK_FOLDER ALONE
 #
 # docs/pictures/NAME.png is NAME.glint.yaml of scenes/tutorial or scenes/language; NAME-alone.png what tests/pictures/alone
-# makes of it. Few pixels may
+# makes of it. It is NAME.jpg where that is there: the grain of soft light makes large PNG files. Few pixels may
 # be off by much, and all of them together by little: drivers for other processors round otherwise.
 mode=$1
 shift
@@ -26,21 +26,23 @@ compare() {
 kept() { # STEM COMMAND...: the command makes the picture in the file that is its last argument
     stem=$1
     shift
-    kept=$source/docs/pictures/$stem.png
-    now=$stem.png
+    ending=png
+    [ ! -f "$source/docs/pictures/$stem.jpg" ] || ending=jpg
+    kept=$source/docs/pictures/$stem.$ending
+    now=$stem.$ending
     [ "$mode" = check ] || now=$kept
     ok "$stem: rendered" "$@" "$now"
     ok "$stem: as kept" compare "$now" "$kept"
     [ "$(wc -c <"$kept")" -le $largest ] || fail "$stem: more than $largest bytes"
-    grep -qF "pictures/$stem.png" "$source"/docs/*.md || fail "$stem: no page shows it"
+    grep -qF "pictures/$stem.$ending" "$source"/docs/*.md || fail "$stem: no page shows it"
 }
 
 for scene in "$source"/scenes/tutorial/*.glint.yaml "$source"/scenes/language/*.glint.yaml; do
     kept "$(basename "$scene" .glint.yaml)" render "$scene"
 done
 kept nested-alone "$alone" "$source/scenes/language/nested.glint.yaml"
-for kept in "$source"/docs/pictures/*.png; do
-    stem=$(basename "$kept" .png)
+for kept in "$source"/docs/pictures/*.png "$source"/docs/pictures/*.jpg; do
+    stem=$(basename "${kept%.*}")
     stem=${stem%-alone}
     [ -f "$source/scenes/tutorial/$stem.glint.yaml" ] || [ -f "$source/scenes/language/$stem.glint.yaml" ] || fail "$kept: has no scene"
 done

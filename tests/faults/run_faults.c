@@ -49,15 +49,27 @@ static const char *error_name(const struct faults *plan) {
     return text;
 }
 
+// Where the text stops being that of a good run: the start of the first line that differs.
+static size_t first_other(const struct bytes *good, const struct bytes *text) {
+    size_t at = 0, line = 0;
+    for (; at < text->size && at < good->size && text->data[at] == good->data[at]; at++)
+        if (text->data[at] == '\n')
+            line = at + 1;
+    return line;
+}
+
 static void show(const struct trial *t, const struct faults *plan, const struct outcome *outcome,
                  enum verdict verdict) {
     const int status = outcome->status;
     if (t->bad > SHOWN_MOST)
         return;
-    printf("%s: %s: call %u%s, %s %s: %s %d, not %d\n%.*s\n", t->task->name, verdict_names[verdict],
-           plan->number, plan->onward ? " and all after it" : "", outcome->call, error_name(plan),
-           WIFEXITED(status) ? "exit" : "signal", WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
-           WEXITSTATUS(t->good.status), SHOWN_BYTES, outcome->error.data);
+    const size_t at = first_other(&t->good.error, &outcome->error);
+    printf("%s: %s: call %u%s, %s %s: %s %d, not %d; from byte %zu of its messages\n%.*s\nwhere a good run "
+           "says\n%.*s\n",
+           t->task->name, verdict_names[verdict], plan->number, plan->onward ? " and all after it" : "",
+           outcome->call, error_name(plan), WIFEXITED(status) ? "exit" : "signal",
+           WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status), WEXITSTATUS(t->good.status), at,
+           SHOWN_BYTES, outcome->error.data + at, SHOWN_BYTES, t->good.error.data + at);
     if (verdict == VERDICT_TORN)
         printf("%s---\n%s\n", outcome->folder.data, t->good.folder.data);
     fflush(stdout);

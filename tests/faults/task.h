@@ -19,7 +19,8 @@ enum task_mark {
     WHOLE = 256, // one run takes several seconds: only a whole run makes its calls fail
     RARE = 128,  // most of its calls are those of another task: fewer fail, and those of Vulkan only in a
                  // whole run
-    SPREAD = 32  // one run takes long: the suite's run makes only a spread of its calls fail
+    SPREAD = 32, // one run takes long: the suite's run makes only a spread of its calls fail
+    SCOPED = 512 // what cannot be told to be out of its scope is in it: it may say more than a good run
 };
 
 enum {

@@ -76,6 +76,8 @@ json render_noise 0 "$glint" render scene.yaml --noise 0.05 -o noise.png --stats
 json render_unused 0 "$glint" render scene.yaml --set image.error=0.05 --set image.samples=64 --samples 8 -o noise.png --stats=json -q
 by_schema render render.json render_off.json render_noise.json render_unused.json render_reference.json
 
+json batch 0 "$glint" render scene.yaml --sweep image.samples=1,2 -o 'many.%d.png' --stats=json -q
+by_schema batch batch.json
 "$glint" render scene.yaml --watch -o watch.png --stats=json -q >loads.json 2>/dev/null </dev/null &
 watcher=$!
 for lines in 1 2; do

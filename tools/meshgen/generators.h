@@ -33,6 +33,24 @@ void rocks_generate(struct mesh *mesh);
 void whisky_generate(struct mesh *mesh);
 void ice_generate(struct mesh *mesh);
 
+// Chess pieces and a plinth, the pawn about 1 high, standing on y = 0; a column, 4 high; a bowl, 0.6 high and
+// about 2 wide; an urn, 1.35 high; rings around the y axis of radius 1, 0.4 and 0.1 thick: all without
+// normals.
+void pawn_generate(struct mesh *mesh);
+void rook_generate(struct mesh *mesh);
+void bishop_generate(struct mesh *mesh);
+void queen_generate(struct mesh *mesh);
+void king_generate(struct mesh *mesh);
+void plinth_generate(struct mesh *mesh);
+void column_generate(struct mesh *mesh);
+void bowl_generate(struct mesh *mesh);
+void urn_generate(struct mesh *mesh);
+void ring_generate(struct mesh *mesh);
+void hoop_generate(struct mesh *mesh);
+
+// A block of water, 1 x 1, 1 deep, whose rippled surface lies around y = 0.
+void water_generate(struct mesh *mesh);
+
 // Equirectangular sky, mountains and lake: width * height RGB bytes (sRGB), width twice the height.
 // The caller frees the result; NULL: out of memory.
 unsigned char *sky_generate(int width, int height);

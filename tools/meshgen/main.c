@@ -19,6 +19,7 @@ enum {
     EXIT_USAGE = 2,
     EXIT_WRITE = 3,
     SKY_WIDTH = 4096,
+    FINE_SKY_WIDTH = 8192, // 1 920 pixels of a camera that sees 80 degrees across
     PLANKS_SIDE = 1024,
     GLOBE_WIDTH = 2048,
 };
@@ -31,11 +32,19 @@ struct product {
     const char *mtllib;
 };
 
-static bool write_sky(struct strbuf *bytes) {
-    unsigned char *pixels = sky_generate(SKY_WIDTH, SKY_WIDTH / 2);
-    bool ok = pixels && png_encode(pixels, SKY_WIDTH, SKY_WIDTH / 2, bytes);
+static bool write_sky_of(int width, struct strbuf *bytes) {
+    unsigned char *pixels = sky_generate(width, width / 2);
+    bool ok = pixels && png_encode(pixels, width, width / 2, bytes);
     free(pixels);
     return ok;
+}
+
+static bool write_sky(struct strbuf *bytes) {
+    return write_sky_of(SKY_WIDTH, bytes);
+}
+
+static bool write_fine_sky(struct strbuf *bytes) {
+    return write_sky_of(FINE_SKY_WIDTH, bytes);
 }
 
 static bool write_planks(struct strbuf *bytes) {
@@ -69,7 +78,20 @@ static const struct product PRODUCTS[] = {
     {"whisky", "what is in the low glass", whisky_generate, NULL, NULL},
     {"ice", "a cube of ice", ice_generate, NULL, NULL},
     {"word", "the word glint", word_generate, NULL, NULL},
+    {"pawn", "chess: a pawn", pawn_generate, NULL, NULL},
+    {"rook", "chess: a rook", rook_generate, NULL, NULL},
+    {"bishop", "chess: a bishop", bishop_generate, NULL, NULL},
+    {"queen", "chess: a queen", queen_generate, NULL, NULL},
+    {"king", "chess: a king", king_generate, NULL, NULL},
+    {"plinth", "chess: what a knight sits on", plinth_generate, NULL, NULL},
+    {"column", "a column", column_generate, NULL, NULL},
+    {"bowl", "a bowl", bowl_generate, NULL, NULL},
+    {"urn", "an urn", urn_generate, NULL, NULL},
+    {"ring", "a thick ring", ring_generate, NULL, NULL},
+    {"hoop", "a thin ring", hoop_generate, NULL, NULL},
+    {"water", "water with ripples", water_generate, NULL, NULL},
     {"sky", "sky, mountains and lake", NULL, write_sky, NULL},
+    {"sky-fine", "the same for large pictures", NULL, write_fine_sky, NULL},
     {"planks", "planks of wood, to be repeated", NULL, write_planks, NULL},
     {"globe", "land and sea of a globe", NULL, write_globe, NULL},
 };

@@ -1,13 +1,10 @@
 #include "tools/meshgen/generators.h"
+#include "tools/meshgen/lathe.h"
 
 #include <math.h>
 
 // Halves of sections, (radius, height), from the middle of the bottom, up the outside and back to the middle.
-struct point {
-    double radius, y;
-};
-
-static const struct point TUMBLER[] = {
+static const struct lathe_point TUMBLER[] = {
     {0.000, 0.000}, {0.150, 0.000}, {0.300, 0.000}, {0.330, 0.004}, {0.347, 0.018}, {0.354, 0.040},
     {0.360, 0.100}, {0.372, 0.250}, {0.384, 0.400}, {0.396, 0.550}, {0.408, 0.700}, {0.420, 0.850},
     {0.430, 0.980}, {0.430, 0.994}, {0.424, 1.005}, {0.414, 1.010}, {0.404, 1.005}, {0.398, 0.994},
@@ -15,65 +12,40 @@ static const struct point TUMBLER[] = {
     {0.330, 0.170}, {0.320, 0.145}, {0.300, 0.130}, {0.150, 0.120}, {0.000, 0.118},
 };
 // Its wall is in the middle of that of the tumbler, so that the two overlap.
-static const struct point DRINK[] = {
+static const struct lathe_point DRINK[] = {
     {0.000, 0.080}, {0.150, 0.080}, {0.315, 0.090}, {0.338, 0.110}, {0.345, 0.150},
     {0.355, 0.250}, {0.367, 0.400}, {0.379, 0.550}, {0.391, 0.700}, {0.391, 0.703},
     {0.388, 0.705}, {0.150, 0.705}, {0.000, 0.705},
 };
 
 // A low, heavy glass, and what is in it: in the same way.
-static const struct point ROCKS[] = {
+static const struct lathe_point ROCKS[] = {
     {0.000, 0.018}, {0.150, 0.014}, {0.300, 0.000}, {0.395, 0.000}, {0.418, 0.006}, {0.432, 0.020},
     {0.438, 0.045}, {0.442, 0.120}, {0.447, 0.240}, {0.452, 0.400}, {0.458, 0.560}, {0.464, 0.720},
     {0.470, 0.880}, {0.470, 0.890}, {0.466, 0.898}, {0.459, 0.901}, {0.452, 0.898}, {0.448, 0.890},
     {0.448, 0.880}, {0.441, 0.720}, {0.434, 0.560}, {0.427, 0.400}, {0.419, 0.280}, {0.412, 0.240},
     {0.396, 0.205}, {0.365, 0.180}, {0.310, 0.165}, {0.150, 0.155}, {0.000, 0.153},
 };
-static const struct point WHISKY[] = {
+static const struct lathe_point WHISKY[] = {
     {0.000, 0.110}, {0.150, 0.110}, {0.330, 0.118}, {0.390, 0.140},  {0.419, 0.180},
     {0.429, 0.240}, {0.433, 0.280}, {0.440, 0.400}, {0.4455, 0.536}, {0.4455, 0.540},
     {0.441, 0.542}, {0.150, 0.542}, {0.000, 0.542},
 };
 
-// A ring for each point, but one vertex on the axis.
-static void lathe(struct mesh *mesh, const struct point *profile, int count, int sides) {
-    const double turn = 2 * 3.14159265358979323846 / sides;
-    int before = mesh_vertex(mesh, (vec3){0, profile[0].y, 0});
-    for (int i = 1; i < count; i++) {
-        const bool last = i == count - 1;
-        int ring = 0;
-        for (int k = 0; k < (last ? 1 : sides); k++) {
-            const int vertex = mesh_vertex(mesh, (vec3){profile[i].radius * cos(k * turn), profile[i].y,
-                                                        profile[i].radius * sin(k * turn)});
-            ring = k ? ring : vertex;
-        }
-        for (int k = 0; k < sides; k++) {
-            const int next = (k + 1) % sides;
-            if (i == 1)
-                mesh_face(mesh, (const int[3]){before, ring + k, ring + next}, 3);
-            else if (last)
-                mesh_face(mesh, (const int[3]){before + next, before + k, ring}, 3);
-            else
-                mesh_quad(mesh, before + next, before + k, ring + k, ring + next);
-        }
-        before = ring;
-    }
-}
-
 void tumbler_generate(struct mesh *mesh) {
-    lathe(mesh, TUMBLER, sizeof TUMBLER / sizeof *TUMBLER, 48);
+    lathe_turn(mesh, TUMBLER, sizeof TUMBLER / sizeof *TUMBLER, 48);
 }
 
 void drink_generate(struct mesh *mesh) {
-    lathe(mesh, DRINK, sizeof DRINK / sizeof *DRINK, 48);
+    lathe_turn(mesh, DRINK, sizeof DRINK / sizeof *DRINK, 48);
 }
 
 void rocks_generate(struct mesh *mesh) {
-    lathe(mesh, ROCKS, sizeof ROCKS / sizeof *ROCKS, 64);
+    lathe_turn(mesh, ROCKS, sizeof ROCKS / sizeof *ROCKS, 64);
 }
 
 void whisky_generate(struct mesh *mesh) {
-    lathe(mesh, WHISKY, sizeof WHISKY / sizeof *WHISKY, 64);
+    lathe_turn(mesh, WHISKY, sizeof WHISKY / sizeof *WHISKY, 64);
 }
 
 // ---- ice: a cube whose edges and corners are cut off

@@ -1,0 +1,32 @@
+// Numbers that depend on the frame: an expression such as `4*cos(tau*frame/100)`, and texts with such
+// expressions in braces.
+//
+// Input: text; which frame it is. Output: a finite number, or the text with numbers in place of braces.
+// Errors: a fault with its place in the text. An expression is `+ - * / % ^`, parentheses, numbers, the names
+// and functions that expression_names lists; angles are in radians. Its value depends on its text and the
+// frame alone. Ownership: none. Thread safety: pure.
+#ifndef GLINT_APP_FRAMES_EXPRESSION_H
+#define GLINT_APP_FRAMES_EXPRESSION_H
+
+#include "core/strbuf.h"
+
+struct expression_at {
+    double frame;
+    double time; // seconds: frame / frames a second
+};
+
+struct expression_fault {
+    size_t begin, end; // in the text
+    const char *what;  // a sentence without its full stop
+};
+
+bool expression_value(str text, const struct expression_at *at, double *value,
+                      struct expression_fault *fault);
+// Appends `text` to `out`, with `{...}` replaced by the value of the expression. Braces around a colon, and
+// empty ones, are a map of the scene language and stay as they are. *filled: whether there was an expression.
+bool expression_fill(str text, const struct expression_at *at, struct strbuf *out, bool *filled,
+                     struct expression_fault *fault);
+// All names that an expression may use: "frame, time, pi, ... sin(x), ...".
+void expression_names(struct strbuf *out);
+
+#endif

@@ -1,0 +1,69 @@
+// One batch while it runs: what is shown, what is read for the next job, what is encoded of the last one.
+// Private to cli/batch.
+#ifndef GLINT_CLI_BATCH_BATCH_RUN_H
+#define GLINT_CLI_BATCH_BATCH_RUN_H
+
+#include "app/live/live.h"
+#include "cli/batch/batch_job.h"
+#include "cli/batch/film.h"
+#include "cli/progress.h"
+#include "cli/render_job.h"
+#include "core/parallel.h"
+
+// A picture that was traced, while it is encoded.
+struct batch_made {
+    const struct batch_run *run;
+    const struct batch_job *job; // NULL: none
+    struct image image;
+    struct image_display display;
+    struct strbuf *files; // by output; one for a film
+    int *errors;          // by output: errno of writing it, or 0
+    struct parallel_task task;
+};
+
+struct batch_reading {
+    struct live *live;
+    struct session_options options;
+    struct live_loaded loaded;
+    struct parallel_task task;
+    bool is_under_way;
+};
+
+struct batch_counts {
+    uint32_t begun, written, failed, loads; // a picture with faulty pixels is written and failed
+    uint32_t meshes_read, images_read, trees_built, trees_kept, pipelines_made;
+    double trace_seconds, device_seconds; // of frames; until the device was open
+};
+
+struct batch_run {
+    struct cli *cli;
+    struct batch batch;
+    struct render_job outputs; // what the command line says of them
+    struct live live;
+    struct gpu *gpu;
+    struct film film;
+    struct image sheet;
+    struct image_display sheet_display;
+    struct progress progress;
+    struct batch_reading next;
+    struct batch_made made[2];
+    struct batch_counts counts;
+    const struct batch_job *first_failed;
+    // Findings that were told: of which scene, load, and how many.
+    const char *told_scene;
+    uint32_t told_load, told_count;
+    bool is_load_good;
+};
+
+// batch_made.c: pictures after tracing
+void batch_encode(struct batch_run *run, struct batch_made *made);
+// Waits until it is encoded and written; a film or a sheet gets it now. An exit code; its job is then NULL.
+int batch_write(struct batch_run *run, struct batch_made *made);
+int batch_write_sheet(struct batch_run *run);
+// batch_report.c: --stats and the last line
+// A picture that failed, after its findings.
+void batch_tell_failure(const struct batch_run *run, const struct batch_job *job);
+void batch_tell(const struct batch_run *run);
+int batch_stats(const struct batch_run *run);
+
+#endif

@@ -1,0 +1,92 @@
+#!/bin/sh
+# Builds the libraries that glint.wasm is linked with: tools/web.sh [FOLDER], which is build/web-root if none is named.
+# The sources are Debian's source packages, with Debian's patches; apt checks their signatures. Needs emscripten (3.1.6 or
+# later), cmake, ninja and dpkg-dev; installs nothing. Then: GLINT_WEB=FOLDER cmake --preset web
+set -eu
+here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+folder=${1:-$here/build/web-root}
+for program in emcc dpkg-source cmake ninja; do
+    command -v "$program" >/dev/null || {
+        echo "tools/web.sh: needs $program" >&2
+        exit 1
+    }
+done
+rm -rf "$folder"
+mkdir -p "$folder/apt/state" "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial" "$folder/sources" "$folder/root"
+cd "$folder"
+folder=$(pwd)
+: >apt/status
+mirror=${GLINT_MIRROR:-http://deb.debian.org/debian}
+echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror bookworm main" >apt/sources
+cat >apt/conf <<END
+APT::Sandbox::User "";
+Dir::State "$folder/apt/state";
+Dir::State::lists "$folder/apt/lists";
+Dir::State::status "$folder/apt/status";
+Dir::Cache "$folder/apt/cache";
+Dir::Etc::sourcelist "$folder/apt/sources";
+Dir::Etc::sourceparts "/dev/null";
+END
+export APT_CONFIG="$folder/apt/conf"
+apt-get update -qq
+(cd sources && apt-get source -qq libyaml expat jansson zlib libpng1.6 libjpeg-turbo >../sources.log 2>&1) || {
+    cat sources.log
+    exit 1
+}
+export PKG_CONFIG_LIBDIR="$folder/root/lib/pkgconfig"
+
+# library SOURCE [OPTION...]: by its own CMake files, into root/.
+library() {
+    source=$1
+    shift
+    name=$(basename "$source")
+    echo "tools/web.sh: $name"
+    {
+        emcmake cmake -G Ninja -S "$source" -B "build/$name" -DCMAKE_BUILD_TYPE=MinSizeRel -DCMAKE_INSTALL_PREFIX="$folder/root" \
+            -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_FIND_ROOT_PATH="$folder/root" -DBUILD_SHARED_LIBS=OFF \
+            -DCMAKE_C_FLAGS="-ffp-contract=off" "$@" &&
+            cmake --build "build/$name" --parallel 2 && cmake --install "build/$name"
+    } >"build-$name.log" 2>&1 || {
+        tail -n 40 "build-$name.log"
+        exit 1
+    }
+}
+# package NAME LIBRARY VERSION [FOLDER of its headers]: what pkg-config says, where the library's own files do not.
+package() {
+    mkdir -p root/lib/pkgconfig
+    printf 'Name: %s\nDescription: %s\nVersion: %s\nCflags: -I%s\nLibs: -L%s -l%s\n' "$1" "$1" "$3" \
+        "$folder/root/include/${4:-}" "$folder/root/lib" "$2" >"root/lib/pkgconfig/$1.pc"
+}
+# By its configure: its CMake files want what Debian leaves out.
+zlib() {
+    echo "tools/web.sh: zlib and minizip"
+    (
+        cd sources/zlib-*
+        CFLAGS="-Os" emconfigure ./configure --static --prefix="$folder/root"
+        emmake make -j2 libz.a
+        emmake make install
+        cd contrib/minizip
+        for file in zip unzip ioapi; do
+            emcc -Os -DNOCRYPT -DNOUNCRYPT -DUSE_FILE32API -I../.. -c "$file.c" -o "$file.o"
+        done
+        emar rcs "$folder/root/lib/libminizip.a" zip.o unzip.o ioapi.o
+        mkdir -p "$folder/root/include/minizip"
+        cp zip.h unzip.h ioapi.h "$folder/root/include/minizip"
+    ) >build-zlib.log 2>&1 || {
+        tail -n 40 build-zlib.log
+        exit 1
+    }
+    package minizip minizip "$(sed -n 's/^Version: //p' root/lib/pkgconfig/zlib.pc)" minizip
+}
+export NODE_PATH="${NODE_PATH:-/usr/share/nodejs}" # where Debian keeps what emscripten needs of node
+mkdir -p build
+library sources/libyaml-* -DBUILD_TESTING=OFF
+package yaml-0.1 yaml "$(basename sources/libyaml-* | sed 's/.*-//')"
+library "$(ls -d sources/expat-*/expat)" -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF -DEXPAT_BUILD_TESTS=OFF \
+    -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_DOCS=OFF -DEXPAT_DTD=OFF -DCMAKE_C_FLAGS="-ffp-contract=off -DXML_DTD=1" # patched: == 1
+library sources/jansson-* -DJANSSON_BUILD_DOCS=OFF -DJANSSON_WITHOUT_TESTS=ON -DJANSSON_EXAMPLES=OFF
+zlib
+library sources/libpng1.6-* -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF -DPNG_HARDWARE_OPTIMIZATIONS=OFF
+library sources/libjpeg-turbo-* -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DENABLE_SHARED=OFF \
+    -DCMAKE_INSTALL_LIBDIR="$folder/root/lib" -DHAVE_SIZE_T=TRUE -DSIZE_T=4 -DHAVE_UNSIGNED_LONG=TRUE -DUNSIGNED_LONG=4 # its own look at a program finds none
+rm -rf apt build sources sources.log build-*.log
