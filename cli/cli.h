@@ -4,9 +4,10 @@
 #define GLINT_CLI_CLI_H
 
 #include "app/session.h"
-#include "cli/options_batch.h"
+#include "cli/options/options_batch.h"
+#include "cli/options/options_part.h"
+#include "cli/options/words.h"
 #include "cli/options_measure.h"
-#include "cli/options_part.h"
 #include "core/limits.h"
 #include "core/strbuf.h"
 #include "diag/diag.h"
@@ -192,8 +193,6 @@ struct cli_option_text {
 // The option of a command (NULL: of the program) at number `at` or the next one; returns the number after it,
 // 0 if there is none.
 int cli_next_option(const struct cli_command *command, int at, struct cli_option_text *option);
-// What the program does, and its exit status, as --help says it.
-extern const char *const cli_purpose, *const cli_exits;
 
 // Whether a command takes an option.
 bool cli_has_option(const struct cli_command *command, const char *name);

@@ -142,8 +142,8 @@ static const struct option_row rows[] = {
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
-#include "cli/options_batch.def"
-#include "cli/options_part.def"
+#include "cli/options/options_batch.def"
+#include "cli/options/options_part.def"
     {OPTION_WATCH, "watch", 0, NULL, "render",
      "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",

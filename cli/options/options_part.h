@@ -1,8 +1,8 @@
 // The options of render that make a part of a picture.
 //
 // Thread safety: as cli.h.
-#ifndef GLINT_CLI_OPTIONS_PART_H
-#define GLINT_CLI_OPTIONS_PART_H
+#ifndef GLINT_CLI_OPTIONS_OPTIONS_PART_H
+#define GLINT_CLI_OPTIONS_OPTIONS_PART_H
 
 #include <stdbool.h>
 #include <stdint.h>
