@@ -115,6 +115,14 @@ static const struct cli_command commands[] = {
      "is text or json. The exit status is 1 if a value is beyond its bound.\n\n"
      "  glint compare picture.png reference.png --max-share 0.001 --heatmap errors.png\n",
      2, 2, cmd_compare},
+    {"merge", "OUT PART...", "join parts of a picture",
+     "PARTs are files that 'glint render -o NAME.part' wrote with --region, --tile, --samples-from and\n"
+     "--samples-to, in any order. They must be of one scene, size and settings, and each pixel and sample\n"
+     "must be there once. OUT has the same bytes as the picture that is rendered whole.\n\n"
+     "  glint render scene.yaml --tile 1/2 -o 1.part\n"
+     "  glint render scene.yaml --tile 2/2 -o 2.part\n"
+     "  glint merge picture.png 1.part 2.part\n",
+     2, -1, cmd_merge},
     {"extremes", "[SCENE]", "push a scene to its extremes, and show what breaks",
      "Moves and scales the scene, moves the camera far away, changes refractive indices and specular\n"
      "exponents, adds slivers, coplanar rectangles and narrow gaps, and puts light and camera onto\n"

@@ -53,7 +53,8 @@ static int needs_output(struct cli *cli) {
 static int judge_output(struct render_job *job, struct cli_output *output) {
     struct cli *cli = job->cli;
     output->format = IMAGE_PNG;
-    if (!is_stdout(output) && strncmp(output->path, "/dev/", 5) != 0 &&
+    output->is_part = str_ends_with_nocase(str_from(output->path), PART_ENDING);
+    if (!output->is_part && !is_stdout(output) && strncmp(output->path, "/dev/", 5) != 0 &&
         !image_format_of_path(str_from(output->path), IMAGE_WRITTEN, &output->format))
         return cli_usage(cli, output->arg, "the output '%s' must end in %s", output->path,
                          IMAGE_WRITTEN_ENDINGS);
@@ -91,6 +92,8 @@ static int judge_coding(struct render_job *job) {
     bool depth = cli->options.depth == 0, quality = false, compression = false;
     for (uint32_t i = 0; i < job->output_count; i++) {
         const struct image_format_info *info = image_format_info(job->outputs[i].format);
+        if (job->outputs[i].is_part)
+            continue;
         depth |= has_bits(info, cli->options.depth);
         quality |= info->has_quality;
         compression |= info->has_compression;
@@ -108,11 +111,12 @@ static int judge_coding(struct render_job *job) {
 int render_judge_size(struct render_job *job) {
     const struct cli_measure *m = &job->cli->options.measure;
     const bool scaled = m->scale_width != 0;
-    const uint32_t width = scaled ? m->scale_width : (uint32_t)job->session.image->width;
-    const uint32_t height = scaled ? m->scale_height : (uint32_t)job->session.image->height;
+    const uint32_t width = scaled ? m->scale_width : job->image.width;
+    const uint32_t height = scaled ? m->scale_height : job->image.height;
     for (uint32_t i = 0; i < job->output_count; i++) {
         const struct image_format_info *info = image_format_info(job->outputs[i].format);
-        if (info->side_max && (width > info->side_max || height > info->side_max)) {
+        if (!job->outputs[i].is_part && info->side_max &&
+            (width > info->side_max || height > info->side_max)) {
             const int status = cli_usage(job->cli, job->outputs[i].arg,
                                          "a %s picture has at most %u pixels in a row or column, not %u x %u",
                                          info->words, info->side_max, width, height);
@@ -165,11 +169,14 @@ void render_encode(struct render_job *job, enum image_format format, struct strb
     image_encode(&job->image, format, display, out);
 }
 
-static int write_picture(struct render_job *job, enum image_format format, const char *path) {
+static int write_picture(struct render_job *job, const struct cli_output *output, const char *path) {
     struct strbuf file;
     strbuf_init(&file);
     const double start = clock_seconds();
-    render_encode(job, format, &file);
+    if (output->is_part)
+        render_encode_part(job, &file);
+    else
+        render_encode(job, output->format, &file);
     job->stats.encode_seconds += clock_seconds() - start;
     timeline_add(job->timeline, "encode", str_from(path), start);
     const int status = write_made(job, path, &file);
@@ -181,7 +188,7 @@ int render_write_pictures(struct render_job *job, uint32_t camera) {
     int status = CLI_OK;
     job->stats.encode_seconds = 0;
     for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++)
-        status = write_picture(job, job->outputs[i].format, render_output_of(job, &job->outputs[i], camera));
+        status = write_picture(job, &job->outputs[i], render_output_of(job, &job->outputs[i], camera));
     job->written = clock_seconds();
     return status;
 }
