@@ -156,8 +156,8 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
                                                                                     : DIAG_PATH_SEGMENTS,
                                                 .words = fault->is_nested ? WHERE_NESTED : words[kind],
                                                 .pixels = fault->pixels,
-                                                .x = fault->x,
-                                                .y = fault->y,
+                                                .x = shot->settings.first_x + fault->x,
+                                                .y = shot->settings.first_y + fault->y,
                                                 .body = fault->has_body ? fault->body : HIT_NONE,
                                                 .triangle = fault->triangle});
     if (fault->is_nested)
@@ -166,7 +166,7 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
         diag_help(&s->sink,
                   "they are magenta in PNG and HDR, and NaN in PFM; 'glint pick SCENE %u,%u' shows what "
                   "happens there",
-                  fault->x, fault->y);
+                  shot->settings.first_x + fault->x, shot->settings.first_y + fault->y);
     if (kind == RENDER_SEGMENTS)
         diag_help(
             &s->sink,

@@ -4,7 +4,9 @@
 #define GLINT_CLI_CLI_H
 
 #include "app/session.h"
-#include "cli/options_batch.h"
+#include "cli/options/options_batch.h"
+#include "cli/options/options_part.h"
+#include "cli/options/words.h"
 #include "cli/options_measure.h"
 #include "core/limits.h"
 #include "core/strbuf.h"
@@ -48,7 +50,8 @@ extern const char *const cli_aov_names[CLI_AOVS];
 struct cli_output {
     const char *path; // "-": standard output
     enum image_format format;
-    int arg; // its place on the command line; 0: it was not given
+    bool is_part; // a file of parts (app/parts), of no such format
+    int arg;      // its place on the command line; 0: it was not given
 };
 
 struct cli_outputs {
@@ -90,6 +93,7 @@ struct cli_options {
     struct limits limits;
     struct diag_policy policy; // what a check reports, over the folder's configuration
     struct cli_measure measure;
+    struct cli_part part;
     struct cli_batch batch;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
@@ -189,8 +193,6 @@ struct cli_option_text {
 // The option of a command (NULL: of the program) at number `at` or the next one; returns the number after it,
 // 0 if there is none.
 int cli_next_option(const struct cli_command *command, int at, struct cli_option_text *option);
-// What the program does, and its exit status, as --help says it.
-extern const char *const cli_purpose, *const cli_exits;
 
 // Whether a command takes an option.
 bool cli_has_option(const struct cli_command *command, const char *name);
@@ -264,6 +266,7 @@ int cmd_schema(struct cli *cli);
 int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);
 int cmd_compare(struct cli *cli);
+int cmd_merge(struct cli *cli);
 int cmd_tradeoff(struct cli *cli);
 int cmd_verify(struct cli *cli);
 int cmd_pick(struct cli *cli);

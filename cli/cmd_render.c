@@ -185,6 +185,8 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
             return render_failed(job, opened);
+        if (!render_aim_at_part(job))
+            return render_failed(job, SHOT_DEVICE);
         status = render_camera(job, i, end - i);
     }
     int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
@@ -197,8 +199,10 @@ static int render_cameras(struct render_job *job) {
     bool all = str_equal(job->cli->options.camera, STR("all"));
     job->all_cameras = all && cameras->count > 0;
     uint32_t first = all ? 0 : session_camera(&job->session, job->cli->options.camera);
-    const bool good = first != IR_NO_INDEX && image_init(&job->image, (uint32_t)job->session.image->width,
-                                                         (uint32_t)job->session.image->height);
+    if (first != IR_NO_INDEX && render_plan_part(job) != CLI_OK)
+        return CLI_USAGE;
+    const bool good =
+        first != IR_NO_INDEX && image_init(&job->image, job->part.region.width, job->part.region.height);
     if ((!good || exact) && settle(job) != CLI_OK)
         return job->settled;
     if (first == IR_NO_INDEX)
@@ -272,6 +276,7 @@ int render_whole(struct render_job *job) {
     shot_close(&job->shot);
     cli_drop_opening(cli, job->opening);
     image_finish(&job->image);
+    part_finish(&job->part);
     strbuf_finish(&job->note);
     strbuf_finish(&job->audit_note);
     cli_close_device(cli, job->gpu);
@@ -303,7 +308,7 @@ int cmd_render(struct cli *cli) {
         return cli_usage(
             cli, cli->options.measure.time_arg,
             "'--time' works for one frame on a device: without --repeat and '--device reference'");
-    if (!noise_fits(&job))
+    if (!noise_fits(&job) || render_judge_part(&job) != CLI_OK)
         return CLI_USAGE;
     if (cli->options.watch)
         return cmd_watch(cli);

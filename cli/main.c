@@ -117,12 +117,20 @@ static const struct cli_command commands[] = {
      2, 2, cmd_compare},
     {"verify", "PICTURE [SCENE]", "render a picture again, and say whether it is still the same",
      "Reads how the picture was made (docs/provenance.md), renders it again with the settings recorded and\n"
-     "compares: the scene, which is told before rendering, glint's version, the device, settings and\n"
+     "compares: the scene, before anything is rendered, glint's version, the device, settings and\n"
      "pixels. SCENE is where the scene is now, if not where it was. Relative paths begin at the current\n"
      "folder. --format is text or json. The exit status is 1 if anything differs that should not.\n\n"
      "  glint verify picture.png\n"
      "  glint verify picture.png scenes/moved.glint.yaml\n",
      1, 2, cmd_verify},
+    {"merge", "OUT PART...", "join parts of a picture",
+     "PARTs are files that 'glint render -o NAME.part' wrote with --region, --tile, --samples-from and\n"
+     "--samples-to, in any order. They must be of one scene, size and settings, and each pixel and sample\n"
+     "must be there once. OUT has the same bytes as the picture that is rendered whole.\n\n"
+     "  glint render scene.yaml --tile 1/2 -o 1.part\n"
+     "  glint render scene.yaml --tile 2/2 -o 2.part\n"
+     "  glint merge picture.png 1.part 2.part\n",
+     2, -1, cmd_merge},
     {"extremes", "[SCENE]", "push a scene to its extremes, and show what breaks",
      "Moves and scales the scene, moves the camera far away, changes refractive indices and specular\n"
      "exponents, adds slivers, coplanar rectangles and narrow gaps, and puts light and camera onto\n"

@@ -58,6 +58,7 @@ enum option_id {
     OPTION_BATCH = 1400,   // and enum cli_batch_option after it
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
+    OPTION_PART = 2500,    // and enum cli_part_option after it
 };
 
 struct option_row {
@@ -73,11 +74,12 @@ static const struct option_row rows[] = {
     {OPTION_OUTPUT, "output", 'o', "FILE ...", "render",
      "write to FILE (" IMAGE_WRITTEN_ENDINGS
      "); '-' writes PNG to standard output; several are rendered once"},
-    {OPTION_DEPTH, "depth", 0, "N", "render",
+    {OPTION_DEPTH, "depth", 0, "N", "render merge",
      "bits per channel: 16 for PNG instead of 8, or for OpenEXR (half) instead of 32 (float)"},
-    {OPTION_QUALITY, "quality", 0, "N", "render",
+    {OPTION_QUALITY, "quality", 0, "N", "render merge",
      "of JPEG and WebP: from 1 to 100, instead of 90; WebP is lossless at 100"},
-    {OPTION_COMPRESSION, "compression", 0, "KIND", "render", "of OpenEXR: zip (the default), piz or none"},
+    {OPTION_COMPRESSION, "compression", 0, "KIND", "render merge",
+     "of OpenEXR: zip (the default), piz or none"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "tradeoff",
      "write the report with its plot and pictures to FILE (.html)"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "check",
@@ -133,14 +135,17 @@ static const struct option_row rows[] = {
      "render view verify pick check inspect convert deps pack tradeoff extremes import",
      "another folder in which to look for files of the scene"},
     {OPTION_LIMIT, "limit", 0, "NAME=VALUE ...",
-     "render view verify pick check inspect format diff convert deps pack compare tradeoff extremes lsp import",
+     "render view verify pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
+     "import",
      "change a limit on the size of inputs; '--limit help' lists them"},
     {OPTION_CONFIG, "config", 0, "FILE",
-     "render view verify pick check inspect format diff convert deps pack compare tradeoff extremes lsp import",
+     "render view verify pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
+     "import",
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
-#include "cli/options_batch.def"
+#include "cli/options/options_batch.def"
+#include "cli/options/options_part.def"
     {OPTION_WATCH, "watch", 0, NULL, "render",
      "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
@@ -154,7 +159,7 @@ static const struct option_row rows[] = {
      "say at most what share of the picture's pixels is off, in the file too; --stats does so as well"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_OFF, "max-off", 0, "X", "render",
      "fail if more than this share of the pixels is off; the audit goes on until it is sure"},
-    {OPTION_QUIET, "quiet", 'q', NULL, "render view extremes check tradeoff import",
+    {OPTION_QUIET, "quiet", 'q', NULL, "render merge view extremes check tradeoff import",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
@@ -244,15 +249,6 @@ static const struct option_row rows[] = {
 enum {
     ROW_COUNT = sizeof rows / sizeof rows[0]
 };
-
-const char *const cli_purpose =
-    "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
-    "any Vulkan device, including the processor.\n";
-const char *const cli_exits =
-    "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
-    "line cannot be\n"
-    "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
-    "141 the reader of standard output is gone.\n";
 
 static bool belongs(const struct option_row *row, const struct cli_command *command) {
     if (!command)
@@ -454,6 +450,8 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
 static bool apply(struct cli *cli, int arg, const struct option_row *row, const char *value) {
     if (row->id >= OPTION_POLICY && row->id < OPTION_MEASURE)
         return cli_policy_apply(cli, arg, (enum cli_policy_option)(row->id - OPTION_POLICY), value);
+    if (row->id >= OPTION_PART)
+        return cli_part_apply(cli, arg, (enum cli_part_option)(row->id - OPTION_PART), value);
     if (row->id >= OPTION_MEASURE)
         return cli_measure_apply(cli, arg, (enum cli_measure_option)(row->id - OPTION_MEASURE), row->name,
                                  value);

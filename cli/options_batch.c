@@ -1,4 +1,4 @@
-#include "cli/options_batch.h"
+#include "cli/options/options_batch.h"
 
 #include "cli/cli.h"
 #include "core/number.h"

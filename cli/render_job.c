@@ -53,7 +53,8 @@ int render_tell_stats(const struct render_job *job, str text) {
 // ---- a picture states its own error: --audit, --max-off and --stats
 
 bool render_wants_audit(const struct cli_options *options) {
-    return options->audit || options->has_max_off || options->stats;
+    const bool is_part = options->part.region_arg || options->part.tile_arg || options->part.samples_arg;
+    return options->audit || options->has_max_off || (options->stats && !is_part);
 }
 
 static struct audit_wish wish_of(const struct render_job *job) {
@@ -230,6 +231,8 @@ static bool report(void *context, double fraction) {
 enum shot_status render_take_frame(struct render_job *job, uint32_t cameras,
                                    const struct render_progress *progress) {
     const double time = job->cli->options.measure.time_s, now = clock_seconds();
+    if (job->is_part)
+        return render_take_part(job, progress);
     if (!(time > 0))
         return shot_take(&job->shot, &job->image, progress, &job->stats.last);
     const struct render_limit limit = {.goes_on = goes_on, .is_over = is_over, .context = job};

@@ -4,6 +4,7 @@
 
 #include "app/audit.h"
 #include "app/deadline.h"
+#include "app/parts/part_file.h"
 #include "app/shot.h"
 #include "app/stats/stats.h"
 #include "cli/cli.h"
@@ -39,6 +40,10 @@ struct render_job {
     struct deadline deadline;
     double written; // clock: when the last picture was
     struct ir_image image_made;
+    // Of what this job renders: all of the picture, unless the command line asks for less.
+    struct part part;
+    bool is_part;
+    const char *record; // of the picture that parts make (part_file.h); NULL: there are none
 };
 
 // Where a camera's picture goes: the path of one of the outputs.
@@ -82,6 +87,21 @@ int render_note_estimate(struct render_job *job);
 int render_write_aovs(struct render_job *job, uint32_t camera);
 // Says that the scene's image.error ended no pixel, and why; nothing where a finding says so.
 void render_tell_unused_error(const struct render_job *job);
+
+// ---- parts of a picture (cli/parts)
+
+// Whether the command line asks for less than a picture, or for a file of parts.
+bool render_wants_part(const struct render_job *job);
+// Before and after the scene was read: what part of which picture is rendered. CLI_OK, or CLI_USAGE with the
+// mistake in the command line's sink.
+int render_judge_part(struct render_job *job);
+int render_plan_part(struct render_job *job);
+// After the shot was opened or turned: has it render the part. false: see gpu_error.
+bool render_aim_at_part(struct render_job *job);
+// As render_take_frame, of the part.
+enum shot_status render_take_part(struct render_job *job, const struct render_progress *progress);
+// The part as a file.
+void render_encode_part(struct render_job *job, struct strbuf *out);
 
 // One frame, that ends in time if the command line says when. `cameras` is how many pictures
 // are still to be made, this one included.

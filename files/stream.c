@@ -1,6 +1,7 @@
 #include "files/stream.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 enum {
@@ -17,4 +18,21 @@ int stream_read(int fd, size_t cap_bytes, struct strbuf *text) {
             strbuf_add(text, block, (size_t)count);
     } while ((count > 0 && !text->failed) || (count < 0 && errno == EINTR));
     return count < 0 ? errno : 0;
+}
+
+int stream_read_file(const char *path, size_t most_bytes, struct strbuf *bytes) {
+    char block[BLOCK_BYTES];
+    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    ssize_t count;
+    if (fd < 0)
+        return errno;
+    do {
+        const size_t left = most_bytes - bytes->len;
+        count = read(fd, block, left < sizeof block ? left : sizeof block);
+        if (count > 0)
+            strbuf_add(bytes, block, (size_t)count);
+    } while ((count > 0 && !bytes->failed) || (count < 0 && errno == EINTR));
+    const int error = count < 0 ? errno : 0;
+    close(fd);
+    return error;
 }

@@ -7,6 +7,8 @@
 
 #include "core/strbuf.h"
 
+// The first bytes of a file, at most so many; SIZE_MAX: all. `failed` says that memory ended.
+int stream_read_file(const char *path, size_t most_bytes, struct strbuf *bytes);
 int stream_read(int fd, size_t cap_bytes, struct strbuf *text);
 
 #endif

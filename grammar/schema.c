@@ -469,7 +469,7 @@ static const struct schema_row model_rows[] = {
     {.name = "mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .text = SCHEMA_TEXT_PATH,
      .also = "file path filename src geometry obj ply stl shape",
      .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file."},
-    {.name = "part", FIELD(ir_model, part), .example = "wheel", .text = SCHEMA_TEXT_FOREIGN_NAME,
+    {.name = "part", FIELD(ir_model, part), .example = "wheel", .example_alone = true, .text = SCHEMA_TEXT_FOREIGN_NAME,
      .also = "submesh sub_mesh object_name mesh_name",
      .doc = "What to show of a glTF file: the name of one of its meshes, 'mesh 3' or 'node 7' by number; if left out, "
             "its whole scene."},

@@ -16,10 +16,15 @@ uvec2 pixel_of_slot(uint slot) {
     return uvec2(place % frame.tiles_x, place / frame.tiles_x) * TILE_SIDE + morton(slot % TILE_PIXELS);
 }
 
-// `offset`: of the sample inside the pixel.
+layout(constant_id = CONSTANT_PART) const bool IS_PART = false;
+
+// Which pixel of the whole picture one of those drawn is.
+uvec2 pixel_of_whole(uvec2 pixel) { return IS_PART ? pixel + uvec2(frame.first_x, frame.first_y) : pixel; }
+
+// `pixel`: of the whole picture; `offset`: of the sample inside the pixel.
 REAL3 camera_direction_at(uvec2 pixel, vec2 offset) {
-    REAL x = 2.0 * (REAL(pixel.x) + REAL(offset.x)) / REAL(frame.width) - 1.0;
-    REAL y = 1.0 - 2.0 * (REAL(pixel.y) + REAL(offset.y)) / REAL(frame.height);
+    REAL x = 2.0 * (REAL(pixel.x) + REAL(offset.x)) / REAL(frame.whole_width) - 1.0;
+    REAL y = 1.0 - 2.0 * (REAL(pixel.y) + REAL(offset.y)) / REAL(frame.whole_height);
     return unit3(CAMERA(forward) + CAMERA(right) * x + CAMERA(up) * y);
 }
 

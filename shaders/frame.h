@@ -21,7 +21,7 @@
     UINT(background_height)                                                                                  \
     FLOAT(background_cos) /* of its rotation */                                                              \
     FLOAT(background_sin)                                                                                    \
-    UINT(width) /* of the picture, in pixels */                                                              \
+    UINT(width) /* of what is drawn, in pixels */                                                            \
     UINT(height)                                                                                             \
     UINT(tiles_x)                                                                                            \
     UINT(run_tiles) /* runs of this many tiles are adjacent */                                               \
@@ -48,10 +48,14 @@
     UINT(projection)        /* PROJECTION_: what camera_right and camera_up are multiplied by */             \
     FLOAT(lens_radius)      /* 0: a pinhole */                                                               \
     FLOAT(focus)                                                                                             \
-    UINT(sky_table)  /* gpu_scene.h */                                                                       \
-    UINT(sky_width)  /* cells of a row */                                                                    \
-    UINT(sky_rows)   /* 0: the background does not light */                                                  \
-    UINT(sky_stride) /* from one row's words to the next */
+    UINT(sky_table)   /* gpu_scene.h */                                                                      \
+    UINT(sky_width)   /* cells of a row */                                                                   \
+    UINT(sky_rows)    /* 0: the background does not light */                                                 \
+    UINT(sky_stride)  /* from one row's words to the next */                                                 \
+    UINT(whole_width) /* of the picture that the camera sees: of what is drawn, or of what that is a part */ \
+    UINT(whole_height)                                                                                       \
+    UINT(first_x) /* with CONSTANT_PART: the pixel of the whole that is drawn first */                       \
+    UINT(first_y)
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
@@ -199,7 +203,8 @@
 #define CONSTANT_AT_ONCE  9
 #define CONSTANT_BRANCHES 10
 #define CONSTANT_LISTED   11 /* paths begin by a list: render_adaptive.c */
-#define CONSTANT_COUNT    13
+#define CONSTANT_PART     13 /* what is drawn is a part of a larger picture */
+#define CONSTANT_COUNT    14
 
 /* Most samples of a pixel that are traced at once. */
 #define SAMPLES_AT_ONCE 64

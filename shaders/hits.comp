@@ -94,6 +94,7 @@ void main() {
     uvec2 pixel = pixel_of_slot(slot);
     if (slot >= dispatch.path_end || pixel.x >= frame.width || pixel.y >= frame.height)
         return;
+    pixel = pixel_of_whole(pixel);
     point_pixel = pixel;
     uint kind = dispatch.resume + OPAQUE_ZERO, at = slot * HITS_WORDS;
     bool first = kind == HITS_FIRST;

@@ -520,6 +520,7 @@ void main() {
 #endif
     if (pixel.x >= frame.width || pixel.y >= frame.height)
         return;
+    pixel = pixel_of_whole(pixel);
     point_pixel = pixel;
     point_sample = dispatch.first_sample + sample_number;
     path_state p;

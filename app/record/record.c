@@ -26,10 +26,9 @@ static void add_number(struct strbuf *line, const char *option, double value) {
 static const char *const compressions[] = {
     [IMAGE_ZIP] = "zip", [IMAGE_PIZ] = "piz", [IMAGE_UNCOMPRESSED] = "none", NULL};
 
-static void write_coding(const struct record *record, struct strbuf *line) {
-    const struct image_format_info *info = image_format_info(record->format);
-    const struct image_coding *c = &record->command.coding;
-    if (c->bits && c->bits != info->bits[0])
+void record_add_coding(struct strbuf *line, enum image_format format, const struct image_coding *c) {
+    const struct image_format_info *info = image_format_info(format);
+    if (c->bits && info->bits[0] && c->bits != info->bits[0])
         add_number(line, "--depth", c->bits);
     if (info->has_quality && c->quality && c->quality != IMAGE_QUALITY)
         add_number(line, "--quality", c->quality);
@@ -61,7 +60,7 @@ static void write_command(const struct record *record, struct strbuf *line) {
         add(line, "--device", STR("reference"));
     if (c->as_file)
         words_add(line, STR("--as-file"));
-    write_coding(record, line);
+    record_add_coding(line, record->format, &record->command.coding);
 }
 
 // ---- all of it

@@ -48,6 +48,9 @@ struct record {
 // The texts for its file; in the arena.
 struct image_texts record_texts(const struct record *record, struct arena *arena);
 
+// How a format is coded, added to a command.
+void record_add_coding(struct strbuf *line, enum image_format format, const struct image_coding *coding);
+
 // ---- the other way round
 
 // What a file holds; NULL: it does not have this field.

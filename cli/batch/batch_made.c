@@ -38,7 +38,8 @@ static struct image_texts texts_of(struct batch_run *run, enum image_format form
                                           .gpu = run->gpu,
                                           .camera = run->live.camera,
                                           .is_double = run->live.shot.flat.is_double,
-                                          .format = format};
+                                          .format = format,
+                                          .coding = render_coding(&run->cli->options, format)};
     return has_film(run) || has_sheet(run) ? (struct image_texts){0}
                                            : provenance_texts(run->cli, &provenance);
 }

@@ -23,6 +23,10 @@ static bool has_no_place(struct cli *cli) {
         {"audit", "an audit is of one picture"},
         {"max-off", "an audit is of one picture"},
         {"aov", "many pictures are written without what else is known of their pixels"},
+        {"region", "many pictures are whole ones"},
+        {"tile", "many pictures are whole ones"},
+        {"samples-from", "many pictures are whole ones"},
+        {"samples-to", "many pictures are whole ones"},
         {"noise", "the error of a picture is stated for one; set image.error in the scene"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)

@@ -98,7 +98,8 @@ static int write_picture(struct watching *w, double *encode_seconds) {
                                     .gpu = w->live.gpu,
                                     .camera = w->live.camera,
                                     .is_double = w->live.shot.flat.is_double,
-                                    .format = w->format};
+                                    .format = w->format,
+                                    .coding = w->image.coding};
     w->image.texts = provenance_texts(w->cli, &made);
     image_encode(&w->image, w->format, w->live.shot.display, &file);
     *encode_seconds = clock_seconds() - start;

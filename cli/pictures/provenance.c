@@ -1,8 +1,10 @@
 #include "cli/pictures/provenance.h"
 
 #include "app/record/record.h"
-#include "cli/render_job.h"
 #include "grammar/ir.h"
+
+#include <stdio.h>
+#include <string.h>
 
 str provenance_device(struct arena *arena, const struct gpu *gpu) {
     if (!gpu)
@@ -48,7 +50,7 @@ static struct record_command command_of(struct cli *cli, const struct provenance
                                    .as_file = cli->options.as_file,
                                    .audit = audits,
                                    .max_off = audits && cli->options.has_max_off ? cli->options.max_off : -1,
-                                   .coding = render_coding(&cli->options, made->format)};
+                                   .coding = made->coding};
 }
 
 struct image_texts provenance_texts(struct cli *cli, const struct provenance *made) {
@@ -63,4 +65,37 @@ struct image_texts provenance_texts(struct cli *cli, const struct provenance *ma
                                   .scaled_height = made->scaled_height,
                                   .format = made->format};
     return record_texts(&record, &cli->arena);
+}
+
+void provenance_line(struct cli *cli, const struct provenance *made, char *line, size_t size) {
+    const struct image_texts texts = provenance_texts(cli, made);
+    struct strbuf text;
+    strbuf_init(&text);
+    for (uint32_t i = 0; i < texts.count; i++)
+        strbuf_format(&text, "%s%s: %s", i ? "\t" : "", texts.items[i].keyword, texts.items[i].text);
+    const bool fits = text.len < size && !text.failed;
+    snprintf(line, size, "%s", fits && text.len ? text.data : "");
+    strbuf_finish(&text);
+}
+
+struct image_texts provenance_of_line(struct cli *cli, const char *line, enum image_format format,
+                                      struct image_coding coding) {
+    struct image_text *items = ARENA_ARRAY(&cli->arena, struct image_text, RECORD_FIELDS);
+    struct image_texts texts = {items, 0};
+    struct strbuf text;
+    strbuf_init(&text);
+    for (int field = 0; *line && has_place(format) && field < RECORD_FIELDS; field++) {
+        const size_t head = strlen(record_keywords[field]), length = strcspn(line, "\t");
+        if (strncmp(line, record_keywords[field], head) != 0 || head + 2 > length)
+            continue;
+        strbuf_clear(&text);
+        strbuf_add(&text, line + head + 2, length - head - 2);
+        if (field == RECORD_COMMAND)
+            record_add_coding(&text, format, &coding);
+        items[texts.count++] =
+            (struct image_text){record_keywords[field], arena_copy(&cli->arena, strbuf_view(&text)).ptr};
+        line += length + (line[length] == '\t');
+    }
+    strbuf_finish(&text);
+    return texts;
 }

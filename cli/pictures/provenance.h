@@ -15,11 +15,17 @@ struct provenance {
     bool audits;                          // the picture's note says what an audit found
     uint32_t scaled_width, scaled_height; // 0: the picture was not scaled up
     enum image_format format;
+    struct image_coding coding; // render_coding of it
 };
 
 // The texts for the head of its file; none for a format without a place, and for a picture that no command
 // makes again.
 struct image_texts provenance_texts(struct cli *cli, const struct provenance *made);
+// The texts of a whole picture as a line for its parts, which do not know the format; empty: there are none,
+// or they need more than `size` bytes. And back, for the picture that parts make.
+void provenance_line(struct cli *cli, const struct provenance *made, char *line, size_t size);
+struct image_texts provenance_of_line(struct cli *cli, const char *line, enum image_format format,
+                                      struct image_coding coding);
 // The device as files name it.
 str provenance_device(struct arena *arena, const struct gpu *gpu);
 

@@ -55,7 +55,8 @@ static int needs_output(struct cli *cli) {
 static int judge_output(struct render_job *job, struct cli_output *output) {
     struct cli *cli = job->cli;
     output->format = IMAGE_PNG;
-    if (!is_stdout(output) && strncmp(output->path, "/dev/", 5) != 0 &&
+    output->is_part = str_ends_with_nocase(str_from(output->path), PART_ENDING);
+    if (!output->is_part && !is_stdout(output) && strncmp(output->path, "/dev/", 5) != 0 &&
         !image_format_of_path(str_from(output->path), IMAGE_WRITTEN, &output->format))
         return cli_usage(cli, output->arg, "the output '%s' must end in %s", output->path,
                          IMAGE_WRITTEN_ENDINGS);
@@ -93,6 +94,8 @@ static int judge_coding(struct render_job *job) {
     bool depth = cli->options.depth == 0, quality = false, compression = false;
     for (uint32_t i = 0; i < job->output_count; i++) {
         const struct image_format_info *info = image_format_info(job->outputs[i].format);
+        if (job->outputs[i].is_part)
+            continue;
         depth |= has_bits(info, cli->options.depth);
         quality |= info->has_quality;
         compression |= info->has_compression;
@@ -110,11 +113,12 @@ static int judge_coding(struct render_job *job) {
 int render_judge_size(struct render_job *job) {
     const struct cli_measure *m = &job->cli->options.measure;
     const bool scaled = m->scale_width != 0;
-    const uint32_t width = scaled ? m->scale_width : (uint32_t)job->session.image->width;
-    const uint32_t height = scaled ? m->scale_height : (uint32_t)job->session.image->height;
+    const uint32_t width = scaled ? m->scale_width : job->image.width;
+    const uint32_t height = scaled ? m->scale_height : job->image.height;
     for (uint32_t i = 0; i < job->output_count; i++) {
         const struct image_format_info *info = image_format_info(job->outputs[i].format);
-        if (info->side_max && (width > info->side_max || height > info->side_max)) {
+        if (!job->outputs[i].is_part && info->side_max &&
+            (width > info->side_max || height > info->side_max)) {
             const int status = cli_usage(job->cli, job->outputs[i].arg,
                                          "a %s picture has at most %u pixels in a row or column, not %u x %u",
                                          info->words, info->side_max, width, height);
@@ -172,18 +176,26 @@ void render_encode(struct render_job *job, enum image_format format, struct strb
                                     .audits = render_wants_audit(&job->cli->options),
                                     .scaled_width = is_scaled ? job->image.width : 0,
                                     .scaled_height = is_scaled ? job->image.height : 0,
-                                    .format = format};
+                                    .format = format,
+                                    .coding = render_coding(&job->cli->options, format)};
     job->display = display;
-    job->image.coding = render_coding(&job->cli->options, format);
-    job->image.texts = provenance_texts(job->cli, &made);
+    job->image.coding = made.coding;
+    // Parts are joined without a session, and no part of a picture is made by the command of all of it.
+    job->image.texts =
+        job->session.scene && !job->is_part ? provenance_texts(job->cli, &made) : (struct image_texts){0};
+    if (job->record)
+        job->image.texts = provenance_of_line(job->cli, job->record, format, made.coding);
     image_encode(&job->image, format, display, out);
 }
 
-static int write_picture(struct render_job *job, enum image_format format, const char *path) {
+static int write_picture(struct render_job *job, const struct cli_output *output, const char *path) {
     struct strbuf file;
     strbuf_init(&file);
     const double start = clock_seconds();
-    render_encode(job, format, job->kept ? job->kept : &file);
+    if (output->is_part)
+        render_encode_part(job, &file);
+    else
+        render_encode(job, output->format, job->kept ? job->kept : &file);
     job->stats.encode_seconds += clock_seconds() - start;
     timeline_add(job->timeline, "encode", str_from(path), start);
     const int status = job->kept ? CLI_OK : write_made(job, path, &file);
@@ -196,7 +208,7 @@ int render_write_pictures(struct render_job *job, uint32_t camera) {
     job->stats.encode_seconds = 0;
     job->camera = camera;
     for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++)
-        status = write_picture(job, job->outputs[i].format, render_output_of(job, &job->outputs[i], camera));
+        status = write_picture(job, &job->outputs[i], render_output_of(job, &job->outputs[i], camera));
     job->written = clock_seconds();
     return status;
 }

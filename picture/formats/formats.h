@@ -32,6 +32,7 @@ struct image_format_info {
     unsigned uses;          // bits of enum image_use
     unsigned bits[3];       // per channel that can be written, the default first; 0 after the last
     unsigned side_max;      // pixels that a side can have; 0: as many as glint renders
+    bool is_linear;         // holds colours as they were rendered, before tone and transfer
     bool has_quality;       // which is lossy
     bool has_compression;   // of several kinds
     const char *magic;      // the first bytes of a file; NULL: there are none

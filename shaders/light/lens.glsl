@@ -60,8 +60,8 @@ void through_lens(uvec2 pixel, REAL x, REAL y, inout camera_ray ray) {
 camera_ray camera_ray_at(uvec2 pixel, vec2 offset) {
     camera_ray ray = camera_ray(CAMERA(position), camera_direction_at(pixel, offset));
     if (HAS_CAMERA && wants(FEATURE_CAMERA)) {
-        REAL x = 2.0 * (REAL(pixel.x) + REAL(offset.x)) / REAL(frame.width) - 1.0;
-        REAL y = 1.0 - 2.0 * (REAL(pixel.y) + REAL(offset.y)) / REAL(frame.height);
+        REAL x = 2.0 * (REAL(pixel.x) + REAL(offset.x)) / REAL(frame.whole_width) - 1.0;
+        REAL y = 1.0 - 2.0 * (REAL(pixel.y) + REAL(offset.y)) / REAL(frame.whole_height);
         through_lens(pixel, x, y, ray);
     }
     return ray;

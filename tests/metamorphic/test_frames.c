@@ -414,6 +414,56 @@ static void test_first_sample(struct frames *f) {
     close_stage(&stage);
 }
 
+// A part of a picture, by region and by sample, has the very floats of the whole.
+static bool is_in_place(const struct image *part, const struct image *whole, uint32_t x, uint32_t y) {
+    bool same = true;
+    for (uint32_t row = 0; row < part->height; row++)
+        same = same && memcmp(part->rgb + (size_t)row * part->width * 3,
+                              whole->rgb + ((size_t)(y + row) * whole->width + x) * 3,
+                              (size_t)part->width * 3 * sizeof *part->rgb) == 0;
+    return same;
+}
+
+static void test_parts(struct frames *f) {
+    static const uint32_t places[][4] = {{0, 0, 96, 72}, {0, 40, 96, 32}, {13, 5, 50, 41}, {95, 71, 1, 1}};
+    struct stage stage;
+    struct image whole = {0}, part = {0};
+    struct render_statistics statistics;
+    if (!open_stage(f, &stage, 96, 72, 2))
+        return;
+    struct render_settings *settings = &stage.shot.settings;
+    bool good = take(&stage, &whole, &statistics);
+    settings->whole_width = 96;
+    settings->whole_height = 72;
+    settings->whole_samples = 2;
+    for (size_t i = 0; good && i < sizeof places / sizeof *places; i++) {
+        settings->first_x = places[i][0];
+        settings->first_y = places[i][1];
+        settings->width = places[i][2];
+        settings->height = places[i][3];
+        good = apply(&stage) && take(&stage, &part, &statistics);
+        expect(f, good && is_in_place(&part, &whole, places[i][0], places[i][1]),
+               "a region has the floats of the whole");
+        image_finish(&part);
+    }
+    settings->samples = 1;
+    settings->first_x = settings->first_y = 0;
+    settings->width = 96;
+    settings->height = 72;
+    struct image samples[2] = {{0}, {0}};
+    for (uint32_t i = 0; i < 2; i++) {
+        settings->first_sample = i;
+        good = apply(&stage) && take(&stage, &samples[i], &statistics) && good;
+    }
+    for (size_t i = 0; good && i < (size_t)96 * 72 * 3; i++)
+        samples[0].rgb[i] = (samples[0].rgb[i] + samples[1].rgb[i]) / 2;
+    expect(f, good && is_in_place(&samples[0], &whole, 0, 0), "and samples make it in their order");
+    for (int i = 0; i < 2; i++)
+        image_finish(&samples[i]);
+    image_finish(&whole);
+    close_stage(&stage);
+}
+
 static void test_whole_frames(struct frames *f) {
     test_cancel(f);
     test_bands(f);
@@ -422,6 +472,7 @@ static void test_whole_frames(struct frames *f) {
     test_limits(f, 0);
     test_limits(f, 20);
     test_first_sample(f);
+    test_parts(f);
 }
 
 int main(int argc, char **argv) {

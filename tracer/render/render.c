@@ -309,7 +309,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
     if (old.width == now->width && old.height == now->height && old.max_depth == now->max_depth &&
         old.features == now->features && old.alternative == now->alternative &&
         old.workgroup == now->workgroup && old.band_tiles == now->band_tiles &&
-        (old.error > 0) == (now->error > 0) &&
+        (old.error > 0) == (now->error > 0) && renderer_is_part(&old) == renderer_is_part(now) &&
         (old.samples == now->samples || renderer->samples_at_once == 0))
         return renderer_first_program(renderer, now->counts) != NULL;
     drop_frame(renderer);

@@ -32,8 +32,13 @@ struct timeline;
 
 struct render_settings {
     uint32_t width, height; // pixels
+    // Of a part of a larger picture: the size of that, and which of its pixels is the part's first; zeros:
+    // the picture is whole. Where pixels end by their error, the first one begins a tile of 8x8 pixels, so
+    // that a part has the tiles of the whole.
+    uint32_t whole_width, whole_height, first_x, first_y;
     uint32_t samples;       // per pixel, at least 1
     uint32_t first_sample;  // number of the first of them (view_sample_offset); pictures begin with 0
+    uint32_t whole_samples; // of the picture that these samples are a part of; 0: they are all
     uint32_t max_depth;
     double min_weight;
     vec3 background; // linear, times intensity

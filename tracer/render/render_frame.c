@@ -51,7 +51,8 @@ static void put_inside(const struct flat_scene *flat, const struct view_camera *
 // That share what a pixel sees between them: where pixels end by their error, those that each has.
 static double samples_of(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
-    return renderer_is_adaptive(renderer) ? settings->least_samples : settings->samples;
+    const uint32_t all = settings->whole_samples ? settings->whole_samples : settings->samples;
+    return renderer_is_adaptive(renderer) ? settings->least_samples : all;
 }
 
 static_assert(IR_PROJECTION_ORTHOGRAPHIC == PROJECTION_ORTHOGRAPHIC &&
@@ -85,11 +86,25 @@ static double footprint_of(const struct view_camera *camera, double scale) {
     return camera->projection == IR_PROJECTION_PANORAMA ? 180 * RADIANS : 2 * camera->tan_half_fov;
 }
 
+// The picture that the camera sees, and what is drawn of it.
+static void put_place(const struct render_settings *settings, struct frame_block *frame) {
+    const struct render_size whole = renderer_whole(settings);
+    frame->whole_width = whole.width;
+    frame->whole_height = whole.height;
+    frame->first_x = settings->first_x;
+    frame->first_y = settings->first_y;
+    frame->width = settings->width;
+    frame->height = settings->height;
+    frame->point_bits = settings->whole_samples ? points_bits(0, settings->whole_samples)
+                                                : points_bits(settings->first_sample, settings->samples);
+}
+
 bool renderer_write_frame(struct renderer *renderer, const struct view_camera *camera) {
     const struct render_settings *settings = &renderer->settings;
     const struct flat_scene *flat = renderer->flat;
     const double scale = ldexp(1, flat->scale_exponent);
-    const double aspect = (double)settings->width / settings->height;
+    const struct render_size whole = renderer_whole(settings);
+    const double aspect = (double)whole.width / whole.height;
     struct frame_block frame = {
         .light_count = flat->light_count,
         .min_weight = (float)settings->min_weight,
@@ -102,8 +117,6 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .background_height = flat->background ? flat->background->height : 1,
         .background_cos = (float)cos_degrees(settings->background_rotation),
         .background_sin = (float)cos_degrees(settings->background_rotation - 90),
-        .width = settings->width,
-        .height = settings->height,
         .tiles_x = renderer->tiles_x,
         .run_tiles = renderer->run_tiles,
         .runs = renderer->runs,
@@ -114,9 +127,8 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .top_nodes = flat->top_nodes,
         .instance_table = flat->instance_table,
         .instance_shift = flat->instance_shift,
-        .point_bits = points_bits(settings->first_sample, settings->samples),
         .coordinates_table = flat->coordinates_table,
-        .footprint = (float)(footprint_of(camera, scale) / settings->height / sqrt(samples_of(renderer))),
+        .footprint = (float)(footprint_of(camera, scale) / whole.height / sqrt(samples_of(renderer))),
         .projection = camera->projection,
         .lens_radius = (float)fmin(camera->lens_radius * scale, FLAT_LENGTH_MAX),
         .focus = (float)(camera->focus * scale),
@@ -125,6 +137,7 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .sky_rows = flat->sky.rows,
         .sky_stride = flat->sky.stride,
     };
+    put_place(settings, &frame);
     put_inside(flat, camera, &frame);
     const vec3 position = vec3_mul(vec3_sub(camera->position, flat->origin), scale);
     double reach_right, reach_up;

@@ -115,7 +115,8 @@ static bool is_for(const struct renderer_kept *kept, const struct renderer *rend
     return kept->program && kept->features == features &&
            kept->alternative == renderer->settings.alternative &&
            kept->workgroup == renderer->settings.workgroup && kept->branches == private_branches(renderer) &&
-           kept->is_listed == renderer_is_adaptive(renderer);
+           kept->is_listed == renderer_is_adaptive(renderer) &&
+           kept->is_part == renderer_is_part(&renderer->settings);
 }
 
 static bool is_in_use(const struct renderer *renderer, const struct gpu_program *program) {
@@ -143,6 +144,7 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint64_t feat
                                    .workgroup = renderer->settings.workgroup,
                                    .branches = private_branches(renderer),
                                    .is_listed = renderer_is_adaptive(renderer),
+                                   .is_part = renderer_is_part(&renderer->settings),
                                    .alternative = renderer->settings.alternative,
                                    .program = program};
     renderer->kept_next = (renderer->kept_next + 1) % RENDERER_KEPT;
@@ -212,6 +214,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,
         [CONSTANT_BRANCHES] = renderer->samples_at_once ? private_branches(renderer) : 1,
+        [CONSTANT_PART] = renderer_is_part(&renderer->settings),
         [CONSTANT_LISTED] = kernel == RENDERER_TRACE && renderer_is_adaptive(renderer),
         [CONSTANT_ALTERNATIVE_OFFSET] = bits_of(ldexp(alternative->offset, flat->scale_exponent)),
         [CONSTANT_ALTERNATIVE_DISTANCE] = bits_of(alternative->distance),

@@ -48,7 +48,10 @@ static bool see(const struct view_camera *camera, vec3 point, double at[2], doub
 static struct area area_of(const struct renderer *renderer, const struct view_camera *camera,
                            const struct flat_bounce *body, const struct grid *grid) {
     const struct render_settings *settings = &renderer->settings;
-    const double aspect = (double)settings->width / settings->height;
+    const struct render_size whole = renderer_whole(settings);
+    const double aspect = (double)whole.width / whole.height;
+    const double first_x = (double)settings->first_x / TILE_SIDE,
+                 first_y = (double)settings->first_y / TILE_SIDE;
     double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     uint32_t before = 0;
     if (camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA)
@@ -60,10 +63,10 @@ static struct area area_of(const struct renderer *renderer, const struct view_ca
         if (!see(camera, corner, at, &blur))
             continue;
         before++;
-        x0 = fmin(x0, tile_at((at[0] - blur) / aspect, settings->width));
-        x1 = fmax(x1, tile_at((at[0] + blur) / aspect, settings->width));
-        y0 = fmin(y0, tile_at(at[1] - blur, settings->height));
-        y1 = fmax(y1, tile_at(at[1] + blur, settings->height));
+        x0 = fmin(x0, tile_at((at[0] - blur) / aspect, whole.width) - first_x);
+        x1 = fmax(x1, tile_at((at[0] + blur) / aspect, whole.width) - first_x);
+        y0 = fmin(y0, tile_at(at[1] - blur, whole.height) - first_y);
+        y1 = fmax(y1, tile_at(at[1] + blur, whole.height) - first_y);
     }
     if (before == 0)
         return (struct area){0};
@@ -142,7 +145,11 @@ static bool same_view(const struct view_camera *a, const struct view_camera *b) 
 }
 
 bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *camera) {
-    if (renderer->samples_at_once == 0 || (renderer->order && same_view(camera, &renderer->ordered)))
+    const struct render_settings *settings = &renderer->settings;
+    const bool same_place =
+        renderer->ordered_x == settings->first_x && renderer->ordered_y == settings->first_y;
+    if (renderer->samples_at_once == 0 ||
+        (renderer->order && same_place && same_view(camera, &renderer->ordered)))
         return true;
     const size_t bytes = heap_times(renderer->tiles, sizeof *renderer->order);
     if (!renderer->order)
@@ -150,6 +157,8 @@ bool renderer_order_tiles(struct renderer *renderer, const struct view_camera *c
     if (renderer->order && renderer_sort_tiles(renderer, camera) &&
         gpu_write(renderer->gpu, renderer->buffers[BINDING_ORDER], 0, renderer->order, bytes)) {
         renderer->ordered = *camera;
+        renderer->ordered_x = settings->first_x;
+        renderer->ordered_y = settings->first_y;
         return true;
     }
     free(renderer->order);

@@ -38,6 +38,7 @@ struct renderer_kept {
     uint32_t workgroup;
     uint32_t branches; // in private memory; 0: samples are not traced at once
     bool is_listed;    // paths begin by a list
+    bool is_part;      // of a larger picture
     enum render_alternative alternative;
     struct gpu_program *program; // NULL: none
 };
@@ -65,6 +66,18 @@ enum renderer_pass {
     RENDERER_PASSES,
 };
 
+// Of the picture that the camera sees.
+struct render_size {
+    uint32_t width, height;
+};
+static inline bool renderer_is_part(const struct render_settings *settings) {
+    return settings->whole_width != 0;
+}
+static inline struct render_size renderer_whole(const struct render_settings *settings) {
+    return renderer_is_part(settings) ? (struct render_size){settings->whole_width, settings->whole_height}
+                                      : (struct render_size){settings->width, settings->height};
+}
+
 struct renderer {
     struct gpu *gpu;
     const struct flat_scene *flat; // not owned
@@ -79,6 +92,7 @@ struct renderer {
     struct gpu_program *resolve;
     uint32_t *order; // there too: as in the buffer BINDING_ORDER, for the camera `ordered`; NULL: none yet
     struct view_camera ordered;
+    uint32_t ordered_x, ordered_y;            // and its first_x and first_y
     uint32_t rank_begins[RENDERER_RANKS + 1]; // of that order: the first tile of each rank, and the end
     uint32_t tiles_x, tiles;                  // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;

@@ -1,8 +1,8 @@
 // The options of many pictures from one process (cli/batch).
 //
 // Thread safety: as cli.h.
-#ifndef GLINT_CLI_OPTIONS_BATCH_H
-#define GLINT_CLI_OPTIONS_BATCH_H
+#ifndef GLINT_CLI_OPTIONS_OPTIONS_BATCH_H
+#define GLINT_CLI_OPTIONS_OPTIONS_BATCH_H
 
 #include "core/str.h"
 
