@@ -173,7 +173,7 @@ void render_encode(struct render_job *job, enum image_format format, struct strb
                                     .gpu = exact ? NULL : job->gpu,
                                     .camera = job->camera,
                                     .is_double = exact || job->shot.flat.is_double,
-                                    .audits = render_wants_audit(&job->cli->options),
+                                    .audits = job->stats.has_audit,
                                     .scaled_width = is_scaled ? job->image.width : 0,
                                     .scaled_height = is_scaled ? job->image.height : 0,
                                     .format = format,
