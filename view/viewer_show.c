@@ -120,10 +120,10 @@ static uint64_t rays_in(const struct render_rays *rays) {
 }
 
 // Their names, in lines of at most so many characters.
-static uint32_t put_features(uint32_t mask, size_t room, struct strbuf lines[], uint32_t most) {
+static uint32_t put_features(uint64_t mask, size_t room, struct strbuf lines[], uint32_t most) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < FEATURE_COUNT; i++) {
-        const str name = str_from(mask & (1u << i) ? feature_name(1u << i) : "");
+        const str name = str_from(mask & (UINT64_C(1) << i) ? feature_name(UINT64_C(1) << i) : "");
         if (name.len == 0)
             continue;
         const bool begins = count == 0 || lines[count - 1].len + 2 + name.len > room;

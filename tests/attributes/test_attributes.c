@@ -24,7 +24,7 @@
 #include <string.h>
 
 enum {
-    SEEDS = 30,
+    SEEDS = 60, // at most: it ends where all rows are proven
     ROWS_MAX = 256,
     TRIES_A_SCENE = 2, // elements in which a row is changed, of one scene
     TOP = 8,           // pixels that changed most, which the reference is asked about
@@ -437,9 +437,15 @@ static void overlap_glass(struct ir_scene *scene) {
         ball->material = (struct ir_material_ref){glass->name, i};
         glass->albedo = (struct ir_weights){.specular = 0.3, .reflection = 0.1, .refraction = 0.9};
         glass->refractive_index = i ? 1.6 : 1.2;
+        glass->priority = 0; // a tie, which any other value decides
+        glass->attenuation_color = (struct ir_color){.r = 0.5, .g = 0.7, .b = 0.9};
+        glass->attenuation_distance = size;
         write_row(&SCHEMA_SPHERE, ball, "material");
         write_row(&SCHEMA_MATERIAL, glass, "albedo");
         write_row(&SCHEMA_MATERIAL, glass, "refractive_index");
+        write_row(&SCHEMA_MATERIAL, glass, "priority");
+        write_row(&SCHEMA_MATERIAL, glass, "attenuation_color");
+        write_row(&SCHEMA_MATERIAL, glass, "attenuation_distance");
     }
 }
 

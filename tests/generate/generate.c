@@ -36,8 +36,9 @@ static uint32_t count_named(const struct generator *g, const struct schema_row *
 static bool is_possible(const struct generator *g, const struct schema_row *row) {
     if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH)
         return paths_of(g, row)->count > 0;
+    // Of meshes that can be rendered the materials are known; none has parts.
     if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_FOREIGN_NAME && g->options->renderable)
-        return g->options->mesh_materials.count > 0;
+        return row->key && g->options->mesh_materials.count > 0;
     if (row->kind == SCHEMA_REFERENCE && !row->element)
         return count_named(g, row) > 0;
     if (row->kind == SCHEMA_LIST || row->kind == SCHEMA_ELEMENT)
