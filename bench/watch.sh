@@ -22,6 +22,8 @@ await() {
         kill -0 "$process" || { cat "$work/said.txt" >&2; exit 1; }
         sleep 0.05
     done
+    # A scene with errors is soon loaded: its times say nothing.
+    if tail -1 "$work/loads.json" | grep -q '"broken": true'; then cat "$work/said.txt" >&2; exit 1; fi
     sleep 0.2
 }
 
