@@ -33,11 +33,13 @@ enum {
     IMAGE_QUALITY_MOST = 100,
 };
 
+struct image_layers;
 struct image {
     uint32_t width, height;
     float *rgb;       // three per pixel, row 0 on top
     const char *note; // a line of ASCII for the file's head; not owned; NULL: none
     struct image_coding coding;
+    const struct image_layers *layers; // of OpenEXR (exr_file.h), beside its colours; not owned; NULL: none
 };
 
 // How linear values are displayed: the words of the scene's image element.
