@@ -271,7 +271,7 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command) {
     for (int i = 0; i < ROW_COUNT; i++) {
         if (!belongs(&rows[i], command))
             continue;
-        char left[40];
+        char left[128];
         const char *argument = rows[i].argument ? rows[i].argument : "";
         const char *joint = rows[i].argument && argument[0] != '[' ? " " : "";
         if (rows[i].letter)

@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 enum {
-    FLAT_DEPTH = 2, // of the table: an entry a line
+    FLAT_DEPTH = 3, // of the table: an entry a line
 };
 
 // ---- names
@@ -28,7 +28,7 @@ static struct aov_name object_of(const struct session *session, uint32_t body, s
                              .at = where.at};
 }
 
-// Which triangle of a body shows each of its materials first; `done` is by material.
+// By the first triangle of a body that shows each of its materials.
 static void name_materials_of(const struct session *session, uint32_t number, const char *object,
                               struct arena *arena, struct aov_name *materials) {
     const struct scene_body *body = &session->resolved.bodies[number];
@@ -43,7 +43,9 @@ static void name_materials_of(const struct session *session, uint32_t number, co
         where_find(session, number, i, &where);
         name->kind = where.material_kind;
         name->at = where.material_at;
+        const bool is_default = where.material == session->scene->materials.count;
         name->name = where.material_name.len ? text(arena, where.material_name)
+                     : is_default            ? name->kind
                                              : arena_format(arena, "%s.material", object).ptr;
     }
 }
