@@ -38,14 +38,6 @@ enum cli_stats {
     CLI_STATS_JSON,
 };
 
-// What else is known of a picture's pixels; the order of cli_aov_names.
-enum cli_aov {
-    CLI_AOV_ERROR,
-    CLI_AOV_SAMPLES,
-    CLI_AOVS,
-};
-extern const char *const cli_aov_names[CLI_AOVS];
-
 // A picture that render is to write.
 struct cli_output {
     const char *path; // "-": standard output
@@ -70,7 +62,7 @@ struct cli_options {
     int32_t width, height, samples, repeat; // 0: not given
     int32_t depth, quality;                 // of pictures; 0: not given
     int compression;                        // enum image_compression
-    uint32_t aovs;                          // bits of enum cli_aov
+    uint32_t aovs;                          // bits of enum aov
     int aov_arg;
     int32_t sample; // of a pixel, from 0
     int sample_arg;

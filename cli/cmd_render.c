@@ -136,6 +136,8 @@ static int render_camera(struct render_job *job, uint32_t camera, uint32_t camer
         status = render_note_estimate(job);
     if (status == CLI_OK)
         status = render_audit(job);
+    if (status == CLI_OK)
+        status = render_make_aovs(job, NULL);
     progress_end(&job->progress);
     if (status == CLI_OK)
         status = render_scale_up(job);
@@ -143,6 +145,7 @@ static int render_camera(struct render_job *job, uint32_t camera, uint32_t camer
         status = render_write_pictures(job, camera);
     if (status == CLI_OK)
         status = render_write_aovs(job, camera);
+    render_drop_aovs(job);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
     if (status == CLI_OK)
@@ -212,7 +215,9 @@ static int render_cameras(struct render_job *job) {
                   "not enough memory for the picture");
         return CLI_SCENE;
     }
-    const int fits = render_judge_size(job);
+    int fits = render_judge_size(job);
+    if (fits == CLI_OK)
+        fits = render_judge_aovs(job);
     if (fits != CLI_OK)
         return fits;
     uint32_t end = job->all_cameras ? cameras->count : first + 1;
@@ -255,6 +260,10 @@ static bool noise_fits(struct render_job *job) {
     else if (m->noise > 0 && cli_device_is_reference(cli))
         cli_usage(cli, m->noise_arg,
                   "the reference takes all samples of all pixels: --noise works on a device");
+    else if (cli->options.aovs && (m->time_s > 0 || m->allow_resolution))
+        cli_usage(cli, cli->options.aov_arg,
+                  "--aov is for pictures of the samples and the size asked for: without --time and "
+                  "--allow-resolution");
     else if (cli->options.aovs && job->output_count == 1 && render_uses_stdout(job))
         cli_usage(cli, cli->options.aov_arg, "--aov writes files beside the picture: name one with -o");
     else

@@ -1,6 +1,7 @@
 // The one table of options, its parser and its help.
 #include "cli/cli.h"
 
+#include "app/aov/aov.h"
 #include "app/fixes.h"
 #include "core/nearest.h"
 
@@ -113,9 +114,9 @@ static const struct option_row rows[] = {
      "end each pixel once the standard error of its displayed colour is at most E, such as 0.01; with at "
      "most "
      "1024 samples, or those of --samples"},
-    {OPTION_AOV, "aov", 0, "NAME,...", "render",
-     "write beside OUT what else is known of each pixel: OUT.error.pfm, its standard error, and "
-     "OUT.samples.pfm, with --noise"},
+    {OPTION_AOV, "aov", 0, AOV_NAMES, "render",
+     "write what else is known of each pixel, one or more separated by commas: as layers of OUT.exr, else "
+     "beside OUT as OUT.depth.pfm and so on; 'error' needs --noise"},
     {OPTION_SAMPLE, "sample", 0, "N", "pick", "the sample whose path is shown, counted from 0"},
     {OPTION_CAMERA, "camera", 0, "NAME", "view pick tradeoff extremes", "the camera to look through"},
     {OPTION_CAMERA, "camera", 0, "NAME", "render",
@@ -266,7 +267,7 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command) {
     for (int i = 0; i < ROW_COUNT; i++) {
         if (!belongs(&rows[i], command))
             continue;
-        char left[40];
+        char left[128];
         const char *argument = rows[i].argument ? rows[i].argument : "";
         const char *joint = rows[i].argument && argument[0] != '[' ? " " : "";
         if (rows[i].letter)

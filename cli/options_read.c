@@ -1,6 +1,7 @@
 // Values of options: counts, sizes, limits, folders.
 #include "cli/cli.h"
 
+#include "app/aov/aov.h"
 #include "core/nearest.h"
 #include "core/number.h"
 
@@ -60,29 +61,38 @@ bool cli_read_size(struct cli *cli, int arg, const char *text) {
     return true;
 }
 
-const char *const cli_aov_names[CLI_AOVS] = {[CLI_AOV_ERROR] = "error", [CLI_AOV_SAMPLES] = "samples"};
-
-static int aov_named(str name) {
-    for (int i = 0; i < CLI_AOVS; i++)
-        if (str_equal(name, str_from(cli_aov_names[i])))
-            return i;
-    return -1;
+static bool bad_aov(struct cli *cli, int arg, str name) {
+    struct nearest search = nearest_begin(name);
+    for (int i = 0; i < AOVS; i++)
+        nearest_offer(&search, str_from(aov_info((enum aov)i)->name));
+    if (name.len)
+        cli_usage(cli, arg, "--aov does not know '%.*s'", STR_ARG(name));
+    else
+        cli_usage(cli, arg, "--aov needs a name where there is none");
+    if (name.len && nearest_best(&search).len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    else
+        diag_help(&cli->sink, "write one or more of %s, separated by commas", AOV_NAMES);
+    return false;
 }
 
 bool cli_read_aovs(struct cli *cli, int arg, const char *text) {
     cli->options.aov_arg = arg;
-    while (*text) {
-        const size_t length = strcspn(text, ",");
-        const int aov = aov_named((str){text, length});
-        if (aov < 0) {
-            cli_usage(cli, arg, "--aov does not know '%.*s'", (int)length, text);
-            diag_help(&cli->sink, "write error, samples or both, separated by a comma");
+    for (const char *at = text;; at++) {
+        const str name = {at, strcspn(at, ",")};
+        const enum aov aov = aov_named(name);
+        if (aov == AOVS)
+            return bad_aov(cli, arg, name);
+        if (cli->options.aovs >> aov & 1) {
+            cli_usage(cli, arg, "--aov has '%.*s' twice", STR_ARG(name));
+            diag_help(&cli->sink, "leave one of them out");
             return false;
         }
         cli->options.aovs |= 1u << aov;
-        text += length + (text[length] == ',');
+        at += name.len;
+        if (!*at)
+            return true;
     }
-    return true;
 }
 
 bool cli_read_limit(struct cli *cli, int arg, const char *text) {

@@ -92,15 +92,6 @@ int render_audit(struct render_job *job) {
 
 int render_note_estimate(struct render_job *job) {
     const struct render_estimate *estimate = render_estimate_of(job);
-    struct cli *cli = job->cli;
-    if (cli->options.aovs && !estimate) {
-        progress_end(&job->progress);
-        const int status = cli_usage(cli, cli->options.aov_arg,
-                                     "--aov knows error and samples only where pixels end by their error");
-        diag_help(&cli->sink,
-                  "add --noise 0.01, or write image.error and more samples than min_samples into the scene");
-        return status;
-    }
     const struct ir_image *image = job->session.image;
     strbuf_clear(&job->note);
     job->image.note = NULL;

@@ -12,6 +12,8 @@
 #include "grammar/ir.h"
 
 struct cli_opening;
+struct render_aovs;
+struct exact;
 
 struct render_job {
     struct cli *cli;
@@ -34,6 +36,7 @@ struct render_job {
     uint32_t camera;              // of the picture that is written
     struct image_display display; // of the last picture that was encoded
     struct strbuf *kept;          // for who wants the picture's file, and none written; NULL: the outputs are
+    struct render_aovs *aovs;     // while a camera's picture has some; NULL: none
     struct strbuf note;           // what the picture states of itself; empty: nothing
     struct strbuf audit_note;     // what the audit says of it
     // --time: what ends the frame, and the session's image with the samples that were made.
@@ -48,6 +51,8 @@ struct render_job {
 
 // Where a camera's picture goes: the path of one of the outputs.
 const char *render_output_of(struct render_job *job, const struct cli_output *output, uint32_t camera);
+// A path without its ending.
+str render_stem_of(str path);
 // Reads the outputs of the command line into the job; CLI_OK, or CLI_USAGE with the mistake reported.
 int render_take_outputs(struct render_job *job);
 // Whether the formats of the outputs hold pictures of this size: CLI_OK, or CLI_USAGE with the mistake in the
@@ -81,10 +86,20 @@ int render_tell_audit(const struct render_job *job);
 
 // What is known of where pixels ended; NULL: they do not end by their error.
 const struct render_estimate *render_estimate_of(const struct render_job *job);
-// Where pixels end by their error: appends to the picture's note what it states of itself, and writes what
-// --aov asks for beside the first output that is a file. An exit code.
+// Where pixels end by their error: appends to the picture's note what it states of itself. An exit code.
 int render_note_estimate(struct render_job *job);
+
+// ---- render_aov.c: --aov. All do nothing without it, and return exit codes.
+
+// Once the scene is known: whether it can be made at all.
+int render_judge_aovs(struct render_job *job);
+// After the frame: makes all of it by the tracer that made the picture, the reference if `exact` is not NULL,
+// as layers of the job's image where an output is OpenEXR.
+int render_make_aovs(struct render_job *job, struct exact *exact);
+// After the pictures: files beside the OpenEXR picture, or the first output that is a file.
 int render_write_aovs(struct render_job *job, uint32_t camera);
+void render_drop_aovs(struct render_job *job);
+
 // Says that the scene's image.error ended no pixel, and why; nothing where a finding says so.
 void render_tell_unused_error(const struct render_job *job);
 

@@ -105,10 +105,15 @@ static int render_camera(struct render_job *job, uint32_t camera) {
     progress_begin(&job->progress, options->quiet);
     if (taken == SHOT_OK)
         taken = exact_take(&exact, &job->image, NULL, &progress, &statistics);
-    progress_end(&job->progress);
     int status = taken == SHOT_OK ? CLI_OK : taken == SHOT_CANCELLED ? render_interrupted(job) : CLI_SCENE;
     if (status == CLI_OK)
+        status = render_make_aovs(job, &exact);
+    progress_end(&job->progress);
+    if (status == CLI_OK)
         status = render_write_pictures(job, camera);
+    if (status == CLI_OK)
+        status = render_write_aovs(job, camera);
+    render_drop_aovs(job);
     if (status == CLI_OK && options->stats)
         status = tell_statistics(job, &exact, &statistics);
     if (status == CLI_OK)

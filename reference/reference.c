@@ -263,7 +263,13 @@ static struct hit_pixel first_hit(const struct reference *r, const struct refere
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
     const struct camera_ray seen = reference_lens_ray(r, settings, points);
     const vec3 direction = seen.direction;
-    struct ray ray = {.start = reference_start(seen.start), .direction = direction, .t_max = INFINITY};
+    struct reference_settings alone = *settings; // its footprint is that of the only sample
+    alone.samples = 1;
+    alone.footprint_of = alone.planned = 0;
+    struct ray ray = {.start = reference_start(seen.start),
+                      .direction = direction,
+                      .t_max = INFINITY,
+                      .cone = reference_camera_cone(r, &alone, direction)};
     struct intersection nearest;
     struct surface s;
     struct lighting lighting;
@@ -276,7 +282,9 @@ static struct hit_pixel first_hit(const struct reference *r, const struct refere
     hit.triangle = s.triangle;
     hit.distance = s.distance;
     hit.normal = s.shading;
+    hit.albedo = s.diffuse;
     if (s.passes) {
+        hit.refracts = 1;
         hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), direction);
         return hit;
     }
@@ -286,10 +294,12 @@ static struct hit_pixel first_hit(const struct reference *r, const struct refere
     struct split split;
     reference_roughen(r, &s, direction, points, 0);
     reference_split(r, &s, direction, &split);
-    if (reference_refraction(&s, &split) > 0)
+    hit.refracts = reference_refraction(&s, &split) > 0;
+    hit.reflects = reference_reflection(&s, &split) > 0;
+    if (hit.refracts)
         hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), split.bent);
     // Under total reflection the mirrored ray has the refracted one's weight too.
-    if (reference_reflection(&s, &split) > 0)
+    if (hit.reflects)
         hit.reflected =
             body_ahead(r, reference_leave(r, &s, s.geometric), reference_mirrored(r, &s, direction));
     return hit;

@@ -20,6 +20,10 @@ struct hit_pixel {
     uint32_t refracted;  // body that the refracted ray hits, where the material refracts; else HIT_NONE
     double distance;     // along the unit ray, scene units; 0 where nothing was hit
     vec3 normal;         // shading normal at the hit, unit; 0 where nothing was hit
+    // Diffuse colour times its weight, linear, filtered as in a picture of one sample; 0 where nothing was
+    // hit.
+    vec3 albedo;
+    uint32_t reflects, refracts; // 1: the mirrored, the refracted ray is sent, whether it hits or not
 };
 
 #endif

@@ -73,6 +73,10 @@ void write_first(uint at, hit_record hit, surface s, bool ended) {
     pixels[at + 1u] = uvec4(bits_of(hit.b2), hit.item, nothing ? HITS_NOTHING : hit.number);
     pixels[at + 2u] = uvec4(0u, 0u, HITS_NOTHING, HITS_NOTHING);
     pixels[at + 3u] = uvec4(nothing ? uvec3(0u) : floatBitsToUint(vec3(s.shading)), ended ? 0u : 1u);
+    vec3 albedo = vec3(0.0);
+    if (HAS_DIFFUSE)
+        albedo = s.diffuse;
+    pixels[at + 4u] = nothing ? uvec4(0u) : uvec4(floatBitsToUint(albedo), 0u);
 }
 
 void write_later(uint at, uint kind, hit_record hit, bool ended) {
@@ -84,6 +88,7 @@ void write_later(uint at, uint kind, hit_record hit, bool ended) {
     found.z = kind == HITS_MIRRORED && !nothing ? hit.number : found.z;
     found.w = kind == HITS_REFRACTED && !nothing ? hit.number : found.w;
     pixels[at + 2u] = found;
+    pixels[at + 4u].w |= kind == HITS_MIRRORED ? HITS_REFLECTS : kind == HITS_REFRACTED ? HITS_REFRACTS : 0u;
     if (!ended)
         pixels[at + 3u].w++;
 }
@@ -102,6 +107,8 @@ void main() {
     REAL3 direction = seen.direction;
     hits_ray ray = hits_ray(exact_start(seen.at), aim_along(direction), FAR_AWAY, false, true);
     surface s;
+    if (HAS_FOOTPRINT)
+        surface_cone = camera_cone(direction);
     media_set inside = camera_media();
     if (!first) {
         hit_record before = load_hit(at);

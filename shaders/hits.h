@@ -9,8 +9,11 @@
    1: its b2; leaf item; number as in FAULT_NUMBER (HITS_NOTHING: none)
    2: lights that would add something; those that do; numbers of what the mirrored and the refracted ray hit
       (HITS_NOTHING: not sent, or nothing)
-   3: shading normal as bits of floats; rays that did not end */
-#define HITS_WORDS   4
+   3: shading normal as bits of floats; rays that did not end
+   4: diffuse colour times its weight as bits of floats; HITS_REFLECTS, HITS_REFRACTS: those rays are sent */
+#define HITS_WORDS    5
+#define HITS_REFLECTS 1u
+#define HITS_REFRACTS 2u
 #define HITS_NOTHING 0xffffffffu
 
 /* dispatch.resume: the camera's ray, which must come first; the mirrored one; the refracted one; the shadow

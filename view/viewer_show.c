@@ -1,4 +1,5 @@
 // What the window shows: the picture, or what is known of its pixels, and text over it.
+#include "app/aov/aov.h"
 #include "core/heap.h"
 #include "core/strbuf.h"
 #include "diag/diag_text.h"
@@ -48,13 +49,6 @@ static void put_normal(const struct hit_pixel *hit, uint8_t rgb[3]) {
         rgb[c] = hit->body == HIT_NONE ? 0 : (uint8_t)(127.5 * (n[c] + 1));
 }
 
-static uint32_t rays_of(const struct hit_pixel *hit) {
-    uint32_t rays = (hit->reflected != HIT_NONE) + (hit->refracted != HIT_NONE);
-    for (uint32_t bits = hit->considered; bits; bits &= bits - 1)
-        rays++;
-    return rays;
-}
-
 // Near is bright: the logarithm of the distance, from the nearest to the farthest.
 static void depth_range(const struct viewer *v, size_t pixels, double *near, double *far) {
     *near = DBL_MAX;
@@ -75,7 +69,7 @@ static void put_hits(const struct viewer *v, size_t pixels) {
         if (v->mode == VIEWER_NORMALS)
             put_normal(hit, rgb);
         else if (v->mode == VIEWER_COST)
-            put_heat((double)rays_of(hit) / COST_MOST, rgb);
+            put_heat((double)aov_cost(hit) / COST_MOST, rgb);
         else
             put_gray(hit->body == HIT_NONE ? 0
                      : far > near          ? 1 - 0.9 * log(hit->distance / near) / log(far / near)

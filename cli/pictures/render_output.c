@@ -1,4 +1,4 @@
-// What render writes: its pictures, and what else is known of their pixels.
+// What render writes: its pictures.
 #include "cli/device.h"
 #include "cli/pictures/provenance.h"
 #include "cli/render_job.h"
@@ -11,8 +11,7 @@
 
 // ---- names
 
-// Without its ending.
-static str stem_of(str path) {
+str render_stem_of(str path) {
     size_t dot = path.len;
     while (dot > 0 && path.ptr[dot - 1] != '.')
         dot--;
@@ -21,7 +20,7 @@ static str stem_of(str path) {
 
 // OUT.NAME.png for OUT.png.
 static const char *camera_output(struct render_job *job, str path, str camera) {
-    const str stem = stem_of(path);
+    const str stem = render_stem_of(path);
     return arena_format(&job->cli->arena, "%.*s.%.*s%s", STR_ARG(stem), STR_ARG(camera), path.ptr + stem.len)
         .ptr;
 }
@@ -220,47 +219,8 @@ void render_tell_written(struct render_job *job, uint32_t camera) {
                     job->image.width, job->image.height);
 }
 
-// ---- what else is known of pixels: --aov
+// ---- what is known of where pixels ended
 
 const struct render_estimate *render_estimate_of(const struct render_job *job) {
     return job->shot.settings.error > 0 ? renderer_estimate(job->shot.renderer) : NULL;
-}
-
-static float aov_of(const struct render_estimate *estimate, int aov, size_t pixel) {
-    return aov == CLI_AOV_ERROR ? estimate->error[pixel] : (float)estimate->samples[pixel];
-}
-
-static int write_aov(struct render_job *job, const struct render_estimate *estimate, const char *path,
-                     int aov) {
-    struct image image;
-    struct strbuf file;
-    const str whole = str_from(path);
-    if (!image_init(&image, job->image.width, job->image.height)) {
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory for '%s'", cli_aov_names[aov]);
-        return CLI_SCENE;
-    }
-    for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++)
-        image.rgb[i] = aov_of(estimate, aov, i / 3);
-    strbuf_init(&file);
-    image_encode(&image, IMAGE_PFM, (struct image_display){0}, &file);
-    const str stem = stem_of(whole);
-    const str name = arena_format(&job->cli->arena, "%.*s.%s.pfm", STR_ARG(stem), cli_aov_names[aov]);
-    const int status = write_made(job, name.ptr, &file);
-    if (status == CLI_OK && !job->cli->options.quiet)
-        fprintf(stderr, "glint: wrote %s, %u x %u\n", name.ptr, image.width, image.height);
-    strbuf_finish(&file);
-    image_finish(&image);
-    return status;
-}
-
-int render_write_aovs(struct render_job *job, uint32_t camera) {
-    const struct render_estimate *estimate = render_estimate_of(job);
-    const struct cli_output *beside = job->outputs;
-    int status = CLI_OK;
-    while (beside + 1 < job->outputs + job->output_count && is_stdout(beside))
-        beside++;
-    for (int aov = 0; estimate && aov < CLI_AOVS && status == CLI_OK; aov++)
-        if (job->cli->options.aovs >> aov & 1)
-            status = write_aov(job, estimate, render_output_of(job, beside, camera), aov);
-    return status;
 }

@@ -1,9 +1,12 @@
-// OpenEXR: linear floats or halves in the channels R, G and B.
+// OpenEXR: linear floats or halves in the channels R, G and B, and layers beside them.
+#include "core/heap.h"
 #include "picture/write/encode_parts.h"
 #include "picture/write/exr_file.h"
 #include "picture/write/image.h"
 
 #include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum {
     COLORS = 3,
@@ -11,8 +14,10 @@ enum {
     NAME_ROOM = 32,
 };
 
+typedef char text_name[NAME_ROOM];
+
 // "Scene hash": sceneHash.
-static void name_attribute(const char *keyword, char name[NAME_ROOM]) {
+static void name_attribute(const char *keyword, text_name name) {
     size_t length = 0;
     for (const char *k = keyword; *k && length + 1 < NAME_ROOM; k++)
         if (*k != ' ')
@@ -22,27 +27,48 @@ static void name_attribute(const char *keyword, char name[NAME_ROOM]) {
     name[length] = '\0';
 }
 
-void encode_exr(const struct image *image, const struct image_texts *texts, struct strbuf *out) {
+static void put_colors(const struct image *image, struct exr_channel channels[COLORS]) {
     static const char *const names[COLORS] = {"R", "G", "B"};
-    struct exr_channel channels[COLORS];
-    struct exr_attribute attributes[IMAGE_TEXTS_MOST + 1];
-    char attribute_names[IMAGE_TEXTS_MOST + 1][NAME_ROOM];
-    for (uint32_t i = 0; i < texts->count; i++) {
-        name_attribute(texts->items[i].keyword, attribute_names[i]);
-        attributes[i] = (struct exr_attribute){attribute_names[i], texts->items[i].text};
-    }
     for (int k = 0; k < COLORS; k++)
         channels[k] =
             (struct exr_channel){.name = names[k],
                                  .type = image->coding.bits == HALF_BITS ? EXR_TYPE_HALF : EXR_TYPE_FLOAT,
                                  .first = image->rgb + k,
                                  .step_bytes = COLORS * sizeof(float)};
-    const struct exr_file file = {.width = image->width,
-                                  .height = image->height,
-                                  .compression = image->coding.compression,
-                                  .channels = channels,
-                                  .channel_count = COLORS,
-                                  .attributes = attributes,
-                                  .attribute_count = texts->count};
-    exr_file_write(&file, out);
+}
+
+static void put_texts(const struct image_texts *texts, text_name *names, struct exr_attribute *attributes) {
+    for (uint32_t i = 0; i < texts->count; i++) {
+        name_attribute(texts->items[i].keyword, names[i]);
+        attributes[i] = (struct exr_attribute){names[i], texts->items[i].text};
+    }
+}
+
+void encode_exr(const struct image *image, const struct image_texts *texts, struct strbuf *out) {
+    static const struct image_layers none;
+    const struct image_layers *layers = image->layers ? image->layers : &none;
+    text_name names[IMAGE_TEXTS_MOST + 1];
+    struct exr_channel *channels = heap_array(layers->channel_count + COLORS, sizeof *channels);
+    struct exr_attribute *attributes =
+        heap_array((uint64_t)layers->attribute_count + texts->count + 1, sizeof *attributes);
+    if (channels && attributes) {
+        put_colors(image, channels);
+        if (layers->channel_count)
+            memcpy(channels + COLORS, layers->channels, layers->channel_count * sizeof *channels);
+        if (layers->attribute_count)
+            memcpy(attributes, layers->attributes, layers->attribute_count * sizeof *attributes);
+        put_texts(texts, names, attributes + layers->attribute_count);
+        const struct exr_file file = {.width = image->width,
+                                      .height = image->height,
+                                      .compression = image->coding.compression,
+                                      .channels = channels,
+                                      .channel_count = layers->channel_count + COLORS,
+                                      .attributes = attributes,
+                                      .attribute_count = layers->attribute_count + texts->count};
+        exr_file_write(&file, out);
+    } else {
+        out->failed = true;
+    }
+    free(attributes);
+    free(channels);
 }

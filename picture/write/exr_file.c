@@ -181,5 +181,7 @@ void exr_file_write(const struct exr_file *file, struct strbuf *out) {
                          exr_get_scanlines_per_chunk(e.context, 0, &e.lines) == EXR_ERR_SUCCESS &&
                          write_chunks(&e);
     const bool ended = begun && exr_finish(&e.context) == EXR_ERR_SUCCESS;
+    if (!written || !ended)
+        heap_exhausted(0); // all else is right: what the library asks of zlib and the system has failed
     out->failed |= !written || !ended;
 }

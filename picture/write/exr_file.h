@@ -37,6 +37,14 @@ struct exr_file {
     uint32_t attribute_count;
 };
 
+// What an OpenEXR picture holds beside its channels R, G and B.
+struct image_layers {
+    const struct exr_channel *channels;
+    uint32_t channel_count;
+    const struct exr_attribute *attributes;
+    uint32_t attribute_count;
+};
+
 // Appends the whole file to `out`, which is empty.
 void exr_file_write(const struct exr_file *file, struct strbuf *out);
 

@@ -48,6 +48,7 @@ enum {
     IMAGE_TEXTS_MOST = 15,
 };
 
+struct image_layers; // exr_file.h
 struct image {
     uint32_t width, height;
     float *rgb;       // three per pixel, row 0 on top
@@ -55,6 +56,7 @@ struct image {
                       // none
     struct image_texts texts; // more of them, at most IMAGE_TEXTS_MOST
     struct image_coding coding;
+    const struct image_layers *layers; // of OpenEXR (exr_file.h), beside its colours; not owned; NULL: none
 };
 
 // How linear values are displayed: the words of the scene's image element.

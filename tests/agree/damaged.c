@@ -111,13 +111,17 @@ static unsigned char *segment(struct strbuf *file, unsigned marker) {
     return data + at + 4;
 }
 
-static void jpeg_whole(struct strbuf *out) {
+static void put_file(struct strbuf *out, const char *path) {
     char bytes[1024];
-    FILE *file = fopen("tests/data/image/gray.jpg", "rb");
+    FILE *file = fopen(path, "rb");
     if (!file)
         abort();
     strbuf_add(out, bytes, fread(bytes, 1, sizeof bytes, file));
     fclose(file);
+}
+
+static void jpeg_whole(struct strbuf *out) {
+    put_file(out, "tests/data/image/gray.jpg");
 }
 
 enum marker {
@@ -189,6 +193,34 @@ static void hdr_cut(struct strbuf *out) {
     put_hdr(out, "-Y 2 +X 8", "\2\2\0\x08\x88\x80\x88\x40\x88\0\x88\x81", 12);
 }
 
+// ---- OpenEXR
+
+static void exr_whole(struct strbuf *out) {
+    put_file(out, "tests/fuzz/seeds/image/zip.exr");
+}
+static void exr_half(struct strbuf *out) {
+    put_file(out, "tests/fuzz/seeds/image/half.exr");
+}
+static void exr_head_cut(struct strbuf *out) {
+    exr_whole(out);
+    out->len = 100;
+}
+static void exr_cut(struct strbuf *out) {
+    exr_whole(out);
+    out->len -= 20;
+}
+static void exr_stream(struct strbuf *out) {
+    exr_whole(out);
+    memset(out->data + out->len - 40, 0x55, 40);
+}
+static void exr_no_colors(struct strbuf *out) {
+    exr_whole(out);
+    char *name = out->data; // "R", and not that of "pixelAspectRatio"
+    while (memcmp(name, "R", 2) != 0)
+        name++;
+    *name = 'Q';
+}
+
 #define PIXELS "its pixels are damaged"
 const struct damaged damaged_images[] = {
     {"PNG", NULL, png_whole},
@@ -218,5 +250,11 @@ const struct damaged damaged_images[] = {
     {"HDR, an old run of nothing", PIXELS, hdr_first_run},
     {"HDR, another width", PIXELS, hdr_width},
     {"HDR, rows missing", PIXELS, hdr_cut},
+    {"OpenEXR", NULL, exr_whole},
+    {"OpenEXR, halves by PIZ", NULL, exr_half},
+    {"OpenEXR, a header that ends early", "its header is damaged, or the file ends within it", exr_head_cut},
+    {"OpenEXR, too little data", PIXELS, exr_cut},
+    {"OpenEXR, a damaged stream", PIXELS, exr_stream},
+    {"OpenEXR, no red", "it has no channels R, G and B", exr_no_colors},
 };
 const int damaged_count = sizeof damaged_images / sizeof *damaged_images;

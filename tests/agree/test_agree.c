@@ -15,6 +15,7 @@
 #include "core/strbuf.h"
 #include "diag/diag_text.h"
 #include "grammar/print/ir_print.h"
+#include "picture/formats/formats.h"
 #include "tests/agree/damaged.h"
 #include "tests/agree/mutate.h"
 #include "tests/generate/generate.h"
@@ -202,6 +203,8 @@ static void run_damaged(struct agree *a) {
     strbuf_init(&file);
     for (int i = 0; i < damaged_count; i++) {
         const struct damaged *d = &damaged_images[i];
+        if (strncmp(d->what, "OpenEXR", 7) == 0 && image_format_missing(IMAGE_EXR))
+            continue;
         struct agree_case more = {.message = d->message, .must_pass = !d->message};
         strbuf_clear(&file);
         d->make(&file);

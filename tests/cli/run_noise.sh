@@ -79,7 +79,7 @@ expect 'not with a time' 2 - 'noise.*--time.*E801' "$glint" render "$scene" --no
 expect 'not with a search' 2 - 'noise.*E801' "$glint" render "$scene" --noise 0.02 --max-error flip=0.1 -o no.png
 expect 'not by the reference' 2 - 'all samples of all pixels' "$glint" render "$scene" --noise 0.02 --device reference -o no.png
 expect 'not more than all' 2 - 'a number from' "$glint" render "$scene" --noise 2 -o no.png
-expect 'what is not known of a pixel' 2 - "does not know 'depth'" "$glint" render "$scene" --noise 0.1 --aov depth -o no.png
+expect 'what is not known of a pixel' 2 - "does not know 'hue'" "$glint" render "$scene" --noise 0.1 --aov hue -o no.png
 expect 'files beside a stream' 2 - 'name one with -o' "$glint" render "$scene" --noise 0.1 --aov error -o -
 expect 'nothing to write' 2 - "only where pixels end by their error" "$glint" render "$scene" --aov error -o no.png
 [ ! -e no.png ] && pass 'nothing was written' || fail 'nothing was written'

@@ -72,6 +72,7 @@ void stage_open(struct stage *stage, const char *glint, const char *shim, const 
     add(stage, "tests/data/image/palette.png", "more/sky.png");
     add(stage, "tests/data/image/progressive.jpg", "more/progressive.jpg");
     add(stage, "tests/fuzz/seeds/image/runs.hdr", "more/runs.hdr");
+    add(stage, "tests/fuzz/seeds/image/half.exr", "more/half.exr");
     add(stage, "tests/golden/minimal.png", "a.png");
     add(stage, "tests/golden/spheres.png", "b.png");
     write_session(stage);

@@ -189,6 +189,11 @@ enum render_result renderer_count(struct renderer *renderer, const struct view_c
 // max_depth and min_weight say. Numbers are those of the picture that renderer_render makes.
 enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
                                  struct hit_pixel *out, const struct render_progress *progress);
+// The same of the camera's rays alone, through the place in the pixel that a sample has (view_sample_offset)
+// and the middle of the lens: what later rays would say is 0 or HIT_NONE.
+enum render_result renderer_first_hits(struct renderer *renderer, const struct view_camera *camera,
+                                       uint32_t sample, struct hit_pixel *out,
+                                       const struct render_progress *progress);
 // Rays of the last renderer_hits that did not end; what they would have hit is reported as nothing.
 uint64_t renderer_hits_unfinished(const struct renderer *renderer);
 

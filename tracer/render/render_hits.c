@@ -74,11 +74,18 @@ static uint32_t kind_count(const struct renderer *renderer) {
     return HITS_LIGHTS + (lights < HITS_LIGHTS_MAX ? lights : HITS_LIGHTS_MAX);
 }
 
+// Which rays of which sample.
+struct asking {
+    uint32_t sample, kinds;
+    const struct render_progress *progress;
+};
+
 static enum render_result draw_band(struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
-                                    const struct render_progress *progress) {
-    const uint32_t kinds = kind_count(renderer), slots = tile_count * TILE_PIXELS;
+                                    const struct asking *asking) {
+    const uint32_t kinds = asking->kinds, slots = tile_count * TILE_PIXELS;
+    const struct render_progress *progress = asking->progress;
     double offset_x, offset_y, seconds;
-    view_sample_offset(0, &offset_x, &offset_y);
+    view_sample_offset(asking->sample, &offset_x, &offset_y);
     struct dispatch_block block = {.tile_begin = tile_begin,
                                    .tile_count = tile_count,
                                    .offset_x = (float)offset_x,
@@ -118,6 +125,9 @@ static struct hit_pixel read_hit(const struct renderer *renderer, const struct g
     hit.refracted = body_of(renderer, words[2].w);
     hit.distance = ldexp(renderer_real(renderer, words[0].x, words[0].y), -renderer->flat->scale_exponent);
     hit.normal = (vec3){renderer_float(words[3].x), renderer_float(words[3].y), renderer_float(words[3].z)};
+    hit.albedo = (vec3){renderer_float(words[4].x), renderer_float(words[4].y), renderer_float(words[4].z)};
+    hit.reflects = (words[4].w & HITS_REFLECTS) != 0;
+    hit.refracts = (words[4].w & HITS_REFRACTS) != 0;
     return hit;
 }
 
@@ -156,8 +166,8 @@ static bool write_frame(struct renderer *renderer, const struct view_camera *cam
     return written;
 }
 
-enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
-                                 struct hit_pixel *out, const struct render_progress *progress) {
+static enum render_result take(struct renderer *renderer, const struct view_camera *camera,
+                               struct hit_pixel *out, const struct asking *asking) {
     if ((!renderer->hits && !make(renderer)) || !write_frame(renderer, camera))
         return RENDER_FAILED;
     struct renderer_hits *hits = renderer->hits;
@@ -165,7 +175,7 @@ enum render_result renderer_hits(struct renderer *renderer, const struct view_ca
     for (uint32_t begin = 0; begin < renderer->tiles; begin += hits->band_tiles) {
         const uint32_t left = renderer->tiles - begin;
         const uint32_t count = left < hits->band_tiles ? left : hits->band_tiles;
-        enum render_result result = draw_band(renderer, begin, count, progress);
+        enum render_result result = draw_band(renderer, begin, count, asking);
         if (result != RENDER_DONE)
             return result;
         const uint64_t words = (uint64_t)count * TILE_PIXELS * HITS_WORDS;
@@ -176,4 +186,17 @@ enum render_result renderer_hits(struct renderer *renderer, const struct view_ca
         count_unfinished(renderer, begin, count);
     }
     return RENDER_DONE;
+}
+
+enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
+                                 struct hit_pixel *out, const struct render_progress *progress) {
+    const struct asking all = {0, kind_count(renderer), progress};
+    return take(renderer, camera, out, &all);
+}
+
+enum render_result renderer_first_hits(struct renderer *renderer, const struct view_camera *camera,
+                                       uint32_t sample, struct hit_pixel *out,
+                                       const struct render_progress *progress) {
+    const struct asking first = {sample, HITS_FIRST + 1, progress};
+    return take(renderer, camera, out, &first);
 }
