@@ -14,7 +14,7 @@
 #define HITS_WORDS    5
 #define HITS_REFLECTS 1u
 #define HITS_REFRACTS 2u
-#define HITS_NOTHING 0xffffffffu
+#define HITS_NOTHING  0xffffffffu
 
 /* dispatch.resume: the camera's ray, which must come first; the mirrored one; the refracted one; the shadow
    ray to light i. One kind a dispatch, so that each ray has all of ITERATION_LIMIT to itself. */

@@ -41,7 +41,7 @@ bool aov_init(struct aov_planes *planes, uint32_t width, uint32_t height, uint32
     for (int i = 0; i < AOVS; i++) {
         if (!(wanted >> i & 1))
             continue;
-        planes->planes[i] = heap_zeroed(pixels, infos[i].channel_count * sizeof(float));
+        planes->planes[i] = heap_zeroed(heap_times(pixels, infos[i].channel_count), sizeof(float));
         if (!planes->planes[i]) {
             aov_finish(planes);
             return false;

@@ -116,7 +116,7 @@ static void rank_rows(void *context, size_t begin, size_t end) {
 
 bool matte_end(struct matte *matte, uint32_t samples) {
     matte->samples = samples;
-    matte->ranks = heap_zeroed(heap_times(matte->width, matte->height), 2 * MATTE_RANKS * sizeof(float));
+    matte->ranks = heap_zeroed(heap_times(matte->width, matte->height), sizeof(float[2 * MATTE_RANKS]));
     if (matte->ranks)
         parallel_for(matte->height, ROWS_A_PIECE, rank_rows, matte);
     return matte->ranks != NULL;
