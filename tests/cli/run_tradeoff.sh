@@ -168,7 +168,7 @@ expect "and writes nothing" 1 - - test -e none.png
 
 # The chosen settings, rendered again from the file, keep the bound.
 expect "the cheapest that errs by 0.1" 0 '"runner_up": [0-9]+' - \
-    "$glint" tradeoff small.yaml -q --budget 15 --max-error flip=0.1 --set image.samples=2 --format json
+    "$glint" tradeoff small.yaml -q --budget 40 --max-error flip=0.1 --set image.samples=2 --format json
 options=$(sed -n 's/.*"options": "\([^"]*\)".*/\1/p' out.txt)
 samples=$(sed -n 's/.*"truth_samples": \([0-9]*\).*/\1/p' out.txt)
 if ! echo "$options" | grep -q width; then
@@ -178,7 +178,7 @@ if ! echo "$options" | grep -q width; then
     expect "the choice keeps the bound: $options" 0 'at most 0\.1: passed' - \
         "$glint" compare again.pfm truth.pfm --space displayed --max-flip 0.1
 fi
-expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.2 --budget 8 -o chosen.png
+expect "render by an error" 0 - 'chosen: row' "$glint" render small.yaml --max-error flip=0.2 --budget 20 -o chosen.png
 expect "its picture" 0 PNG '' head -c 4 chosen.png
 
 exit $failed
