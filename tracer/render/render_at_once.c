@@ -78,6 +78,7 @@ static enum render_result draw_samples(struct renderer_frame *run, struct dispat
     struct renderer *renderer = run->renderer;
     const uint32_t left = renderer->settings.samples - first;
     block->samples = left < renderer->samples_at_once ? left : renderer->samples_at_once;
+    block->first_sample = renderer->settings.first_sample + first;
     run->resolve = *block;
     run->resolve.sample_index = first;
     run->shows = left == block->samples;
