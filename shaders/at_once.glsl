@@ -36,11 +36,14 @@ uint path_of(uint index, uint slots) {
 struct waiting_ray {
     ray_start start;
     REAL3 direction;
-    RAY_CONE cone;
     float throughput;
     uint depth;
 };
 waiting_ray waiting[BRANCHES];
+
+// With HAS_FOOTPRINT. Not in the rays: a member that no kernel without it reads costs such a kernel 40 registers on a GPU.
+const uint CONE_BRANCHES = HAS_FOOTPRINT ? BRANCHES : 1u;
+RAY_CONE waiting_cones[CONE_BRANCHES];
 
 // Of each of them.
 struct waiting_medium {
@@ -57,7 +60,8 @@ void take_waiting(inout path_state p) {
     waiting_ray ray = waiting[p.stack_size];
     p.start = ray.start;
     p.direction = ray.direction;
-    p.cone = ray.cone;
+    if (HAS_FOOTPRINT)
+        p.cone = waiting_cones[p.stack_size];
     p.throughput = ray.throughput;
     p.depth = ray.depth;
     if (HAS_MEDIA) {
@@ -71,8 +75,8 @@ void take_waiting(inout path_state p) {
 void save_waiting(uint place, uint count) {
     for (uint i = 0u; i < count; i++) {
         uint word = BRANCHES_WORD + BRANCH_WORDS * i;
-        put_branch(place, word, waiting[i].start, waiting[i].direction, waiting[i].cone, waiting[i].throughput,
-                   waiting[i].depth);
+        put_branch(place, word, waiting[i].start, waiting[i].direction, waiting_cones[HAS_FOOTPRINT ? i : 0u],
+                   waiting[i].throughput, waiting[i].depth);
         if (HAS_MEDIA)
             put_media(place, word + BRANCH_WORDS - MEDIA_BRANCH_WORDS, waiting_media[i].inside, waiting_media[i].tint);
         if (HAS_POINTS)
@@ -84,7 +88,9 @@ void load_waiting(uint place, uint count) {
     for (uint i = 0u; i < count; i++) {
         path_state p;
         get_branch(place, BRANCHES_WORD + BRANCH_WORDS * i, p);
-        waiting[i] = waiting_ray(p.start, p.direction, p.cone, p.throughput, p.depth);
+        waiting[i] = waiting_ray(p.start, p.direction, p.throughput, p.depth);
+        if (HAS_FOOTPRINT)
+            waiting_cones[i] = p.cone;
         if (HAS_MEDIA) {
             get_media(place, BRANCHES_WORD + BRANCH_WORDS * (i + 1u) - MEDIA_BRANCH_WORDS, p);
             waiting_media[i] = waiting_medium(p.inside, p.tint);

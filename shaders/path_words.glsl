@@ -298,7 +298,9 @@ void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction
                  uint depth) {
 #ifndef FETCH_TEXELS
     if (AT_ONCE)
-        waiting[p.stack_size] = waiting_ray(start, direction, cone, throughput, depth);
+        waiting[p.stack_size] = waiting_ray(start, direction, throughput, depth);
+    if (AT_ONCE && HAS_FOOTPRINT)
+        waiting_cones[p.stack_size] = cone;
     if (AT_ONCE && HAS_POINTS)
         waiting_keys[p.stack_size] = point_key(p.key, POINT_REFRACTED);
 #endif
