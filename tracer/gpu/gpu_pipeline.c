@@ -52,7 +52,7 @@ static bool create_module(struct gpu *gpu, const struct gpu_program_source *sour
         return false;
     }
     size_t words = drop_unknown(gpu, spirv, source->kernel->words);
-    if (gpu->texels && !gpu_prune(source, spirv, &words)) {
+    if (!gpu_prune(source, spirv, &words)) {
         free(spirv);
         gpu_fail(gpu, GPU_NO_MEMORY, "not enough memory");
         return false;

@@ -71,9 +71,10 @@ static void check(const struct module *module) {
     free(exact);
 }
 
-static const struct kernel *const kernels[] = {&kernel_trace_texels,  &kernel_trace64_texels,
-                                               &kernel_hits_texels,   &kernel_log64_texels,
-                                               &kernel_trace_storage, &kernel_trace64_instances_texels};
+static const struct kernel *const kernels[] = {
+    &kernel_trace_texels,    &kernel_trace64_texels, &kernel_hits_texels,
+    &kernel_log64_texels,    &kernel_trace_storage,  &kernel_trace64_instances_texels,
+    &kernel_trace64_storage, &kernel_hits_storage,   &kernel_log64_storage};
 
 static void test_each_feature(void **state) {
     (void)state;
