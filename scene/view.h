@@ -62,6 +62,19 @@ struct view_ray {
     vec3 start, direction; // scene units; unit
 };
 struct view_ray view_ray_at(const struct view_camera *camera, double aspect, double x, double y);
+// How a picture shows a point: the ray of the pinhole that comes to it, and what of the picture lies there.
+struct view_sight {
+    vec3 direction; // unit
+    double x, y;    // of the place in the picture, as above
+    // How much of space the picture's height is there, scene units: a pixel of one of `rows` rows is height /
+    // rows wide, as the cones of filters are (docs/language.md, "Paint").
+    double height;
+    // Of small areas across the ray: one of the size a shows in a * density * rows^2 pixels.
+    double density;
+};
+// false: the point is not in the picture.
+bool view_sight_of(const struct view_camera *camera, double aspect, vec3 point, struct view_sight *out);
+
 // Whether every ray begins at the camera's position.
 static inline bool view_from_one_place(const struct view_camera *camera) {
     return camera->projection != IR_PROJECTION_ORTHOGRAPHIC && !(camera->lens_radius > 0);
