@@ -139,6 +139,7 @@ struct ir_light {
     double intensity;
     struct ir_color color;
     unsigned falloff; // ir_falloff
+    bool visible;     // of a light with extent: to camera, mirrors and glass
 };
 
 struct ir_checker {

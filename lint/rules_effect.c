@@ -62,12 +62,34 @@ static void look_at_material(struct lint *lint, const struct ir_material *materi
         report_image(lint, material, &material->specular_color.image, "specular_color", "specular");
 }
 
+// ---- lights that are to be seen
+
+static void look_at_light(struct lint *lint, const struct view_light *light) {
+    const struct ir_light *ir = &lint->ir->lights.items[light->index];
+    if (!ir->visible || view_light_is_seen(light))
+        return;
+    const bool is_point = light->extent == VIEW_POINT;
+    diag_add(
+        lint->sink, DIAG_UNUSED_VALUE, ir_place_key(lint->origin, &ir->head, &SCHEMA_LIGHT, "visible"),
+        is_point
+            ? "'visible' of this light has no effect: a point has no size to be seen"
+            : "'visible' of this light has no effect: a body has its very surface and is seen in its place");
+    if (is_point)
+        diag_help(lint->sink, "write its %s, or leave 'visible' out",
+                  light->directional ? "angle" : "radius");
+    else
+        diag_help(lint->sink, "remove the body, or leave 'visible' out");
+}
+
 // Of what no body has W408 speaks; files of meshes say more than they use.
 void lint_unused_value(struct lint *lint) {
     const struct scene *scene = lint->scene;
     bool *told = ARENA_ARRAY(lint->arena, bool, scene->assets->material_count);
     for (uint32_t i = 0; i < lint->ir->cameras.count; i++)
         look_at_camera(lint, &lint->ir->cameras.items[i]);
+    for (uint32_t i = 0; i < lint->views[0].light_count; i++)
+        if (!lint->views[0].lights[i].automatic)
+            look_at_light(lint, &lint->views[0].lights[i]);
     for (uint32_t i = 0; i < lint->body_count; i++)
         for (uint32_t g = 0; lint_is_there(&lint->bodies[i]) && g < lint->bodies[i].is->group_count; g++) {
             const struct ir_material *material = lint_material(lint, &lint->bodies[i], g);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define PI     3.14159265358979323846
 #define DEGREE 0.017453292519943295769 // pi / 180
 
 // ---- the camera
@@ -111,6 +112,20 @@ static void put_extent(struct view_light *light, const struct ir_light *ir) {
     }
 }
 
+// The radiance that gives the emission on a surface that faces the light, over pi (docs/language.md, "Lights
+// that are seen").
+void view_light_shine(struct view_light *light, vec3 place) {
+    const double distance = light->inverse_square ? 1 : vec3_length(vec3_sub(light->position, place));
+    double over = 1; // solid angle over pi, at that distance; of a disc weighted by the cosine
+    if (light->extent == VIEW_DISC)
+        over = sin(light->half_angle) * sin(light->half_angle);
+    else if (light->extent == VIEW_SPHERE)
+        over = pow(light->radius / fmax(distance, light->inverse_square ? 0 : light->radius), 2);
+    else if (light->extent == VIEW_PANEL)
+        over = vec3_length(vec3_cross(light->edge_u, light->edge_v)) / (PI * distance * distance);
+    light->radiance = vec3_mul(light->emission, 1 / over);
+}
+
 static struct view_light written_light(const struct ir_light *ir, uint32_t index, unsigned transfer) {
     struct view_light light = {.index = index,
                                .emission = vec3_mul(scene_linear_color(ir->color, transfer), ir->intensity)};
@@ -121,6 +136,7 @@ static struct view_light written_light(const struct ir_light *ir, uint32_t index
         light.position = ir->position;
     light.inverse_square = !light.directional && ir->falloff == IR_FALLOFF_INVERSE_SQUARE;
     put_extent(&light, ir);
+    light.seen = ir->visible;
     return light;
 }
 
@@ -190,6 +206,11 @@ static void take_body(const struct scene_body *body, struct view_light **lights,
             lights[low]->before_body = before_body(lights[low], origin);
 }
 
+// The first camera's: flattening takes it off all places.
+static vec3 origin_of(const struct scene *scene, const struct view *view) {
+    return scene->ir->cameras.count ? scene->ir->cameras.items[0].position : view->camera.position;
+}
+
 static void find_bodies(const struct scene *scene, struct arena *arena, struct view *out) {
     uint32_t count = 0;
     struct view_light **lights = ARENA_ARRAY(arena, struct view_light *, out->light_count);
@@ -199,9 +220,7 @@ static void find_bodies(const struct scene *scene, struct arena *arena, struct v
     if (count == 0)
         return;
     qsort(lights, count, sizeof *lights, compare_places);
-    // Flattening takes off the first camera's position.
-    const vec3 origin =
-        scene->ir->cameras.count ? scene->ir->cameras.items[0].position : out->camera.position;
+    const vec3 origin = origin_of(scene, out);
     for (uint32_t i = 0; i < scene->body_count; i++)
         if (scene->bodies[i].shape != SCENE_MESH)
             take_body(&scene->bodies[i], lights, count, origin);
@@ -234,6 +253,9 @@ void view_build(const struct scene *scene, uint32_t camera_index, int32_t width,
                                  : automatic_camera(scene, width, height);
     build_lights(scene, arena, out);
     find_bodies(scene, arena, out);
+    for (uint32_t i = 0; i < out->light_count; i++)
+        if (view_light_is_seen(&out->lights[i]))
+            view_light_shine(&out->lights[i], origin_of(scene, out));
     vec3 p = out->camera.position;
     if (sink && out->camera.automatic)
         diag_add(sink, DIAG_DEFAULT_CAMERA, scene_place(scene),

@@ -41,10 +41,20 @@ struct view_light {
     vec3 position; // scene units; zero where directional
     vec3 to_light; // unit; zero where positional
     vec3 emission; // intensity times colour, linear
+    bool seen;     // by rays too; a body that has the very surface is seen in its place
+    vec3 radiance; // of such a light, as seen: linear
     bool inverse_square;
     bool automatic;
     uint32_t index; // in scene.lights; IR_NO_INDEX where automatic
 };
+
+// Whether rays see the light itself; only where it has an extent, and no body its surface.
+static inline bool view_light_is_seen(const struct view_light *light) {
+    return light->seen && light->extent != VIEW_POINT && !(light->before_body > 0);
+}
+// What such a light looks like, from its emission and its extent. One without falloff lights all distances
+// alike: it looks as bright as what lights `place` so.
+void view_light_shine(struct view_light *light, vec3 place);
 
 struct view {
     struct view_camera camera;

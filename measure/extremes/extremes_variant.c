@@ -238,6 +238,7 @@ static void light_surface(struct variant *v, const struct extreme_base *base, do
     light->position = over_surface(base, height);
     light->inverse_square = false;
     light->emission = (vec3){1, 1, 1};
+    view_light_shine(light, v->view.camera.position);
 }
 
 // From the surface into the mirrored direction of the ray that found it.

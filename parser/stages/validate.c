@@ -14,6 +14,10 @@ static const double PARALLEL_SINE = 1e-9;
 static const double COORDINATE_MAX = 1e18;
 static const int64_t PIXELS_MAX = 67108864;
 
+enum {
+    SEEN_LIGHTS_MOST = 256,
+};
+
 struct rules {
     struct diag_sink *sink;
     const struct ir_origin *origin;
@@ -234,6 +238,20 @@ static void check_panel(const struct rules *rules, const struct ir_light *light)
                  "%.*s has a coordinate beyond 1e18", STR_ARG(words));
 }
 
+// Rays look at each of them: more are a mistake, or take for ever.
+static void check_seen(const struct rules *rules, const struct ir_lights *lights) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lights->count; i++) {
+        if (!lights->items[i].visible || ++count <= SEEN_LIGHTS_MOST)
+            continue;
+        diag_add(rules->sink, DIAG_MANY_SEEN,
+                 ir_place_key(rules->origin, &lights->items[i].head, &SCHEMA_LIGHT, "visible"),
+                 "more than %d lights are visible", SEEN_LIGHTS_MOST);
+        diag_help(rules->sink, "let bodies with emission show further ones");
+        return;
+    }
+}
+
 // What gives an extent to another kind of light than the one it is written for.
 static void check_extent(const struct rules *rules, const struct ir_light *light) {
     static const struct {
@@ -340,6 +358,7 @@ void validate_scene(struct loader *loader, const struct ir_scene *scene) {
     check_image(&rules, &scene->image);
     for (uint32_t i = 0; i < scene->cameras.count; i++)
         check_camera(&rules, &scene->cameras.items[i]);
+    check_seen(&rules, &scene->lights);
     for (uint32_t i = 0; i < scene->lights.count; i++)
         check_light(&rules, &scene->lights.items[i]);
     for (uint32_t i = 0; i < scene->spheres.count; i++)
