@@ -191,9 +191,12 @@ static const struct schema_row camera_rows[] = {
      .range = SCHEMA_RANGE_LENGTH, .choice = 2, .alternative = IR_FOCUS_DISTANCE,
      .doc = "How far away things are sharp, along the view; if left out, where 'look_at' is."},
     {.name = "focus_at", .element = "FocusAt", FIELD(ir_camera, focus_at), .example = "0 1 0",
-     .also = "focus_point focus_object",
+     .also = "focus_point",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 2, .alternative = IR_FOCUS_POINT,
      .doc = "A point that is sharp, and all that is as far away along the view."},
+    {.name = "focus_on", FIELD(ir_camera, focus_on), .example = "ball", .text = SCHEMA_TEXT_BODY_NAME,
+     .also = "focus_object focus_body", .choice = 2, .alternative = IR_FOCUS_BODY,
+     .doc = "Name of a body whose middle is sharp, and all that is as far away along the view; of a model the middle of its box."},
 };
 const struct schema_element SCHEMA_CAMERA = {
     ELEMENT("camera", "Camera", ir_camera, camera_rows, "A point of view; the first is the default."),

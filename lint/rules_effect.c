@@ -10,7 +10,9 @@ static bool is_written(const struct ir_head *head, const struct schema_element *
 // ---- a focus without a lens
 
 static void look_at_camera(struct lint *lint, const struct ir_camera *camera) {
-    const char *row = is_written(&camera->head, &SCHEMA_CAMERA, "focus_at") ? "focus_at" : "focus";
+    const char *const rows[] = {
+        [IR_FOCUS_DISTANCE] = "focus", [IR_FOCUS_POINT] = "focus_at", [IR_FOCUS_BODY] = "focus_on"};
+    const char *row = rows[camera->focusing];
     if (camera->aperture > 0 || !is_written(&camera->head, &SCHEMA_CAMERA, row) ||
         is_written(&camera->head, &SCHEMA_CAMERA, "aperture")) // 0: a lens that is switched off
         return;

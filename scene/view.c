@@ -59,22 +59,46 @@ static bool looks_all_round(const struct view_camera *camera) {
     return camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
 }
 
+static vec3 middle_of(const struct scene_body *body) {
+    const affine3 *map = &body->object_to_world;
+    if (body->shape == SCENE_SPHERE)
+        return map->offset;
+    if (body->shape == SCENE_MESH)
+        return vec3_add(body->lower, vec3_mul(vec3_sub(body->upper, body->lower), 0.5));
+    const vec3 across = vec3_add(mat3_column(map->linear, 0), mat3_column(map->linear, 1));
+    return vec3_add(map->offset, vec3_mul(across, 0.5));
+}
+
+// Of a body that is not there, or whose mesh is not, the position: a diagnostic says so.
+static vec3 focus_point(const struct scene *scene, const struct ir_camera *ir) {
+    if (ir->focusing == IR_FOCUS_POINT)
+        return ir->focus_at;
+    if (ir->focusing != IR_FOCUS_BODY)
+        return ir->look_at;
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        const struct scene_body *body = &scene->bodies[i];
+        if (str_equal(body->name, ir->focus_on) && (body->shape != SCENE_MESH || body->mesh))
+            return middle_of(body);
+    }
+    return ir->position;
+}
+
 // 1 where a diagnostic has refused what is written.
-static double focus_of(const struct ir_camera *ir, const struct view_camera *camera) {
+static double focus_of(const struct scene *scene, const struct ir_camera *ir,
+                       const struct view_camera *camera) {
     double focus = ir->focus;
-    if (ir->focusing == IR_FOCUS_POINT || !(focus > 0)) {
-        const vec3 point = ir->focusing == IR_FOCUS_POINT ? ir->focus_at : ir->look_at;
-        const vec3 way = vec3_sub(point, ir->position);
+    if (ir->focusing != IR_FOCUS_DISTANCE || !(focus > 0)) {
+        const vec3 way = vec3_sub(focus_point(scene, ir), ir->position);
         focus = looks_all_round(camera) ? vec3_length(way) : vec3_dot(way, camera->forward);
     }
     return focus > 0 ? focus : 1;
 }
 
-static struct view_camera written_camera(const struct ir_camera *ir) {
+static struct view_camera written_camera(const struct scene *scene, const struct ir_camera *ir) {
     struct view_camera camera = turned_camera(ir);
     camera.lens_radius = ir->aperture / 2;
     if (camera.lens_radius > 0)
-        camera.focus = focus_of(ir, &camera);
+        camera.focus = focus_of(scene, ir, &camera);
     return camera;
 }
 
@@ -174,14 +198,6 @@ static bool is_surface(const struct scene_body *body, const struct view_light *l
                                                     mat3_column(body->object_to_world.linear, 1));
 }
 
-static vec3 middle_of(const struct scene_body *body) {
-    const affine3 *map = &body->object_to_world;
-    if (body->shape == SCENE_SPHERE)
-        return map->offset;
-    const vec3 across = vec3_add(mat3_column(map->linear, 0), mat3_column(map->linear, 1));
-    return vec3_add(map->offset, vec3_mul(across, 0.5));
-}
-
 // 2^-19 of the coordinates: some ten units of the last place that single precision keeps of them.
 static double before_body(const struct view_light *light, vec3 origin) {
     const double reach = light->radius + vec3_max_abs(light->edge_u) + vec3_max_abs(light->edge_v);
@@ -249,7 +265,7 @@ void view_build(const struct scene *scene, uint32_t camera_index, int32_t width,
                 struct arena *arena, struct diag_sink *sink, struct view *out) {
     const struct ir_cameras *cameras = &scene->ir->cameras;
     *out = (struct view){0};
-    out->camera = cameras->count ? written_camera(&cameras->items[camera_index])
+    out->camera = cameras->count ? written_camera(scene, &cameras->items[camera_index])
                                  : automatic_camera(scene, width, height);
     build_lights(scene, arena, out);
     find_bodies(scene, arena, out);

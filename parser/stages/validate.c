@@ -136,7 +136,9 @@ static void check_focus(const struct rules *rules, const struct ir_camera *camer
     const bool looks = camera->view == IR_VIEW_LOOK_AT;
     const bool all_round =
         camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
-    if (!(camera->aperture > 0) || is_poisoned(schema, camera, "focus") ||
+    // Where a body is, is not known yet: check finds those that are not before the camera (W427).
+    if (!(camera->aperture > 0) || camera->focusing == IR_FOCUS_BODY ||
+        is_poisoned(schema, camera, "focus") || is_poisoned(schema, camera, "focus_on") ||
         is_poisoned(schema, camera, "focus_at") || is_poisoned(schema, camera, "position"))
         return;
     const vec3 way = vec3_sub(camera->focus_at, camera->position);
@@ -150,7 +152,8 @@ static void check_focus(const struct rules *rules, const struct ir_camera *camer
         diag_add(rules->sink, DIAG_NO_FOCUS, ir_place_key(rules->origin, &camera->head, schema, "aperture"),
                  "%.*s has an aperture, but nothing says what it is focused on",
                  STR_ARG(owner(rules, schema, camera->name)));
-        diag_help(rules->sink, "write 'focus', a distance along the view, or 'focus_at', a point");
+        diag_help(rules->sink,
+                  "write 'focus', a distance along the view, or 'focus_at', a point, or 'focus_on', a body");
     }
 }
 

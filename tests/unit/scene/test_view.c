@@ -386,6 +386,38 @@ static void a_sight_ends_with_the_picture(void **state) {
     assets_scene_end(s);
 }
 
+// Through the middle of a body by its name, whatever its shape: as by its distance, written by hand.
+static void a_lens_is_focused_on_a_body(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        double focus;
+    } cases[] = {{"ball", 4}, {"wall", 7}, {"gone", 1}, {"behind", 1}};
+    for (uint32_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct assets_scene *s = assets_scene_begin();
+        struct ir_camera *camera = add_camera(s);
+        camera->position = (vec3){0, 0, 5};
+        camera->view = IR_VIEW_DIRECTION;
+        camera->direction = (vec3){0, 0, -1};
+        camera->aperture = 0.5;
+        camera->focusing = IR_FOCUS_BODY;
+        camera->focus_on = str_from(cases[i].name);
+        add_sphere(s, (vec3){3, 0, 1}, 0.5);
+        s->scene.spheres.items[0].name = STR("ball");
+        add_sphere(s, (vec3){0, 0, 8}, 0.5);
+        s->scene.spheres.items[1].name = STR("behind");
+        struct ir_rectangle *wall = ARENA_PUSH(&s->arena, &s->scene.rectangles);
+        schema_init(&SCHEMA_RECTANGLE, wall);
+        wall->name = STR("wall");
+        wall->corner = (vec3){-1, -1, -3};
+        wall->edge_u = (vec3){2, 0, 2};
+        wall->edge_v = (vec3){0, 2, 0};
+        struct view view = build(s, 4, 3);
+        assert_true(view.camera.focus == cases[i].focus);
+        assets_scene_end(s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_view_is_exact),
@@ -404,6 +436,7 @@ int main(void) {
         cmocka_unit_test(other_samples_are_apart),
         cmocka_unit_test(a_sight_is_the_inverse_of_a_ray),
         cmocka_unit_test(a_sight_ends_with_the_picture),
+        cmocka_unit_test(a_lens_is_focused_on_a_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
