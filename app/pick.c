@@ -21,6 +21,7 @@ static struct reference_segment common_segment(const struct render_segment *s) {
                                       .direction = s->direction,
                                       .body = s->body,
                                       .triangle = s->triangle,
+                                      .light = s->light,
                                       .material = s->material,
                                       .enters = s->enters,
                                       .passes = s->passes,
@@ -134,7 +135,7 @@ static bool has_other_color(const struct reference_segment *a, const struct refe
 static bool compare_segments(struct pick *pick, uint32_t device, uint32_t reference) {
     const struct reference_segment *a = &pick->logs[PICK_DEVICE].segments[device];
     const struct reference_segment *b = &pick->logs[PICK_REFERENCE].segments[reference];
-    if (a->body != b->body || a->triangle != b->triangle) {
+    if (a->body != b->body || a->triangle != b->triangle || a->light != b->light) {
         differ(pick, PICK_OTHER_BODY, device, reference);
         return a->body == b->body && fabs(a->distance - b->distance) <= PICK_DISTANCE_ERROR * b->distance;
     }

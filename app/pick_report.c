@@ -64,6 +64,12 @@ static void put_face(const struct where *where, struct strbuf *out) {
 static void put_target(const struct pick *pick, const struct reference_segment *s, struct strbuf *out) {
     struct where where;
     const bool found = where_find(pick->session, s->body, s->triangle, &where);
+    if (s->light != IR_NO_INDEX) {
+        strbuf_cstr(out, "light ");
+        put_light(pick, s->light, out);
+        strbuf_format(out, ", at %.9g", s->distance);
+        return;
+    }
     where_body_words(found ? &where : NULL, out);
     if (found && where.mesh_line) {
         strbuf_cstr(out, ", ");
@@ -149,7 +155,10 @@ static void put_seen(const struct pick *pick, struct strbuf *out) {
     struct where where;
     const bool found = where_find(pick->session, s->body, s->triangle, &where);
     strbuf_cstr(out, "sees       ");
-    where_body_words(found ? &where : NULL, out);
+    if (s->light != IR_NO_INDEX)
+        put_target(pick, s, out);
+    else
+        where_body_words(found ? &where : NULL, out);
     if (found) {
         put_place(pick, where.at, out);
         strbuf_cstr(out, "\nwith       ");
@@ -335,6 +344,10 @@ static void json_segment(struct json_writer *w, const struct pick *pick, const s
     }
     json_write_boolean(w, "cut_by_depth", s->depth > pick->max_depth);
     json_write_real(w, "weight_not_followed", s->cut_weight);
+    if (s->light != IR_NO_INDEX) {
+        json_write_integer(w, "light", s->light);
+        json_write_real(w, "distance", s->distance);
+    }
     if (s->body != HIT_NONE) {
         json_open_object(w, "hit");
         json_target(w, pick, s);

@@ -41,7 +41,8 @@ enum ir_view {
 };
 enum ir_focus {
     IR_FOCUS_DISTANCE,
-    IR_FOCUS_POINT
+    IR_FOCUS_POINT,
+    IR_FOCUS_BODY
 };
 enum ir_backdrop {
     IR_BACKDROP_COLOR,
@@ -102,6 +103,7 @@ struct ir_camera {
     unsigned focusing;   // ir_focus
     double focus;        // 0: not written
     vec3 focus_at;
+    str focus_on; // name of a body
 };
 
 struct ir_background {
@@ -139,6 +141,7 @@ struct ir_light {
     double intensity;
     struct ir_color color;
     unsigned falloff; // ir_falloff
+    bool visible;     // of a light with extent: to camera, mirrors and glass
 };
 
 struct ir_checker {

@@ -191,9 +191,12 @@ static const struct schema_row camera_rows[] = {
      .range = SCHEMA_RANGE_LENGTH, .choice = 2, .alternative = IR_FOCUS_DISTANCE,
      .doc = "How far away things are sharp, along the view; if left out, where 'look_at' is."},
     {.name = "focus_at", .element = "FocusAt", FIELD(ir_camera, focus_at), .example = "0 1 0",
-     .also = "focus_point focus_object",
+     .also = "focus_point",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 2, .alternative = IR_FOCUS_POINT,
      .doc = "A point that is sharp, and all that is as far away along the view."},
+    {.name = "focus_on", FIELD(ir_camera, focus_on), .example = "ball", .text = SCHEMA_TEXT_BODY_NAME,
+     .also = "focus_object focus_body", .choice = 2, .alternative = IR_FOCUS_BODY,
+     .doc = "Name of a body whose middle is sharp, and all that is as far away along the view; of a model the middle of its box."},
 };
 const struct schema_element SCHEMA_CAMERA = {
     ELEMENT("camera", "Camera", ir_camera, camera_rows, "A point of view; the first is the default."),
@@ -275,6 +278,9 @@ static const struct schema_row light_rows[] = {
      .also = "angular_diameter sun_size",
      .range = SCHEMA_RANGE_OPENING, .standard = "0", .feature = FEATURE_SOFT_LIGHT,
      .doc = "Angle that a light with a direction measures across: a disc in the sky, with soft shadows; 0 is a point, the sun has 0.53."},
+    {.name = "visible", FIELD(ir_light, visible), .standard = "false", .feature = FEATURE_SEEN_LIGHT,
+     .also = "camera_visible",
+     .doc = "Whether camera, mirrors and glass show the light itself, if it has a radius, an angle or a rectangle."},
     {.name = "intensity", FIELD(ir_light, intensity), .example = "1.5", .range = SCHEMA_RANGE_WEIGHT,
      .also = "power strength brightness energy",
      .standard = "1", .doc = "Multiplies the colour."},

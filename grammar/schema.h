@@ -36,6 +36,7 @@ enum schema_kind {
 enum schema_text {
     SCHEMA_TEXT_FREE,
     SCHEMA_TEXT_NAME,         // the language's names
+    SCHEMA_TEXT_BODY_NAME,    // a name of the language that a body has
     SCHEMA_TEXT_FOREIGN_NAME, // a name from another file: any text but the empty one
     SCHEMA_TEXT_PATH,
 };

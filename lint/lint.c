@@ -50,6 +50,10 @@ const struct lint_rule lint_rules[] = {
     {DIAG_SKY_DARK, lint_sky_dark, LINT_ALL},
     // The boxes of bodies for each panel, up to the first that it lights.
     {DIAG_PANEL_AWAY, lint_panel_away, LINT_ALL},
+    // One pass over cameras and bodies.
+    {DIAG_UNUSED_VALUE, lint_unused_value, LINT_ALL},
+    // The bodies whose boxes each panel overlaps; of meshes the faces there.
+    {DIAG_PANEL_IN_PLANE, lint_panel_in_plane, LINT_ALL},
     {.run = NULL},
 };
 

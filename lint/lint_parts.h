@@ -140,6 +140,8 @@ void lint_lens_inside(struct lint *lint);
 void lint_never_ends(struct lint *lint); // rules_samples.c
 void lint_sky_samples(struct lint *lint);
 void lint_sky_dark(struct lint *lint);
-void lint_panel_away(struct lint *lint); // rules_light.c
+void lint_panel_away(struct lint *lint); // rules_panel.c
+void lint_panel_in_plane(struct lint *lint);
+void lint_unused_value(struct lint *lint); // rules_effect.c
 
 #endif

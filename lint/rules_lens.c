@@ -91,12 +91,34 @@ static bool reach_of_bodies(const struct lint *lint, const struct view_camera *c
 
 static void report_focus(struct lint *lint, const struct ir_camera *camera, const struct view_camera *view,
                          double near, double far) {
-    const char *row = camera->focusing == IR_FOCUS_POINT ? "focus_at" : "focus";
+    const char *const rows[] = {
+        [IR_FOCUS_DISTANCE] = "focus", [IR_FOCUS_POINT] = "focus_at", [IR_FOCUS_BODY] = "focus_on"};
+    const char *row = rows[camera->focusing];
     span at = camera_place(lint, camera, row);
     diag_add(lint->sink, DIAG_NOTHING_SHARP, span_is_none(at) ? camera_place(lint, camera, "aperture") : at,
              "camera '%.*s' is focused on a distance of %.6g, but all bodies are %s", STR_ARG(camera->name),
              view->focus, view->focus > far ? "nearer" : "farther away");
     diag_help(lint->sink, "bodies are from %.6g to %.6g away", fmax(near, 0), far);
+}
+
+// Whether the body that a camera is focused on is known not to be before it.
+static bool is_behind(const struct lint *lint, const struct ir_camera *camera,
+                      const struct view_camera *view) {
+    const bool ahead = view->projection <= IR_PROJECTION_ORTHOGRAPHIC;
+    for (uint32_t i = 0; ahead && camera->focusing == IR_FOCUS_BODY && i < lint->body_count; i++) {
+        const struct lint_body *body = &lint->bodies[i];
+        const vec3 middle = vec3_mul(vec3_add(body->box.lower, body->box.upper), 0.5);
+        if (lint_is_there(body) && str_equal(body->is->name, camera->focus_on))
+            return !(vec3_dot(vec3_sub(middle, view->position), view->forward) > 0);
+    }
+    return false;
+}
+
+static void report_behind(struct lint *lint, const struct ir_camera *camera) {
+    diag_add(lint->sink, DIAG_NOTHING_SHARP, camera_place(lint, camera, "focus_on"),
+             "camera '%.*s' is focused on '%.*s', whose middle is not before it", STR_ARG(camera->name),
+             STR_ARG(camera->focus_on));
+    diag_help(lint->sink, "choose a body in view, or write 'focus', a distance");
 }
 
 void lint_nothing_sharp(struct lint *lint) {
@@ -106,6 +128,10 @@ void lint_nothing_sharp(struct lint *lint) {
         double near, far;
         if (!(view->lens_radius > 0))
             continue;
+        if (is_behind(lint, camera, view)) {
+            report_behind(lint, camera);
+            continue;
+        }
         if (reach_of_bodies(lint, view, &near, &far) && (view->focus > far || view->focus < near))
             report_focus(lint, camera, view, near, far);
         if (camera->aperture <= view->focus)

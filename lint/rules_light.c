@@ -103,35 +103,6 @@ void lint_light_around(struct lint *lint) {
     }
 }
 
-// Whether all of the box is on the side that the panel does not shine on.
-static bool is_in_the_dark(const struct view_light *light, const struct lint_box *box) {
-    const vec3 n = light->outward, p = light->position;
-    const vec3 corner = {n.x > 0 ? box->upper.x : box->lower.x, n.y > 0 ? box->upper.y : box->lower.y,
-                         n.z > 0 ? box->upper.z : box->lower.z};
-    return vec3_dot(n, vec3_sub(corner, p)) <= LINT_RESOLUTION * fmax(vec3_max_abs(corner), vec3_max_abs(p));
-}
-
-static bool lights_nothing(const struct lint *lint, const struct view_light *light) {
-    for (uint32_t k = 0; k < lint->body_count; k++)
-        if (lint_is_there(&lint->bodies[k]) && !is_in_the_dark(light, &lint->bodies[k].box))
-            return false;
-    return true;
-}
-
-void lint_panel_away(struct lint *lint) {
-    const struct view *view = &lint->views[0];
-    for (uint32_t i = 0; i < view->light_count && lint->body_count > 0; i++) {
-        const struct view_light *light = &view->lights[i];
-        if (light->extent != VIEW_PANEL || !lights_nothing(lint, light))
-            continue;
-        const struct ir_light *ir = &lint->ir->lights.items[light->index];
-        diag_add(lint->sink, DIAG_PANEL_AWAY,
-                 ir_place_key(lint->origin, &ir->head, &SCHEMA_LIGHT, "rectangle"),
-                 "this panel lights nothing: all bodies are on the side that it does not shine on");
-        diag_help(lint->sink, "exchange edge_u and edge_v: it shines to the side of edge_u x edge_v");
-    }
-}
-
 void lint_ambient(struct lint *lint) {
     const struct ir_ambient *ambient = &lint->ir->ambient;
     const vec3 color = lint->scene->ambient;
@@ -142,9 +113,14 @@ void lint_ambient(struct lint *lint) {
         return; // switched off
     const span at = ir_place_label(lint->origin, &ambient->head);
     if (black) {
+        // Of an intensity the colour is what it multiplies.
+        const bool has_intensity =
+            ambient->head.written >> schema_find_row(&SCHEMA_AMBIENT, STR("intensity")) & 1;
+        const char *row = has_intensity ? "intensity" : "occlusion", *value = has_intensity ? "1" : "0.2";
         diag_add(lint->sink, DIAG_AMBIENT, at,
                  "this ambient light has no color: it is black and adds nothing");
-        diag_help(lint->sink, "write its color, such as color: 0.2");
+        diag_help(lint->sink, "write its color, such as color: %s", value);
+        lint_fix_row(lint, &ambient->head, &SCHEMA_AMBIENT, "color", row, value);
     } else if (lint->ir->lights.count) {
         diag_add(lint->sink, DIAG_AMBIENT, at,
                  "ambient light of %.6g shows every diffuse colour as if fully lit, in shadows too",

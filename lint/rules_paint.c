@@ -40,7 +40,8 @@ struct looking {
     struct lint *lint;
     const struct view_camera *camera;
     const struct lint_body *body;
-    double pixel;        // how wide one is at distance 1 along the view
+    double aspect;
+    double rows; // of the pixels that filters take means over: of samples, with an error the least of them
     struct bare *bare;   // by material
     struct shown *shown; // by material
 };
@@ -48,7 +49,8 @@ struct looking {
 // A place on a body: how its coordinates change with the place in space.
 struct spot {
     vec3 point, normal; // the normal of any length
-    vec3 change[3];     // of u, v and a third; of checkers in scene units
+    struct view_sight sight;
+    vec3 change[3]; // of u, v and a third; of checkers in scene units
     uint32_t material;
     double pixels; // of the picture that it stands for
 };
@@ -66,9 +68,9 @@ static double length_in(const struct bare *bare, const struct spot *s, vec3 axis
 // The axes of a pixel on the surface are those that a filter would use (reference/paint.c).
 static void add_spot(struct looking *l, const struct spot *s) {
     const struct bare *bare = &l->bare[s->material];
-    const vec3 way = vec3_sub(s->point, l->camera->position), n = vec3_unit(s->normal), d = vec3_unit(way);
+    const vec3 n = vec3_unit(s->normal), d = s->sight.direction;
     const double facing = fmax(fabs(vec3_dot(d, n)), 1e-6);
-    const double width = l->pixel * vec3_dot(way, l->camera->forward);
+    const double width = s->sight.height / l->rows;
     vec3 along = vec3_sub(d, vec3_mul(n, vec3_dot(d, n)));
     if (!(bare->image || bare->cell > 0) || !(width > 0))
         return;
@@ -105,27 +107,27 @@ static void sphere_change(const struct bare *bare, double radius, struct spot *s
     s->change[2] = (vec3){0, 0, 0};
 }
 
-static bool meet_sphere(const struct looking *l, vec3 direction, struct spot *s) {
+static bool meet_sphere(const struct looking *l, struct view_ray ray, struct spot *s) {
     const struct scene_body *body = l->body->is;
-    const vec3 from = vec3_sub(l->camera->position, body->object_to_world.offset);
-    const double b = vec3_dot(from, direction), dd = vec3_dot(direction, direction);
-    const double root = b * b - dd * (vec3_dot(from, from) - body->radius * body->radius);
+    const vec3 from = vec3_sub(ray.start, body->object_to_world.offset);
+    const double b = vec3_dot(from, ray.direction);
+    const double root = b * b - (vec3_dot(from, from) - body->radius * body->radius);
     if (!(root > 0) || !(-b - sqrt(root) > 0))
         return false;
-    s->normal = vec3_add(from, vec3_mul(direction, (-b - sqrt(root)) / dd));
+    s->normal = vec3_add(from, vec3_mul(ray.direction, -b - sqrt(root)));
     s->point = vec3_add(s->normal, body->object_to_world.offset);
     own_axes(body, s);
     sphere_change(&l->bare[s->material], body->radius, s);
     return true;
 }
 
-static bool meet_sheet(const struct looking *l, vec3 direction, struct spot *s) {
+static bool meet_sheet(const struct looking *l, struct view_ray ray, struct spot *s) {
     const affine3 map = l->body->is->object_to_world;
     const vec3 u = mat3_apply(map.linear, (vec3){1, 0, 0}), v = mat3_apply(map.linear, (vec3){0, 1, 0});
     s->normal = vec3_cross(u, v);
-    const double nn = vec3_dot(s->normal, s->normal), down = vec3_dot(s->normal, direction);
-    const double t = vec3_dot(s->normal, vec3_sub(map.offset, l->camera->position)) / down;
-    const vec3 q = vec3_sub(vec3_add(l->camera->position, vec3_mul(direction, t)), map.offset);
+    const double nn = vec3_dot(s->normal, s->normal), down = vec3_dot(s->normal, ray.direction);
+    const double t = vec3_dot(s->normal, vec3_sub(map.offset, ray.start)) / down;
+    const vec3 q = vec3_sub(vec3_add(ray.start, vec3_mul(ray.direction, t)), map.offset);
     s->change[0] = vec3_mul(vec3_cross(v, s->normal), 1 / nn);
     s->change[1] = vec3_mul(vec3_cross(s->normal, u), 1 / nn);
     s->change[2] = (vec3){0, 0, 0};
@@ -143,24 +145,16 @@ static void look_at_shape(struct looking *l) {
     const uint32_t columns = image->width < COLUMNS ? (uint32_t)image->width : COLUMNS;
     const uint32_t rows =
         (uint32_t)fmax(1, fmin(image->height, columns * (double)image->height / image->width));
-    const double up = l->camera->tan_half_fov, right = up * image->width / image->height;
     for (uint32_t i = 0; i < columns * rows; i++) {
-        const double x = (2 * (i % columns + 0.5) / columns - 1) * right;
-        const double y = (1 - 2 * (i / columns + 0.5) / rows) * up;
-        const vec3 direction =
-            vec3_add(l->camera->forward, vec3_add(vec3_mul(l->camera->right, x), vec3_mul(l->camera->up, y)));
+        const double x = 2 * (i % columns + 0.5) / columns - 1, y = 1 - 2 * (i / columns + 0.5) / rows;
+        const struct view_ray ray = view_ray_at(l->camera, l->aspect, x, y);
         struct spot s = {.material = l->body->is->materials[0],
                          .pixels = (double)image->width * image->height / (columns * rows)};
-        if (l->body->is->shape == SCENE_SPHERE ? meet_sphere(l, direction, &s) : meet_sheet(l, direction, &s))
+        const bool hits =
+            l->body->is->shape == SCENE_SPHERE ? meet_sphere(l, ray, &s) : meet_sheet(l, ray, &s);
+        if (hits && view_sight_of(l->camera, l->aspect, s.point, &s.sight))
             add_spot(l, &s);
     }
-}
-
-static bool is_in_picture(const struct looking *l, vec3 way) {
-    const struct ir_image *image = l->lint->input->image;
-    const double depth = vec3_dot(way, l->camera->forward), up = l->camera->tan_half_fov * depth;
-    return depth > 0 && fabs(vec3_dot(way, l->camera->up)) < up &&
-           fabs(vec3_dot(way, l->camera->right)) < up * image->width / image->height;
 }
 
 static void look_at_triangle(struct looking *l, uint32_t triangle, double stands_for) {
@@ -173,8 +167,7 @@ static void look_at_triangle(struct looking *l, uint32_t triangle, double stands
     s.normal = vec3_cross(e, f);
     s.point = vec3_mul(vec3_add(c[0], vec3_add(c[1], c[2])), 1.0 / 3);
     const double nn = vec3_dot(s.normal, s.normal);
-    const vec3 way = vec3_sub(s.point, l->camera->position);
-    if (!(nn > 0) || !is_in_picture(l, way))
+    if (!(nn > 0) || !view_sight_of(l->camera, l->aspect, s.point, &s.sight))
         return;
     own_axes(body, &s);
     if (l->bare[s.material].image) {
@@ -184,9 +177,8 @@ static void look_at_triangle(struct looking *l, uint32_t triangle, double stands
         s.change[0] = vec3_add(vec3_mul(b1, at[1].u - at[0].u), vec3_mul(b2, at[2].u - at[0].u));
         s.change[1] = vec3_add(vec3_mul(b1, at[1].v - at[0].v), vec3_mul(b2, at[2].v - at[0].v));
     }
-    const double depth = vec3_dot(way, l->camera->forward);
-    s.pixels =
-        stands_for * fabs(vec3_dot(s.normal, way)) / (2 * depth * depth * depth) / (l->pixel * l->pixel);
+    const double rows = l->lint->input->image->height;
+    s.pixels = stands_for * fabs(vec3_dot(s.normal, s.sight.direction)) / 2 * s.sight.density * rows * rows;
     add_spot(l, &s);
 }
 
@@ -300,6 +292,8 @@ static void report_all(struct lint *lint, const struct bare *bare, const struct 
 void lint_too_fine(struct lint *lint) {
     const struct ir_image *image = lint->input->image;
     const uint32_t materials = lint->scene->assets->material_count;
+    const int32_t samples =
+        image->error > 0 && image->min_samples < image->samples ? image->min_samples : image->samples;
     struct looking l = {.lint = lint, .bare = ARENA_ARRAY(lint->arena, struct bare, materials)};
     bool any = false;
     for (uint32_t m = 0; m < materials; m++)
@@ -309,7 +303,8 @@ void lint_too_fine(struct lint *lint) {
     for (uint32_t c = 0; any && c < lint->view_count; c++) {
         l.camera = &lint->views[c].camera;
         l.shown = ARENA_ARRAY(lint->arena, struct shown, materials);
-        l.pixel = 2 * l.camera->tan_half_fov / (image->height * sqrt(image->samples));
+        l.aspect = (double)image->width / image->height;
+        l.rows = image->height * sqrt(samples);
         for (uint32_t i = 0; i < lint->body_count && work < WORK_MAX; i++) {
             l.body = &lint->bodies[i];
             if (!shows_any(&l, l.body))

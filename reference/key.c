@@ -11,7 +11,7 @@
 // it. Sizes are those of 64 bits.
 static_assert(sizeof(void *) != 8 || sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 6 * 8,
               "hash the new field of a camera");
-static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 5 * 8 + 6 * sizeof(vec3) + 8,
+static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 6 * 8 + 7 * sizeof(vec3) + 8,
               "hash the new field of a light");
 
 static void add_view(struct hash128 *h, const struct view *view) {
@@ -42,6 +42,8 @@ static void add_view(struct hash128 *h, const struct view *view) {
         hash128_vector(h, light->edge_u);
         hash128_vector(h, light->edge_v);
         hash128_vector(h, light->outward);
+        hash128_whole(h, view_light_is_seen(light));
+        hash128_vector(h, light->radiance);
     }
 }
 

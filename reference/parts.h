@@ -217,6 +217,12 @@ struct intersection {
     uint32_t primitive; // NO_PRIMITIVE: nothing
 };
 
+// The nearest light with a place that the ray sees before `t_max`: its number; IR_NO_INDEX: none. *t: how far
+// away it is, in lengths of the direction.
+uint32_t reference_seen_light(const struct reference *r, vec3 start, vec3 direction, double t_max, double *t);
+// What the discs in the sky add to the background, seen along a unit vector.
+vec3 reference_seen_discs(const struct reference *r, vec3 direction);
+
 void reference_intersect(const struct reference *r, const struct ray *ray, struct intersection *out);
 // Whether anything lies strictly between the ray's start and t_max.
 bool reference_blocks(const struct reference *r, const struct ray *ray);

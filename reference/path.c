@@ -72,6 +72,11 @@ static void see(struct following *f, vec3 value) {
     f->sample->brightest = fmax(f->sample->brightest, reference_brightest(value));
 }
 
+// What is seen where nothing is hit.
+static vec3 seen_beyond(const struct reference *r, vec3 direction) {
+    return vec3_add(reference_background(r, direction), reference_seen_discs(r, direction));
+}
+
 // A ray that leaves a surface: it waits, or is cut. Returns the throughput cut.
 static double send(struct following *f, const struct branch *child) {
     const struct reference_settings *settings = f->settings;
@@ -83,7 +88,7 @@ static double send(struct following *f, const struct branch *child) {
     } else if (child->depth > settings->max_depth) {
         f->sample->cut_by_depth++;
         if (settings->cut_sees_background)
-            add(f, reference_background(f->r, child->direction), child);
+            add(f, seen_beyond(f->r, child->direction), child);
     } else {
         push(f->queue, child);
         return 0;
@@ -140,6 +145,7 @@ static struct reference_segment *log_segment(struct following *f, const struct b
                                           .origin = vec3_add(b->start.at, f->r->origin),
                                           .direction = b->direction,
                                           .body = HIT_NONE,
+                                          .light = IR_NO_INDEX,
                                           .medium = reference_filling(f->r, &b->inside),
                                           .tint = b->tint,
                                           .material = IR_NO_INDEX};
@@ -195,6 +201,26 @@ static void show_surface(struct following *f, const struct branch *b, const stru
     }
 }
 
+// A light that is nearer than what the ray hits, which it then does not come to.
+static bool see_light(struct following *f, struct branch *b, double t_max,
+                      struct reference_segment *segment) {
+    double t;
+    const uint32_t light = reference_seen_light(f->r, b->start.at, b->direction, t_max, &t);
+    if (light == IR_NO_INDEX)
+        return false;
+    const vec3 radiance = f->r->input.view->lights[light].radiance;
+    b->tint = scaled(b->tint, reference_left(f->r, &b->inside, t * vec3_length(b->direction)));
+    see(f, radiance);
+    add(f, radiance, b);
+    if (segment) {
+        segment->tint = b->tint;
+        segment->radiance = radiance;
+        segment->distance = t;
+        segment->light = light;
+    }
+    return true;
+}
+
 static void follow_ray(struct following *f, struct branch *b) {
     struct ray ray = {b->start, b->direction, INFINITY, b->cone};
     struct intersection hit;
@@ -203,8 +229,10 @@ static void follow_ray(struct following *f, struct branch *b) {
     if (b->depth > f->sample->deepest)
         f->sample->deepest = b->depth;
     reference_intersect(f->r, &ray, &hit);
+    if (see_light(f, b, hit.primitive == NO_PRIMITIVE ? INFINITY : hit.t, segment))
+        return;
     if (hit.primitive == NO_PRIMITIVE) {
-        vec3 seen = reference_background(f->r, b->direction);
+        vec3 seen = seen_beyond(f->r, b->direction);
         add(f, seen, b);
         if (segment)
             segment->radiance = seen;

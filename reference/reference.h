@@ -194,6 +194,7 @@ struct reference_segment {
     vec3 origin, direction;         // scene units; unit
     uint32_t body, triangle;        // body HIT_NONE: the background
     uint32_t material;              // in assets.materials; IR_NO_INDEX where nothing was hit
+    uint32_t light;                 // body HIT_NONE: of the view, that the ray sees; IR_NO_INDEX: none
     bool enters;                    // the ray comes from outside the body
     bool passes;                    // it goes straight on, unseen: the medium is the same on both sides
     uint32_t medium;                // the body that fills the place that the ray goes through; HIT_NONE: air

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define PI     3.14159265358979323846
 #define DEGREE 0.017453292519943295769 // pi / 180
 
 // ---- the camera
@@ -58,22 +59,46 @@ static bool looks_all_round(const struct view_camera *camera) {
     return camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
 }
 
+static vec3 middle_of(const struct scene_body *body) {
+    const affine3 *map = &body->object_to_world;
+    if (body->shape == SCENE_SPHERE)
+        return map->offset;
+    if (body->shape == SCENE_MESH)
+        return vec3_add(body->lower, vec3_mul(vec3_sub(body->upper, body->lower), 0.5));
+    const vec3 across = vec3_add(mat3_column(map->linear, 0), mat3_column(map->linear, 1));
+    return vec3_add(map->offset, vec3_mul(across, 0.5));
+}
+
+// Of a body that is not there, or whose mesh is not, the position: a diagnostic says so.
+static vec3 focus_point(const struct scene *scene, const struct ir_camera *ir) {
+    if (ir->focusing == IR_FOCUS_POINT)
+        return ir->focus_at;
+    if (ir->focusing != IR_FOCUS_BODY)
+        return ir->look_at;
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        const struct scene_body *body = &scene->bodies[i];
+        if (str_equal(body->name, ir->focus_on) && (body->shape != SCENE_MESH || body->mesh))
+            return middle_of(body);
+    }
+    return ir->position;
+}
+
 // 1 where a diagnostic has refused what is written.
-static double focus_of(const struct ir_camera *ir, const struct view_camera *camera) {
+static double focus_of(const struct scene *scene, const struct ir_camera *ir,
+                       const struct view_camera *camera) {
     double focus = ir->focus;
-    if (ir->focusing == IR_FOCUS_POINT || !(focus > 0)) {
-        const vec3 point = ir->focusing == IR_FOCUS_POINT ? ir->focus_at : ir->look_at;
-        const vec3 way = vec3_sub(point, ir->position);
+    if (ir->focusing != IR_FOCUS_DISTANCE || !(focus > 0)) {
+        const vec3 way = vec3_sub(focus_point(scene, ir), ir->position);
         focus = looks_all_round(camera) ? vec3_length(way) : vec3_dot(way, camera->forward);
     }
     return focus > 0 ? focus : 1;
 }
 
-static struct view_camera written_camera(const struct ir_camera *ir) {
+static struct view_camera written_camera(const struct scene *scene, const struct ir_camera *ir) {
     struct view_camera camera = turned_camera(ir);
     camera.lens_radius = ir->aperture / 2;
     if (camera.lens_radius > 0)
-        camera.focus = focus_of(ir, &camera);
+        camera.focus = focus_of(scene, ir, &camera);
     return camera;
 }
 
@@ -111,6 +136,20 @@ static void put_extent(struct view_light *light, const struct ir_light *ir) {
     }
 }
 
+// The radiance that gives the emission on a surface that faces the light, over pi (docs/language.md, "Lights
+// that are seen").
+void view_light_shine(struct view_light *light, vec3 place) {
+    const double distance = light->inverse_square ? 1 : vec3_length(vec3_sub(light->position, place));
+    double over = 1; // solid angle over pi, at that distance; of a disc weighted by the cosine
+    if (light->extent == VIEW_DISC)
+        over = sin(light->half_angle) * sin(light->half_angle);
+    else if (light->extent == VIEW_SPHERE)
+        over = pow(light->radius / fmax(distance, light->inverse_square ? 0 : light->radius), 2);
+    else if (light->extent == VIEW_PANEL)
+        over = vec3_length(vec3_cross(light->edge_u, light->edge_v)) / (PI * distance * distance);
+    light->radiance = vec3_mul(light->emission, 1 / over);
+}
+
 static struct view_light written_light(const struct ir_light *ir, uint32_t index, unsigned transfer) {
     struct view_light light = {.index = index,
                                .emission = vec3_mul(scene_linear_color(ir->color, transfer), ir->intensity)};
@@ -121,6 +160,7 @@ static struct view_light written_light(const struct ir_light *ir, uint32_t index
         light.position = ir->position;
     light.inverse_square = !light.directional && ir->falloff == IR_FALLOFF_INVERSE_SQUARE;
     put_extent(&light, ir);
+    light.seen = ir->visible;
     return light;
 }
 
@@ -158,14 +198,6 @@ static bool is_surface(const struct scene_body *body, const struct view_light *l
                                                     mat3_column(body->object_to_world.linear, 1));
 }
 
-static vec3 middle_of(const struct scene_body *body) {
-    const affine3 *map = &body->object_to_world;
-    if (body->shape == SCENE_SPHERE)
-        return map->offset;
-    const vec3 across = vec3_add(mat3_column(map->linear, 0), mat3_column(map->linear, 1));
-    return vec3_add(map->offset, vec3_mul(across, 0.5));
-}
-
 // 2^-19 of the coordinates: some ten units of the last place that single precision keeps of them.
 static double before_body(const struct view_light *light, vec3 origin) {
     const double reach = light->radius + vec3_max_abs(light->edge_u) + vec3_max_abs(light->edge_v);
@@ -190,6 +222,11 @@ static void take_body(const struct scene_body *body, struct view_light **lights,
             lights[low]->before_body = before_body(lights[low], origin);
 }
 
+// The first camera's: flattening takes it off all places.
+static vec3 origin_of(const struct scene *scene, const struct view *view) {
+    return scene->ir->cameras.count ? scene->ir->cameras.items[0].position : view->camera.position;
+}
+
 static void find_bodies(const struct scene *scene, struct arena *arena, struct view *out) {
     uint32_t count = 0;
     struct view_light **lights = ARENA_ARRAY(arena, struct view_light *, out->light_count);
@@ -199,9 +236,7 @@ static void find_bodies(const struct scene *scene, struct arena *arena, struct v
     if (count == 0)
         return;
     qsort(lights, count, sizeof *lights, compare_places);
-    // Flattening takes off the first camera's position.
-    const vec3 origin =
-        scene->ir->cameras.count ? scene->ir->cameras.items[0].position : out->camera.position;
+    const vec3 origin = origin_of(scene, out);
     for (uint32_t i = 0; i < scene->body_count; i++)
         if (scene->bodies[i].shape != SCENE_MESH)
             take_body(&scene->bodies[i], lights, count, origin);
@@ -230,10 +265,13 @@ void view_build(const struct scene *scene, uint32_t camera_index, int32_t width,
                 struct arena *arena, struct diag_sink *sink, struct view *out) {
     const struct ir_cameras *cameras = &scene->ir->cameras;
     *out = (struct view){0};
-    out->camera = cameras->count ? written_camera(&cameras->items[camera_index])
+    out->camera = cameras->count ? written_camera(scene, &cameras->items[camera_index])
                                  : automatic_camera(scene, width, height);
     build_lights(scene, arena, out);
     find_bodies(scene, arena, out);
+    for (uint32_t i = 0; i < out->light_count; i++)
+        if (view_light_is_seen(&out->lights[i]))
+            view_light_shine(&out->lights[i], origin_of(scene, out));
     vec3 p = out->camera.position;
     if (sink && out->camera.automatic)
         diag_add(sink, DIAG_DEFAULT_CAMERA, scene_place(scene),

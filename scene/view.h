@@ -41,10 +41,20 @@ struct view_light {
     vec3 position; // scene units; zero where directional
     vec3 to_light; // unit; zero where positional
     vec3 emission; // intensity times colour, linear
+    bool seen;     // by rays too; a body that has the very surface is seen in its place
+    vec3 radiance; // of such a light, as seen: linear
     bool inverse_square;
     bool automatic;
     uint32_t index; // in scene.lights; IR_NO_INDEX where automatic
 };
+
+// Whether rays see the light itself; only where it has an extent, and no body its surface.
+static inline bool view_light_is_seen(const struct view_light *light) {
+    return light->seen && light->extent != VIEW_POINT && !(light->before_body > 0);
+}
+// What such a light looks like, from its emission and its extent. One without falloff lights all distances
+// alike: it looks as bright as what lights `place` so.
+void view_light_shine(struct view_light *light, vec3 place);
 
 struct view {
     struct view_camera camera;
@@ -62,6 +72,19 @@ struct view_ray {
     vec3 start, direction; // scene units; unit
 };
 struct view_ray view_ray_at(const struct view_camera *camera, double aspect, double x, double y);
+// How a picture shows a point: the ray of the pinhole that comes to it, and what of the picture lies there.
+struct view_sight {
+    vec3 direction; // unit
+    double x, y;    // of the place in the picture, as above
+    // How much of space the picture's height is there, scene units: a pixel of one of `rows` rows is height /
+    // rows wide, as the cones of filters are (docs/language.md, "Paint").
+    double height;
+    // Of small areas across the ray: one of the size a shows in a * density * rows^2 pixels.
+    double density;
+};
+// false: the point is not in the picture.
+bool view_sight_of(const struct view_camera *camera, double aspect, vec3 point, struct view_sight *out);
+
 // Whether every ray begins at the camera's position.
 static inline bool view_from_one_place(const struct view_camera *camera) {
     return camera->projection != IR_PROJECTION_ORTHOGRAPHIC && !(camera->lens_radius > 0);

@@ -41,8 +41,9 @@
     ROW(ROUGHNESS, roughness)                                                                                \
     ROW(CAMERA, camera)                                                                                      \
     ROW(TEXTURES, textures)                                                                                  \
-    ROW(SKY_LIGHT, sky_light)
-#define FEATURE_COUNT 32
+    ROW(SKY_LIGHT, sky_light)                                                                                \
+    ROW(SEEN_LIGHT, seen_light)
+#define FEATURE_COUNT 33
 
 #ifdef __STDC_VERSION__
 #include <stdint.h>
@@ -85,6 +86,7 @@
 #define FEATURE_CAMERA           FEATURE_FIRST(29) /* other than a pinhole in perspective */
 #define FEATURE_TEXTURES         FEATURE_FIRST(30) /* images on surfaces */
 #define FEATURE_SKY_LIGHT        FEATURE_FIRST(31) /* the background lights */
+#define FEATURE_SEEN_LIGHT       FEATURE_SECOND(0) /* lights that rays see */
 /* With any of them something is sampled that has extent: rays have keys (light/points.h). */
 #define FEATURE_POINTS                                                                                       \
     (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA | FEATURE_SKY_LIGHT)

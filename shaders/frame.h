@@ -55,7 +55,9 @@
     UINT(whole_width) /* of the picture that the camera sees: of what is drawn, or of what that is a part */ \
     UINT(whole_height)                                                                                       \
     UINT(first_x) /* with CONSTANT_PART: the pixel of the whole that is drawn first */                       \
-    UINT(first_y)
+    UINT(first_y)                                                                                            \
+    UINT(seen_table) /* of lights that rays see: records.h */                                                \
+    UINT(seen_count)
 
 /* The camera once more, after those, for kernels that trace in double precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \

@@ -22,6 +22,7 @@
 #include "bounce.glsl"
 #include "light/rough.glsl"
 #include "media.glsl"
+#include "light/seen.glsl"
 #include "trace_all.glsl"
 #include "bits.glsl"
 #include "log.h"
@@ -89,6 +90,14 @@ void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
     pixels[at + 4u] = uvec4(bits_of(start.b1), bits_of(start.b2));
 }
 
+// What is left of light on the way to what the ray meets.
+void write_way(uint at, log_ray ray, REAL way) {
+    vec3 left = vec3(1.0);
+    if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION))
+        left = media_left(ray.inside, way);
+    pixels[at + LOG_LEFT] = uvec4(floatBitsToUint(left), ray.key);
+}
+
 void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     if (HAS_ROUGHNESS)
         roughen(ray.direction, ray.key, s);
@@ -109,10 +118,7 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     }
     write_ray(at + LOG_REFLECTED, leave(s, hit, s.geometric), reflected(ray.direction, s), mirrored);
     write_ray(at + LOG_REFRACTED, leave(s, hit, -s.geometric), rays.bent, bent);
-    vec3 left = vec3(1.0);
-    if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION))
-        left = media_left(ray.inside, hit.t);
-    pixels[at + LOG_LEFT] = uvec4(floatBitsToUint(left), ray.key);
+    write_way(at, ray, hit.t);
     pixels[at + LOG_AFTER] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.a : uvec4(0u);
     pixels[at + LOG_AFTER + 1u] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.b : uvec4(0u);
 }
@@ -125,6 +131,31 @@ void add_to_log(uint at, vec3 value) {
     pixels[at + 3u] = uvec4(floatBitsToUint(total), sum.w);
     pixels[at + 7u] = uvec4(low_xy.xy, bits.xy);
     pixels[at + 9u] = uvec4(low_z.xy, bits.z, low_z.w);
+}
+
+// What a ray comes to that is no shadow ray; a blind one was not traced, and sees the background.
+void write_hit(uint at, log_ray ray, hit_record hit, bool blind, bool ended) {
+    seen_light seen = no_light(blind ? -FAR_AWAY : hit.t);
+    if (HAS_SEEN_LIGHT)
+        see_lights(ray.start.at, ray.direction, seen);
+    if (seen.number != 0u) {
+        write_way(at, ray, seen.t);
+        hit.t = seen.t;
+        hit.item = LOG_NOTHING;
+    }
+    pixels[at] = uvec4(bits_of(hit.t), bits_of(hit.b1));
+    pixels[at + 1u] = uvec4(bits_of(hit.b2), hit.item, hit.number);
+    pixels[at + 2u] = uvec4(0u, 0u, seen.number, ended ? 0u : 1u);
+    bool nothing = hit.item == NO_ITEM || seen.number != 0u;
+    surface s;
+    if (nothing) {
+        vec3 beyond = seen.number != 0u ? seen.radiance : seen_beyond(ray.direction);
+        pixels[at + 3u] = uvec4(floatBitsToUint(beyond), LOG_NOTHING);
+    } else {
+        make_surface(hit, ray.start.at, ray.direction, s);
+        cross_surface(ray.inside, hit, s);
+        write_surface(at, ray, hit, s);
+    }
 }
 
 bool trace(ray_start start, exact_aim aim, bool any, inout hit_record hit) {
@@ -179,14 +210,5 @@ void main() {
             add_to_log(at, shines() ? shadow.value * left : shadow.value);
         return;
     }
-    pixels[at] = uvec4(bits_of(hit.t), bits_of(hit.b1));
-    pixels[at + 1u] = uvec4(bits_of(hit.b2), hit.item, hit.number);
-    pixels[at + 2u] = uvec4(0u, 0u, 0u, ended ? 0u : 1u);
-    if (nothing) {
-        pixels[at + 3u] = uvec4(floatBitsToUint(background(vec3(ray.direction))), LOG_NOTHING);
-    } else {
-        make_surface(hit, ray.start.at, ray.direction, s);
-        cross_surface(ray.inside, hit, s);
-        write_surface(at, ray, hit, s);
-    }
+    write_hit(at, ray, hit, blind, ended);
 }

@@ -15,8 +15,9 @@
 /* OUTPUT, a ray:
    0: t, b1 of its hit
    1: its b2; leaf item (LOG_NOTHING: none); number as in FAULT_NUMBER
-   2: lights below 32 that would add something; those that do; LOG_ flags; rays that did not end
-   3: sum over the lights, or the background, as bits of floats; material
+   2: lights below 32 that would add something; those that do; LOG_ flags, or of a ray that hits nothing which
+   light it sees, from 1 on; rays that did not end
+   3: sum over the lights, the light that is seen, or the background, as bits of floats; material
    4: point; weights of the mirrored and of the refracted ray as bits of floats
    6: geometric normal   8: shading normal; in what they leave of 7 and 9, what rounding dropped of the sum
    10: the mirrored ray as in STATE, without what it is inside

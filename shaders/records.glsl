@@ -63,6 +63,7 @@ struct material_record { MEMBERS(MATERIAL_FIELDS) };
 struct light_record { MEMBERS(LIGHT_FIELDS) };
 struct paint_record { MEMBERS(PAINT_FIELDS) };
 struct extent_record { MEMBERS(EXTENT_FIELDS) };
+struct seen_record { MEMBERS(SEEN_FIELDS) };
 struct normal_record { MEMBERS(NORMAL_FIELDS) };
 #define SOURCE triangle_nodes
 DEFINE_LOADER(node_record, load_triangle_node, NODE_WORDS, NODE_FIELDS)
@@ -89,6 +90,8 @@ DEFINE_LOADER(material_record, load_material, WORDS_OF(MATERIAL), MATERIAL_FIELD
 DEFINE_LOADER(light_record, load_light, WORDS_OF(LIGHT), LIGHT_FIELDS)
 #define AFTER_LIGHTS WORDS_OF(EXTENT) + frame.light_count * WORDS_OF(LIGHT)
 DEFINE_LOADER(extent_record, load_extent, AFTER_LIGHTS, EXTENT_FIELDS)
+#define FROM_SEEN_TABLE WORDS_OF(SEEN) + frame.seen_table
+DEFINE_LOADER(seen_record, load_seen, FROM_SEEN_TABLE, SEEN_FIELDS)
 #undef SOURCE
 #define SOURCE paints
 DEFINE_LOADER(paint_record, load_paint, WORDS_OF(PAINT), PAINT_FIELDS)

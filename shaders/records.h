@@ -191,4 +191,17 @@
     REAL3(outward, 2, 4)           /* of a panel: unit */                                                    \
     REAL(before_body, 2, w, 5, zw) /* of a sphere that a body has too: how far from it shadow rays end */
 
+/* A light that rays see, from the frame's seen_table on. */
+#define SEEN_WORDS   5
+#define SEEN64_WORDS 9
+#define SEEN_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                        \
+    REAL3(place, 0, 0)      /* its middle; of a disc the unit vector to it */                                \
+    REAL(size, 0, w, 1, zw) /* of a sphere the radius; of a disc the sine of its half angle */               \
+    REAL3(outward, 1, 2)    /* of a panel: unit */                                                           \
+    UINT(flags, 1, w, 3, z) /* as of LIGHT */                                                                \
+    REAL3(along_u, 2, 4)    /* of a panel: from its middle, times these, a place is half an edge away */     \
+    UINT(light, 2, w, 3, w) /* which of the scene's it is */                                                 \
+    REAL3(along_v, 3, 6)                                                                                     \
+    FLOAT3(radiance, 4, 8)
+
 #endif

@@ -13,6 +13,7 @@ spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [44
 #include "real.h"
 
 layout(constant_id = CONSTANT_FEATURES) const uint FEATURES = 0xffffffffu;
+layout(constant_id = CONSTANT_MORE_FEATURES) const uint MORE_FEATURES = 0xffffffffu;
 layout(constant_id = CONSTANT_TRIANGLE_STACK) const uint TRIANGLE_STACK = 32u;
 layout(constant_id = CONSTANT_SPHERE_STACK) const uint SPHERE_STACK = 32u;
 layout(constant_id = CONSTANT_PACKED_GROUPS) const bool PACKED_GROUPS = false;
@@ -48,6 +49,7 @@ const bool HAS_OCCLUSION = (FEATURES & FEATURE_OCCLUSION) != 0u; // only with HA
 const bool HAS_EMISSION = (FEATURES & FEATURE_EMISSION) != 0u;
 const bool HAS_CAMERA = (FEATURES & FEATURE_CAMERA) != 0u;
 const bool HAS_SKY_LIGHT = (FEATURES & FEATURE_SKY_LIGHT) != 0u;
+const bool HAS_SEEN_LIGHT = (MORE_FEATURES & FEATURE_SEEN_LIGHT.y) != 0u;
 const bool HAS_PLACES = HAS_SOFT_LIGHT || HAS_OCCLUSION || HAS_SKY_LIGHT; // shadow rays know where they end
 const bool HAS_SIDES = HAS_MEDIA || HAS_FRESNEL; // surfaces know the indices on both sides
 const bool HAS_COUNTERS = (FEATURES & FEATURE_COUNTERS) != 0u;

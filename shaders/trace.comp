@@ -29,6 +29,7 @@
 #include "bounce.glsl"
 #include "light/rough.glsl"
 #include "media.glsl"
+#include "light/seen.glsl"
 #include "path.glsl"
 #include "path_words.glsl"
 
@@ -36,6 +37,8 @@ layout(local_size_x = TILE_PIXELS, local_size_x_id = CONSTANT_WORKGROUP) in;
 
 // What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
 const uint SEGMENT_ITERATIONS = 9u + PAINT_ITERATIONS;
+
+uint segment_iterations() { return SEGMENT_ITERATIONS + (HAS_SEEN_LIGHT ? 2u * frame.seen_count : 0u); }
 
 // And looking for a light, of which the background needs two searches.
 const uint SKY_ITERATIONS = 33u;
@@ -207,6 +210,20 @@ uint take_hit(inout path_state p, hit_record hit) {
     return hit.item == NO_ITEM ? MISSED : GOES_ON;
 }
 
+// A light that is nearer than what the path's own ray hit. A ray that was not traced sees none.
+uint take_seen(inout path_state p, REAL t_max, uint state) {
+    seen_light seen = no_light(t_max);
+    see_lights(p.start.at, p.direction, seen);
+    bool found = seen.number != 0u;
+    if (found && HAS_ATTENUATION && wants(FEATURE_ATTENUATION))
+        p.tint *= media_left(p.inside, seen.t);
+    if (found) {
+        p.radiance += tinted(p, seen.radiance);
+        p.hit.item = NO_ITEM;
+    }
+    return found ? ENDED : state;
+}
+
 // What a shadow ray hit. Nothing lets the light through, unless what refracts does.
 void take_light(inout path_state p, ray_start start, hit_record hit, light_ray shadow) {
     bool arrives = hit.item == NO_ITEM, goes_on = false;
@@ -347,6 +364,8 @@ uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, in
     uint state = GOES_ON;
     if (phase == PHASE_RAY)
         state = take_hit(p, hit);
+    if (HAS_SEEN_LIGHT && phase == PHASE_RAY)
+        state = take_seen(p, hit.t, state);
     if (phase == PHASE_SHADOW)
         take_light(p, start, hit, shadow);
     if (state == GOES_ON && phase != PHASE_SHADOW) {
@@ -388,7 +407,7 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
 // A chain of rays that ended: its background, and a refracted ray that waits.
 void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase) {
     if (state == MISSED)
-        p.radiance += tinted(p, background(vec3(p.direction)));
+        p.radiance += tinted(p, seen_beyond(p.direction));
     if (HAS_BRANCHES && (state == MISSED || state == ENDED) && p.stack_size > 0u) {
         pop_branch(slot, p);
         state = GOES_ON;
@@ -409,7 +428,7 @@ uint follow(uint slot, inout path_state p, inout uint fault) {
     do {
         ray_doubts doubts = no_doubts();
         do {
-            iterations += SEGMENT_ITERATIONS;
+            iterations += segment_iterations();
             bool own = phase == PHASE_RAY;
             bool wanted = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
             bool traced = wanted && (BEGINS || !decided);

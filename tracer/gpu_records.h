@@ -120,6 +120,7 @@ GPU_RECORD(material, MATERIAL)
 GPU_RECORD(light, LIGHT)
 GPU_RECORD(paint, PAINT)
 GPU_RECORD(extent, EXTENT)
+GPU_RECORD(seen, SEEN)
 
 // The same of records that hold doubles in both precisions.
 #define GPU_MEMBER_DOUBLE(name, word, half)     double name;

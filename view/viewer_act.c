@@ -67,7 +67,10 @@ static void say_hit(struct viewer *v, const struct render_segment *hit) {
     if (found)
         put_place(session, where.at, &text);
     const size_t begin = text.len;
-    where_body_words(found ? &where : NULL, &text);
+    if (hit->light != IR_NO_INDEX)
+        strbuf_format(&text, "lights[%u], at %.6g", hit->light, hit->distance);
+    else
+        where_body_words(found ? &where : NULL, &text);
     if (found) {
         strbuf_cstr(&text, ", ");
         where_material_words(&where, &text);

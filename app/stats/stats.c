@@ -174,6 +174,7 @@ static void put_estimate(struct json_writer *w, const struct stats *s) {
     json_write_real(w, "standard_error", s->estimate->mean);
     json_write_real(w, "at_most", s->estimate->most);
     json_write_real(w, "confidence", RENDER_ESTIMATE_CONFIDENCE);
+    json_write_integer(w, "not_finite", s->estimate->unknown);
     json_close_object(w);
 }
 

@@ -80,7 +80,7 @@ static json_t *word_schema(const struct schema_row *row) {
 }
 
 static json_t *text_schema(enum schema_text text) {
-    if (text == SCHEMA_TEXT_NAME)
+    if (text == SCHEMA_TEXT_NAME || text == SCHEMA_TEXT_BODY_NAME)
         return json_pack("{s:s, s:s}", "type", "string", "pattern", NAME_PATTERN);
     if (text == SCHEMA_TEXT_FREE)
         return json_pack("{s:s}", "type", "string");

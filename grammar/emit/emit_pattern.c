@@ -42,7 +42,8 @@ static void add_text(struct builder *b, struct pattern *parent, enum schema_text
     if (text == SCHEMA_TEXT_FREE)
         add(b, parent, PATTERN_TEXT, NULL, NULL);
     else
-        add(b, parent, PATTERN_TYPE, text == SCHEMA_TEXT_NAME ? "name" : "some_text", NULL);
+        add(b, parent, PATTERN_TYPE,
+            text == SCHEMA_TEXT_NAME || text == SCHEMA_TEXT_BODY_NAME ? "name" : "some_text", NULL);
 }
 
 static void add_values(struct builder *b, struct pattern *parent, const struct schema_row *row) {

@@ -20,6 +20,7 @@ static void text_words(const struct schema_row *row, struct strbuf *out) {
     static const char *const texts[] = {
         [SCHEMA_TEXT_FREE] = "text",
         [SCHEMA_TEXT_NAME] = "name",
+        [SCHEMA_TEXT_BODY_NAME] = "name of a body",
         [SCHEMA_TEXT_FOREIGN_NAME] = "name in another file",
         [SCHEMA_TEXT_PATH] = "path",
     };

@@ -329,17 +329,14 @@ static void find_surface(struct run *run) {
             const double from_middle = hypot(x - 0.5 * v->width, y - 0.5 * v->height);
             if (hit->body == HIT_NONE || hit->refracted != HIT_NONE || from_middle >= nearest)
                 continue;
-            const struct view_camera *c = &v->view.camera;
             const double aspect = (double)v->width / v->height;
-            const double across = (2 * (x + 0.5) / v->width - 1) * aspect * c->tan_half_fov;
-            const double down = (1 - 2 * (y + 0.5) / v->height) * c->tan_half_fov;
-            const vec3 direction =
-                vec3_unit(vec3_add(c->forward, vec3_add(vec3_mul(c->right, across), vec3_mul(c->up, down))));
+            const struct view_ray ray = view_ray_at(&v->view.camera, aspect, 2 * (x + 0.5) / v->width - 1,
+                                                    1 - 2 * (y + 0.5) / v->height);
             nearest = from_middle;
             base->has_surface = true;
-            base->surface = vec3_add(c->position, vec3_mul(direction, hit->distance));
+            base->surface = vec3_add(ray.start, vec3_mul(ray.direction, hit->distance));
             base->normal = hit->normal;
-            base->seen_along = direction;
+            base->seen_along = ray.direction;
         }
 }
 

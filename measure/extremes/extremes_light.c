@@ -30,6 +30,7 @@ static bool set_radius(struct variant *v, const struct extreme_base *base, doubl
         return false;
     light->extent = value > 0 ? VIEW_SPHERE : VIEW_POINT;
     light->radius = value * base->radius;
+    view_light_shine(light, v->view.camera.position);
     return true;
 }
 
@@ -40,6 +41,7 @@ static bool set_angle(struct variant *v, const struct extreme_base *base, double
         return false;
     light->extent = value > 0 ? VIEW_DISC : VIEW_POINT;
     light->half_angle = 0.5 * value * DEGREE;
+    view_light_shine(light, v->view.camera.position);
     return true;
 }
 

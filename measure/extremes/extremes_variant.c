@@ -208,16 +208,37 @@ static vec3 over_surface(const struct extreme_base *base, double height) {
     return vec3_add(base->surface, vec3_mul(base->normal, height * base->radius));
 }
 
+// Turns a panel so that it shines against `normal`: about the axis across both, by Rodrigues' formula.
+static void face_surface(struct view_light *light, vec3 normal) {
+    const vec3 to = vec3_neg(normal), from = light->outward;
+    vec3 axis = vec3_cross(from, to);
+    const double sine = vec3_length(axis), cosine = vec3_dot(from, to);
+    if (sine > 0)
+        axis = vec3_mul(axis, 1 / sine);
+    else
+        axis = vec3_unit(light->edge_u); // it shines along the normal, or against it already
+    vec3 *const edges[] = {&light->edge_u, &light->edge_v};
+    for (int k = 0; k < 2; k++) {
+        const vec3 e = *edges[k];
+        *edges[k] = vec3_add(vec3_add(vec3_mul(e, cosine), vec3_mul(vec3_cross(axis, e), sine)),
+                             vec3_mul(axis, vec3_dot(axis, e) * (1 - cosine)));
+    }
+    light->outward = to;
+}
+
 static void light_surface(struct variant *v, const struct extreme_base *base, double height) {
     struct view_light *light = &v->view.lights[0];
     light->directional = false;
     if (light->extent == VIEW_DISC)
         light->extent = VIEW_POINT; // a disc is in the sky
+    if (light->extent == VIEW_PANEL)
+        face_surface(light, base->normal);
     light->before_body = 0;
     light->to_light = (vec3){0, 0, 0};
     light->position = over_surface(base, height);
     light->inverse_square = false;
     light->emission = (vec3){1, 1, 1};
+    view_light_shine(light, v->view.camera.position);
 }
 
 // From the surface into the mirrored direction of the ray that found it.

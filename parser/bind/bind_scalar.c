@@ -381,7 +381,8 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
                           is_map_key ? bind_subject(subject.frame->parent, subject.frame->via) : subject);
         return false;
     }
-    if (subject.row->kind != SCHEMA_TEXT || kind != SCHEMA_TEXT_NAME || str_is_name(text))
+    const bool is_name = kind == SCHEMA_TEXT_NAME || kind == SCHEMA_TEXT_BODY_NAME;
+    if (subject.row->kind != SCHEMA_TEXT || !is_name || str_is_name(text))
         return true;
     diag_add(context->sink, DIAG_BAD_NAME, at, "'%.*s' is not a name",
              STR_ARG(say_text(context->scratch, text)));

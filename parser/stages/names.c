@@ -214,6 +214,40 @@ static void resolve(void *context, struct visit_place place, struct ir_material_
         report_unknown(resolving, list, place, reference->name);
 }
 
+static bool is_body(const struct named *named) {
+    return named && named->schema != &SCHEMA_LIGHT;
+}
+
+// Bodies that cameras are focused on.
+static void find_focus(struct resolving *resolving, struct named_list *things) {
+    struct loader *loader = resolving->loader;
+    const struct ir_scene *scene = resolving->scene;
+    const int row = schema_find_row(&SCHEMA_CAMERA, STR("focus_on"));
+    bool incomplete = loader->incomplete || scene->head.poisoned != 0;
+    for (uint32_t i = 0; i < scene->cameras.count && !incomplete; i++) {
+        const struct ir_camera *camera = &scene->cameras.items[i];
+        const str name = camera->focus_on;
+        if (name.len == 0 || (camera->head.poisoned & bind_bit((uint32_t)row)) || is_body(find(things, name)))
+            continue;
+        struct mend_search search = mend_begin(&loader->scratch, name);
+        const span at = ir_place_value(&loader->output->origin, &camera->head, &SCHEMA_CAMERA, "focus_on");
+        diag_add(loader->input->sink, DIAG_UNKNOWN_BODY, at,
+                 find(things, name) ? "'%.*s' is a light, not a body" : "there is no body '%.*s'",
+                 STR_ARG(say_text(&loader->scratch, name)));
+        for (uint32_t k = 0; k < things->count; k++)
+            if (is_body(&things->items[k]))
+                mend_offer_str(&search, things->items[k].name, (int)k);
+        if (search.best) {
+            diag_help(loader->input->sink, "did you mean '%s'?", search.best);
+            const str written = source_text(loader->input->sources, at);
+            diag_fix(loader->input->sink, mend_is_safe(&search), at,
+                     mend_like(&loader->scratch, written, str_from(search.best)));
+        } else {
+            diag_help(loader->input->sink, "give the body this name, or write 'focus_at', a point");
+        }
+    }
+}
+
 void names_resolve(struct loader *loader, struct ir_scene *scene) {
     struct resolving resolving = {
         .loader = loader,
@@ -230,6 +264,8 @@ void names_resolve(struct loader *loader, struct ir_scene *scene) {
     }
     struct named_list things = collect(loader, scene, NULL);
     report_duplicates(loader, &things);
+    number_names(&things);
+    find_focus(&resolving, &things);
     visit_references(&SCHEMA_SCENE, scene, resolve, &resolving);
     arena_finish(&loader->scratch);
 }

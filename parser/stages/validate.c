@@ -14,6 +14,10 @@ static const double PARALLEL_SINE = 1e-9;
 static const double COORDINATE_MAX = 1e18;
 static const int64_t PIXELS_MAX = 67108864;
 
+enum {
+    SEEN_LIGHTS_MOST = 256,
+};
+
 struct rules {
     struct diag_sink *sink;
     const struct ir_origin *origin;
@@ -132,7 +136,9 @@ static void check_focus(const struct rules *rules, const struct ir_camera *camer
     const bool looks = camera->view == IR_VIEW_LOOK_AT;
     const bool all_round =
         camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
-    if (!(camera->aperture > 0) || is_poisoned(schema, camera, "focus") ||
+    // Where a body is, is not known yet: check finds those that are not before the camera (W427).
+    if (!(camera->aperture > 0) || camera->focusing == IR_FOCUS_BODY ||
+        is_poisoned(schema, camera, "focus") || is_poisoned(schema, camera, "focus_on") ||
         is_poisoned(schema, camera, "focus_at") || is_poisoned(schema, camera, "position"))
         return;
     const vec3 way = vec3_sub(camera->focus_at, camera->position);
@@ -146,7 +152,8 @@ static void check_focus(const struct rules *rules, const struct ir_camera *camer
         diag_add(rules->sink, DIAG_NO_FOCUS, ir_place_key(rules->origin, &camera->head, schema, "aperture"),
                  "%.*s has an aperture, but nothing says what it is focused on",
                  STR_ARG(owner(rules, schema, camera->name)));
-        diag_help(rules->sink, "write 'focus', a distance along the view, or 'focus_at', a point");
+        diag_help(rules->sink,
+                  "write 'focus', a distance along the view, or 'focus_at', a point, or 'focus_on', a body");
     }
 }
 
@@ -232,6 +239,20 @@ static void check_panel(const struct rules *rules, const struct ir_light *light)
         leaves_world(vec3_add(u, panel->edge_v)))
         diag_add(rules->sink, DIAG_TRANSFORM_OVERFLOW, value_place(rules, schema, panel, "edge_u"),
                  "%.*s has a coordinate beyond 1e18", STR_ARG(words));
+}
+
+// Rays look at each of them: more are a mistake, or take for ever.
+static void check_seen(const struct rules *rules, const struct ir_lights *lights) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lights->count; i++) {
+        if (!lights->items[i].visible || ++count <= SEEN_LIGHTS_MOST)
+            continue;
+        diag_add(rules->sink, DIAG_MANY_SEEN,
+                 ir_place_key(rules->origin, &lights->items[i].head, &SCHEMA_LIGHT, "visible"),
+                 "more than %d lights are visible", SEEN_LIGHTS_MOST);
+        diag_help(rules->sink, "let bodies with emission show further ones");
+        return;
+    }
 }
 
 // What gives an extent to another kind of light than the one it is written for.
@@ -340,6 +361,7 @@ void validate_scene(struct loader *loader, const struct ir_scene *scene) {
     check_image(&rules, &scene->image);
     for (uint32_t i = 0; i < scene->cameras.count; i++)
         check_camera(&rules, &scene->cameras.items[i]);
+    check_seen(&rules, &scene->lights);
     for (uint32_t i = 0; i < scene->lights.count; i++)
         check_light(&rules, &scene->lights.items[i]);
     for (uint32_t i = 0; i < scene->spheres.count; i++)

@@ -475,7 +475,8 @@ static void change_camera(struct ir_scene *scene, uint64_t seed) {
     camera->focusing = has_distance ? IR_FOCUS_DISTANCE : IR_FOCUS_POINT;
     camera->focus = has_distance ? distance : 0;
     camera->focus_at = has_distance ? (vec3){0, 0, 0} : vec3_add(camera->position, way);
-    camera->head.written &= ~(row_bit(&SCHEMA_CAMERA, "focus") | row_bit(&SCHEMA_CAMERA, "focus_at"));
+    camera->head.written &= ~(row_bit(&SCHEMA_CAMERA, "focus") | row_bit(&SCHEMA_CAMERA, "focus_at") |
+                              row_bit(&SCHEMA_CAMERA, "focus_on"));
     write_row(&SCHEMA_CAMERA, camera, has_distance ? "focus" : "focus_at");
     for (uint32_t i = 0; i < scene->materials.count; i++) {
         struct ir_material *material = &scene->materials.items[i];

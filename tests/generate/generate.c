@@ -136,6 +136,8 @@ static str make_text(struct generator *g, const struct schema_row *row) {
     switch (row->text) {
     case SCHEMA_TEXT_NAME:
         return unique_name(g);
+    case SCHEMA_TEXT_BODY_NAME:
+        return STR("nothing"); // rules that mend the scene put a distance in its place
     case SCHEMA_TEXT_FOREIGN_NAME:
         return generate_foreign_name(g);
     case SCHEMA_TEXT_PATH:

@@ -50,14 +50,27 @@ static void mend_projection(struct ir_camera *camera) {
 }
 
 static void focus_by_distance(struct ir_camera *camera) {
+    if (camera->focusing == IR_FOCUS_BODY && camera->focus_on.len)
+        return; // name_focus has found one
     if (camera->focusing == IR_FOCUS_POINT)
         forget_row(&SCHEMA_CAMERA, camera, "focus_at");
+    if (camera->focusing == IR_FOCUS_BODY)
+        forget_row(&SCHEMA_CAMERA, camera, "focus_on");
     camera->focusing = IR_FOCUS_DISTANCE;
     camera->focus_at = (vec3){0, 0, 0};
     if (!(camera->aperture > 0) || camera->focus > 0)
         return;
     camera->focus = 5;
     camera->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_CAMERA, STR("focus"));
+}
+
+// A camera that is focused on a body needs its name.
+static void name_focus(const struct ir_scene *scene, struct ir_camera *camera) {
+    if (camera->focusing != IR_FOCUS_BODY)
+        return;
+    camera->focus_on = (str){0};
+    for (uint32_t i = 0; i < scene->spheres.count && !camera->focus_on.len; i++)
+        camera->focus_on = scene->spheres.items[i].name;
 }
 
 static void mend_focus(struct ir_camera *camera, vec3 forward) {
@@ -205,6 +218,7 @@ void generate_mend(struct generator *g, struct ir_scene *scene) {
     for (uint32_t i = 0; i < scene->cameras.count; i++) {
         if (framed)
             frame_camera(g, &scene->cameras.items[i]);
+        name_focus(scene, &scene->cameras.items[i]);
         mend_camera(&scene->cameras.items[i]);
     }
     for (uint32_t i = 0; i < scene->lights.count; i++) {

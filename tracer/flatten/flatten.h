@@ -93,6 +93,7 @@ struct flat_scene {
     uint32_t dropped_triangles;            // without area after rounding
     struct sky_size sky;                   // rows 0: the background does not light
     uint32_t sky_table;                    // as in the frame
+    uint32_t seen_table, seen_count;       // and these: lights that rays see
     double occlusion;                      // of ambient light: flat
     uint64_t features;                     // FEATURE_ bits that the scene needs
     uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size

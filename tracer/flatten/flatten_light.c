@@ -105,6 +105,60 @@ static struct gpu_extent extent_record(const struct flattening *f, const struct 
                                .before_body = length_bound(light->before_body * factor)};
 }
 
+// ---- lights that rays see
+
+static vec3 bounded(vec3 color) {
+    return (vec3){emission_bound(color.x), emission_bound(color.y), emission_bound(color.z)};
+}
+
+// What a place relative to the middle of a panel is multiplied by, for how far it is along the first edge, in
+// halves of it.
+static vec3 along_edge(vec3 edge, vec3 other, vec3 outward) {
+    const vec3 across = vec3_cross(vec3_unit(other), outward);
+    return vec3_mul(across, 2 / vec3_dot(edge, across));
+}
+
+static struct gpu_seen seen_record(const struct flattening *f, const struct view_light *light) {
+    const double factor = f->factor * nearer(f, light);
+    struct gpu_seen record = {.radiance = bounded(light->radiance)};
+    record.place =
+        light->directional ? light->to_light : vec3_mul(vec3_sub(light->position, f->out->origin), factor);
+    if (light->extent == VIEW_DISC) {
+        record.flags = LIGHT_DIRECTIONAL;
+        record.size = sin(light->half_angle);
+    } else if (light->extent == VIEW_PANEL) {
+        record.flags = LIGHT_PANEL;
+        record.outward = light->outward;
+        record.along_u = along_edge(vec3_mul(light->edge_u, factor), light->edge_v, light->outward);
+        record.along_v = along_edge(vec3_mul(light->edge_v, factor), light->edge_u, light->outward);
+    } else {
+        record.size = length_bound(light->radius * factor);
+    }
+    return record;
+}
+
+static uint32_t count_seen(const struct view *view) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < view->light_count; i++)
+        count += view_light_is_seen(&view->lights[i]);
+    return count;
+}
+
+static void fill_seen(struct flattening *f) {
+    const struct view *view = f->input->view;
+    const uint32_t stride = f->out->is_double ? SEEN64_WORDS : SEEN_WORDS;
+    struct gpu_word *words = f->out->lights.words + f->out->seen_table;
+    for (uint32_t i = 0; i < view->light_count; i++) {
+        if (!view_light_is_seen(&view->lights[i]))
+            continue;
+        struct gpu_seen record = seen_record(f, &view->lights[i]);
+        record.light = i;
+        gpu_pack_seen(&record, f->out->is_double, words);
+        words += stride;
+    }
+    f->light_features |= f->out->seen_count ? FEATURE_SEEN_LIGHT : 0;
+}
+
 static bool any_extent(const struct view *view) {
     bool any = false;
     for (uint32_t i = 0; i < view->light_count; i++)
@@ -132,8 +186,12 @@ enum flatten_fault flatten_lights(struct flattening *f) {
     f->out->light_count = view->light_count;
     f->out->sky = sky_size(f->scene);
     f->out->sky_table = (uint32_t)words;
-    if (!flat_array_make(&f->out->lights, words + sky_count(f->out->sky) / NUMBERS) || !fill_sky(f))
+    f->out->seen_count = count_seen(view);
+    f->out->seen_table = (uint32_t)(words + sky_count(f->out->sky) / NUMBERS);
+    const uint32_t seen_words = f->out->seen_count * (f->out->is_double ? SEEN64_WORDS : SEEN_WORDS);
+    if (!flat_array_make(&f->out->lights, (uint64_t)f->out->seen_table + seen_words) || !fill_sky(f))
         return FLATTEN_NO_MEMORY;
+    fill_seen(f);
     struct gpu_word *extents = f->out->lights.words + (size_t)view->light_count * f->out->strides.light;
     for (uint32_t i = 0; i < view->light_count; i++) {
         struct gpu_light record = light_record(f, &view->lights[i]);
@@ -255,7 +313,7 @@ void flatten_features(struct flattening *f) {
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
                          FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
-                         FEATURE_EMISSION | FEATURE_SKY_LIGHT;
+                         FEATURE_EMISSION | FEATURE_SKY_LIGHT | FEATURE_SEEN_LIGHT;
     struct flat_scene *out = f->out;
     uint64_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;

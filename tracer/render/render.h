@@ -212,6 +212,7 @@ struct render_segment {
     vec3 origin, direction;         // scene units; unit
     uint32_t body, triangle;        // as in struct hit_pixel
     uint32_t material;              // in assets.materials; UINT32_MAX where nothing was hit
+    uint32_t light;                 // body HIT_NONE: of the view, that the ray sees; UINT32_MAX: none
     bool enters;                    // the ray comes from outside the body
     bool passes;                    // it goes straight on, unseen: the medium is the same on both sides
     uint32_t medium;                // the body that fills the place that the ray goes through; HIT_NONE: air

@@ -132,6 +132,8 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .projection = camera->projection,
         .lens_radius = (float)fmin(camera->lens_radius * scale, FLAT_LENGTH_MAX),
         .focus = (float)(camera->focus * scale),
+        .seen_table = flat->seen_table,
+        .seen_count = flat->seen_count,
         .sky_table = flat->sky_table,
         .sky_width = flat->sky.width,
         .sky_rows = flat->sky.rows,

@@ -226,6 +226,20 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
               told + LOG_AFTER);
 }
 
+// Of a ray that hits nothing, what it sees: a light, or the background.
+static void take_light(struct walk *walk, uint32_t index, const struct gpu_word *told) {
+    const struct renderer *renderer = walk->renderer;
+    struct node *node = &walk->nodes[index];
+    if (told[2].z == 0)
+        return;
+    node->segment.light = told[2].z - 1;
+    node->segment.distance =
+        ldexp(renderer_real(renderer, told[0].x, told[0].y), -renderer->flat->scale_exponent);
+    node->tint[0] *= renderer_float(told[LOG_LEFT].x);
+    node->tint[1] *= renderer_float(told[LOG_LEFT].y);
+    node->tint[2] *= renderer_float(told[LOG_LEFT].z);
+}
+
 // As filling() of media.glsl.
 static uint32_t filling(const struct gpu_word inside[2]) {
     const uint32_t entries[MEDIA_MOST] = {inside[0].x, inside[0].y, inside[0].z, inside[0].w,
@@ -251,7 +265,10 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
     s->body = HIT_NONE;
     s->medium = filling(node->ray + LOG_INSIDE);
     s->material = UINT32_MAX;
-    if (told[1].z != LOG_NOTHING)
+    s->light = UINT32_MAX;
+    if (told[1].z == LOG_NOTHING)
+        take_light(walk, index, told);
+    else
         take_surface(walk, index, told);
     const float *tint = walk->nodes[index].tint;
     s->tint = (vec3){(double)tint[0], (double)tint[1], (double)tint[2]};

@@ -93,7 +93,7 @@ bool renderer_update(struct renderer *renderer, const struct flat_scene *old, co
                      const struct render_settings *settings, struct render_update *done) {
     struct render_update unseen;
     struct render_settings wanted = *settings;
-    const uint32_t had = renderer->settings.features;
+    const uint64_t had = renderer->settings.features;
     done = done ? done : &unseen;
     *done = (struct render_update){0};
     // These have descriptors of their own, and are made when they are wanted.

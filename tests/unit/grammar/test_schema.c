@@ -494,7 +494,8 @@ static void check_scene_text(const struct schema_row *row, const char *text) {
         break;
     }
     case SCHEMA_TEXT:
-        assert_true(row->text != SCHEMA_TEXT_NAME || str_is_name(str_from(text)));
+        assert_true((row->text != SCHEMA_TEXT_NAME && row->text != SCHEMA_TEXT_BODY_NAME) ||
+                    str_is_name(str_from(text)));
         break;
     default:
         assert_int_equal(row->kind, SCHEMA_REFERENCE);

@@ -315,6 +315,109 @@ static void other_samples_are_apart(void **state) {
     }
 }
 
+// What a picture shows of a point is what the ray of that place comes to, and how much of it there is follows
+// from where its neighbours are.
+static void a_sight_is_the_inverse_of_a_ray(void **state) {
+    (void)state;
+    static const struct {
+        unsigned projection;
+        double fov;
+    } cases[] = {{IR_PROJECTION_PERSPECTIVE, 70},
+                 {IR_PROJECTION_ORTHOGRAPHIC, 60},
+                 {IR_PROJECTION_FISHEYE, 200},
+                 {IR_PROJECTION_PANORAMA, 60}};
+    const double aspect = 1.5, far = 7, step = 1e-4;
+    for (uint32_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct assets_scene *s = assets_scene_begin();
+        struct ir_camera *ir = add_camera(s);
+        ir->projection = cases[i].projection;
+        ir->fov = cases[i].fov;
+        ir->size = 3;
+        ir->position = (vec3){1, -2, 4};
+        ir->view = IR_VIEW_DIRECTION;
+        ir->direction = (vec3){1, 2, -3};
+        const struct view_camera camera = build(s, 3, 2).camera;
+        for (int k = 0; k < 25; k++) {
+            const double x = (k % 5 - 2) * 0.42 + 0.01, y = (k / 5 - 2) * 0.43 + 0.02;
+            struct view_sight sight, beside, above;
+            const struct view_ray ray = view_ray_at(&camera, aspect, x, y);
+            const vec3 point = vec3_add(ray.start, vec3_mul(ray.direction, far));
+            assert_true(view_sight_of(&camera, aspect, point, &sight));
+            assert_true(fabs(sight.x - x) < 1e-12 && fabs(sight.y - y) < 1e-12);
+            assert_true(vec3_length(vec3_sub(sight.direction, ray.direction)) < 1e-12);
+            // A small square across the ray, as the picture has it.
+            const vec3 a = vec3_unit(vec3_cross(ray.direction, (vec3){0.3, 0.5, 0.7}));
+            const vec3 b = vec3_cross(ray.direction, a);
+            view_sight_of(&camera, aspect, vec3_add(point, vec3_mul(a, step)), &beside);
+            view_sight_of(&camera, aspect, vec3_add(point, vec3_mul(b, step)), &above);
+            // In heights of the picture: x and y go over 2, and a picture is aspect heights wide.
+            const double area =
+                fabs((beside.x - x) * (above.y - y) - (above.x - x) * (beside.y - y)) * aspect / 4;
+            const double density = area / (step * step);
+            assert_true(fabs(density / sight.density - 1) < 1e-3);
+        }
+        assets_scene_end(s);
+    }
+}
+
+// Heights of the whole picture, and points that it does not show.
+static void a_sight_ends_with_the_picture(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    add_camera(s);
+    struct view_camera camera = build(s, 3, 2).camera;
+    struct view_sight sight;
+    camera.tan_half_fov = 0.5;
+    assert_true(view_sight_of(&camera, 1, (vec3){0, 0, -4}, &sight) && sight.height == 4);
+    assert_true(view_sight_of(&camera, 1, (vec3){1.9, 0, -4}, &sight) && sight.height == 4);
+    assert_false(view_sight_of(&camera, 1, (vec3){2.1, 0, -4}, &sight));
+    assert_false(view_sight_of(&camera, 1, (vec3){0, 0, 4}, &sight));
+    assert_false(view_sight_of(&camera, 1, camera.position, &sight));
+    camera.projection = IR_PROJECTION_ORTHOGRAPHIC;
+    camera.half_height = 3;
+    assert_true(view_sight_of(&camera, 1, (vec3){2.9, 0, -4}, &sight) && sight.height == 6);
+    assert_true(view_sight_of(&camera, 1, (vec3){2.9, 0, -400}, &sight) && sight.height == 6);
+    camera.projection = IR_PROJECTION_FISHEYE;
+    camera.half_field = 1;
+    assert_true(view_sight_of(&camera, 1, (vec3){0, 0, -4}, &sight) && sight.height == 8);
+    assert_false(view_sight_of(&camera, 1, (vec3){0, 4 * sin(1.01), -4 * cos(1.01)}, &sight));
+    camera.projection = IR_PROJECTION_PANORAMA;
+    assert_true(view_sight_of(&camera, 2, (vec3){0, 3, 4}, &sight) && fabs(sight.height - 5 * PI) < 1e-12);
+    assets_scene_end(s);
+}
+
+// Through the middle of a body by its name, whatever its shape: as by its distance, written by hand.
+static void a_lens_is_focused_on_a_body(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        double focus;
+    } cases[] = {{"ball", 4}, {"wall", 7}, {"gone", 1}, {"behind", 1}};
+    for (uint32_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct assets_scene *s = assets_scene_begin();
+        struct ir_camera *camera = add_camera(s);
+        camera->position = (vec3){0, 0, 5};
+        camera->view = IR_VIEW_DIRECTION;
+        camera->direction = (vec3){0, 0, -1};
+        camera->aperture = 0.5;
+        camera->focusing = IR_FOCUS_BODY;
+        camera->focus_on = str_from(cases[i].name);
+        add_sphere(s, (vec3){3, 0, 1}, 0.5);
+        s->scene.spheres.items[0].name = STR("ball");
+        add_sphere(s, (vec3){0, 0, 8}, 0.5);
+        s->scene.spheres.items[1].name = STR("behind");
+        struct ir_rectangle *wall = ARENA_PUSH(&s->arena, &s->scene.rectangles);
+        schema_init(&SCHEMA_RECTANGLE, wall);
+        wall->name = STR("wall");
+        wall->corner = (vec3){-1, -1, -3};
+        wall->edge_u = (vec3){2, 0, 2};
+        wall->edge_v = (vec3){0, 2, 0};
+        struct view view = build(s, 4, 3);
+        assert_true(view.camera.focus == cases[i].focus);
+        assets_scene_end(s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_view_is_exact),
@@ -331,6 +434,9 @@ int main(void) {
         cmocka_unit_test(hex_colours_are_displayed_ones),
         cmocka_unit_test(samples_follow_the_sequence),
         cmocka_unit_test(other_samples_are_apart),
+        cmocka_unit_test(a_sight_is_the_inverse_of_a_ray),
+        cmocka_unit_test(a_sight_ends_with_the_picture),
+        cmocka_unit_test(a_lens_is_focused_on_a_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

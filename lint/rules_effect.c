@@ -1,0 +1,103 @@
+// Values that nothing uses: what is written has no effect on the picture.
+#include "lint/lint_parts.h"
+
+#include "grammar/ir.h"
+
+static bool is_written(const struct ir_head *head, const struct schema_element *schema, const char *row) {
+    return head->written >> schema_find_row(schema, str_from(row)) & 1;
+}
+
+// ---- a focus without a lens
+
+static void look_at_camera(struct lint *lint, const struct ir_camera *camera) {
+    const char *const rows[] = {
+        [IR_FOCUS_DISTANCE] = "focus", [IR_FOCUS_POINT] = "focus_at", [IR_FOCUS_BODY] = "focus_on"};
+    const char *row = rows[camera->focusing];
+    if (camera->aperture > 0 || !is_written(&camera->head, &SCHEMA_CAMERA, row) ||
+        is_written(&camera->head, &SCHEMA_CAMERA, "aperture")) // 0: a lens that is switched off
+        return;
+    diag_add(lint->sink, DIAG_UNUSED_VALUE, ir_place_key(lint->origin, &camera->head, &SCHEMA_CAMERA, row),
+             "'%s' of camera '%.*s' has no effect: without an aperture all is sharp", row,
+             STR_ARG(camera->name));
+    diag_help(lint->sink, "write aperture, the diameter of the lens, or leave '%s' out", row);
+}
+
+// ---- materials
+
+static str words_of(struct lint *lint, const struct ir_material *material) {
+    if (material->name.len)
+        return arena_format(lint->arena, "material '%.*s'", STR_ARG(material->name));
+    return STR("this material");
+}
+
+static void report_row(struct lint *lint, const struct ir_material *material, const char *row) {
+    diag_add(lint->sink, DIAG_UNUSED_VALUE,
+             ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
+             "'%s' of %.*s has no effect: it neither reflects nor refracts", row,
+             STR_ARG(words_of(lint, material)));
+    diag_help(lint->sink,
+              "give it a weight of reflection or refraction, the third and fourth number of albedo, or "
+              "leave '%s' out",
+              row);
+}
+
+static void report_image(struct lint *lint, const struct ir_material *material,
+                         const struct ir_texture *image, const char *row, const char *weight) {
+    diag_add(lint->sink, DIAG_UNUSED_VALUE,
+             ir_place_value(lint->origin, &image->head, &SCHEMA_TEXTURE, "file"),
+             "the image in '%s' of %.*s is not shown: its %s weight is 0", row,
+             STR_ARG(words_of(lint, material)), weight);
+    diag_help(lint->sink, "give it a %s weight, the %s number of albedo, or leave the image out", weight,
+              weight[0] == 'd' ? "first" : "second");
+}
+
+static void look_at_material(struct lint *lint, const struct ir_material *material) {
+    const struct ir_weights *w = &material->albedo;
+    const bool sends_rays = w->reflection > 0 || w->refraction > 0;
+    if (!sends_rays && material->roughness > 0)
+        report_row(lint, material, "roughness");
+    if (!sends_rays && material->fresnel)
+        report_row(lint, material, "fresnel");
+    if (material->diffuse_color.kind == IR_PAINT_IMAGE && !(w->diffuse > 0))
+        report_image(lint, material, &material->diffuse_color.image, "diffuse_color", "diffuse");
+    if (material->specular_color.kind == IR_PAINT_IMAGE && !(w->specular > 0))
+        report_image(lint, material, &material->specular_color.image, "specular_color", "specular");
+}
+
+// ---- lights that are to be seen
+
+static void look_at_light(struct lint *lint, const struct view_light *light) {
+    const struct ir_light *ir = &lint->ir->lights.items[light->index];
+    if (!ir->visible || view_light_is_seen(light))
+        return;
+    const bool is_point = light->extent == VIEW_POINT;
+    diag_add(
+        lint->sink, DIAG_UNUSED_VALUE, ir_place_key(lint->origin, &ir->head, &SCHEMA_LIGHT, "visible"),
+        is_point
+            ? "'visible' of this light has no effect: a point has no size to be seen"
+            : "'visible' of this light has no effect: a body has its very surface and is seen in its place");
+    if (is_point)
+        diag_help(lint->sink, "write its %s, or leave 'visible' out",
+                  light->directional ? "angle" : "radius");
+    else
+        diag_help(lint->sink, "remove the body, or leave 'visible' out");
+}
+
+// Of what no body has W408 speaks; files of meshes say more than they use.
+void lint_unused_value(struct lint *lint) {
+    const struct scene *scene = lint->scene;
+    bool *told = ARENA_ARRAY(lint->arena, bool, scene->assets->material_count);
+    for (uint32_t i = 0; i < lint->ir->cameras.count; i++)
+        look_at_camera(lint, &lint->ir->cameras.items[i]);
+    for (uint32_t i = 0; i < lint->views[0].light_count; i++)
+        if (!lint->views[0].lights[i].automatic)
+            look_at_light(lint, &lint->views[0].lights[i]);
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        for (uint32_t g = 0; lint_is_there(&lint->bodies[i]) && g < lint->bodies[i].is->group_count; g++) {
+            const struct ir_material *material = lint_material(lint, &lint->bodies[i], g);
+            bool *here = &told[material - scene->assets->materials];
+            if (!*here && material->head.origin != 0)
+                look_at_material(lint, material);
+            *here = true;
+        }
+}
