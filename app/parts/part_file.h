@@ -51,4 +51,15 @@ void part_encode(const struct part *part, struct strbuf *out);
 bool part_read(const char *path, bool head_only, struct part *part, struct strbuf *error);
 void part_finish(struct part *part);
 
+// ---- what other files of pictures in parts have too
+
+// The lines above from the first to `record`; `kind` is "part".
+void part_put_head(const struct part *part, const char *kind, struct strbuf *out);
+// The other way round: *text is then after them. It is changed. false: this is something else.
+bool part_take_head(char **text, const char *kind, struct part *part);
+// A further line of such a head: its text after the word that it begins with, and whole numbers. NULL or
+// false: it is another line.
+char *part_take_line(char **text, const char *word);
+bool part_take_numbers(char **text, const char *word, uint32_t *out, int count);
+
 #endif

@@ -215,8 +215,7 @@ static void make_keys(struct render_job *job) {
     hash128_end(&h, job->part.settings);
 }
 
-void render_encode_part(struct render_job *job, struct strbuf *out) {
-    struct part part;
+void render_fill_part(struct render_job *job) {
     make_keys(job);
     snprintf(job->part.device, sizeof job->part.device, "%s", gpu_info(job->gpu)->name);
     const struct provenance made = {.session = &job->session,
@@ -225,6 +224,11 @@ void render_encode_part(struct render_job *job, struct strbuf *out) {
                                     .is_double = job->shot.flat.is_double,
                                     .format = IMAGE_PNG};
     provenance_line(job->cli, &made, job->part.record, sizeof job->part.record);
+}
+
+void render_encode_part(struct render_job *job, struct strbuf *out) {
+    struct part part;
+    render_fill_part(job);
     part = job->part;
     if (!part.rgb)
         part.rgb = job->image.rgb;
