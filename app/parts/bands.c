@@ -56,7 +56,7 @@ static void put_head(const struct bands *bands, struct strbuf *out) {
 bool bands_create(struct bands *bands, const char *path, const struct part *part, uint32_t rows,
                   struct strbuf *error) {
     struct strbuf head;
-    *bands = (struct bands){.part = *part, .spool.fd = -1};
+    *bands = (struct bands){.part = *part, .is_judged = true, .spool.fd = -1};
     bands->part.rgb = NULL;
     strbuf_init(&head);
     bool made = prepare(bands, rows);
@@ -116,12 +116,14 @@ static bool is_whole(struct bands *bands, uint32_t band, void *buffer, struct ba
 }
 
 static void judge(struct bands *bands, void *buffer, bool (*goes_on)(void *context), void *context) {
-    for (uint32_t i = 0; i < bands->count && (!goes_on || goes_on(context)); i++) {
+    uint32_t i = 0;
+    for (; i < bands->count && (!goes_on || goes_on(context)); i++) {
         bands->done[i] = is_whole(bands, i, buffer, &bands->faults[i]);
         bands->done_count += bands->done[i];
         if (!bands->done[i])
             bands->faults[i] = (struct bands_faults){0};
     }
+    bands->is_judged = i == bands->count;
 }
 
 bool bands_open(struct bands *bands, const char *path, bool (*goes_on)(void *context), void *context,

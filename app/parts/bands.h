@@ -37,6 +37,7 @@ struct bands {
     uint32_t rows, count; // of a band, but the last; how many there are
     bool *done;           // by band
     uint32_t done_count;
+    bool is_judged; // each band was looked at
     struct spool spool;
     struct bands_faults *faults; // by band
 };
@@ -45,8 +46,8 @@ struct bands {
 bool bands_create(struct bands *bands, const char *path, const struct part *part, uint32_t rows,
                   struct strbuf *error);
 // A file that is there, with the bands that it has, each of which is read to see whether it is whole; calls
-// `goes_on`, unless NULL, between them, and ends where that is false. *missing: there is no such file, and
-// nothing is wrong.
+// `goes_on`, unless NULL, between them, and leaves the rest unjudged where that is false. *missing: there is
+// no such file, and nothing is wrong.
 bool bands_open(struct bands *bands, const char *path, bool (*goes_on)(void *context), void *context,
                 bool *missing, struct strbuf *error);
 // What keeps the file from being that of a picture, as words before "this one"; NULL: nothing does.

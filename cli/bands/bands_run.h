@@ -14,7 +14,6 @@ struct bands_run {
     uint32_t found; // bands that another process had made
     struct image band;
     struct render_statistics all; // of the bands that were made now
-    double give_up;               // clock: when a band under way is not waited for any more; 0: it is
 };
 
 // The picture's files. A signal ends it: CLI_STOPPED.

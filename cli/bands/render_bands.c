@@ -17,9 +17,6 @@ enum {
     PATHS_OF_GPU = 32 << 20, // enough to keep it busy
 };
 
-// After a signal a band under way is waited for, but not for ever: Slurm kills 30 s after it has asked.
-static const double WAIT_SECONDS = 10;
-
 // ---- whether
 
 static bool are_asked_for(const struct render_job *job) {
@@ -193,6 +190,8 @@ static int go_on(struct bands_run *run, struct strbuf *error) {
     const char *words = bands_difference(&run->bands, &job->part);
     if (words)
         return refuse(run, arena_format(&job->cli->arena, "%s this one", words).ptr);
+    if (!run->bands.is_judged)
+        return CLI_STOPPED;
     run->found = run->bands.done_count;
     if (!job->cli->options.quiet)
         fprintf(stderr, "glint: %u of %u bands are in %s already\n", run->found, run->bands.count, run->path);
@@ -212,17 +211,6 @@ static int open_checkpoint(struct bands_run *run) {
 }
 
 // ---- bands
-
-static bool report(void *context, double fraction) {
-    struct bands_run *run = context;
-    const struct render_progress shown = progress_callback(&run->job->progress);
-    shown.report(shown.context, fraction);
-    if (!interrupt_signal())
-        return true;
-    const double now = clock_seconds();
-    run->give_up = run->give_up > 0 ? run->give_up : now + WAIT_SECONDS;
-    return now < run->give_up;
-}
 
 static void add_statistics(struct render_statistics *all, const struct render_statistics *band) {
     const struct render_rays *from = &band->rays;
@@ -292,7 +280,7 @@ static int cannot_write(struct bands_run *run) {
 
 static int take_band(struct bands_run *run, uint32_t band) {
     struct render_job *job = run->job;
-    const struct render_progress progress = {report, run};
+    const struct render_progress progress = progress_callback(&job->progress);
     struct render_statistics made;
     struct bands_faults faults;
     if (!aim(run, band))
@@ -340,6 +328,11 @@ static int stop(struct bands_run *run) {
     struct render_job *job = run->job;
     const struct bands *bands = &run->bands;
     progress_end(&job->progress);
+    if (!bands->is_judged) {
+        fprintf(stderr, "glint: stopped: %s is as it was; the same command with --resume goes on\n",
+                run->path);
+        return CLI_STOPPED;
+    }
     if (!spool_settle(&run->bands.spool))
         return cannot_write(run);
     if (job->cli->options.part.partial_arg && bands->done_count) {
@@ -364,6 +357,7 @@ static void note_statistics(struct bands_run *run, double seconds) {
 
 int render_in_bands(struct render_job *job, uint32_t camera) {
     struct bands_run run = {.job = job, .camera = camera};
+    job->progress.patience = PROGRESS_PATIENCE;
     int status = open_checkpoint(&run);
     const double start = clock_seconds();
     if (status == CLI_OK)

@@ -1,6 +1,4 @@
 // --frames, --fps, --sweep, --list, --montage and --keep-going.
-#include "cli/options/options_batch.h"
-
 #include "cli/cli.h"
 #include "core/number.h"
 

@@ -9,7 +9,8 @@ if ! "$glint" render "$source/scenes/elements/minimal.glint.yaml" --size 8x8 -o 
     echo "skip: no Vulkan device"
     exit $failed
 fi
-picture='--size 203x131 --samples 3'
+single='--set trace.precision=single' # no trial
+picture="--size 203x131 --samples 3 $single"
 render() { "$glint" render "$scene" $picture -q "$@"; }
 
 # ---- the same bytes
@@ -31,11 +32,11 @@ for i in 1 2 3; do ok "tile $i as a part" render --tile $i/3 --bands=8 -o tile$i
 "$glint" merge -q merged.pfm tile3.part tile1.part tile2.part
 same 'and merged' merged.pfm whole.pfm
 other=$source/scenes/elements/soft_lights.glint.yaml
-set -- --size 64x48 --samples 4 --set camera.aperture=0.1 --set camera.focus=4 --set image.tone=normalize -q
+set -- --size 64x48 --samples 4 $single --set camera.aperture=0.1 --set camera.focus=4 --set image.tone=normalize -q
 "$glint" render "$other" "$@" -o soft.png
 ok 'soft light, a lens and a tone' "$glint" render "$other" "$@" --bands=8 -o bands.png
 same 'of the same bytes' bands.png soft.png
-printf 'glint: 1\ncameras: {a: {position: [0, 0, 5]}, b: {position: [1, 0, 5]}}\nspheres: [{center: [0, 0, 0], radius: 1}]\n' >two.yaml
+printf 'glint: 1\ntrace: {precision: single}\ncameras: {a: {position: [0, 0, 5]}, b: {position: [1, 0, 5]}}\nspheres: [{center: [0, 0, 0], radius: 1}]\n' >two.yaml
 "$glint" render two.yaml --size 40x30 --camera all -q -o two.png
 ok 'all cameras' "$glint" render two.yaml --size 40x30 --camera all --bands=8 -q -o both.png
 same 'of the same bytes, a' both.a.png two.a.png
@@ -115,7 +116,7 @@ stopped() {
     wait $process
     got=$?
 }
-long='--size 203x131 --samples 150'
+long="--size 203x131 --samples 150 $single"
 "$glint" render "$scene" $long -q -o whole.png -o whole.exr
 stopped 'a signal' TERM 3 "$glint" render "$scene" $long --bands=8 --partial -o went.png -o went.exr
 [ $got -eq 75 ] && pass 'SIGTERM leaves 75' || { fail "SIGTERM leaves 75, not $got"; cat err.txt; }
@@ -125,8 +126,8 @@ also 'and says so' - 'stopped: [0-9]+ of 17 bands are in went.png.checkpoint; th
 cp went.png.checkpoint kept.checkpoint
 expect 'a checkpoint is not overwritten' 2 - "'went.png.checkpoint' is there" "$glint" render "$scene" $long --bands -o went.png
 expect 'another scene' 2 - 'is of another scene than this one' "$glint" render "$other" $long --resume -o went.png
-expect 'another size' 2 - 'of another size than this one' "$glint" render "$scene" --size 203x132 --samples 150 --resume -o went.png
-expect 'other samples' 2 - 'with other samples than this one' "$glint" render "$scene" --size 203x131 --resume -o went.png
+expect 'another size' 2 - 'of another size than this one' "$glint" render "$scene" --size 203x132 --samples 150 $single --resume -o went.png
+expect 'other samples' 2 - 'with other samples than this one' "$glint" render "$scene" --size 203x131 $single --resume -o went.png
 expect 'other settings' 2 - 'than this one' "$glint" render "$scene" $long --limit path-segments=99 --resume -o went.png
 expect 'another part' 2 - 'of another part of the picture than this one' "$glint" render "$scene" $long --tile 1/2 --resume -o went.png
 also 'with a remedy' - 'remove it to begin anew'
