@@ -17,11 +17,11 @@ static bool fail(struct spool *spool, int error) {
     return false;
 }
 
-bool spool_open(struct spool *spool, const char *path) {
+static bool open_as(struct spool *spool, const char *path, int flags) {
     struct stat info;
     *spool = (struct spool){.fd = -1};
     do
-        spool->fd = open(path, O_RDWR | O_CLOEXEC);
+        spool->fd = open(path, flags | O_CLOEXEC);
     while (spool->fd < 0 && errno == EINTR);
     if (spool->fd < 0 || fstat(spool->fd, &info) != 0)
         fail(spool, errno);
@@ -34,6 +34,14 @@ bool spool_open(struct spool *spool, const char *path) {
     const int error = spool->error ? spool->error : ENOMEM;
     spool_close(spool);
     return fail(spool, error);
+}
+
+bool spool_open(struct spool *spool, const char *path) {
+    return open_as(spool, path, O_RDWR);
+}
+
+bool spool_read(struct spool *spool, const char *path) {
+    return open_as(spool, path, O_RDONLY);
 }
 
 bool spool_create(struct spool *spool, const char *path, const void *head, size_t count) {

@@ -21,6 +21,8 @@ struct spool {
 bool spool_create(struct spool *spool, const char *path, const void *head, size_t count);
 // A file that is there: error ENOENT if it is not. It must be a regular one.
 bool spool_open(struct spool *spool, const char *path);
+// The same for a file that is only read: any that has places.
+bool spool_read(struct spool *spool, const char *path);
 bool spool_put(struct spool *spool, uint64_t at, const void *bytes, size_t count);
 bool spool_take(struct spool *spool, uint64_t at, void *bytes, size_t count);
 // On the disk, and not in the system's memory alone.

@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum {
+    READ_BYTES = 1 << 20,                  // at a time
     HEAD_BYTES = 1024 + PART_RECORD_BYTES, // a head is shorter
     SEAL_BYTES = 8,
     SIDE_MOST = 16384,
@@ -77,6 +78,48 @@ void part_encode(const struct part *part, struct strbuf *out) {
     if (!out->failed)
         put_word(xxh64_of(out->data + begin, out->len - begin, 0), SEAL_BYTES, seal);
     strbuf_add(out, seal, out->failed ? 0 : sizeof seal);
+}
+
+static bool put_sealed(const struct image_sink *sink, struct xxh64 *hash, const void *bytes, size_t count) {
+    xxh64_add(hash, bytes, count);
+    return sink->put(sink->context, bytes, count);
+}
+
+static bool put_rows(const struct image_rows *rows, const struct image_sink *sink, struct xxh64 *hash,
+                     float *rgb) {
+    const uint32_t most = image_rows_at_once(rows);
+    unsigned char *bytes = (unsigned char *)rgb;
+    bool good = true;
+    for (uint32_t y = 0; y < rows->height && good; y += most) {
+        const uint32_t count = rows->height - y < most ? rows->height - y : most;
+        const size_t floats = heap_times(heap_times(rows->width, 3), count);
+        good = rows->take(rows->context, y, count, rgb);
+        for (size_t i = 0; i < floats && good; i++) {
+            uint32_t bits;
+            memcpy(&bits, bytes + 4 * i, sizeof bits);
+            put_word(bits, sizeof bits, bytes + 4 * i);
+        }
+        good = good && put_sealed(sink, hash, bytes, floats * sizeof *rgb);
+    }
+    return good;
+}
+
+bool part_write_rows(const struct part *part, const struct image_rows *rows, const struct image_sink *sink) {
+    struct strbuf head;
+    struct xxh64 hash;
+    unsigned char seal[SEAL_BYTES];
+    float *rgb = heap_array(heap_times(rows->width, image_rows_at_once(rows)), 3 * sizeof *rgb);
+    strbuf_init(&head);
+    part_put_head(part, "part", &head);
+    strbuf_format(&head, "data %zu\n", heap_times(floats_of(part), sizeof *part->rgb));
+    xxh64_begin(&hash, 0);
+    bool good = rgb && !head.failed && put_sealed(sink, &hash, head.data, head.len) &&
+                put_rows(rows, sink, &hash, rgb);
+    put_word(xxh64_end(&hash), SEAL_BYTES, seal);
+    good = good && sink->put(sink->context, seal, sizeof seal);
+    strbuf_finish(&head);
+    free(rgb);
+    return good;
 }
 
 // ---- reading
@@ -192,6 +235,11 @@ static bool take_floats(const struct strbuf *file, size_t head, struct part *par
     return true;
 }
 
+static bool say_damaged(struct strbuf *error) {
+    strbuf_cstr(error, "is damaged: its bytes are not those that were written; render it again");
+    return false;
+}
+
 static bool read_part(const char *path, bool head_only, struct strbuf *file, struct part *part,
                       struct strbuf *error) {
     char text[HEAD_BYTES + 1] = "";
@@ -208,10 +256,9 @@ static bool read_part(const char *path, bool head_only, struct strbuf *file, str
                       PART_ENDING);
         return false;
     }
-    if (!head_only && !is_whole(file, head, part)) {
-        strbuf_cstr(error, "is damaged: its bytes are not those that were written; render it again");
-        return false;
-    }
+    part->head_bytes = head;
+    if (!head_only && !is_whole(file, head, part))
+        return say_damaged(error);
     if (!head_only && !take_floats(file, head, part)) {
         strbuf_cstr(error, "needs more memory than there is");
         return false;
@@ -231,4 +278,55 @@ bool part_read(const char *path, bool head_only, struct part *part, struct strbu
 void part_finish(struct part *part) {
     free(part->rgb);
     part->rgb = NULL;
+}
+
+// ---- some rows at a time
+
+static bool check_seal(struct spool *file, const struct part *part, char *buffer) {
+    uint64_t left = (uint64_t)part->head_bytes + heap_times(floats_of(part), sizeof *part->rgb), at = 0;
+    unsigned char seal[SEAL_BYTES], after;
+    struct xxh64 hash;
+    xxh64_begin(&hash, 0);
+    while (left) {
+        const size_t count = left < READ_BYTES ? (size_t)left : READ_BYTES;
+        if (!spool_take(file, at, buffer, count))
+            return false;
+        xxh64_add(&hash, buffer, count);
+        at += count;
+        left -= count;
+    }
+    return spool_take(file, at, seal, sizeof seal) && get_word(seal, SEAL_BYTES) == xxh64_end(&hash) &&
+           !spool_take(file, at + sizeof seal, &after, 1);
+}
+
+bool part_check(const char *path, const struct part *part, struct strbuf *error) {
+    struct spool file;
+    char *buffer = heap_alloc(READ_BYTES);
+    bool whole = false;
+    if (!buffer)
+        return false;
+    if (!spool_read(&file, path)) {
+        strbuf_format(error, "cannot be read: %s", strerror(file.error));
+    } else {
+        whole = check_seal(&file, part, buffer);
+        if (file.error)
+            strbuf_format(error, "cannot be read: %s", strerror(file.error));
+        else if (!whole)
+            say_damaged(error);
+        spool_close(&file);
+    }
+    free(buffer);
+    return whole;
+}
+
+bool part_take_rows(struct spool *file, const struct part *part, uint32_t y, uint32_t count, float *rgb) {
+    const size_t row = heap_times(part->region.width, 3), floats = heap_times(row, count);
+    unsigned char *bytes = (unsigned char *)rgb;
+    if (!spool_take(file, part->head_bytes + (uint64_t)y * row * sizeof *rgb, rgb, floats * sizeof *rgb))
+        return false;
+    for (size_t i = 0; i < floats; i++) {
+        const uint32_t bits = (uint32_t)get_word(bytes + 4 * i, sizeof bits);
+        memcpy(bytes + 4 * i, &bits, sizeof bits);
+    }
+    return true;
 }

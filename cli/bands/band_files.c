@@ -1,54 +1,28 @@
 // From bands on the disk to the files of their picture.
 #include "cli/bands/bands_run.h"
 #include "cli/pictures/provenance.h"
+#include "cli/pictures/row_files.h"
 #include "core/clock.h"
-#include "files/output.h"
-#include "picture/write/rows.h"
 
 #include "grammar/ir.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 // One file on its way.
 struct writing {
     struct bands_run *run;
-    struct output output;
     bool heeds; // signals
-    bool stopped;
 };
 
 static bool take(void *context, uint32_t y, uint32_t count, float *rgb) {
-    struct writing *w = context;
-    w->stopped = w->heeds && interrupt_signal();
-    return !w->stopped && bands_take(&w->run->bands, y, count, rgb);
+    const struct writing *w = context;
+    return !(w->heeds && interrupt_signal()) && bands_take(&w->run->bands, y, count, rgb);
 }
 
-static bool put(void *context, const void *bytes, size_t count) {
-    struct writing *w = context;
-    output_write(&w->output, bytes, count);
-    return !w->output.error;
-}
-
-static bool put_over(void *context, uint64_t at, const void *bytes, size_t count) {
-    struct writing *w = context;
-    const uint64_t end = output_place(&w->output);
-    output_move(&w->output, at);
-    output_write(&w->output, bytes, count);
-    output_move(&w->output, end);
-    return !w->output.error;
-}
-
-static int fail(struct bands_run *run, const char *path, int error) {
-    struct cli *cli = run->job->cli;
-    if (error == EPIPE && strcmp(path, "-") == 0)
-        return CLI_PIPE;
-    if (error == 0)
-        cli_error(cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
-    else
-        cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
-                  "cannot be written: %s", strerror(error));
+static int cannot_read(struct bands_run *run) {
+    cli_error(run->job->cli, DIAG_FILE_UNREADABLE, run->path, NULL, "cannot be read: %s",
+              strerror(run->bands.spool.error));
     return CLI_FILE;
 }
 
@@ -67,28 +41,24 @@ static struct image_texts texts_of(struct bands_run *run, enum image_format form
 static int write_file(struct bands_run *run, const struct cli_output *output, const char *path,
                       const struct image_texts *texts) {
     const struct ir_image *image = run->job->session.image;
-    struct writing w = {.run = run, .heeds = !texts};
+    struct writing w = {run, !texts};
     const struct image_rows rows = {.width = run->bands.part.region.width,
                                     .height = run->bands.part.region.height,
                                     .take = take,
                                     .context = &w,
                                     .texts = texts ? *texts : texts_of(run, output->format),
                                     .coding = render_coding(&run->job->cli->options, output->format)};
-    const struct image_sink sink = {put, put_over, &w};
-    if (!output_open(&w.output, path))
-        return fail(run, path, w.output.error);
-    const bool written =
-        image_rows_write(&rows, output->format, (struct image_display){image->tone, image->transfer}, &sink);
-    if (written && output_commit(&w.output))
-        return CLI_OK;
-    const int error = w.output.error ? w.output.error : run->bands.spool.error;
-    if (!written)
-        output_abandon(&w.output);
-    return w.stopped ? CLI_STOPPED : fail(run, path, error);
+    const struct image_display display = {image->tone, image->transfer};
+    bool ended;
+    const int status = row_file_write(run->job->cli, path, &rows, output->format, display,
+                                      output->is_part ? &run->bands.part : NULL, &ended);
+    if (!ended)
+        return status;
+    return run->bands.spool.error ? cannot_read(run) : CLI_STOPPED;
 }
 
 static bool is_streamed(const struct cli_output *output) {
-    return !output->is_part && image_rows_can(output->format);
+    return output->is_part || image_rows_can(output->format);
 }
 
 static bool are_streamed(const struct render_job *job) {
@@ -102,10 +72,13 @@ static bool are_streamed(const struct render_job *job) {
 static int write_at_once(struct bands_run *run) {
     struct render_job *job = run->job;
     const struct part_region *region = &run->bands.part.region;
-    if (!image_init(&job->image, region->width, region->height))
-        return fail(run, job->outputs[0].path, 0);
+    if (!image_init(&job->image, region->width, region->height)) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->outputs[0].path, NULL,
+                  "not enough memory for the picture");
+        return CLI_SCENE;
+    }
     if (!bands_take(&run->bands, 0, region->height, job->image.rgb))
-        return fail(run, run->path, run->bands.spool.error);
+        return cannot_read(run);
     return render_write_pictures(job, run->camera);
 }
 
@@ -135,7 +108,7 @@ int bands_write_partial(struct bands_run *run) {
     for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++) {
         const struct cli_output *output = &job->outputs[i];
         const str path = str_from(render_output_of(job, output, run->camera)), stem = render_stem_of(path);
-        if (!is_streamed(output) || stem.len == 0)
+        if (output->is_part || !is_streamed(output) || stem.len == 0)
             continue;
         const char *partial =
             arena_format(&job->cli->arena, "%.*s.partial%s", STR_ARG(stem), path.ptr + stem.len).ptr;

@@ -79,17 +79,14 @@ int render_judge_bands(struct render_job *job) {
 static int judge_formats(struct render_job *job) {
     for (uint32_t i = 0; i < job->output_count; i++) {
         const struct cli_output *output = &job->outputs[i];
-        if (!output->is_part && image_rows_can(output->format))
+        if (output->is_part || image_rows_can(output->format))
             continue;
         const int status =
             cli_usage(job->cli, output->arg ? output->arg : place_of(job),
-                      output->is_part
-                          ? "a part of more than 64 megapixels is not written as '%s'"
-                          : "'%s' is of a format whose file is made of all pixels at once, and this picture "
-                            "has more than 64 megapixels",
+                      "'%s' is of a format whose file is made of all pixels at once, and this picture has "
+                      "more than 64 megapixels",
                       output->path);
-        diag_help(&job->cli->sink, output->is_part ? "take more parts: --tile I/N"
-                                                   : "write .png, .exr, .pfm or .hdr, and convert that");
+        diag_help(&job->cli->sink, "write .png, .exr, .pfm or .hdr, and convert that");
         return status;
     }
     return CLI_OK;

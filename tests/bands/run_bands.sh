@@ -28,7 +28,11 @@ same 'and .jpg' bands.jpg whole.jpg
 render --region 13,9,150,80 -o whole.png
 ok 'a region' render --region 13,9,150,80 --bands=16 -o bands.png
 same 'of the same bytes' bands.png whole.png
-for i in 1 2 3; do ok "tile $i as a part" render --tile $i/3 --bands=8 -o tile$i.part; done
+for i in 1 2 3; do
+    ok "tile $i as a part" render --tile $i/3 --bands=8 -o tile$i.part
+    render --tile $i/3 -o whole.part
+    same 'of the same bytes' tile$i.part whole.part
+done
 "$glint" merge -q merged.pfm tile3.part tile1.part tile2.part
 same 'and merged' merged.pfm whole.pfm
 other=$source/scenes/elements/soft_lights.glint.yaml
@@ -36,6 +40,20 @@ set -- --size 64x48 --samples 4 $single --set camera.aperture=0.1 --set camera.f
 "$glint" render "$other" "$@" -o soft.png
 ok 'soft light, a lens and a tone' "$glint" render "$other" "$@" --bands=8 -o bands.png
 same 'of the same bytes' bands.png soft.png
+cat >faulty.yaml <<'END'
+glint: 1
+lights: [{position: [-5, 8, 5]}]
+cameras: {front: {position: [0, 0, 6]}}
+materials: {m: {albedo: [0.1, 0, 0.9, 0]}}
+spheres: [{center: [-0.9, 0, 0], radius: 0.9, material: m}, {center: [0.95, 0, 0], radius: 0.9, material: m}]
+trace: {precision: single, max_depth: 60}
+END
+set -- --size 120x90 --samples 2 --limit path-segments=6 -q
+expect 'faulty pixels' 1 - '[0-9]+ pixels needed more rays than the limit' "$glint" render faulty.yaml "$@" -o whole.png
+cp err.txt whole.txt
+expect 'in bands' 1 - '' "$glint" render faulty.yaml "$@" --bands=8 -o bands.png
+same 'are told in the same words' err.txt whole.txt
+same 'and are the same' bands.png whole.png
 printf 'glint: 1\ntrace: {precision: single}\ncameras: {a: {position: [0, 0, 5]}, b: {position: [1, 0, 5]}}\nspheres: [{center: [0, 0, 0], radius: 1}]\n' >two.yaml
 "$glint" render two.yaml --size 40x30 --camera all -q -o two.png
 ok 'all cameras' "$glint" render two.yaml --size 40x30 --camera all --bands=8 -q -o both.png
@@ -76,7 +94,6 @@ got=$?
 rm -f huge.png.checkpoint
 expect 'not as JPEG' 2 - "'huge.jpg' is of a format whose file is made of all pixels at once" "$glint" render large.yaml $huge -o huge.jpg
 also 'with a remedy' - 'write .png, .exr, .pfm or .hdr'
-expect 'nor as one part' 2 - 'take more parts' "$glint" render large.yaml $huge -o huge.part
 expect 'nor to standard output' 2 - 'name one with -o' "$glint" render large.yaml $huge -o -
 expect 'nor with an audit' 2 - 'rendered in bands: an audit is about a whole picture' "$glint" render large.yaml $huge --audit -o no.png
 expect 'nor with errors' 1 - 'at most 67108864 can be held at once \[E408\]' \
