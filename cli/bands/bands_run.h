@@ -5,6 +5,8 @@
 #include "app/parts/bands.h"
 #include "cli/render_job.h"
 
+#include <pthread.h>
+
 struct bands_run {
     struct render_job *job;
     uint32_t camera;
@@ -13,6 +15,10 @@ struct bands_run {
     bool is_open;
     uint32_t found; // bands that another process had made
     struct image band;
+    // What devices that work side by side share.
+    pthread_mutex_t lock;
+    uint32_t next;                // the first band that nobody has taken
+    bool gives_up;                // a device or the disk has failed
     struct render_statistics all; // of the bands that were made now
 };
 

@@ -1,6 +1,6 @@
 // A picture in bands: each is on the disk when the next one begins, so that a process needs memory for one,
 // and another can go on.
-#include "cli/bands/bands_run.h"
+#include "cli/bands/band_devices.h"
 #include "cli/device.h"
 #include "core/clock.h"
 #include "core/timeline.h"
@@ -21,7 +21,7 @@ enum {
 
 static bool are_asked_for(const struct render_job *job) {
     const struct cli_part *part = &job->cli->options.part;
-    return part->bands_arg || part->resume_arg || part->partial_arg;
+    return part->bands_arg || part->resume_arg || part->partial_arg || part->spreads;
 }
 
 static int place_of(const struct render_job *job) {
@@ -71,6 +71,7 @@ static const char *obstacle(const struct render_job *job) {
 }
 
 int render_judge_bands(struct render_job *job) {
+    job->cli->options.part.spreads = bands_spread(job->cli);
     const char *why = are_asked_for(job) ? obstacle(job) : NULL;
     return why ? cli_usage(job->cli, place_of(job), "this is not possible in bands: %s", why) : CLI_OK;
 }
@@ -132,18 +133,6 @@ struct shot_region render_first_region(struct render_job *job) {
         return (struct shot_region){0};
     const uint32_t rows = job->in_bands ? rows_of(job) : r->height;
     return (struct shot_region){r->x, r->y, r->width, rows < r->height ? rows : r->height};
-}
-
-static bool aim(struct bands_run *run, uint32_t band) {
-    struct shot *shot = &run->job->shot;
-    const struct part *part = &run->bands.part;
-    shot->settings.width = part->region.width;
-    shot->settings.height = bands_rows(&run->bands, band);
-    shot->settings.whole_width = part->width;
-    shot->settings.whole_height = part->height;
-    shot->settings.first_x = part->region.x;
-    shot->settings.first_y = part->region.y + bands_begin(&run->bands, band);
-    return renderer_change(shot->renderer, &shot->flat, &shot->settings);
 }
 
 // ---- the checkpoint
@@ -209,51 +198,7 @@ static int open_checkpoint(struct bands_run *run) {
 
 // ---- bands
 
-static void add_statistics(struct render_statistics *all, const struct render_statistics *band) {
-    const struct render_rays *from = &band->rays;
-    struct render_rays *to = &all->rays;
-    all->device_seconds += band->device_seconds;
-    all->wall_seconds += band->wall_seconds;
-    all->samples = band->samples;
-    all->all_samples += band->all_samples;
-    all->bands += band->bands;
-    all->dispatches += band->dispatches;
-    all->slices += band->slices;
-    to->primary += from->primary;
-    to->reflected += from->reflected;
-    to->refracted += from->refracted;
-    to->shadow += from->shadow;
-    to->cut_by_depth += from->cut_by_depth;
-    to->cut_by_weight += from->cut_by_weight;
-    to->total_reflections += from->total_reflections;
-    to->unseen += from->unseen;
-    to->nodes += from->nodes;
-    to->items += from->items;
-    to->deepest = from->deepest > to->deepest ? from->deepest : to->deepest;
-    to->lost_by_depth = from->lost_by_depth > to->lost_by_depth ? from->lost_by_depth : to->lost_by_depth;
-    to->lost_by_weight =
-        from->lost_by_weight > to->lost_by_weight ? from->lost_by_weight : to->lost_by_weight;
-}
-
-// Faults as the checkpoint has them, with places in the whole picture; and back, added to those of bands
-// above.
-static void pack_faults(const struct shot *shot, const struct render_fault *faults,
-                        struct bands_faults *out) {
-    *out = (struct bands_faults){0};
-    for (int kind = 1; kind < RENDER_FAULT_KINDS; kind++) {
-        const struct render_fault *f = &faults[kind];
-        const uint32_t words[BANDS_FAULT_WORDS] = {f->pixels,
-                                                   f->x + shot->settings.first_x,
-                                                   f->y + shot->settings.first_y,
-                                                   f->has_body,
-                                                   f->body,
-                                                   f->triangle,
-                                                   f->is_nested};
-        if (f->pixels)
-            memcpy(out->words[kind - 1], words, sizeof words);
-    }
-}
-
+// What was wrong, added to what was wrong in bands above.
 static void add_faults(const struct bands_faults *in, struct render_fault *faults) {
     for (int kind = 1; kind < RENDER_FAULT_KINDS; kind++) {
         const uint32_t *words = in->words[kind - 1], before = faults[kind].pixels;
@@ -277,39 +222,48 @@ static int cannot_write(struct bands_run *run) {
 
 static int take_band(struct bands_run *run, uint32_t band) {
     struct render_job *job = run->job;
+    struct shot *shot = &job->shot;
     const struct render_progress progress = progress_callback(&job->progress);
     struct render_statistics made;
-    struct bands_faults faults;
-    if (!aim(run, band))
+    bands_aim(run, band, &shot->settings);
+    if (!renderer_change(shot->renderer, &shot->flat, &shot->settings))
         return render_failed(job, SHOT_DEVICE);
-    const enum shot_status status = shot_take_silently(&job->shot, &run->band, &progress, &made);
+    const enum shot_status status = shot_take_silently(shot, &run->band, &progress, &made);
     if (status == SHOT_CANCELLED)
         return CLI_STOPPED;
     if (status != SHOT_OK)
         return render_failed(job, status);
-    add_statistics(&run->all, &made);
-    pack_faults(&job->shot, made.faults, &faults);
-    return bands_put(&run->bands, band, run->band.rgb, &faults) ? CLI_OK : cannot_write(run);
+    return bands_keep(run, band, run->band.rgb, &shot->settings, &made) ? CLI_OK : CLI_FILE;
+}
+
+static void give_up(struct bands_run *run) {
+    pthread_mutex_lock(&run->lock);
+    run->gives_up = true;
+    pthread_mutex_unlock(&run->lock);
 }
 
 static int take_bands(struct bands_run *run) {
     struct render_job *job = run->job;
     struct bands *bands = &run->bands;
-    int status = CLI_OK;
+    struct band_devices *devices;
+    int status;
     if (!image_init(&run->band, bands->part.region.width, bands->rows)) {
         cli_error(job->cli, DIAG_OUT_OF_MEMORY, run->path, NULL, "not enough memory for a band");
         return CLI_SCENE;
     }
-    for (uint32_t i = 0; i < bands->count && status == CLI_OK; i++) {
-        if (bands->done[i])
-            continue;
-        if (interrupt_signal())
-            return CLI_STOPPED;
+    status = bands_begin_devices(run, &devices);
+    for (uint32_t band; status == CLI_OK && (band = bands_claim(run)) < bands->count;) {
         job->progress.base = (double)bands->done_count / bands->count;
         job->progress.share = 1.0 / bands->count;
-        status = take_band(run, i);
+        status = take_band(run, band);
     }
-    return status;
+    if (status != CLI_OK)
+        give_up(run);
+    const int others = bands_end_devices(run, devices);
+    status = status == CLI_OK ? others : status;
+    if (bands->spool.error)
+        return cannot_write(run);
+    return status == CLI_OK && bands->done_count < bands->count ? CLI_STOPPED : status;
 }
 
 static void report_faults(struct bands_run *run) {
@@ -354,6 +308,7 @@ static void note_statistics(struct bands_run *run, double seconds) {
 
 int render_in_bands(struct render_job *job, uint32_t camera) {
     struct bands_run run = {.job = job, .camera = camera};
+    pthread_mutex_init(&run.lock, NULL);
     job->progress.patience = PROGRESS_PATIENCE;
     int status = open_checkpoint(&run);
     const double start = clock_seconds();
@@ -369,10 +324,12 @@ int render_in_bands(struct render_job *job, uint32_t camera) {
         report_faults(&run);
     if (status == CLI_STOPPED)
         status = stop(&run);
-    if (run.is_open && status == CLI_OK)
+    const bool is_empty = run.is_open && run.bands.done_count == 0 && run.bands.is_judged;
+    if (run.is_open && (status == CLI_OK || (is_empty && status != CLI_STOPPED && status != CLI_USAGE)))
         bands_remove(&run.bands);
     else if (run.is_open)
         bands_finish(&run.bands);
     image_finish(&run.band);
+    pthread_mutex_destroy(&run.lock);
     return status;
 }

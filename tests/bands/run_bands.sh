@@ -61,6 +61,19 @@ same 'of the same bytes, a' both.a.png two.a.png
 same 'and b' both.b.png two.b.png
 [ -z "$(ls ./*.checkpoint ./.glint-* 2>/dev/null)" ] && pass 'no checkpoint is left' || fail 'no checkpoint is left'
 
+# ---- on several devices: the same one twice
+render -o whole.png
+expect 'two devices' 0 '' 'bands on 2 devices' "$glint" render "$scene" $picture --bands=8 --device 0,0 -o bands.png
+same 'make the same bytes' bands.png whole.png
+expect 'three, of which one has nothing to do' 0 '' '' "$glint" render "$scene" $picture --bands=80 --device 0,0,0 -o bands.png -q
+same 'make the same bytes' bands.png whole.png
+expect 'all that are equal' 0 '' 'bands on [0-9]+ device' "$glint" render "$scene" $picture --device all -o bands.png
+same 'make the same bytes' bands.png whole.png
+expect 'one that is not there' 4 - "no Vulkan device matches '77'" render --device 0,77 -o no.png
+[ ! -e no.png.checkpoint ] && pass 'leaves no checkpoint' || fail 'leaves no checkpoint'
+expect 'not by other commands' 4 - "no Vulkan device matches 'all'" "$glint" pick "$scene" 1,1 --device all
+expect 'and not for many pictures' 4 - "matches 'all'" "$glint" render "$scene" "$scene" -o 'no.%d.png' --device all
+
 # ---- the memory of a band
 
 cat >large.yaml <<'END'
@@ -149,10 +162,10 @@ expect 'other settings' 2 - 'than this one' "$glint" render "$scene" $long --lim
 expect 'another part' 2 - 'of another part of the picture than this one' "$glint" render "$scene" $long --tile 1/2 --resume -o went.png
 also 'with a remedy' - 'remove it to begin anew'
 same 'a checkpoint that is refused stays' went.png.checkpoint kept.checkpoint
-stopped 'going on' KILL 9 "$glint" render "$scene" $long --resume -o went.png -o went.exr
+stopped 'going on' KILL 9 "$glint" render "$scene" $long --resume --device 0,0 -o went.png -o went.exr
 also 'what is there is not rendered again' - '[0-9]+ of 17 bands are in went.png.checkpoint already'
 expect 'going on to the end' 0 '' '' "$glint" render "$scene" $long --resume -o went.png -o went.exr --stats=json
-also 'after kill -9' '' '(9|1[0-7]) of 17 bands are in went.png.checkpoint already'
+also 'after kill -9' '' '([89]|1[0-7]) of 17 bands are in went.png.checkpoint already'
 bands=$(sed -n 's/.*"bands": *\([0-9]*\).*/\1/p' out.txt)
 had=$(sed -n 's/^glint: \([0-9]*\) of 17 .*/\1/p' err.txt)
 [ $((bands + had)) -eq 17 ] && pass "$bands bands were rendered, $had were there" || fail "$bands bands were rendered, $had were there"
